@@ -1,0 +1,71 @@
+#pragma once
+// Diagnostics: one typed catalogue (diagnostics.def), a sink that collects, renderers for people and programs.
+
+#include "frontend/source/source_file.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rapid::diag {
+
+enum class Severity : uint8_t { Error, Warning, Note };
+
+/// Every diagnostic of rapidc: RAP and four digits. 1xxx lexing and parsing, 2xxx names and types, 3xxx expressions
+/// and constants, 4xxx calls and built-ins, 5xxx flow and use of data, 6xxx projects, tasks, configuration,
+/// 7xxx lowering and linking, 8xxx lint, 9xxx internal.
+enum class Code : uint16_t {
+#define DIAG(number, name, severity, argCount, text) name = number,
+#include "frontend/diag/diagnostics.def"
+};
+
+struct Diagnostic {
+    struct Note {
+        std::shared_ptr<const SourceFile> file;
+        SourceRange range;
+        std::string message;
+    };
+    Code code{};
+    Severity severity = Severity::Error;
+    std::shared_ptr<const SourceFile> file; ///< may be null: a message about the command line or a missing file
+    SourceRange range;
+    std::string message; ///< lower-case start, one sentence, no full stop
+    std::vector<Note> notes;
+};
+
+/// Collects the diagnostics of one run; keeps the order of reporting until sorted.
+class Sink {
+  public:
+    /// Reports `code`. `args` replace {0}, {1}, ... in the catalogue text; their number must match the catalogue.
+    Diagnostic& report(Code code, const std::shared_ptr<const SourceFile>& file, SourceRange range,
+                       std::span<const std::string> args);
+    Diagnostic& report(Code code, const std::shared_ptr<const SourceFile>& file, SourceRange range,
+                       std::initializer_list<std::string> args = {}) {
+        return report(code, file, range, std::span<const std::string>(args.begin(), args.size()));
+    }
+    bool hasErrors() const { return errorCount_ > 0; }
+    size_t errorCount() const { return errorCount_; }
+    /// Sorted by file, position, code.
+    std::vector<Diagnostic> sorted() const;
+    const std::vector<Diagnostic>& all() const { return all_; }
+
+  private:
+    std::vector<Diagnostic> all_;
+    size_t errorCount_ = 0;
+};
+
+/// "RAP2104"
+std::string codeName(Code code);
+std::string_view severityName(Severity severity);
+
+/// For people: `file:line:column: error[RAP2104]: text`, the source line, a caret line, notes. ANSI colours if asked.
+std::string renderText(const Diagnostic& diagnostic, bool colour);
+/// One JSON array of {file,line,column,endLine,endColumn,severity,code,message} (design chapter 8).
+std::string renderJson(std::span<const Diagnostic> diagnostics);
+/// SARIF 2.1.0.
+std::string renderSarif(std::span<const Diagnostic> diagnostics);
+
+} // namespace rapid::diag

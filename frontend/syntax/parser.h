@@ -1,0 +1,26 @@
+#pragma once
+// Tokens -> lossless tree, with recovery: one mistake, one diagnostic.
+
+#include "frontend/diag/diagnostic.h"
+#include "frontend/syntax/ast.h"
+
+namespace rapid::syntax {
+
+struct ParseOptions {
+    /// Reads the declarations of built-ins: a routine header without a body is native; mode word REF; alternatives
+    /// between required parameters. The body of a routine is absent when the token after its ')' cannot continue it.
+    bool declarations = false;
+};
+
+/// Parses a whole file. Never fails: what cannot be read is reported to `sink` and left as Error nodes.
+std::unique_ptr<SyntaxTree> parse(std::shared_ptr<const SourceFile> source, diag::Sink& sink,
+                                  const ParseOptions& options = {});
+
+/// Indented text form of a tree, for `rapidc emit --as=tree` and the tests.
+std::string printTree(const SyntaxTree& tree);
+/// One token a line: kind, position, text.
+std::string printTokens(const SyntaxTree& tree);
+/// The source text put together again from tokens and gaps; equals the source byte for byte.
+std::string printSource(const SyntaxTree& tree);
+
+} // namespace rapid::syntax
