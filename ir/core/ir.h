@@ -1,0 +1,281 @@
+#pragma once
+// The mid-level IR: types, constants, routines made of basic blocks, statement tables, run-time descriptions.
+// General on purpose (statements, handlers, tasks, persistents, calls into the runtime): nothing here knows RAPID.
+// Not SSA: named storage is `local`/`global` memory; instruction results are temporaries assigned once, used in the
+// same routine in blocks dominated by their definition. LLVM promotes the memory later. See ir/LANGREF.md.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ir {
+
+// ---- Types -----------------------------------------------------------------------------------------------------
+
+enum class TypeKind : uint8_t {
+    Void,
+    Bool,   ///< one byte in memory, 0 or 1
+    I32,    ///< counters, indices, dimensions, status
+    I64,    ///< handles of objects that the controller owns (signals, clocks, files ...)
+    F32,
+    F64,
+    Str,    ///< { u32 length, 80 bytes }: 84 bytes, align 4
+    Ptr,    ///< reference; what it points to is said by the instruction that uses it
+    Record, ///< fields in order, natural C layout
+    Array   ///< row-major, rank 1 to 3
+};
+
+using TypeId = uint32_t; ///< index into Module::types; the scalar types have the fixed ids below
+inline constexpr TypeId kVoid = 0, kBool = 1, kI32 = 2, kI64 = 3, kF32 = 4, kF64 = 5, kStr = 6, kPtr = 7;
+
+struct Field {
+    std::string name;
+    TypeId type = kVoid;
+};
+
+struct Type {
+    TypeKind kind = TypeKind::Void;
+    std::string name;          ///< records
+    std::vector<Field> fields; ///< records
+    TypeId element = kVoid;    ///< arrays
+    std::vector<int32_t> dims; ///< arrays, 1 to 3 entries > 0
+};
+
+// ---- Constant data ---------------------------------------------------------------------------------------------
+
+/// One scalar of constant data. Aggregates are flattened in memory order.
+struct ConstScalar {
+    TypeKind kind = TypeKind::F32; ///< Bool, I32, I64, F32, F64 or Str
+    double number = 0;             ///< all numeric kinds and Bool
+    std::string text;              ///< Str: at most 80 bytes
+};
+using ConstData = std::vector<ConstScalar>; ///< empty = all zero
+
+// ---- Instructions ----------------------------------------------------------------------------------------------
+
+/// Opcodes: see instructions.def (operands, result, may it raise, is it a terminator).
+enum class Op : uint8_t {
+#define INST(name, text, operands, result, flags) name,
+#include "ir/core/instructions.def"
+};
+
+using ValueId = uint32_t; ///< index into Routine::insts: the instruction that yields the value
+using BlockId = uint32_t;
+using StmtId = uint32_t; ///< index into Routine::statements
+inline constexpr uint32_t kNone = 0xFFFFFFFFu;
+
+struct SwitchCase {
+    int32_t value = 0;
+    BlockId target = kNone;
+};
+
+struct Inst {
+    Op op{};
+    TypeId type = kVoid;            ///< result type; for Load/Store/Copy/Zero/FieldAddr/ElemAddr: the type accessed
+    std::vector<ValueId> operands;  ///< values
+    uint32_t index = kNone;         ///< local, global, param, field, routine, native, statement or type-desc number
+    BlockId target[2] = {kNone, kNone};
+    std::vector<SwitchCase> cases;  ///< Switch
+    double number = 0;              ///< Const
+    StmtId stmt = kNone;            ///< statement it belongs to
+    int32_t extra = 0;              ///< Check: error number; Safepoint: cost; Sysvar: SysvarKind
+};
+
+// ---- Statements ------------------------------------------------------------------------------------------------
+
+enum class StmtKind : uint8_t { Plain, Call, Motion, Control, Return, Handler };
+
+/// One row of a routine's statement table; survives to run time (program pointer, events, debugger, RETRY, TRYNEXT).
+struct Statement {
+    uint32_t line = 0, column = 0, endLine = 0, endColumn = 0; ///< from 1
+    StmtKind kind = StmtKind::Plain;
+    bool handled = false;       ///< an error here goes to the routine's error handler
+    BlockId start = kNone;      ///< where RETRY continues; kNone when no handler can ask for it
+    BlockId next = kNone;       ///< where TRYNEXT continues
+};
+
+// ---- Routines --------------------------------------------------------------------------------------------------
+
+struct Param {
+    std::string name;
+    TypeId type = kPtr; ///< scalar by value, or Ptr
+};
+struct Local {
+    std::string name;   ///< empty for temporaries
+    TypeId type = kVoid;
+    bool isParam = false; ///< for the debugger: shown as a parameter
+};
+struct Block {
+    std::string name;
+    std::vector<ValueId> insts; ///< the last one is a terminator
+};
+
+struct Routine {
+    std::string name;        ///< linkage name, unique in the module, e.g. "T_ROB1/MainModule/main"
+    std::string displayName; ///< what people see: "main"
+    std::string moduleName;
+    uint32_t file = kNone;   ///< index into Module::files
+    uint32_t line = 0;
+    bool noStepIn = false;
+    bool exported = false;   ///< reachable from outside (entry, late binding)
+    TypeId result = kVoid;   ///< scalar: returned beside the status; Str/Record/Array: through a hidden pointer
+    std::vector<Param> params;
+    std::vector<Local> locals;
+    std::vector<Inst> insts;
+    std::vector<Block> blocks; ///< block 0 is the entry
+    std::vector<Statement> statements;
+    BlockId errorHandler = kNone;
+    std::vector<int32_t> errorFilter; ///< when not empty: the handler takes only these error numbers
+    BlockId undoHandler = kNone;
+};
+
+/// What a native routine may do; decides how it is called (see codegen/README.md).
+enum class NativeClass : uint8_t {
+    Const, ///< by-value scalars only, returns its result directly, no task, cannot raise: free to move and merge
+    Plain  ///< gets the task, returns a status, result through a pointer; may raise or suspend the task
+};
+struct Native {
+    std::string symbol; ///< C symbol
+    NativeClass nativeClass = NativeClass::Plain;
+    TypeId result = kVoid;
+    std::vector<TypeId> params;
+};
+
+// ---- Module ----------------------------------------------------------------------------------------------------
+
+enum class GlobalKind : uint8_t { Var, Persistent, Const, External };
+struct Global {
+    std::string name; ///< linkage name
+    std::string displayName;
+    std::string moduleName;
+    TypeId type = kVoid;
+    GlobalKind kind = GlobalKind::Var;
+    ConstData init;
+    uint32_t typeDesc = kNone; ///< index into Module::typeDescs
+    uint32_t task = kNone;     ///< owning task; kNone = shared by all
+    uint32_t file = kNone, line = 0;
+};
+
+enum class DescKind : uint8_t { Num, Dnum, Bool, String, Record, Array, Handle, Other };
+/// Run-time description of a source-language type.
+struct TypeDesc {
+    std::string name;     ///< as declared, an alias keeps its name
+    std::string baseName; ///< with aliases resolved
+    DescKind kind = DescKind::Other;
+    TypeId type = kVoid;
+    std::vector<std::string> fieldNames;
+    std::vector<uint32_t> fieldDescs; ///< record: per field; array: one entry, the element
+};
+
+/// A signal or another configured object that the program names; resolved when the program is loaded.
+struct ExternalRef {
+    std::string name;
+    std::string kind;          ///< "signaldi", "signaldo", ... as the source language says
+    uint32_t global = kNone;   ///< I64 slot that receives the handle
+    uint32_t file = kNone, line = 0, column = 0;
+};
+
+struct TaskEntry {
+    std::string name;
+    std::string type = "NORMAL";  ///< NORMAL, STATIC, SEMISTATIC
+    uint32_t entry = kNone;       ///< routine
+    uint32_t reset = kNone;       ///< routine that gives every variable its initial value
+    bool motionTask = false;
+};
+
+struct Module {
+    std::string name;
+    std::vector<Type> types; ///< ids 0 to 7 are the scalar types
+    std::vector<Global> globals;
+    std::vector<Native> natives;
+    std::vector<Routine> routines;
+    std::vector<TypeDesc> typeDescs;
+    std::vector<ExternalRef> externals;
+    std::vector<TaskEntry> tasks;
+    std::vector<std::string> files;       ///< source paths
+    std::vector<std::string> configTexts; ///< configuration known at compile time, kept for the run
+    std::vector<std::string> configNames;
+
+    Module();
+    const Type& type(TypeId id) const { return types[id]; }
+    TypeId arrayOf(TypeId element, std::vector<int32_t> dims); ///< interned
+    TypeId addRecord(std::string name, std::vector<Field> fields);
+    uint32_t size(TypeId id) const;  ///< bytes, C layout
+    uint32_t align(TypeId id) const;
+    uint32_t fieldOffset(TypeId record, uint32_t field) const;
+    bool isScalar(TypeId id) const { return id <= kF64 || id == kPtr; }
+    uint32_t findRoutine(std::string_view name) const; ///< kNone if absent
+};
+
+enum class SysvarKind : int32_t { Errno = 0, Intno = 1 };
+
+// ---- Builder ---------------------------------------------------------------------------------------------------
+
+/// Appends instructions to a routine; keeps the current block and statement.
+class Builder {
+  public:
+    Builder(Module& module, Routine& routine) : module_(module), routine_(routine) {}
+
+    Module& module() { return module_; }
+    Routine& routine() { return routine_; }
+    BlockId addBlock(std::string name);
+    void setBlock(BlockId block) { block_ = block; }
+    BlockId block() const { return block_; }
+    /// True when the current block already ends in a terminator.
+    bool terminated() const;
+    StmtId addStatement(const Statement& statement);
+    void setStatement(StmtId stmt); ///< emits the Stmt marker too
+    StmtId statement() const { return stmt_; }
+    uint32_t addLocal(std::string name, TypeId type, bool isParam = false);
+
+    ValueId constF32(double value);
+    ValueId constF64(double value);
+    ValueId constI32(int32_t value);
+    ValueId constI64(int64_t value);
+    ValueId constBool(bool value);
+    ValueId nullPtr();
+    ValueId param(uint32_t index);
+    ValueId localAddr(uint32_t local);
+    ValueId globalAddr(uint32_t global);
+    ValueId typeDescAddr(uint32_t desc);
+    ValueId routineAddr(uint32_t routine);
+    ValueId sysvar(SysvarKind kind);
+    ValueId load(TypeId type, ValueId ptr);
+    void store(TypeId type, ValueId value, ValueId ptr);
+    void copy(TypeId type, ValueId dst, ValueId src);
+    void copyDynamic(ValueId dst, ValueId src, ValueId bytes);
+    void zero(TypeId type, ValueId dst);
+    ValueId fieldAddr(TypeId record, ValueId ptr, uint32_t field);
+    ValueId elemAddr(TypeId element, ValueId ptr, ValueId zeroBasedIndex);
+    ValueId binary(Op op, ValueId a, ValueId b); ///< result type from the operands (comparisons: Bool)
+    ValueId unary(Op op, ValueId a);             ///< FNeg, INeg, Not
+    ValueId convert(Op op, ValueId a);           ///< I32ToF32 ...
+    ValueId select(ValueId cond, ValueId a, ValueId b);
+    void check(ValueId cond, int32_t errorNumber); ///< raises errorNumber when cond is false
+    ValueId call(uint32_t routine, std::vector<ValueId> args);
+    ValueId callNative(uint32_t native, std::vector<ValueId> args);
+    void br(BlockId target);
+    void condBr(ValueId cond, BlockId ifTrue, BlockId ifFalse);
+    void switchOn(ValueId value, std::vector<SwitchCase> cases, BlockId otherwise);
+    void ret();
+    void ret(ValueId value);     ///< scalar result; aggregates are stored through resultAddr() first, then ret()
+    ValueId resultAddr();        ///< hidden pointer of an aggregate result
+    void raise(ValueId errorNumber);
+    void propagate();            ///< in a handler: raise the current error again at the point of the call
+    void retry();
+    void tryNext();
+    void handlerEnd();           ///< end of an error handler reached: system handler
+    void unreachable();
+    void safepoint(int32_t cost);
+    ValueId emit(Inst inst);
+
+  private:
+    TypeId typeOf(ValueId value) const { return routine_.insts[value].type; }
+    Module& module_;
+    Routine& routine_;
+    BlockId block_ = 0;
+    StmtId stmt_ = kNone;
+};
+
+} // namespace ir

@@ -1,0 +1,162 @@
+#pragma once
+// What compiled code and the runtime agree on. Plain C layout, no behaviour: codegen emits exactly these structures.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
+namespace rt {
+
+/// RAPID string: fixed, at most 80 bytes of UTF-8, a plain value (design chapter 3).
+struct String {
+    uint32_t length = 0;
+    char bytes[80] = {};
+
+    std::string_view view() const { return {bytes, length}; }
+    /// Takes at most 80 bytes; the caller raises ERR_STRTOOLNG when text is longer.
+    void assign(std::string_view text) {
+        length = static_cast<uint32_t>(text.size() < 80 ? text.size() : 80);
+        std::memcpy(bytes, text.data(), length);
+    }
+};
+static_assert(sizeof(String) == 84 && alignof(String) == 4);
+
+/// Handle of an object that the controller owns (signal, clock, file ...); 0 = not connected yet.
+using Handle = int64_t;
+
+/// Result of every compiled routine and native call. 0: done. > 0: a recoverable error with this ERRNO is on its way
+/// to a handler. < 0: the stack is being unwound (EXIT, end of the run, program pointer moved).
+using Status = int32_t;
+inline constexpr Status kOk = 0;
+inline constexpr Status kUnwind = -1;
+
+enum class DescKind : uint8_t { Num, Dnum, Bool, String, Record, Array, Handle, Other };
+
+/// Run-time description of a type of the source language.
+struct TypeDesc {
+    const char* name;     ///< as declared; an alias keeps its name
+    const char* baseName; ///< aliases resolved
+    DescKind kind;
+    uint32_t size;        ///< bytes
+    uint32_t count;       ///< record: number of fields; array: number of elements in all
+    int32_t dims[3];      ///< array; unused entries 0
+    const TypeDesc* const* fields; ///< record: per field; array: one entry, the element
+    const char* const* fieldNames; ///< record
+    const uint32_t* offsets;       ///< record: byte offset per field
+};
+
+/// An argument of any type.
+struct AnyRef {
+    void* data = nullptr; ///< null: optional argument not present
+    const TypeDesc* type = nullptr;
+};
+
+struct StmtDesc {
+    uint32_t line, column, endLine, endColumn; ///< from 1
+    uint8_t kind;    ///< ir::StmtKind
+    uint8_t handled; ///< 1: an error here goes to the routine's error handler
+    uint8_t pad[2];
+};
+
+struct RoutineDesc {
+    const char* name;   ///< as people see it
+    const char* module;
+    const char* file;
+    const StmtDesc* statements;
+    uint32_t statementCount;
+    uint8_t hasErrorHandler;
+    uint8_t hasUndo;
+    uint8_t noStepIn;
+    uint8_t pad;
+    const int32_t* errorFilter; ///< error numbers the handler takes; null = all
+    uint32_t errorFilterCount;
+};
+
+/// Frame record: lies in the stack frame of each routine in progress; the chain is the call stack. The caller's record
+/// is passed down in a register; `statement` is stored before whatever may raise, wait or be preempted.
+struct Frame {
+    Frame* caller;
+    const RoutineDesc* routine;
+    int32_t statement;
+    int32_t reserved;
+};
+
+/// The part of a task that compiled code touches directly. rt::Task begins with it.
+struct TaskCore {
+    int64_t budget;     ///< instructions left in this slice; negative after a safepoint's charge: call rt_safepoint
+    char* stackLimit;   ///< lowest address a routine may use; below: rt_stackOverflow
+    Frame* frame;       ///< innermost frame record, stored before native calls
+    float errorNumber;  ///< ERRNO
+    float interruptNumber; ///< INTNO
+};
+
+// ---- Program description: emitted once per program as the symbol `rapidc_program` ---------------------------------
+
+using EntryFunction = Status (*)(TaskCore*, Frame*);
+
+struct TaskDesc {
+    const char* name;
+    const char* type; ///< NORMAL, STATIC, SEMISTATIC
+    EntryFunction entry;
+    EntryFunction reset; ///< gives every variable of the task its initial value
+    uint8_t motionTask;
+};
+struct GlobalDesc { ///< module data, for SetDataVal, the debugger, saving of persistents
+    const char* name;
+    const char* module;
+    void* address;
+    const TypeDesc* type;
+    uint8_t kind;   ///< ir::GlobalKind
+    int32_t task;   ///< index into tasks; -1 = shared
+    const char* file;
+    uint32_t line;
+};
+struct ExternalDesc { ///< a configured object named by the program (signal ...)
+    const char* name;
+    const char* kind; ///< "signaldi", ...
+    Handle* slot;
+    const char* file;
+    uint32_t line, column;
+};
+struct RoutineEntry { ///< for late binding
+    const char* name;
+    const char* module;
+    int32_t task;
+    void* address;
+    const RoutineDesc* desc;
+};
+struct ProgramDesc {
+    const char* name;
+    const TaskDesc* tasks;
+    uint32_t taskCount;
+    const GlobalDesc* globals;
+    uint32_t globalCount;
+    const ExternalDesc* externals;
+    uint32_t externalCount;
+    const RoutineEntry* routines;
+    uint32_t routineCount;
+    const char* const* configNames;
+    const char* const* configTexts;
+    uint32_t configCount;
+};
+
+} // namespace rt
+
+// ---- Calls from compiled code into the runtime --------------------------------------------------------------------
+extern "C" {
+/// Budget used up: yields, delivers interrupts. Returns 0 or a negative status (unwind).
+rt::Status rt_safepoint(rt::TaskCore* task, rt::Frame* frame);
+/// An error is raised at frame->statement. Finds out whether a handler in the chain takes it; if so sets ERRNO and
+/// returns `errorNumber`; otherwise the system handler stops the task with the stack intact and, when the task is to
+/// end, returns kUnwind.
+rt::Status rt_raise(rt::TaskCore* task, rt::Frame* frame, rt::Status errorNumber);
+/// RAISE without number in a handler, or a handler that passes the error on: raises it again at the caller's statement.
+rt::Status rt_propagate(rt::TaskCore* task, rt::Frame* frame);
+/// The end of an error handler was reached (manual 1.12): system handler. Returns kUnwind.
+rt::Status rt_handlerEnd(rt::TaskCore* task, rt::Frame* frame);
+/// RETRY in the handler of `frame`: counts; 0, or kUnwind when No Of Retry is exceeded.
+rt::Status rt_retry(rt::TaskCore* task, rt::Frame* frame);
+/// The stack of the task is used up. Returns kUnwind.
+rt::Status rt_stackOverflow(rt::TaskCore* task, rt::Frame* frame);
+}
