@@ -1,0 +1,95 @@
+#pragma once
+// Symbols: what names mean. Owned by the CheckedProgram; pointers stay valid for its life.
+
+#include "frontend/sema/types.h"
+#include "frontend/syntax/ast.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace rapid::sema {
+
+struct Module;
+struct RoutineSymbol;
+
+/// Value of a constant expression. Aggregates hold their members in order (arrays: nested by dimension).
+struct ConstValue {
+    enum class Kind : uint8_t { None, Number, Bool, String, Aggregate } kind = Kind::None;
+    double number = 0; ///< num values are already rounded to binary32
+    bool boolean = false;
+    std::string text;
+    std::vector<ConstValue> members;
+};
+
+enum class SymbolKind : uint8_t { Type, Data, Routine, Module, Label };
+
+struct Symbol {
+    SymbolKind kind = SymbolKind::Data;
+    std::string name;                        ///< as declared
+    Module* module = nullptr;                ///< null for labels' and parameters' routine-level symbols too
+    const syntax::Node* decl = nullptr;      ///< null for configured signals
+    syntax::TokenIndex nameToken = syntax::kNoToken;
+    bool isLocal = false;                    ///< LOCAL
+    bool predefined = false;                 ///< declared in stdlib
+    bool used = false;
+};
+
+struct TypeSymbol : Symbol {
+    Type* type = nullptr;
+};
+
+enum class Storage : uint8_t {
+    ModuleData,  ///< program data (and predefined data)
+    RoutineData, ///< declared in a routine
+    Parameter,
+    LoopVariable,
+    Signal,      ///< configured I/O signal, resolved by name when the program is loaded
+    SystemVariable ///< ERRNO, INTNO ...
+};
+
+struct DataSymbol : Symbol {
+    Storage storage = Storage::ModuleData;
+    syntax::DataKind dataKind = syntax::DataKind::Var;
+    syntax::ScopeWord scope = syntax::ScopeWord::None;
+    DataType type;
+    const syntax::Expr* init = nullptr;
+    ConstValue value;                       ///< CONST, and initial values of VAR and PERS at module level (None = zero)
+    // Parameters
+    syntax::ParamMode mode = syntax::ParamMode::In;
+    bool optional = false;
+    bool isSwitch = false;
+    uint32_t group = 0;                     ///< equal for mutually exclusive parameters
+    bool requiredAlternative = false;       ///< built-ins: `a | b` between required parameters
+    bool assigned = false;                  ///< an IN parameter or other data that some statement writes
+    RoutineSymbol* routine = nullptr;       ///< routine data, parameters, loop variables
+    uint32_t index = 0;                     ///< dense per routine (parameters first) or per module
+};
+
+/// How a native may be called; from `effects:` in the declaration.
+enum class Effects : uint8_t { None, Const, Pure, Reads, Writes, Waits, Motion };
+
+struct RoutineSymbol : Symbol {
+    syntax::RoutineKind routineKind = syntax::RoutineKind::Proc;
+    const syntax::RoutineDecl* routineDecl = nullptr;
+    DataType returnType;                    ///< functions
+    std::vector<DataSymbol*> params;
+    std::vector<DataSymbol*> data;          ///< all routine data and loop variables
+    bool native = false;                    ///< declared without body in stdlib
+    bool special = false;                   ///< `lower: special`
+    bool noStepIn = false;
+    Effects effects = Effects::None;
+    std::string option;                     ///< RobotWare option it needs
+    std::string documentation;
+};
+
+struct ModuleSymbol : Symbol {};
+
+struct LabelSymbol : Symbol {
+    RoutineSymbol* routine = nullptr;
+};
+
+} // namespace rapid::sema

@@ -1,0 +1,52 @@
+#pragma once
+// Types of RAPID (manual 1.2.1). Type objects live in the CheckedProgram and are compared by pointer after resolving
+// aliases.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rapid::sema {
+
+enum class TypeKind : uint8_t {
+    Error, ///< already reported; compatible with everything
+    Num,
+    Dnum,
+    Bool,
+    String,
+    Record,
+    NonValue,  ///< clock, iodev, rawbytes ... : a handle
+    SemiValue, ///< signalxx: a handle with a readable value
+    Switch,
+    AnyType ///< pseudo-type of built-ins
+};
+
+struct Type {
+    struct Component {
+        std::string name; ///< as written
+        const Type* type = nullptr;
+    };
+    TypeKind kind = TypeKind::Error;
+    std::string name;                 ///< as written in its declaration
+    const Type* aliasOf = nullptr;    ///< aliases: the type named in the ALIAS; kind and components are the base's
+    std::vector<Component> components; ///< records
+    bool containsNonValue = false;    ///< records with a non-value component are non-value
+
+    const Type* base() const {
+        const Type* t = this;
+        while (t->aliasOf) t = t->aliasOf;
+        return t;
+    }
+    bool isNumeric() const { return kind == TypeKind::Num || kind == TypeKind::Dnum; }
+    int findComponent(std::string_view name) const; ///< case-insensitive; -1 if absent
+};
+
+/// Type of a data object or expression: element type and array shape.
+struct DataType {
+    const Type* type = nullptr;
+    uint8_t rank = 0;             ///< 0 = not an array
+    int32_t dims[3] = {0, 0, 0};  ///< 0 = conformant, known at run time only
+    bool isArray() const { return rank > 0; }
+};
+
+} // namespace rapid::sema
