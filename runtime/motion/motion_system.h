@@ -1,0 +1,128 @@
+#pragma once
+// MotionSystem: the arm of one robot on the controller's clock. Moves are ordered ahead of motion and run one
+// after another; everything that happens is reported as events with exact times. Deterministic: the state
+// depends only on the calls made and the times given. Time is int64 nanoseconds of the virtual clock; no call
+// goes back in time. This release stops at every point; zones are accepted and kept for look-ahead.
+
+#include "runtime/motion/move_command.h"
+#include "runtime/motion/planned_motion.h"
+#include "runtime/motion/targets.h"
+#include "runtime/robot/kinematics.h"
+#include "runtime/robot/robot_model.h"
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace motion {
+
+using TimeNs = int64_t;
+/// Number of a move, from 1 in the order of enqueue.
+using MoveId = int64_t;
+
+enum class MoveStatus : uint8_t {
+    Unknown, ///< never ordered
+    Queued,  ///< waiting for its turn
+    Moving,  ///< on its path (also while stopped there)
+    Done,    ///< its point has been reached
+    Cleared, ///< thrown away by clear()
+};
+
+enum class MotionEventKind : uint8_t {
+    Started,  ///< the move has begun
+    Released, ///< a program that ordered this move and waits for it may go on (see releaseTime)
+    Trigger,  ///< a PathTrigger fired; `trigger` is its id
+    Reached,  ///< the point has been reached (fine point: standing still there)
+    Stopped,  ///< standing still after stop()
+};
+
+struct MotionEvent {
+    TimeNs time = 0;
+    MotionEventKind kind = MotionEventKind::Started;
+    MoveId move = 0;
+    uint64_t tag = 0;
+    uint32_t trigger = 0;
+};
+
+struct MotionOptions {
+    ExternalAxisModels external{};
+    std::size_t maxQueued = 64;       ///< moves ordered ahead; more is QueueFull
+    TimeNs programLead = 100'000'000; ///< how long before the end of a fly-by move the program goes on
+};
+
+class MotionSystem {
+  public:
+    /// The arm stands at all joints 0, joint 5 at 30 degrees, at time 0.
+    explicit MotionSystem(robot::RobotModel model, MotionOptions options = {});
+    ~MotionSystem();
+    MotionSystem(MotionSystem&&) noexcept;
+    MotionSystem& operator=(MotionSystem&&) noexcept;
+
+    const robot::RobotModel& model() const;
+    const robot::Kinematics& kinematics() const;
+
+    // ---- ordering moves ----
+    /// Orders a move from where the last ordered one ends. Returns at once; the move starts now if the arm
+    /// stands idle, otherwise after the moves before it. All geometric errors are found here and leave the
+    /// queue as it was.
+    Expected<MoveId, MotionError> enqueue(const MoveCommand& command);
+    /// Throws away all moves not finished (ClearPath, program pointer moved). The arm must stand still: a
+    /// moving arm is stopped on its path first and the rest is thrown away when it stands.
+    void clear();
+    /// Brings the arm to these angles without motion (start of a simulation). Only when idle; false
+    /// otherwise.
+    bool placeAt(const JointTarget& joints);
+
+    // ---- stopping on the path ----
+    /// Brakes on the path as fast as the limits allow; a Stopped event follows. No effect when stopped
+    /// already.
+    void stop();
+    /// Goes on from where stop() left the path.
+    void start();
+    bool isStopRequested() const; ///< between stop() and start()
+
+    /// Operator's speed override, percent 0..100, from now on; the current move changes speed on its path. 0
+    /// stops.
+    void setOverride(double percent);
+    double speedOverride() const;
+
+    // ---- time ----
+    /// Lets motion go on until `time`; events up to and including it are collected.
+    void advanceTo(TimeNs time);
+    TimeNs now() const;
+    /// When the next event will happen if nothing is called before; none when nothing moves.
+    std::optional<TimeNs> nextEventTime() const;
+    /// Events since the last call, in order of time.
+    std::vector<MotionEvent> takeEvents();
+
+    // ---- questions ----
+    bool isIdle() const;   ///< no move unfinished
+    bool isMoving() const; ///< some axis is moving now
+    std::size_t unfinishedMoves() const;
+    MoveStatus status(MoveId move) const;
+    bool isStarted(MoveId move) const;  ///< Moving or Done
+    bool isReleased(MoveId move) const; ///< its Released event has happened, or it was cleared
+    bool isDone(MoveId move) const;     ///< Done or Cleared
+    /// The move in progress or, when idle, the one finished last; 0 before the first.
+    MoveId currentMove() const;
+    /// Where the move will be or was reached, if it is being run, stands first in line or ended recently.
+    std::optional<TimeNs> reachTime(MoveId move) const;
+
+    /// State at a time not before the one at the previous advanceTo (so that a trace can fill the gap) and
+    /// not after the end of the current move.
+    MotionState sample(TimeNs time) const;
+    MotionState current() const { return sample(now()); }
+    /// CJointT: where the axes are now. `plannedEnd`: where the last ordered move will end.
+    JointTarget currentJoints() const;
+    JointTarget plannedEnd() const;
+    /// CRobT: the TCP now, for a tool and work object.
+    RobTarget currentTarget(const FrameSetup& frames) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace motion

@@ -1,0 +1,72 @@
+#pragma once
+// MoveCommand: one move instruction, in the units and frames of the program (mm, deg, s), independent of any
+// language.
+
+#include "runtime/motion/targets.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace motion {
+
+enum class MoveKind : uint8_t {
+    AbsJoint, ///< to axis angles, axis by axis
+    Joint,    ///< to a pose, axis by axis
+    Linear,   ///< TCP on a straight line, orientation turned evenly
+    Circular, ///< TCP on a circle through start, circle point and target
+};
+
+/// RAPID's speeddata.
+struct SpeedData {
+    double vTcp = 100;   ///< mm/s
+    double vOri = 500;   ///< deg/s
+    double vLeax = 5000; ///< linear external axes, mm/s
+    double vReax = 1000; ///< rotating external axes, deg/s
+};
+
+/// RAPID's zonedata.
+struct ZoneData {
+    bool finep = true;
+    double pzoneTcp = 0, pzoneOri = 0, pzoneEax = 0; ///< mm of TCP path
+    double zoneOri = 0;                              ///< deg
+    double zoneLeax = 0, zoneReax = 0;               ///< mm, deg
+};
+
+/// AccSet, VelSet, PathAccLim, WorldAccLim in force for the move.
+struct MotionSettings {
+    double velocityPercent = 100;     ///< VelSet Override
+    double maxTcpSpeed = 1e9;         ///< VelSet Max, mm/s; no effect on moves with a duration
+    double accelerationPercent = 100; ///< AccSet Acc; below 20 acts as 20
+    double rampPercent = 100;         ///< AccSet Ramp; below 10 acts as 10
+    double pathAcceleration = 0;      ///< PathAccLim \AccMax, m/s^2 along the path; 0 = no limit
+    double pathDeceleration = 0;      ///< PathAccLim \DecelMax; 0 = no limit
+    double worldAcceleration = 0;     ///< WorldAccLim, m/s^2; 0 = no limit
+};
+
+/// Something to be reported when the TCP passes a place on the path (TriggIO and friends).
+struct PathTrigger {
+    uint32_t id = 0;        ///< the caller's name for it
+    bool fromStart = false; ///< measured from the start of the move instead of its end
+    bool inTime = false; ///< `amount` is seconds before the end (after the start) instead of mm of TCP path
+    double amount = 0;
+    double lag = 0; ///< EquipLag, s: positive fires earlier
+};
+
+struct MoveCommand {
+    MoveKind kind = MoveKind::AbsJoint;
+    JointTarget joints; ///< AbsJoint; a kNotConnected axis keeps its place
+    RobTarget target;   ///< Joint, Linear, Circular
+    Pose circlePoint;   ///< Circular
+    FrameSetup frames;  ///< tool, work object, displacement; the base frame comes from the model
+    SpeedData speed;
+    double duration = 0; ///< s, RAPID's \T; 0 = not given. Limits still hold: the move may take longer
+    ZoneData zone;
+    bool confJ = true;       ///< ConfJ\On: Joint moves take the programmed configuration
+    bool confL = true;       ///< ConfL\On: lines and circles must arrive in the programmed configuration
+    bool concurrent = false; ///< \Conc: the program goes on when the move starts
+    MotionSettings settings;
+    std::vector<PathTrigger> triggers;
+    uint64_t tag = 0; ///< the caller's, given back in samples and events (number of the move instruction)
+};
+
+} // namespace motion

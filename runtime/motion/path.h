@@ -1,0 +1,93 @@
+#pragma once
+// Stage 2 of motion: the geometry of one move, without time. The path parameter s runs from 0 to 1; TCP path
+// length and orientation grow evenly with it on lines and circles, axis angles on joint moves.
+
+#include "runtime/motion/move_command.h"
+#include "runtime/robot/kinematics.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace motion {
+
+/// Line or arc of the TCP in the (displaced) object frame, with its orientation spline.
+class CartesianCurve {
+  public:
+    /// Straight line; orientation slerp, the short way.
+    static CartesianCurve line(const Pose& start, const Pose& end);
+    /// Circle through three points; orientation turns relative to the circle. The circle point's orientation
+    /// only selects the way of twisting (manual 2.2.2). Errors: points too close, collinear, more than 240
+    /// degrees.
+    static Expected<CartesianCurve, MotionError> arc(const Pose& start, const Pose& via, const Pose& end);
+
+    Pose at(double s) const;                            ///< s in [0, 1]
+    double length() const { return length_; }           ///< mm
+    double rotationDeg() const { return rotationDeg_; } ///< highest d(orientation)/ds, degrees per unit of s
+    bool isArc() const { return isArc_; }
+    Vec3 centre() const { return centre_; }       ///< arc only, object frame
+    Vec3 axis() const { return axis_; }           ///< arc only: unit normal, right-handed about the motion
+    double radius() const { return radius_; }     ///< arc only, mm
+    double sweepDeg() const { return sweepDeg_; } ///< arc only
+
+  private:
+    Pose start_, end_;
+    bool isArc_ = false;
+    double length_ = 0, rotationDeg_ = 0;
+    Vec3 centre_, axis_, spoke_; // spoke: from centre to start
+    double radius_ = 0, sweepDeg_ = 0;
+    Vec3
+        twist_; // rotation vector (rad) of the orientation relative to the moving frame, over the whole curve
+};
+
+/// A node of the grid that planning lays over a path.
+struct PathNode {
+    double s = 0;
+    Joints joints{};
+};
+
+/// One move with its start state, resolved to a path in joint space.
+class MotionPath {
+  public:
+    /// Resolves the command from where the arm stands. All geometric errors are found here: reach, joint
+    /// range along the whole path, configuration, circle data, singularities.
+    static Expected<MotionPath, MotionError> make(const robot::Kinematics& kinematics,
+                                                  const JointTarget& start, const MoveCommand& command);
+
+    /// Axis angles at s in [0, 1]; exactly on the line or circle, not an interpolation between grid nodes.
+    Joints jointsAt(double s) const;
+    ExternalAxes externalAt(double s) const;
+    /// TCP in the object frame.
+    Pose tcpAt(double s) const;
+    /// First and second derivative of the axis angles by s, deg.
+    void derivativesAt(double s, Joints& first, Joints& second) const;
+
+    bool isCartesian() const { return isCartesian_; }
+    /// Nothing moves.
+    bool isEmpty() const { return isEmpty_; }
+    /// TCP path length, mm (measured along the grid for joint moves).
+    double length() const { return length_; }
+    const CartesianCurve& curve() const { return curve_; }
+    const JointTarget& start() const { return start_; }
+    const JointTarget& end() const { return end_; }
+    const FrameSetup& frames() const { return frames_; }
+    const std::vector<PathNode>& nodes() const { return nodes_; }
+    const robot::Kinematics& kinematics() const { return kinematics_; }
+
+  private:
+    Expected<bool, MotionError> layGrid();
+    Expected<bool, MotionError> refine(const PathNode& from, const PathNode& to, int depth);
+    Expected<PathNode, MotionError> solveAt(double s, const Joints& seed) const;
+    Expected<bool, MotionError> checkArrival(const MoveCommand& command) const;
+    const Joints& seedFor(double s) const;
+
+    robot::Kinematics kinematics_;
+    FrameSetup frames_;
+    JointTarget start_, end_;
+    bool isCartesian_ = false;
+    bool isEmpty_ = false;
+    CartesianCurve curve_;
+    double length_ = 0;
+    std::vector<PathNode> nodes_;
+};
+
+} // namespace motion

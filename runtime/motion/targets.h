@@ -1,0 +1,119 @@
+#pragma once
+// Targets, tools and work objects: how a programmed position becomes a flange pose in the robot's base frame
+// and back. Lengths mm, angles degrees, quaternions w x y z.
+
+#include "runtime/robot/expected.h"
+#include "runtime/robot/frames.h"
+#include "runtime/robot/kinematics.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace motion {
+
+using robot::ConfData;
+using robot::Expected;
+using robot::Joints;
+using robot::Pose;
+using robot::Quat;
+using robot::Unexpected;
+using robot::Vec3;
+
+/// Value of an external axis that is not connected (RAPID's 9E9).
+inline constexpr double kNotConnected = 9e9;
+inline constexpr int kExternalCount = 6;
+/// External axes a..f, degrees or mm; kNotConnected where there is none.
+using ExternalAxes = std::array<double, kExternalCount>;
+inline constexpr ExternalAxes kNoExternalAxes{kNotConnected, kNotConnected, kNotConnected,
+                                              kNotConnected, kNotConnected, kNotConnected};
+inline bool isConnected(double externalValue) {
+    return externalValue < 8.9e9;
+}
+
+/// RAPID's jointtarget.
+struct JointTarget {
+    Joints robax{};
+    ExternalAxes extax = kNoExternalAxes;
+};
+
+/// RAPID's robtarget: pose in the (displaced) object frame.
+struct RobTarget {
+    Pose pose;
+    ConfData conf;
+    ExternalAxes extax = kNoExternalAxes;
+};
+
+/// The geometric part of RAPID's tooldata: tframe is given in the wrist frame (flange) when the robot holds
+/// the tool, in world when the tool is stationary.
+struct ToolFrame {
+    bool robotHeld = true;
+    Pose tframe;
+};
+
+/// The geometric part of RAPID's wobjdata: uframe is given in world, or in the wrist frame when the robot
+/// holds the work object.
+struct WorkObjectFrame {
+    bool robotHeld = false;
+    Pose uframe, oframe;
+};
+
+/// Everything between a programmed pose and the flange. Exactly one of tool and work object is held by the
+/// robot.
+struct FrameSetup {
+    ToolFrame tool;
+    WorkObjectFrame workObject;
+    Pose displacement; ///< program displacement, in the object frame
+    Pose baseFrame;    ///< robot base in world; MotionSystem and planMove set it from the model
+
+    bool isConsistent() const { return tool.robotHeld != workObject.robotHeld; }
+    /// Flange in base for a TCP pose in the displaced object frame.
+    Pose toFlange(const Pose& target) const;
+    /// The reverse: TCP pose in the displaced object frame.
+    Pose fromFlange(const Pose& flange) const;
+    /// TCP in world for a flange pose in base (a stationary tool does not move).
+    Pose tcpInWorld(const Pose& flange) const;
+};
+
+/// Pose from RAPID-like plain figures (trans[3] mm, rot[4] as q1..q4); the quaternion is scaled to unit
+/// length, which binary32 components never have exactly.
+Pose poseFromFloats(const float* trans, const float* rot);
+/// The reverse.
+void poseToFloats(const Pose& pose, float* trans, float* rot);
+
+enum class MotionErrorKind : uint8_t {
+    BadArgument,           ///< not a number, speed or time not positive, frames contradict each other
+    Unreachable,           ///< position outside the reach of the arm
+    JointOutOfRange,       ///< an axis (1..6, external 7..12) would leave its range
+    NoSuchConfiguration,   ///< confdata asks for a configuration the position does not have (ConfJ)
+    ConfigurationMismatch, ///< a line or circle would arrive in another configuration than programmed (ConfL)
+    Singularity,           ///< path too close to a singularity
+    CirclePointsTooClose,  ///< points of a circle closer than 0.1 mm
+    CirclePointsCollinear, ///< start, circle point and end on one line (angle below 1 degree)
+    CircleTooLarge,        ///< more than 240 degrees in one move
+    UnsupportedRobot,      ///< no closed-form kinematics for this model
+    QueueFull,             ///< too many moves ordered ahead
+};
+
+/// Why a move cannot be made. A value; the controller turns it into an ERRNO and an event.
+struct MotionError {
+    MotionErrorKind kind = MotionErrorKind::BadArgument;
+    int joint = 0;           ///< 1..6, external axes 7..12, 0 = does not concern one axis
+    double value = 0;        ///< what the axis, the angle or the argument would have been
+    double pathFraction = 0; ///< where on the path, 0 = start, 1 = end
+    Vec3 position;           ///< TCP there, in the object frame of the move
+    const char* what = "";   ///< BadArgument: which argument
+    /// One sentence with the figures and a remedy.
+    std::string message() const;
+};
+
+/// RAPID's CalcJointT: axis angles for a robtarget, with the configuration it names; `seed` breaks ties at
+/// singularities.
+Expected<JointTarget, MotionError> calcJointTarget(const robot::Kinematics& kinematics,
+                                                   const RobTarget& target, const FrameSetup& frames,
+                                                   const Joints& seed);
+/// RAPID's CalcRobT and CRobT: robtarget in the displaced object frame, with its configuration.
+RobTarget calcRobTarget(const robot::Kinematics& kinematics, const JointTarget& joints,
+                        const FrameSetup& frames);
+
+} // namespace motion
