@@ -127,7 +127,7 @@ struct Routine {
     std::vector<Statement> statements;
     BlockId errorHandler = kNone;
     std::vector<int32_t> errorFilter; ///< when not empty: the handler takes only these error numbers
-    BlockId undoHandler = kNone;
+    BlockId undoHandler = kNone; ///< the UNDO part; a `ret` without value in it goes on unwinding
 };
 
 /// What a native routine may do; decides how it is called (see codegen/README.md).
@@ -253,7 +253,10 @@ class Builder {
     ValueId convert(Op op, ValueId a);           ///< I32ToF32 ...
     ValueId select(ValueId cond, ValueId a, ValueId b);
     void check(ValueId cond, int32_t errorNumber); ///< raises errorNumber when cond is false
+    /// Calls a routine. Scalar result: the value of this instruction. Str/Record/Array result: args[0] is the address
+    /// that receives it (then the instruction has type Void).
     ValueId call(uint32_t routine, std::vector<ValueId> args);
+    /// The same for natives; the emitter adds the task argument and, for scalar results of class Plain, the result slot.
     ValueId callNative(uint32_t native, std::vector<ValueId> args);
     void br(BlockId target);
     void condBr(ValueId cond, BlockId ifTrue, BlockId ifFalse);
