@@ -1,0 +1,65 @@
+#pragma once
+// From IR to machine code: in memory (ORC JIT) or as an object file. Free of LLVM headers, so that the rest of the
+// compiler does not pay for them. A module must have passed ir::verify (ir::runPasses does that).
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ir {
+struct Module;
+}
+namespace rt {
+struct ProgramDesc;
+}
+
+namespace codegen {
+
+struct CodegenOptions {
+    bool optimise = true;  ///< LLVM's O2 pipeline; off for the stepping profile, where variables stay in memory
+    bool debugInfo = true; ///< DWARF line tables that name the lines of the source; in the JIT gdb gets them, too
+};
+
+/// A C function (or datum) that compiled code may refer to.
+struct NativeSymbol {
+    std::string_view name;
+    const void* address = nullptr;
+};
+
+/// Compiled code in memory. The code lives as long as this object.
+class JitProgram {
+  public:
+    virtual ~JitProgram() = default;
+    /// The description that the runtime starts a program from (symbol `rapidc_program`).
+    virtual const rt::ProgramDesc* program() const = 0;
+};
+
+/// Compiles `module` in memory. Natives and globals of kind External are looked up in `symbols`; names that are
+/// missing there make it fail. Returns null and a message in `error` on failure. Nothing of `module` is kept.
+std::unique_ptr<JitProgram> jit(const ir::Module& module, const CodegenOptions& options,
+                                const std::vector<NativeSymbol>& symbols, std::string& error);
+
+/// Writes a relocatable object (position independent) that defines `rapidc_program`. The same bytes for the same
+/// module, whatever the host's processor.
+bool emitObject(const ir::Module& module, const std::string& path, const CodegenOptions& options,
+                std::string& error);
+
+/// Text of the LLVM IR (after optimisation when asked for) or of the assembly; empty with `error` set on failure.
+std::string emitLlvm(const ir::Module& module, const CodegenOptions& options, std::string& error);
+std::string emitAsm(const ir::Module& module, const CodegenOptions& options, std::string& error);
+
+struct LinkOptions {
+    std::vector<std::string> libraries;      ///< paths of static libraries and objects, in link order (may refer to
+                                             ///< each other in circles)
+    std::vector<std::string> extraArguments; ///< passed on to the linker driver after the libraries, e.g. "-lpthread"
+    std::string driver;                      ///< compiler driver; empty: clang++-19, clang++, g++-12, g++, c++ in turn
+    bool stripDebug = false;
+};
+
+/// Links object and libraries into an executable. `error` names what is missing (a linker driver, a library, a symbol).
+bool linkExecutable(const std::string& objectPath, const std::string& outputPath, const LinkOptions& options,
+                    std::string& error);
+
+} // namespace codegen

@@ -1,0 +1,36 @@
+#pragma once
+// Transformations of the IR, one file each, and the manager that runs them in order and verifies after each.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ir/core/ir.h"
+
+namespace ir {
+
+enum class Profile : uint8_t {
+    Release, ///< safepoints at loops and routine entries
+    Stepping ///< a safepoint before every statement
+};
+
+struct PassOptions {
+    Profile profile = Profile::Release;
+};
+
+/// Runs simplifyCfg, foldConstants, placeSafepoints. Returns the verifier's findings, each prefixed with the pass after
+/// which it appeared ("input: " when the module came in broken); empty = fine. Stops at the first pass with findings.
+std::vector<std::string> runPasses(Module& module, const PassOptions& options);
+
+/// Runs the named passes only ("simplify-cfg", "fold-constants", "place-safepoints"), for tests and for emit.
+std::vector<std::string> runPasses(Module& module, const PassOptions& options,
+                                   const std::vector<std::string_view>& names);
+
+/// Removes unreachable blocks, threads jumps through empty blocks, merges a block into its only predecessor.
+void simplifyCfg(Module& module);
+/// Evaluates instructions whose operands are constants, and branches on constants.
+void foldConstants(Module& module);
+/// Inserts the safepoints (design chapter 4); the input must contain none.
+void placeSafepoints(Module& module, Profile profile);
+
+} // namespace ir
