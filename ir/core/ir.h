@@ -208,6 +208,10 @@ struct Module {
     uint32_t findRoutine(std::string_view name) const; ///< kNone if absent
 };
 
+/// Type of the value the instruction yields; kVoid when it yields none. Differs from Inst::type where that names the
+/// type accessed (FieldAddr, ElemAddr, Store ...).
+TypeId valueType(const Inst& inst);
+
 enum class SysvarKind : int32_t { Errno = 0, Intno = 1 };
 
 // ---- Builder ---------------------------------------------------------------------------------------------------
@@ -223,7 +227,7 @@ class Builder {
     void setBlock(BlockId block) { block_ = block; }
     BlockId block() const { return block_; }
     /// True when the current block already ends in a terminator.
-    bool terminated() const;
+    bool terminated() const; ///< (emitting after a terminator starts a new, unreachable block)
     StmtId addStatement(const Statement& statement);
     void setStatement(StmtId stmt); ///< emits the Stmt marker too
     StmtId statement() const { return stmt_; }
@@ -274,7 +278,7 @@ class Builder {
     ValueId emit(Inst inst);
 
   private:
-    TypeId typeOf(ValueId value) const { return routine_.insts[value].type; }
+    TypeId typeOf(ValueId value) const { return valueType(routine_.insts[value]); }
     Module& module_;
     Routine& routine_;
     BlockId block_ = 0;

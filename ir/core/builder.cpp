@@ -1,0 +1,165 @@
+#include <utility>
+
+#include "ir/core/ir.h"
+#include "ir/core/op_info.h"
+
+namespace ir {
+namespace {
+
+Inst make(Op op, TypeId type = kVoid, std::vector<ValueId> operands = {}) {
+    Inst inst;
+    inst.op = op;
+    inst.type = type;
+    inst.operands = std::move(operands);
+    return inst;
+}
+
+Inst makeIndexed(Op op, TypeId type, uint32_t index) {
+    Inst inst = make(op, type);
+    inst.index = index;
+    return inst;
+}
+
+Inst makeConst(TypeId type, double number) {
+    Inst inst = make(Op::Const, type);
+    inst.number = number;
+    return inst;
+}
+
+} // namespace
+
+BlockId Builder::addBlock(std::string name) {
+    routine_.blocks.push_back({std::move(name), {}});
+    return static_cast<BlockId>(routine_.blocks.size() - 1);
+}
+
+bool Builder::terminated() const {
+    const std::vector<ValueId>& insts = routine_.blocks[block_].insts;
+    return !insts.empty() && opInfo(routine_.insts[insts.back()].op).terminator;
+}
+
+StmtId Builder::addStatement(const Statement& statement) {
+    routine_.statements.push_back(statement);
+    return static_cast<StmtId>(routine_.statements.size() - 1);
+}
+
+void Builder::setStatement(StmtId stmt) {
+    stmt_ = stmt;
+    emit(makeIndexed(Op::Stmt, kVoid, stmt));
+}
+
+uint32_t Builder::addLocal(std::string name, TypeId type, bool isParam) {
+    routine_.locals.push_back({std::move(name), type, isParam});
+    return static_cast<uint32_t>(routine_.locals.size() - 1);
+}
+
+ValueId Builder::emit(Inst inst) {
+    // What follows a terminator cannot be reached; it gets a block of its own, which simplifyCfg removes.
+    if (terminated()) block_ = addBlock("dead");
+    if (inst.stmt == kNone) inst.stmt = stmt_;
+    routine_.insts.push_back(std::move(inst));
+    auto id = static_cast<ValueId>(routine_.insts.size() - 1);
+    routine_.blocks[block_].insts.push_back(id);
+    return id;
+}
+
+ValueId Builder::constF32(double value) { return emit(makeConst(kF32, static_cast<float>(value))); }
+ValueId Builder::constF64(double value) { return emit(makeConst(kF64, value)); }
+ValueId Builder::constI32(int32_t value) { return emit(makeConst(kI32, value)); }
+ValueId Builder::constI64(int64_t value) { return emit(makeConst(kI64, static_cast<double>(value))); }
+ValueId Builder::constBool(bool value) { return emit(makeConst(kBool, value ? 1 : 0)); }
+ValueId Builder::nullPtr() { return emit(makeConst(kPtr, 0)); }
+
+ValueId Builder::param(uint32_t index) {
+    return emit(makeIndexed(Op::ParamVal, routine_.params[index].type, index));
+}
+ValueId Builder::localAddr(uint32_t local) { return emit(makeIndexed(Op::LocalAddr, kPtr, local)); }
+ValueId Builder::globalAddr(uint32_t global) { return emit(makeIndexed(Op::GlobalAddr, kPtr, global)); }
+ValueId Builder::typeDescAddr(uint32_t desc) { return emit(makeIndexed(Op::TypeDescAddr, kPtr, desc)); }
+ValueId Builder::routineAddr(uint32_t routine) { return emit(makeIndexed(Op::RoutineAddr, kPtr, routine)); }
+ValueId Builder::resultAddr() { return emit(make(Op::ResultAddr, kPtr)); }
+
+ValueId Builder::sysvar(SysvarKind kind) {
+    Inst inst = make(Op::Sysvar, kF32);
+    inst.extra = static_cast<int32_t>(kind);
+    return emit(std::move(inst));
+}
+
+ValueId Builder::load(TypeId type, ValueId ptr) { return emit(make(Op::Load, type, {ptr})); }
+void Builder::store(TypeId type, ValueId value, ValueId ptr) { emit(make(Op::Store, type, {value, ptr})); }
+void Builder::copy(TypeId type, ValueId dst, ValueId src) { emit(make(Op::Copy, type, {dst, src})); }
+void Builder::copyDynamic(ValueId dst, ValueId src, ValueId bytes) {
+    emit(make(Op::CopyDynamic, kVoid, {dst, src, bytes}));
+}
+void Builder::zero(TypeId type, ValueId dst) { emit(make(Op::Zero, type, {dst})); }
+
+ValueId Builder::fieldAddr(TypeId record, ValueId ptr, uint32_t field) {
+    Inst inst = make(Op::FieldAddr, record, {ptr});
+    inst.index = field;
+    return emit(std::move(inst));
+}
+ValueId Builder::elemAddr(TypeId element, ValueId ptr, ValueId zeroBasedIndex) {
+    return emit(make(Op::ElemAddr, element, {ptr, zeroBasedIndex}));
+}
+
+ValueId Builder::binary(Op op, ValueId a, ValueId b) {
+    TypeId type = opInfo(op).result == ResultRule::Bool ? kBool : typeOf(a);
+    return emit(make(op, type, {a, b}));
+}
+ValueId Builder::unary(Op op, ValueId a) { return emit(make(op, typeOf(a), {a})); }
+ValueId Builder::convert(Op op, ValueId a) { return emit(make(op, conversionTo(op), {a})); }
+ValueId Builder::select(ValueId cond, ValueId a, ValueId b) {
+    return emit(make(Op::Select, typeOf(a), {cond, a, b}));
+}
+
+void Builder::check(ValueId cond, int32_t errorNumber) {
+    Inst inst = make(Op::Check, kVoid, {cond});
+    inst.extra = errorNumber;
+    emit(std::move(inst));
+}
+
+ValueId Builder::call(uint32_t callee, std::vector<ValueId> args) {
+    TypeId result = module_.routines[callee].result;
+    Inst inst = make(Op::Call, module_.isScalar(result) ? result : kVoid, std::move(args));
+    inst.index = callee;
+    return emit(std::move(inst));
+}
+ValueId Builder::callNative(uint32_t native, std::vector<ValueId> args) {
+    TypeId result = module_.natives[native].result;
+    Inst inst = make(Op::CallNative, module_.isScalar(result) ? result : kVoid, std::move(args));
+    inst.index = native;
+    return emit(std::move(inst));
+}
+
+void Builder::br(BlockId target) {
+    Inst inst = make(Op::Br);
+    inst.target[0] = target;
+    emit(std::move(inst));
+}
+void Builder::condBr(ValueId cond, BlockId ifTrue, BlockId ifFalse) {
+    Inst inst = make(Op::CondBr, kVoid, {cond});
+    inst.target[0] = ifTrue;
+    inst.target[1] = ifFalse;
+    emit(std::move(inst));
+}
+void Builder::switchOn(ValueId value, std::vector<SwitchCase> cases, BlockId otherwise) {
+    Inst inst = make(Op::Switch, kVoid, {value});
+    inst.cases = std::move(cases);
+    inst.target[0] = otherwise;
+    emit(std::move(inst));
+}
+void Builder::ret() { emit(make(Op::Ret)); }
+void Builder::ret(ValueId value) { emit(make(Op::Ret, kVoid, {value})); }
+void Builder::raise(ValueId errorNumber) { emit(make(Op::Raise, kVoid, {errorNumber})); }
+void Builder::propagate() { emit(make(Op::Propagate)); }
+void Builder::retry() { emit(make(Op::Retry)); }
+void Builder::tryNext() { emit(make(Op::TryNext)); }
+void Builder::handlerEnd() { emit(make(Op::HandlerEnd)); }
+void Builder::unreachable() { emit(make(Op::Unreachable)); }
+void Builder::safepoint(int32_t cost) {
+    Inst inst = make(Op::Safepoint);
+    inst.extra = cost;
+    emit(std::move(inst));
+}
+
+} // namespace ir

@@ -1,0 +1,107 @@
+#include <algorithm>
+
+#include "ir/core/ir.h"
+
+namespace ir {
+namespace {
+
+constexpr uint32_t kStringBytes = 84; // u32 length + 80 bytes, as rt::String
+
+uint32_t alignUp(uint32_t value, uint32_t align) { return (value + align - 1) / align * align; }
+
+} // namespace
+
+Module::Module() {
+    for (TypeKind kind : {TypeKind::Void, TypeKind::Bool, TypeKind::I32, TypeKind::I64, TypeKind::F32, TypeKind::F64,
+                          TypeKind::Str, TypeKind::Ptr}) {
+        Type type;
+        type.kind = kind;
+        types.push_back(std::move(type));
+    }
+}
+
+TypeId Module::arrayOf(TypeId element, std::vector<int32_t> dims) {
+    for (TypeId id = 0; id < types.size(); ++id) {
+        const Type& t = types[id];
+        if (t.kind == TypeKind::Array && t.element == element && t.dims == dims) return id;
+    }
+    Type type;
+    type.kind = TypeKind::Array;
+    type.element = element;
+    type.dims = std::move(dims);
+    types.push_back(std::move(type));
+    return static_cast<TypeId>(types.size() - 1);
+}
+
+TypeId Module::addRecord(std::string recordName, std::vector<Field> fields) {
+    Type type;
+    type.kind = TypeKind::Record;
+    type.name = std::move(recordName);
+    type.fields = std::move(fields);
+    types.push_back(std::move(type));
+    return static_cast<TypeId>(types.size() - 1);
+}
+
+uint32_t Module::size(TypeId id) const {
+    const Type& t = types[id];
+    switch (t.kind) {
+    case TypeKind::Void: return 0;
+    case TypeKind::Bool: return 1;
+    case TypeKind::I32:
+    case TypeKind::F32: return 4;
+    case TypeKind::I64:
+    case TypeKind::F64:
+    case TypeKind::Ptr: return 8;
+    case TypeKind::Str: return kStringBytes;
+    case TypeKind::Record: {
+        uint32_t offset = 0;
+        for (const Field& field : t.fields) offset = alignUp(offset, align(field.type)) + size(field.type);
+        return alignUp(offset, align(id));
+    }
+    case TypeKind::Array: {
+        uint32_t total = size(t.element);
+        for (int32_t dim : t.dims) total *= static_cast<uint32_t>(dim);
+        return total;
+    }
+    }
+    return 0;
+}
+
+uint32_t Module::align(TypeId id) const {
+    const Type& t = types[id];
+    switch (t.kind) {
+    case TypeKind::Void:
+    case TypeKind::Bool: return 1;
+    case TypeKind::I32:
+    case TypeKind::F32:
+    case TypeKind::Str: return 4;
+    case TypeKind::I64:
+    case TypeKind::F64:
+    case TypeKind::Ptr: return 8;
+    case TypeKind::Record: {
+        uint32_t result = 1;
+        for (const Field& field : t.fields) result = std::max(result, align(field.type));
+        return result;
+    }
+    case TypeKind::Array: return align(t.element);
+    }
+    return 1;
+}
+
+uint32_t Module::fieldOffset(TypeId record, uint32_t field) const {
+    const Type& t = types[record];
+    uint32_t offset = 0;
+    for (uint32_t i = 0;; ++i) {
+        offset = alignUp(offset, align(t.fields[i].type));
+        if (i == field) return offset;
+        offset += size(t.fields[i].type);
+    }
+}
+
+uint32_t Module::findRoutine(std::string_view routineName) const {
+    for (uint32_t i = 0; i < routines.size(); ++i)
+        if (routines[i].name == routineName) return i;
+    return kNone;
+}
+
+} // namespace ir
