@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""Checks every #include against the layers of the architecture and reports files and functions that are too long.
+
+An include that crosses a layer the wrong way is an error; length is only reported.
+"""
+
+import argparse
+import os
+import re
+import sys
+
+# Layer of a file = the longest of these prefixes. The value lists the layers it may include besides itself.
+LAYERS = {
+    "frontend/source": [],
+    "frontend/diag": ["frontend/source"],
+    "frontend/syntax": ["frontend/source", "frontend/diag"],
+    "frontend/project": ["frontend/source", "frontend/diag", "frontend/syntax"],
+    "frontend/sema": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/project"],
+    "ir/core": [],
+    "ir/text": ["ir/core", "ir/verify"],
+    "ir/verify": ["ir/core"],
+    "ir/passes": ["ir/core", "ir/text", "ir/verify"],
+    "ir/lower": ["ir/core", "ir/text", "ir/verify", "ir/passes", "frontend/"],
+    # code generation and the runtime share the C layout of runtime/abi and nothing else
+    "codegen": ["ir/core", "ir/text", "ir/verify", "ir/passes", "runtime/abi"],
+    "runtime/abi": [],
+    "runtime/robot": [],
+    "runtime/motion": ["runtime/robot"],
+    # the controller itself: tasks, time, errors, signals, events, simulated motion
+    "runtime/log": ["runtime/"],
+    "runtime/io": ["runtime/"],
+    "runtime/sched": ["runtime/"],
+    "runtime/sim": ["runtime/"],
+    "runtime/host": ["runtime/", "stdlib"],
+    "stdlib/gen": ["frontend/"],
+    "stdlib/impl": ["runtime/"],
+    "stdlib": ["runtime/abi"],
+    "tools": ["frontend/", "ir/", "codegen", "runtime/", "stdlib"],
+    "tests": ["frontend/", "ir/", "codegen", "runtime/", "stdlib", "tools"],
+}
+
+# Third-party headers and the only layers that may see them.
+RESTRICTED = [
+    (re.compile(r"^(llvm|clang|lld)(-c)?/"), ["codegen", "tests"], "LLVM headers belong to codegen"),
+    (re.compile(r"^boost/context/"), ["runtime/sched", "tests"], "fibres belong to runtime/sched"),
+    (re.compile(r"^Eigen/"), ["runtime/robot", "runtime/motion", "stdlib/impl", "tests"],
+     "matrices belong to robot, motion and the built-ins"),
+    (re.compile(r"^catch2/"), ["tests"], "the test framework belongs to tests"),
+]
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+SOURCE_FOLDERS = ("frontend", "ir", "codegen", "runtime", "stdlib", "tools", "tests")
+OWN_FOLDERS = SOURCE_FOLDERS
+MAX_FILE_LINES = 600
+MAX_FUNCTION_LINES = 60
+
+
+def layer_of(path):
+    best = None
+    for prefix in LAYERS:
+        if path == prefix or path.startswith(prefix + "/"):
+            if best is None or len(prefix) > len(best):
+                best = prefix
+    return best
+
+
+def allowed(source, target):
+    if source == target:
+        return True
+    return any(target == rule or (rule.endswith("/") and target.startswith(rule)) or
+               (not rule.endswith("/") and target.startswith(rule + "/")) for rule in LAYERS[source])
+
+
+def files_below(root):
+    for folder in SOURCE_FOLDERS:
+        for where, folders, names in os.walk(os.path.join(root, folder)):
+            folders.sort()
+            for name in sorted(names):
+                if name.endswith((".h", ".cpp", ".def")):
+                    yield os.path.relpath(os.path.join(where, name), root)
+
+
+def check_includes(path, lines, errors):
+    layer = layer_of(path)
+    if layer is None:
+        errors.append(f"{path}:1: no layer is defined for this folder; add it to scripts/check_layering.py")
+        return
+    for number, line in enumerate(lines, 1):
+        match = INCLUDE.match(line)
+        if not match:
+            continue
+        style, name = match.groups()
+        for pattern, layers, reason in RESTRICTED:
+            if pattern.match(name) and not any(layer == l or layer.startswith(l + "/") for l in layers):
+                errors.append(f"{path}:{number}: <{name}> in {layer}: {reason}")
+        if style != '"':
+            continue
+        target = name
+        if target.split("/")[0] not in OWN_FOLDERS:
+            if "/" not in target or target.startswith("gen/"):
+                continue  # beside the file, or generated
+            errors.append(f'{path}:{number}: "{name}": own headers are included by their path from the root')
+            continue
+        target_layer = layer_of(target)
+        if target_layer is None:
+            errors.append(f'{path}:{number}: "{name}" is in no layer')
+        elif not allowed(layer, target_layer):
+            errors.append(f'{path}:{number}: {layer} may not include {target_layer} ("{name}")')
+
+
+def function_lengths(lines):
+    """Yields (line, length) of function bodies: an unindented line opening a brace up to the unindented brace.
+
+    Rough on purpose: the code is formatted by clang-format, so a definition at namespace level starts in column 1.
+    """
+    start = None
+    for number, line in enumerate(lines, 1):
+        text = line.rstrip("\n")
+        if start is None:
+            opens = text.endswith("{") and text[:1] not in ("", " ", "}", "#", "/")
+            if opens and "(" in text + "".join(lines[max(0, number - 4):number]) and not re.match(
+                    r"(namespace|struct|class|enum|union|extern|constexpr|inline constexpr|const|static const)\b",
+                    text):
+                start = number
+        elif text.startswith("}"):
+            yield start, number - start + 1
+            start = None
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--source", default=os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+    root = os.path.abspath(parser.parse_args().source)
+    errors, notes, count = [], [], 0
+    for path in files_below(root):
+        with open(os.path.join(root, path), encoding="utf-8", errors="replace") as file:
+            lines = file.readlines()
+        count += 1
+        check_includes(path, lines, errors)
+        if path.endswith(".def"):
+            continue
+        if len(lines) > MAX_FILE_LINES:
+            notes.append(f"{path}: {len(lines)} lines (aim: at most {MAX_FILE_LINES})")
+        for line, length in function_lengths(lines):
+            if length > MAX_FUNCTION_LINES:
+                notes.append(f"{path}:{line}: a function of {length} lines (aim: at most {MAX_FUNCTION_LINES})")
+    for note in notes:
+        print("note:", note)
+    for error in errors:
+        print("error:", error)
+    print(f"layering: {count} files, {len(errors)} errors, {len(notes)} length notes")
+    if count == 0:
+        print("error: no source files found below", root)
+        return 1
+    return 1 if errors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

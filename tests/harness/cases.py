@@ -1,0 +1,511 @@
+"""The kinds of tests that are files: how each is found, run and judged."""
+
+import dataclasses
+import difflib
+import json
+import os
+import re
+import shlex
+import subprocess
+
+SOURCE_SUFFIXES = (".modx", ".sysx", ".mod", ".sys")
+COMPILE_OPTIONS = ("--task=", "--config=", "--robot-config=")
+DIRECTIVE = re.compile(r"^\s*!@\s*([a-z]+):\s*(.*?)\s*$")
+KNOWN_DIRECTIVES = {"test", "exit", "args", "modes", "manual", "timeout", "inputs", "issue", "fragment"}
+
+
+class BadTest(Exception):
+    """The files of a test make no sense."""
+
+
+@dataclasses.dataclass
+class Context:
+    source: str
+    build: str
+    rapidc: str
+    update: bool
+    modes: list
+
+
+@dataclasses.dataclass
+class Output:
+    status: int
+    stdout: str
+    stderr: str
+
+
+def read(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return file.read()
+
+
+def execute(command, cwd, timeout, stdin=None):
+    """Runs a command; a signal that killed it gives a negative status."""
+    try:
+        done = subprocess.run(command, cwd=cwd, timeout=timeout, input=stdin or b"", stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, check=False)
+    except subprocess.TimeoutExpired as expired:
+        def text(data):
+            return (data or b"").decode("utf-8", "replace")
+        return Output(124, text(expired.stdout), text(expired.stderr) + f"\n(timed out after {timeout} s)")
+    return Output(done.returncode, done.stdout.decode("utf-8", "replace"), done.stderr.decode("utf-8", "replace"))
+
+
+def directives_of(path):
+    """The `!@ name: value` lines of a RAPID file, wherever they stand."""
+    found = {}
+    with open(path, encoding="utf-8", errors="replace") as file:
+        for line in file:
+            match = DIRECTIVE.match(line)
+            if match and match.group(1) in KNOWN_DIRECTIVES:
+                found.setdefault(match.group(1), match.group(2))
+    return found
+
+
+def difference(expected, actual, what):
+    lines = difflib.unified_diff(expected.splitlines(), actual.splitlines(), f"expected {what}", f"actual {what}",
+                                 lineterm="")
+    text = "\n".join(list(lines)[:60])
+    if not text:
+        text = f"{what} differs only in line ends: expected {expected!r}, actual {actual!r}"[:400]
+    return text
+
+
+def describe_failure(command, output):
+    text = f"command: {shlex.join(command)}\nexit status {output.status}"
+    if output.stderr.strip():
+        text += "\nstderr: " + output.stderr.strip()[-2500:]
+    return text
+
+
+def missing_patterns(patterns, text):
+    """Lines of a pattern file that match nowhere in text. `!` before a pattern: it must match nowhere."""
+    problems = []
+    for line in patterns.splitlines():
+        line = line.strip()
+        if not line or line.startswith("#"):
+            continue
+        if line.startswith("!"):
+            if re.search(line[1:].strip(), text, re.MULTILINE):
+                problems.append(f"found, but must not be there: {line[1:].strip()}")
+        elif not re.search(line, text, re.MULTILINE):
+            problems.append(f"not found: {line}")
+    return problems
+
+
+def matches_json(expected, actual):
+    """Every member of expected is in actual; a string starting with ~ is a regular expression."""
+    if isinstance(expected, dict):
+        return isinstance(actual, dict) and all(
+            key in actual and matches_json(value, actual[key]) for key, value in expected.items())
+    if isinstance(expected, str) and expected.startswith("~"):
+        return re.search(expected[1:], str(actual)) is not None
+    return expected == actual
+
+
+# ---- programs with expected output --------------------------------------------------------------------------------
+
+
+class ProgramTest:
+    """A program (one file, or a folder) and beside it what it prints; run in memory and as a built executable."""
+
+    def __init__(self, path, stem, defaults=None):
+        self.path = path    # file or folder given to rapidc
+        self.stem = stem    # path of the expectation files without their suffix
+        self.defaults = defaults or {}
+
+    def expectation(self, suffix):
+        path = self.stem + suffix
+        return path if os.path.exists(path) else None
+
+    def directives(self):
+        found = dict(self.defaults)
+        if os.path.isdir(self.path):
+            for name in sorted(os.listdir(self.path)):
+                if name.endswith(SOURCE_SUFFIXES):
+                    for key, value in directives_of(os.path.join(self.path, name)).items():
+                        found.setdefault(key, value)
+        else:
+            found.update(directives_of(self.path))
+        return found
+
+    def command_parts(self, directives):
+        """(inputs, options that the compiler needs, options of the run)"""
+        folder = self.path if os.path.isdir(self.path) else os.path.dirname(self.path)
+        if "inputs" in directives:
+            inputs = [os.path.join(folder, name) for name in directives["inputs"].split()]
+        else:
+            inputs = [self.path]
+        arguments = [a.replace("{dir}", folder) for a in shlex.split(directives.get("args", ""))]
+        compile_options = [a for a in arguments if a.startswith(COMPILE_OPTIONS)]
+        run_options = [a for a in arguments if not a.startswith(COMPILE_OPTIONS)]
+        if not os.path.isdir(self.path):
+            if self.expectation(".cfg"):
+                compile_options.append("--config=" + self.stem + ".cfg")
+            if self.expectation(".stim.csv"):
+                run_options.append("--stimulus=" + self.stem + ".stim.csv")
+        return inputs, compile_options, run_options
+
+    def run(self, context, scratch):
+        directives = self.directives()
+        inputs, compile_options, run_options = self.command_parts(directives)
+        expected_status = int(directives.get("exit", "0"))
+        timeout = float(directives.get("timeout", "30"))
+        problems = []
+        for mode in directives.get("modes", "jit aot").split():
+            if mode not in context.modes:
+                continue
+            outputs = {".signals": os.path.join(scratch, mode + ".signals.csv"),
+                       ".events": os.path.join(scratch, mode + ".events.jsonl")}
+            extra = []
+            if self.expectation(".signals"):
+                extra.append("--signals=" + outputs[".signals"])
+            if self.expectation(".events"):
+                extra.append("--events=" + outputs[".events"])
+            if mode == "jit":
+                command = [context.rapidc, "run", *inputs, *compile_options, *run_options, *extra]
+            elif mode == "aot":
+                program = os.path.join(scratch, "program")
+                build = [context.rapidc, "build", *inputs, *compile_options, "-o", program]
+                built = execute(build, scratch, 60)
+                if built.status != 0 or not os.path.exists(program):
+                    problems.append("build failed\n" + describe_failure(build, built))
+                    continue
+                command = [program, *self.stimulus_of_folder(), *run_options, *extra]
+            else:
+                raise BadTest(f"unknown mode '{mode}'")
+            output = execute(command, scratch, timeout)
+            problems += [f"[{mode}] {p}" for p in
+                         self.judge(context, command, output, expected_status, outputs, mode)]
+        return problems
+
+    def stimulus_of_folder(self):
+        """`rapidc run FOLDER` reads FOLDER/stimulus.csv by itself; a built executable must be told."""
+        path = os.path.join(self.path, "stimulus.csv")
+        return ["--stimulus=" + path] if os.path.isdir(self.path) and os.path.exists(path) else []
+
+    def judge(self, context, command, output, expected_status, outputs, mode):
+        problems = []
+        expected_path = self.stem + ".out"
+        if context.update and mode == "jit":
+            with open(expected_path, "w", encoding="utf-8", newline="") as file:
+                file.write(output.stdout)
+        expected = read(expected_path) if os.path.exists(expected_path) else ""
+        if output.stdout != expected:
+            problems.append(difference(expected, output.stdout, "stdout"))
+        if output.status != expected_status:
+            problems.append(f"expected exit status {expected_status}\n" + describe_failure(command, output))
+        elif output.stdout != expected:
+            problems.append(describe_failure(command, output))
+        if self.expectation(".err"):
+            problems += [f"stderr: {p}\nstderr was: {output.stderr.strip()[-2000:]}"
+                         for p in missing_patterns(read(self.stem + ".err"), output.stderr)]
+        elif re.search(r"\b(error|warning)\[RAP\d{4}\]", output.stderr):
+            problems.append("a golden program must be free of diagnostics\n" + describe_failure(command, output))
+        if self.expectation(".signals"):
+            problems += self.judge_signals(context, outputs[".signals"], mode)
+        if self.expectation(".events"):
+            problems += self.judge_events(outputs[".events"])
+        return problems
+
+    def judge_signals(self, context, actual_path, mode):
+        actual = read(actual_path) if os.path.exists(actual_path) else ""
+        path = self.stem + ".signals"
+        if context.update and mode == "jit":
+            with open(path, "w", encoding="utf-8", newline="") as file:
+                file.write(actual)
+        rows = [normal_signal_row(line) for line in actual.splitlines()]
+        expected = [normal_signal_row(line) for line in read(path).splitlines()]
+        if [r for r in rows if r] == [r for r in expected if r]:
+            return []
+        return [difference("\n".join(map(str, filter(None, expected))), "\n".join(map(str, filter(None, rows))),
+                           "signals")]
+
+    def judge_events(self, actual_path):
+        """Each line of the expectation is an object; objects like it must be in the log in this order."""
+        actual = [json.loads(line) for line in (read(actual_path) if os.path.exists(actual_path) else "").splitlines()
+                  if line.strip()]
+        position = 0
+        for line in read(self.stem + ".events").splitlines():
+            if not line.strip() or line.startswith("#"):
+                continue
+            expected = json.loads(line)
+            while position < len(actual) and not matches_json(expected, actual[position]):
+                position += 1
+            if position == len(actual):
+                log = "\n".join(json.dumps(event) for event in actual)
+                return [f"no such event (in this order): {line}\nthe log:\n{log}"]
+            position += 1
+        return []
+
+
+def normal_signal_row(line):
+    """time_s,signal,value with numbers compared as numbers; None for the header, comments and blank lines."""
+    fields = [field.strip() for field in line.split(",")]
+    if len(fields) != 3 or line.startswith("#") or fields[0] == "time_s":
+        return None
+    try:
+        return (round(float(fields[0]), 6), fields[1].lower(), float(fields[2]))
+    except ValueError:
+        return None
+
+
+# ---- diagnostics --------------------------------------------------------------------------------------------------
+
+CARETS = re.compile(r"^(\s*!\s*)(\^+)\s*(error|warning|note)\[(RAP\d{4})\](?::\s*(.*?))?\s*$")
+EXPECT = re.compile(r"!@\s*expect\s+@?([+-]?\d+)(?::(\d+)(?:-(\d+))?)?\s+(error|warning|note)\[(RAP\d{4})\]"
+                    r"(?::\s*(.*?))?\s*$")
+END_OF_LINE = re.compile(r"\S.*!\s*(error|warning|note)\[(RAP\d{4})\](?::\s*(.*?))?\s*$")
+
+
+@dataclasses.dataclass
+class Expected:
+    line: int
+    column: int
+    end: int
+    severity: str
+    code: str
+    text: str
+
+    def matches(self, diagnostic):
+        return (diagnostic["line"] == self.line and diagnostic["severity"] == self.severity and
+                diagnostic["code"] == self.code and
+                (self.column == 0 or diagnostic["column"] == self.column) and
+                (self.end == 0 or diagnostic["endLine"] != diagnostic["line"] or
+                 diagnostic["endColumn"] == self.end) and
+                (not self.text or self.text in diagnostic["message"]))
+
+    def __str__(self):
+        place = f"{self.line}:{self.column}" if self.column else str(self.line)
+        return f"{place} {self.severity}[{self.code}] {self.text}"
+
+
+def annotations(lines):
+    """Expected diagnostics written in comments: under the place with carets, at the end of the line, or !@ expect."""
+    found, code_line = [], 0
+    for number, line in enumerate(lines, 1):
+        match = CARETS.match(line)
+        if match:
+            begin = len(match.group(1)) + 1
+            found.append(Expected(code_line, begin, begin + len(match.group(2)), match.group(3), match.group(4),
+                                  match.group(5) or ""))
+            continue
+        match = EXPECT.search(line)
+        if match:
+            found.append(Expected(number + int(match.group(1)), int(match.group(2) or 0), int(match.group(3) or 0),
+                                  match.group(4), match.group(5), match.group(6) or ""))
+            continue
+        code_line = number
+        match = END_OF_LINE.search(line)
+        if match and not line.lstrip().startswith("!"):
+            found.append(Expected(number, 0, 0, match.group(1), match.group(2), match.group(3) or ""))
+    return found
+
+
+class DiagnosticTest:
+    """A program whose expected diagnostics stand in its comments; all of them, and no others."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def run(self, context, scratch):
+        lines = read(self.path).splitlines()
+        expected = annotations(lines)
+        directives = directives_of(self.path)
+        arguments = [a.replace("{dir}", os.path.dirname(self.path)) for a in
+                     shlex.split(directives.get("args", ""))]
+        command = [context.rapidc, "check", "--format=json", *arguments, self.path]
+        output = execute(command, scratch, 20)
+        try:
+            actual = [d for d in json.loads(output.stdout) if d["severity"] != "note"]
+        except (json.JSONDecodeError, TypeError, KeyError):
+            return ["check --format=json did not print JSON\n" + describe_failure(command, output) +
+                    "\nstdout: " + output.stdout[:500]]
+        problems = []
+        wants_error = any(e.severity == "error" for e in expected)
+        if output.status != (1 if wants_error else 0):
+            problems.append(f"expected exit status {1 if wants_error else 0}\n" + describe_failure(command, output))
+        rest = list(actual)
+        for want in expected:
+            hit = next((d for d in rest if want.matches(d)), None)
+            if hit is None:
+                problems.append(f"expected, not reported: {want}")
+            else:
+                rest.remove(hit)
+        problems += [f"reported, not expected: {d['line']}:{d['column']}-{d['endColumn']} "
+                     f"{d['severity']}[{d['code']}]: {d['message']}" for d in rest]
+        return problems
+
+
+# ---- command line -------------------------------------------------------------------------------------------------
+
+
+class CommandTest:
+    """A .test file: `run:` lines, each followed by what is expected of it.
+
+    run: rapidc check {dir}/x.modx     {dir} = folder of the test, {tmp} = scratch folder, {src} = the project
+    exit: 1                            exact status (default 0)
+    stdout: / stderr: / either:        a regular expression that must be found
+    not: expression                    must not be found in either
+    stdin: text                        given to the command
+    file: NAME expression              a file in the scratch folder must hold this
+    lines: N                           at most N lines on stderr
+    """
+
+    def __init__(self, path):
+        self.path = path
+
+    def steps(self):
+        steps = []
+        for number, line in enumerate(read(self.path).splitlines(), 1):
+            line = line.strip()
+            if not line or line.startswith("#"):
+                continue
+            key, colon, value = line.partition(":")
+            if not colon:
+                raise BadTest(f"line {number}: no colon")
+            if key == "run":
+                steps.append((value.strip(), []))
+            elif not steps:
+                raise BadTest(f"line {number}: '{key}' before the first run")
+            else:
+                steps[-1][1].append((key, value.strip()))
+        if not steps:
+            raise BadTest("no run line")
+        return steps
+
+    def run(self, context, scratch):
+        folder = os.path.dirname(self.path)
+        problems = []
+
+        def fill(text):
+            return text.replace("{dir}", folder).replace("{tmp}", scratch).replace("{src}", context.source)
+
+        for command_line, expectations in self.steps():
+            command = [context.rapidc if word == "rapidc" else fill(word) for word in shlex.split(command_line)]
+            stdin = "".join(value + "\n" for key, value in expectations if key == "stdin")
+            output = execute(command, scratch, 20, stdin.encode())
+            for problem in self.judge(expectations, output, scratch):
+                problems.append(problem + "\n" + describe_failure(command, output) +
+                                "\nstdout: " + output.stdout[:1500])
+        return problems
+
+    @staticmethod
+    def judge(expectations, output, scratch):
+        problems = []
+        both = output.stdout + "\n" + output.stderr
+        status = next((int(value) for key, value in expectations if key == "exit"), 0)
+        if output.status != status:
+            problems.append(f"expected exit status {status}, got {output.status}")
+        if output.status < 0 or output.status >= 124:
+            problems.append("the command crashed or hung")
+        for key, value in expectations:
+            if key in ("exit", "stdin"):
+                continue
+            if key == "stdout" or key == "stderr" or key == "either":
+                text = both if key == "either" else getattr(output, key)
+                if not re.search(value, text, re.MULTILINE):
+                    problems.append(f"not found in {key}: {value}")
+            elif key == "not":
+                if re.search(value, both, re.MULTILINE):
+                    problems.append(f"must not be there: {value}")
+            elif key == "lines":
+                if len(output.stderr.strip().splitlines()) > int(value):
+                    problems.append(f"more than {value} lines on stderr")
+            elif key == "file":
+                name, _, pattern = value.partition(" ")
+                path = os.path.join(scratch, name)
+                if not os.path.exists(path) or not re.search(pattern, read(path), re.MULTILINE):
+                    problems.append(f"file {name} is not there or does not hold: {pattern}")
+            else:
+                raise BadTest(f"unknown expectation '{key}'")
+        return problems
+
+
+# ---- documents ----------------------------------------------------------------------------------------------------
+
+FENCE = re.compile(r"^```([a-z-]*)\s*$(.*?)^```\s*$", re.MULTILINE | re.DOTALL)
+
+
+class DocumentTest:
+    """RAPID blocks of a page compile; a block `output` right after one is what that program prints. Relative links
+    lead to files."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def run(self, context, scratch):
+        text = read(self.path)
+        problems = []
+        blocks = [(m.group(1), m.group(2).lstrip("\n"), text.count("\n", 0, m.start()) + 1)
+                  for m in FENCE.finditer(text)]
+        for index, (language, code, line) in enumerate(blocks):
+            if language != "rapid" or not re.search(r"^\s*MODULE\b", code, re.MULTILINE):
+                continue
+            path = os.path.join(scratch, f"block{line}.modx")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(code)
+            follows = blocks[index + 1] if index + 1 < len(blocks) else ("", "", 0)
+            runs = follows[0] == "output"
+            command = [context.rapidc, "run" if runs else "check", path]
+            output = execute(command, scratch, 20)
+            if output.status != 0:
+                problems.append(f"line {line}: the block fails\n" + describe_failure(command, output))
+            elif runs and output.stdout != follows[1]:
+                problems.append(f"line {line}: " + difference(follows[1], output.stdout, "output"))
+        prose = FENCE.sub("", text)
+        for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", prose):
+            if "://" in target or target.startswith("mailto:"):
+                continue
+            if not os.path.exists(os.path.join(os.path.dirname(self.path), target)):
+                problems.append(f"a link leads nowhere: {target}")
+        return problems
+
+
+# ---- discovery ----------------------------------------------------------------------------------------------------
+
+
+def discover_programs(root, prefix, found):
+    for where, folders, names in os.walk(root):
+        folders.sort()
+        relative = os.path.relpath(where, root)
+        base = prefix if relative == "." else f"{prefix}/{relative}"
+        if "expected.out" in names:
+            found[base] = ProgramTest(where, os.path.join(where, "expected"))
+            folders.clear()
+            continue
+        for name in sorted(names):
+            stem, suffix = os.path.splitext(name)
+            if suffix in SOURCE_SUFFIXES:
+                found[f"{base}/{stem}"] = ProgramTest(os.path.join(where, name), os.path.join(where, stem))
+
+
+def discover(source):
+    found = {}
+    tests = os.path.join(source, "tests")
+    for kind in ("golden", "tasks"):
+        discover_programs(os.path.join(tests, kind), kind, found)
+    discover_programs(os.path.join(source, "samples"), "samples", found)
+    for where, folders, names in os.walk(os.path.join(tests, "diag")):
+        folders.sort()
+        for name in sorted(names):
+            stem, suffix = os.path.splitext(name)
+            if suffix in SOURCE_SUFFIXES and not stem.endswith(".fixed"):
+                path = os.path.join(where, name)
+                found[os.path.relpath(os.path.join(where, stem), tests)] = DiagnosticTest(path)
+    for where, folders, names in os.walk(os.path.join(tests, "cli")):
+        folders.sort()
+        for name in sorted(names):
+            if name.endswith(".test"):
+                path = os.path.join(where, name)
+                found[os.path.relpath(path[:-5], tests)] = CommandTest(path)
+    pages = [os.path.join(source, "README.md")]
+    docs = os.path.join(source, "docs")
+    if os.path.isdir(docs):
+        pages += [os.path.join(docs, name) for name in sorted(os.listdir(docs)) if name.endswith(".md")]
+    for page in pages:
+        if os.path.exists(page):
+            name = os.path.relpath(page, source)
+            found["docs/" + os.path.basename(name)[:-3]] = DocumentTest(page)
+    return found
+
