@@ -1,0 +1,152 @@
+#pragma once
+// Controller: everything a running program is in: tasks, clock, signals, robot, event log, operator, HOME:.
+// No singletons; a native reaches it by taskOf(core).controller().
+
+#include "runtime/abi/rt_abi.h"
+#include "runtime/host/clock_object.h"
+#include "runtime/host/handle_table.h"
+#include "runtime/host/home_folder.h"
+#include "runtime/host/motion_driver.h"
+#include "runtime/host/run_options.h"
+#include "runtime/io/cfg_parser.h"
+#include "runtime/io/io_system.h"
+#include "runtime/log/event_log.h"
+#include "runtime/sched/scheduler.h"
+#include "runtime/sched/task.h"
+#include "runtime/sim/operator_panel.h"
+#include "runtime/sim/stimulus.h"
+
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rt {
+
+class SignalsWriter;
+class TraceWriter;
+
+/// Persistents of SYS.cfg that the runtime itself obeys.
+struct SystemSettings {
+    int noOfRetry = 4; ///< SYS_MISC NoOfRetry
+};
+
+class Controller {
+  public:
+    explicit Controller(const RunOptions& options);
+    ~Controller();
+    Controller(const Controller&) = delete;
+    Controller& operator=(const Controller&) = delete;
+
+    // ---- Parts
+    // -------------------------------------------------------------------------------------------------
+    Scheduler& scheduler() { return scheduler_; }
+    IoSystem& io() { return io_; }
+    EventLog& log() { return log_; }
+    OperatorPanel& panel() { return panel_; }
+    HomeFolder& home() { return home_; }
+    /// Present as soon as prepare() succeeded.
+    MotionDriver& motion() { return *motion_; }
+    HandleTable<ClockObject>& clocks() { return clocks_; }
+    const RunOptions& options() const { return options_; }
+    const SystemSettings& settings() const { return settings_; }
+    /// All configuration files read, in order (every domain).
+    const std::vector<CfgFile>& configuration() const { return configuration_; }
+    /// Random numbers for Rand, started with --seed; the same sequence on every machine.
+    std::mt19937& random() { return random_; }
+    /// Date and time of the controller: the wall's at the start plus virtual time. Seconds since 1970, UTC.
+    int64_t calendarSeconds() const;
+
+    /// Data that a part of the standard library keeps per controller; made on first use, destroyed with the
+    /// controller.
+    template <class T> T& service() {
+        static const char key = 0;
+        std::shared_ptr<void>& slot = services_[&key];
+        if (!slot) slot = std::make_shared<T>();
+        return *static_cast<T*>(slot.get());
+    }
+
+    // ---- Program
+    // -----------------------------------------------------------------------------------------------
+    const ProgramDesc& program() const { return *program_; }
+    const std::vector<std::unique_ptr<Task>>& tasks() const { return tasks_; }
+    /// Without regard to case; null when there is none.
+    Task* findTask(std::string_view name);
+    /// Module data visible in the task: its own, then shared; `module` may be empty. Null when there is none.
+    const GlobalDesc* findGlobal(std::string_view name, std::string_view module, const Task& task) const;
+    /// Routine for late binding; `module` may be empty.
+    const RoutineEntry* findRoutine(std::string_view name, std::string_view module, const Task& task) const;
+
+    /// Reads configuration, robot, HOME:, stimulus; opens output files; makes the tasks; connects what the
+    /// program names. Problems are written to stderr. Ended when all is well.
+    ExitStatus prepare(const ProgramDesc& program);
+    /// Runs to the end.
+    ExitStatus run();
+
+    // ---- Controller actions (stimulus, clients): reach all NORMAL tasks
+    // ----------------------------------------------
+    void actionStop();
+    void actionStart();
+    /// Refused with an event unless the program is stopped.
+    void actionPpToMain();
+    void actionStep(bool forward);
+
+    // ---- Used by Task
+    // ------------------------------------------------------------------------------------------
+    /// Another `start` may come: the stimulus has one ahead.
+    bool startToCome() const { return startsToCome_ > 0; }
+    /// A task was stopped by the system handler: NORMAL tasks stop; of a STATIC or SEMISTATIC task by its
+    /// TrustLevel.
+    void taskFailed(Task& task);
+    void stopNormalTasks(StopCause cause);
+    bool cyclesLeft(const Task& task) const;
+
+  private:
+    bool readConfiguration(const ProgramDesc& program);
+    bool applySystemParameters();
+    bool connectExternals(const ProgramDesc& program);
+    bool openOutputs();
+    bool readStimulusFile();
+    bool openRobot();
+    void scheduleStimulus();
+    void perform(const StimulusItem& item);
+    bool runOver() const;
+    bool anyNormal(bool (*test)(const Task&)) const;
+
+    RunOptions options_;
+    EventLog log_;
+    Scheduler scheduler_;
+    IoSystem io_;
+    OperatorPanel panel_{*this};
+    HomeFolder home_;
+    std::unique_ptr<MotionDriver> motion_;
+    std::unique_ptr<TraceWriter> trace_;
+    std::unique_ptr<SignalsWriter> signalsWriter_;
+    HandleTable<ClockObject> clocks_;
+    SystemSettings settings_;
+    std::vector<CfgFile> configuration_;
+    std::vector<StimulusItem> stimulus_;
+    std::mt19937 random_;
+    int64_t startCalendar_ = 0;
+    std::map<const void*, std::shared_ptr<void>> services_;
+    const ProgramDesc* program_ = nullptr;
+    std::vector<std::unique_ptr<Task>> tasks_;
+    std::vector<std::string> noSafetyTasks_;
+    std::size_t startsToCome_ = 0;
+    bool failed_ = false;
+};
+
+/// What a host adds to a controller before the program runs (names of errors, services).
+using ControllerSetup = void (*)(Controller&);
+
+/// Runs a compiled program from beginning to end with these options: builds the controller, runs, writes what
+/// was asked for. Returns the exit status of the process (see ExitStatus). `setup` may be null.
+int runProgram(const ProgramDesc& program, const RunOptions& options, ControllerSetup setup);
+
+/// Supplied by the standard library: tells the event log the names of the errors. Executables pass it to
+/// runProgram.
+void setUpStandardLibrary(Controller& controller);
+
+} // namespace rt

@@ -1,0 +1,83 @@
+#pragma once
+// MotionDriver: the MotionSystem of the robot on the scheduler's clock: tasks wait for moves, triggers call
+// back at their exact times, the trace is sampled.
+
+#include "runtime/motion/motion_system.h"
+#include "runtime/sched/scheduler.h"
+#include "runtime/sched/wait_queue.h"
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace rt {
+
+class EventLog;
+class TraceWriter;
+
+class MotionDriver {
+  public:
+    MotionDriver(Scheduler& scheduler, robot::RobotModel model);
+    ~MotionDriver();
+    MotionDriver(const MotionDriver&) = delete;
+    MotionDriver& operator=(const MotionDriver&) = delete;
+
+    /// The motion system brought up to the present virtual time, for questions (CRobT, CJointT, kinematics).
+    /// Orders go through the functions below, so that their events reach the scheduler; after a direct order
+    /// call refresh().
+    motion::MotionSystem& system();
+    void refresh();
+    /// Name of the mechanical unit: "ROB_1".
+    const std::string& unitName() const { return unitName_; }
+
+    /// Orders a move and suspends the task until the program may go on (fine point reached, look-ahead,
+    /// \Conc: started). While the queue is full the task waits first. A move that cannot be made is told in
+    /// `error` and nothing else happens. The command's tag is set here: the number of the move instruction,
+    /// counted from 1.
+    Status order(Task& task, motion::MoveCommand command, motion::MoveId& id,
+                 std::optional<motion::MotionError>& error);
+    Status waitDone(Task& task, motion::MoveId id);
+    /// Until no move is unfinished (WaitRob \InPos) or no axis moves (\ZeroSpeed).
+    Status waitIdle(Task& task);
+    Status waitZeroSpeed(Task& task);
+
+    /// A trigger for MoveCommand::triggers: `action` is called once, by the scheduler, when it fires.
+    uint32_t addTrigger(std::function<void(const motion::MotionEvent&)> action);
+    /// Notified after every motion event.
+    WaitQueue& changed() { return changed_; }
+
+    /// StopMove / StartMove, and the controller's stop / start. The arm moves when neither holds it.
+    void stopMove();
+    void startMove();
+    bool isStopMoveActive() const { return stopMove_; }
+    void programStop();
+    void programStart();
+    /// ClearPath, program pointer moved.
+    void clearPath();
+
+    void setTrace(TraceWriter* trace) { trace_ = trace; }
+    /// Samples up to the present are written.
+    void finishTrace();
+
+  private:
+    void advance(Time time);
+    void handle(const motion::MotionEvent& event);
+    void schedule();
+    void applyStops();
+
+    Scheduler& scheduler_;
+    motion::MotionSystem system_;
+    std::string unitName_ = "ROB_1";
+    EventToken next_ = 0;
+    Time nextTime_ = kNever;
+    uint64_t instructions_ = 0; // move instructions ordered so far
+    uint32_t lastTrigger_ = 0;
+    std::map<uint32_t, std::function<void(const motion::MotionEvent&)>> triggers_;
+    WaitQueue changed_;
+    TraceWriter* trace_ = nullptr;
+    bool stopMove_ = false, programStop_ = false;
+    bool advancing_ = false;
+};
+
+} // namespace rt

@@ -1,0 +1,45 @@
+#pragma once
+// RunOptions: the options of `rapidc run`, which a built executable has too, and how they are read.
+
+#include "runtime/sched/scheduler.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace rt {
+
+struct RunOptions {
+    int64_t cycles = 1;             ///< how often main is run; 0 = for ever
+    std::vector<std::string> tasks; ///< --task=NAME[:TYPE]=INPUT; used by `rapidc run` alone
+    std::vector<std::string> configFiles;
+    std::string robot;                            ///< "" = as the configuration says, else kDefaultRobot
+    std::string home;                             ///< "" = an empty folder that is removed at the end
+    std::string stimulus, trace, signals, events; ///< paths; "" = not asked for
+    bool realtime = false;
+    double maxTime = 0; ///< s of virtual time; meant only when hasMaxTime
+    bool hasMaxTime = false;
+    uint32_t seed = 1;                 ///< for Rand and nothing else
+    int64_t rate = kDefaultRate;       ///< instructions per ms
+    std::size_t stackBytes = 8u << 20; ///< per task
+};
+
+inline constexpr const char* kDefaultRobot = "IRB 120-3/0.58";
+
+/// Exit statuses (design chapter 8).
+enum class ExitStatus : int {
+    Ended = 0, ///< the program ended
+    StoppedByError = 1,
+    BadProgram = 2, ///< does not compile, or what it names is not configured
+    BadUsage = 3,
+    MaxTimeReached = 4,
+};
+
+/// Adds the options above to a command. `withTasks`: also --task (not for built executables).
+void addRunOptions(CLI::App& app, RunOptions& options, bool withTasks);
+
+} // namespace rt

@@ -1,0 +1,107 @@
+#pragma once
+// EventLog: every stop, warning and error of the controller (manual: event log; numbers as on a controller:
+// domain * 10000 + number). Shown on stderr for people and, when asked for, as JSON lines. Texts:
+// event_texts.def.
+
+#include "runtime/abi/rt_abi.h"
+#include "runtime/sched/task.h"
+#include "runtime/sched/time.h"
+
+#include <cstdio>
+#include <deque>
+#include <functional>
+#include <initializer_list>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace rt {
+
+/// The figures that controllers use for the type of a message.
+enum class EventType : uint8_t { Information = 1, Warning = 2, Error = 3 };
+
+/// Event numbers that the runtime itself uses: one enumerator per row of event_texts.def.
+enum class EventId : int {
+#define EVENT(name, number, type, title, text) name = number,
+#include "runtime/log/event_texts.def"
+#undef EVENT
+};
+
+struct Event {
+    uint64_t sequence = 0; ///< from 1, given by the log
+    int number = 0;
+    EventType type = EventType::Information;
+    std::string title, text;
+    Time time = 0;                  ///< virtual
+    std::string task;               ///< empty: the controller
+    SourcePlace place;              ///< module, routine, line; empty when there is none
+    std::vector<SourcePlace> calls; ///< callers of place.routine, innermost first
+    int errorNumber = 0;            ///< ERRNO, 0 = none
+    std::string errorName;          ///< "ERR_DIVZERO"
+};
+
+class EventLog {
+  public:
+    EventLog() = default;
+    ~EventLog();
+    EventLog(const EventLog&) = delete;
+    EventLog& operator=(const EventLog&) = delete;
+
+    /// Writes a JSON object a line to this file from now on; false when it cannot be opened.
+    bool openJson(const std::string& path);
+    /// Where people read events; null: nowhere. Default stderr.
+    void setHumanOutput(std::FILE* file) { human_ = file; }
+    void setClock(std::function<Time()> now) { now_ = std::move(now); }
+    /// Called with every event after it is kept.
+    void setObserver(std::function<void(const Event&)> observer) { observer_ = std::move(observer); }
+
+    /// The standard library tells the name ("ERR_DIVZERO") and the meaning (one sentence, may be "") of every
+    /// ERRNO constant. The texts must outlive the log.
+    void addErrorName(int number, const char* name, const char* text);
+    /// "ERR_DIVZERO", or "" when the number has no name (RAISE with 1 to 90).
+    std::string errorName(int number) const;
+    std::string errorText(int number) const;
+
+    /// Keeps and shows an event; sequence is set here, time when it is negative. Returns the sequence number.
+    uint64_t write(Event event);
+    /// An event from event_texts.def; {0} {1} ... in its text are replaced. `task` (may be null) gives name
+    /// and place.
+    uint64_t write(EventId id, const Task* task, std::initializer_list<std::string> arguments = {});
+    /// ErrWrite, ErrLog: number in full (domain * 10000 + number), texts as given.
+    uint64_t write(EventType type, int number, std::string title, std::string text, const Task* task);
+
+    /// The newest 1000, oldest first.
+    const std::deque<Event>& events() const { return events_; }
+    uint64_t count() const { return sequence_; }
+    /// Everything to disk.
+    void flush();
+
+  private:
+    void show(const Event& event);
+    std::deque<Event> events_;
+    std::map<int, std::pair<const char*, const char*>> names_;
+    std::function<Time()> now_;
+    std::function<void(const Event&)> observer_;
+    std::FILE* human_ = stderr;
+    std::FILE* json_ = nullptr;
+    uint64_t sequence_ = 0;
+};
+
+/// The row of event_texts.def.
+struct EventText {
+    EventType type;
+    const char* title;
+    const char* text;
+};
+EventText eventText(EventId id);
+/// Lower-case word used in JSON and on stderr: "error", "program" ...
+const char* typeName(EventType type);
+const char* domainName(int eventNumber);
+/// One line of JSON, without line end.
+std::string toJson(const Event& event);
+/// Several lines for people, with line ends.
+std::string toText(const Event& event);
+
+} // namespace rt

@@ -1,0 +1,91 @@
+#pragma once
+// InterruptTable: the interrupts of one task (manual 1.11): numbers connected with trap routines, what orders
+// them, the FIFO queue of those that occurred. Delivery happens on the task's own fibre, at safepoints and
+// while it waits.
+
+#include "runtime/abi/rt_abi.h"
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+
+namespace rt {
+
+class Task;
+
+/// A compiled trap routine.
+struct Trap {
+    EntryFunction function = nullptr;
+    const RoutineDesc* routine = nullptr; ///< for events; may be null
+};
+
+class InterruptTable {
+  public:
+    /// At most this many may be defined at a time in a task (manual 1.11).
+    static constexpr std::size_t kMaxDefined = 100;
+
+    explicit InterruptTable(Task& task) : task_(task) {}
+    ~InterruptTable() { clear(); }
+    InterruptTable(const InterruptTable&) = delete;
+    InterruptTable& operator=(const InterruptTable&) = delete;
+
+    /// CONNECT: a new interrupt number (from 1) for this trap; 0 when 100 are defined already (ERR_INOMAX).
+    int connect(const Trap& trap);
+    bool isDefined(int number) const { return defined_.count(number) != 0; }
+    /// True when the interrupt has been ordered (ISignalDI, ITimer ...).
+    bool isOrdered(int number) const;
+    /// Orders a connected interrupt: `disarm` is called when the order ends (IDelete, program reset, \Single
+    /// after the first delivery, end of the task). The source calls post(number) whenever its condition
+    /// becomes true. False when the number is not connected (ERR_UNKINO) .
+    bool order(int number, std::function<void()> disarm, bool single = false, bool safe = false);
+    /// IDelete. False when the number is not defined.
+    bool remove(int number);
+    /// Every definition disappears (program reset).
+    void clear();
+
+    /// The condition of an interrupt became true. Queued while interrupts are disabled or a trap runs;
+    /// ignored while the interrupt sleeps, and while the task is stopped unless the interrupt is safe.
+    void post(int number);
+    /// ISleep / IWatch. False when the number is not defined.
+    bool sleep(int number);
+    bool watch(int number);
+    bool isSafe(int number) const;
+    /// IDisable / IEnable.
+    void disable() { enabled_ = false; }
+    void enable();
+    bool enabled() const { return enabled_; }
+
+    /// Something is to be delivered now.
+    bool deliverable() const { return enabled_ && !running_ && !queue_.empty(); }
+    /// Runs the traps of all queued interrupts on the current fibre; negative when a trap unwinds the task.
+    Status deliver();
+    /// The task has been stopped: queued interrupts are thrown away, safe ones stay.
+    void taskStopped();
+    /// True while a trap routine executes.
+    bool inTrap() const { return running_; }
+    /// The unwinding of the task ended: whatever trap ran is gone.
+    void unwound() { running_ = false; }
+
+  private:
+    struct Definition {
+        Trap trap;
+        std::function<void()> disarm;
+        bool single = false;
+        bool safe = false;
+        bool asleep = false;
+        bool ordered = false;
+    };
+    Task& task_;
+    std::map<int, Definition> defined_;
+    std::deque<int> queue_;
+    int lastNumber_ = 0;
+    bool enabled_ = true;
+    bool running_ = false;
+};
+
+/// Frame records with this routine mark where a trap was called by the system: no handler beyond it takes an
+/// error.
+extern const RoutineDesc kTrapBoundary;
+
+} // namespace rt

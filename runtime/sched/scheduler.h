@@ -1,0 +1,127 @@
+#pragma once
+// Scheduler: one thread, one virtual clock, one queue of timed events, tasks on fibres. Deterministic: the
+// order of everything follows from times and sequence numbers alone. See README.md for the rules of time.
+
+#include "runtime/sched/task.h"
+#include "runtime/sched/time.h"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace rt {
+
+/// RobotWare 7 documents a limit of 15 simple RAPID instructions per millisecond, to be raised to 42 at most.
+inline constexpr int64_t kDefaultRate = 15;
+inline constexpr int64_t kMaxControllerRate = 42;
+/// "unlimited", for plain computing: an instruction takes a nanosecond, about what native code takes.
+inline constexpr int64_t kUnlimitedRate = 1'000'000;
+
+struct SchedulerOptions {
+    int64_t rate = kDefaultRate;       ///< instructions per ms of virtual time; > 0
+    Time maxTime = kNever;             ///< the run ends here
+    bool realtime = false;             ///< virtual time does not run ahead of the wall
+    std::size_t stackBytes = 8u << 20; ///< per task; pages are used as needed
+};
+
+enum class RunEnd : uint8_t {
+    Over,     ///< the run-over condition became true
+    MaxTime,  ///< maxTime reached
+    Deadlock, ///< every task waits, and nothing is pending that could wake one
+};
+
+using EventToken = uint64_t; ///< 0 = none
+
+class Scheduler {
+  public:
+    static constexpr Time kSlice = kMillisecond; ///< round robin between tasks that can run
+
+    explicit Scheduler(SchedulerOptions options);
+    ~Scheduler();
+    Scheduler(const Scheduler&) = delete;
+    Scheduler& operator=(const Scheduler&) = delete;
+
+    /// Virtual time, instructions of the running task included.
+    Time now() const;
+    const SchedulerOptions& options() const { return options_; }
+
+    // ---- Timed events
+    // ------------------------------------------------------------------------------------------
+    /// Calls `action` at virtual time `time` (at once when past), from the scheduler, never inside a task.
+    /// Events of the same time happen in the order they were made.
+    EventToken at(Time time, std::function<void()> action);
+    EventToken after(Time span, std::function<void()> action) {
+        return at(addTime(now(), span), std::move(action));
+    }
+    /// No effect on an event that has happened.
+    void cancel(EventToken token);
+    bool anythingPending() const { return !events_.empty(); }
+    Time nextEventTime() const { return events_.empty() ? kNever : events_.begin()->first.first; }
+
+    // ---- Tasks
+    // -------------------------------------------------------------------------------------------------
+    /// The task runs when run() is called; it must outlive the scheduler's last use of it.
+    void add(Task& task);
+    /// The task that is running now; null outside.
+    Task* running() const { return running_; }
+    const std::vector<Task*>& tasks() const { return tasks_; }
+
+    /// Runs until `isOver()` or another end; isOver is asked whenever the scheduler is between tasks.
+    RunEnd run(const std::function<bool()>& isOver);
+    /// Called whenever virtual time has moved on (trace, motion).
+    void setTimeObserver(std::function<void(Time)> observer) { timeObserver_ = std::move(observer); }
+    /// Called before the thread sleeps for the wall clock or for something outside (flush what people look
+    /// at).
+    void setBeforeSleep(std::function<void()> hook) { beforeSleep_ = std::move(hook); }
+    /// Ends all tasks without UNDO; afterwards none is on a fibre. `run` must not be active.
+    void abandonTasks();
+
+    // ---- Used by Task
+    // ------------------------------------------------------------------------------------------
+    void makeReady(Task& task);
+    void switchOut(Task& task); ///< from the task's fibre back to the scheduler
+    struct ExternalWait {
+        Task* task = nullptr;
+        int fd = -1;
+        short events = 0;
+        bool ready = false;
+    };
+    void addExternal(ExternalWait& wait);
+    void removeExternal(ExternalWait& wait);
+
+  private:
+    using EventKey = std::pair<Time, EventToken>;
+
+    void fireDueEvents();
+    Task* nextRunnable();
+    bool otherRunnable(const Task& task) const;
+    void runSlice(Task& task);
+    Time slicePaid() const;
+    void advanceTo(Time time);
+    bool waitOutside(Time until);
+    void anchorWall();
+    Time wallLimit() const;
+    bool paced() const { return options_.realtime || !externals_.empty(); }
+    void wakeStopping();
+
+    SchedulerOptions options_;
+    Time now_ = 0;
+    int64_t residue_ = 0; // instructions * 10^6 not yet a whole ns, in units of 1/rate ns
+    std::map<EventKey, std::function<void()>> events_;
+    std::map<EventToken, Time> eventTimes_;
+    EventToken lastToken_ = 0;
+    std::vector<Task*> tasks_;
+    std::vector<Task*> ready_; // round robin order
+    Task* running_ = nullptr;
+    int64_t granted_ = 0;
+    std::vector<ExternalWait*> externals_;
+    Time anchorVirtual_ = 0;
+    int64_t anchorWall_ = 0;
+    std::function<void(Time)> timeObserver_;
+    std::function<void()> beforeSleep_;
+};
+
+} // namespace rt

@@ -1,0 +1,233 @@
+#pragma once
+// Task: one RAPID task on its own fibre. Natives get it from the TaskCore that compiled code hands them:
+//
+//     rt::Status rt_WaitTime(rt::TaskCore* core, float seconds) {
+//         rt::Task& task = rt::taskOf(core);
+//         if (seconds < 0) return task.raise(ERR_ARGVALERR, "WaitTime: the time must not be negative");
+//         return task.sleepFor(rt::fromSeconds(seconds));
+//     }
+//
+// Every function that may suspend the task returns a Status. Negative: the task is being unwound; the native
+// releases what it holds and returns that very status at once. A native raises an error by returning its
+// positive ERRNO.
+
+#include "runtime/abi/rt_abi.h"
+#include "runtime/sched/interrupts.h"
+#include "runtime/sched/time.h"
+
+#include <functional>
+#include <initializer_list>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace rt {
+
+class Controller;
+class Fibre; // sched/fibre.h
+class Scheduler;
+class WaitQueue;
+
+enum class TaskKind : uint8_t { Normal, Static, SemiStatic };
+
+/// Where a task is, was, or was called from.
+struct SourcePlace {
+    std::string module, routine, file;
+    uint32_t line = 0, column = 0; ///< from 1; 0 = not known
+};
+
+enum class TaskState : uint8_t {
+    Ready,    ///< can run
+    Waiting,  ///< for a time, a WaitQueue or something outside
+    Finished, ///< its cycles are over, or EXIT with no start to come
+};
+/// Why a task does not run although it could.
+enum class StopCause : uint8_t {
+    None,
+    Instruction, ///< Stop
+    Order,       ///< controller action `stop`
+    Error,       ///< system handler; can go on only from main
+    AtMain,      ///< program pointer at main after pp_to_main or EXIT, not started yet
+};
+
+enum class WaitResult : uint8_t { Done, Timeout };
+
+/// What a task waits for: until `condition` is true. It is looked at first at once, then whenever one of
+/// `queues` is notified, and every `pollPeriod` when that is not 0. Without a condition any notification ends
+/// the wait.
+struct WaitSpec {
+    std::vector<WaitQueue*> queues;
+    std::function<bool()> condition;
+    Time deadline = kNever; ///< absolute virtual time
+    Time pollPeriod = 0;
+};
+
+class Task : public TaskCore {
+  public:
+    /// `desc` must outlive the task. Tasks are made by the Controller.
+    Task(Controller& controller, Scheduler& scheduler, const TaskDesc& desc, uint32_t index);
+    ~Task();
+    Task(const Task&) = delete;
+    Task& operator=(const Task&) = delete;
+
+    // ---- Identity
+    // ----------------------------------------------------------------------------------------------
+    const std::string& name() const { return name_; }
+    TaskKind kind() const { return kind_; }
+    uint32_t index() const { return index_; } ///< in ProgramDesc::tasks
+    bool isMotionTask() const { return desc_.motionTask != 0; }
+    Controller& controller() const { return controller_; }
+    Scheduler& scheduler() const { return scheduler_; }
+    TaskState state() const { return state_; }
+    StopCause stopCause() const { return stopCause_; }
+    bool isStopped() const { return stopCause_ != StopCause::None; }
+    /// Not finished and not stopped.
+    bool isExecuting() const { return state_ != TaskState::Finished && !isStopped(); }
+    uint64_t cyclesDone() const { return cyclesDone_; }
+
+    // ---- Time and waiting
+    // --------------------------------------------------------------------------------------
+    /// Virtual time, instructions executed in this slice included.
+    Time now() const;
+    /// Interrupts are delivered while the task waits; times are absolute virtual times.
+    Status sleepUntil(Time time);
+    Status sleepFor(Time span);
+    Status waitFor(const WaitSpec& spec, WaitResult& result);
+    /// Waits until the file descriptor is ready for `pollEvents` (POLLIN, POLLOUT of poll(2)). Virtual time
+    /// keeps step with the wall meanwhile. For sockets and the terminal only: files are ready at once.
+    Status waitExternal(int fd, short pollEvents, Time deadline, WaitResult& result);
+    /// Lets other tasks run, delivers interrupts.
+    Status yield();
+    /// Charges instructions to the budget, for natives whose cost depends on their arguments.
+    void charge(int64_t instructions) { budget -= instructions; }
+
+    // ---- Ending and stopping
+    // -----------------------------------------------------------------------------------
+    /// EXIT: UNDO handlers run, the task ends. To be returned by the native: `return task.requestExit();`
+    Status requestExit();
+    /// ExitCycle: ends this cycle; main begins again when cycles are left. Persistent and module data are
+    /// unchanged.
+    Status requestExitCycle();
+    /// Stop: the task stands still until a `start`; returns kOk then. `allNormal`: so do all NORMAL tasks.
+    Status stopHere(bool allNormal = false);
+
+    // ---- Errors
+    // ------------------------------------------------------------------------------------------------
+    /// Sets the text that the event shows if the error the native returns next is not handled. Any length.
+    void setErrorDetail(std::string text) { errorDetail_ = std::move(text); }
+    /// setErrorDetail and the number: `return task.raise(ERR_X, "why");`
+    Status raise(int errorNumber, std::string detail) {
+        setErrorDetail(std::move(detail));
+        return errorNumber;
+    }
+    /// SkipWarn: the error handled last leaves no warning in the event log.
+    void skipWarn() { handledPending_ = false; }
+    /// RETRYs that remain for the error being handled (RemainingRetries); ResetRetryCount.
+    int remainingRetries() const;
+    void resetRetryCount();
+    /// Place of the statement in progress / the call chain, innermost first.
+    SourcePlace place() const;
+    std::vector<SourcePlace> callChain() const;
+    /// Text of the last error raised in this task (for ErrLog, FlexPendant ...); place where it was raised.
+    const std::string& errorDetail() const { return errorDetail_; }
+    const SourcePlace& errorPlace() const { return errorPlace_; }
+
+    InterruptTable& interrupts() { return interrupts_; }
+
+    /// Data that a part of the standard library keeps per task; made on first use, destroyed with the task.
+    template <class T> T& local() {
+        static const char key = 0;
+        std::shared_ptr<void>& slot = locals_[&key];
+        if (!slot) slot = std::make_shared<T>();
+        return *static_cast<T*>(slot.get());
+    }
+
+    // ---- Used by the scheduler, the ABI entry points and the controller
+    // ---------------------------------------------
+    Status safepoint(Frame* frame_);
+    Status raiseAt(Frame* frame_, int errorNumber);
+    Status propagateFrom(Frame* frame_);
+    Status handlerEndAt(Frame* frame_);
+    Status retryAt(Frame* frame_);
+    Status stackOverflowAt(Frame* frame_);
+
+    /// Makes a waiting task runnable; others are not touched.
+    void wake();
+    /// Lets the next safepoint of a running task go to the scheduler although budget is left.
+    void forceSafepoint();
+    /// Stops the task where it is / lets it go on. resume() is false when it cannot go on from here (stopped
+    /// by an error).
+    void stop(StopCause cause);
+    bool resume();
+    /// Program pointer to main: the chain is unwound with its UNDO handlers at once; afterwards AtMain.
+    void moveToMain();
+    /// Ends the task without UNDO handlers (end of the run).
+    void abandon();
+
+  private:
+    friend class Scheduler;
+    friend class WaitQueue;
+
+    enum class Unwind : uint8_t { None, Exit, ExitCycle, ToMain, Abandon, Error };
+
+    void fibreMain();
+    bool runOneCycle();
+    Status block();
+    Status afterResume();
+    Status beginUnwind(Unwind cause);
+    Status systemHandler(Frame* frame_, int errorNumber, int eventNumber, const SourcePlace& where);
+    Status dispatchError(Frame* first, int errorNumber);
+    void noteHandled(Frame* handlerFrame, int errorNumber);
+    void flushHandledWarning();
+    bool insideHandler() const;
+
+    Controller& controller_;
+    Scheduler& scheduler_;
+    const TaskDesc& desc_;
+    uint32_t index_;
+    std::string name_;
+    TaskKind kind_;
+    TaskState state_ = TaskState::Ready;
+    StopCause stopCause_ = StopCause::None;
+    std::unique_ptr<Fibre> fibre_;
+    InterruptTable interrupts_{*this};
+    std::map<const void*, std::shared_ptr<void>> locals_;
+
+    // budget (see Scheduler)
+    int64_t debt_ = 0;  // charged, not yet paid with time
+    int64_t stash_ = 0; // budget set aside to force a safepoint
+
+    // waiting
+    std::vector<WaitQueue*> waitingOn_;
+    uint64_t wakeEvent_ = 0; // event id of the deadline, 0 = none
+    bool notified_ = false;
+
+    // ending
+    Unwind pendingUnwind_ = Unwind::None; // to be returned by the call the task is suspended in
+    Unwind unwinding_ = Unwind::None;     // status < 0 is travelling up
+    bool needsReset_ = true;              // variables get their initial values before main is entered
+    uint64_t cyclesDone_ = 0;
+
+    // errors
+    std::string errorDetail_;
+    SourcePlace errorPlace_;
+    Frame* retryFrame_ = nullptr;
+    int32_t retryStatement_ = -1;
+    int retryCount_ = 0;
+    bool handledPending_ = false; // a warning is to be written when the handler is left
+    Frame* handledBy_ = nullptr;
+    int handledNumber_ = 0;
+    Time handledTime_ = 0;
+};
+
+static_assert(!std::is_polymorphic_v<Task>, "a Task must begin with its TaskCore: no virtual functions");
+
+/// The task behind what compiled code passes to every native.
+inline Task& taskOf(TaskCore* core) {
+    return *static_cast<Task*>(core);
+}
+
+} // namespace rt

@@ -1,0 +1,36 @@
+#pragma once
+// Stimulus: what happens around the controller at which virtual time, from a CSV file
+// (`time_s,target,value`).
+
+#include "runtime/sched/time.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rt {
+
+enum class StimulusKind : uint8_t { Signal, Answer, Stop, Start, PpToMain, StepForward, StepBackward };
+
+struct StimulusItem {
+    Time time = 0;
+    StimulusKind kind = StimulusKind::Signal;
+    std::string target; ///< name of the signal, as written
+    double value = 0;   ///< Signal
+    std::string text;   ///< Answer
+    uint32_t line = 0;
+};
+
+struct StimulusProblem {
+    uint32_t line = 0; ///< from 1, 0 = the file as a whole
+    std::string message;
+};
+
+/// Reads the text of a stimulus file: a header line is allowed, `#` starts a comment, blank lines do not
+/// count, a field may stand in double quotes (an answer with a comma). Items come sorted by time, equal times
+/// in the order of the file.
+std::vector<StimulusItem> parseStimulus(std::string_view text, std::vector<StimulusProblem>& problems);
+std::vector<StimulusItem> readStimulus(const std::string& path, std::vector<StimulusProblem>& problems);
+
+} // namespace rt
