@@ -236,9 +236,10 @@ class Checker:
         if raises and effects == "const":
             self.offence(place, f"{name}: cannot be const and raise")
         self.errors_named += [(place, e) for e in raises]
-        for restriction in attributes.get("where", []):
+        for restriction in re.split(", *", ", ".join(attributes.get("where", []))):
             match = re.match(r"(\w+) is (\w+(?: or \w+)*)$", restriction)
-            if not match or match.group(1) not in names or not set(match.group(2).split(" or ")) <= RESTRICTIONS:
+            known = match and match.group(1) in names and set(match.group(2).split(" or ")) <= RESTRICTIONS
+            if restriction and not known:
                 self.offence(place, f"{name}: where: {restriction}")
         for deferred in attributes.get("deferred", []):
             if deferred not in names:
