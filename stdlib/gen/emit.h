@@ -1,0 +1,29 @@
+#pragma once
+// The generated files, each as one text.
+
+#include "stdlib/gen/model.h"
+
+namespace stdlibgen {
+
+/// Whether a native is called by value without a task (class Const) or with a task and a status (class
+/// Plain). Const: `effects: const`, result and all parameters are required num, dnum or bool, mode IN.
+bool isConstNative(const Model& model, const Routine& routine);
+/// False for routines that the compiler replaces altogether (Present, Dim).
+bool hasPrototype(const Routine& routine);
+/// "rt_" and the name as declared.
+std::string symbolOf(const Routine& routine);
+/// The C++ type of a value: float, rt::String, rt::data::Robtarget, rt::Handle ...
+std::string cppType(const Model& model, std::string_view type);
+/// A RAPID name as a C++ identifier: keywords and macros get a trailing '_'.
+std::string cppName(std::string_view name);
+
+std::string emitTypes(const Model& model);
+std::string emitConstants(const Model& model);
+std::string emitNatives(const Model& model);
+std::string emitNativeTable(const Model& model);
+std::string emitErrorTable(const Model& model);
+std::string emitSources(const Model& model);
+std::string emitJson(const Model& model);
+std::string emitReference(const Model& model);
+
+} // namespace stdlibgen

@@ -1,0 +1,57 @@
+// stdlib_gen: writes every table of predefined names from their declarations. Files are touched only when
+// their contents change, so that nothing is compiled again without need.
+
+#include "stdlib/gen/emit.h"
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+namespace {
+
+bool writeIfChanged(const std::string& path, const std::string& text) {
+    std::ifstream in(path, std::ios::binary);
+    if (in) {
+        std::stringstream old;
+        old << in.rdbuf();
+        if (old.str() == text) return true;
+    }
+    std::ofstream out(path, std::ios::binary | std::ios::trunc);
+    out << text;
+    out.close();
+    if (!out) std::fprintf(stderr, "stdlib_gen: %s cannot be written\n", path.c_str());
+    return static_cast<bool>(out);
+}
+
+int usage() {
+    std::fputs(
+        "usage: stdlib_gen --out FOLDER FILE.sysx...\n       stdlib_gen --reference FILE.md FILE.sysx...\n",
+        stderr);
+    return 3;
+}
+
+bool writeAll(const stdlibgen::Model& model, const std::string& folder) {
+    bool ok = writeIfChanged(folder + "/stdlib_types.h", emitTypes(model));
+    ok &= writeIfChanged(folder + "/stdlib_constants.h", emitConstants(model));
+    ok &= writeIfChanged(folder + "/stdlib_natives.h", emitNatives(model));
+    ok &= writeIfChanged(folder + "/native_table.cpp", emitNativeTable(model));
+    ok &= writeIfChanged(folder + "/error_table.cpp", emitErrorTable(model));
+    ok &= writeIfChanged(folder + "/stdlib_sources.cpp", emitSources(model));
+    ok &= writeIfChanged(folder + "/builtins.json", emitJson(model));
+    return ok;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 4) return usage();
+    const std::string mode = argv[1];
+    const std::string target = argv[2];
+    if (mode != "--out" && mode != "--reference") return usage();
+    const stdlibgen::Model model = stdlibgen::readDeclarations({argv + 3, argv + argc});
+    for (const std::string& error : model.errors)
+        std::fprintf(stderr, "%s\n", error.c_str());
+    if (!model.errors.empty()) return 2;
+    const bool ok = mode == "--out" ? writeAll(model, target) : writeIfChanged(target, emitReference(model));
+    return ok ? 0 : 1;
+}

@@ -1,0 +1,31 @@
+#pragma once
+// Entry points that compiled code calls although RAPID has no name for them. Listed in support_natives.def.
+
+#include "runtime/abi/rt_abi.h"
+
+extern "C" {
+/// a + b for strings. Raises ERR_STRTOOLNG when the result has more than 80 bytes.
+rt::Status rt_strConcat(rt::TaskCore* task, rt::String* result, const rt::String* a, const rt::String* b);
+/// a = b for strings, byte by byte. No task, cannot raise.
+bool rt_strEqual(const rt::String* a, const rt::String* b);
+/// a = b for values of one type (numbers by value, records and arrays member by member). No task, cannot
+/// raise.
+bool rt_anyEqual(const void* a, const void* b, const rt::TypeDesc* type);
+
+/// A signal used as a value. Raise ERR_NO_ALIASIO_DEF for a variable without a signal behind it,
+/// ERR_NORUNUNIT and ERR_SIG_NOT_VALID (manual 1.9).
+rt::Status rt_readSignalNum(rt::TaskCore* task, float* result, const rt::Handle* signal);
+rt::Status rt_readSignalDnum(rt::TaskCore* task, double* result, const rt::Handle* signal);
+
+/// WaitUntil: called whenever the condition was found FALSE. Suspends the task for one poll interval
+/// (PollRate in s, default 0.1). `again` 1: evaluate the condition again; 0: MaxTime is over and TimeFlag has
+/// been set. Without TimeFlag, ERR_WAIT_MAXTIME is raised. `state` is 0 at first and belongs to this call of
+/// WaitUntil.
+rt::Status rt_waitUntilPoll(rt::TaskCore* task, bool* again, bool InPos, const float* MaxTime, bool* TimeFlag,
+                            const float* PollRate, int64_t* state);
+
+/// EXIT: UNDO handlers run, the program ends. Returns the status of unwinding.
+rt::Status rt_exit(rt::TaskCore* task);
+/// A predefined routine was called that is declared only: event 41600-like stop, never a silent no-op.
+rt::Status rt_notImplemented(rt::TaskCore* task, const rt::String* name);
+}

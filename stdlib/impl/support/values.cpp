@@ -1,0 +1,71 @@
+// Strings and values of any type for compiled code.
+
+#include "stdlib/impl/support/fail.h"
+#include "stdlib/impl/support/support_natives.h"
+
+#include "stdlib_constants.h"
+
+#include <cstring>
+
+using namespace rt;
+
+namespace {
+
+template <class T> bool sameNumber(const char* a, const char* b) {
+    T x;
+    T y;
+    std::memcpy(&x, a, sizeof x);
+    std::memcpy(&y, b, sizeof y);
+    return x == y; // -0 equals 0, and a value that is not a number equals nothing, as in compiled comparisons
+}
+
+bool sameString(const String& a, const String& b) {
+    return a.view() == b.view();
+}
+
+bool sameValue(const char* a, const char* b, const TypeDesc& type) {
+    switch (type.kind) {
+    case DescKind::Num: return sameNumber<float>(a, b);
+    case DescKind::Dnum: return sameNumber<double>(a, b);
+    case DescKind::String:
+        return sameString(*reinterpret_cast<const String*>(a), *reinterpret_cast<const String*>(b));
+    case DescKind::Record:
+        for (uint32_t i = 0; i < type.count; ++i)
+            if (!sameValue(a + type.offsets[i], b + type.offsets[i], *type.fields[i])) return false;
+        return true;
+    case DescKind::Array: {
+        const TypeDesc& element = *type.fields[0];
+        for (size_t i = 0; i < type.count; ++i)
+            if (!sameValue(a + i * element.size, b + i * element.size, element)) return false;
+        return true;
+    }
+    default: return std::memcmp(a, b, type.size) == 0;
+    }
+}
+
+} // namespace
+
+extern "C" {
+
+Status rt_strConcat(TaskCore* task, String* result, const String* a, const String* b) {
+    String joined; // result may be a or b
+    const size_t size = size_t{a->length} + b->length;
+    if (size > sizeof joined.bytes)
+        return lib::fail(task, err::ERR_STRTOOLNG,
+                         "the joined string has " + std::to_string(size) +
+                             " bytes; a string holds at most 80");
+    std::memcpy(joined.bytes, a->bytes, a->length);
+    std::memcpy(joined.bytes + a->length, b->bytes, b->length);
+    joined.length = static_cast<uint32_t>(size);
+    *result = joined;
+    return kOk;
+}
+
+bool rt_strEqual(const String* a, const String* b) {
+    return sameString(*a, *b);
+}
+
+bool rt_anyEqual(const void* a, const void* b, const TypeDesc* type) {
+    return sameValue(static_cast<const char*>(a), static_cast<const char*>(b), *type);
+}
+}
