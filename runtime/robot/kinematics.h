@@ -32,7 +32,7 @@ struct IkError {
     std::string message() const;
 };
 
-/// All branches of the inverse, indexed by cfx (0..7). Angles of axes 1, 4, 6 lie in (-180, 180]; whether
+/// All branches of the inverse, indexed by cfx (0..7). Angles of axes 1, 4, 6 lie in [-180, 180]; whether
 /// they are within limits (perhaps a revolution further) is not looked at.
 struct IkBranches {
     std::array<Joints, 8> joints;
@@ -91,14 +91,26 @@ class Kinematics {
     const Joints& upperDeg() const { return upper_; }
 
   private:
-    struct Arm; // trigonometric working values of one call
+    struct Target;    // a flange pose taken apart
+    struct ArmBranch; // axes 1 to 3 of one branch
+    bool takeApart(const Pose& flange, const Joints& seed, Target& target) const;
+    bool solveArm(const Target& target, int shoulder, int elbow, ArmBranch& arm) const;
+    bool solveBranch(const Target& target, int cfx, const Joints& seed, Joints& out) const;
+    void solveFreeWrist(const Target& target, const ArmBranch& arm, const Joints& seed, Joints& model) const;
+    void toAxes(const Joints& model, Joints& out) const;
+    double radius(double sine2, double sine23, double cosine23) const;
+
     OpwParameters geometry_;
+    Joints signs_{}; // model angle = sign * axis angle + shift, degrees, all zero in the ABB zero posture
+    Joints shifts_{};
     Joints lower_{}, upper_{};
-    double forearm_ = 0;      // mm, axis 3 to wrist centre
-    double forearmAngle_ = 0; // rad, from the forearm's axis up to that line
+    double forearm_ = 0;                         // mm, axis 3 to wrist centre
+    double forearmSine_ = 0, forearmCosine_ = 0; // of the angle from the upper arm to that line at axis 3 = 0
+    double forearmAngleDeg_ = 0;
 };
 
-/// Quarter revolution of an angle in degrees: 0 = [0,90), -1 = [-90,0).
+/// Quarter revolution of an angle in degrees: 0 = [0,90), -1 = [-90,0). An angle less than 1e-7 below a
+/// multiple of 90 counts as having reached it, so that rounding does not change a configuration.
 int quarterRevolution(double angleDeg);
 
 } // namespace robot

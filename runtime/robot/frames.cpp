@@ -1,0 +1,89 @@
+// Arithmetic of frames that is too long to be inline.
+
+#include "runtime/robot/frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace robot {
+
+namespace {
+constexpr double kDeg = std::numbers::pi / 180.0;
+
+Quat aboutX(double deg) {
+    return {std::cos(deg * kDeg / 2), std::sin(deg * kDeg / 2), 0, 0};
+}
+Quat aboutY(double deg) {
+    return {std::cos(deg * kDeg / 2), 0, std::sin(deg * kDeg / 2), 0};
+}
+Quat aboutZ(double deg) {
+    return {std::cos(deg * kDeg / 2), 0, 0, std::sin(deg * kDeg / 2)};
+}
+} // namespace
+
+double norm(const Vec3& a) {
+    return std::sqrt(dot(a, a));
+}
+double norm(const Quat& q) {
+    return std::sqrt(dot(q, q));
+}
+
+Quat normalized(const Quat& q) {
+    const double length = norm(q);
+    if (!(length > 0)) return {};
+    return {q.w / length, q.x / length, q.y / length, q.z / length};
+}
+
+Vec3 rotationVector(const Quat& q) {
+    // Of the two quaternions of a rotation the one with w >= 0 turns the short way.
+    const double sign = q.w < 0 ? -1.0 : 1.0;
+    const Vec3 u{q.x * sign, q.y * sign, q.z * sign};
+    const double sine = norm(u);
+    if (sine < 1e-150) return {};
+    return u * (2.0 * std::atan2(sine, q.w * sign) / sine);
+}
+
+double angleBetween(const Quat& a, const Quat& b) {
+    return norm(rotationVector(conjugate(a) * b)) / kDeg;
+}
+
+Quat slerp(const Quat& a, const Quat& b, double k) {
+    const Vec3 v = rotationVector(conjugate(a) * b);
+    const double angle = norm(v);
+    if (angle == 0) return a;
+    return a * fromAxisAngle(v * (1.0 / angle), k * angle / kDeg);
+}
+
+Quat fromAxisAngle(const Vec3& axis, double angleDeg) {
+    const double half = angleDeg * kDeg / 2;
+    const double s = std::sin(half);
+    return {std::cos(half), axis.x * s, axis.y * s, axis.z * s};
+}
+
+Quat fromEulerZyx(double zDeg, double yDeg, double xDeg) {
+    return aboutZ(zDeg) * aboutY(yDeg) * aboutX(xDeg);
+}
+
+Vec3 eulerZyx(const Quat& q) {
+    const double sineY = std::clamp(2 * (q.w * q.y - q.x * q.z), -1.0, 1.0);
+    // Near +-90 degrees only the sum (difference) of the other two is determined: x is then taken as 0.
+    if (std::abs(sineY) > 1 - 1e-13) {
+        return {0, std::copysign(90.0, sineY), -2 * std::copysign(1.0, sineY) * std::atan2(q.x, q.w) / kDeg};
+    }
+    return {std::atan2(2 * (q.w * q.x + q.y * q.z), 1 - 2 * (q.x * q.x + q.y * q.y)) / kDeg,
+            std::asin(sineY) / kDeg,
+            std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z)) / kDeg};
+}
+
+Pose offs(const Pose& target, double x, double y, double z) {
+    return {target.pos + Vec3{x, y, z}, target.rot};
+}
+
+Pose relTool(const Pose& target, double x, double y, double z, double rxDeg, double ryDeg, double rzDeg) {
+    // "First about x, then y, then z" of the tool as it has been turned so far: intrinsic rotations.
+    const Pose step{{x, y, z}, aboutX(rxDeg) * aboutY(ryDeg) * aboutZ(rzDeg)};
+    return target * step;
+}
+
+} // namespace robot

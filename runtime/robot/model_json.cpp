@@ -1,0 +1,235 @@
+// Reads the JSON data file of one robot model and checks it; the only place that knows its field names.
+
+#include "runtime/robot/robot_model.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <optional>
+
+namespace robot {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::string_view kKnownFields[] = {"format",
+                                             "name",
+                                             "kinematics",
+                                             "payload_kg",
+                                             "reach_m",
+                                             "geometry_mm",
+                                             "wrist_offset_mm",
+                                             "joint_signs",
+                                             "joint_limits_deg",
+                                             "max_speed_deg_s",
+                                             "provisional",
+                                             "joint_offsets_deg",
+                                             "base_frame",
+                                             "external_axes",
+                                             "max_acceleration_deg_s2",
+                                             "max_jerk_deg_s3",
+                                             "sources",
+                                             "max_tcp_speed_mm_s",
+                                             "note"};
+
+/// Walks through the fields of one object and remembers the first thing wrong.
+class Reader {
+  public:
+    Reader(const Json& root, std::string_view origin) : root_(root), origin_(origin) {}
+
+    bool failed() const { return !problem_.empty(); }
+    ModelError error() const { return {fmt::format("robot model {}: {}", origin_, problem_)}; }
+    void fail(std::string text) {
+        if (problem_.empty()) problem_ = std::move(text);
+    }
+
+    const Json* find(const Json& object, std::string_view field, bool required) {
+        const auto found = object.find(field);
+        if (found != object.end()) return &*found;
+        if (required) fail(fmt::format("field '{}' is missing; add it", field));
+        return nullptr;
+    }
+
+    std::string text(std::string_view field) {
+        const Json* value = find(root_, field, true);
+        if (value == nullptr) return {};
+        if (!value->is_string() || value->get_ref<const std::string&>().empty()) {
+            fail(fmt::format("field '{}' must be a text that is not empty", field));
+            return {};
+        }
+        return value->get<std::string>();
+    }
+
+    double number(const Json& object, std::string_view field, std::optional<double> fallback = {}) {
+        const Json* value = find(object, field, !fallback);
+        return value == nullptr ? fallback.value_or(0) : toNumber(*value, field);
+    }
+
+    /// Array of `count` numbers into `out`.
+    void numbers(const Json& object, std::string_view field, double* out, std::size_t count,
+                 bool required = true) {
+        const Json* value = find(object, field, required);
+        if (value == nullptr) return;
+        if (!value->is_array() || value->size() != count) {
+            fail(fmt::format("field '{}' must be an array of {} numbers", field, count));
+            return;
+        }
+        for (std::size_t i = 0; i < count; ++i)
+            out[i] = toNumber((*value)[i], field);
+    }
+
+    void positive(std::string_view field, const Joints& values) {
+        for (double value : values) {
+            if (!(value > 0))
+                fail(fmt::format("field '{}' must hold positive numbers only, found {}", field, value));
+        }
+    }
+
+    double toNumber(const Json& value, std::string_view field) {
+        if (!value.is_number() || !std::isfinite(value.get<double>())) {
+            fail(fmt::format("field '{}' must hold finite numbers, found {}", field, value.dump()));
+            return 0;
+        }
+        return value.get<double>();
+    }
+
+    const Json& root() const { return root_; }
+
+  private:
+    const Json& root_;
+    std::string_view origin_;
+    std::string problem_;
+};
+
+void readGeometry(Reader& in, RobotModel& model) {
+    const Json* geometry = in.find(in.root(), "geometry_mm", true);
+    if (geometry == nullptr) return;
+    if (!geometry->is_object())
+        return in.fail("field 'geometry_mm' must be an object with a1 a2 b c1 c2 c3 c4");
+    OpwParameters& g = model.geometry;
+    g.a1 = in.number(*geometry, "a1");
+    g.a2 = in.number(*geometry, "a2");
+    g.b = in.number(*geometry, "b", 0.0);
+    g.c1 = in.number(*geometry, "c1");
+    g.c2 = in.number(*geometry, "c2");
+    g.c3 = in.number(*geometry, "c3");
+    g.c4 = in.number(*geometry, "c4");
+    if (in.failed()) return;
+    if (!(g.c2 > 0) || !(std::hypot(g.a2, g.c3) > 0)) in.fail("the links c2 and (a2, c3) must have a length");
+    in.numbers(in.root(), "joint_offsets_deg", g.offsetsDeg.data(), kJointCount);
+    in.numbers(in.root(), "joint_signs", g.signs.data(), kJointCount);
+    for (double sign : g.signs) {
+        if (sign != 1 && sign != -1) in.fail("field 'joint_signs' may hold 1 and -1 only");
+    }
+}
+
+void readLimits(Reader& in, RobotModel& model) {
+    const Json* limits = in.find(in.root(), "joint_limits_deg", true);
+    if (limits == nullptr) return;
+    bool isGood = limits->is_array() && limits->size() == kJointCount;
+    for (std::size_t i = 0; isGood && i < kJointCount; ++i) {
+        const Json& pair = (*limits)[i];
+        isGood = pair.is_array() && pair.size() == 2;
+        if (!isGood) break;
+        model.lowerDeg[i] = in.toNumber(pair[0], "joint_limits_deg");
+        model.upperDeg[i] = in.toNumber(pair[1], "joint_limits_deg");
+        isGood = in.failed() || model.lowerDeg[i] < model.upperDeg[i];
+    }
+    if (!isGood)
+        in.fail("field 'joint_limits_deg' must be an array of 6 pairs [lower, upper] with lower < upper");
+}
+
+void readKinematicsKind(Reader& in, RobotModel& model) {
+    const std::string kind = in.text("kinematics");
+    if (kind == "spherical-wrist")
+        model.kinematics = KinematicsKind::SphericalWrist;
+    else if (kind == "offset-wrist")
+        model.kinematics = KinematicsKind::OffsetWrist;
+    else
+        in.fail("field 'kinematics' must be \"spherical-wrist\" or \"offset-wrist\"");
+    model.wristOffset = in.number(in.root(), "wrist_offset_mm", 0.0);
+    if ((model.wristOffset != 0) != (model.kinematics == KinematicsKind::OffsetWrist)) {
+        in.fail("field 'wrist_offset_mm' belongs to \"offset-wrist\" and only there");
+    }
+}
+
+void readBaseFrame(Reader& in, RobotModel& model) {
+    const Json* frame = in.find(in.root(), "base_frame", false);
+    if (frame == nullptr) return;
+    if (!frame->is_object()) return in.fail("field 'base_frame' must be an object with pos_mm and rot");
+    double pos[3] = {};
+    double rot[4] = {};
+    in.numbers(*frame, "pos_mm", pos, 3);
+    in.numbers(*frame, "rot", rot, 4);
+    if (in.failed()) return;
+    const Quat q{rot[0], rot[1], rot[2], rot[3]};
+    if (std::abs(norm(q) - 1) > 1e-3) return in.fail("field 'rot' must be a unit quaternion [w, x, y, z]");
+    model.baseFrame = {{pos[0], pos[1], pos[2]}, normalized(q)};
+}
+
+void readProvisional(Reader& in, RobotModel& model) {
+    const Json* list = in.find(in.root(), "provisional", false);
+    if (list == nullptr) return;
+    if (!list->is_array()) return in.fail("field 'provisional' must be an array of field names");
+    for (const Json& entry : *list) {
+        if (!entry.is_string() || !in.root().contains(entry.get_ref<const std::string&>())) {
+            return in.fail(
+                fmt::format("field 'provisional' names {}, which is no field of this file", entry.dump()));
+        }
+        model.provisional.push_back(entry.get<std::string>());
+    }
+}
+
+void checkFieldNames(Reader& in) {
+    for (const auto& item : in.root().items()) {
+        bool isKnown = false;
+        for (std::string_view known : kKnownFields)
+            isKnown = isKnown || known == item.key();
+        if (!isKnown) in.fail(fmt::format("field '{}' is not known; correct or remove it", item.key()));
+    }
+}
+
+} // namespace
+
+Expected<RobotModel, ModelError> parseRobotModel(std::string_view jsonText, std::string_view origin) {
+    Json root;
+    try {
+        root = Json::parse(jsonText.begin(), jsonText.end());
+    } catch (const Json::exception& problem) {
+        return Unexpected{ModelError{fmt::format("robot model {}: not JSON: {}", origin, problem.what())}};
+    }
+    Reader in(root, origin);
+    if (!root.is_object()) in.fail("the file must hold one object");
+    if (in.failed()) return Unexpected{in.error()};
+
+    RobotModel model;
+    checkFieldNames(in);
+    if (in.number(root, "format") != 1) in.fail("field 'format' must be 1");
+    model.name = in.text("name");
+    model.payloadKg = in.number(root, "payload_kg");
+    model.reachM = in.number(root, "reach_m");
+    readKinematicsKind(in, model);
+    readGeometry(in, model);
+    readLimits(in, model);
+    in.numbers(root, "max_speed_deg_s", model.maxSpeed.data(), kJointCount);
+    in.numbers(root, "max_acceleration_deg_s2", model.maxAcceleration.data(), kJointCount);
+    in.numbers(root, "max_jerk_deg_s3", model.maxJerk.data(), kJointCount);
+    in.positive("max_speed_deg_s", model.maxSpeed);
+    in.positive("max_acceleration_deg_s2", model.maxAcceleration);
+    in.positive("max_jerk_deg_s3", model.maxJerk);
+    model.maxTcpSpeed = in.number(root, "max_tcp_speed_mm_s", 5000.0);
+    if (!(model.maxTcpSpeed > 0)) in.fail("field 'max_tcp_speed_mm_s' must be positive");
+    const double external = in.number(root, "external_axes", 0.0);
+    if (external < 0 || external > 6 || external != std::floor(external)) {
+        in.fail("field 'external_axes' must be 0 to 6");
+    }
+    model.externalAxes = static_cast<int>(external);
+    readBaseFrame(in, model);
+    readProvisional(in, model);
+    if (in.failed()) return Unexpected{in.error()};
+    return model;
+}
+
+} // namespace robot
