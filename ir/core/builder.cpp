@@ -63,21 +63,43 @@ ValueId Builder::emit(Inst inst) {
     return id;
 }
 
-ValueId Builder::constF32(double value) { return emit(makeConst(kF32, static_cast<float>(value))); }
-ValueId Builder::constF64(double value) { return emit(makeConst(kF64, value)); }
-ValueId Builder::constI32(int32_t value) { return emit(makeConst(kI32, value)); }
-ValueId Builder::constI64(int64_t value) { return emit(makeConst(kI64, static_cast<double>(value))); }
-ValueId Builder::constBool(bool value) { return emit(makeConst(kBool, value ? 1 : 0)); }
-ValueId Builder::nullPtr() { return emit(makeConst(kPtr, 0)); }
+ValueId Builder::constF32(double value) {
+    return emit(makeConst(kF32, static_cast<float>(value)));
+}
+ValueId Builder::constF64(double value) {
+    return emit(makeConst(kF64, value));
+}
+ValueId Builder::constI32(int32_t value) {
+    return emit(makeConst(kI32, value));
+}
+ValueId Builder::constI64(int64_t value) {
+    return emit(makeConst(kI64, static_cast<double>(value)));
+}
+ValueId Builder::constBool(bool value) {
+    return emit(makeConst(kBool, value ? 1 : 0));
+}
+ValueId Builder::nullPtr() {
+    return emit(makeConst(kPtr, 0));
+}
 
 ValueId Builder::param(uint32_t index) {
     return emit(makeIndexed(Op::ParamVal, routine_.params[index].type, index));
 }
-ValueId Builder::localAddr(uint32_t local) { return emit(makeIndexed(Op::LocalAddr, kPtr, local)); }
-ValueId Builder::globalAddr(uint32_t global) { return emit(makeIndexed(Op::GlobalAddr, kPtr, global)); }
-ValueId Builder::typeDescAddr(uint32_t desc) { return emit(makeIndexed(Op::TypeDescAddr, kPtr, desc)); }
-ValueId Builder::routineAddr(uint32_t routine) { return emit(makeIndexed(Op::RoutineAddr, kPtr, routine)); }
-ValueId Builder::resultAddr() { return emit(make(Op::ResultAddr, kPtr)); }
+ValueId Builder::localAddr(uint32_t local) {
+    return emit(makeIndexed(Op::LocalAddr, kPtr, local));
+}
+ValueId Builder::globalAddr(uint32_t global) {
+    return emit(makeIndexed(Op::GlobalAddr, kPtr, global));
+}
+ValueId Builder::typeDescAddr(uint32_t desc) {
+    return emit(makeIndexed(Op::TypeDescAddr, kPtr, desc));
+}
+ValueId Builder::routineAddr(uint32_t routine) {
+    return emit(makeIndexed(Op::RoutineAddr, kPtr, routine));
+}
+ValueId Builder::resultAddr() {
+    return emit(make(Op::ResultAddr, kPtr));
+}
 
 ValueId Builder::sysvar(SysvarKind kind) {
     Inst inst = make(Op::Sysvar, kF32);
@@ -85,13 +107,21 @@ ValueId Builder::sysvar(SysvarKind kind) {
     return emit(std::move(inst));
 }
 
-ValueId Builder::load(TypeId type, ValueId ptr) { return emit(make(Op::Load, type, {ptr})); }
-void Builder::store(TypeId type, ValueId value, ValueId ptr) { emit(make(Op::Store, type, {value, ptr})); }
-void Builder::copy(TypeId type, ValueId dst, ValueId src) { emit(make(Op::Copy, type, {dst, src})); }
+ValueId Builder::load(TypeId type, ValueId ptr) {
+    return emit(make(Op::Load, type, {ptr}));
+}
+void Builder::store(TypeId type, ValueId value, ValueId ptr) {
+    emit(make(Op::Store, type, {value, ptr}));
+}
+void Builder::copy(TypeId type, ValueId dst, ValueId src) {
+    emit(make(Op::Copy, type, {dst, src}));
+}
 void Builder::copyDynamic(ValueId dst, ValueId src, ValueId bytes) {
     emit(make(Op::CopyDynamic, kVoid, {dst, src, bytes}));
 }
-void Builder::zero(TypeId type, ValueId dst) { emit(make(Op::Zero, type, {dst})); }
+void Builder::zero(TypeId type, ValueId dst) {
+    emit(make(Op::Zero, type, {dst}));
+}
 
 ValueId Builder::fieldAddr(TypeId record, ValueId ptr, uint32_t field) {
     Inst inst = make(Op::FieldAddr, record, {ptr});
@@ -106,8 +136,12 @@ ValueId Builder::binary(Op op, ValueId a, ValueId b) {
     TypeId type = opInfo(op).result == ResultRule::Bool ? kBool : typeOf(a);
     return emit(make(op, type, {a, b}));
 }
-ValueId Builder::unary(Op op, ValueId a) { return emit(make(op, typeOf(a), {a})); }
-ValueId Builder::convert(Op op, ValueId a) { return emit(make(op, conversionTo(op), {a})); }
+ValueId Builder::unary(Op op, ValueId a) {
+    return emit(make(op, typeOf(a), {a}));
+}
+ValueId Builder::convert(Op op, ValueId a) {
+    return emit(make(op, conversionTo(op), {a}));
+}
 ValueId Builder::select(ValueId cond, ValueId a, ValueId b) {
     return emit(make(Op::Select, typeOf(a), {cond, a, b}));
 }
@@ -148,14 +182,30 @@ void Builder::switchOn(ValueId value, std::vector<SwitchCase> cases, BlockId oth
     inst.target[0] = otherwise;
     emit(std::move(inst));
 }
-void Builder::ret() { emit(make(Op::Ret)); }
-void Builder::ret(ValueId value) { emit(make(Op::Ret, kVoid, {value})); }
-void Builder::raise(ValueId errorNumber) { emit(make(Op::Raise, kVoid, {errorNumber})); }
-void Builder::propagate() { emit(make(Op::Propagate)); }
-void Builder::retry() { emit(make(Op::Retry)); }
-void Builder::tryNext() { emit(make(Op::TryNext)); }
-void Builder::handlerEnd() { emit(make(Op::HandlerEnd)); }
-void Builder::unreachable() { emit(make(Op::Unreachable)); }
+void Builder::ret() {
+    emit(make(Op::Ret));
+}
+void Builder::ret(ValueId value) {
+    emit(make(Op::Ret, kVoid, {value}));
+}
+void Builder::raise(ValueId errorNumber) {
+    emit(make(Op::Raise, kVoid, {errorNumber}));
+}
+void Builder::propagate() {
+    emit(make(Op::Propagate));
+}
+void Builder::retry() {
+    emit(make(Op::Retry));
+}
+void Builder::tryNext() {
+    emit(make(Op::TryNext));
+}
+void Builder::handlerEnd() {
+    emit(make(Op::HandlerEnd));
+}
+void Builder::unreachable() {
+    emit(make(Op::Unreachable));
+}
 void Builder::safepoint(int32_t cost) {
     Inst inst = make(Op::Safepoint);
     inst.extra = cost;

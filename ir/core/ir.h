@@ -1,8 +1,9 @@
 #pragma once
 // The mid-level IR: types, constants, routines made of basic blocks, statement tables, run-time descriptions.
-// General on purpose (statements, handlers, tasks, persistents, calls into the runtime): nothing here knows RAPID.
-// Not SSA: named storage is `local`/`global` memory; instruction results are temporaries assigned once, used in the
-// same routine in blocks dominated by their definition. LLVM promotes the memory later. See ir/LANGREF.md.
+// General on purpose (statements, handlers, tasks, persistents, calls into the runtime): nothing here knows
+// RAPID. Not SSA: named storage is `local`/`global` memory; instruction results are temporaries assigned
+// once, used in the same routine in blocks dominated by their definition. LLVM promotes the memory later. See
+// ir/LANGREF.md.
 
 #include <cstdint>
 #include <string>
@@ -11,13 +12,13 @@
 
 namespace ir {
 
-// ---- Types -----------------------------------------------------------------------------------------------------
+// ---- Types -----------------------------------------------------------------------------------------------
 
 enum class TypeKind : uint8_t {
     Void,
-    Bool,   ///< one byte in memory, 0 or 1
-    I32,    ///< counters, indices, dimensions, status
-    I64,    ///< handles of objects that the controller owns (signals, clocks, files ...)
+    Bool, ///< one byte in memory, 0 or 1
+    I32,  ///< counters, indices, dimensions, status
+    I64,  ///< handles of objects that the controller owns (signals, clocks, files ...)
     F32,
     F64,
     Str,    ///< { u32 length, 80 bytes }: 84 bytes, align 4
@@ -42,7 +43,7 @@ struct Type {
     std::vector<int32_t> dims; ///< arrays, 1 to 3 entries > 0
 };
 
-// ---- Constant data ---------------------------------------------------------------------------------------------
+// ---- Constant data ---------------------------------------------------------------------------------------
 
 /// One scalar of constant data. Aggregates are flattened in memory order.
 struct ConstScalar {
@@ -52,7 +53,7 @@ struct ConstScalar {
 };
 using ConstData = std::vector<ConstScalar>; ///< empty = all zero
 
-// ---- Instructions ----------------------------------------------------------------------------------------------
+// ---- Instructions ----------------------------------------------------------------------------------------
 
 /// Opcodes: see instructions.def (operands, result, may it raise, is it a terminator).
 enum class Op : uint8_t {
@@ -72,37 +73,38 @@ struct SwitchCase {
 
 struct Inst {
     Op op{};
-    TypeId type = kVoid;            ///< result type; for Load/Store/Copy/Zero/FieldAddr/ElemAddr: the type accessed
-    std::vector<ValueId> operands;  ///< values
-    uint32_t index = kNone;         ///< local, global, param, field, routine, native, statement or type-desc number
+    TypeId type = kVoid; ///< result type; for Load/Store/Copy/Zero/FieldAddr/ElemAddr: the type accessed
+    std::vector<ValueId> operands; ///< values
+    uint32_t index = kNone; ///< local, global, param, field, routine, native, statement or type-desc number
     BlockId target[2] = {kNone, kNone};
-    std::vector<SwitchCase> cases;  ///< Switch
-    double number = 0;              ///< Const
-    StmtId stmt = kNone;            ///< statement it belongs to
-    int32_t extra = 0;              ///< Check: error number; Safepoint: cost; Sysvar: SysvarKind
+    std::vector<SwitchCase> cases; ///< Switch
+    double number = 0;             ///< Const
+    StmtId stmt = kNone;           ///< statement it belongs to
+    int32_t extra = 0;             ///< Check: error number; Safepoint: cost; Sysvar: SysvarKind
 };
 
-// ---- Statements ------------------------------------------------------------------------------------------------
+// ---- Statements ------------------------------------------------------------------------------------------
 
 enum class StmtKind : uint8_t { Plain, Call, Motion, Control, Return, Handler };
 
-/// One row of a routine's statement table; survives to run time (program pointer, events, debugger, RETRY, TRYNEXT).
+/// One row of a routine's statement table; survives to run time (program pointer, events, debugger, RETRY,
+/// TRYNEXT).
 struct Statement {
     uint32_t line = 0, column = 0, endLine = 0, endColumn = 0; ///< from 1
     StmtKind kind = StmtKind::Plain;
-    bool handled = false;       ///< an error here goes to the routine's error handler
-    BlockId start = kNone;      ///< where RETRY continues; kNone when no handler can ask for it
-    BlockId next = kNone;       ///< where TRYNEXT continues
+    bool handled = false;  ///< an error here goes to the routine's error handler
+    BlockId start = kNone; ///< where RETRY continues; kNone when no handler can ask for it
+    BlockId next = kNone;  ///< where TRYNEXT continues
 };
 
-// ---- Routines --------------------------------------------------------------------------------------------------
+// ---- Routines --------------------------------------------------------------------------------------------
 
 struct Param {
     std::string name;
     TypeId type = kPtr; ///< scalar by value, or Ptr
 };
 struct Local {
-    std::string name;   ///< empty for temporaries
+    std::string name; ///< empty for temporaries
     TypeId type = kVoid;
     bool isParam = false; ///< for the debugger: shown as a parameter
 };
@@ -115,11 +117,11 @@ struct Routine {
     std::string name;        ///< linkage name, unique in the module, e.g. "T_ROB1/MainModule/main"
     std::string displayName; ///< what people see: "main"
     std::string moduleName;
-    uint32_t file = kNone;   ///< index into Module::files
+    uint32_t file = kNone; ///< index into Module::files
     uint32_t line = 0;
     bool noStepIn = false;
-    bool exported = false;   ///< reachable from outside (entry, late binding)
-    TypeId result = kVoid;   ///< scalar: returned beside the status; Str/Record/Array: through a hidden pointer
+    bool exported = false; ///< reachable from outside (entry, late binding)
+    TypeId result = kVoid; ///< scalar: returned beside the status; Str/Record/Array: through a hidden pointer
     std::vector<Param> params;
     std::vector<Local> locals;
     std::vector<Inst> insts;
@@ -127,12 +129,13 @@ struct Routine {
     std::vector<Statement> statements;
     BlockId errorHandler = kNone;
     std::vector<int32_t> errorFilter; ///< when not empty: the handler takes only these error numbers
-    BlockId undoHandler = kNone; ///< the UNDO part; a `ret` without value in it goes on unwinding
+    BlockId undoHandler = kNone;      ///< the UNDO part; a `ret` without value in it goes on unwinding
 };
 
 /// What a native routine may do; decides how it is called (see codegen/README.md).
 enum class NativeClass : uint8_t {
-    Const, ///< by-value scalars only, returns its result directly, no task, cannot raise: free to move and merge
+    Const, ///< by-value scalars only, returns its result directly, no task, cannot raise: free to move and
+           ///< merge
     Plain  ///< gets the task, returns a status, result through a pointer; may raise or suspend the task
 };
 struct Native {
@@ -142,7 +145,7 @@ struct Native {
     std::vector<TypeId> params;
 };
 
-// ---- Module ----------------------------------------------------------------------------------------------------
+// ---- Module ----------------------------------------------------------------------------------------------
 
 enum class GlobalKind : uint8_t { Var, Persistent, Const, External };
 struct Global {
@@ -171,16 +174,16 @@ struct TypeDesc {
 /// A signal or another configured object that the program names; resolved when the program is loaded.
 struct ExternalRef {
     std::string name;
-    std::string kind;          ///< "signaldi", "signaldo", ... as the source language says
-    uint32_t global = kNone;   ///< I64 slot that receives the handle
+    std::string kind;        ///< "signaldi", "signaldo", ... as the source language says
+    uint32_t global = kNone; ///< I64 slot that receives the handle
     uint32_t file = kNone, line = 0, column = 0;
 };
 
 struct TaskEntry {
     std::string name;
-    std::string type = "NORMAL";  ///< NORMAL, STATIC, SEMISTATIC
-    uint32_t entry = kNone;       ///< routine
-    uint32_t reset = kNone;       ///< routine that gives every variable its initial value
+    std::string type = "NORMAL"; ///< NORMAL, STATIC, SEMISTATIC
+    uint32_t entry = kNone;      ///< routine
+    uint32_t reset = kNone;      ///< routine that gives every variable its initial value
     bool motionTask = false;
 };
 
@@ -201,20 +204,20 @@ struct Module {
     const Type& type(TypeId id) const { return types[id]; }
     TypeId arrayOf(TypeId element, std::vector<int32_t> dims); ///< interned
     TypeId addRecord(std::string name, std::vector<Field> fields);
-    uint32_t size(TypeId id) const;  ///< bytes, C layout
+    uint32_t size(TypeId id) const; ///< bytes, C layout
     uint32_t align(TypeId id) const;
     uint32_t fieldOffset(TypeId record, uint32_t field) const;
     bool isScalar(TypeId id) const { return id <= kF64 || id == kPtr; }
     uint32_t findRoutine(std::string_view name) const; ///< kNone if absent
 };
 
-/// Type of the value the instruction yields; kVoid when it yields none. Differs from Inst::type where that names the
-/// type accessed (FieldAddr, ElemAddr, Store ...).
+/// Type of the value the instruction yields; kVoid when it yields none. Differs from Inst::type where that
+/// names the type accessed (FieldAddr, ElemAddr, Store ...).
 TypeId valueType(const Inst& inst);
 
 enum class SysvarKind : int32_t { Errno = 0, Intno = 1 };
 
-// ---- Builder ---------------------------------------------------------------------------------------------------
+// ---- Builder ---------------------------------------------------------------------------------------------
 
 /// Appends instructions to a routine; keeps the current block and statement.
 class Builder {
@@ -257,22 +260,23 @@ class Builder {
     ValueId convert(Op op, ValueId a);           ///< I32ToF32 ...
     ValueId select(ValueId cond, ValueId a, ValueId b);
     void check(ValueId cond, int32_t errorNumber); ///< raises errorNumber when cond is false
-    /// Calls a routine. Scalar result: the value of this instruction. Str/Record/Array result: args[0] is the address
-    /// that receives it (then the instruction has type Void).
+    /// Calls a routine. Scalar result: the value of this instruction. Str/Record/Array result: args[0] is the
+    /// address that receives it (then the instruction has type Void).
     ValueId call(uint32_t routine, std::vector<ValueId> args);
-    /// The same for natives; the emitter adds the task argument and, for scalar results of class Plain, the result slot.
+    /// The same for natives; the emitter adds the task argument and, for scalar results of class Plain, the
+    /// result slot.
     ValueId callNative(uint32_t native, std::vector<ValueId> args);
     void br(BlockId target);
     void condBr(ValueId cond, BlockId ifTrue, BlockId ifFalse);
     void switchOn(ValueId value, std::vector<SwitchCase> cases, BlockId otherwise);
     void ret();
-    void ret(ValueId value);     ///< scalar result; aggregates are stored through resultAddr() first, then ret()
-    ValueId resultAddr();        ///< hidden pointer of an aggregate result
+    void ret(ValueId value); ///< scalar result; aggregates are stored through resultAddr() first, then ret()
+    ValueId resultAddr();    ///< hidden pointer of an aggregate result
     void raise(ValueId errorNumber);
-    void propagate();            ///< in a handler: raise the current error again at the point of the call
+    void propagate(); ///< in a handler: raise the current error again at the point of the call
     void retry();
     void tryNext();
-    void handlerEnd();           ///< end of an error handler reached: system handler
+    void handlerEnd(); ///< end of an error handler reached: system handler
     void unreachable();
     void safepoint(int32_t cost);
     ValueId emit(Inst inst);

@@ -7,13 +7,15 @@ namespace {
 
 constexpr uint32_t kStringBytes = 84; // u32 length + 80 bytes, as rt::String
 
-uint32_t alignUp(uint32_t value, uint32_t align) { return (value + align - 1) / align * align; }
+uint32_t alignUp(uint32_t value, uint32_t align) {
+    return (value + align - 1) / align * align;
+}
 
 } // namespace
 
 Module::Module() {
-    for (TypeKind kind : {TypeKind::Void, TypeKind::Bool, TypeKind::I32, TypeKind::I64, TypeKind::F32, TypeKind::F64,
-                          TypeKind::Str, TypeKind::Ptr}) {
+    for (TypeKind kind : {TypeKind::Void, TypeKind::Bool, TypeKind::I32, TypeKind::I64, TypeKind::F32,
+                          TypeKind::F64, TypeKind::Str, TypeKind::Ptr}) {
         Type type;
         type.kind = kind;
         types.push_back(std::move(type));
@@ -55,12 +57,14 @@ uint32_t Module::size(TypeId id) const {
     case TypeKind::Str: return kStringBytes;
     case TypeKind::Record: {
         uint32_t offset = 0;
-        for (const Field& field : t.fields) offset = alignUp(offset, align(field.type)) + size(field.type);
+        for (const Field& field : t.fields)
+            offset = alignUp(offset, align(field.type)) + size(field.type);
         return alignUp(offset, align(id));
     }
     case TypeKind::Array: {
         uint32_t total = size(t.element);
-        for (int32_t dim : t.dims) total *= static_cast<uint32_t>(dim);
+        for (int32_t dim : t.dims)
+            total *= static_cast<uint32_t>(dim);
         return total;
     }
     }
@@ -80,7 +84,8 @@ uint32_t Module::align(TypeId id) const {
     case TypeKind::Ptr: return 8;
     case TypeKind::Record: {
         uint32_t result = 1;
-        for (const Field& field : t.fields) result = std::max(result, align(field.type));
+        for (const Field& field : t.fields)
+            result = std::max(result, align(field.type));
         return result;
     }
     case TypeKind::Array: return align(t.element);

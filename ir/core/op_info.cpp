@@ -10,13 +10,13 @@ constexpr bool hasFlag(std::string_view flags, char flag) {
 }
 
 constexpr OpInfo kOps[] = {
-#define INST(name, text, operands, result, flags)                                                                      \
-    {#name,                                                                                                            \
-     text,                                                                                                             \
-     operands,                                                                                                         \
-     static_cast<ResultRule>(#result[0]),                                                                              \
-     hasFlag(#flags, 'R'),                                                                                             \
-     hasFlag(#flags, 'T'),                                                                                             \
+#define INST(name, text, operands, result, flags)                                                            \
+    {#name,                                                                                                  \
+     text,                                                                                                   \
+     operands,                                                                                               \
+     static_cast<ResultRule>(#result[0]),                                                                    \
+     hasFlag(#flags, 'R'),                                                                                   \
+     hasFlag(#flags, 'T'),                                                                                   \
      hasFlag(#flags, 'M')},
 #include "ir/core/instructions.def"
 };
@@ -26,14 +26,17 @@ struct Conversion {
     TypeId from, to;
 };
 constexpr Conversion kConversions[] = {
-    {Op::I32ToF32, kI32, kF32}, {Op::I32ToF64, kI32, kF64}, {Op::F32ToI32, kF32, kI32}, {Op::F64ToI32, kF64, kI32},
-    {Op::F32ToI64, kF32, kI64}, {Op::F64ToI64, kF64, kI64}, {Op::I64ToF32, kI64, kF32}, {Op::I64ToF64, kI64, kF64},
-    {Op::F32ToF64, kF32, kF64}, {Op::F64ToF32, kF64, kF32}, {Op::I32ToI64, kI32, kI64}, {Op::I64ToI32, kI64, kI32},
+    {Op::I32ToF32, kI32, kF32}, {Op::I32ToF64, kI32, kF64}, {Op::F32ToI32, kF32, kI32},
+    {Op::F64ToI32, kF64, kI32}, {Op::F32ToI64, kF32, kI64}, {Op::F64ToI64, kF64, kI64},
+    {Op::I64ToF32, kI64, kF32}, {Op::I64ToF64, kI64, kF64}, {Op::F32ToF64, kF32, kF64},
+    {Op::F64ToF32, kF64, kF32}, {Op::I32ToI64, kI32, kI64}, {Op::I64ToI32, kI64, kI32},
 };
 
 } // namespace
 
-const OpInfo& opInfo(Op op) { return kOps[static_cast<size_t>(op)]; }
+const OpInfo& opInfo(Op op) {
+    return kOps[static_cast<size_t>(op)];
+}
 
 bool opFromText(std::string_view text, Op& op) {
     for (size_t i = 0; i < std::size(kOps); ++i) {

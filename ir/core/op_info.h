@@ -11,9 +11,9 @@ namespace ir {
 enum class ResultRule : char { None = 'N', Same = 'S', Bool = 'B', Ptr = 'P', Typed = 'T', Fixed = 'F' };
 
 struct OpInfo {
-    std::string_view name;      ///< as in enum Op
-    std::string_view text;      ///< as in the textual form
-    int operands = 0;           ///< -1 = any number
+    std::string_view name; ///< as in enum Op
+    std::string_view text; ///< as in the textual form
+    int operands = 0;      ///< -1 = any number
     ResultRule result = ResultRule::None;
     bool mayRaise = false;
     bool terminator = false;

@@ -1,6 +1,6 @@
 #pragma once
-// Checks every rule of ir/LANGREF.md on a module. A finding is a bug in whoever made the module, not in the program
-// that is being compiled.
+// Checks every rule of ir/LANGREF.md on a module. A finding is a bug in whoever made the module, not in the
+// program that is being compiled.
 
 #include <string>
 #include <vector>

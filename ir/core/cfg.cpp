@@ -1,0 +1,220 @@
+#include "ir/core/cfg.h"
+
+#include <algorithm>
+
+#include "ir/core/op_info.h"
+
+namespace ir {
+namespace {
+
+void addEdge(Cfg& cfg, BlockId from, BlockId to) {
+    if (to >= cfg.succs.size()) return;
+    std::vector<BlockId>& succs = cfg.succs[from];
+    if (std::find(succs.begin(), succs.end(), to) != succs.end()) return;
+    succs.push_back(to);
+    cfg.preds[to].push_back(from);
+}
+
+/// Does any block end in `op`?
+bool contains(const Routine& routine, Op op) {
+    return std::any_of(routine.blocks.begin(), routine.blocks.end(), [&](const Block& block) {
+        return !block.insts.empty() && routine.insts[block.insts.back()].op == op;
+    });
+}
+
+void addHandlerEdges(Cfg& cfg, const Module& module, const Routine& routine) {
+    bool retries = contains(routine, Op::Retry), triesNext = contains(routine, Op::TryNext);
+    for (BlockId b = 0; b < routine.blocks.size(); ++b) {
+        for (ValueId id : routine.blocks[b].insts) {
+            const Inst& inst = routine.insts[id];
+            if (inst.stmt >= routine.statements.size() || !mayRaise(module, inst)) continue;
+            const Statement& s = routine.statements[inst.stmt];
+            if (!s.handled || routine.errorHandler == kNone) continue;
+            addEdge(cfg, b, routine.errorHandler);
+            if (retries) addEdge(cfg, b, s.start);
+            if (triesNext) addEdge(cfg, b, s.next);
+        }
+    }
+}
+
+/// Postorder of what can be reached from `root`, iterative because routines may have very many blocks.
+void visit(const Cfg& cfg, BlockId root, std::vector<bool>& seen, std::vector<BlockId>& postorder) {
+    struct Step {
+        BlockId block;
+        size_t next;
+    };
+    if (root >= seen.size() || seen[root]) return;
+    std::vector<Step> stack{{root, 0}};
+    seen[root] = true;
+    while (!stack.empty()) {
+        Step& top = stack.back();
+        if (top.next == cfg.succs[top.block].size()) {
+            postorder.push_back(top.block);
+            stack.pop_back();
+            continue;
+        }
+        BlockId succ = cfg.succs[top.block][top.next++];
+        if (seen[succ]) continue;
+        seen[succ] = true;
+        stack.push_back({succ, 0});
+    }
+}
+
+/// Cooper, Harvey, Kennedy: "A simple, fast dominance algorithm". Roots hang below a virtual node kNone.
+void findDominators(Cfg& cfg, const std::vector<BlockId>& roots) {
+    size_t count = cfg.succs.size();
+    constexpr uint32_t kUnknown = kNone - 1;
+    cfg.idom.assign(count, kUnknown);
+    for (BlockId root : roots)
+        cfg.idom[root] = kNone;
+    auto isRoot = [&](BlockId b) { return std::find(roots.begin(), roots.end(), b) != roots.end(); };
+    auto meet = [&](BlockId a, BlockId b) {
+        while (a != b) {
+            if (a == kNone || b == kNone) return kNone;
+            if (cfg.position[a] > cfg.position[b])
+                a = cfg.idom[a];
+            else
+                b = cfg.idom[b];
+        }
+        return a;
+    };
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (BlockId b : cfg.order) {
+            if (isRoot(b)) continue;
+            BlockId dominator = kUnknown;
+            for (BlockId p : cfg.preds[b]) {
+                if (!cfg.reachable(p) || cfg.idom[p] == kUnknown) continue;
+                dominator = dominator == kUnknown ? p : meet(dominator, p);
+            }
+            if (cfg.idom[b] == dominator) continue;
+            cfg.idom[b] = dominator;
+            changed = true;
+        }
+    }
+    for (BlockId& dominator : cfg.idom)
+        if (dominator == kUnknown) dominator = kNone;
+}
+
+} // namespace
+
+std::vector<BlockId> successors(const Routine& routine, BlockId block) {
+    std::vector<BlockId> result;
+    const std::vector<ValueId>& insts = routine.blocks[block].insts;
+    if (insts.empty()) return result;
+    const Inst& last = routine.insts[insts.back()];
+    switch (last.op) {
+    case Op::Br: return {last.target[0]};
+    case Op::CondBr: return {last.target[0], last.target[1]};
+    case Op::Switch:
+        result.push_back(last.target[0]);
+        for (const SwitchCase& entry : last.cases)
+            result.push_back(entry.target);
+        return result;
+    default: return result;
+    }
+}
+
+bool mayRaise(const Module& module, const Inst& inst) {
+    if (inst.op == Op::CallNative && inst.index < module.natives.size())
+        return module.natives[inst.index].nativeClass == NativeClass::Plain;
+    return opInfo(inst.op).mayRaise;
+}
+
+bool Cfg::dominates(BlockId a, BlockId b) const {
+    while (b != kNone && b != a)
+        b = idom[b];
+    return b == a;
+}
+
+Cfg buildCfg(const Module& module, const Routine& routine, HandlerEdges handlerEdges) {
+    Cfg cfg;
+    size_t count = routine.blocks.size();
+    cfg.succs.resize(count);
+    cfg.preds.resize(count);
+    for (BlockId b = 0; b < count; ++b)
+        for (BlockId succ : successors(routine, b))
+            addEdge(cfg, b, succ);
+    if (handlerEdges == HandlerEdges::Yes) addHandlerEdges(cfg, module, routine);
+
+    std::vector<bool> seen(count, false);
+    std::vector<BlockId> postorder, roots;
+    // The last root visited comes first in reverse postorder: handlers first, the entry last.
+    for (BlockId root : {routine.undoHandler, routine.errorHandler, BlockId{0}}) {
+        if (root >= count) continue;
+        bool reachedOtherwise = handlerEdges == HandlerEdges::Yes && root == routine.errorHandler;
+        if (!reachedOtherwise) roots.push_back(root);
+    }
+    for (BlockId root : roots)
+        visit(cfg, root, seen, postorder);
+    if (routine.errorHandler < count && !seen[routine.errorHandler]) { // nothing raises: an entry after all
+        roots.push_back(routine.errorHandler);
+        visit(cfg, routine.errorHandler, seen, postorder);
+    }
+    cfg.order.assign(postorder.rbegin(), postorder.rend());
+    cfg.position.assign(count, kNone);
+    for (uint32_t i = 0; i < cfg.order.size(); ++i)
+        cfg.position[cfg.order[i]] = i;
+    findDominators(cfg, roots);
+    return cfg;
+}
+
+namespace {
+
+void collectBody(const Cfg& cfg, Loop& loop) {
+    loop.contains.assign(cfg.succs.size(), false);
+    loop.contains[loop.header] = true;
+    loop.blocks = {loop.header};
+    std::vector<BlockId> work = loop.latches;
+    while (!work.empty()) {
+        BlockId b = work.back();
+        work.pop_back();
+        if (loop.contains[b]) continue;
+        loop.contains[b] = true;
+        loop.blocks.push_back(b);
+        for (BlockId p : cfg.preds[b])
+            if (cfg.reachable(p)) work.push_back(p);
+    }
+}
+
+} // namespace
+
+LoopInfo findLoops(const Cfg& cfg) {
+    LoopInfo info;
+    for (BlockId b : cfg.order) {
+        for (BlockId succ : cfg.succs[b]) {
+            if (cfg.position[succ] > cfg.position[b]) continue;
+            if (!cfg.dominates(succ, b)) {
+                info.irreducible.push_back({b, succ});
+                continue;
+            }
+            auto same = [&](const Loop& loop) { return loop.header == succ; };
+            auto found = std::find_if(info.loops.begin(), info.loops.end(), same);
+            if (found == info.loops.end())
+                found = info.loops.insert(info.loops.end(), Loop{succ, {}, {}, {}, kNone, true});
+            found->latches.push_back(b);
+        }
+    }
+    for (Loop& loop : info.loops)
+        collectBody(cfg, loop);
+    info.loopOf.assign(cfg.succs.size(), kNone);
+    auto smaller = [&](uint32_t a, uint32_t b) {
+        return b == kNone || info.loops[a].blocks.size() < info.loops[b].blocks.size();
+    };
+    for (uint32_t l = 0; l < info.loops.size(); ++l) {
+        for (BlockId b : info.loops[l].blocks) {
+            uint32_t& innermost = info.loopOf[b];
+            if (smaller(l, innermost)) innermost = l;
+        }
+        for (uint32_t outer = 0; outer < info.loops.size(); ++outer) {
+            if (outer == l || !info.loops[outer].contains[info.loops[l].header]) continue;
+            if (info.loops[outer].blocks.size() <= info.loops[l].blocks.size()) continue;
+            info.loops[outer].innermost = false;
+            uint32_t& parent = info.loops[l].parent;
+            if (smaller(outer, parent)) parent = outer;
+        }
+    }
+    return info;
+}
+
+} // namespace ir

@@ -1,0 +1,306 @@
+#include <fmt/format.h>
+
+#include <unordered_map>
+
+#include "ir/core/op_info.h"
+#include "ir/text/names.h"
+#include "ir/text/parser.h"
+#include "ir/text/text.h"
+
+namespace ir {
+namespace text {
+namespace {
+
+class ModuleParser {
+  public:
+    ModuleParser(std::string_view source, Module& module) : in_(source), module_(module) {}
+
+    bool parse() {
+        in_.skipNewLines();
+        while (in_.peek().kind != TokenKind::End)
+            if (!item()) return false;
+        return resolve();
+    }
+    const std::string& error() const { return in_.error(); }
+
+  private:
+    bool item() {
+        if (in_.takeWord("module")) return in_.string(module_.name) && in_.endOfLine();
+        if (in_.takeWord("file")) return file();
+        if (in_.takeWord("type")) return type();
+        if (in_.takeWord("desc")) return desc();
+        if (in_.takeWord("global")) return global();
+        if (in_.takeWord("native")) return native();
+        if (in_.takeWord("routine")) return routine();
+        if (in_.takeWord("external")) return external();
+        if (in_.takeWord("task")) return task();
+        if (in_.takeWord("config")) return config();
+        return in_.expected("module, file, type, desc, global, native, routine, external, task or config");
+    }
+
+    bool position(size_t wanted, std::string_view what) {
+        Token where = in_.peek();
+        uint32_t found = 0;
+        if (!in_.unsignedInt(found)) return false;
+        return found == wanted || in_.failAt(where, fmt::format("{} {} is expected here", what, wanted));
+    }
+
+    bool file() {
+        std::string path;
+        if (!position(module_.files.size(), "file") || !in_.string(path)) return false;
+        module_.files.push_back(std::move(path));
+        return in_.endOfLine();
+    }
+
+    bool type() {
+        if (!position(module_.types.size(), "type")) return false;
+        Type type;
+        if (in_.takeWord("array")) {
+            type.kind = TypeKind::Array;
+            if (!in_.type(module_, type.element) || !in_.punct('[')) return false;
+            do {
+                int64_t dim = 0;
+                if (!in_.integer(dim, 1, INT32_MAX)) return false;
+                type.dims.push_back(static_cast<int32_t>(dim));
+            } while (in_.takePunct(','));
+            if (!in_.punct(']')) return false;
+        } else {
+            type.kind = TypeKind::Record;
+            if (!in_.word("record") || !in_.string(type.name) || !in_.punct('{')) return false;
+            while (!in_.isPunct('}')) {
+                Field field;
+                if (!in_.type(module_, field.type) || !in_.string(field.name)) return false;
+                type.fields.push_back(std::move(field));
+                if (!in_.takePunct(',')) break;
+            }
+            if (!in_.punct('}')) return false;
+        }
+        module_.types.push_back(std::move(type));
+        return in_.endOfLine();
+    }
+
+    bool desc() {
+        TypeDesc desc;
+        size_t kind = 0;
+        if (!position(module_.typeDescs.size(), "desc") || !in_.string(desc.name) || !in_.word("base") ||
+            !in_.string(desc.baseName) || !in_.oneOf(kDescKindNames, "a kind of description", kind) ||
+            !in_.type(module_, desc.type))
+            return false;
+        desc.kind = static_cast<DescKind>(kind);
+        uint32_t part = 0;
+        if (in_.takeWord("of")) {
+            if (!in_.unsignedInt(part)) return false;
+            desc.fieldDescs.push_back(part);
+        } else if (in_.takePunct('{')) {
+            do {
+                std::string fieldName;
+                if (!in_.string(fieldName) || !in_.punct(':') || !in_.unsignedInt(part)) return false;
+                desc.fieldNames.push_back(std::move(fieldName));
+                desc.fieldDescs.push_back(part);
+            } while (in_.takePunct(','));
+            if (!in_.punct('}')) return false;
+        }
+        module_.typeDescs.push_back(std::move(desc));
+        return in_.endOfLine();
+    }
+
+    bool scalar(ConstData& data) {
+        bool zero = in_.takeWord("zero");
+        int64_t count = 1;
+        constexpr int64_t kMostScalars = 1 << 26;
+        if (zero && !in_.integer(count, 1, kMostScalars)) return false;
+        TypeId type = kVoid;
+        Token where = in_.peek();
+        if (!in_.type(module_, type)) return false;
+        if (type == kVoid || type >= kPtr)
+            return in_.failAt(where, "constant data are bool, i32, i64, f32, f64 or str");
+        ConstScalar value;
+        value.kind = module_.types[type].kind;
+        if (zero) {
+            data.insert(data.end(), static_cast<size_t>(count), value);
+            return true;
+        }
+        if (!(type == kStr ? in_.string(value.text) : in_.number(value.number))) return false;
+        data.push_back(std::move(value));
+        return true;
+    }
+
+    bool place(uint32_t& fileIndex, uint32_t& line) {
+        if (!in_.takeWord("at")) return true;
+        return in_.unsignedInt(fileIndex) && in_.punct(':') && in_.unsignedInt(line);
+    }
+
+    bool global() {
+        Global global;
+        size_t kind = 0;
+        if (!in_.name(global.name) || !in_.string(global.displayName) || !in_.word("in") ||
+            !in_.string(global.moduleName) || !in_.type(module_, global.type) ||
+            !in_.oneOf(kGlobalKindNames, "a kind of global", kind))
+            return false;
+        global.kind = static_cast<GlobalKind>(kind);
+        if (in_.takeWord("desc") && !in_.unsignedInt(global.typeDesc)) return false;
+        if (in_.takeWord("task") && !in_.unsignedInt(global.task)) return false;
+        if (!place(global.file, global.line)) return false;
+        if (in_.takePunct('=')) {
+            if (!in_.punct('{')) return false;
+            do {
+                if (!scalar(global.init)) return false;
+            } while (in_.takePunct(','));
+            if (!in_.punct('}')) return false;
+        }
+        module_.globals.push_back(std::move(global));
+        return in_.endOfLine();
+    }
+
+    bool native() {
+        Native native;
+        constexpr std::string_view kClasses[] = {"const", "plain"};
+        size_t nativeClass = 0;
+        if (!in_.name(native.symbol) || !in_.oneOf(kClasses, "const or plain", nativeClass) ||
+            !in_.type(module_, native.result) || !in_.punct('('))
+            return false;
+        native.nativeClass = static_cast<NativeClass>(nativeClass);
+        while (!in_.isPunct(')')) {
+            TypeId param = kVoid;
+            if (!in_.type(module_, param)) return false;
+            native.params.push_back(param);
+            if (!in_.takePunct(',')) break;
+        }
+        if (!in_.punct(')')) return false;
+        module_.natives.push_back(std::move(native));
+        return in_.endOfLine();
+    }
+
+    bool routine() {
+        Routine routine;
+        if (!in_.name(routine.name) || !in_.string(routine.displayName) || !in_.word("in") ||
+            !in_.string(routine.moduleName) || !place(routine.file, routine.line))
+            return false;
+        routine.exported = in_.takeWord("exported");
+        routine.noStepIn = in_.takeWord("nostepin");
+        if (!in_.type(module_, routine.result) || !in_.punct('(')) return false;
+        while (!in_.isPunct(')')) {
+            Param param;
+            if (!in_.type(module_, param.type) || !in_.string(param.name)) return false;
+            routine.params.push_back(std::move(param));
+            if (!in_.takePunct(',')) break;
+        }
+        if (!in_.punct(')') || !in_.punct('{')) return false;
+        module_.routines.push_back(std::move(routine));
+        auto index = static_cast<uint32_t>(module_.routines.size() - 1);
+        return RoutineParser(in_, module_, index, fixups_).parse() && in_.endOfLine();
+    }
+
+    bool tableReference(Fixup::Kind kind, Fixup::Slot slot, size_t index) {
+        Fixup fixup{kind, {}, in_.peek(), kNone, kNone, slot, static_cast<uint32_t>(index)};
+        if (!in_.name(fixup.name)) return false;
+        fixups_.push_back(std::move(fixup));
+        return true;
+    }
+
+    bool external() {
+        ExternalRef entry;
+        if (!in_.string(entry.name) || !in_.string(entry.kind)) return false;
+        if (in_.peek().kind == TokenKind::Name &&
+            !tableReference(Fixup::Kind::Global, Fixup::Slot::External, module_.externals.size()))
+            return false;
+        if (!place(entry.file, entry.line)) return false;
+        if (entry.file != kNone && (!in_.punct(':') || !in_.unsignedInt(entry.column))) return false;
+        module_.externals.push_back(std::move(entry));
+        return in_.endOfLine();
+    }
+
+    bool task() {
+        TaskEntry entry;
+        if (!in_.string(entry.name) || !in_.string(entry.type)) return false;
+        size_t index = module_.tasks.size();
+        if (in_.takeWord("entry") && !tableReference(Fixup::Kind::Routine, Fixup::Slot::TaskEntry, index))
+            return false;
+        if (in_.takeWord("reset") && !tableReference(Fixup::Kind::Routine, Fixup::Slot::TaskReset, index))
+            return false;
+        entry.motionTask = in_.takeWord("motion");
+        module_.tasks.push_back(std::move(entry));
+        return in_.endOfLine();
+    }
+
+    bool config() {
+        std::string name, text;
+        if (!in_.string(name) || !in_.string(text)) return false;
+        module_.configNames.push_back(std::move(name));
+        module_.configTexts.push_back(std::move(text));
+        return in_.endOfLine();
+    }
+
+    template <class Table> static std::unordered_map<std::string, uint32_t> indexByName(const Table& table) {
+        std::unordered_map<std::string, uint32_t> result;
+        for (uint32_t i = 0; i < table.size(); ++i)
+            result.emplace(nameOf(table[i]), i);
+        return result;
+    }
+
+    void apply(const Fixup& fixup, uint32_t target) {
+        if (fixup.inst != kNone) {
+            Inst& inst = module_.routines[fixup.routine].insts[fixup.inst];
+            inst.index = target;
+            TypeId result = inst.type;
+            if (inst.op == Op::Call) result = module_.routines[target].result;
+            if (inst.op == Op::CallNative) result = module_.natives[target].result;
+            inst.type = module_.isScalar(result) ? result : kVoid;
+            return;
+        }
+        switch (fixup.slot) {
+        case Fixup::Slot::External: module_.externals[fixup.index].global = target; break;
+        case Fixup::Slot::TaskEntry: module_.tasks[fixup.index].entry = target; break;
+        case Fixup::Slot::TaskReset: module_.tasks[fixup.index].reset = target; break;
+        }
+    }
+
+    bool resolve() {
+        auto globals = indexByName(module_.globals);
+        auto natives = indexByName(module_.natives);
+        auto routines = indexByName(module_.routines);
+        for (const Fixup& fixup : fixups_) {
+            bool isGlobal = fixup.kind == Fixup::Kind::Global, isNative = fixup.kind == Fixup::Kind::Native;
+            const auto& table = isGlobal ? globals : isNative ? natives : routines;
+            auto found = table.find(fixup.name);
+            if (found == table.end()) {
+                std::string_view what = isGlobal ? "global" : isNative ? "native" : "routine";
+                return in_.failAt(fixup.where, fmt::format("there is no {} @\"{}\"", what, fixup.name));
+            }
+            apply(fixup, found->second);
+        }
+        inferResults();
+        return true;
+    }
+
+    /// Rule `Same`: known only now that the results of calls are, too; a definition may stand below its use.
+    void inferResults() {
+        for (Routine& routine : module_.routines) {
+            for (bool changed = true; changed;) {
+                changed = false;
+                for (Inst& inst : routine.insts) {
+                    if (opInfo(inst.op).result != ResultRule::Same) continue;
+                    TypeId type = valueType(routine.insts[inst.operands[inst.op == Op::Select ? 1 : 0]]);
+                    changed = changed || type != inst.type;
+                    inst.type = type;
+                }
+            }
+        }
+    }
+
+    TokenStream in_;
+    Module& module_;
+    std::vector<Fixup> fixups_;
+};
+
+} // namespace
+} // namespace text
+
+bool parseModule(std::string_view source, Module& module, std::string& error) {
+    text::ModuleParser parser(source, module);
+    if (parser.parse()) return true;
+    error = parser.error();
+    return false;
+}
+
+} // namespace ir

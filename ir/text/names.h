@@ -1,0 +1,29 @@
+#pragma once
+// Words of the textual form that printer and parser share. Order = the enums of ir.h.
+
+#include <string_view>
+
+#include "ir/core/ir.h"
+
+namespace ir {
+
+inline constexpr std::string_view kScalarTypeNames[] = {"void", "bool", "i32", "i64",
+                                                        "f32",  "f64",  "str", "ptr"};
+inline constexpr std::string_view kDescKindNames[] = {"num",    "dnum",  "bool",   "string",
+                                                      "record", "array", "handle", "other"};
+inline constexpr std::string_view kGlobalKindNames[] = {"var", "persistent", "const", "external"};
+inline constexpr std::string_view kStmtKindNames[] = {"plain",   "call",   "motion",
+                                                      "control", "return", "handler"};
+
+/// The name by which the textual form refers to an item.
+inline const std::string& nameOf(const Global& global) {
+    return global.name;
+}
+inline const std::string& nameOf(const Routine& routine) {
+    return routine.name;
+}
+inline const std::string& nameOf(const Native& native) {
+    return native.symbol;
+}
+
+} // namespace ir

@@ -1,0 +1,316 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "ir/core/op_info.h"
+#include "ir/text/names.h"
+#include "ir/text/text.h"
+
+namespace ir {
+namespace {
+
+using Out = fmt::memory_buffer;
+
+template <class... Args> void put(Out& out, fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
+}
+
+std::string quoted(std::string_view text) {
+    std::string result = "\"";
+    for (char c : text) {
+        auto byte = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\' || byte < 0x20 || byte == 0x7f)
+            result += fmt::format("\\{:02x}", byte);
+        else
+            result += c;
+    }
+    return result + '"';
+}
+
+std::string number(double value) {
+    if (std::isnan(value)) return "nan";
+    if (std::isinf(value)) return value < 0 ? "-inf" : "inf";
+    return fmt::format("{}", value);
+}
+
+std::string typeName(TypeId id) {
+    if (id <= kPtr) return std::string(kScalarTypeNames[id]);
+    return fmt::format("%{}", id);
+}
+
+void printType(Out& out, const Module& module, TypeId id) {
+    const Type& t = module.types[id];
+    if (t.kind == TypeKind::Array) {
+        put(out, "type {} array {} [{}]\n", id, typeName(t.element), fmt::join(t.dims, ", "));
+        return;
+    }
+    put(out, "type {} record {} {{", id, quoted(t.name));
+    for (size_t i = 0; i < t.fields.size(); ++i)
+        put(out, "{} {} {}", i ? "," : "", typeName(t.fields[i].type), quoted(t.fields[i].name));
+    put(out, " }}\n");
+}
+
+void printDesc(Out& out, const TypeDesc& desc, size_t index) {
+    put(out, "desc {} {} base {} {} {}", index, quoted(desc.name), quoted(desc.baseName),
+        kDescKindNames[static_cast<size_t>(desc.kind)], typeName(desc.type));
+    if (desc.kind == DescKind::Array) {
+        put(out, " of {}", desc.fieldDescs.empty() ? 0 : desc.fieldDescs[0]);
+    } else if (!desc.fieldDescs.empty()) {
+        put(out, " {{");
+        for (size_t i = 0; i < desc.fieldDescs.size(); ++i)
+            put(out, "{} {}: {}", i ? "," : "", quoted(desc.fieldNames[i]), desc.fieldDescs[i]);
+        put(out, " }}");
+    }
+    put(out, "\n");
+}
+
+bool isZero(const ConstScalar& scalar) {
+    if (scalar.kind == TypeKind::Str) return scalar.text.empty();
+    return scalar.number == 0 && !std::signbit(scalar.number);
+}
+
+void printData(Out& out, const ConstData& data) {
+    put(out, " = {{");
+    for (size_t i = 0; i < data.size();) {
+        const ConstScalar& s = data[i];
+        put(out, "{}", i ? ", " : " ");
+        size_t run = i;
+        while (run < data.size() && isZero(data[run]) && data[run].kind == s.kind)
+            ++run;
+        std::string_view kind = kScalarTypeNames[static_cast<size_t>(s.kind)];
+        if (run - i > 1) {
+            put(out, "zero {} {}", run - i, kind);
+            i = run;
+            continue;
+        }
+        if (s.kind == TypeKind::Str)
+            put(out, "str {}", quoted(s.text));
+        else
+            put(out, "{} {}", kind, number(s.number));
+        ++i;
+    }
+    put(out, " }}");
+}
+
+void printPlace(Out& out, uint32_t file, uint32_t line) {
+    if (file != kNone) put(out, " at {}:{}", file, line);
+}
+
+void printGlobal(Out& out, const Global& global) {
+    put(out, "global @{} {} in {} {} {}", quoted(global.name), quoted(global.displayName),
+        quoted(global.moduleName), typeName(global.type), kGlobalKindNames[static_cast<size_t>(global.kind)]);
+    if (global.typeDesc != kNone) put(out, " desc {}", global.typeDesc);
+    if (global.task != kNone) put(out, " task {}", global.task);
+    printPlace(out, global.file, global.line);
+    if (!global.init.empty()) printData(out, global.init);
+    put(out, "\n");
+}
+
+void printNative(Out& out, const Native& native) {
+    put(out, "native @{} {} {} (", quoted(native.symbol),
+        native.nativeClass == NativeClass::Const ? "const" : "plain", typeName(native.result));
+    for (size_t i = 0; i < native.params.size(); ++i)
+        put(out, "{}{}", i ? ", " : "", typeName(native.params[i]));
+    put(out, ")\n");
+}
+
+class RoutinePrinter {
+  public:
+    RoutinePrinter(Out& out, const Module& module, const Routine& routine)
+        : out_(out), module_(module), routine_(routine), numbers_(routine.insts.size(), kNone) {}
+
+    void print() {
+        header();
+        tables();
+        numberValues();
+        for (BlockId b = 0; b < routine_.blocks.size(); ++b)
+            block(b);
+        put(out_, "}}\n");
+    }
+
+  private:
+    void header() {
+        put(out_, "routine @{} {} in {}", quoted(routine_.name), quoted(routine_.displayName),
+            quoted(routine_.moduleName));
+        printPlace(out_, routine_.file, routine_.line);
+        if (routine_.exported) put(out_, " exported");
+        if (routine_.noStepIn) put(out_, " nostepin");
+        put(out_, " {} (", typeName(routine_.result));
+        for (size_t i = 0; i < routine_.params.size(); ++i)
+            put(out_, "{}{} {}", i ? ", " : "", typeName(routine_.params[i].type),
+                quoted(routine_.params[i].name));
+        put(out_, ") {{\n");
+    }
+
+    void tables() {
+        for (size_t i = 0; i < routine_.locals.size(); ++i) {
+            const Local& local = routine_.locals[i];
+            put(out_, "  local {} {} {}{}\n", i, typeName(local.type), quoted(local.name),
+                local.isParam ? " param" : "");
+        }
+        for (size_t i = 0; i < routine_.statements.size(); ++i) {
+            const Statement& s = routine_.statements[i];
+            put(out_, "  stmt {} {} {}:{} {}:{}{}", i, kStmtKindNames[static_cast<size_t>(s.kind)], s.line,
+                s.column, s.endLine, s.endColumn, s.handled ? " handled" : "");
+            if (s.start != kNone) put(out_, " start b{}", s.start);
+            if (s.next != kNone) put(out_, " next b{}", s.next);
+            put(out_, "\n");
+        }
+        if (routine_.errorHandler != kNone) {
+            put(out_, "  errorhandler b{}", routine_.errorHandler);
+            if (!routine_.errorFilter.empty()) put(out_, " [{}]", fmt::join(routine_.errorFilter, ", "));
+            put(out_, "\n");
+        }
+        if (routine_.undoHandler != kNone) put(out_, "  undohandler b{}\n", routine_.undoHandler);
+    }
+
+    void numberValues() {
+        uint32_t next = 0;
+        for (const Block& b : routine_.blocks)
+            for (ValueId id : b.insts)
+                if (valueType(routine_.insts[id]) != kVoid) numbers_[id] = next++;
+    }
+
+    void block(BlockId b) {
+        put(out_, "  b{} {}:\n", b, quoted(routine_.blocks[b].name));
+        StmtId current = kNone;
+        for (ValueId id : routine_.blocks[b].insts) {
+            const Inst& inst = routine_.insts[id];
+            put(out_, "    ");
+            if (numbers_[id] != kNone) put(out_, "%{} = ", numbers_[id]);
+            instruction(inst);
+            StmtId implied = inst.op == Op::Stmt ? inst.index : current;
+            if (inst.stmt != implied) {
+                if (inst.stmt == kNone)
+                    put(out_, " !none");
+                else
+                    put(out_, " !{}", inst.stmt);
+            }
+            current = inst.stmt;
+            put(out_, "\n");
+        }
+    }
+
+    std::string value(ValueId id) const {
+        bool known = id < numbers_.size() && numbers_[id] != kNone;
+        return known ? fmt::format("%{}", numbers_[id]) : std::string("%?");
+    }
+
+    void operands(const Inst& inst) {
+        for (size_t i = 0; i < inst.operands.size(); ++i)
+            put(out_, "{}{}", i ? ", " : " ", value(inst.operands[i]));
+    }
+
+    template <class Table> std::string nameIn(const Table& table, uint32_t index) const {
+        return index < table.size() ? quoted(nameOf(table[index])) : "\"?\"";
+    }
+
+    void instruction(const Inst& inst) {
+        put(out_, "{}", opInfo(inst.op).text);
+        if (inst.op == Op::IAdd && inst.extra == 1) put(out_, " nsw");
+        if (showsType(inst.op)) put(out_, " {}", typeName(inst.type));
+        switch (inst.op) {
+        case Op::Const: put(out_, " {}", number(inst.number)); return;
+        case Op::ParamVal:
+        case Op::LocalAddr:
+        case Op::TypeDescAddr:
+        case Op::Stmt: put(out_, " {}", inst.index); return;
+        case Op::GlobalAddr: put(out_, " @{}", nameIn(module_.globals, inst.index)); return;
+        case Op::RoutineAddr: put(out_, " @{}", nameIn(module_.routines, inst.index)); return;
+        case Op::Sysvar: put(out_, " {}", inst.extra == 0 ? "errno" : "intno"); return;
+        case Op::FieldAddr:
+            operands(inst);
+            put(out_, ", {}", inst.index);
+            return;
+        case Op::Check:
+            operands(inst);
+            put(out_, ", {}", inst.extra);
+            return;
+        case Op::Call: call(inst, nameIn(module_.routines, inst.index)); return;
+        case Op::CallNative: call(inst, nameIn(module_.natives, inst.index)); return;
+        case Op::Safepoint:
+            put(out_, " {}", inst.extra);
+            operands(inst);
+            return;
+        case Op::Br: put(out_, " b{}", inst.target[0]); return;
+        case Op::CondBr:
+            operands(inst);
+            put(out_, ", b{}, b{}", inst.target[0], inst.target[1]);
+            return;
+        case Op::Switch: switchOn(inst); return;
+        default: operands(inst); return;
+        }
+    }
+
+    void call(const Inst& inst, const std::string& callee) {
+        put(out_, " @{} (", callee);
+        for (size_t i = 0; i < inst.operands.size(); ++i)
+            put(out_, "{}{}", i ? ", " : "", value(inst.operands[i]));
+        put(out_, ")");
+    }
+
+    void switchOn(const Inst& inst) {
+        operands(inst);
+        put(out_, ", b{} [", inst.target[0]);
+        for (size_t i = 0; i < inst.cases.size(); ++i)
+            put(out_, "{}{}: b{}", i ? ", " : "", inst.cases[i].value, inst.cases[i].target);
+        put(out_, "]");
+    }
+
+    Out& out_;
+    const Module& module_;
+    const Routine& routine_;
+    std::vector<uint32_t> numbers_;
+};
+
+void printTails(Out& out, const Module& module) {
+    auto globalName = [&](uint32_t i) {
+        return i < module.globals.size() ? quoted(module.globals[i].name) : "\"?\"";
+    };
+    auto routineName = [&](uint32_t i) {
+        return i < module.routines.size() ? quoted(module.routines[i].name) : "\"?\"";
+    };
+    for (const ExternalRef& external : module.externals) {
+        put(out, "external {} {}", quoted(external.name), quoted(external.kind));
+        if (external.global != kNone) put(out, " @{}", globalName(external.global));
+        if (external.file != kNone) put(out, " at {}:{}:{}", external.file, external.line, external.column);
+        put(out, "\n");
+    }
+    for (const TaskEntry& task : module.tasks) {
+        put(out, "task {} {}", quoted(task.name), quoted(task.type));
+        if (task.entry != kNone) put(out, " entry @{}", routineName(task.entry));
+        if (task.reset != kNone) put(out, " reset @{}", routineName(task.reset));
+        put(out, "{}\n", task.motionTask ? " motion" : "");
+    }
+    for (size_t i = 0; i < module.configTexts.size(); ++i)
+        put(out, "config {} {}\n", quoted(module.configNames[i]), quoted(module.configTexts[i]));
+}
+
+} // namespace
+
+std::string printRoutine(const Module& module, const Routine& routine) {
+    Out out;
+    RoutinePrinter(out, module, routine).print();
+    return fmt::to_string(out);
+}
+
+std::string printModule(const Module& module) {
+    Out out;
+    put(out, "module {}\n", quoted(module.name));
+    for (size_t i = 0; i < module.files.size(); ++i)
+        put(out, "file {} {}\n", i, quoted(module.files[i]));
+    for (TypeId id = kPtr + 1; id < module.types.size(); ++id)
+        printType(out, module, id);
+    for (size_t i = 0; i < module.typeDescs.size(); ++i)
+        printDesc(out, module.typeDescs[i], i);
+    for (const Global& global : module.globals)
+        printGlobal(out, global);
+    for (const Native& native : module.natives)
+        printNative(out, native);
+    for (const Routine& routine : module.routines)
+        RoutinePrinter(out, module, routine).print();
+    printTails(out, module);
+    return fmt::to_string(out);
+}
+
+} // namespace ir

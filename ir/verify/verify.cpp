@@ -1,0 +1,184 @@
+#include "ir/verify/verify.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "ir/core/op_info.h"
+#include "ir/verify/routine_verifier.h"
+
+namespace ir {
+namespace {
+
+using Findings = std::vector<std::string>;
+
+constexpr uint64_t kLargestType = 1u << 30;
+
+/// Checks one type, given the sizes of the types before it; returns its size.
+uint64_t checkType(const Module& module, TypeId id, const std::vector<uint64_t>& sizes, Findings& out) {
+    const Type& t = module.types[id];
+    auto part = [&](TypeId element) -> uint64_t {
+        if (element == kVoid || element >= id) {
+            out.push_back(
+                fmt::format("type {}: made of type {}, which does not come before it", id, element));
+            return 0;
+        }
+        return sizes[element];
+    };
+    uint64_t size = 0;
+    if (t.kind == TypeKind::Array) {
+        size = part(t.element);
+        if (t.dims.empty() || t.dims.size() > 3)
+            out.push_back(fmt::format("type {}: rank {}", id, t.dims.size()));
+        for (int32_t dim : t.dims) {
+            if (dim <= 0) out.push_back(fmt::format("type {}: dimension {}", id, dim));
+            size = std::min(kLargestType + 1, size * static_cast<uint64_t>(std::max(dim, 1)));
+        }
+    } else if (t.kind == TypeKind::Record) {
+        for (const Field& field : t.fields)
+            size += part(field.type) + 8;
+    } else {
+        out.push_back(fmt::format("type {}: a scalar type outside the fixed ids", id));
+    }
+    if (size > kLargestType) out.push_back(fmt::format("type {}: larger than {} bytes", id, kLargestType));
+    return size;
+}
+
+bool checkTypes(const Module& module, Findings& out) {
+    std::vector<uint64_t> sizes;
+    for (TypeId id = 0; id <= kPtr; ++id)
+        sizes.push_back(module.size(id));
+    for (TypeId id = kPtr + 1; id < module.types.size(); ++id)
+        sizes.push_back(checkType(module, id, sizes, out));
+    return out.empty();
+}
+
+/// Walks the scalars of `type` in memory order along `data`; false when they do not fit.
+bool matches(const Module& module, TypeId type, const ConstData& data, size_t& at) {
+    const Type& t = module.types[type];
+    if (t.kind == TypeKind::Record) {
+        for (const Field& field : t.fields)
+            if (!matches(module, field.type, data, at)) return false;
+        return true;
+    }
+    if (t.kind == TypeKind::Array) {
+        uint64_t count = 1;
+        for (int32_t dim : t.dims)
+            count *= static_cast<uint64_t>(dim);
+        for (uint64_t i = 0; i < count; ++i)
+            if (!matches(module, t.element, data, at)) return false;
+        return true;
+    }
+    return at < data.size() && data[at++].kind == t.kind;
+}
+
+void checkDescs(const Module& module, Findings& out) {
+    for (size_t i = 0; i < module.typeDescs.size(); ++i) {
+        const TypeDesc& desc = module.typeDescs[i];
+        if (desc.type >= module.types.size()) {
+            out.push_back(fmt::format("desc {}: type {} does not exist", i, desc.type));
+            continue;
+        }
+        const Type& t = module.types[desc.type];
+        for (uint32_t part : desc.fieldDescs)
+            if (part >= module.typeDescs.size())
+                out.push_back(fmt::format("desc {}: desc {} does not exist", i, part));
+        bool record = desc.kind == DescKind::Record, array = desc.kind == DescKind::Array;
+        if (record && (t.kind != TypeKind::Record || desc.fieldDescs.size() != t.fields.size() ||
+                       desc.fieldNames.size() != t.fields.size()))
+            out.push_back(fmt::format("desc {}: does not describe the fields of its record type", i));
+        if (array && (t.kind != TypeKind::Array || desc.fieldDescs.size() != 1))
+            out.push_back(fmt::format("desc {}: does not describe its array type", i));
+        if (!record && !array && !desc.fieldDescs.empty())
+            out.push_back(fmt::format("desc {}: parts of something that has none", i));
+    }
+}
+
+void checkGlobals(const Module& module, Findings& out) {
+    std::set<std::string_view> names;
+    for (const Global& global : module.globals) {
+        auto add = [&](const std::string& text) {
+            out.push_back(fmt::format("global {}: {}", global.name, text));
+        };
+        if (global.name.empty()) add("has no name");
+        if (!names.insert(global.name).second) add("name used twice");
+        if (global.type == kVoid || global.type >= module.types.size()) {
+            add("type does not exist");
+            continue;
+        }
+        if (global.typeDesc != kNone && global.typeDesc >= module.typeDescs.size())
+            add("desc does not exist");
+        if (global.task != kNone && global.task >= module.tasks.size()) add("task does not exist");
+        if (global.file != kNone && global.file >= module.files.size()) add("file does not exist");
+        if (global.init.empty()) continue;
+        size_t at = 0;
+        if (global.kind == GlobalKind::External) add("external with an initial value");
+        if (!matches(module, global.type, global.init, at) || at != global.init.size())
+            add("initial value does not match the type");
+        for (const ConstScalar& scalar : global.init)
+            if (scalar.text.size() > 80) add("string of more than 80 bytes");
+    }
+}
+
+void checkNatives(const Module& module, Findings& out) {
+    std::set<std::string_view> names;
+    for (const Native& native : module.natives) {
+        auto add = [&](const std::string& text) {
+            out.push_back(fmt::format("native {}: {}", native.symbol, text));
+        };
+        if (!names.insert(native.symbol).second) add("symbol used twice");
+        for (TypeId param : native.params)
+            if (param == kVoid || param >= module.types.size() || !module.isScalar(param))
+                add("parameter is neither scalar nor ptr");
+        if (native.result >= module.types.size())
+            add("result type does not exist");
+        else if (native.nativeClass == NativeClass::Const &&
+                 (native.result == kVoid || !module.isScalar(native.result)))
+            add("class const needs a scalar result");
+    }
+}
+
+void checkTables(const Module& module, Findings& out) {
+    for (const ExternalRef& external : module.externals) {
+        bool slot = external.global < module.globals.size() && module.globals[external.global].type == kI64;
+        if (!slot) out.push_back(fmt::format("external {}: has no i64 global as its slot", external.name));
+        if (external.file != kNone && external.file >= module.files.size())
+            out.push_back(fmt::format("external {}: file does not exist", external.name));
+    }
+    for (const TaskEntry& task : module.tasks) {
+        for (uint32_t index : {task.entry, task.reset}) {
+            if (index == kNone) continue;
+            if (index >= module.routines.size()) {
+                out.push_back(fmt::format("task {}: routine does not exist", task.name));
+                continue;
+            }
+            const Routine& routine = module.routines[index];
+            if (!routine.params.empty() || routine.result != kVoid || !routine.exported)
+                out.push_back(fmt::format("task {}: {} must be exported, without parameters and result",
+                                          task.name, routine.name));
+        }
+        if (task.entry == kNone) out.push_back(fmt::format("task {}: has no entry", task.name));
+    }
+    if (module.configNames.size() != module.configTexts.size())
+        out.push_back("config: as many names as texts");
+}
+
+} // namespace
+
+std::vector<std::string> verify(const Module& module) {
+    Findings out;
+    if (!checkTypes(module, out)) return out; // everything else asks for sizes
+    checkDescs(module, out);
+    checkGlobals(module, out);
+    checkNatives(module, out);
+    checkTables(module, out);
+    std::set<std::string_view> names;
+    for (const Routine& routine : module.routines) {
+        if (!names.insert(routine.name).second)
+            out.push_back(fmt::format("routine {}: name used twice", routine.name));
+        RoutineVerifier(module, routine, out).run();
+    }
+    return out;
+}
+
+} // namespace ir
