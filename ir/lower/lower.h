@@ -1,0 +1,28 @@
+#pragma once
+// Checked RAPID program -> IR. The only place where RAPID's notions meet the general IR.
+
+#include "frontend/sema/checked.h"
+#include "ir/core/ir.h"
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rapid::lower {
+
+struct Options {
+    std::string programName = "program";
+    std::vector<std::string> configNames; ///< configuration files known now, kept in the program
+    std::vector<std::string> configTexts;
+    /// Tells whether a native symbol ("rt_MoveL") has an implementation; empty: all have. A call of one
+    /// without is reported as a warning and stops the program with an event when it is reached.
+    std::function<bool(std::string_view)> nativeImplemented;
+};
+
+/// Lowers every task of a program without errors. Constructs that are not lowered yet are reported to `sink`,
+/// never dropped. Returns false when something was reported as an error.
+bool lowerProgram(const sema::CheckedProgram& program, const Options& options, diag::Sink& sink,
+                  ir::Module& out);
+
+} // namespace rapid::lower

@@ -1,0 +1,189 @@
+// Data references: names, array elements, record components.
+
+#include "ir/lower/routine_lowering.h"
+
+namespace rapid::lower {
+
+using namespace syntax;
+using ir::Op;
+using sema::DataSymbol;
+using sema::Storage;
+
+void RoutineLowering::checkPresent(const Slot& slot) {
+    if (!slot.optional) return;
+    b_.check(b_.binary(Op::INe, b_.param(slot.param), b_.nullPtr()), program_.errorNumber("ERR_NOTPRES"));
+}
+
+RoutineLowering::Place RoutineLowering::placeOf(const DataSymbol& symbol) {
+    Place p;
+    p.type = symbol.type;
+    if (symbol.storage == Storage::SystemVariable) {
+        p.addr = tempAddr(ir::kF32);
+        const bool intno = foldCase(symbol.name) == "intno";
+        b_.store(ir::kF32, b_.sysvar(intno ? ir::SysvarKind::Intno : ir::SysvarKind::Errno), p.addr);
+        return p;
+    }
+    const Slot* slot = findSlot(symbol);
+    if (!slot) {
+        if (symbol.storage == Storage::RoutineData && symbol.dataKind == DataKind::Const) {
+            ir::ConstData data;
+            if (symbol.value.kind != sema::ConstValue::Kind::None)
+                program_.flatten(symbol.value, symbol.type, data);
+            p.addr = b_.globalAddr(program_.constGlobal(program_.irType(symbol.type), std::move(data)));
+            return p;
+        }
+        p.addr = b_.globalAddr(program_.globalFor(symbol, task_));
+        return p;
+    }
+    switch (slot->kind) {
+    case Slot::Kind::Local:
+        checkPresent(*slot);
+        p.addr = b_.localAddr(slot->local);
+        break;
+    case Slot::Kind::Pointer:
+        checkPresent(*slot);
+        p.addr = b_.param(slot->param);
+        for (int k = 0; k < symbol.type.rank; ++k)
+            p.dims[k] = b_.param(slot->param + 1 + static_cast<uint32_t>(k));
+        break;
+    case Slot::Kind::IntLoop:
+        p.addr = tempAddr(ir::kF32);
+        b_.store(ir::kF32, b_.convert(Op::I32ToF32, b_.load(ir::kI32, b_.localAddr(slot->local))), p.addr);
+        break;
+    }
+    return p;
+}
+
+ir::ValueId RoutineLowering::dimValue(const Place& p, int k) {
+    if (p.type.dims[k] > 0) return b_.constI32(p.type.dims[k]);
+    return p.dims[k];
+}
+
+ir::ValueId RoutineLowering::lowerIndex(const Expr& index, ValueId dim, int32_t knownDim, bool& safe) {
+    const int32_t outOfBounds = program_.errorNumber("ERR_OUTOFBND");
+    ValueId one = b_.constI32(1);
+    if (const auto range = intRange(index)) {
+        safe = range->lo >= 1 && knownDim > 0 && range->hi <= knownDim;
+        const ValueId zeroBased = b_.binary(Op::ISub, lowerInt(index), one);
+        if (!safe) b_.check(b_.binary(Op::IULt, zeroBased, dim), outOfBounds);
+        return zeroBased;
+    }
+    const sema::Type* type = baseType(index);
+    const bool isDnum = type->kind == sema::TypeKind::Dnum;
+    const ValueId value =
+        type->kind == sema::TypeKind::SemiValue ? readSignal(index, false) : lowerValue(index);
+    const ValueId number = b_.convert(isDnum ? Op::F64ToI32 : Op::F32ToI32, value);
+    const ValueId back = b_.convert(isDnum ? Op::I32ToF64 : Op::I32ToF32, number);
+    const ValueId zeroBased = b_.binary(Op::ISub, number, one);
+    b_.check(b_.binary(Op::IULt, zeroBased, dim), outOfBounds);
+    b_.check(b_.binary(Op::FEq, back, value), program_.errorNumber("ERR_INT_NOTVAL"));
+    return zeroBased;
+}
+
+RoutineLowering::Place RoutineLowering::elementPlace(const IndexExpr& expr) {
+    const Place base = place(*expr.base);
+    ValueId flat = ir::kNone;
+    for (size_t k = 0; k < expr.indices.size(); ++k) {
+        const int dimNumber = static_cast<int>(k);
+        const ValueId dim = dimValue(base, dimNumber);
+        bool safe = false;
+        const ValueId index = lowerIndex(*expr.indices[k], dim, base.type.dims[k], safe);
+        flat = k == 0 ? index : b_.binary(Op::IAdd, b_.binary(Op::IMul, flat, dim), index);
+    }
+    Place p;
+    p.type = scalarType(base.type.type);
+    p.addr = b_.elemAddr(program_.irType(p.type), base.addr, flat);
+    return p;
+}
+
+RoutineLowering::Place RoutineLowering::place(const Expr& outer) {
+    const Expr& expr = unparen(outer);
+    switch (expr.kind) {
+    case NodeKind::Name: {
+        const auto* symbol = info(expr).symbol;
+        if (symbol && symbol->kind == sema::SymbolKind::Data)
+            return placeOf(*static_cast<const DataSymbol*>(symbol));
+        break;
+    }
+    case NodeKind::Index: return elementPlace(as<IndexExpr>(expr));
+    case NodeKind::Component: {
+        const auto& component = as<ComponentExpr>(expr);
+        const Place base = place(*component.base);
+        const int number = info(expr).component;
+        Place p;
+        p.type = scalarType(base.type.type->base()->components[static_cast<size_t>(number)].type);
+        p.addr = b_.fieldAddr(program_.irType(base.type.type), base.addr, static_cast<uint32_t>(number));
+        return p;
+    }
+    default: break;
+    }
+    // A value without a place of its own gets a temporary one.
+    Place p;
+    p.type = info(expr).type;
+    p.addr = tempAddr(program_.irType(p.type));
+    lowerInto(expr, p.type, p.addr);
+    return p;
+}
+
+const DataSymbol* RoutineLowering::rootSymbol(const Expr& outer) const {
+    const Expr* expr = &unparen(outer);
+    while (expr->kind == NodeKind::Index || expr->kind == NodeKind::Component)
+        expr = &unparen(expr->kind == NodeKind::Index ? *as<IndexExpr>(*expr).base
+                                                      : *as<ComponentExpr>(*expr).base);
+    if (expr->kind != NodeKind::Name) return nullptr;
+    const sema::Symbol* symbol = info(*expr).symbol;
+    if (!symbol || symbol->kind != sema::SymbolKind::Data) return nullptr;
+    return static_cast<const DataSymbol*>(symbol);
+}
+
+/// May evaluating `expr` read `target`? Calls of user routines may read whatever is not private to this
+/// routine.
+bool RoutineLowering::mentions(const Expr& outer, const DataSymbol& target) const {
+    const Expr& expr = unparen(outer);
+    const bool isPrivate = target.storage == Storage::RoutineData;
+    switch (expr.kind) {
+    case NodeKind::Name: {
+        const auto* symbol = static_cast<const DataSymbol*>(info(expr).symbol);
+        if (symbol == &target) return true;
+        const bool byReference =
+            symbol && symbol->kind == sema::SymbolKind::Data && symbol->storage == Storage::Parameter;
+        return byReference && !isPrivate;
+    }
+    case NodeKind::Index: {
+        const auto& index = as<IndexExpr>(expr);
+        for (const Expr* e : index.indices)
+            if (mentions(*e, target)) return true;
+        return mentions(*index.base, target);
+    }
+    case NodeKind::Component: return mentions(*as<ComponentExpr>(expr).base, target);
+    case NodeKind::Unary: return mentions(*as<UnaryExpr>(expr).operand, target);
+    case NodeKind::Binary:
+        return mentions(*as<BinaryExpr>(expr).left, target) || mentions(*as<BinaryExpr>(expr).right, target);
+    case NodeKind::Aggregate:
+        for (const Expr* e : as<AggregateExpr>(expr).elements)
+            if (mentions(*e, target)) return true;
+        return false;
+    case NodeKind::Call: {
+        const auto& calls = facts().calls;
+        auto found = calls.find(&expr);
+        if (found == calls.end()) return true;
+        if (!isPrivate && !(found->second.routine && found->second.routine->native)) return true;
+        for (const auto& arg : found->second.args)
+            if (arg.value && mentions(*arg.value, target)) return true;
+        return false;
+    }
+    default: return false;
+    }
+}
+
+bool RoutineLowering::mayAlias(const Expr& value, const Expr& target) const {
+    const Expr& v = unparen(value);
+    if (v.kind == NodeKind::StringLiteral || info(v).constant) return false;
+    if (v.kind == NodeKind::Name) return false; // a whole copy onto itself is harmless
+    const DataSymbol* root = rootSymbol(target);
+    if (!root) return true;
+    if (root->storage == Storage::Parameter && root->mode != ParamMode::In) return true;
+    return mentions(v, *root);
+}
+
+} // namespace rapid::lower

@@ -1,0 +1,307 @@
+// Calls of routines and natives, the built-ins that the compiler treats itself, late binding.
+
+#include "ir/lower/routine_lowering.h"
+
+namespace rapid::lower {
+
+using namespace syntax;
+using ir::Op;
+using sema::BoundArg;
+using sema::BoundCall;
+using sema::DataSymbol;
+using sema::TypeKind;
+
+const BoundArg* RoutineLowering::findArg(const BoundCall& call, std::string_view name) const {
+    const std::string wanted = foldCase(name);
+    for (const BoundArg& arg : call.args)
+        if (arg.param && foldCase(arg.param->name) == wanted) return &arg;
+    return nullptr;
+}
+
+ir::ValueId RoutineLowering::argumentAddress(const BoundArg& arg) {
+    const Expr& value = unparen(*arg.value);
+    const sema::DataType& wanted = arg.param->type;
+    const Place p = [&] {
+        const bool reference = value.kind == NodeKind::Name || value.kind == NodeKind::Index ||
+                               value.kind == NodeKind::Component;
+        const bool sameShape = !info(value).constant || arg.param->mode != ParamMode::In ||
+                               info(value).type.type->base() == wanted.type->base();
+        const TypeKind have = reference ? baseType(value)->kind : TypeKind::Error;
+        const TypeKind want = wanted.type->base()->kind;
+        const bool readsSignal = have == TypeKind::SemiValue && want != TypeKind::SemiValue;
+        if (reference && sameShape && !readsSignal) return place(value);
+        Place temporary;
+        temporary.type = wanted.isArray() ? info(value).type : wanted;
+        temporary.addr = tempAddr(program_.irType(temporary.type));
+        storeExpr(value, temporary.type, temporary.addr);
+        return temporary;
+    }();
+    return p.addr;
+}
+
+void RoutineLowering::pushPointerArgument(const BoundArg& arg, std::vector<ValueId>& args) {
+    if (!arg.param->type.isArray()) {
+        args.push_back(argumentAddress(arg));
+        return;
+    }
+    const Place p = place(*arg.value);
+    args.push_back(p.addr);
+    for (int k = 0; k < arg.param->type.rank; ++k) args.push_back(dimValue(p, k));
+}
+
+/// \x?y: what the caller got for y is passed on, absent or not.
+void RoutineLowering::pushConditional(const BoundArg& arg, std::vector<ValueId>& args) {
+    const auto* source = static_cast<const DataSymbol*>(info(unparen(*arg.value)).symbol);
+    const Slot* slot = findSlot(*source);
+    const ValueId given = b_.param(slot->param);
+    if (source->isSwitch) {
+        args.push_back(given);
+        return;
+    }
+    if (slot->kind == Slot::Kind::Local) {
+        const ValueId present = b_.binary(Op::INe, given, b_.nullPtr());
+        args.push_back(b_.select(present, b_.localAddr(slot->local), b_.nullPtr()));
+    } else {
+        args.push_back(given);
+    }
+    for (int k = 0; k < arg.param->type.rank; ++k) args.push_back(b_.param(slot->param + 1 + static_cast<uint32_t>(k)));
+}
+
+void RoutineLowering::pushAny(const BoundArg& arg, std::vector<ValueId>& args) {
+    if (arg.kind == BoundArg::Kind::Absent) {
+        args.push_back(b_.nullPtr());
+        args.push_back(b_.nullPtr());
+        return;
+    }
+    const Expr& value = unparen(*arg.value);
+    Place p = place(value);
+    if (p.type.isArray() && p.type.dims[0] == 0) {
+        // Conformant: its size is known at run time only; the runtime makes the description.
+        const uint32_t native = program_.support("rt_arrayDesc", ir::NativeClass::Plain, ir::kPtr,
+                                                 {ir::kPtr, ir::kI32, ir::kI32, ir::kI32});
+        const ValueId element = b_.typeDescAddr(program_.typeDesc(scalarType(p.type.type)));
+        std::vector<ValueId> dims{element};
+        for (int k = 0; k < 3; ++k) dims.push_back(k < p.type.rank ? dimValue(p, k) : b_.constI32(0));
+        args.push_back(p.addr);
+        args.push_back(b_.callNative(native, std::move(dims)));
+        return;
+    }
+    args.push_back(p.addr);
+    args.push_back(b_.typeDescAddr(program_.typeDesc(p.type)));
+}
+
+void RoutineLowering::pushArgument(const BoundArg& arg, std::vector<ValueId>& args) {
+    const Passing passing = passingOf(*arg.param);
+    if (passing == Passing::Any) return pushAny(arg, args);
+    switch (arg.kind) {
+    case BoundArg::Kind::Absent:
+        if (passing == Passing::Switch) {
+            args.push_back(b_.constBool(false));
+        } else {
+            args.push_back(b_.nullPtr());
+            for (int k = 0; k < arg.param->type.rank; ++k) args.push_back(b_.constI32(0));
+        }
+        return;
+    case BoundArg::Kind::Conditional: return pushConditional(arg, args);
+    case BoundArg::Kind::Present: break;
+    }
+    switch (passing) {
+    case Passing::Switch: args.push_back(b_.constBool(true)); return;
+    case Passing::Value: args.push_back(lowerValueAs(*arg.value, arg.param->type.type)); return;
+    case Passing::Pointer: return pushPointerArgument(arg, args);
+    case Passing::Any: return;
+    }
+}
+
+ir::ValueId RoutineLowering::lowerCall(const Node& node, ValueId resultAddr) {
+    const auto& calls = facts().calls;
+    auto found = calls.find(&node);
+    if (found == calls.end() || !found->second.routine) return b_.constF32(0);
+    const BoundCall& call = found->second;
+    const sema::RoutineSymbol& callee = *call.routine;
+    if (callee.native) {
+        bool done = false;
+        const ValueId value = lowerSpecial(call, done);
+        if (done) return value;
+        if (!program_.implemented(callee)) {
+            const uint32_t native =
+                program_.support("rt_notImplemented", ir::NativeClass::Plain, ir::kVoid, {ir::kPtr});
+            b_.callNative(native, {b_.globalAddr(program_.stringGlobal(callee.name))});
+            if (callee.routineKind != RoutineKind::Func) return ir::kNone;
+            const ir::TypeId type = program_.irType(callee.returnType);
+            if (type == ir::kF32) return b_.constF32(0);
+            if (type == ir::kF64) return b_.constF64(0);
+            if (type == ir::kBool) return b_.constBool(false);
+            if (resultAddr != ir::kNone) b_.zero(type, resultAddr);
+            return ir::kNone;
+        }
+    }
+    std::vector<ValueId> args;
+    const bool isFunction = callee.routineKind == RoutineKind::Func;
+    const ir::TypeId result = isFunction ? program_.irType(callee.returnType) : ir::kVoid;
+    const bool aggregate = isFunction && !program_.module().isScalar(result);
+    if (aggregate) args.push_back(resultAddr == ir::kNone ? tempAddr(result) : resultAddr);
+    for (const BoundArg& arg : call.args) pushArgument(arg, args);
+    if (callee.native) return b_.callNative(program_.nativeFor(callee), std::move(args));
+    return b_.call(program_.routineFor(callee, task_), std::move(args));
+}
+
+ir::ValueId RoutineLowering::lowerSpecial(const BoundCall& call, bool& done) {
+    const std::string name = foldCase(call.routine->name);
+    done = true;
+    if (name == "present") return lowerPresent(call);
+    if (name == "dim") return lowerDim(call);
+    if (name == "waituntil") {
+        lowerWaitUntil(call);
+        return ir::kNone;
+    }
+    done = false;
+    return ir::kNone;
+}
+
+ir::ValueId RoutineLowering::lowerPresent(const BoundCall& call) {
+    const Expr& value = unparen(*call.args[0].value);
+    const auto* symbol = static_cast<const DataSymbol*>(info(value).symbol);
+    const Slot* slot = symbol ? findSlot(*symbol) : nullptr;
+    if (!slot || slot->param == ir::kNone || !symbol->optional) return b_.constBool(true);
+    if (symbol->isSwitch) return b_.param(slot->param);
+    return b_.binary(Op::INe, b_.param(slot->param), b_.nullPtr());
+}
+
+ir::ValueId RoutineLowering::lowerDim(const BoundCall& call) {
+    const Place p = place(*call.args[0].value);
+    const Expr& number = unparen(*call.args[1].value);
+    const int32_t illegal = program_.errorNumber("ERR_ILLDIM");
+    if (const auto* constant = info(number).constant) {
+        const int k = static_cast<int>(constant->number);
+        if (k >= 1 && k <= p.type.rank) return b_.convert(Op::I32ToF32, dimValue(p, k - 1));
+        b_.check(b_.constBool(false), illegal);
+        return b_.constF32(0);
+    }
+    const ValueId wanted = lowerValueAs(number, program_.program().num);
+    ValueId result = b_.constI32(0);
+    for (int k = 0; k < p.type.rank; ++k)
+        result = b_.select(b_.binary(Op::FEq, wanted, b_.constF32(k + 1)), dimValue(p, k), result);
+    b_.check(b_.binary(Op::INe, result, b_.constI32(0)), illegal);
+    return b_.convert(Op::I32ToF32, result);
+}
+
+/// WaitUntil evaluates its condition again and again (manual 1.20: every 100 ms unless \PollRate says otherwise).
+void RoutineLowering::lowerWaitUntil(const BoundCall& call) {
+    auto pointer = [&](std::string_view name) {
+        const BoundArg* arg = findArg(call, name);
+        std::vector<ValueId> out;
+        if (!arg || arg->kind == BoundArg::Kind::Absent) return b_.nullPtr();
+        pushArgument(*arg, out);
+        return out[0];
+    };
+    const uint32_t native =
+        program_.support("rt_waitUntilPoll", ir::NativeClass::Plain, ir::kBool,
+                         {ir::kBool, ir::kPtr, ir::kPtr, ir::kPtr, ir::kPtr});
+    const BoundArg* inPosArg = findArg(call, "InPos");
+    std::vector<ValueId> inPosValue;
+    if (inPosArg) pushArgument(*inPosArg, inPosValue);
+    const uint32_t inPos = temp(ir::kBool);
+    b_.store(ir::kBool, inPosArg ? inPosValue[0] : b_.constBool(false), b_.localAddr(inPos));
+    const ValueId maxTime = pointer("MaxTime");
+    const ValueId timeFlag = pointer("TimeFlag");
+    const ValueId pollRate = pointer("PollRate");
+    const uint32_t state = temp(ir::kI64);
+    b_.store(ir::kI64, b_.constI64(0), b_.localAddr(state));
+    const ir::BlockId head = b_.addBlock("waituntil");
+    const ir::BlockId poll = b_.addBlock("poll");
+    const ir::BlockId met = b_.addBlock("met");
+    const ir::BlockId end = b_.addBlock("waited");
+    if (inPosArg && inPosArg->kind != BoundArg::Kind::Absent) {
+        // \InPos: first the robot stands still, then the condition counts.
+        b_.callNative(program_.support("rt_waitInPos", ir::NativeClass::Plain, ir::kVoid, {ir::kBool}), {inPosValue[0]});
+    }
+    b_.br(head);
+    b_.setBlock(head);
+    lowerCond(*findArg(call, "Cond")->value, met, poll);
+    b_.setBlock(poll);
+    const ValueId again = b_.callNative(native, {b_.load(ir::kBool, b_.localAddr(inPos)), maxTime, timeFlag, pollRate,
+                                                 b_.localAddr(state)});
+    b_.condBr(again, head, end);
+    b_.setBlock(met);
+    const BoundArg* flag = findArg(call, "TimeFlag");
+    if (flag && flag->kind == BoundArg::Kind::Present) b_.store(ir::kBool, b_.constBool(false), timeFlag);
+    b_.br(end);
+    b_.setBlock(end);
+}
+
+namespace {
+
+/// Can the arguments of a late-bound call be given to `callee`? Names and kinds were collected unchecked by sema.
+bool fits(const CallStmt& stmt, const sema::RoutineSymbol& callee, const sema::Module& module) {
+    size_t required = 0;
+    for (const DataSymbol* param : callee.params) required += param->optional ? 0u : 1u;
+    if (required != stmt.args.size()) return false;
+    size_t next = 0;
+    for (const DataSymbol* param : callee.params) {
+        if (param->optional) continue;
+        const Argument& arg = *stmt.args[next++];
+        if (arg.argKind != ArgKind::Required || !arg.value) return false;
+        const sema::DataType& have = (*module.exprs)[arg.value->id].type;
+        if (!have.type || have.rank != param->type.rank || have.type->base() != param->type.type->base()) return false;
+    }
+    return true;
+}
+
+} // namespace
+
+/// %name% args: the names that can be meant are known; a table of them is searched at run time (manual 1.1.5).
+void RoutineLowering::lowerLateCall(const CallStmt& stmt) {
+    const sema::Task& task = program_.task(task_);
+    std::vector<const sema::RoutineSymbol*> candidates;
+    for (const sema::Module* m : task.modules)
+        for (const sema::RoutineSymbol* routine : m->routines)
+            if (routine->routineKind == RoutineKind::Proc && (!routine->isLocal || m == module_))
+                candidates.push_back(routine);
+    ir::ConstData names;
+    for (const auto* candidate : candidates) {
+        ir::ConstScalar scalar;
+        scalar.kind = ir::TypeKind::Str;
+        scalar.text = foldCase(candidate->name);
+        names.push_back(std::move(scalar));
+    }
+    const ValueId name = lowerAddr(*stmt.lateName);
+    const uint32_t lookup = program_.support("rt_lateLookup", ir::NativeClass::Plain, ir::kI32,
+                                             {ir::kPtr, ir::kPtr, ir::kI32});
+    if (names.empty()) names.emplace_back().kind = ir::TypeKind::Str;
+    const auto count = static_cast<int32_t>(candidates.size());
+    const ir::TypeId tableType = program_.module().arrayOf(ir::kStr, {static_cast<int32_t>(names.size())});
+    const ValueId table = b_.globalAddr(program_.constGlobal(tableType, std::move(names)));
+    const ValueId number = b_.callNative(lookup, {name, table, b_.constI32(count)});
+    const ir::BlockId wrong = b_.addBlock("wrongcall");
+    const ir::BlockId end = b_.addBlock("called");
+    std::vector<ir::SwitchCase> cases;
+    const ir::BlockId here = b_.block();
+    for (int32_t i = 0; i < count; ++i) {
+        const sema::RoutineSymbol& callee = *candidates[static_cast<size_t>(i)];
+        if (!fits(stmt, callee, *module_)) continue;
+        const ir::BlockId block = b_.addBlock("late");
+        cases.push_back({i, block});
+        b_.setBlock(block);
+        std::vector<ValueId> args;
+        size_t next = 0;
+        for (DataSymbol* param : callee.params) {
+            BoundArg arg;
+            arg.param = param;
+            if (!param->optional) {
+                arg.kind = BoundArg::Kind::Present;
+                arg.value = stmt.args[next++]->value;
+            }
+            pushArgument(arg, args);
+        }
+        b_.call(program_.routineFor(callee, task_), std::move(args));
+        b_.br(end);
+    }
+    b_.setBlock(wrong);
+    b_.raise(b_.constI32(program_.errorNumber("ERR_CALLPROC")));
+    b_.setBlock(here);
+    b_.switchOn(number, std::move(cases), wrong);
+    b_.setBlock(end);
+}
+
+} // namespace rapid::lower

@@ -1,0 +1,235 @@
+// FOR (manual 1.5): bounds and step are evaluated once; without STEP the step is 1, or -1 when the start is
+// greater than the end. Loops whose start and step are certainly integers count in I32, so that indices need
+// no conversion and the optimiser knows the trip count; the variable reads as num.
+
+#include "ir/lower/routine_lowering.h"
+
+namespace rapid::lower {
+
+using namespace syntax;
+using ir::Op;
+
+namespace {
+
+/// Integers are exact in num up to here; larger bounds are cut off so that the counter cannot overflow.
+constexpr int32_t kMaxBound = 1 << 30;
+constexpr int64_t kExact = 1 << 23;
+
+/// True when the list is small and holds no loop, label or jump: cheap enough to be compiled twice.
+bool isSmallBody(StmtList list, int& budget) {
+    for (const Stmt* stmt : list) {
+        if (--budget < 0) return false;
+        switch (stmt->kind) {
+        case NodeKind::Assign:
+        case NodeKind::CallStmt:
+        case NodeKind::Empty: break;
+        case NodeKind::CompactIf: {
+            Stmt* inner = as<CompactIfStmt>(*stmt).body;
+            if (!isSmallBody({&inner, 1}, budget)) return false;
+            break;
+        }
+        case NodeKind::If: {
+            const auto& node = as<IfStmt>(*stmt);
+            for (const IfBranch* branch : node.branches)
+                if (!isSmallBody(branch->body, budget)) return false;
+            if (!isSmallBody(node.elseBody, budget)) return false;
+            break;
+        }
+        default: return false;
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+void RoutineLowering::lowerFor(const ForStmt& stmt) {
+    const auto& variables = facts().loopVariables;
+    auto found = variables.find(&stmt);
+    if (found == variables.end()) return;
+    sema::DataSymbol& variable = *found->second;
+    // The row stands for the head only: the place of an error in a bound.
+    startStatement(*stmt.from, ir::StmtKind::Control);
+    const bool isNum = variable.type.type->base()->kind == sema::TypeKind::Num;
+    const auto from = isNum ? intRange(*stmt.from) : std::nullopt;
+    std::optional<int32_t> step;
+    if (stmt.step) {
+        const sema::ConstValue* value = info(*stmt.step).constant;
+        if (value && value->number == static_cast<int32_t>(value->number) && value->number != 0 &&
+            std::abs(value->number) < 1e6)
+            step = static_cast<int32_t>(value->number);
+    } else if (from) {
+        const auto to = intRange(*stmt.to);
+        if (to && from->hi <= to->lo) step = 1;
+        if (to && from->lo > to->hi) step = -1;
+        if (!step) return lowerUnknownDirection(stmt, variable, *from);
+    }
+    if (from && step) return lowerIntLoop(stmt, variable, *step, *from);
+    lowerFloatLoop(stmt, variable);
+}
+
+ir::ValueId RoutineLowering::boundAsInt(const Expr& to, bool roundDown) {
+    if (intRange(to)) return lowerInt(to);
+    const ValueId value = lowerValueAs(to, program_.program().num);
+    const ValueId whole = b_.unary(Op::FTrunc, value);
+    const ValueId number = b_.convert(Op::F32ToI32, whole);
+    // Toward minus or plus infinity: one further where truncation went the other way.
+    const ValueId wrong = b_.binary(roundDown ? Op::FGt : Op::FLt, whole, value);
+    const ValueId fixed = b_.binary(roundDown ? Op::ISub : Op::IAdd, number, b_.constI32(1));
+    const ValueId rounded = b_.select(wrong, fixed, number);
+    const ValueId limit = b_.constI32(roundDown ? kMaxBound : -kMaxBound);
+    return b_.select(b_.binary(roundDown ? Op::IGt : Op::ILt, rounded, limit), limit, rounded);
+}
+
+void RoutineLowering::lowerIntLoop(const ForStmt& stmt, sema::DataSymbol& variable, int32_t step,
+                                   IntRange from) {
+    const auto to = intRange(*stmt.to);
+    const ValueId first = lowerInt(*stmt.from);
+    const ValueId last = boundAsInt(*stmt.to, step > 0);
+    IntRange range = from;
+    if (step > 0)
+        range.hi = std::max(from.lo, to ? to->hi : kExact);
+    else
+        range.lo = std::min(from.hi, to ? to->lo : -kExact);
+    lowerCountedBody(stmt, variable, first, last, step, range);
+}
+
+void RoutineLowering::lowerCountedBody(const ForStmt& stmt, sema::DataSymbol& variable, ValueId first,
+                                       ValueId last, int32_t step, IntRange range) {
+    Slot slot;
+    slot.kind = Slot::Kind::IntLoop;
+    slot.local = b_.addLocal(variable.name, ir::kI32);
+    slot.lo = range.lo;
+    slot.hi = range.hi;
+    const uint32_t bound = b_.addLocal("", ir::kI32);
+    b_.store(ir::kI32, first, b_.localAddr(slot.local));
+    b_.store(ir::kI32, last, b_.localAddr(bound));
+    slots_[&variable] = slot;
+    const ir::BlockId head = b_.addBlock("for");
+    const ir::BlockId body = b_.addBlock("do");
+    const ir::BlockId latch = b_.addBlock("step");
+    const ir::BlockId end = b_.addBlock("endfor");
+    b_.br(head);
+    b_.setBlock(head);
+    const ValueId now = b_.load(ir::kI32, b_.localAddr(slot.local));
+    b_.condBr(b_.binary(step > 0 ? Op::ILe : Op::IGe, now, b_.load(ir::kI32, b_.localAddr(bound))), body,
+              end);
+    b_.setBlock(body);
+    loops_.push_back({end, latch});
+    lowerList(stmt.body);
+    loops_.pop_back();
+    branchIfOpen(latch);
+    b_.setBlock(latch);
+    const ValueId old = b_.load(ir::kI32, b_.localAddr(slot.local));
+    b_.store(ir::kI32, b_.binary(Op::IAdd, old, b_.constI32(step)), b_.localAddr(slot.local));
+    b_.br(head);
+    b_.setBlock(end);
+}
+
+void RoutineLowering::lowerUnknownDirection(const ForStmt& stmt, sema::DataSymbol& variable, IntRange from) {
+    const ValueId first = lowerInt(*stmt.from);
+    const ValueId up = boundAsInt(*stmt.to, true);
+    const ValueId down = boundAsInt(*stmt.to, false);
+    const auto to = intRange(*stmt.to);
+    const ValueId to32 = to ? b_.convert(Op::I32ToF32, up) : lowerValueAs(*stmt.to, program_.program().num);
+    const ValueId forward = b_.binary(Op::FLe, b_.convert(Op::I32ToF32, first), to32);
+    int budget = 12;
+    if (isSmallBody(stmt.body, budget)) {
+        const ir::BlockId upward = b_.addBlock("upward");
+        const ir::BlockId downward = b_.addBlock("downward");
+        const ir::BlockId join = b_.addBlock("join");
+        b_.condBr(forward, upward, downward);
+        b_.setBlock(upward);
+        lowerCountedBody(stmt, variable, first, up, 1, {from.lo, to ? std::max(from.lo, to->hi) : kExact});
+        b_.br(join);
+        b_.setBlock(downward);
+        lowerCountedBody(stmt, variable, first, down, -1,
+                         {to ? std::min(from.hi, to->lo) : -kExact, from.hi});
+        b_.br(join);
+        b_.setBlock(join);
+        return;
+    }
+    // One body: counts the rounds, the variable is start + round * direction.
+    const ValueId direction = b_.select(forward, b_.constI32(1), b_.constI32(-1));
+    const ValueId span = b_.select(forward, b_.binary(Op::ISub, up, first), b_.binary(Op::ISub, first, down));
+    Slot slot;
+    slot.kind = Slot::Kind::IntLoop;
+    slot.local = b_.addLocal(variable.name, ir::kI32);
+    slot.lo = to ? std::min(from.lo, to->lo) : -kExact;
+    slot.hi = to ? std::max(from.hi, to->hi) : kExact;
+    slots_[&variable] = slot;
+    const uint32_t round = b_.addLocal("", ir::kI32);
+    const uint32_t rounds = b_.addLocal("", ir::kI32);
+    const uint32_t start = b_.addLocal("", ir::kI32);
+    const uint32_t stepLocal = b_.addLocal("", ir::kI32);
+    b_.store(ir::kI32, b_.constI32(0), b_.localAddr(round));
+    b_.store(ir::kI32, span, b_.localAddr(rounds));
+    b_.store(ir::kI32, first, b_.localAddr(start));
+    b_.store(ir::kI32, direction, b_.localAddr(stepLocal));
+    const ir::BlockId head = b_.addBlock("for");
+    const ir::BlockId body = b_.addBlock("do");
+    const ir::BlockId latch = b_.addBlock("step");
+    const ir::BlockId end = b_.addBlock("endfor");
+    b_.br(head);
+    b_.setBlock(head);
+    const ValueId now = b_.load(ir::kI32, b_.localAddr(round));
+    b_.condBr(b_.binary(Op::ILe, now, b_.load(ir::kI32, b_.localAddr(rounds))), body, end);
+    b_.setBlock(body);
+    const ValueId offset = b_.binary(Op::IMul, b_.load(ir::kI32, b_.localAddr(round)),
+                                     b_.load(ir::kI32, b_.localAddr(stepLocal)));
+    b_.store(ir::kI32, b_.binary(Op::IAdd, b_.load(ir::kI32, b_.localAddr(start)), offset),
+             b_.localAddr(slot.local));
+    loops_.push_back({end, latch});
+    lowerList(stmt.body);
+    loops_.pop_back();
+    branchIfOpen(latch);
+    b_.setBlock(latch);
+    const ValueId old = b_.load(ir::kI32, b_.localAddr(round));
+    b_.store(ir::kI32, b_.binary(Op::IAdd, old, b_.constI32(1)), b_.localAddr(round));
+    b_.br(head);
+    b_.setBlock(end);
+}
+
+void RoutineLowering::lowerFloatLoop(const ForStmt& stmt, sema::DataSymbol& variable) {
+    const sema::Type* type = variable.type.type;
+    const bool isDnum = type->base()->kind == sema::TypeKind::Dnum;
+    const ir::TypeId t = program_.irType(type);
+    auto constant = [&](double v) { return isDnum ? b_.constF64(v) : b_.constF32(v); };
+    Slot slot;
+    slot.local = b_.addLocal(variable.name, t);
+    const uint32_t to = b_.addLocal("", t);
+    const uint32_t step = b_.addLocal("", t);
+    const ValueId fromValue = lowerValueAs(*stmt.from, type);
+    b_.store(t, fromValue, b_.localAddr(slot.local));
+    b_.store(t, lowerValueAs(*stmt.to, type), b_.localAddr(to));
+    if (stmt.step) {
+        b_.store(t, lowerValueAs(*stmt.step, type), b_.localAddr(step));
+    } else {
+        const ValueId down =
+            b_.binary(Op::FGt, b_.load(t, b_.localAddr(slot.local)), b_.load(t, b_.localAddr(to)));
+        b_.store(t, b_.select(down, constant(-1), constant(1)), b_.localAddr(step));
+    }
+    slots_[&variable] = slot;
+    const ir::BlockId head = b_.addBlock("for");
+    const ir::BlockId body = b_.addBlock("do");
+    const ir::BlockId latch = b_.addBlock("step");
+    const ir::BlockId end = b_.addBlock("endfor");
+    b_.br(head);
+    b_.setBlock(head);
+    const ValueId now = b_.load(t, b_.localAddr(slot.local));
+    const ValueId bound = b_.load(t, b_.localAddr(to));
+    const ValueId upward = b_.binary(Op::FGe, b_.load(t, b_.localAddr(step)), constant(0));
+    b_.condBr(b_.select(upward, b_.binary(Op::FLe, now, bound), b_.binary(Op::FGe, now, bound)), body, end);
+    b_.setBlock(body);
+    loops_.push_back({end, latch});
+    lowerList(stmt.body);
+    loops_.pop_back();
+    branchIfOpen(latch);
+    b_.setBlock(latch);
+    const ValueId old = b_.load(t, b_.localAddr(slot.local));
+    b_.store(t, b_.binary(Op::FAdd, old, b_.load(t, b_.localAddr(step))), b_.localAddr(slot.local));
+    b_.br(head);
+    b_.setBlock(end);
+}
+
+} // namespace rapid::lower

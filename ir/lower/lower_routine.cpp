@@ -1,0 +1,310 @@
+// Parameters, routine data, handlers and the frame of one routine.
+
+#include "ir/lower/routine_lowering.h"
+
+#include <fmt/format.h>
+
+namespace rapid::lower {
+
+using sema::DataSymbol;
+using sema::RoutineSymbol;
+using sema::TypeKind;
+
+ir::Routine declareRoutine(ProgramLowering& program, const RoutineSymbol& symbol, uint32_t task) {
+    ir::Routine routine;
+    routine.displayName = symbol.name;
+    routine.moduleName = symbol.module->name;
+    routine.name = fmt::format("{}/{}/{}", program.task(task).name, symbol.module->name, symbol.name);
+    routine.noStepIn = symbol.noStepIn;
+    const auto& tree = *symbol.module->tree;
+    routine.file = program.fileIndex(tree.source->path());
+    routine.line = tree.source->lineColumn(tree.range(symbol.nameToken).begin).line;
+    if (symbol.routineKind == syntax::RoutineKind::Func) routine.result = program.irType(symbol.returnType);
+    for (const DataSymbol* param : symbol.params) {
+        switch (passingOf(*param)) {
+        case Passing::Value: routine.params.push_back({param->name, program.irType(param->type)}); break;
+        case Passing::Switch: routine.params.push_back({param->name, ir::kBool}); break;
+        case Passing::Any:
+        case Passing::Pointer:
+            routine.params.push_back({param->name, ir::kPtr});
+            for (int k = 0; k < param->type.rank; ++k)
+                routine.params.push_back({fmt::format("{}$dim{}", param->name, k + 1), ir::kI32});
+            break;
+        }
+    }
+    return routine;
+}
+
+RoutineLowering::RoutineLowering(ProgramLowering& program, const RoutineSymbol& symbol, uint32_t task,
+                                 const ir::Routine& declared)
+    : program_(program), symbol_(symbol), module_(symbol.module), task_(task), routine_(declared),
+      b_(program.module(), routine_) {
+    hasErrorHandler_ = !symbol.routineDecl->errors.empty();
+}
+
+namespace {
+
+/// True when executing `list` may write memory that an argument passed by address could lie in.
+bool writesMemory(syntax::StmtList list, const sema::Module& module, const sema::Task& task);
+
+bool exprWrites(const syntax::Expr* expr, const sema::Task& task) {
+    if (!expr) return false;
+    using syntax::NodeKind;
+    switch (expr->kind) {
+    case NodeKind::Paren: return exprWrites(syntax::as<syntax::ParenExpr>(*expr).inner, task);
+    case NodeKind::Unary: return exprWrites(syntax::as<syntax::UnaryExpr>(*expr).operand, task);
+    case NodeKind::Binary: {
+        const auto& binary = syntax::as<syntax::BinaryExpr>(*expr);
+        return exprWrites(binary.left, task) || exprWrites(binary.right, task);
+    }
+    case NodeKind::Index: {
+        const auto& index = syntax::as<syntax::IndexExpr>(*expr);
+        for (const syntax::Expr* e : index.indices)
+            if (exprWrites(e, task)) return true;
+        return exprWrites(index.base, task);
+    }
+    case NodeKind::Component: return exprWrites(syntax::as<syntax::ComponentExpr>(*expr).base, task);
+    case NodeKind::Aggregate:
+        for (const syntax::Expr* e : syntax::as<syntax::AggregateExpr>(*expr).elements)
+            if (exprWrites(e, task)) return true;
+        return false;
+    case NodeKind::Call: {
+        auto found = task.calls.find(expr);
+        if (found == task.calls.end() || !found->second.routine || !found->second.routine->native)
+            return true;
+        for (const auto& arg : found->second.args) {
+            if (arg.param && arg.param->mode != syntax::ParamMode::In) return true;
+            if (exprWrites(arg.value, task)) return true;
+        }
+        return false;
+    }
+    default: return false;
+    }
+}
+
+bool stmtWrites(const syntax::Stmt& stmt, const sema::Module& module, const sema::Task& task) {
+    using syntax::NodeKind;
+    switch (stmt.kind) {
+    case NodeKind::Assign: {
+        const auto& assign = syntax::as<syntax::AssignStmt>(stmt);
+        const syntax::Expr* root = assign.target;
+        while (root->kind == NodeKind::Index || root->kind == NodeKind::Component)
+            root = root->kind == NodeKind::Index ? syntax::as<syntax::IndexExpr>(*root).base
+                                                 : syntax::as<syntax::ComponentExpr>(*root).base;
+        const auto* symbol = static_cast<const DataSymbol*>((*module.exprs)[root->id].symbol);
+        const bool localTarget =
+            symbol && symbol->kind == sema::SymbolKind::Data &&
+            (symbol->storage == sema::Storage::RoutineData ||
+             (symbol->storage == sema::Storage::Parameter && symbol->mode == syntax::ParamMode::In));
+        return !localTarget || exprWrites(assign.target, task) || exprWrites(assign.value, task);
+    }
+    case NodeKind::If: {
+        const auto& node = syntax::as<syntax::IfStmt>(stmt);
+        for (const auto* branch : node.branches)
+            if (exprWrites(branch->condition, task) || writesMemory(branch->body, module, task)) return true;
+        return writesMemory(node.elseBody, module, task);
+    }
+    case NodeKind::CompactIf: {
+        const auto& node = syntax::as<syntax::CompactIfStmt>(stmt);
+        return exprWrites(node.condition, task) || stmtWrites(*node.body, module, task);
+    }
+    case NodeKind::For: {
+        const auto& node = syntax::as<syntax::ForStmt>(stmt);
+        return exprWrites(node.from, task) || exprWrites(node.to, task) || exprWrites(node.step, task) ||
+               writesMemory(node.body, module, task);
+    }
+    case NodeKind::While: {
+        const auto& node = syntax::as<syntax::WhileStmt>(stmt);
+        return exprWrites(node.condition, task) || writesMemory(node.body, module, task);
+    }
+    case NodeKind::Test: {
+        const auto& node = syntax::as<syntax::TestStmt>(stmt);
+        for (const auto* c : node.cases)
+            if (writesMemory(c->body, module, task)) return true;
+        return exprWrites(node.subject, task) || writesMemory(node.defaultBody, module, task);
+    }
+    case NodeKind::Return: return exprWrites(syntax::as<syntax::ReturnStmt>(stmt).value, task);
+    case NodeKind::Goto:
+    case NodeKind::Label:
+    case NodeKind::Break:
+    case NodeKind::Continue:
+    case NodeKind::Empty: return false;
+    default: return true;
+    }
+}
+
+bool writesMemory(syntax::StmtList list, const sema::Module& module, const sema::Task& task) {
+    for (const syntax::Stmt* stmt : list)
+        if (stmtWrites(*stmt, module, task)) return true;
+    return false;
+}
+
+} // namespace
+
+bool RoutineLowering::mayChangeArguments() const {
+    return hasErrorHandler_ || symbol_.routineDecl->hasUndo ||
+           writesMemory(symbol_.routineDecl->body, *module_, facts());
+}
+
+void RoutineLowering::lowerParameters() {
+    const bool copyAggregates = mayChangeArguments();
+    uint32_t number = 0;
+    for (const DataSymbol* param : symbol_.params) {
+        Slot slot;
+        slot.param = number;
+        const Passing passing = passingOf(*param);
+        const ir::TypeId type = program_.irType(param->type.type);
+        number += 1 + (passing == Passing::Pointer ? param->type.rank : 0u);
+        if (passing == Passing::Switch) {
+            slots_[param] = slot;
+            continue;
+        }
+        if (passing == Passing::Value) {
+            slot.local = b_.addLocal(param->name, type, true);
+            b_.store(type, b_.param(slot.param), b_.localAddr(slot.local));
+            slots_[param] = slot;
+            continue;
+        }
+        slot.kind = Slot::Kind::Pointer;
+        slot.optional = param->optional;
+        const bool in = param->mode == syntax::ParamMode::In;
+        if (in && param->type.isArray() && param->assigned) {
+            // Arrays travel by reference; a private copy of unknown size is not made yet.
+            program_.sink().report(diag::Code::ArrayParameterAssigned, module_->tree->source,
+                                   module_->tree->range(param->nameToken), {param->name});
+        } else if (in && !param->type.isArray() && type != ir::kI64 && (param->assigned || copyAggregates)) {
+            // IN is a private value: the caller's data may change while the routine runs.
+            slot.kind = Slot::Kind::Local;
+            slot.local = b_.addLocal(param->name, type, true);
+            if (param->optional) {
+                const ir::BlockId given = b_.addBlock("given");
+                const ir::BlockId after = b_.addBlock("after");
+                b_.condBr(b_.binary(ir::Op::INe, b_.param(slot.param), b_.nullPtr()), given, after);
+                b_.setBlock(given);
+                b_.copy(type, b_.localAddr(slot.local), b_.param(slot.param));
+                b_.br(after);
+                b_.setBlock(after);
+            } else {
+                b_.copy(type, b_.localAddr(slot.local), b_.param(slot.param));
+            }
+        }
+        slots_[param] = slot;
+    }
+}
+
+void RoutineLowering::lowerData() {
+    for (const DataSymbol* data : symbol_.data) {
+        if (data->storage != sema::Storage::RoutineData) continue;
+        if (data->dataKind == syntax::DataKind::Const) continue; // folded, or a constant global on first use
+        const ir::TypeId type = program_.irType(data->type);
+        Slot slot;
+        slot.local = b_.addLocal(data->name, type);
+        slots_[data] = slot;
+    }
+    for (const DataSymbol* data : symbol_.data) {
+        auto found = slots_.find(data);
+        if (found == slots_.end() || data->storage != sema::Storage::RoutineData) continue;
+        const ValueId target = b_.localAddr(found->second.local);
+        if (data->init) {
+            startStatement(*data->decl, ir::StmtKind::Plain);
+            lowerInto(*data->init, data->type, target);
+        } else {
+            b_.zero(program_.irType(data->type), target);
+        }
+    }
+}
+
+ir::Routine RoutineLowering::run() {
+    b_.setBlock(b_.addBlock("entry"));
+    if (hasErrorHandler_) routine_.errorHandler = b_.addBlock("error");
+    lowerParameters();
+    lowerData();
+    lowerList(symbol_.routineDecl->body);
+    if (!b_.terminated()) {
+        if (symbol_.routineKind == syntax::RoutineKind::Func) {
+            startStatement(*symbol_.routineDecl, ir::StmtKind::Return);
+            b_.raise(b_.constI32(program_.errorNumber("ERR_FNCNORET")));
+        } else {
+            b_.ret();
+        }
+    }
+    lowerHandlers();
+    return std::move(routine_);
+}
+
+void RoutineLowering::lowerHandlers() {
+    if (symbol_.routineDecl->hasBackward) {
+        // Only stepping backward runs it; it is checked but not compiled into the release profile.
+        program_.sink().report(diag::Code::BackwardNotCompiled, module_->tree->source,
+                               module_->tree->range(symbol_.nameToken), {symbol_.name});
+    }
+    if (hasErrorHandler_) lowerErrorHandler();
+    if (symbol_.routineDecl->hasUndo) {
+        region_ = Region::Undo;
+        routine_.undoHandler = b_.addBlock("undo");
+        b_.setBlock(routine_.undoHandler);
+        lowerList(symbol_.routineDecl->undo);
+        if (!b_.terminated()) b_.ret();
+    }
+}
+
+void RoutineLowering::lowerErrorHandler() {
+    region_ = Region::Error;
+    b_.setBlock(routine_.errorHandler);
+    const auto& clauses = symbol_.routineDecl->errors;
+    bool takesAll = false;
+    std::vector<int32_t> filter;
+    for (const syntax::ErrorClause* clause : clauses) {
+        const ir::BlockId next = b_.addBlock("clause");
+        if (!clause->hasList) {
+            takesAll = true;
+        } else {
+            const ir::BlockId body = b_.addBlock("handler");
+            bool all = false;
+            for (const Expr* number : clause->numbers) {
+                const sema::ConstValue* value = info(*number).constant;
+                const auto numeric = value ? static_cast<int32_t>(value->number) : 0;
+                all = all || numeric == program_.errorNumber("LONG_JMP_ALL_ERR");
+                filter.push_back(numeric);
+                const ir::BlockId other = b_.addBlock("other");
+                b_.condBr(b_.binary(ir::Op::FEq, b_.sysvar(ir::SysvarKind::Errno), b_.constF32(numeric)),
+                          body, other);
+                b_.setBlock(other);
+            }
+            takesAll = takesAll || all;
+            b_.br(all ? body : next);
+            b_.setBlock(body);
+        }
+        lowerList(clause->body);
+        if (!b_.terminated()) b_.handlerEnd();
+        b_.setBlock(next);
+    }
+    if (!b_.terminated()) b_.propagate();
+    if (!takesAll) routine_.errorFilter = std::move(filter);
+}
+
+const RoutineLowering::Slot* RoutineLowering::findSlot(const DataSymbol& symbol) const {
+    auto found = slots_.find(&symbol);
+    return found == slots_.end() ? nullptr : &found->second;
+}
+
+const RoutineLowering::Expr& RoutineLowering::unparen(const Expr& expr) {
+    const Expr* e = &expr;
+    while (e->kind == syntax::NodeKind::Paren)
+        e = syntax::as<syntax::ParenExpr>(*e).inner;
+    return *e;
+}
+
+uint32_t RoutineLowering::temp(ir::TypeId type) {
+    uint32_t local = 0;
+    if (auto found = freeTemps_.find(type); found != freeTemps_.end()) {
+        local = found->second;
+        freeTemps_.erase(found);
+    } else {
+        local = b_.addLocal("", type);
+    }
+    usedTemps_.emplace_back(type, local);
+    return local;
+}
+
+} // namespace rapid::lower

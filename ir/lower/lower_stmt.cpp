@@ -1,0 +1,277 @@
+// Statements except FOR.
+
+#include "ir/lower/routine_lowering.h"
+
+#include <fmt/format.h>
+
+namespace rapid::lower {
+
+using namespace syntax;
+
+void RoutineLowering::startStatement(const Node& node, ir::StmtKind kind) {
+    const auto& tree = *module_->tree;
+    const SourceRange range = tree.range(node);
+    const LineColumn from = tree.source->lineColumn(range.begin);
+    const LineColumn to = tree.source->lineColumn(range.end);
+    ir::Statement row;
+    row.line = from.line;
+    row.column = from.column;
+    row.endLine = to.line;
+    row.endColumn = to.column;
+    row.kind = region_ == Region::Body ? kind : ir::StmtKind::Handler;
+    row.handled = region_ == Region::Body && hasErrorHandler_;
+    b_.setStatement(b_.addStatement(row));
+}
+
+void RoutineLowering::unfinished(const Node& node, const char* what) {
+    program_.sink().report(diag::Code::NotLoweredYet, module_->tree->source, module_->tree->range(node),
+                           {what});
+    startStatement(node, ir::StmtKind::Plain);
+    const uint32_t native =
+        program_.support("rt_notImplemented", ir::NativeClass::Plain, ir::kVoid, {ir::kPtr});
+    b_.callNative(native, {b_.globalAddr(program_.stringGlobal(what))});
+}
+
+void RoutineLowering::lowerList(StmtList list) {
+    for (const Stmt* stmt : list) {
+        const size_t mark = usedTemps_.size();
+        // RETRY enters at the beginning of a statement, TRYNEXT behind it: both must be block borders.
+        const bool resumable = hasRetry() && region_ == Region::Body && stmt->kind != NodeKind::Label;
+        if (resumable) {
+            const ir::BlockId start = b_.addBlock("stmt");
+            const ir::BlockId next = b_.addBlock("next");
+            const size_t firstRow = routine_.statements.size();
+            branchIfOpen(start);
+            b_.setBlock(start);
+            lowerStmt(*stmt);
+            branchIfOpen(next);
+            // Rows made by this statement itself, not by nested ones, which have set their own.
+            for (size_t i = firstRow; i < routine_.statements.size(); ++i) {
+                ir::Statement& row = routine_.statements[i];
+                if (row.start != ir::kNone) continue;
+                row.start = start;
+                row.next = next;
+            }
+            b_.setBlock(next);
+        } else {
+            lowerStmt(*stmt);
+        }
+        for (size_t i = mark; i < usedTemps_.size(); ++i)
+            freeTemps_.emplace(usedTemps_[i]);
+        usedTemps_.resize(mark);
+    }
+}
+
+void RoutineLowering::lowerStmt(const Stmt& stmt) {
+    switch (stmt.kind) {
+    case NodeKind::Assign: return lowerAssign(as<AssignStmt>(stmt));
+    case NodeKind::CallStmt: {
+        const auto& call = as<CallStmt>(stmt);
+        startStatement(stmt, ir::StmtKind::Call);
+        if (call.lateName) return lowerLateCall(call);
+        lowerCall(stmt, ir::kNone);
+        return;
+    }
+    case NodeKind::If: return lowerIf(as<IfStmt>(stmt));
+    case NodeKind::CompactIf: return lowerCompactIf(as<CompactIfStmt>(stmt));
+    case NodeKind::For: return lowerFor(as<ForStmt>(stmt));
+    case NodeKind::While: return lowerWhile(as<WhileStmt>(stmt));
+    case NodeKind::Test: return lowerTest(as<TestStmt>(stmt));
+    case NodeKind::Return: return lowerReturn(as<ReturnStmt>(stmt));
+    case NodeKind::Raise: return lowerRaise(as<RaiseStmt>(stmt));
+    case NodeKind::Connect: return lowerConnect(as<ConnectStmt>(stmt));
+    case NodeKind::Exit: startStatement(stmt, ir::StmtKind::Control); return lowerExit();
+    case NodeKind::Retry: startStatement(stmt, ir::StmtKind::Control); return b_.retry();
+    case NodeKind::TryNext: startStatement(stmt, ir::StmtKind::Control); return b_.tryNext();
+    case NodeKind::Break:
+        startStatement(stmt, ir::StmtKind::Control);
+        if (!loops_.empty()) b_.br(loops_.back().onBreak);
+        return;
+    case NodeKind::Continue:
+        startStatement(stmt, ir::StmtKind::Control);
+        if (!loops_.empty()) b_.br(loops_.back().onContinue);
+        return;
+    case NodeKind::Goto: {
+        startStatement(stmt, ir::StmtKind::Control);
+        const auto& refs = facts().references;
+        if (auto found = refs.find(&stmt); found != refs.end()) b_.br(labelBlock(found->second));
+        return;
+    }
+    case NodeKind::Label: {
+        const auto& refs = facts().references;
+        auto found = refs.find(&stmt);
+        if (found == refs.end()) return; // no GOTO names it
+        const ir::BlockId block = labelBlock(found->second);
+        branchIfOpen(block);
+        b_.setBlock(block);
+        return;
+    }
+    case NodeKind::PlaceholderStmt: {
+        startStatement(stmt, ir::StmtKind::Plain);
+        b_.raise(b_.constI32(program_.errorNumber("ERR_EXECPHR")));
+        return;
+    }
+    default: return; // empty instructions; errors do not get here
+    }
+}
+
+void RoutineLowering::lowerAssign(const AssignStmt& stmt) {
+    startStatement(stmt, ir::StmtKind::Plain);
+    const Place target = place(*stmt.target);
+    const ir::TypeId element = program_.irType(target.type.type);
+    if (!target.type.isArray() && program_.module().isScalar(element) && element != ir::kI64) {
+        b_.store(element, lowerValueAs(*stmt.value, target.type.type), target.addr);
+        return;
+    }
+    const Expr& value = unparen(*stmt.value);
+    if (target.type.isArray() && (value.kind == NodeKind::Name)) {
+        const Place source = place(value);
+        ValueId count = ir::kNone;
+        for (int k = 0; k < target.type.rank; ++k) {
+            const ValueId dim = dimValue(target, k);
+            if (target.type.dims[k] == 0 || source.type.dims[k] == 0)
+                b_.check(b_.binary(ir::Op::IEq, dim, dimValue(source, k)),
+                         program_.errorNumber("ERR_ARRAY_SIZE"));
+            count = count == ir::kNone ? dim : b_.binary(ir::Op::IMul, count, dim);
+        }
+        const ValueId bytes = b_.binary(ir::Op::IMul, b_.convert(ir::Op::I32ToI64, count),
+                                        b_.constI64(program_.module().size(element)));
+        b_.copyDynamic(target.addr, source.addr, bytes);
+        return;
+    }
+    if (mayAlias(value, *stmt.target)) {
+        const ValueId buffer = tempAddr(program_.irType(target.type));
+        lowerInto(value, target.type, buffer);
+        b_.copy(program_.irType(target.type), target.addr, buffer);
+    } else {
+        lowerInto(value, target.type, target.addr);
+    }
+}
+
+void RoutineLowering::lowerIf(const IfStmt& stmt) {
+    const ir::BlockId end = b_.addBlock("endif");
+    for (const IfBranch* branch : stmt.branches) {
+        const ir::BlockId body = b_.addBlock("then");
+        const ir::BlockId next = b_.addBlock("else");
+        startStatement(branch->condition ? static_cast<const Node&>(*branch->condition) : *branch,
+                       ir::StmtKind::Control);
+        if (branch->condition)
+            lowerCond(*branch->condition, body, next);
+        else
+            b_.raise(b_.constI32(program_.errorNumber("ERR_EXECPHR")));
+        b_.setBlock(body);
+        lowerList(branch->body);
+        branchIfOpen(end);
+        b_.setBlock(next);
+    }
+    lowerList(stmt.elseBody);
+    branchIfOpen(end);
+    b_.setBlock(end);
+}
+
+void RoutineLowering::lowerCompactIf(const CompactIfStmt& stmt) {
+    const ir::BlockId body = b_.addBlock("then");
+    const ir::BlockId end = b_.addBlock("endif");
+    startStatement(*stmt.condition, ir::StmtKind::Control);
+    lowerCond(*stmt.condition, body, end);
+    b_.setBlock(body);
+    Stmt* inner = stmt.body;
+    lowerList({&inner, 1});
+    branchIfOpen(end);
+    b_.setBlock(end);
+}
+
+void RoutineLowering::lowerWhile(const WhileStmt& stmt) {
+    const ir::BlockId head = b_.addBlock("while");
+    const ir::BlockId body = b_.addBlock("do");
+    const ir::BlockId end = b_.addBlock("endwhile");
+    b_.br(head);
+    b_.setBlock(head);
+    startStatement(*stmt.condition, ir::StmtKind::Control);
+    lowerCond(*stmt.condition, body, end);
+    b_.setBlock(body);
+    loops_.push_back({end, head});
+    lowerList(stmt.body);
+    loops_.pop_back();
+    branchIfOpen(head);
+    b_.setBlock(end);
+}
+
+void RoutineLowering::lowerTest(const TestStmt& stmt) {
+    startStatement(*stmt.subject, ir::StmtKind::Control);
+    const sema::DataType type = info(*stmt.subject).type;
+    const ir::TypeId irType = program_.irType(type.type);
+    const bool signal = type.type->base()->kind == sema::TypeKind::SemiValue;
+    const bool scalar = signal || (!type.isArray() && program_.module().isScalar(irType));
+    const ir::TypeId valueType = signal ? ir::kF32 : irType;
+    // The subject is evaluated once (manual 1.5).
+    const ValueId subject = b_.localAddr(b_.addLocal("", valueType));
+    if (scalar)
+        b_.store(valueType, signal ? readSignal(*stmt.subject, false) : lowerValue(*stmt.subject), subject);
+    else
+        lowerInto(*stmt.subject, type, subject);
+    const ir::BlockId end = b_.addBlock("endtest");
+    for (const TestCase* testCase : stmt.cases) {
+        const ir::BlockId body = b_.addBlock("case");
+        const ir::BlockId next = b_.addBlock("nextcase");
+        for (const Expr* value : testCase->values) {
+            const ir::BlockId other = b_.addBlock("othervalue");
+            ValueId equal = ir::kNone;
+            if (scalar) {
+                const bool isBool = valueType == ir::kBool;
+                const ValueId wanted =
+                    signal ? lowerValueAs(*value, program_.program().num) : lowerValueAs(*value, type.type);
+                equal = b_.binary(isBool ? ir::Op::IEq : ir::Op::FEq, b_.load(valueType, subject), wanted);
+            } else {
+                const ValueId wanted = tempAddr(irType);
+                lowerInto(*value, type, wanted);
+                equal = equalPlaces(subject, wanted, type);
+            }
+            b_.condBr(equal, body, other);
+            b_.setBlock(other);
+        }
+        b_.br(next);
+        b_.setBlock(body);
+        lowerList(testCase->body);
+        branchIfOpen(end);
+        b_.setBlock(next);
+    }
+    lowerList(stmt.defaultBody);
+    branchIfOpen(end);
+    b_.setBlock(end);
+}
+
+void RoutineLowering::lowerReturn(const ReturnStmt& stmt) {
+    startStatement(stmt, ir::StmtKind::Return);
+    if (!stmt.value || symbol_.routineKind != RoutineKind::Func) return b_.ret();
+    const ir::TypeId type = program_.irType(symbol_.returnType);
+    if (program_.module().isScalar(type)) return b_.ret(lowerValueAs(*stmt.value, symbol_.returnType.type));
+    lowerInto(*stmt.value, symbol_.returnType, b_.resultAddr());
+    b_.ret();
+}
+
+void RoutineLowering::lowerRaise(const RaiseStmt& stmt) {
+    startStatement(stmt, ir::StmtKind::Control);
+    if (stmt.value) return b_.raise(lowerValueAs(*stmt.value, program_.program().num));
+    if (region_ == Region::Error) return b_.propagate();
+    b_.raise(b_.sysvar(ir::SysvarKind::Errno));
+}
+
+void RoutineLowering::lowerConnect(const ConnectStmt& stmt) {
+    unfinished(stmt, "CONNECT (interrupts)");
+}
+
+void RoutineLowering::lowerExit() {
+    b_.callNative(program_.support("rt_exitProgram", ir::NativeClass::Plain, ir::kVoid, {}), {});
+    b_.unreachable();
+}
+
+ir::BlockId RoutineLowering::labelBlock(const sema::Symbol* label) {
+    auto found = labels_.find(label);
+    if (found != labels_.end()) return found->second;
+    const ir::BlockId block = b_.addBlock(label->name);
+    labels_[label] = block;
+    return block;
+}
+
+} // namespace rapid::lower

@@ -1,0 +1,384 @@
+#include "ir/lower/program_lowering.h"
+
+#include "ir/lower/routine_lowering.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace rapid::lower {
+
+using sema::DataSymbol;
+using sema::DataType;
+using sema::RoutineSymbol;
+using sema::TypeKind;
+
+std::string foldCase(std::string_view text) {
+    std::string out(text);
+    for (char& c : out)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return out;
+}
+
+namespace {
+
+bool isScalarKind(TypeKind kind) {
+    return kind == TypeKind::Num || kind == TypeKind::Dnum || kind == TypeKind::Bool;
+}
+
+ir::DescKind descKind(const sema::Type& type) {
+    switch (type.base()->kind) {
+    case TypeKind::Num: return ir::DescKind::Num;
+    case TypeKind::Dnum: return ir::DescKind::Dnum;
+    case TypeKind::Bool: return ir::DescKind::Bool;
+    case TypeKind::String: return ir::DescKind::String;
+    case TypeKind::Record: return ir::DescKind::Record;
+    case TypeKind::NonValue:
+    case TypeKind::SemiValue: return ir::DescKind::Handle;
+    case TypeKind::Error:
+    case TypeKind::Switch:
+    case TypeKind::AnyType: return ir::DescKind::Other;
+    }
+    return ir::DescKind::Other;
+}
+
+} // namespace
+
+Passing passingOf(const DataSymbol& param) {
+    if (param.isSwitch) return Passing::Switch;
+    const TypeKind kind = param.type.type->base()->kind;
+    if (kind == TypeKind::AnyType) return Passing::Any;
+    const bool byValue = param.mode == syntax::ParamMode::In && !param.optional &&
+                         !param.requiredAlternative && !param.type.isArray() && isScalarKind(kind);
+    return byValue ? Passing::Value : Passing::Pointer;
+}
+
+ProgramLowering::ProgramLowering(const sema::CheckedProgram& program, const Options& options,
+                                 diag::Sink& sink, ir::Module& out)
+    : program_(program), options_(options), sink_(sink), module_(out) {
+    for (const sema::Module* lib : program.predefinedModules)
+        for (const DataSymbol* data : lib->data)
+            if (data->name.starts_with("ERR_"))
+                errorNumbers_[data->name] = static_cast<int32_t>(data->value.number);
+}
+
+ir::TypeId ProgramLowering::irType(const sema::Type* type) {
+    const sema::Type* base = type->base();
+    switch (base->kind) {
+    case TypeKind::Num: return ir::kF32;
+    case TypeKind::Dnum: return ir::kF64;
+    case TypeKind::Bool:
+    case TypeKind::Switch: return ir::kBool;
+    case TypeKind::String: return ir::kStr;
+    case TypeKind::NonValue:
+    case TypeKind::SemiValue: return ir::kI64;
+    case TypeKind::Error:
+    case TypeKind::AnyType: return ir::kVoid;
+    case TypeKind::Record: break;
+    }
+    if (auto found = records_.find(base); found != records_.end()) return found->second;
+    std::vector<ir::Field> fields;
+    for (const auto& component : base->components)
+        fields.push_back({component.name, irType(component.type)});
+    const ir::TypeId id = module_.addRecord(base->name, std::move(fields));
+    records_[base] = id;
+    return id;
+}
+
+ir::TypeId ProgramLowering::irType(const DataType& type) {
+    const ir::TypeId element = irType(type.type);
+    if (!type.isArray()) return element;
+    return module_.arrayOf(element, std::vector<int32_t>(type.dims, type.dims + type.rank));
+}
+
+uint32_t ProgramLowering::typeDesc(const DataType& type) {
+    const auto key = std::make_tuple(type.type, type.rank > 0 ? type.dims[0] : 0,
+                                     type.rank > 1 ? type.dims[1] : 0, type.rank > 2 ? type.dims[2] : 0);
+    if (auto found = descs_.find(key); found != descs_.end()) return found->second;
+    ir::TypeDesc desc;
+    desc.name = type.type->name;
+    desc.baseName = type.type->base()->name;
+    desc.type = irType(type);
+    if (type.isArray()) {
+        desc.kind = ir::DescKind::Array;
+        desc.fieldDescs.push_back(typeDesc({type.type, 0, {0, 0, 0}}));
+    } else {
+        desc.kind = descKind(*type.type);
+        if (desc.kind == ir::DescKind::Record)
+            for (const auto& component : type.type->base()->components) {
+                desc.fieldNames.push_back(component.name);
+                desc.fieldDescs.push_back(typeDesc({component.type, 0, {0, 0, 0}}));
+            }
+    }
+    const auto index = static_cast<uint32_t>(module_.typeDescs.size());
+    module_.typeDescs.push_back(std::move(desc));
+    descs_[key] = index;
+    return index;
+}
+
+void ProgramLowering::flatten(const sema::ConstValue& value, const DataType& type, ir::ConstData& out) {
+    using Kind = sema::ConstValue::Kind;
+    if (type.isArray()) {
+        DataType inner{type.type, static_cast<uint8_t>(type.rank - 1), {type.dims[1], type.dims[2], 0}};
+        for (int32_t i = 0; i < type.dims[0]; ++i)
+            flatten(static_cast<size_t>(i) < value.members.size() ? value.members[i] : sema::ConstValue(),
+                    inner, out);
+        return;
+    }
+    const sema::Type* base = type.type->base();
+    ir::ConstScalar scalar;
+    switch (base->kind) {
+    case TypeKind::Record:
+        for (size_t i = 0; i < base->components.size(); ++i)
+            flatten(i < value.members.size() ? value.members[i] : sema::ConstValue(),
+                    {base->components[i].type, 0, {0, 0, 0}}, out);
+        return;
+    case TypeKind::Num: scalar.kind = ir::TypeKind::F32; break;
+    case TypeKind::Dnum: scalar.kind = ir::TypeKind::F64; break;
+    case TypeKind::Bool: scalar.kind = ir::TypeKind::Bool; break;
+    case TypeKind::String: scalar.kind = ir::TypeKind::Str; break;
+    case TypeKind::NonValue:
+    case TypeKind::SemiValue: scalar.kind = ir::TypeKind::I64; break;
+    case TypeKind::Error:
+    case TypeKind::Switch:
+    case TypeKind::AnyType: return;
+    }
+    if (value.kind == Kind::Number) scalar.number = value.number;
+    if (value.kind == Kind::Bool) scalar.number = value.boolean ? 1 : 0;
+    if (value.kind == Kind::String) scalar.text = value.text;
+    out.push_back(std::move(scalar));
+}
+
+uint32_t ProgramLowering::fileIndex(const std::string& path) {
+    auto [it, isNew] = files_.try_emplace(path, static_cast<uint32_t>(module_.files.size()));
+    if (isNew) module_.files.push_back(path);
+    return it->second;
+}
+
+uint32_t ProgramLowering::addGlobal(const DataSymbol& symbol, uint32_t task, bool shared,
+                                    const std::string& name) {
+    ir::Global global;
+    global.name = name;
+    global.displayName = symbol.name;
+    global.moduleName = symbol.module ? symbol.module->name : "";
+    global.type = irType(symbol.type);
+    global.task = shared ? ir::kNone : task;
+    if (symbol.storage == sema::Storage::Signal) {
+        global.kind = ir::GlobalKind::External;
+    } else {
+        switch (symbol.dataKind) {
+        case syntax::DataKind::Var: global.kind = ir::GlobalKind::Var; break;
+        case syntax::DataKind::Pers: global.kind = ir::GlobalKind::Persistent; break;
+        case syntax::DataKind::Const: global.kind = ir::GlobalKind::Const; break;
+        }
+        if (symbol.value.kind != sema::ConstValue::Kind::None)
+            flatten(symbol.value, symbol.type, global.init);
+        global.typeDesc = typeDesc(symbol.type);
+        if (symbol.module && symbol.decl) {
+            global.file = fileIndex(symbol.module->tree->source->path());
+            global.line =
+                symbol.module->tree->source->lineColumn(symbol.module->tree->range(symbol.nameToken).begin)
+                    .line;
+        }
+    }
+    const auto index = static_cast<uint32_t>(module_.globals.size());
+    module_.globals.push_back(std::move(global));
+    return index;
+}
+
+uint32_t ProgramLowering::globalFor(const DataSymbol& symbol, uint32_t task) {
+    const bool signal = symbol.storage == sema::Storage::Signal;
+    const bool systemGlobalPers =
+        !signal && symbol.dataKind == syntax::DataKind::Pers && symbol.scope == syntax::ScopeWord::None;
+    const bool constant = !signal && symbol.dataKind == syntax::DataKind::Const;
+    // TASK PERS and VAR have a value per task; constants can be shared.
+    const bool shared = systemGlobalPers || (constant && symbol.predefined);
+    const auto key = std::make_pair(shared ? ir::kNone : task, &symbol);
+    if (auto found = globals_.find(key); found != globals_.end()) return found->second;
+    uint32_t index = 0;
+    if (systemGlobalPers) {
+        // One object for every task that declares it; sema has compared types and dimensions.
+        auto [it, isNew] = sharedPersistents_.try_emplace(foldCase(symbol.name), 0);
+        if (isNew) it->second = addGlobal(symbol, task, true, "pers/" + it->first);
+        index = it->second;
+        ir::Global& global = module_.globals[index];
+        if (global.init.empty() && symbol.value.kind != sema::ConstValue::Kind::None)
+            flatten(symbol.value, symbol.type, global.init);
+    } else if (signal) {
+        index = addGlobal(symbol, task, false,
+                          fmt::format("{}/signal/{}", this->task(task).name, foldCase(symbol.name)));
+        ir::ExternalRef ref;
+        ref.name = symbol.name;
+        ref.kind = symbol.type.type->base()->name;
+        ref.global = index;
+        if (symbol.module && symbol.nameToken != syntax::kNoToken) {
+            const auto& tree = *symbol.module->tree;
+            const LineColumn at = tree.source->lineColumn(tree.range(symbol.nameToken).begin);
+            ref.file = fileIndex(tree.source->path());
+            ref.line = at.line;
+            ref.column = at.column;
+        }
+        module_.externals.push_back(std::move(ref));
+    } else {
+        const std::string moduleName = symbol.module ? symbol.module->name : "";
+        index = addGlobal(symbol, task, shared,
+                          shared ? fmt::format("{}/{}", moduleName, symbol.name)
+                                 : fmt::format("{}/{}/{}", this->task(task).name, moduleName, symbol.name));
+    }
+    globals_[key] = index;
+    return index;
+}
+
+uint32_t ProgramLowering::constGlobal(ir::TypeId type, ir::ConstData data) {
+    std::string key = fmt::format("{}:", type);
+    for (const ir::ConstScalar& s : data) {
+        key += fmt::format("{}|{:a}|{}:", static_cast<int>(s.kind), s.number, s.text.size());
+        key += s.text;
+    }
+    auto [it, isNew] = constants_.try_emplace(std::move(key), static_cast<uint32_t>(module_.globals.size()));
+    if (isNew) {
+        ir::Global global;
+        global.name = fmt::format("const/{}", module_.globals.size());
+        global.type = type;
+        global.kind = ir::GlobalKind::Const;
+        global.init = std::move(data);
+        module_.globals.push_back(std::move(global));
+    }
+    return it->second;
+}
+
+uint32_t ProgramLowering::stringGlobal(std::string_view text) {
+    ir::ConstScalar scalar;
+    scalar.kind = ir::TypeKind::Str;
+    scalar.text = std::string(text.substr(0, 80));
+    return constGlobal(ir::kStr, {scalar});
+}
+
+int32_t ProgramLowering::errorNumber(std::string_view name) const {
+    auto found = errorNumbers_.find(std::string(name));
+    return found == errorNumbers_.end() ? 1 : found->second;
+}
+
+bool ProgramLowering::implemented(const RoutineSymbol& symbol) const {
+    return !options_.nativeImplemented || options_.nativeImplemented("rt_" + symbol.name);
+}
+
+uint32_t ProgramLowering::support(const char* symbol, ir::NativeClass nativeClass, ir::TypeId result,
+                                  std::vector<ir::TypeId> params) {
+    auto [it, isNew] = natives_.try_emplace(symbol, static_cast<uint32_t>(module_.natives.size()));
+    if (isNew) module_.natives.push_back({symbol, nativeClass, result, std::move(params)});
+    return it->second;
+}
+
+uint32_t ProgramLowering::nativeFor(const RoutineSymbol& symbol) {
+    const std::string name = "rt_" + symbol.name;
+    if (auto found = natives_.find(name); found != natives_.end()) return found->second;
+    ir::Native native;
+    native.symbol = name;
+    bool allValues = true;
+    for (const DataSymbol* param : symbol.params) {
+        switch (passingOf(*param)) {
+        case Passing::Value: native.params.push_back(irType(param->type)); break;
+        case Passing::Switch:
+            native.params.push_back(ir::kBool);
+            allValues = false;
+            break;
+        case Passing::Any:
+            native.params.insert(native.params.end(), {ir::kPtr, ir::kPtr});
+            allValues = false;
+            break;
+        case Passing::Pointer:
+            native.params.push_back(ir::kPtr);
+            native.params.insert(native.params.end(), param->type.rank, ir::kI32);
+            allValues = false;
+            break;
+        }
+    }
+    const bool isFunction = symbol.routineKind == syntax::RoutineKind::Func;
+    native.result = isFunction ? irType(symbol.returnType) : ir::kVoid;
+    const bool scalarResult = isFunction && module_.isScalar(native.result) && native.result != ir::kI64;
+    native.nativeClass = symbol.effects == sema::Effects::Const && allValues && scalarResult
+                             ? ir::NativeClass::Const
+                             : ir::NativeClass::Plain;
+    const auto index = static_cast<uint32_t>(module_.natives.size());
+    module_.natives.push_back(std::move(native));
+    natives_[name] = index;
+    return index;
+}
+
+uint32_t ProgramLowering::routineFor(const RoutineSymbol& symbol, uint32_t task) {
+    const auto key = std::make_pair(task, &symbol);
+    if (auto found = routines_.find(key); found != routines_.end()) return found->second;
+    const auto index = static_cast<uint32_t>(module_.routines.size());
+    routines_[key] = index;
+    module_.routines.push_back(declareRoutine(*this, symbol, task));
+    pending_.push_back({&symbol, task, index});
+    return index;
+}
+
+void ProgramLowering::drainPending() {
+    while (!pending_.empty()) {
+        const Pending next = pending_.back();
+        pending_.pop_back();
+        RoutineLowering lowering(*this, *next.symbol, next.task, module_.routines[next.index]);
+        ir::Routine done = lowering.run();
+        module_.routines[next.index] = std::move(done);
+    }
+}
+
+uint32_t ProgramLowering::makeReset(uint32_t taskIndex) {
+    ir::Routine routine;
+    routine.name = task(taskIndex).name + "/$reset";
+    routine.displayName = "$reset";
+    routine.exported = true;
+    ir::Builder b(module_, routine);
+    b.setBlock(b.addBlock("entry"));
+    const size_t count = module_.globals.size();
+    for (size_t i = 0; i < count; ++i) {
+        if (module_.globals[i].kind != ir::GlobalKind::Var || module_.globals[i].task != taskIndex) continue;
+        const ir::TypeId type = module_.globals[i].type;
+        const ir::ValueId target = b.globalAddr(static_cast<uint32_t>(i));
+        if (module_.globals[i].init.empty())
+            b.zero(type, target);
+        else
+            b.copy(type, target, b.globalAddr(constGlobal(type, module_.globals[i].init)));
+    }
+    b.ret();
+    module_.routines.push_back(std::move(routine));
+    return static_cast<uint32_t>(module_.routines.size() - 1);
+}
+
+void ProgramLowering::lowerTask(uint32_t index) {
+    const sema::Task& current = task(index);
+    for (const sema::Module* m : current.modules) {
+        for (const DataSymbol* data : m->data)
+            globalFor(*data, index);
+        for (const RoutineSymbol* routine : m->routines)
+            routineFor(*routine, index);
+    }
+    drainPending();
+    ir::TaskEntry entry;
+    entry.name = current.name;
+    entry.type = current.type;
+    entry.motionTask = index == 0;
+    entry.entry = current.entryRoutine ? routineFor(*current.entryRoutine, index) : ir::kNone;
+    entry.reset = makeReset(index);
+    if (entry.entry != ir::kNone) module_.routines[entry.entry].exported = true;
+    module_.tasks.push_back(std::move(entry));
+}
+
+bool ProgramLowering::run() {
+    module_.name = options_.programName;
+    module_.configNames = options_.configNames;
+    module_.configTexts = options_.configTexts;
+    const size_t errorsBefore = sink_.errorCount();
+    for (uint32_t i = 0; i < program_.tasks.size(); ++i)
+        lowerTask(i);
+    return sink_.errorCount() == errorsBefore;
+}
+
+bool lowerProgram(const sema::CheckedProgram& program, const Options& options, diag::Sink& sink,
+                  ir::Module& out) {
+    return ProgramLowering(program, options, sink, out).run();
+}
+
+} // namespace rapid::lower

@@ -1,0 +1,83 @@
+#pragma once
+// State shared by all routines of one program while it is lowered: types, globals, natives, routine numbers.
+
+#include "ir/lower/lower.h"
+
+#include <map>
+#include <unordered_map>
+
+namespace rapid::lower {
+
+/// How one parameter travels. The rules equal those of the prototype generator (stdlib/gen).
+enum class Passing : uint8_t {
+    Value,   ///< required IN num, dnum, bool: by value
+    Switch,  ///< Bool: given or not
+    Pointer, ///< address; null = absent; for arrays followed by one I32 per dimension
+    Any      ///< address and type description
+};
+
+Passing passingOf(const sema::DataSymbol& param);
+
+class ProgramLowering {
+  public:
+    ProgramLowering(const sema::CheckedProgram& program, const Options& options, diag::Sink& sink,
+                    ir::Module& out);
+
+    bool run();
+
+    ir::Module& module() { return module_; }
+    const sema::CheckedProgram& program() const { return program_; }
+    diag::Sink& sink() { return sink_; }
+
+    ir::TypeId irType(const sema::Type* type);
+    ir::TypeId irType(const sema::DataType& type);
+    uint32_t typeDesc(const sema::DataType& type);
+    /// The global that holds module data, a constant aggregate or the slot of a signal, made on first use.
+    uint32_t globalFor(const sema::DataSymbol& symbol, uint32_t task);
+    uint32_t routineFor(const sema::RoutineSymbol& symbol, uint32_t task);
+    uint32_t nativeFor(const sema::RoutineSymbol& symbol);
+    /// A native of the runtime support that has no RAPID name.
+    uint32_t support(const char* symbol, ir::NativeClass nativeClass, ir::TypeId result,
+                     std::vector<ir::TypeId> params);
+    bool implemented(const sema::RoutineSymbol& symbol) const;
+    /// Interned read-only data.
+    uint32_t constGlobal(ir::TypeId type, ir::ConstData data);
+    uint32_t stringGlobal(std::string_view text);
+    /// Value of a predefined ERR_ constant.
+    int32_t errorNumber(std::string_view name) const;
+    uint32_t fileIndex(const std::string& path);
+    const sema::Task& task(uint32_t index) const { return *program_.tasks[index]; }
+    /// Appends the flattened constant in memory order; `None` gives zeros.
+    void flatten(const sema::ConstValue& value, const sema::DataType& type, ir::ConstData& out);
+
+  private:
+    struct Pending {
+        const sema::RoutineSymbol* symbol;
+        uint32_t task;
+        uint32_t index;
+    };
+    void lowerTask(uint32_t task);
+    uint32_t makeReset(uint32_t task);
+    void drainPending();
+    uint32_t addGlobal(const sema::DataSymbol& symbol, uint32_t task, bool shared, const std::string& name);
+
+    const sema::CheckedProgram& program_;
+    const Options& options_;
+    diag::Sink& sink_;
+    ir::Module& module_;
+    std::unordered_map<const sema::Type*, ir::TypeId> records_;
+    std::map<std::tuple<const sema::Type*, int, int, int>, uint32_t> descs_;
+    std::map<std::pair<uint32_t, const sema::DataSymbol*>, uint32_t> globals_;
+    std::map<std::string, uint32_t> sharedPersistents_;
+    std::map<std::pair<uint32_t, const sema::RoutineSymbol*>, uint32_t> routines_;
+    std::unordered_map<std::string, uint32_t> natives_;
+    std::map<std::string, uint32_t> constants_;
+    std::unordered_map<std::string, int32_t> errorNumbers_;
+    std::unordered_map<std::string, uint32_t> files_;
+    std::vector<Pending> pending_;
+};
+
+/// Lower-cased copy: RAPID names are not case sensitive.
+std::string foldCase(std::string_view text);
+
+} // namespace rapid::lower

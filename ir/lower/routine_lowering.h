@@ -1,0 +1,163 @@
+#pragma once
+// Lowers one routine: statements, expressions, calls, handlers. Split over lower_*.cpp by subject.
+
+#include "ir/lower/program_lowering.h"
+
+#include <array>
+#include <optional>
+#include <unordered_map>
+
+namespace rapid::lower {
+
+/// Signature and names of a routine whose body follows later.
+ir::Routine declareRoutine(ProgramLowering& program, const sema::RoutineSymbol& symbol, uint32_t task);
+
+class RoutineLowering {
+  public:
+    /// `declared` is the result of declareRoutine(); the finished routine is returned by run().
+    RoutineLowering(ProgramLowering& program, const sema::RoutineSymbol& symbol, uint32_t task,
+                    const ir::Routine& declared);
+    ir::Routine run();
+
+  private:
+    using Expr = syntax::Expr;
+    using ValueId = ir::ValueId;
+
+    /// Where a data object of the routine lives.
+    struct Slot {
+        enum class Kind : uint8_t { Local, Pointer, IntLoop } kind = Kind::Local;
+        uint32_t local = ir::kNone; ///< Local: the object; IntLoop: the I32 counter
+        uint32_t param = ir::kNone; ///< parameters: number of the IR parameter
+        bool optional = false;      ///< must be checked before use
+        int64_t lo = 0, hi = 0;     ///< IntLoop: range of the counter
+    };
+    /// An addressed data object. `dims` are I32 values where the type's dims are 0.
+    struct Place {
+        ValueId addr = ir::kNone;
+        sema::DataType type;
+        std::array<ValueId, 3> dims{ir::kNone, ir::kNone, ir::kNone};
+    };
+    struct IntRange {
+        int64_t lo = 0, hi = 0;
+    };
+    struct LoopTargets {
+        ir::BlockId onBreak, onContinue;
+    };
+
+    // lower_routine.cpp
+    void lowerParameters();
+    void lowerData();
+    void lowerHandlers();
+    void lowerErrorHandler();
+    bool hasRetry() const { return hasErrorHandler_; }
+    bool mayChangeArguments() const;
+
+    // lower_stmt.cpp
+    void lowerList(syntax::StmtList list);
+    void lowerStmt(const syntax::Stmt& stmt);
+    void lowerAssign(const syntax::AssignStmt& stmt);
+    void lowerIf(const syntax::IfStmt& stmt);
+    void lowerCompactIf(const syntax::CompactIfStmt& stmt);
+    void lowerWhile(const syntax::WhileStmt& stmt);
+    void lowerTest(const syntax::TestStmt& stmt);
+    void lowerReturn(const syntax::ReturnStmt& stmt);
+    void lowerRaise(const syntax::RaiseStmt& stmt);
+    void lowerConnect(const syntax::ConnectStmt& stmt);
+    void lowerExit();
+    ir::BlockId labelBlock(const sema::Symbol* label);
+    void startStatement(const syntax::Node& node, ir::StmtKind kind);
+    void unfinished(const syntax::Node& node, const char* what);
+
+    // lower_loops.cpp
+    void lowerFor(const syntax::ForStmt& stmt);
+    void lowerIntLoop(const syntax::ForStmt& stmt, sema::DataSymbol& variable, int32_t step, IntRange from);
+    void lowerUnknownDirection(const syntax::ForStmt& stmt, sema::DataSymbol& variable, IntRange from);
+    void lowerCountedBody(const syntax::ForStmt& stmt, sema::DataSymbol& variable, ValueId first,
+                          ValueId last, int32_t step, IntRange range);
+    void lowerFloatLoop(const syntax::ForStmt& stmt, sema::DataSymbol& variable);
+    ValueId boundAsInt(const Expr& to, bool roundDown);
+
+    // lower_expr.cpp
+    ValueId lowerValue(const Expr& expr); ///< scalar in its own type
+    ValueId lowerValueAs(const Expr& expr, const sema::Type* wanted);
+    ValueId lowerAddr(const Expr& expr); ///< aggregate or handle: address of storage or temporary
+    void lowerInto(const Expr& expr, const sema::DataType& type, ValueId dst);
+    void storeExpr(const Expr& expr, const sema::DataType& type, ValueId dst);
+    void lowerCond(const Expr& expr, ir::BlockId ifTrue, ir::BlockId ifFalse);
+    ValueId lowerBinary(const syntax::BinaryExpr& expr);
+    ValueId lowerArithmetic(syntax::BinaryOp op, ValueId a, ValueId b, bool isDnum);
+    ValueId lowerIntegerDivision(bool modulo, ValueId a, ValueId b, bool isDnum);
+    ValueId lowerComparison(const syntax::BinaryExpr& expr);
+    ValueId lowerEquality(const Expr& left, const Expr& right);
+    ValueId equalPlaces(ValueId a, ValueId b, const sema::DataType& type);
+    ValueId lowerShortCircuit(const syntax::BinaryExpr& expr);
+    ValueId constantScalar(const sema::ConstValue& value, ir::TypeId type);
+    ValueId readSignal(const Expr& expr, bool asDnum);
+    bool isCheap(const Expr& expr) const;
+
+    // lower_vector.cpp: pos and orient arithmetic, component by component
+    bool isVectorOp(const Expr& expr) const;
+    std::vector<ValueId> lowerComponents(const Expr& expr);
+    void lowerVectorInto(const Expr& expr, ValueId dst);
+
+    // int_range.cpp: num expressions that are certainly integers
+    std::optional<IntRange> intRange(const Expr& expr) const;
+    ValueId lowerInt(const Expr& expr);
+
+    // lower_access.cpp
+    Place place(const Expr& expr);
+    Place placeOf(const sema::DataSymbol& symbol);
+    Place elementPlace(const syntax::IndexExpr& expr);
+    ValueId lowerIndex(const Expr& index, ValueId dim, int32_t knownDim, bool& safe);
+    ValueId dimValue(const Place& p, int k);
+    const sema::DataSymbol* rootSymbol(const Expr& expr) const;
+    bool mentions(const Expr& expr, const sema::DataSymbol& target) const;
+    bool mayAlias(const Expr& value, const Expr& target) const;
+    void checkPresent(const Slot& slot);
+
+    // lower_call.cpp
+    ValueId lowerCall(const syntax::Node& node, ValueId resultAddr); ///< CallExpr or CallStmt
+    ValueId lowerSpecial(const sema::BoundCall& call, bool& done);
+    ValueId lowerPresent(const sema::BoundCall& call);
+    ValueId lowerDim(const sema::BoundCall& call);
+    void lowerWaitUntil(const sema::BoundCall& call);
+    void lowerLateCall(const syntax::CallStmt& stmt);
+    void pushArgument(const sema::BoundArg& arg, std::vector<ValueId>& args);
+    void pushPointerArgument(const sema::BoundArg& arg, std::vector<ValueId>& args);
+    void pushConditional(const sema::BoundArg& arg, std::vector<ValueId>& args);
+    void pushAny(const sema::BoundArg& arg, std::vector<ValueId>& args);
+    ValueId argumentAddress(const sema::BoundArg& arg);
+    const sema::BoundArg* findArg(const sema::BoundCall& call, std::string_view name) const;
+
+    // helpers
+    /// Statement-level facts: of the task, or of the library for its routines written in RAPID.
+    const sema::Task& facts() const {
+        return module_->predefined ? program_.program().library : program_.task(task_);
+    }
+    const sema::ExprInfo& info(const Expr& expr) const { return (*module_->exprs)[expr.id]; }
+    const sema::Type* baseType(const Expr& expr) const { return info(expr).type.type->base(); }
+    static const Expr& unparen(const Expr& expr);
+    uint32_t temp(ir::TypeId type);
+    ValueId tempAddr(ir::TypeId type) { return b_.localAddr(temp(type)); }
+    sema::DataType scalarType(const sema::Type* type) const { return {type, 0, {0, 0, 0}}; }
+    void branchIfOpen(ir::BlockId target) {
+        if (!b_.terminated()) b_.br(target);
+    }
+    const Slot* findSlot(const sema::DataSymbol& symbol) const;
+
+    ProgramLowering& program_;
+    const sema::RoutineSymbol& symbol_;
+    const sema::Module* module_;
+    uint32_t task_;
+    ir::Routine routine_;
+    ir::Builder b_;
+    std::unordered_map<const sema::DataSymbol*, Slot> slots_;
+    std::unordered_map<const sema::Symbol*, ir::BlockId> labels_;
+    std::vector<LoopTargets> loops_;
+    std::multimap<ir::TypeId, uint32_t> freeTemps_;
+    std::vector<std::pair<ir::TypeId, uint32_t>> usedTemps_;
+    bool hasErrorHandler_ = false;
+    enum class Region : uint8_t { Body, Error, Undo } region_ = Region::Body;
+};
+
+} // namespace rapid::lower
