@@ -1,0 +1,100 @@
+// rapidc build: a native executable that needs no rapidc.
+
+#include "tools/rapidc/commands.h"
+#include "tools/rapidc/pipeline.h"
+
+#include "codegen/codegen.h"
+#include "runtime/host/run_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace rapidc {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BuildSettings {
+    Inputs inputs;
+    std::string output;
+    bool noOptimise = false;
+    bool strip = false;
+};
+
+fs::path ownFolder() {
+    std::error_code ignored;
+    const fs::path self = fs::read_symlink("/proc/self/exe", ignored);
+    return self.parent_path();
+}
+
+codegen::LinkOptions linkOptions(bool strip) {
+    codegen::LinkOptions options;
+    const fs::path lib = ownFolder() / "lib";
+    for (const char* name : {"rapidc_host_main", "rapidc_stdlib", "rapidc_runtime", "rapidc_motion"})
+        options.libraries.push_back((lib / fmt::format("lib{}.a", name)).string());
+    options.libraries.emplace_back(RAPIDC_BOOST_CONTEXT);
+    options.stripDebug = strip;
+    const std::string arguments = RAPIDC_LINK_ARGUMENTS;
+    for (size_t at = 0; at < arguments.size();) {
+        const size_t end = std::min(arguments.find(';', at), arguments.size());
+        options.extraArguments.push_back(arguments.substr(at, end - at));
+        at = end + 1;
+    }
+    return options;
+}
+
+/// Removes the object file however the command ends.
+struct TemporaryFile {
+    std::string path;
+    ~TemporaryFile() {
+        std::error_code ignored;
+        fs::remove(path, ignored);
+    }
+};
+
+int build(BuildSettings& settings) {
+    settings.inputs.requireMain = true;
+    const auto compilation = checkInputs(settings.inputs);
+    if (!compilation->usageErrors.empty()) {
+        for (const std::string& problem : compilation->usageErrors) fmt::print(stderr, "rapidc build: {}\n", problem);
+        return static_cast<int>(rt::ExitStatus::BadUsage);
+    }
+    if (settings.output.empty()) settings.output = fs::path(settings.inputs.paths[0]).stem().string();
+    if (settings.output.empty()) settings.output = "a.out";
+    ir::Module module;
+    const bool lowered = !compilation->sink.hasErrors() &&
+                         lowerToIr(*compilation, fs::path(settings.output).filename().string(), false, module);
+    printDiagnostics(*compilation);
+    if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
+    const TemporaryFile object{fmt::format("{}.{}.o", settings.output, getpid())};
+    codegen::CodegenOptions options;
+    options.optimise = !settings.noOptimise;
+    std::string error;
+    if (!codegen::emitObject(module, object.path, options, error) ||
+        !codegen::linkExecutable(object.path, settings.output, linkOptions(settings.strip), error)) {
+        fmt::print(stderr, "rapidc build: {}\n", error);
+        return static_cast<int>(rt::ExitStatus::BadProgram);
+    }
+    return 0;
+}
+
+} // namespace
+
+void addBuildCommand(CLI::App& app, int& status) {
+    auto settings = std::make_shared<BuildSettings>();
+    CLI::App* command = app.add_subcommand("build", "Compile to a native executable");
+    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs")->required();
+    command->add_option("-o,--output", settings->output, "The executable to write");
+    command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")->allow_extra_args(false);
+    command->add_option("--config", settings->inputs.configFiles, "Parameters (.cfg) kept in the executable")
+        ->allow_extra_args(false);
+    command->add_flag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
+    command->add_flag("--strip", settings->strip, "Leave out debug information");
+    command->callback([settings, &status] { status = build(*settings); });
+}
+
+} // namespace rapidc

@@ -1,0 +1,131 @@
+// rapidc emit: shows a stage of the compiler.
+
+#include "tools/rapidc/commands.h"
+#include "tools/rapidc/pipeline.h"
+
+#include "codegen/codegen.h"
+#include "frontend/syntax/parser.h"
+#include "ir/text/text.h"
+#include "runtime/host/run_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fmt/format.h>
+
+namespace rapidc {
+
+namespace {
+
+struct EmitSettings {
+    Inputs inputs;
+    std::string as = "ir";
+    std::string output;
+    bool noOptimise = false;
+};
+
+std::string symbolsText(const rapid::sema::CheckedProgram& program) {
+    std::string out;
+    for (const auto& task : program.tasks) {
+        out += fmt::format("task {} {}\n", task->name, task->type);
+        for (const rapid::sema::Module* module : task->modules) {
+            out += fmt::format("  module {}\n", module->name);
+            for (const auto* type : module->types)
+                out += fmt::format("    type {}{}\n", type->name, type->isLocal ? " local" : "");
+            for (const auto* data : module->data) {
+                static constexpr const char* kKinds[] = {"var", "pers", "const"};
+                out += fmt::format("    {} {} {}", kKinds[static_cast<int>(data->dataKind)], data->type.type->name, data->name);
+                for (int k = 0; k < data->type.rank; ++k)
+                    out += fmt::format("{}{}{}", k == 0 ? "{" : ",", data->type.dims[k], k + 1 == data->type.rank ? "}" : "");
+                out += data->isLocal ? " local\n" : "\n";
+            }
+            for (const auto* routine : module->routines) {
+                static constexpr const char* kKinds[] = {"proc", "func", "trap"};
+                out += fmt::format("    {} {}", kKinds[static_cast<int>(routine->routineKind)], routine->name);
+                for (const auto* param : routine->params) out += fmt::format(" {}:{}", param->name, param->type.type->name);
+                out += routine->isLocal ? " local\n" : "\n";
+            }
+        }
+    }
+    return out;
+}
+
+int write(const EmitSettings& settings, const std::string& text) {
+    if (settings.output.empty()) {
+        std::fwrite(text.data(), 1, text.size(), stdout);
+        return 0;
+    }
+    FILE* file = std::fopen(settings.output.c_str(), "wb");
+    if (!file) {
+        fmt::print(stderr, "rapidc emit: cannot write '{}'\n", settings.output);
+        return static_cast<int>(rt::ExitStatus::BadUsage);
+    }
+    std::fwrite(text.data(), 1, text.size(), file);
+    std::fclose(file);
+    return 0;
+}
+
+std::string emitMachine(const EmitSettings& settings, const ir::Module& module, std::string& error) {
+    codegen::CodegenOptions options;
+    options.optimise = !settings.noOptimise;
+    if (settings.as == "llvm") return codegen::emitLlvm(module, options, error);
+    if (settings.as == "asm") return codegen::emitAsm(module, options, error);
+    if (settings.output.empty())
+        error = "an object file needs a name: give -o FILE.o";
+    else
+        codegen::emitObject(module, settings.output, options, error);
+    return {};
+}
+
+int emit(EmitSettings& settings) {
+    const bool early = settings.as == "tokens" || settings.as == "tree";
+    const auto compilation = checkInputs(settings.inputs);
+    if (!compilation->usageErrors.empty()) {
+        for (const std::string& problem : compilation->usageErrors) fmt::print(stderr, "rapidc emit: {}\n", problem);
+        return static_cast<int>(rt::ExitStatus::BadUsage);
+    }
+    std::string text;
+    if (early) {
+        for (const auto& tree : compilation->program->trees) {
+            if (compilation->program->library.modules.empty() && tree->source->path().starts_with("stdlib:")) continue;
+            bool user = false;
+            for (const auto& task : compilation->program->tasks)
+                for (const auto* module : task->modules) user = user || module->tree == tree.get();
+            if (!user) continue;
+            text += settings.as == "tree" ? rapid::syntax::printTree(*tree) : rapid::syntax::printTokens(*tree);
+        }
+        printDiagnostics(*compilation);
+        write(settings, text);
+        return compilation->sink.hasErrors() ? static_cast<int>(rt::ExitStatus::BadProgram) : 0;
+    }
+    ir::Module module;
+    const bool ok = !compilation->sink.hasErrors() &&
+                    (settings.as == "symbols" || lowerToIr(*compilation, "program", false, module));
+    printDiagnostics(*compilation);
+    if (!ok) return static_cast<int>(rt::ExitStatus::BadProgram);
+    if (settings.as == "symbols") return write(settings, symbolsText(*compilation->program));
+    if (settings.as == "ir") return write(settings, ir::printModule(module));
+    std::string error;
+    text = emitMachine(settings, module, error);
+    if (!error.empty()) {
+        fmt::print(stderr, "rapidc emit: {}\n", error);
+        return static_cast<int>(rt::ExitStatus::BadProgram);
+    }
+    return settings.as == "obj" ? 0 : write(settings, text);
+}
+
+} // namespace
+
+void addEmitCommand(CLI::App& app, int& status) {
+    auto settings = std::make_shared<EmitSettings>();
+    CLI::App* command = app.add_subcommand("emit", "Show a stage of the compiler");
+    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs")->required();
+    command->add_option("--as", settings->as, "tokens, tree, symbols, ir, llvm, asm or obj")
+        ->check(CLI::IsMember({"tokens", "tree", "symbols", "ir", "llvm", "asm", "obj"}));
+    command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")->allow_extra_args(false);
+    command->add_option("--config", settings->inputs.configFiles, "Parameters (.cfg)")->allow_extra_args(false);
+    command->add_option("-o,--output", settings->output, "File to write instead of the terminal");
+    command->add_flag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
+    command->callback([settings, &status] { status = emit(*settings); });
+}
+
+} // namespace rapidc

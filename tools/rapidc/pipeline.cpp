@@ -1,0 +1,153 @@
+#include "tools/rapidc/pipeline.h"
+
+#include "frontend/project/project.h"
+#include "ir/lower/lower.h"
+#include "ir/passes/passes.h"
+#include "runtime/io/cfg_parser.h"
+#include "stdlib/native_table.h"
+#include "stdlib/stdlib_text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <fmt/format.h>
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+namespace rapidc {
+
+namespace sema = rapid::sema;
+namespace diag = rapid::diag;
+
+namespace {
+
+std::string upper(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
+    return text;
+}
+
+/// The configured signals by name and RAPID type; the runtime reads the same files again when the program starts.
+void readConfiguration(Compilation& compilation, const std::vector<std::string>& files, sema::CheckOptions& options) {
+    for (const std::string& path : files) {
+        std::ifstream in(path, std::ios::binary);
+        if (!in) {
+            compilation.usageErrors.push_back(fmt::format("cannot read the configuration file '{}'", path));
+            continue;
+        }
+        std::stringstream bytes;
+        bytes << in.rdbuf();
+        std::vector<rt::CfgProblem> problems;
+        const rt::CfgFile cfg = rt::parseCfg(bytes.str(), path, problems);
+        for (const rt::CfgProblem& problem : problems)
+            compilation.sink.report(diag::Code::ConfigurationProblem, nullptr, {}, {problem.text()});
+        compilation.configNames.push_back(path);
+        compilation.configTexts.push_back(bytes.str());
+        if (upper(cfg.domain) != "EIO") continue;
+        options.configurationKnown = true;
+        for (const rt::CfgSection* section : cfg.find("EIO_SIGNAL"))
+            for (const rt::CfgInstance& signal : section->instances) {
+                std::string type = signal.text("SignalType");
+                std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
+                options.signals.push_back({signal.text("Name"), "signal" + type});
+            }
+    }
+}
+
+void reportUnimplemented(Compilation& compilation) {
+    std::vector<std::string_view> missing;
+    for (const rt::NativeEntry& entry : rt::nativeTable())
+        if (!entry.isImplemented()) missing.push_back(entry.name);
+    std::sort(missing.begin(), missing.end());
+    for (const auto& task : compilation.program->tasks) {
+        for (const auto& [node, call] : task->calls) {
+            if (!call.routine || !call.routine->native ||
+                !std::binary_search(missing.begin(), missing.end(), std::string_view(call.routine->name)))
+                continue;
+            const rapid::syntax::SyntaxTree* tree = nullptr;
+            for (const sema::Module* module : task->modules)
+                if (call.module == module) tree = module->tree;
+            if (tree)
+                compilation.sink.report(diag::Code::BuiltinNotImplemented, tree->source, tree->range(*node),
+                                        {call.routine->name});
+        }
+    }
+}
+
+} // namespace
+
+bool readTaskSpec(const std::string& text, std::string& name, std::string& type, std::string& input, std::string& error) {
+    const size_t equals = text.find('=');
+    const std::string head = text.substr(0, equals);
+    const size_t colon = head.find(':');
+    name = head.substr(0, colon);
+    type = colon == std::string::npos ? "NORMAL" : upper(head.substr(colon + 1));
+    input = equals == std::string::npos ? "" : text.substr(equals + 1);
+    const bool knownType = type == "NORMAL" || type == "STATIC" || type == "SEMISTATIC";
+    if (name.empty() || input.empty() || !knownType) {
+        error = fmt::format("cannot read --task={}: expected NAME=INPUT, NAME:STATIC=INPUT or NAME:SEMISTATIC=INPUT", text);
+        return false;
+    }
+    return true;
+}
+
+std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
+    auto compilation = std::make_unique<Compilation>();
+    std::vector<rapid::project::TaskSpec> specs;
+    for (const std::string& text : inputs.tasks) {
+        rapid::project::TaskSpec spec;
+        std::string error;
+        if (readTaskSpec(text, spec.name, spec.type, spec.input, error))
+            specs.push_back(std::move(spec));
+        else
+            compilation->usageErrors.push_back(error);
+    }
+    rapid::project::ProjectInput project;
+    if (!inputs.paths.empty()) rapid::project::loadProject(inputs.paths, specs, project, compilation->sink);
+    std::vector<std::string> configFiles = inputs.configFiles;
+    for (const std::string& found : project.configFiles)
+        if (std::find(configFiles.begin(), configFiles.end(), found) == configFiles.end()) configFiles.push_back(found);
+    sema::CheckOptions options;
+    options.requireMain = inputs.requireMain;
+    readConfiguration(*compilation, configFiles, options);
+    std::vector<sema::LibraryText> library;
+    for (const rapid::stdlib::StdlibSource& source : rapid::stdlib::sources())
+        library.push_back({source.name, source.text});
+    options.library = library;
+    compilation->program = sema::check(project.tasks, options, compilation->sink);
+    reportUnimplemented(*compilation);
+    return compilation;
+}
+
+bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping, ir::Module& out) {
+    rapid::lower::Options options;
+    options.programName = name;
+    options.configNames = compilation.configNames;
+    options.configTexts = compilation.configTexts;
+    options.nativeImplemented = [](std::string_view symbol) { return rt::findNativeAddress(symbol) != nullptr; };
+    if (!rapid::lower::lowerProgram(*compilation.program, options, compilation.sink, out)) return false;
+    ir::PassOptions passes;
+    passes.profile = stepping ? ir::Profile::Stepping : ir::Profile::Release;
+    const std::vector<std::string> findings = ir::runPasses(out, passes);
+    for (const std::string& finding : findings)
+        compilation.sink.report(diag::Code::InternalIr, nullptr, {}, {finding});
+    return findings.empty();
+}
+
+void printDiagnostics(const Compilation& compilation) {
+    const bool colour = isatty(STDERR_FILENO) != 0;
+    const auto sorted = compilation.sink.sorted();
+    size_t warnings = 0;
+    for (const diag::Diagnostic& diagnostic : sorted) {
+        warnings += diagnostic.severity == diag::Severity::Warning ? 1u : 0u;
+        fmt::print(stderr, "{}", diag::renderText(diagnostic, colour));
+    }
+    const size_t errors = compilation.sink.errorCount();
+    auto plural = [](size_t n, const char* word) { return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s"); };
+    if (errors > 0 && warnings > 0)
+        fmt::print(stderr, "{} and {}\n", plural(errors, "error"), plural(warnings, "warning"));
+    else if (errors > 0)
+        fmt::print(stderr, "{}\n", plural(errors, "error"));
+}
+
+} // namespace rapidc

@@ -1,0 +1,41 @@
+#pragma once
+// Inputs of a command -> checked program -> IR. Shared by check, build, run and emit.
+
+#include "frontend/sema/checker.h"
+#include "ir/core/ir.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rapidc {
+
+struct Inputs {
+    std::vector<std::string> paths;       ///< files, folders, programs
+    std::vector<std::string> tasks;       ///< NAME[:TYPE]=INPUT
+    std::vector<std::string> configFiles; ///< --config
+    bool requireMain = false;
+};
+
+/// Result of the front end, with everything the later stages need.
+struct Compilation {
+    rapid::diag::Sink sink;
+    std::unique_ptr<rapid::sema::CheckedProgram> program;
+    std::vector<std::string> configNames; ///< what --config and the folders gave
+    std::vector<std::string> configTexts;
+    std::vector<std::string> usageErrors; ///< e.g. a --task that cannot be read
+};
+
+/// Loads, parses and checks. Look at `sink` and `usageErrors` before going on.
+std::unique_ptr<Compilation> checkInputs(const Inputs& inputs);
+
+/// Lowers and runs the IR passes. False with diagnostics in the sink when something stands against it.
+bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping, ir::Module& out);
+
+/// Writes all diagnostics to stderr in the form for people, and a closing line when there are errors.
+void printDiagnostics(const Compilation& compilation);
+
+/// Reads --task=NAME[:TYPE]=INPUT; false with a message when it has another form.
+bool readTaskSpec(const std::string& text, std::string& name, std::string& type, std::string& input, std::string& error);
+
+} // namespace rapidc

@@ -1,0 +1,138 @@
+// rapidc run: compiles in memory and runs on the virtual controller.
+
+#include "tools/rapidc/commands.h"
+#include "tools/rapidc/path_picture.h"
+#include "tools/rapidc/pipeline.h"
+
+#include "codegen/codegen.h"
+#include "runtime/host/controller.h"
+#include "runtime/host/run_options.h"
+#include "stdlib/native_table.h"
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace rapidc {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RunSettings {
+    std::vector<std::string> paths;
+    rt::RunOptions options;
+    std::string picture;
+    bool summary = false;
+    bool noOptimise = false;
+};
+
+std::vector<codegen::NativeSymbol> nativeSymbols() {
+    std::vector<codegen::NativeSymbol> symbols;
+    for (const rt::NativeEntry& entry : rt::nativeTable())
+        if (entry.address) symbols.push_back({entry.symbol, entry.address});
+    for (const rt::SupportEntry& entry : rt::supportTable())
+        if (entry.address) symbols.push_back({entry.symbol, entry.address});
+    return symbols;
+}
+
+/// A folder may hold the stimulus its program is meant to be run with.
+void findStimulus(RunSettings& settings) {
+    if (!settings.options.stimulus.empty() || settings.paths.size() != 1) return;
+    const fs::path beside = fs::path(settings.paths[0]) / "stimulus.csv";
+    std::error_code ignored;
+    if (fs::is_regular_file(beside, ignored)) settings.options.stimulus = beside.string();
+}
+
+void makeFolders(const RunSettings& settings) {
+    for (const std::string* path :
+         {&settings.options.trace, &settings.options.signals, &settings.options.events, &settings.picture}) {
+        std::error_code ignored;
+        const fs::path folder = fs::path(*path).parent_path();
+        if (!folder.empty()) fs::create_directories(folder, ignored);
+    }
+}
+
+void printSummary(const RunSettings& settings, rt::Controller& controller, double wallSeconds) {
+    const double cycle = rt::toSeconds(controller.scheduler().now());
+    fmt::print(stderr, "\ncycle time  {:.3f} s (virtual), simulated in {:.3f} s\n", cycle, wallSeconds);
+    if (!settings.options.trace.empty()) fmt::print(stderr, "trace       {}\n", settings.options.trace);
+    if (!settings.options.signals.empty()) fmt::print(stderr, "signals     {}\n", settings.options.signals);
+    if (!settings.options.events.empty()) fmt::print(stderr, "events      {}\n", settings.options.events);
+    if (!settings.picture.empty()) fmt::print(stderr, "picture     {}\n", settings.picture);
+}
+
+int execute(RunSettings& settings, const rt::ProgramDesc& program) {
+    const auto start = std::chrono::steady_clock::now();
+    rt::ExitStatus status = rt::ExitStatus::Ended;
+    {
+        rt::Controller controller(settings.options);
+        rt::setUpStandardLibrary(controller);
+        status = controller.prepare(program);
+        if (status != rt::ExitStatus::Ended) return static_cast<int>(status);
+        status = controller.run();
+        std::fflush(stdout);
+        const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+        if (settings.summary) printSummary(settings, controller, wall.count());
+    }
+    if (!settings.picture.empty()) {
+        std::string error;
+        if (!writePathPicture(settings.options.trace, settings.picture, error)) {
+            fmt::print(stderr, "rapidc run: {}\n", error);
+            return static_cast<int>(rt::ExitStatus::BadUsage);
+        }
+    }
+    return static_cast<int>(status);
+}
+
+int run(RunSettings& settings) {
+    Inputs inputs;
+    inputs.paths = settings.paths;
+    inputs.tasks = settings.options.tasks;
+    inputs.configFiles = settings.options.configFiles;
+    inputs.requireMain = true;
+    const auto compilation = checkInputs(inputs);
+    if (!compilation->usageErrors.empty()) {
+        for (const std::string& problem : compilation->usageErrors) fmt::print(stderr, "rapidc run: {}\n", problem);
+        return static_cast<int>(rt::ExitStatus::BadUsage);
+    }
+    ir::Module module;
+    const bool lowered =
+        !compilation->sink.hasErrors() && lowerToIr(*compilation, fs::path(settings.paths[0]).stem().string(), false, module);
+    printDiagnostics(*compilation);
+    if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
+    codegen::CodegenOptions options;
+    options.optimise = !settings.noOptimise;
+    std::string error;
+    const auto program = codegen::jit(module, options, nativeSymbols(), error);
+    if (!program) {
+        fmt::print(stderr, "rapidc run: {}\n", error);
+        return static_cast<int>(rt::ExitStatus::BadProgram);
+    }
+    // The configuration is in the program already; reading it twice would define every signal twice.
+    settings.options.configFiles.clear();
+    findStimulus(settings);
+    if (!settings.picture.empty() && settings.options.trace.empty()) {
+        fmt::print(stderr, "rapidc run: --picture is drawn from the trace: give --trace=FILE.csv too\n");
+        return static_cast<int>(rt::ExitStatus::BadUsage);
+    }
+    makeFolders(settings);
+    return execute(settings, *program->program());
+}
+
+} // namespace
+
+void addRunCommand(CLI::App& app, int& status) {
+    auto settings = std::make_shared<RunSettings>();
+    CLI::App* command = app.add_subcommand("run", "Compile in memory and run on the virtual controller");
+    command->add_option("input", settings->paths, "Modules, folders, .pgf programs")->required();
+    rt::addRunOptions(*command, settings->options, true);
+    command->add_option("--picture", settings->picture, "Draw the path of the TCP from the trace (SVG)");
+    command->add_flag("--summary", settings->summary, "Show cycle time and where the files lie");
+    command->add_flag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
+    command->callback([settings, &status] { status = run(*settings); });
+}
+
+} // namespace rapidc
