@@ -18,8 +18,9 @@ struct PassOptions {
     Profile profile = Profile::Release;
 };
 
-/// Runs simplifyCfg, foldConstants, placeSafepoints. Returns the verifier's findings, each prefixed with the pass after
-/// which it appeared ("input: " when the module came in broken); empty = fine. Stops at the first pass with findings.
+/// Runs simplifyCfg, foldConstants, placeSafepoints. Returns the verifier's findings, each prefixed with the
+/// pass after which it appeared ("input: " when the module came in broken); empty = fine. Stops at the first
+/// pass with findings.
 std::vector<std::string> runPasses(Module& module, const PassOptions& options);
 
 /// Runs the named passes only ("simplify-cfg", "fold-constants", "place-safepoints"), for tests and for emit.
