@@ -146,6 +146,8 @@ class Checker:
             match = re.match(r"\s*(\w+) (\w+);$", lines[number])
             if match:
                 self.used_types.append((f"{place} {name}", match.group(1)))
+                if match.group(2).upper() in RESERVED:
+                    self.offence(place, f"{name}: component {match.group(2)} is a reserved word")
                 components += 1
             elif not lines[number].strip().startswith("!"):
                 self.offence(place, f"component not understood: {lines[number].strip()}")
