@@ -172,7 +172,8 @@ struct ConnectStmt : Stmt {
 struct SimpleStmt : Stmt {};
 
 struct DataDecl;
-/// A data declaration after the first instruction of a routine (not allowed; kept so that it can be judged).
+/// A data declaration after the first instruction of a routine: not allowed, reported by the parser, kept so that
+/// the name is known to later stages.
 struct DeclStmt : Stmt {
     DataDecl* decl = nullptr;
 };
@@ -248,7 +249,7 @@ enum ModuleAttribute : uint8_t {
 };
 struct ModuleDecl : Node {
     TokenIndex name = kNoToken;
-    std::vector<TokenIndex>* attributeTokens = nullptr; ///< as written, may be null
+    std::span<TokenIndex> attributeTokens; ///< as written
     uint8_t attributes = 0;
     std::span<Decl*> decls; ///< in source order, any kind
 };

@@ -1,0 +1,26 @@
+#pragma once
+// The catalogue behind diagnostics.def: severity, number of arguments and text of every code.
+
+#include "frontend/diag/diagnostic.h"
+
+namespace rapid::diag {
+
+/// One line of diagnostics.def.
+struct CatalogueEntry {
+    uint16_t number = 0;
+    Severity severity = Severity::Error;
+    uint8_t argCount = 0;
+    std::string_view name; ///< "UnexpectedCharacter"
+    std::string_view text; ///< with {0}, {1}, ...
+};
+
+/// All entries, ascending by number.
+std::span<const CatalogueEntry> catalogue();
+
+/// The entry of a code; null when there is none.
+const CatalogueEntry* findEntry(uint16_t number);
+
+/// The catalogue text with {0}, {1}, ... replaced. A missing argument leaves its placeholder.
+std::string formatText(std::string_view text, std::span<const std::string> args);
+
+} // namespace rapid::diag

@@ -1,0 +1,56 @@
+#include "frontend/diag/catalogue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace rapid::diag {
+
+Diagnostic& Sink::report(Code code, const std::shared_ptr<const SourceFile>& file, SourceRange range,
+                         std::span<const std::string> args) {
+    Diagnostic diagnostic;
+    diagnostic.code = code;
+    diagnostic.file = file;
+    diagnostic.range = range;
+    if (const CatalogueEntry* entry = findEntry(static_cast<uint16_t>(code))) {
+        diagnostic.severity = entry->severity;
+        diagnostic.message = formatText(entry->text, args);
+    }
+    if (diagnostic.severity == Severity::Error) ++errorCount_;
+    return all_.emplace_back(std::move(diagnostic));
+}
+
+std::vector<Diagnostic> Sink::sorted() const {
+    // A "too many errors" note is about the whole file and stays behind its last error.
+    const auto key = [this](size_t i) {
+        const Diagnostic& d = all_[i];
+        return std::make_tuple(d.file ? std::string_view(d.file->path()) : std::string_view(),
+                               d.code == Code::TooManyErrors, d.range.begin, d.range.end,
+                               static_cast<uint16_t>(d.code), i);
+    };
+    std::vector<size_t> order(all_.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return key(a) < key(b); });
+    std::vector<Diagnostic> result;
+    result.reserve(all_.size());
+    for (const size_t i : order)
+        result.push_back(all_[i]);
+    return result;
+}
+
+std::string codeName(Code code) {
+    return fmt::format("RAP{:04}", static_cast<unsigned>(code));
+}
+
+std::string_view severityName(Severity severity) {
+    switch (severity) {
+    case Severity::Error: return "error";
+    case Severity::Warning: return "warning";
+    case Severity::Note: return "note";
+    }
+    return "error";
+}
+
+} // namespace rapid::diag

@@ -1,0 +1,169 @@
+#include "frontend/source/source_file.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace rapid {
+
+namespace {
+
+constexpr size_t kMaxBytes = 0x7FFFFFF0;
+
+bool endsWithNoCase(std::string_view text, std::string_view suffix) {
+    if (text.size() < suffix.size()) return false;
+    text.remove_prefix(text.size() - suffix.size());
+    return std::equal(text.begin(), text.end(), suffix.begin(), [](char a, char b) {
+        return (a >= 'A' && a <= 'Z' ? static_cast<char>(a + 32) : a) == b;
+    });
+}
+
+/// File types of RobotWare 6 and older, which were ISO 8859-1 (manual 1.1.3).
+bool isLegacyFileType(std::string_view path) {
+    return endsWithNoCase(path, ".mod") || endsWithNoCase(path, ".sys") || endsWithNoCase(path, ".prg");
+}
+
+/// Length of the valid UTF-8 sequence at `p`, 0 if there is none (overlong forms and surrogates are none).
+size_t utf8SequenceLength(const unsigned char* p, const unsigned char* end) {
+    auto continues = [&](size_t i, unsigned char low = 0x80, unsigned char high = 0xBF) {
+        return p + i < end && p[i] >= low && p[i] <= high;
+    };
+    const unsigned char c = *p;
+    if (c < 0x80) return 1;
+    if (c >= 0xC2 && c <= 0xDF) return continues(1) ? 2 : 0;
+    if (c >= 0xE0 && c <= 0xEF) {
+        const bool second = c == 0xE0   ? continues(1, 0xA0, 0xBF)
+                            : c == 0xED ? continues(1, 0x80, 0x9F)
+                                        : continues(1);
+        return second && continues(2) ? 3 : 0;
+    }
+    if (c >= 0xF0 && c <= 0xF4) {
+        const bool second = c == 0xF0   ? continues(1, 0x90, 0xBF)
+                            : c == 0xF4 ? continues(1, 0x80, 0x8F)
+                                        : continues(1);
+        return second && continues(2) && continues(3) ? 4 : 0;
+    }
+    return 0;
+}
+
+/// Offset of the first byte that is not UTF-8, or the size.
+size_t findBadUtf8(std::string_view bytes, size_t from = 0) {
+    const auto* begin = reinterpret_cast<const unsigned char*>(bytes.data());
+    const auto* end = begin + bytes.size();
+    const auto* p = begin + from;
+    while (p < end) {
+        uint64_t word;
+        while (end - p >= 8 && (std::memcpy(&word, p, 8), (word & 0x8080808080808080ull) == 0))
+            p += 8;
+        if (p >= end) break;
+        const size_t length = utf8SequenceLength(p, end);
+        if (length == 0) return static_cast<size_t>(p - begin);
+        p += length;
+    }
+    return bytes.size();
+}
+
+void appendLatin1(std::string& out, unsigned char c) {
+    if (c < 0x80) {
+        out.push_back(static_cast<char>(c));
+    } else {
+        out.push_back(static_cast<char>(0xC0 | (c >> 6)));
+        out.push_back(static_cast<char>(0x80 | (c & 0x3F)));
+    }
+}
+
+std::string fromLatin1(std::string_view bytes) {
+    std::string out;
+    out.reserve(bytes.size() + bytes.size() / 16);
+    for (const char c : bytes)
+        appendLatin1(out, static_cast<unsigned char>(c));
+    return out;
+}
+
+/// Keeps what is UTF-8 and turns each other byte into its Latin-1 character.
+std::string repairUtf8(std::string_view bytes) {
+    std::string out;
+    out.reserve(bytes.size() + 16);
+    size_t from = 0;
+    while (from < bytes.size()) {
+        const size_t bad = findBadUtf8(bytes, from);
+        out.append(bytes.substr(from, bad - from));
+        if (bad < bytes.size()) appendLatin1(out, static_cast<unsigned char>(bytes[bad]));
+        from = bad + 1;
+    }
+    return out;
+}
+
+/// Starts of all lines; a line ends with LF, CR or CRLF.
+std::vector<uint32_t> findLines(std::string_view text) {
+    std::vector<uint32_t> starts;
+    starts.reserve(text.size() / 32 + 1);
+    starts.push_back(0);
+    const char* begin = text.data();
+    const char* end = begin + text.size();
+    if (text.find('\r') == std::string_view::npos) {
+        for (const char* p = begin; p < end;) {
+            const auto* found = static_cast<const char*>(std::memchr(p, '\n', static_cast<size_t>(end - p)));
+            if (!found) break;
+            p = found + 1;
+            starts.push_back(static_cast<uint32_t>(p - begin));
+        }
+        return starts;
+    }
+    for (size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c != '\n' && c != '\r') continue;
+        if (c == '\r' && i + 1 < text.size() && text[i + 1] == '\n') ++i;
+        starts.push_back(static_cast<uint32_t>(i + 1));
+    }
+    return starts;
+}
+
+} // namespace
+
+SourceFile::SourceFile(std::string path, std::string bytes) : path_(std::move(path)) {
+    if (bytes.size() > kMaxBytes) { // offsets have 32 bits, and Latin-1 may double the size
+        binary_ = true;
+        bytes.clear();
+    }
+    if (!bytes.empty()) {
+        const auto first = static_cast<unsigned char>(bytes[0]);
+        binary_ = first == 0xFC || first == 0xFE || bytes.find('\0') != std::string::npos;
+    }
+    if (bytes.starts_with("\xEF\xBB\xBF")) {
+        bytes.erase(0, 3);
+        encoding_ = Encoding::Utf8Bom;
+    }
+    const size_t bad = findBadUtf8(bytes);
+    if (bad == bytes.size()) {
+        text_ = std::move(bytes);
+    } else if (binary_ || (isLegacyFileType(path_) && encoding_ != Encoding::Utf8Bom)) {
+        text_ = fromLatin1(bytes);
+        encoding_ = Encoding::Latin1;
+    } else {
+        text_ = repairUtf8(bytes);
+        badUtf8Offset_ = static_cast<int64_t>(bad);
+    }
+    lineStarts_ = findLines(text_);
+}
+
+LineColumn SourceFile::lineColumn(uint32_t offset) const {
+    offset = std::min(offset, static_cast<uint32_t>(text_.size()));
+    const auto next = std::upper_bound(lineStarts_.begin(), lineStarts_.end(), offset);
+    const auto line = static_cast<uint32_t>(next - lineStarts_.begin());
+    const uint32_t start = lineStarts_[line - 1];
+    const auto isCharacterStart = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
+    const auto before = std::count_if(text_.begin() + start, text_.begin() + offset, isCharacterStart);
+    return {line, static_cast<uint32_t>(before) + 1};
+}
+
+std::string_view SourceFile::lineText(uint32_t line) const {
+    if (line == 0 || line > lineStarts_.size()) return {};
+    const uint32_t begin = lineStarts_[line - 1];
+    const size_t end = line < lineStarts_.size() ? lineStarts_[line] : text_.size();
+    std::string_view text = std::string_view(text_).substr(begin, end - begin);
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r'))
+        text.remove_suffix(1);
+    return text;
+}
+
+} // namespace rapid

@@ -1,0 +1,386 @@
+#include "frontend/syntax/lexer.h"
+
+#include "frontend/syntax/token_set.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
+
+namespace rapid::syntax {
+
+namespace {
+
+constexpr size_t kMaxStringBytes = 80; // manual 1.1.2
+
+enum class CharClass : uint8_t {
+    Junk,
+    Space,
+    Letter,
+    Digit,
+    Quote,
+    Comment,
+    Punctuation,
+    Dot,
+    Less,
+    NonAscii
+};
+
+constexpr std::array<CharClass, 256> kClasses = [] {
+    std::array<CharClass, 256> table{};
+    for (int c = 'a'; c <= 'z'; ++c)
+        table[static_cast<size_t>(c)] = CharClass::Letter;
+    for (int c = 'A'; c <= 'Z'; ++c)
+        table[static_cast<size_t>(c)] = CharClass::Letter;
+    for (int c = '0'; c <= '9'; ++c)
+        table[static_cast<size_t>(c)] = CharClass::Digit;
+    for (const char c : {' ', '\t', '\n', '\r', '\f'})
+        table[static_cast<size_t>(c)] = CharClass::Space;
+    for (const char c :
+         {';', ',', ':', '(', ')', '{', '}', '[', ']', '\\', '?', '|', '%', '+', '-', '*', '/', '=', '>'})
+        table[static_cast<size_t>(c)] = CharClass::Punctuation;
+    table['"'] = CharClass::Quote;
+    table['!'] = CharClass::Comment;
+    table['.'] = CharClass::Dot;
+    table['<'] = CharClass::Less;
+    for (size_t c = 0x80; c < 256; ++c)
+        table[c] = CharClass::NonAscii;
+    return table;
+}();
+
+/// Letters, digits and '_' of ASCII.
+constexpr std::array<bool, 256> kWordChars = [] {
+    std::array<bool, 256> table{};
+    for (size_t c = 0; c < 128; ++c)
+        table[c] = kClasses[c] == CharClass::Letter || kClasses[c] == CharClass::Digit || c == '_';
+    return table;
+}();
+
+constexpr std::array<TokenKind, 128> kSingles = [] {
+    std::array<TokenKind, 128> table{};
+    table[';'] = TokenKind::Semicolon;
+    table[','] = TokenKind::Comma;
+    table[':'] = TokenKind::Colon;
+    table['('] = TokenKind::LeftParen;
+    table[')'] = TokenKind::RightParen;
+    table['{'] = TokenKind::LeftBrace;
+    table['}'] = TokenKind::RightBrace;
+    table['['] = TokenKind::LeftBracket;
+    table[']'] = TokenKind::RightBracket;
+    table['\\'] = TokenKind::Backslash;
+    table['?'] = TokenKind::Question;
+    table['|'] = TokenKind::Bar;
+    table['%'] = TokenKind::Percent;
+    table['+'] = TokenKind::Plus;
+    table['-'] = TokenKind::Minus;
+    table['*'] = TokenKind::Star;
+    table['/'] = TokenKind::Slash;
+    table['='] = TokenKind::Equal;
+    table['>'] = TokenKind::Greater;
+    return table;
+}();
+
+unsigned char byteAt(const char* p) {
+    return static_cast<unsigned char>(*p);
+}
+CharClass classAt(const char* p) {
+    return kClasses[byteAt(p)];
+}
+bool isDigit(char c) {
+    return c >= '0' && c <= '9';
+}
+bool isHexDigit(char c) {
+    return isDigit(c) || ((c | 32) >= 'a' && (c | 32) <= 'f');
+}
+bool isLineEnd(char c) {
+    return c == '\n' || c == '\r';
+}
+
+/// One of the Latin-1 letters of the manual, À to ÿ without × and ÷, as UTF-8.
+bool isLatin1Letter(const char* p) {
+    if (byteAt(p) != 0xC3) return false;
+    const unsigned char low = byteAt(p + 1);
+    return low >= 0x80 && low <= 0xBF && low != 0x97 && low != 0xB7;
+}
+
+/// "'@'" or "U+00A0" for what a screen does not show.
+std::string showCharacter(std::string_view text) {
+    const auto c = static_cast<unsigned char>(text[0]);
+    if (c < 0x80) return c >= 0x20 && c != 0x7F ? fmt::format("'{}'", text[0]) : fmt::format("U+{:04X}", c);
+    const size_t length = c >= 0xF0 ? 4 : c >= 0xE0 ? 3 : 2;
+    uint32_t point = c & (length == 4 ? 0x07u : length == 3 ? 0x0Fu : 0x1Fu);
+    for (size_t i = 1; i < length && i < text.size(); ++i)
+        point = point << 6 | (static_cast<unsigned char>(text[i]) & 0x3Fu);
+    const bool visible = point > 0xA0 && point != 0xAD && !(point >= 0x2000 && point <= 0x200F) &&
+                         !(point >= 0x2028 && point <= 0x202F) && point != 0xFEFF && point != 0x3000;
+    return visible ? fmt::format("'{}' (U+{:04X})", text.substr(0, length), point)
+                   : fmt::format("U+{:04X}", point);
+}
+
+class Lexer {
+  public:
+    explicit Lexer(std::string_view text) : begin_(text.data()), end_(begin_ + text.size()), p_(begin_) {
+        result_.tokens.reserve(text.size() / 5 + 16);
+    }
+
+    LexResult run() {
+        readFileHeader();
+        while (skipGap())
+            readToken();
+        push(TokenKind::EndOfFile, end_);
+        return std::move(result_);
+    }
+
+  private:
+    /// Goes to the next token; false at the end of the text, which std::string terminates by a NUL.
+    bool skipGap() {
+        for (;;) {
+            const CharClass c = classAt(p_);
+            if (c == CharClass::Space) {
+                ++p_;
+            } else if (c == CharClass::Comment) {
+                do
+                    ++p_;
+                while (p_ < end_ && !isLineEnd(*p_));
+            } else {
+                break;
+            }
+        }
+        if (p_ + 1 == end_ && *p_ == 0x1A) p_ = end_; // end mark of old DOS files
+        return p_ < end_;
+    }
+
+    void push(TokenKind kind, const char* start) {
+        result_.tokens.push_back(
+            {static_cast<uint32_t>(start - begin_), static_cast<uint32_t>(p_ - start), kind});
+    }
+
+    void error(diag::Code code, const char* from, const char* to, std::vector<std::string> args = {}) {
+        if (result_.errors.size() >= kMaxLexErrors) return;
+        const SourceRange range{static_cast<uint32_t>(from - begin_), static_cast<uint32_t>(to - begin_)};
+        result_.errors.push_back({code, range, std::move(args)});
+    }
+
+    std::string_view slice(const char* from, const char* to) const {
+        return {from, static_cast<size_t>(to - from)};
+    }
+
+    void readToken() {
+        switch (classAt(p_)) {
+        case CharClass::Letter: return readWord();
+        case CharClass::Digit: return readNumber();
+        case CharClass::Quote: return readString();
+        case CharClass::Punctuation: return readPunctuation();
+        case CharClass::Dot:
+            if (isDigit(p_[1])) return readNumber();
+            return readSingle(TokenKind::Dot);
+        case CharClass::Less: return readLess();
+        case CharClass::NonAscii:
+            if (isLatin1Letter(p_)) return readWord();
+            return readJunk();
+        case CharClass::Junk:
+        case CharClass::Space:
+        case CharClass::Comment: return readJunk();
+        }
+    }
+
+    void readSingle(TokenKind kind) {
+        const char* start = p_++;
+        push(kind, start);
+    }
+
+    void skipWordChars() {
+        for (;;) {
+            while (kWordChars[byteAt(p_)])
+                ++p_;
+            if (!isLatin1Letter(p_)) return;
+            p_ += 2;
+        }
+    }
+
+    void readWord() {
+        const char* start = p_;
+        skipWordChars();
+        const TokenKind kind = keywordKind(slice(start, p_));
+        result_.hasModule |= kind == TokenKind::KwModule;
+        push(kind, start);
+    }
+
+    void skipDigits() {
+        while (isDigit(*p_))
+            ++p_;
+    }
+
+    void readNumber() {
+        const char* start = p_;
+        const char prefix = static_cast<char>(p_[1] | 32);
+        bool valid = true;
+        if (*p_ == '0' && (prefix == 'x' || prefix == 'o' || prefix == 'b')) {
+            const char* digits = p_ += 2;
+            if (prefix == 'x')
+                while (isHexDigit(*p_))
+                    ++p_;
+            if (prefix == 'o')
+                while (*p_ >= '0' && *p_ <= '7')
+                    ++p_;
+            if (prefix == 'b')
+                while (*p_ == '0' || *p_ == '1')
+                    ++p_;
+            valid = p_ > digits;
+        } else {
+            skipDigits();
+            if (*p_ == '.') {
+                ++p_;
+                skipDigits();
+            }
+            if ((*p_ | 32) == 'e') {
+                const char* digits = p_ + 1;
+                if (*digits == '+' || *digits == '-') ++digits;
+                if (isDigit(*digits)) {
+                    p_ = digits;
+                    skipDigits();
+                }
+            }
+        }
+        if (kWordChars[byteAt(p_)] || isLatin1Letter(p_) || *p_ == '.') { // glued to what follows
+            valid = false;
+            while (*p_ == '.' || kWordChars[byteAt(p_)] || isLatin1Letter(p_))
+                ++p_, skipContinuation();
+        }
+        if (!valid) error(diag::Code::BadNumber, start, p_, {std::string(slice(start, p_).substr(0, 40))});
+        push(TokenKind::NumLiteral, start);
+    }
+
+    void skipContinuation() {
+        while ((byteAt(p_) & 0xC0) == 0x80)
+            ++p_;
+    }
+
+    void readString() {
+        const char* start = p_++;
+        size_t saved = 0; // bytes that codes and doubled characters take beyond their value
+        bool badEscape = false;
+        for (;;) {
+            const char c = *p_;
+            if (c == '"') {
+                if (p_[1] != '"') break;
+                p_ += 2;
+                ++saved;
+            } else if (c == '\\') {
+                if (p_[1] == '\\') {
+                    p_ += 2;
+                    ++saved;
+                } else if (isHexDigit(p_[1]) && isHexDigit(p_[2])) {
+                    p_ += 3;
+                    saved += 2;
+                } else {
+                    if (!badEscape) reportEscape();
+                    badEscape = true;
+                    ++p_;
+                }
+            } else if (isLineEnd(c) || p_ >= end_) {
+                error(diag::Code::UnterminatedString, start, p_);
+                return push(TokenKind::Error, start);
+            } else {
+                ++p_;
+            }
+        }
+        ++p_;
+        const size_t bytes = static_cast<size_t>(p_ - start) - 2 - saved;
+        if (bytes > kMaxStringBytes) error(diag::Code::StringTooLong, start, p_, {std::to_string(bytes)});
+        push(TokenKind::StringLiteral, start);
+    }
+
+    void reportEscape() {
+        const char* to = p_ + 1;
+        if (to < end_ && !isLineEnd(*to) && *to != '"') {
+            ++to;
+            while ((byteAt(to) & 0xC0) == 0x80)
+                ++to;
+        }
+        error(diag::Code::BadStringEscape, p_, to, {std::string(slice(p_, to))});
+    }
+
+    void readPunctuation() {
+        const char* start = p_;
+        const char c = *p_++;
+        TokenKind kind = kSingles[static_cast<size_t>(c)];
+        if (*p_ == '=' && (c == ':' || c == '>')) {
+            ++p_;
+            kind = c == ':' ? TokenKind::Assign : TokenKind::GreaterEqual;
+        }
+        push(kind, start);
+    }
+
+    void readLess() {
+        const char* start = p_++;
+        if (*p_ == '=') return ++p_, push(TokenKind::LessEqual, start);
+        if (*p_ == '>') return ++p_, push(TokenKind::NotEqual, start);
+        // "<id>" cannot be two relations, because relations do not chain.
+        const char* close = p_;
+        while (close < p_ + 4 && classAt(close) == CharClass::Letter)
+            ++close;
+        if (*close == '>' && close - p_ >= 2) {
+            const std::string_view text = slice(start, close + 1);
+            for (auto k = static_cast<int>(TokenKind::PlaceTdn); k <= static_cast<int>(TokenKind::PlaceId);
+                 ++k) {
+                if (!equalsNoCase(text, tokenText(static_cast<TokenKind>(k)))) continue;
+                p_ = close + 1;
+                return push(static_cast<TokenKind>(k), start);
+            }
+        }
+        push(TokenKind::Less, start);
+    }
+
+    /// One token for a run of unreadable characters, one report for a line of them.
+    void readJunk() {
+        const char* start = p_;
+        while (p_ < end_ && isJunk()) {
+            ++p_;
+            skipContinuation();
+        }
+        if (*start == '_') skipWordChars(); // a name that begins with '_'
+        bool sameLine = lastJunk_ != nullptr;
+        for (const char* q = lastJunk_; sameLine && q < start; ++q)
+            sameLine = !isLineEnd(*q);
+        if (!sameLine) error(diag::Code::UnexpectedCharacter, start, p_, {showCharacter(slice(start, p_))});
+        lastJunk_ = p_;
+        push(TokenKind::Error, start);
+    }
+
+    bool isJunk() const {
+        const CharClass c = classAt(p_);
+        return c == CharClass::Junk || (c == CharClass::NonAscii && !isLatin1Letter(p_));
+    }
+
+    /// `%%% VERSION:1 LANGUAGE:ENGLISH %%%` before everything else.
+    void readFileHeader() {
+        if (!skipGap() || !slice(p_, end_).starts_with("%%%")) return;
+        const char* start = p_;
+        const std::string_view rest = slice(start, end_);
+        const size_t close = rest.find("%%%", 3);
+        if (close != std::string_view::npos) {
+            p_ = start + close + 3;
+        } else {
+            p_ = start + 3;
+            error(diag::Code::UnclosedFileHeader, start, p_);
+            while (p_ < end_ && !equalsNoCase(slice(p_, end_).substr(0, 6), "MODULE"))
+                ++p_;
+        }
+        push(TokenKind::FileHeader, start);
+    }
+
+    const char* begin_;
+    const char* end_;
+    const char* p_;
+    const char* lastJunk_ = nullptr;
+    LexResult result_;
+};
+
+} // namespace
+
+LexResult lex(std::string_view text) {
+    return Lexer(text).run();
+}
+
+} // namespace rapid::syntax

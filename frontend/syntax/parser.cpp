@@ -1,0 +1,258 @@
+// Files and modules (manual 1.1.3), and the entry point of the parser.
+
+#include "frontend/syntax/parser_impl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rapid::syntax {
+
+using diag::Code;
+
+namespace {
+
+constexpr TokenSet kDeclStart = {
+    TokenKind::KwVar,    TokenKind::KwPers,   TokenKind::KwConst,  TokenKind::KwLocal, TokenKind::KwProc,
+    TokenKind::KwFunc,   TokenKind::KwTrap,   TokenKind::KwRecord, TokenKind::KwAlias, TokenKind::KwModule,
+    TokenKind::PlaceTdn, TokenKind::PlaceDdn, TokenKind::PlaceRdn};
+
+uint8_t attributeOf(TokenKind kind) {
+    switch (kind) {
+    case TokenKind::KwSysmodule: return kAttrSysmodule;
+    case TokenKind::KwNoview: return kAttrNoview;
+    case TokenKind::KwNostepin: return kAttrNostepin;
+    case TokenKind::KwViewonly: return kAttrViewonly;
+    case TokenKind::KwReadonly: return kAttrReadonly;
+    default: return 0;
+    }
+}
+
+/// Mistakes of the file as a whole. Returns false when there is no text to parse.
+bool checkEncoding(const std::shared_ptr<const SourceFile>& source, diag::Sink& sink) {
+    const std::string_view text = source->text();
+    if (source->isBinary()) {
+        // FF FE and FE FF, the marks of UTF-16, were read as Latin-1.
+        const bool utf16 = text.starts_with("\xC3\xBF\xC3\xBE") || text.starts_with("\xC3\xBE\xC3\xBF");
+        sink.report(utf16 ? Code::Utf16File : Code::BinaryFile, source, {0, 0});
+        return false;
+    }
+    if (source->badUtf8Offset() >= 0) {
+        const auto at = static_cast<uint32_t>(source->badUtf8Offset());
+        // The byte stands there as the two bytes of its Latin-1 character.
+        const unsigned byte = (static_cast<unsigned char>(text[at]) & 3u) << 6 |
+                              (static_cast<unsigned char>(text[at + 1]) & 0x3Fu);
+        sink.report(Code::BadUtf8, source, {at, at + 2}, {fmt::format("0x{:02X}", byte)});
+    } else if (source->encoding() == Encoding::Utf8Bom) {
+        sink.report(Code::ByteOrderMark, source, {0, 0});
+    }
+    return true;
+}
+
+} // namespace
+
+Parser::Parser(SyntaxTree& tree, diag::Sink& sink, const ParseOptions& options)
+    : tree_(tree), sink_(sink), options_(options), tokens_(tree.tokens.data()),
+      last_(static_cast<TokenIndex>(tree.tokens.size()) - 1) {}
+
+void Parser::parseFile(const LexResult& lexed) {
+    if (!lexed.hasModule) { // not RAPID: one report, whatever its characters are
+        const TokenIndex first = kind() == K::FileHeader ? 1 : 0;
+        if (kindAt(first) == K::EndOfFile) {
+            report(Code::NoModule, first);
+        } else {
+            report(Code::TextOutsideModule, first, {describe(first)});
+        }
+        return;
+    }
+    for (const LexError& error : lexed.errors) {
+        if (++errors_ <= kMaxErrorsPerFile) {
+            sink_.report(error.code, tree_.source, error.range, error.args);
+        } else if (errors_ == kMaxErrorsPerFile + 1) {
+            sink_.report(Code::TooManyErrors, tree_.source, error.range);
+        }
+    }
+    accept(K::FileHeader);
+    while (kind() != K::EndOfFile) {
+        if (kind() == K::KwModule) {
+            parseModule();
+        } else {
+            skipOutsideModule();
+        }
+    }
+}
+
+/// Anything between modules but comments is reported once.
+void Parser::skipOutsideModule() {
+    if (kind() != K::Error) report(Code::TextOutsideModule, pos_, {describe(pos_)});
+    do
+        take();
+    while (kind() != K::EndOfFile && !(kind() == K::KwModule && startsLine(pos_)));
+}
+
+void Parser::parseModule() {
+    auto* node = tree_.arena.make<ModuleDecl>();
+    node->kind = NodeKind::Module;
+    node->first = pos_;
+    panic_ = false;
+    quietOutside_ = false;
+    const TokenIndex opening = take();
+    node->name = expectName();
+    checkNameLength(node->name);
+    if (!panic_ && kind() == K::LeftParen) parseModuleAttributes(node);
+    if (!panic_ && !startsDecl(pos_) && !startsLine(pos_) && kind() != K::KwEndmodule &&
+        kind() != K::EndOfFile)
+        unexpected("'(' or a declaration");
+    if (panic_) skipToDecl();
+    parseModuleDecls(node);
+    if (!accept(K::KwEndmodule)) {
+        note(report(Code::MissingBlockEnd, pos_, {describe(pos_), "ENDMODULE"}), opening,
+             "MODULE begins here");
+    }
+    tree_.modules.push_back(finish(node));
+}
+
+void Parser::parseModuleAttributes(ModuleDecl* module) {
+    const TokenIndex opening = take();
+    std::vector<TokenIndex> seen;
+    do {
+        if (attributeOf(kind())) {
+            addAttribute(module, pos_, seen);
+            take();
+        } else if (kind() == K::Identifier || isKeyword(kind())) {
+            report(Code::UnknownModuleAttribute, pos_, {std::string(textOf(pos_))});
+            take();
+        } else {
+            unexpected("a module attribute");
+        }
+    } while (!panic_ && accept(K::Comma));
+    expectClosing(K::RightParen, opening, true);
+    module->attributeTokens = tree_.arena.copy(seen);
+}
+
+/// Order and combination of the attributes (manual 1.1.3).
+void Parser::addAttribute(ModuleDecl* module, TokenIndex token, std::vector<TokenIndex>& seen) {
+    const uint8_t attribute = attributeOf(kindAt(token));
+    constexpr uint8_t kBesideNoview = kAttrSysmodule | kAttrNoview;
+    const uint8_t all = module->attributes | attribute;
+    if (module->attributes & attribute) {
+        report(Code::DuplicateModuleAttribute, token, {describe(token)});
+    } else if ((all & kAttrNoview) && (all & ~kBesideNoview)) {
+        const TokenIndex other = attribute == kAttrNoview ? seen.back() : token;
+        if (!(module->attributes & kAttrNoview) || !(module->attributes & ~kBesideNoview))
+            report(Code::ModuleAttributeConflict, token, {describe(other)});
+    } else if (attribute < module->attributes) {
+        report(Code::ModuleAttributeOrder, token, {describe(token), describe(seen.back())});
+    }
+    module->attributes = all;
+    seen.push_back(token);
+}
+
+bool Parser::startsDecl(TokenIndex i) const {
+    return kDeclStart.has(kindAt(i)) || isTaskDirective(i);
+}
+
+void Parser::parseModuleDecls(ModuleDecl* module) {
+    const size_t mark = decls_.size();
+    while (kind() != K::KwEndmodule && kind() != K::KwModule && kind() != K::EndOfFile) {
+        const TokenIndex before = pos_;
+        if (Decl* decl = parseModuleDecl()) decls_.push_back(decl);
+        panic_ = false;
+        if (pos_ == before) take();
+    }
+    module->decls = drain(decls_, mark);
+}
+
+Decl* Parser::parseModuleDecl() {
+    const TokenIndex first = pos_;
+    switch (kind()) {
+    case K::KwVar:
+    case K::KwPers:
+    case K::KwConst: return parseData(ScopeWord::None, first);
+    case K::KwLocal: return parseScopedDecl();
+    case K::KwProc:
+    case K::KwFunc:
+    case K::KwTrap: quietOutside_ = false; return parseRoutine(false, first);
+    case K::KwRecord: return parseRecord(false, first);
+    case K::KwAlias: return parseAlias(false, first);
+    case K::PlaceTdn:
+    case K::PlaceDdn:
+    case K::PlaceRdn: {
+        auto* node = make<PlaceholderDecl>(NodeKind::PlaceholderDecl);
+        take();
+        return finish(node);
+    }
+    default: break;
+    }
+    if (isTaskDirective(pos_)) {
+        take();
+        return parseData(ScopeWord::Task, first);
+    }
+    return parseUnknownDecl();
+}
+
+Decl* Parser::parseScopedDecl() {
+    const TokenIndex first = take();
+    switch (kind()) {
+    case K::KwVar:
+    case K::KwPers:
+    case K::KwConst: return parseData(ScopeWord::Local, first);
+    case K::KwProc:
+    case K::KwFunc:
+    case K::KwTrap: quietOutside_ = false; return parseRoutine(true, first);
+    case K::KwRecord: return parseRecord(true, first);
+    case K::KwAlias: return parseAlias(true, first);
+    default: break;
+    }
+    unexpected("a declaration after LOCAL");
+    skipToDecl();
+    auto* node = make<PlaceholderDecl>(NodeKind::ErrorDecl);
+    node->first = first;
+    return finish(node);
+}
+
+/// What is no declaration: instructions after an ENDPROC too many, misspelt words. One report up to the next routine.
+Decl* Parser::parseUnknownDecl() {
+    auto* node = make<PlaceholderDecl>(NodeKind::ErrorDecl);
+    constexpr TokenSet kRoutineEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
+    if (kind() != K::Error && !quietOutside_) {
+        if (kRoutineEnds.has(kind())) {
+            report(Code::StrayKeyword, pos_, {describe(pos_), std::string(tokenText(kind()).substr(3))});
+        } else if (kind() == K::KwEndrecord) {
+            report(Code::StrayKeyword, pos_, {describe(pos_), "RECORD"});
+        } else {
+            report(Code::InstructionOutsideRoutine, pos_, {describe(pos_)});
+        }
+    }
+    if (kind() != K::Semicolon) quietOutside_ = true;
+    take();
+    skipToDecl();
+    return finish(node);
+}
+
+/// To the next word at the beginning of a line, or after a semicolon or END word, that begins a declaration.
+void Parser::skipToDecl() {
+    panic_ = false;
+    for (; kind() != K::EndOfFile && kind() != K::KwEndmodule; take()) {
+        if (!startsDecl(pos_)) continue;
+        const K before = pos_ > 0 ? tokens_[pos_ - 1].kind : K::Semicolon;
+        if (startsLine(pos_) || before == K::Semicolon || before == K::RightParen || isKeyword(before))
+            return;
+    }
+}
+
+std::unique_ptr<SyntaxTree> parse(std::shared_ptr<const SourceFile> source, diag::Sink& sink,
+                                  const ParseOptions& options) {
+    auto tree = std::make_unique<SyntaxTree>();
+    tree->source = std::move(source);
+    if (!checkEncoding(tree->source, sink)) {
+        tree->tokens.push_back({static_cast<uint32_t>(tree->source->text().size()), 0, TokenKind::EndOfFile});
+        return tree;
+    }
+    LexResult lexed = lex(tree->source->text());
+    tree->tokens = std::move(lexed.tokens);
+    Parser(*tree, sink, options).parseFile(lexed);
+    return tree;
+}
+
+} // namespace rapid::syntax

@@ -1,0 +1,390 @@
+// Data, types and routines (manual 1.1.5, 1.2).
+
+#include "frontend/syntax/parser_impl.h"
+
+namespace rapid::syntax {
+
+using diag::Code;
+
+namespace {
+
+constexpr TokenSet kRoutineEnds = {TokenKind::KwEndproc,   TokenKind::KwEndfunc, TokenKind::KwEndtrap,
+                                   TokenKind::KwError,     TokenKind::KwUndo,    TokenKind::KwBackward,
+                                   TokenKind::KwProc,      TokenKind::KwFunc,    TokenKind::KwTrap,
+                                   TokenKind::KwRecord,    TokenKind::KwAlias,   TokenKind::KwModule,
+                                   TokenKind::KwEndmodule, TokenKind::PlaceTdn,  TokenKind::PlaceRdn};
+
+constexpr TokenSet kHandlers = {TokenKind::KwBackward, TokenKind::KwError, TokenKind::KwUndo};
+
+struct RoutineWords {
+    TokenKind end;
+    std::string_view name;
+};
+RoutineWords wordsOf(RoutineKind kind) {
+    switch (kind) {
+    case RoutineKind::Proc: return {TokenKind::KwEndproc, "PROC"};
+    case RoutineKind::Func: return {TokenKind::KwEndfunc, "FUNC"};
+    case RoutineKind::Trap: return {TokenKind::KwEndtrap, "TRAP"};
+    }
+    return {TokenKind::KwEndproc, "PROC"};
+}
+
+} // namespace
+
+// ---- Data and types --------------------------------------------------------------------------------------------
+
+/// `VAR type name{dims} := value;`, from the word VAR, PERS or CONST; `first` is that of the scope word.
+DataDecl* Parser::parseData(ScopeWord scope, TokenIndex first) {
+    auto* node = make<DataDecl>(NodeKind::Data);
+    node->first = first;
+    node->scope = scope;
+    node->dataKind = kind() == K::KwVar    ? DataKind::Var
+                     : kind() == K::KwPers ? DataKind::Pers
+                                           : DataKind::Const;
+    take();
+    node->type = expectName();
+    if (!panic_) node->name = expectName();
+    checkNameLength(node->name);
+    if (!panic_ && kind() == K::LeftBrace) {
+        const TokenIndex opening = take();
+        node->dims = parseExprList(K::RightBrace, opening);
+    }
+    if (!panic_) {
+        if (kind() == K::Equal) {
+            report(Code::EqualInAssignment, pos_);
+            take();
+            node->init = parseExpr();
+        } else if (accept(K::Assign)) {
+            node->init = parseExpr();
+        } else if (node->dataKind == DataKind::Const && !options_.declarations && kind() == K::Semicolon) {
+            report(Code::ConstantWithoutValue, node->name, {std::string(textOf(node->name))});
+        }
+    }
+    endStatement(node->init ? "';'" : "':=' or ';'");
+    return finish(node);
+}
+
+Decl* Parser::parseRecord(bool local, TokenIndex first) {
+    auto* node = make<RecordDecl>(NodeKind::Record);
+    node->first = first;
+    node->local = local;
+    const TokenIndex opening = take();
+    node->name = expectName();
+    checkNameLength(node->name);
+    if (panic_ || kind() == K::Semicolon) {
+        if (!panic_) unexpected("a component");
+        syncStatement();
+    }
+    const size_t mark = components_.size();
+    while (kind() != K::KwEndrecord && kind() != K::EndOfFile && !startsDecl(pos_)) {
+        if (kind() == K::KwEndmodule || kRoutineEnds.has(kind())) break;
+        const TokenIndex before = pos_;
+        if (isName(kind())) {
+            components_.push_back(parseComponent());
+        } else {
+            unexpected("a component or ENDRECORD");
+            take();
+            syncStatement();
+        }
+        if (pos_ == before) take();
+    }
+    node->components = drain(components_, mark);
+    if (node->components.empty() && kind() == K::KwEndrecord && !options_.declarations)
+        report(Code::EmptyRecord, node->name == kNoToken ? opening : node->name,
+               {std::string(textOf(node->name))});
+    closeBlock(K::KwEndrecord, opening);
+    return finish(node);
+}
+
+RecordComponent* Parser::parseComponent() {
+    auto* node = make<RecordComponent>(NodeKind::RecordComponent);
+    node->type = expectName();
+    node->name = expectName();
+    checkNameLength(node->name);
+    if (!panic_ && kind() == K::LeftBrace) {
+        report(Code::ComponentArray, pos_, {std::string(textOf(node->name))});
+        panic_ = true;
+    }
+    endStatement();
+    return finish(node);
+}
+
+Decl* Parser::parseAlias(bool local, TokenIndex first) {
+    auto* node = make<AliasDecl>(NodeKind::Alias);
+    node->first = first;
+    node->local = local;
+    take();
+    node->type = expectName();
+    if (!panic_) node->name = expectName();
+    checkNameLength(node->name);
+    endStatement();
+    return finish(node);
+}
+
+// ---- Routines --------------------------------------------------------------------------------------------------
+
+Decl* Parser::parseRoutine(bool local, TokenIndex first) {
+    auto* node = make<RoutineDecl>(NodeKind::Routine);
+    node->first = first;
+    node->local = local;
+    node->routineKind = kind() == K::KwProc   ? RoutineKind::Proc
+                        : kind() == K::KwFunc ? RoutineKind::Func
+                                              : RoutineKind::Trap;
+    const TokenIndex opening = take();
+    parseRoutineHeader(node);
+    if (options_.declarations && isNative()) {
+        node->hasBody = false;
+        return finish(node);
+    }
+    const TokenSet outer = enclosing_;
+    enclosing_ = TokenSet();
+    blockOpening_ = kNoToken;
+    compactIf_ = kNoToken;
+    parseRoutineBody(node);
+    closeRoutine(node, opening);
+    enclosing_ = outer;
+    abandoned_ = false;
+    panic_ = false;
+    return finish(node);
+}
+
+void Parser::parseRoutineHeader(RoutineDecl* routine) {
+    if (routine->routineKind == RoutineKind::Func) {
+        routine->returnType = expectName();
+        if (!panic_ && kind() == K::LeftParen && !startsLine(pos_)) { // FUNC name(...): the type is missing
+            routine->name = routine->returnType;
+            routine->returnType = kNoToken;
+            report(Code::UnexpectedToken, pos_, {describe(pos_), "the name of the function after its type"});
+        }
+    }
+    if (!panic_ && routine->name == kNoToken) routine->name = expectName();
+    checkNameLength(routine->name);
+    if (routine->routineKind == RoutineKind::Trap) {
+        if (kind() == K::LeftParen && !panic_) {
+            report(Code::TrapParameters, pos_, {std::string(textOf(routine->name))});
+            parseParameters(routine);
+            routine->params = {};
+        }
+    } else if (panic_ || kind() == K::LeftParen) {
+        parseParameters(routine);
+    } else if (startsLine(pos_) || kind() == K::Semicolon) {
+        reportAt(Code::MissingParameterList, endOf(pos_ - 1), {std::string(textOf(routine->name))});
+        accept(K::Semicolon);
+    } else {
+        unexpected("'('");
+        parseParameters(routine);
+    }
+}
+
+void Parser::parseParameters(RoutineDecl* routine) {
+    const size_t mark = params_.size();
+    if (!panic_) {
+        const TokenIndex opening = take();
+        uint32_t group = 0;
+        while (!panic_ && (kind() != K::RightParen || group > 0)) {
+            if (group > 0 && !accept(K::Comma) && kind() != K::Backslash) break;
+            parseParameterGroup(group++);
+        }
+        expectClosing(K::RightParen, opening, true);
+    }
+    routine->params = drain(params_, mark);
+    if (!panic_) return;
+    panic_ = false; // the header ends with its line
+    while (kind() != K::EndOfFile && !(startsLine(pos_) && (startsDecl(pos_) || looksLikeStatement(pos_)))) {
+        if (kind() == K::RightParen && startsLine(pos_ + 1)) {
+            take();
+            return;
+        }
+        if (kRoutineEnds.has(kind()) || (startsLine(pos_) && isKeyword(kind()))) return;
+        take();
+    }
+}
+
+/// One required parameter or the alternatives of an optional one.
+void Parser::parseParameterGroup(uint32_t group) {
+    bool optional = accept(K::Backslash);
+    params_.push_back(parseParameter(optional, group));
+    while (!panic_ && kind() == K::Bar) {
+        if (!optional && !options_.declarations) report(Code::RequiredAlternative, pos_);
+        take();
+        if (kind() == K::Backslash) {
+            if (!options_.declarations)
+                report(Code::UnexpectedToken, pos_, {describe(pos_), "a parameter after '|'"});
+            optional = true;
+            take();
+        }
+        params_.push_back(parseParameter(optional, group));
+    }
+}
+
+ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
+    auto* node = make<ParamDecl>(NodeKind::Param);
+    node->optional = optional;
+    node->group = group;
+    if (kind() == K::PlacePar || kind() == K::PlaceAlt) {
+        if ((kind() == K::PlaceAlt) != optional)
+            report(Code::PlaceholderMisplaced, pos_, {describe(pos_), optional ? "<ALT>" : "<PAR>"});
+        node->placeholder = true;
+        take();
+        return finish(node);
+    }
+    if (isContextual(pos_, "SWITCH") && isName(peek())) {
+        take();
+        node->isSwitch = true;
+        node->name = expectName(true);
+        checkNameLength(node->name);
+        return finish(node);
+    }
+    if (isContextual(pos_, "SWITCH") && (peek() == K::KwContinue || peek() == K::KwBreak)) {
+        take();
+        node->isSwitch = true;
+        node->name = expectName(true);
+        return finish(node);
+    }
+    if (accept(K::KwVar)) {
+        node->mode = ParamMode::Var;
+    } else if (accept(K::KwPers)) {
+        node->mode = ParamMode::Pers;
+    } else if (accept(K::KwInout)) {
+        node->mode = ParamMode::Inout;
+    } else if (options_.declarations && isContextual(pos_, "REF") && isName(peek()) && isName(peek(2))) {
+        take();
+        node->mode = ParamMode::Ref;
+    }
+    if (node->mode == ParamMode::In && !isName(kind())) {
+        unexpected("a parameter");
+        return finish(node);
+    }
+    node->type = expectName();
+    if (!panic_) node->name = expectName(true);
+    checkNameLength(node->name);
+    if (!panic_ && kind() == K::LeftBrace) parseDimensions(node);
+    return finish(node);
+}
+
+/// `{*}`, `{*,*}`, `{*,*,*}` or `{<DIM>}`
+void Parser::parseDimensions(ParamDecl* param) {
+    const TokenIndex opening = take();
+    constexpr uint8_t kPlaceholderRank = 255;
+    constexpr uint8_t kMostStars = 254;
+    if (accept(K::PlaceDim)) {
+        param->rank = kPlaceholderRank;
+    } else {
+        do {
+            if (kind() == K::NumLiteral || isName(kind())) {
+                report(Code::DimensionWithoutStar, pos_);
+                take();
+            } else if (!accept(K::Star)) {
+                unexpected("'*'");
+                return;
+            }
+            if (param->rank < kMostStars) ++param->rank;
+        } while (accept(K::Comma));
+    }
+    expectClosing(K::RightBrace, opening, true);
+}
+
+/// After the header of a built-in: true when what follows is the next declaration.
+bool Parser::isNative() const {
+    constexpr TokenSet kNext = {K::KwProc,  K::KwFunc,   K::KwTrap,      K::KwLocal,  K::KwRecord,
+                                K::KwAlias, K::KwModule, K::KwEndmodule, K::EndOfFile};
+    return kNext.has(kind()) || isTaskDirective(pos_);
+}
+
+void Parser::parseRoutineBody(RoutineDecl* routine) {
+    const size_t mark = stmts_.size();
+    parseRoutineData(routine);
+    const StmtList list = parseList(kRoutineEnds);
+    if (stmts_.size() == mark) {
+        routine->body = list;
+    } else { // semicolons between the declarations are empty instructions
+        stmts_.insert(stmts_.end(), list.begin(), list.end());
+        routine->body = drain(stmts_, mark);
+    }
+    parseHandlers(routine);
+}
+
+/// The declarations at the beginning; semicolons too many do not end them.
+void Parser::parseRoutineData(RoutineDecl* routine) {
+    const size_t mark = data_.size();
+    for (;;) {
+        const TokenIndex first = pos_;
+        const K k = kind();
+        if (k == K::KwVar || k == K::KwPers || k == K::KwConst) {
+            data_.push_back(parseData(ScopeWord::None, first));
+        } else if (k == K::Semicolon) {
+            stmts_.push_back(parseStmt());
+        } else if (k == K::PlaceDdn) {
+            take();
+        } else if ((k == K::KwLocal && (peek() == K::KwVar || peek() == K::KwPers || peek() == K::KwConst)) ||
+                   isTaskDirective(pos_)) {
+            report(Code::ScopeInsideRoutine, pos_, {k == K::KwLocal ? "LOCAL" : "TASK"});
+            take();
+            data_.push_back(parseData(k == K::KwLocal ? ScopeWord::Local : ScopeWord::Task, first));
+        } else {
+            break;
+        }
+    }
+    routine->data = drain(data_, mark);
+}
+
+void Parser::parseHandlers(RoutineDecl* routine) {
+    const size_t mark = handlers_.size();
+    K previous = K::EndOfFile;
+    while (kHandlers.has(kind())) {
+        const K word = kind();
+        parseHandler(routine, previous);
+        previous = word;
+    }
+    routine->errors = drain(handlers_, mark);
+}
+
+/// BACKWARD, ERROR [(numbers)], UNDO; reported when repeated or out of order.
+void Parser::parseHandler(RoutineDecl* routine, K previous) {
+    const K word = kind();
+    const auto rank = [](K k) {
+        return k == K::KwBackward ? 1 : k == K::KwError ? 2 : k == K::KwUndo ? 3 : 0;
+    };
+    const bool repeated =
+        (word == K::KwBackward && routine->hasBackward) || (word == K::KwUndo && routine->hasUndo);
+    if (repeated) {
+        report(Code::DuplicateHandler, pos_, {describe(pos_)});
+    } else if (word == K::KwBackward && routine->routineKind != RoutineKind::Proc) {
+        report(Code::BackwardOutsideProcedure, pos_, {std::string(wordsOf(routine->routineKind).name)});
+    } else if (rank(word) < rank(previous)) {
+        report(Code::HandlerOrder, pos_, {describe(pos_), std::string(tokenText(previous))});
+    }
+    auto* clause = make<ErrorClause>(NodeKind::ErrorClause);
+    take();
+    if (word == K::KwError && kind() == K::LeftParen) {
+        const TokenIndex opening = take();
+        clause->hasList = true;
+        clause->numbers = parseExprList(K::RightParen, opening);
+        if (panic_) syncStatement();
+    }
+    blockOpening_ = kNoToken;
+    const StmtList body = parseList(kRoutineEnds);
+    if (word == K::KwError) {
+        clause->body = body;
+        handlers_.push_back(finish(clause));
+    } else if (word == K::KwBackward && !repeated) {
+        routine->hasBackward = true;
+        routine->backward = body;
+    } else if (word == K::KwUndo && !repeated) {
+        routine->hasUndo = true;
+        routine->undo = body;
+    }
+}
+
+void Parser::closeRoutine(RoutineDecl* routine, TokenIndex opening) {
+    const RoutineWords words = wordsOf(routine->routineKind);
+    constexpr TokenSet kEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
+    if (!accept(words.end)) {
+        diag::Diagnostic* diagnostic =
+            report(Code::MissingBlockEnd, pos_, {describe(pos_), std::string(tokenText(words.end))});
+        note(diagnostic, opening, std::string(words.name) + " begins here");
+        if (kEnds.has(kind())) take();
+    }
+}
+
+} // namespace rapid::syntax

@@ -1,0 +1,337 @@
+// Expressions and arguments (manual 1.1.5, 1.3.4 to 1.3.6).
+
+#include "frontend/syntax/parser_impl.h"
+
+#include <algorithm>
+#include <array>
+
+namespace rapid::syntax {
+
+using diag::Code;
+
+namespace {
+
+// Precedence of binary operators (manual 1.3.6): 1 OR XOR, 2 AND, 3 relations, 4 + -, 5 * / DIV MOD.
+constexpr int kTermLevel = 2;
+constexpr int kRelationLevel = 3;
+constexpr int kSumLevel = 4;
+constexpr int kProductLevel = 5;
+
+struct Operator {
+    uint8_t precedence = 0;
+    BinaryOp op = BinaryOp::Add;
+};
+
+constexpr auto kOperators = [] {
+    std::array<Operator, 128> table{};
+    const auto set = [&](TokenKind kind, int precedence, BinaryOp op) {
+        table[static_cast<size_t>(kind)] = {static_cast<uint8_t>(precedence), op};
+    };
+    set(TokenKind::KwOr, 1, BinaryOp::Or);
+    set(TokenKind::KwXor, 1, BinaryOp::Xor);
+    set(TokenKind::KwAnd, kTermLevel, BinaryOp::And);
+    set(TokenKind::Less, kRelationLevel, BinaryOp::Lt);
+    set(TokenKind::LessEqual, kRelationLevel, BinaryOp::Le);
+    set(TokenKind::Equal, kRelationLevel, BinaryOp::Eq);
+    set(TokenKind::NotEqual, kRelationLevel, BinaryOp::Ne);
+    set(TokenKind::Greater, kRelationLevel, BinaryOp::Gt);
+    set(TokenKind::GreaterEqual, kRelationLevel, BinaryOp::Ge);
+    set(TokenKind::Plus, kSumLevel, BinaryOp::Add);
+    set(TokenKind::Minus, kSumLevel, BinaryOp::Sub);
+    set(TokenKind::Star, kProductLevel, BinaryOp::Mul);
+    set(TokenKind::Slash, kProductLevel, BinaryOp::Div);
+    set(TokenKind::KwDiv, kProductLevel, BinaryOp::IntDiv);
+    set(TokenKind::KwMod, kProductLevel, BinaryOp::Mod);
+    return table;
+}();
+
+Operator operatorOf(TokenKind kind) {
+    return kOperators[static_cast<size_t>(kind)];
+}
+
+constexpr TokenSet kExprStart = {TokenKind::Identifier, TokenKind::NumLiteral,  TokenKind::StringLiteral,
+                                 TokenKind::KwTrue,     TokenKind::KwFalse,     TokenKind::KwNot,
+                                 TokenKind::Plus,       TokenKind::Minus,       TokenKind::LeftParen,
+                                 TokenKind::PlaceId,    TokenKind::LeftBracket, TokenKind::PlaceExp,
+                                 TokenKind::PlaceVar,   TokenKind::Error};
+
+} // namespace
+
+bool Parser::startsExpr(K k) {
+    return kExprStart.has(k);
+}
+
+Expr* Parser::errorExpr() {
+    height_ = 1;
+    return finish(makeExpr<ErrorExpr>(NodeKind::ErrorExpr));
+}
+
+Expr* Parser::tooDeepExpr() {
+    reportTooDeep();
+    return errorExpr();
+}
+
+Expr* Parser::parseBinary(int minPrecedence) {
+    Expr* left;
+    if (kind() == K::KwNot) {
+        left = parseNot(minPrecedence);
+    } else if (kind() == K::Plus || kind() == K::Minus) {
+        left = parseSigned(minPrecedence);
+    } else {
+        left = parsePrimary();
+    }
+    for (;;) {
+        const Operator op = operatorOf(kind());
+        if (op.precedence == 0 || op.precedence < minPrecedence || panic_) return left;
+        const uint32_t leftHeight = height_;
+        auto* node = makeExpr<BinaryExpr>(NodeKind::Binary);
+        node->first = left->first;
+        node->op = op.op;
+        node->opToken = take();
+        node->left = left;
+        node->right = parseBinary(op.precedence + 1);
+        height_ = std::max(height_, leftHeight) + 1;
+        left = finish(node);
+        if (height_ > kMaxDepth) return tooDeepExpr();
+        if (op.precedence == kRelationLevel && operatorOf(kind()).precedence == kRelationLevel)
+            report(Code::ChainedRelation, pos_, {std::string(textOf(pos_))});
+    }
+}
+
+/// NOT at the start of a logical term covers the whole term, after AND one relation (manual 1.3.5, 1.3.6).
+Expr* Parser::parseNot(int minPrecedence) {
+    const Nest nest(*this);
+    if (!nest) return tooDeepExpr();
+    if (minPrecedence > kRelationLevel) report(Code::NotInOperand, pos_);
+    auto* node = makeExpr<UnaryExpr>(NodeKind::Unary);
+    node->op = UnaryOp::Not;
+    take();
+    node->operand = parseBinary(std::max(minPrecedence, kTermLevel));
+    ++height_;
+    return finish(node);
+}
+
+/// A sign belongs to the whole first term and to nothing else (manual 1.3.6).
+Expr* Parser::parseSigned(int minPrecedence) {
+    const Nest nest(*this);
+    if (!nest) return tooDeepExpr();
+    if (minPrecedence > kSumLevel) report(Code::SignAfterOperator, pos_, {std::string(textOf(pos_))});
+    auto* node = makeExpr<UnaryExpr>(NodeKind::Unary);
+    node->op = kind() == K::Minus ? UnaryOp::Minus : UnaryOp::Plus;
+    take();
+    node->operand = parseBinary(std::max(minPrecedence, kProductLevel));
+    ++height_;
+    return finish(node);
+}
+
+Expr* Parser::parsePrimary() {
+    height_ = 1;
+    switch (kind()) {
+    case K::Identifier:
+    case K::PlaceId: return parseNamed(true);
+    case K::NumLiteral: return parseNumber();
+    case K::StringLiteral: {
+        auto* node = makeExpr<StringLiteralExpr>(NodeKind::StringLiteral);
+        take();
+        return finish(node);
+    }
+    case K::KwTrue:
+    case K::KwFalse: {
+        auto* node = makeExpr<BoolLiteralExpr>(NodeKind::BoolLiteral);
+        node->value = kind() == K::KwTrue;
+        take();
+        return finish(node);
+    }
+    case K::PlaceExp:
+    case K::PlaceVar: {
+        auto* node = makeExpr<PlaceholderExpr>(NodeKind::PlaceholderExpr);
+        take();
+        return finish(node);
+    }
+    case K::LeftParen: return parseParen();
+    case K::LeftBracket: return parseAggregate();
+    case K::Error: {
+        panic_ = true;
+        auto* node = makeExpr<ErrorExpr>(NodeKind::ErrorExpr);
+        take();
+        return finish(node);
+    }
+    default: unexpected("an expression"); return errorExpr();
+    }
+}
+
+Expr* Parser::parseNumber() {
+    auto* node = makeExpr<NumLiteralExpr>(NodeKind::NumLiteral);
+    const TokenIndex token = take();
+    const NumberValue number = numberValue(textOf(token));
+    if (number.valid && !number.inRange)
+        report(Code::NumberTooLarge, token, {std::string(textOf(token).substr(0, 40))});
+    node->value = number.value;
+    node->isInteger = number.isInteger;
+    return finish(node);
+}
+
+Expr* Parser::parseParen() {
+    const Nest nest(*this);
+    if (!nest) return tooDeepExpr();
+    auto* node = makeExpr<ParenExpr>(NodeKind::Paren);
+    const TokenIndex opening = take();
+    node->inner = parseExpr();
+    ++height_;
+    expectClosing(K::RightParen, opening, false);
+    return finish(node);
+}
+
+Expr* Parser::parseAggregate() {
+    const Nest nest(*this);
+    if (!nest) return tooDeepExpr();
+    auto* node = makeExpr<AggregateExpr>(NodeKind::Aggregate);
+    const TokenIndex opening = take();
+    node->elements = parseExprList(K::RightBracket, opening);
+    ++height_;
+    return finish(node);
+}
+
+/// `expr {, expr}` and the closing bracket; height_ is that of the highest one.
+std::span<Expr*> Parser::parseExprList(K closing, TokenIndex opening) {
+    const size_t mark = exprs_.size();
+    uint32_t height = 0;
+    do {
+        exprs_.push_back(parseExpr());
+        height = std::max(height, height_);
+    } while (!panic_ && accept(K::Comma));
+    expectClosing(closing, opening, true);
+    height_ = height;
+    return drain(exprs_, mark);
+}
+
+Expr* Parser::parseNamed(bool allowCall) {
+    if (allowCall && peek() == K::LeftParen) return parsePostfix(parseCall());
+    auto* node = makeExpr<NameExpr>(NodeKind::Name);
+    node->name = take();
+    finish(node);
+    if (kind() != K::Dot && kind() != K::LeftBrace) return node;
+    return parsePostfix(node);
+}
+
+Expr* Parser::parseCall() {
+    const Nest nest(*this);
+    if (!nest) return tooDeepExpr();
+    auto* node = makeExpr<CallExpr>(NodeKind::Call);
+    node->name = take();
+    const TokenIndex opening = take();
+    node->args = parseArguments(false);
+    expectClosing(K::RightParen, opening, true);
+    return finish(node);
+}
+
+/// Index and components. Only a whole variable takes an index, and a call result has no parts (manual 1.3.6).
+Expr* Parser::parsePostfix(Expr* base) {
+    bool reported = false;
+    while ((kind() == K::LeftBrace || kind() == K::Dot) && !panic_) {
+        if (base->kind == NodeKind::Call && !reported) {
+            report(Code::PartOfCallResult, pos_, {std::string(textOf(pos_))});
+            reported = true;
+        }
+        const uint32_t baseHeight = height_;
+        if (kind() == K::Dot) {
+            auto* node = makeExpr<ComponentExpr>(NodeKind::Component);
+            node->first = base->first;
+            node->base = base;
+            take();
+            node->name = expectName();
+            height_ = baseHeight + 1;
+            base = finish(node);
+        } else {
+            const Nest nest(*this);
+            if (!nest) return tooDeepExpr();
+            if (base->kind != NodeKind::Name && !reported) {
+                report(Code::IndexOnPart, pos_);
+                reported = true;
+            }
+            auto* node = makeExpr<IndexExpr>(NodeKind::Index);
+            node->first = base->first;
+            node->base = base;
+            const TokenIndex opening = take();
+            node->indices = parseExprList(K::RightBrace, opening);
+            height_ = std::max(baseHeight, height_) + 1;
+            base = finish(node);
+        }
+        if (height_ > kMaxDepth) return tooDeepExpr();
+    }
+    return base;
+}
+
+/// The arguments of a call up to what cannot be one; sets height_ to that of the call.
+std::span<Argument*> Parser::parseArguments(bool procedure) {
+    const size_t mark = args_.size();
+    uint32_t height = 0;
+    bool first = true;
+    while (!panic_) {
+        height_ = 0;
+        if (kind() == K::Backslash) {
+            args_.push_back(parseOptionalArgument());
+        } else if (kind() == K::Comma) {
+            if (first) {
+                unexpected("an argument");
+                break;
+            }
+            take();
+            args_.push_back(kind() == K::Backslash ? parseOptionalArgument()
+                                                   : parseRequiredArgument(procedure));
+        } else if (first && (startsExpr(kind()) || kind() == K::PlaceArg)) {
+            args_.push_back(parseRequiredArgument(procedure));
+        } else {
+            break;
+        }
+        height = std::max(height, height_);
+        first = false;
+    }
+    height_ = height + 1;
+    return drain(args_, mark);
+}
+
+Argument* Parser::parseRequiredArgument(bool procedure) {
+    auto* node = make<Argument>(NodeKind::Argument);
+    if (kind() == K::PlaceArg) {
+        if (!procedure) report(Code::PlaceholderMisplaced, pos_, {"<ARG>", "<EXP> in a function call"});
+        node->argKind = ArgKind::Placeholder;
+        take();
+        return finish(node);
+    }
+    if (isName(kind()) && peek() == K::Assign) {
+        node->name = take();
+        take();
+    }
+    node->value = parseExpr();
+    return finish(node);
+}
+
+Argument* Parser::parseOptionalArgument() {
+    auto* node = make<Argument>(NodeKind::Argument);
+    node->argKind = ArgKind::Optional;
+    take();
+    node->name = expectName(true);
+    if (panic_) return finish(node);
+    if (kind() == K::Equal) {
+        report(Code::EqualInAssignment, pos_);
+        take();
+        node->value = parseExpr();
+    } else if (accept(K::Assign)) {
+        node->value = parseExpr();
+    } else if (accept(K::Question)) {
+        node->argKind = ArgKind::Conditional;
+        if (isName(kind())) {
+            height_ = 1;
+            node->value = parseNamed(false);
+        } else if (kind() == K::PlaceVar) {
+            node->value = parsePrimary();
+        } else {
+            unexpected("the name of an optional parameter");
+            node->value = errorExpr();
+        }
+    }
+    return finish(node);
+}
+
+} // namespace rapid::syntax

@@ -1,0 +1,222 @@
+#pragma once
+// The recursive-descent parser behind parse(). Private to frontend/syntax.
+//
+// Recovery: the first mistake of a statement or declaration is reported and sets panic_, which silences everything
+// until the parser stands on firm ground again (see parser_recovery.cpp). A missing word or semicolon is reported
+// and taken as if it stood there. So one mistake costs one diagnostic.
+
+#include "frontend/syntax/lexer.h"
+#include "frontend/syntax/parser.h"
+#include "frontend/syntax/token_set.h"
+
+#include <string>
+
+namespace rapid::syntax {
+
+inline constexpr uint32_t kMaxDepth = 1000; ///< nesting of expressions and instructions
+inline constexpr size_t kMaxErrorsPerFile = 50;
+inline constexpr size_t kMaxNameLength = 32; // manual 1.1.2
+
+class Parser {
+  public:
+    Parser(SyntaxTree& tree, diag::Sink& sink, const ParseOptions& options);
+    void parseFile(const LexResult& lexed);
+
+  private:
+    using K = TokenKind;
+
+    /// Counts nesting; false when it is too deep, which is reported.
+    class Nest {
+      public:
+        explicit Nest(Parser& parser) : parser_(parser) { ++parser_.depth_; }
+        ~Nest() { --parser_.depth_; }
+        Nest(const Nest&) = delete;
+        Nest& operator=(const Nest&) = delete;
+        explicit operator bool() const { return parser_.depth_ <= kMaxDepth; }
+
+      private:
+        Parser& parser_;
+    };
+
+    // ---- Tokens
+    K kind() const { return tokens_[pos_].kind; }
+    K kindAt(TokenIndex i) const { return i < last_ ? tokens_[i].kind : K::EndOfFile; }
+    K peek(uint32_t n = 1) const { return kindAt(pos_ + n); }
+    TokenIndex take() { return pos_ < last_ ? pos_++ : pos_; }
+    bool accept(K k) {
+        if (kind() != k) return false;
+        take();
+        return true;
+    }
+    std::string_view textOf(TokenIndex i) const { return tree_.text(i); }
+    bool isName(K k) const { return k == K::Identifier || k == K::PlaceId; }
+    bool startsLine(TokenIndex i) const;
+    uint32_t columnOf(TokenIndex i) const;
+    bool isContextual(TokenIndex i, std::string_view upper) const {
+        return kindAt(i) == K::Identifier && equalsNoCase(textOf(i), upper);
+    }
+    bool isTaskDirective(TokenIndex i) const {
+        return isContextual(i, "TASK") && (kindAt(i + 1) == K::KwVar || kindAt(i + 1) == K::KwPers);
+    }
+
+    // ---- Nodes
+    template <class T> T* make(NodeKind nodeKind) {
+        T* node = tree_.arena.make<T>();
+        node->kind = nodeKind;
+        node->first = pos_;
+        return node;
+    }
+    template <class T> T* makeExpr(NodeKind nodeKind) {
+        T* node = make<T>(nodeKind);
+        node->id = tree_.exprCount++;
+        return node;
+    }
+    template <class T> T* finish(T* node) {
+        node->last = pos_ ? pos_ - 1 : 0;
+        return node;
+    }
+    /// Moves what was pushed since `mark` into the arena.
+    template <class T> std::span<T> drain(std::vector<T>& stack, size_t mark) {
+        const size_t count = stack.size() - mark;
+        if (count == 0) return {};
+        T* data = static_cast<T*>(tree_.arena.allocate(sizeof(T) * count, alignof(T)));
+        std::uninitialized_copy(stack.begin() + static_cast<std::ptrdiff_t>(mark), stack.end(), data);
+        stack.resize(mark);
+        return {data, count};
+    }
+
+    // ---- Reporting (parser_recovery.cpp)
+    diag::Diagnostic* reportAt(diag::Code code, SourceRange range,
+                               std::initializer_list<std::string> args = {});
+    diag::Diagnostic* report(diag::Code code, TokenIndex at, std::initializer_list<std::string> args = {}) {
+        return reportAt(code, tree_.range(at), args);
+    }
+    void note(diag::Diagnostic* diagnostic, TokenIndex at, std::string message);
+    /// "found X, expected Y" at the current token, and panic.
+    void unexpected(std::string_view expected);
+    std::string describe(TokenIndex i) const;
+    SourceRange endOf(TokenIndex i) const { return {tree_.range(i).end, tree_.range(i).end}; }
+    void reportTooDeep();
+    void checkNameLength(TokenIndex name);
+
+    // ---- Recovery (parser_recovery.cpp)
+    void endStatement(std::string_view expected = "';'");
+    void syncStatement();
+    bool startsAfresh() const;
+    bool looksLikeStatement(TokenIndex i) const;
+    bool opensBlock(TokenIndex i) const;
+    bool calleeEndsHere(TokenIndex callee) const;
+    bool findOnLine(TokenIndex from, K wanted, TokenIndex& found) const;
+    void expectWord(K word);
+    void expectClosing(K closing, TokenIndex opening, bool inList);
+    void closeBlock(K end, TokenIndex opening);
+    bool handleStray(const TokenSet& own);
+    bool retagMisspelt(const TokenSet& own);
+    void abandonRoutine();
+    TokenIndex expectName(bool newerKeywords = false);
+
+    // ---- Expressions (parser_expr.cpp)
+    Expr* parseExpr() { return parseBinary(1); }
+    Expr* parseBinary(int minPrecedence);
+    Expr* parseNot(int minPrecedence);
+    Expr* parseSigned(int minPrecedence);
+    Expr* parsePrimary();
+    Expr* parseNumber();
+    Expr* parseNamed(bool allowCall);
+    Expr* parseCall();
+    Expr* parsePostfix(Expr* base);
+    Expr* parseParen();
+    Expr* parseAggregate();
+    Expr* errorExpr();
+    Expr* tooDeepExpr();
+    std::span<Expr*> parseExprList(K closing, TokenIndex opening);
+    std::span<Argument*> parseArguments(bool procedure);
+    Argument* parseRequiredArgument(bool procedure);
+    Argument* parseOptionalArgument();
+    static bool startsExpr(K k);
+
+    // ---- Instructions (parser_stmt.cpp)
+    StmtList parseList(const TokenSet& own);
+    Stmt* parseStmt();
+    Stmt* parseStmtUnguarded();
+    Stmt* parseNamedStmt();
+    Stmt* parseAssignment(Expr* target, TokenIndex first);
+    Stmt* parseLabel();
+    Stmt* parseCallStmt();
+    bool parseParenthesisedCall(CallStmt* call);
+    Stmt* parseLateCall();
+    Stmt* parseIf();
+    Stmt* parseIfBlocks(TokenIndex opening, Expr* condition);
+    Stmt* parseFor();
+    Stmt* parseWhile();
+    Stmt* parseTest();
+    TestCase* parseCase();
+    Stmt* parseGoto();
+    Stmt* parseValueStmt(bool isReturn);
+    Stmt* parseConnect();
+    Stmt* parseSimple(NodeKind nodeKind);
+    Stmt* parseLateDecl();
+    Stmt* parseOrphan();
+    void skipHead();
+    Stmt* errorStmt(TokenIndex first);
+
+    // ---- Declarations (parser_decl.cpp, parser_module.cpp)
+    void parseModule();
+    void parseModuleAttributes(ModuleDecl* module);
+    void addAttribute(ModuleDecl* module, TokenIndex token, std::vector<TokenIndex>& seen);
+    void parseModuleDecls(ModuleDecl* module);
+    Decl* parseModuleDecl();
+    Decl* parseScopedDecl();
+    Decl* parseUnknownDecl();
+    void skipToDecl();
+    void skipOutsideModule();
+    DataDecl* parseData(ScopeWord scope, TokenIndex first);
+    Decl* parseRecord(bool local, TokenIndex first);
+    RecordComponent* parseComponent();
+    Decl* parseAlias(bool local, TokenIndex first);
+    Decl* parseRoutine(bool local, TokenIndex first);
+    void parseRoutineHeader(RoutineDecl* routine);
+    void parseParameters(RoutineDecl* routine);
+    void parseParameterGroup(uint32_t group);
+    ParamDecl* parseParameter(bool optional, uint32_t group);
+    void parseDimensions(ParamDecl* param);
+    bool isNative() const;
+    void parseRoutineBody(RoutineDecl* routine);
+    void parseRoutineData(RoutineDecl* routine);
+    void parseHandlers(RoutineDecl* routine);
+    void parseHandler(RoutineDecl* routine, K previous);
+    void closeRoutine(RoutineDecl* routine, TokenIndex opening);
+    bool startsDecl(TokenIndex i) const;
+
+    SyntaxTree& tree_;
+    diag::Sink& sink_;
+    const ParseOptions& options_;
+    Token* tokens_ = nullptr; ///< misspelt keywords are retagged
+    TokenIndex pos_ = 0;
+    TokenIndex last_ = 0; ///< index of EndOfFile
+    uint32_t depth_ = 0;
+    uint32_t height_ = 0; ///< height of the expression parsed last
+    bool panic_ = false;
+    bool abandoned_ = false; ///< the routine is nested too deep: blocks end without their words
+    bool quietOutside_ = false;
+    size_t errors_ = 0;
+    TokenSet enclosing_;                 ///< words that end a list further out
+    TokenIndex wrongEnd_ = kNoToken;     ///< an END word that closes a block of another kind
+    TokenIndex headReported_ = kNoToken; ///< a THEN or DO whose IF, FOR or WHILE is broken
+    TokenIndex compactIf_ = kNoToken;    ///< the last IF without THEN
+    TokenIndex blockOpening_ = kNoToken; ///< the word that opened the innermost block
+
+    // Scratch space, shared by all levels of the recursion.
+    std::vector<Expr*> exprs_;
+    std::vector<Argument*> args_;
+    std::vector<Stmt*> stmts_;
+    std::vector<IfBranch*> branches_;
+    std::vector<TestCase*> cases_;
+    std::vector<Decl*> decls_;
+    std::vector<DataDecl*> data_;
+    std::vector<ParamDecl*> params_;
+    std::vector<RecordComponent*> components_;
+    std::vector<ErrorClause*> handlers_;
+};
+
+} // namespace rapid::syntax

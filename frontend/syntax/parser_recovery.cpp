@@ -1,0 +1,385 @@
+// Reporting, and how the parser finds firm ground again after a mistake.
+
+#include "frontend/syntax/parser_impl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace rapid::syntax {
+
+using diag::Code;
+
+namespace {
+
+/// Words that begin an instruction.
+constexpr TokenSet kStmtWords = {
+    TokenKind::KwIf,     TokenKind::KwFor,   TokenKind::KwWhile,    TokenKind::KwTest,  TokenKind::KwGoto,
+    TokenKind::KwReturn, TokenKind::KwRaise, TokenKind::KwConnect,  TokenKind::KwRetry, TokenKind::KwTrynext,
+    TokenKind::KwExit,   TokenKind::KwBreak, TokenKind::KwContinue, TokenKind::PlaceSmt};
+/// Words that no English comment contains.
+constexpr TokenSet kEndWords = {TokenKind::KwEndfor,  TokenKind::KwEndfunc,   TokenKind::KwEndif,
+                                TokenKind::KwEndproc, TokenKind::KwEndmodule, TokenKind::KwEndrecord,
+                                TokenKind::KwEndtest, TokenKind::KwEndtrap,   TokenKind::KwEndwhile,
+                                TokenKind::EndOfFile};
+constexpr TokenSet kBlockWords = {TokenKind::KwElse,     TokenKind::KwElseif, TokenKind::KwCase,
+                                  TokenKind::KwDefault,  TokenKind::KwError,  TokenKind::KwUndo,
+                                  TokenKind::KwBackward, TokenKind::PlaceEit, TokenKind::PlaceCse};
+constexpr TokenSet kDeclWords = {
+    TokenKind::KwVar,    TokenKind::KwPers,   TokenKind::KwConst,  TokenKind::KwLocal, TokenKind::KwProc,
+    TokenKind::KwFunc,   TokenKind::KwTrap,   TokenKind::KwRecord, TokenKind::KwAlias, TokenKind::KwModule,
+    TokenKind::PlaceTdn, TokenKind::PlaceDdn, TokenKind::PlaceRdn};
+constexpr TokenSet kLineWords = kStmtWords | kEndWords | kBlockWords | kDeclWords;
+/// What ends any search for a word that is missing.
+constexpr TokenSet kSearchEnd = kLineWords | TokenSet{TokenKind::Semicolon};
+
+constexpr uint32_t kSearchTokens = 200;
+
+/// Edit distance of two short words, letter case aside.
+size_t distance(std::string_view a, std::string_view upper) {
+    std::vector<size_t> row(upper.size() + 1);
+    std::iota(row.begin(), row.end(), size_t{0});
+    for (size_t i = 0; i < a.size(); ++i) {
+        size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (size_t j = 0; j < upper.size(); ++j) {
+            const size_t cost = diagonal + !equalsNoCase(a.substr(i, 1), upper.substr(j, 1));
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({cost, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+} // namespace
+
+// ---- Reporting ------------------------------------------------------------------------------------------------
+
+diag::Diagnostic* Parser::reportAt(Code code, SourceRange range, std::initializer_list<std::string> args) {
+    if (panic_) return nullptr;
+    if (++errors_ <= kMaxErrorsPerFile) return &sink_.report(code, tree_.source, range, args);
+    if (errors_ == kMaxErrorsPerFile + 1) sink_.report(Code::TooManyErrors, tree_.source, range);
+    return nullptr;
+}
+
+void Parser::note(diag::Diagnostic* diagnostic, TokenIndex at, std::string message) {
+    if (!diagnostic || at == kNoToken) return;
+    diagnostic->notes.push_back({tree_.source, tree_.range(at), std::move(message)});
+}
+
+std::string Parser::describe(TokenIndex i) const {
+    const K k = tokens_[i].kind;
+    if (isKeyword(k) || isPlaceholder(k)) return std::string(tokenText(k));
+    if (k == K::EndOfFile) return "the end of the file";
+    std::string_view text = textOf(i);
+    constexpr size_t kShown = 40;
+    if (text.size() <= kShown) return fmt::format("'{}'", text);
+    size_t cut = kShown;
+    while ((static_cast<unsigned char>(text[cut]) & 0xC0) == 0x80)
+        --cut;
+    return fmt::format("'{}...'", text.substr(0, cut));
+}
+
+void Parser::unexpected(std::string_view expected) {
+    if (kind() != K::Error) report(Code::UnexpectedToken, pos_, {describe(pos_), std::string(expected)});
+    panic_ = true;
+}
+
+void Parser::reportTooDeep() {
+    report(Code::NestingTooDeep, pos_, {std::to_string(kMaxDepth)});
+    panic_ = true;
+}
+
+void Parser::checkNameLength(TokenIndex name) {
+    if (name == kNoToken || tokens_[name].length <= kMaxNameLength) return;
+    const std::string_view text = textOf(name);
+    const auto isStart = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
+    const auto length = static_cast<size_t>(std::count_if(text.begin(), text.end(), isStart));
+    if (length <= kMaxNameLength) return;
+    const size_t shown = std::min<size_t>(text.size(), 60);
+    report(Code::NameTooLong, name,
+           {std::string(text.substr(0, shown)) + (shown < text.size() ? "..." : ""), std::to_string(length)});
+}
+
+// ---- Looking around -------------------------------------------------------------------------------------------
+
+/// True when only white space and comments separate the token from the end of an earlier line.
+bool Parser::startsLine(TokenIndex i) const {
+    if (i == 0) return true;
+    const std::string_view text = tree_.source->text();
+    const uint32_t from = tokens_[i - 1].offset + tokens_[i - 1].length;
+    for (uint32_t at = tokens_[i].offset; at > from; --at)
+        if (text[at - 1] == '\n' || text[at - 1] == '\r') return true;
+    return false;
+}
+
+/// Bytes between the start of the line and the token; only compared with others of its kind.
+uint32_t Parser::columnOf(TokenIndex i) const {
+    const std::string_view text = tree_.source->text();
+    uint32_t at = tokens_[i].offset;
+    constexpr uint32_t kFar = 500;
+    while (at > 0 && tokens_[i].offset - at < kFar && text[at - 1] != '\n' && text[at - 1] != '\r')
+        --at;
+    return tokens_[i].offset - at;
+}
+
+/// Is this the beginning of an instruction, if a line begins here?
+bool Parser::looksLikeStatement(TokenIndex i) const {
+    if (!isName(kindAt(i))) return kindAt(i) == K::Percent;
+    switch (kindAt(i + 1)) {
+    case K::Assign:
+    case K::Colon:
+    case K::Semicolon:
+    case K::Identifier:
+    case K::NumLiteral:
+    case K::StringLiteral:
+    case K::Backslash:
+    case K::LeftParen:
+    case K::LeftBracket:
+    case K::KwTrue:
+    case K::KwFalse:
+    case K::PlaceId:
+    case K::PlaceArg: return true;
+    case K::Dot:
+    case K::LeftBrace: break;
+    default: return false;
+    }
+    for (TokenIndex k = i + 2; k < i + kSearchTokens; ++k) {
+        if (kindAt(k) == K::Assign) return true;
+        if (kSearchEnd.has(kindAt(k))) return false;
+    }
+    return false;
+}
+
+/// Does the word really open a block, or is it part of a sentence?
+bool Parser::opensBlock(TokenIndex i) const {
+    TokenIndex found = 0;
+    switch (kindAt(i)) {
+    case K::KwIf: return findOnLine(i + 1, K::KwThen, found);
+    case K::KwWhile: return findOnLine(i + 1, K::KwDo, found);
+    case K::KwFor: return findOnLine(i + 1, K::KwFrom, found);
+    case K::KwTest: return findOnLine(i + 1, K::KwCase, found);
+    default: return false;
+    }
+}
+
+/// Looks for a word before the statement can end; an expression may go over several lines.
+bool Parser::findOnLine(TokenIndex from, K wanted, TokenIndex& found) const {
+    for (TokenIndex i = from; i < from + kSearchTokens; ++i) {
+        if (kindAt(i) == wanted) {
+            found = i;
+            return true;
+        }
+        if (kSearchEnd.has(kindAt(i))) return false;
+        if (startsLine(i) && looksLikeStatement(i)) return false;
+    }
+    return false;
+}
+
+/// At a token that cannot continue the instruction: does another one begin here?
+bool Parser::startsAfresh() const {
+    if (kEndWords.has(kind())) return true;
+    if (startsLine(pos_)) return true;
+    return (isName(kind()) && peek() == K::Assign) || opensBlock(pos_);
+}
+
+/// A name that ends its line, followed by a line at the same margin that is an instruction of its own: the
+/// semicolon is missing, although the second name could be read as an argument.
+bool Parser::calleeEndsHere(TokenIndex callee) const {
+    const TokenIndex next = callee + 1;
+    if (!isName(kindAt(next)) || !startsLine(next) || !startsLine(callee)) return false;
+    switch (kindAt(next + 1)) {
+    case K::Identifier:
+    case K::NumLiteral:
+    case K::StringLiteral:
+    case K::Colon: return true; // an argument cannot go on like this
+    default: return columnOf(next) <= columnOf(callee) && looksLikeStatement(next);
+    }
+}
+
+// ---- Finding the way back --------------------------------------------------------------------------------------
+
+void Parser::endStatement(std::string_view expected) {
+    if (accept(K::Semicolon)) {
+        panic_ = false;
+        return;
+    }
+    if (!panic_ && kind() != K::Error) {
+        if (startsAfresh()) {
+            reportAt(Code::MissingSemicolon, endOf(pos_ - 1), {describe(pos_ - 1)});
+            if (kLineWords.has(kind()) || looksLikeStatement(pos_) || kind() == K::Semicolon) return;
+        } else if (kind() == K::Equal) {
+            report(Code::EqualInAssignment, pos_);
+        } else {
+            report(Code::UnexpectedToken, pos_, {describe(pos_), std::string(expected)});
+        }
+    }
+    syncStatement();
+}
+
+/// Skips to the end of the instruction: its semicolon, or a line that begins like another one.
+void Parser::syncStatement() {
+    panic_ = false;
+    for (; kind() != K::EndOfFile; take()) {
+        if (accept(K::Semicolon)) return;
+        if (kEndWords.has(kind())) return;
+        if (startsLine(pos_) && (kLineWords.has(kind()) || looksLikeStatement(pos_))) return;
+        if (isTaskDirective(pos_) && startsLine(pos_)) return;
+        // "FI a = b THEN" and the like: the block is there, only its head is broken.
+        if ((kind() == K::KwThen || kind() == K::KwDo) && startsLine(pos_ + 1)) {
+            headReported_ = pos_;
+            return;
+        }
+    }
+}
+
+void Parser::expectWord(K word) {
+    if (kind() == word) {
+        take();
+        panic_ = false;
+        return;
+    }
+    const bool silent = panic_ || kind() == K::Error;
+    TokenIndex found = 0;
+    const bool later = findOnLine(pos_, word, found);
+    if (!silent) {
+        const std::string expected(tokenText(word));
+        if (!later && startsLine(pos_)) {
+            reportAt(Code::MissingBlockWord, endOf(pos_ - 1), {describe(pos_), expected});
+        } else {
+            report(Code::MissingBlockWord, pos_, {describe(pos_), expected});
+        }
+    }
+    panic_ = false;
+    if (later) {
+        pos_ = found + 1;
+    } else if (silent) {
+        while (kind() != K::EndOfFile && !startsLine(pos_) && !kEndWords.has(kind()))
+            if (take(), tokens_[pos_ - 1].kind == K::Semicolon) return;
+    }
+}
+
+void Parser::expectClosing(K closing, TokenIndex opening, bool inList) {
+    if (accept(closing)) return;
+    if (panic_) return;
+    const std::string text(tokenText(closing));
+    const std::string expected = inList ? fmt::format("',' or '{}'", text) : fmt::format("'{}'", text);
+    diag::Diagnostic* diagnostic = nullptr;
+    if (kind() == K::Error) {
+        panic_ = true;
+        return;
+    }
+    if (startsLine(pos_)) {
+        diagnostic = reportAt(Code::MissingClosing, endOf(pos_ - 1), {describe(pos_), expected});
+    } else {
+        diagnostic = report(Code::MissingClosing, pos_, {describe(pos_), expected});
+    }
+    note(diagnostic, opening, fmt::format("the '{}' is here", textOf(opening)));
+    panic_ = true;
+}
+
+/// The END word of a block. A missing one is reported where the text can no longer belong to the block.
+void Parser::closeBlock(K end, TokenIndex opening) {
+    if (accept(end)) {
+        panic_ = false;
+        return;
+    }
+    if (abandoned_) return;
+    const std::string opened = describe(opening);
+    note(report(Code::MissingBlockEnd, pos_, {describe(pos_), std::string(tokenText(end))}), opening,
+         fmt::format("{} begins here", opened));
+    if (wrongEnd_ == pos_) take();
+}
+
+/// Skips the rest of a routine that is nested too deep.
+void Parser::abandonRoutine() {
+    abandoned_ = true;
+    panic_ = false;
+    constexpr TokenSet kStop = {TokenKind::KwEndproc, TokenKind::KwEndfunc,   TokenKind::KwEndtrap,
+                                TokenKind::KwProc,    TokenKind::KwFunc,      TokenKind::KwTrap,
+                                TokenKind::KwModule,  TokenKind::KwEndmodule, TokenKind::EndOfFile};
+    while (!kStop.has(kind()))
+        take();
+}
+
+/// A word that ends a list of instructions, but neither this one nor one around it. Returns true when it is taken as
+/// the end of this list all the same.
+bool Parser::handleStray(const TokenSet& own) {
+    struct Pair {
+        K stray;
+        std::string_view opener;
+    };
+    static constexpr Pair kOpeners[] = {
+        {K::KwEndif, "IF ... THEN"},  {K::KwElse, "IF ... THEN"}, {K::KwElseif, "IF ... THEN"},
+        {K::PlaceEit, "IF ... THEN"}, {K::KwEndfor, "FOR"},       {K::KwEndwhile, "WHILE"},
+        {K::KwEndtest, "TEST"},       {K::KwCase, "TEST"},        {K::KwDefault, "TEST"},
+        {K::PlaceCse, "TEST"},        {K::KwEndrecord, "RECORD"},
+    };
+    const K stray = kind();
+    const bool isEnd = kEndWords.has(stray);
+    const bool inBlock =
+        own.has(K::KwEndif) || own.has(K::KwEndfor) || own.has(K::KwEndwhile) || own.has(K::KwEndtest);
+    if (isEnd && inBlock && startsLine(pos_) && blockOpening_ != kNoToken &&
+        columnOf(pos_) == columnOf(blockOpening_)) {
+        wrongEnd_ = pos_;
+        return true;
+    }
+    std::string_view opener = "a routine";
+    for (const Pair& pair : kOpeners)
+        if (pair.stray == stray) opener = pair.opener;
+    diag::Diagnostic* diagnostic = report(Code::StrayKeyword, pos_, {describe(pos_), std::string(opener)});
+    if (opener.starts_with("IF") && compactIf_ != kNoToken)
+        note(diagnostic, compactIf_, "this IF has no THEN, so it ends with one instruction");
+    return false;
+}
+
+/// "ENDIFF", "END IF", "ELSIF": names alone in a line that stand for a word this list waits for.
+bool Parser::retagMisspelt(const TokenSet& own) {
+    const std::string_view text = textOf(pos_);
+    const K next = peek();
+    constexpr TokenSet kUsedAsName = {TokenKind::Assign, TokenKind::Colon, TokenKind::Semicolon,
+                                      TokenKind::Dot,    TokenKind::Comma, TokenKind::LeftBrace};
+    if (text.size() < 3 || text.size() > 12 || kUsedAsName.has(next) || !startsLine(pos_)) return false;
+    static constexpr K kWords[] = {K::KwEndif,   K::KwEndfor,  K::KwEndwhile, K::KwEndtest,
+                                   K::KwEndproc, K::KwEndfunc, K::KwEndtrap,  K::KwElseif};
+    for (const K word : kWords) {
+        if (!own.has(word)) continue;
+        const std::string_view spelling = tokenText(word);
+        TokenIndex last = pos_;
+        const bool twoWords = equalsNoCase(text, "END");
+        if (twoWords) {
+            if (startsLine(pos_ + 1) || !isKeyword(next) || tokenText(next) != spelling.substr(3)) continue;
+            last = pos_ + 1;
+        }
+        TokenIndex found = 0;
+        const bool fits = word == K::KwElseif ? findOnLine(last + 1, K::KwThen, found)
+                                              : last + 1 == last_ || startsLine(last + 1);
+        if (!fits || (!twoWords && distance(text, spelling) > 2)) continue;
+        const SourceRange range{tree_.range(pos_).begin, tree_.range(last).end};
+        const auto shown = tree_.source->text().substr(range.begin, range.end - range.begin);
+        reportAt(Code::MisspeltKeyword, range, {std::string(shown), std::string(spelling)});
+        pos_ = last;
+        tokens_[pos_].kind = word;
+        return true;
+    }
+    return false;
+}
+
+TokenIndex Parser::expectName(bool newerKeywords) {
+    if (isName(kind())) return take();
+    if (newerKeywords && (kind() == K::KwBreak || kind() == K::KwContinue)) return take();
+    if (isKeyword(kind()) && !kEndWords.has(kind()) && !startsLine(pos_)) {
+        report(Code::ReservedWordAsName, pos_, {std::string(tokenText(kind()))});
+        return take();
+    }
+    if (startsLine(pos_) && pos_ > 0 && kind() != K::Error) {
+        reportAt(Code::UnexpectedToken, endOf(pos_ - 1), {describe(pos_), "a name"});
+        panic_ = true;
+    } else {
+        unexpected("a name");
+    }
+    return kNoToken;
+}
+
+} // namespace rapid::syntax

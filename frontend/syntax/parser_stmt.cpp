@@ -1,0 +1,509 @@
+// Instructions (manual 1.1.5, 1.4, 1.5, 1.11, 1.12).
+
+#include "frontend/syntax/parser_impl.h"
+
+namespace rapid::syntax {
+
+using diag::Code;
+
+namespace {
+
+/// Words at which a list of instructions has to stop and think.
+constexpr TokenSet kListStops = {
+    TokenKind::KwEndfor,   TokenKind::KwEndfunc, TokenKind::KwEndif,     TokenKind::KwEndmodule,
+    TokenKind::KwEndproc,  TokenKind::KwEndtest, TokenKind::KwEndrecord, TokenKind::KwEndtrap,
+    TokenKind::KwEndwhile, TokenKind::KwElse,    TokenKind::KwElseif,    TokenKind::KwCase,
+    TokenKind::KwDefault,  TokenKind::KwError,   TokenKind::KwUndo,      TokenKind::KwBackward,
+    TokenKind::KwProc,     TokenKind::KwFunc,    TokenKind::KwTrap,      TokenKind::KwRecord,
+    TokenKind::KwAlias,    TokenKind::KwModule,  TokenKind::PlaceTdn,    TokenKind::PlaceRdn,
+    TokenKind::PlaceEit,   TokenKind::PlaceCse,  TokenKind::EndOfFile,   TokenKind::KwLocal,
+    TokenKind::Identifier};
+
+constexpr TokenSet kIfEnds = {TokenKind::KwEndif, TokenKind::KwElse, TokenKind::KwElseif,
+                              TokenKind::PlaceEit};
+constexpr TokenSet kTestEnds = {TokenKind::KwEndtest, TokenKind::KwCase, TokenKind::KwDefault,
+                                TokenKind::PlaceCse};
+
+/// Sets a member for the length of a block.
+template <class T> class Restore {
+  public:
+    explicit Restore(T& place) : place_(place), saved_(place) {}
+    ~Restore() { place_ = saved_; }
+    Restore(const Restore&) = delete;
+    Restore& operator=(const Restore&) = delete;
+
+  private:
+    T& place_;
+    T saved_;
+};
+
+} // namespace
+
+StmtList Parser::parseList(const TokenSet& own) {
+    const Restore restore(enclosing_);
+    const TokenSet outer = enclosing_;
+    enclosing_ = enclosing_ | own;
+    const size_t mark = stmts_.size();
+    for (;;) {
+        const K k = kind();
+        if (kListStops.has(k)) {
+            if (k == K::EndOfFile || own.has(k)) break;
+            if (k == K::Identifier) {
+                if ((textOf(pos_)[0] | 32) == 'e' && retagMisspelt(own)) continue;
+            } else if (k == K::KwLocal) {
+                if (peek() == K::KwProc || peek() == K::KwFunc || peek() == K::KwTrap ||
+                    peek() == K::KwRecord || peek() == K::KwAlias)
+                    break;
+            } else if (outer.has(k) || handleStray(own)) {
+                break;
+            }
+        }
+        const TokenIndex before = pos_;
+        stmts_.push_back(parseStmt());
+        if (pos_ == before) take();
+    }
+    return drain(stmts_, mark);
+}
+
+Stmt* Parser::parseStmt() {
+    const Nest nest(*this);
+    if (nest) return parseStmtUnguarded();
+    const TokenIndex first = pos_;
+    reportTooDeep();
+    abandonRoutine();
+    return errorStmt(first);
+}
+
+Stmt* Parser::parseStmtUnguarded() {
+    const TokenIndex first = pos_;
+    switch (kind()) {
+    case K::Identifier:
+    case K::PlaceId: return parseNamedStmt();
+    case K::PlaceVar: return parseAssignment(parsePrimary(), first);
+    case K::Percent: return parseLateCall();
+    case K::KwIf: return parseIf();
+    case K::KwFor: return parseFor();
+    case K::KwWhile: return parseWhile();
+    case K::KwTest: return parseTest();
+    case K::KwGoto: return parseGoto();
+    case K::KwReturn: return parseValueStmt(true);
+    case K::KwRaise: return parseValueStmt(false);
+    case K::KwConnect: return parseConnect();
+    case K::KwRetry: return parseSimple(NodeKind::Retry);
+    case K::KwTrynext: return parseSimple(NodeKind::TryNext);
+    case K::KwExit: return parseSimple(NodeKind::Exit);
+    case K::KwBreak: return parseSimple(NodeKind::Break);
+    case K::KwContinue: return parseSimple(NodeKind::Continue);
+    case K::Semicolon: {
+        auto* node = make<SimpleStmt>(NodeKind::Empty);
+        take();
+        return finish(node);
+    }
+    case K::PlaceSmt: {
+        auto* node = make<SimpleStmt>(NodeKind::PlaceholderStmt);
+        take();
+        return finish(node);
+    }
+    case K::KwVar:
+    case K::KwPers:
+    case K::KwConst:
+    case K::KwLocal:
+    case K::PlaceDdn: return parseLateDecl();
+    case K::KwElse:
+    case K::KwElseif:
+    case K::PlaceEit: // reported as stray; the rest of the IF belongs to it
+    case K::KwThen:
+    case K::KwDo:
+    case K::KwCase:
+    case K::KwDefault:
+    case K::PlaceCse: return parseOrphan();
+    default: break;
+    }
+    // An END word has been reported as stray.
+    if (kListStops.has(kind()) && kind() != K::KwLocal) {
+        take();
+        panic_ = false;
+        accept(K::Semicolon);
+    } else {
+        unexpected("an instruction");
+        take();
+        syncStatement();
+    }
+    return errorStmt(first);
+}
+
+Stmt* Parser::errorStmt(TokenIndex first) {
+    auto* node = make<SimpleStmt>(NodeKind::ErrorStmt);
+    node->first = first;
+    return finish(node);
+}
+
+/// The tail of a block whose head was broken or lost: read as the block it was meant to be, without more reports.
+Stmt* Parser::parseOrphan() {
+    const TokenIndex first = pos_;
+    const K word = kind();
+    if (word == K::KwThen && headReported_ != pos_) report(Code::StrayKeyword, pos_, {"THEN", "IF"});
+    if (word == K::KwDo && headReported_ != pos_) report(Code::StrayKeyword, pos_, {"DO", "FOR or WHILE"});
+    TokenSet ends = {K::KwEndfor, K::KwEndwhile};
+    if (word == K::KwCase || word == K::KwDefault || word == K::PlaceCse) ends = kTestEnds;
+    if (kIfEnds.has(word) || word == K::KwThen) ends = kIfEnds;
+    constexpr TokenSet kEnds = {K::KwEndif, K::KwEndfor, K::KwEndwhile, K::KwEndtest};
+    do {
+        const bool hasCondition = kind() == K::KwElseif || kind() == K::KwCase;
+        take();
+        if (hasCondition) skipHead();
+        parseList(ends);
+    } while (ends.has(kind()) && !kEnds.has(kind()));
+    if (ends.has(kind())) take();
+    panic_ = false;
+    return errorStmt(first);
+}
+
+/// Skips the condition of an ELSEIF or the values of a CASE in an orphan.
+void Parser::skipHead() {
+    const K closing = tokens_[pos_ - 1].kind == K::KwElseif ? K::KwThen : K::Colon;
+    TokenIndex found = 0;
+    if (findOnLine(pos_, closing, found)) pos_ = found + 1;
+}
+
+// ---- Assignment, label, call -----------------------------------------------------------------------------------
+
+Stmt* Parser::parseNamedStmt() {
+    const TokenIndex first = pos_;
+    switch (peek()) {
+    case K::Assign:
+    case K::LeftBrace:
+    case K::Dot: return parseAssignment(parseNamed(false), first);
+    case K::Equal: return parseAssignment(parseNamed(false), first);
+    case K::Colon: return parseLabel();
+    default: break;
+    }
+    if (isTaskDirective(pos_)) return parseLateDecl();
+    return parseCallStmt();
+}
+
+Stmt* Parser::parseAssignment(Expr* target, TokenIndex first) {
+    auto* node = make<AssignStmt>(NodeKind::Assign);
+    node->first = first;
+    node->target = target;
+    if (kind() == K::Equal) {
+        report(Code::EqualInAssignment, pos_);
+        take();
+    } else if (!accept(K::Assign) && !panic_) {
+        unexpected("':='");
+    }
+    node->value = panic_ ? errorExpr() : parseExpr();
+    endStatement();
+    return finish(node);
+}
+
+Stmt* Parser::parseLabel() {
+    auto* node = make<LabelStmt>(NodeKind::Label);
+    node->name = take();
+    checkNameLength(node->name);
+    take();
+    return finish(node);
+}
+
+Stmt* Parser::parseCallStmt() {
+    auto* node = make<CallStmt>(NodeKind::CallStmt);
+    node->name = take();
+    if (calleeEndsHere(node->name)) {
+        reportAt(Code::MissingSemicolon, endOf(node->name), {describe(node->name)});
+        return finish(node);
+    }
+    if (kind() == K::LeftParen && parseParenthesisedCall(node)) return finish(node);
+    node->args = parseArguments(true);
+    endStatement(node->args.empty() ? "an argument or ';'" : "',' or ';'");
+    return finish(node);
+}
+
+/// `name(a, b);` and `name();`: the arguments of a procedure call stand without parentheses. `name(a);` and
+/// `name(a), b;` are right, since an argument may be in parentheses.
+bool Parser::parseParenthesisedCall(CallStmt* call) {
+    constexpr TokenSet kOpen = {K::LeftParen, K::LeftBracket, K::LeftBrace};
+    constexpr TokenSet kClose = {K::RightParen, K::RightBracket, K::RightBrace};
+    constexpr TokenIndex kSearch = 500;
+    bool several = peek() == K::RightParen;
+    uint32_t depth = 0;
+    TokenIndex i = pos_;
+    for (; i < pos_ + kSearch; ++i) {
+        const K k = kindAt(i);
+        if (k == K::Semicolon || k == K::EndOfFile || k == K::Assign) return false;
+        if (kOpen.has(k)) ++depth;
+        if (kClose.has(k) && --depth == 0) break;
+        if (depth == 1 && (k == K::Comma || k == K::Backslash)) several = true;
+    }
+    if (!several || kindAt(i + 1) != K::Semicolon) return false;
+    report(Code::CallParentheses, pos_, {std::string(textOf(call->name))});
+    const TokenIndex opening = take();
+    call->args = parseArguments(true);
+    expectClosing(K::RightParen, opening, true);
+    endStatement();
+    return true;
+}
+
+/// `%"proc" + NumToStr(i, 0)% x, y;`
+Stmt* Parser::parseLateCall() {
+    auto* node = make<CallStmt>(NodeKind::CallStmt);
+    const TokenIndex opening = take();
+    node->lateName = parseExpr();
+    expectClosing(K::Percent, opening, false);
+    if (!panic_) node->args = parseArguments(true);
+    endStatement(node->args.empty() ? "an argument or ';'" : "',' or ';'");
+    return finish(node);
+}
+
+// ---- Blocks ----------------------------------------------------------------------------------------------------
+
+Stmt* Parser::parseIf() {
+    const TokenIndex opening = take();
+    Expr* condition = parseExpr();
+    TokenIndex found = 0;
+    if (kind() == K::KwThen || findOnLine(pos_, K::KwThen, found)) return parseIfBlocks(opening, condition);
+
+    auto* node = make<CompactIfStmt>(NodeKind::CompactIf);
+    node->first = opening;
+    node->condition = condition;
+    const TokenIndex bodyFirst = pos_;
+    if (!panic_) {
+        compactIf_ = opening;
+        const K k = kind();
+        const bool canStart =
+            k == K::PlaceVar || k == K::PlaceSmt || !kListStops.has(k) || k == K::Identifier;
+        if (canStart && (!startsExpr(k) || isName(k) || k == K::PlaceVar)) {
+            node->body = parseStmt();
+            return finish(node);
+        }
+        if (kind() != K::Error)
+            report(Code::MissingBlockWord, pos_, {describe(pos_), "THEN or an instruction"});
+    }
+    if (!kListStops.has(kind())) syncStatement();
+    panic_ = false;
+    node->body = errorStmt(bodyFirst);
+    return finish(node);
+}
+
+Stmt* Parser::parseIfBlocks(TokenIndex opening, Expr* condition) {
+    const Restore restore(blockOpening_);
+    blockOpening_ = opening;
+    auto* node = make<IfStmt>(NodeKind::If);
+    node->first = opening;
+    const size_t mark = branches_.size();
+
+    auto* branch = make<IfBranch>(NodeKind::IfBranch);
+    branch->first = opening;
+    branch->condition = condition;
+    expectWord(K::KwThen);
+    branch->body = parseList(kIfEnds);
+    branches_.push_back(finish(branch));
+    while (kind() != K::KwEndif && kIfEnds.has(kind())) {
+        if (node->hasElse) report(Code::InstructionAfterElse, pos_, {describe(pos_)});
+        if (accept(K::KwElse)) {
+            const StmtList body = parseList(kIfEnds);
+            if (!node->hasElse) node->elseBody = body;
+            node->hasElse = true;
+            continue;
+        }
+        branch = make<IfBranch>(NodeKind::IfBranch);
+        if (take(), tokens_[pos_ - 1].kind == K::KwElseif) {
+            branch->condition = parseExpr();
+            expectWord(K::KwThen);
+        }
+        branch->body = parseList(kIfEnds);
+        branches_.push_back(finish(branch));
+    }
+    closeBlock(K::KwEndif, opening);
+    node->branches = drain(branches_, mark);
+    return finish(node);
+}
+
+Stmt* Parser::parseFor() {
+    const Restore restore(blockOpening_);
+    auto* node = make<ForStmt>(NodeKind::For);
+    const TokenIndex opening = blockOpening_ = take();
+    node->variable = expectName();
+    checkNameLength(node->variable);
+    if (!panic_ && (kind() == K::Assign || kind() == K::Equal)) { // FOR i := 1 TO 5 DO
+        report(Code::MissingBlockWord, pos_, {describe(pos_), "FROM"});
+        take();
+    } else {
+        expectWord(K::KwFrom);
+    }
+    node->from = parseExpr();
+    expectWord(K::KwTo);
+    node->to = parseExpr();
+    if (!panic_ && accept(K::KwStep)) node->step = parseExpr();
+    expectWord(K::KwDo);
+    node->body = parseList({K::KwEndfor});
+    closeBlock(K::KwEndfor, opening);
+    return finish(node);
+}
+
+Stmt* Parser::parseWhile() {
+    const Restore restore(blockOpening_);
+    auto* node = make<WhileStmt>(NodeKind::While);
+    const TokenIndex opening = blockOpening_ = take();
+    node->condition = parseExpr();
+    expectWord(K::KwDo);
+    node->body = parseList({K::KwEndwhile});
+    closeBlock(K::KwEndwhile, opening);
+    return finish(node);
+}
+
+Stmt* Parser::parseTest() {
+    const Restore restore(blockOpening_);
+    auto* node = make<TestStmt>(NodeKind::Test);
+    const TokenIndex opening = blockOpening_ = take();
+    node->subject = parseExpr();
+    const size_t mark = cases_.size();
+    if (panic_) syncStatement();
+    if (!kTestEnds.has(kind()) && kind() != K::EndOfFile) {
+        auto* lost = make<TestCase>(NodeKind::TestCase);
+        const TokenIndex at = pos_;
+        lost->body = parseList(kTestEnds);
+        if (!lost->body.empty()) {
+            report(Code::InstructionOutsideCase, at);
+            cases_.push_back(finish(lost));
+        }
+    }
+    while (kind() != K::KwEndtest && kTestEnds.has(kind())) {
+        if (node->hasDefault) report(Code::CaseAfterDefault, pos_, {describe(pos_)});
+        if (kind() != K::KwDefault) {
+            cases_.push_back(parseCase());
+            continue;
+        }
+        take();
+        if (!accept(K::Colon)) report(Code::UnexpectedToken, pos_, {describe(pos_), "':'"});
+        const StmtList body = parseList(kTestEnds);
+        if (!node->hasDefault) node->defaultBody = body;
+        node->hasDefault = true;
+    }
+    closeBlock(K::KwEndtest, opening);
+    node->cases = drain(cases_, mark);
+    return finish(node);
+}
+
+TestCase* Parser::parseCase() {
+    auto* node = make<TestCase>(NodeKind::TestCase);
+    if (take(), tokens_[pos_ - 1].kind == K::KwCase) {
+        const size_t mark = exprs_.size();
+        do
+            exprs_.push_back(parseExpr());
+        while (!panic_ && accept(K::Comma));
+        node->values = drain(exprs_, mark);
+        TokenIndex found = 0;
+        if (!accept(K::Colon)) {
+            const bool later = findOnLine(pos_, K::Colon, found) && !startsLine(found);
+            if (startsLine(pos_) && pos_ > 0) {
+                reportAt(Code::UnexpectedToken, endOf(pos_ - 1), {describe(pos_), "':'"});
+            } else if (kind() != K::Error) {
+                report(Code::UnexpectedToken, pos_, {describe(pos_), "',' or ':'"});
+            }
+            if (later) {
+                pos_ = found + 1;
+            } else if (accept(K::Semicolon)) { // "CASE 1;"
+            } else if (panic_) {
+                syncStatement();
+            }
+            panic_ = false;
+        }
+    }
+    node->body = parseList(kTestEnds);
+    return finish(node);
+}
+
+// ---- Instructions of one word and an operand ---------------------------------------------------------------------
+
+Stmt* Parser::parseGoto() {
+    auto* node = make<GotoStmt>(NodeKind::Goto);
+    take();
+    node->label = expectName();
+    endStatement();
+    return finish(node);
+}
+
+/// RETURN and RAISE with an optional value.
+Stmt* Parser::parseValueStmt(bool isReturn) {
+    Expr* value = nullptr;
+    const TokenIndex first = take();
+    if (kind() != K::Semicolon && startsExpr(kind()) && !calleeEndsHere(first) &&
+        !(startsLine(pos_) && isName(kind()) && (peek() == K::Assign || peek() == K::Colon)))
+        value = parseExpr();
+    Stmt* result;
+    if (isReturn) {
+        auto* node = make<ReturnStmt>(NodeKind::Return);
+        node->value = value;
+        result = node;
+    } else {
+        auto* node = make<RaiseStmt>(NodeKind::Raise);
+        node->value = value;
+        result = node;
+    }
+    result->first = first;
+    endStatement(value ? "';'" : "an expression or ';'");
+    return finish(result);
+}
+
+Stmt* Parser::parseConnect() {
+    auto* node = make<ConnectStmt>(NodeKind::Connect);
+    take();
+    if (isName(kind())) {
+        node->target = parseNamed(false);
+    } else if (kind() == K::PlaceVar) {
+        node->target = parsePrimary();
+    } else {
+        unexpected("an interrupt variable");
+        node->target = errorExpr();
+    }
+    if (!panic_) {
+        if (accept(K::KwWith)) {
+            node->trap = expectName();
+        } else {
+            unexpected("WITH");
+        }
+    }
+    endStatement();
+    return finish(node);
+}
+
+Stmt* Parser::parseSimple(NodeKind nodeKind) {
+    auto* node = make<SimpleStmt>(nodeKind);
+    take();
+    endStatement();
+    return finish(node);
+}
+
+/// Data declared after an instruction or inside a block.
+Stmt* Parser::parseLateDecl() {
+    auto* node = make<DeclStmt>(NodeKind::DeclStmt);
+    if (accept(K::PlaceDdn)) {
+        node->kind = NodeKind::PlaceholderStmt;
+        report(Code::PlaceholderMisplaced, pos_ - 1, {"<DDN>", "<SMT> after the first instruction"});
+        return finish(node);
+    }
+    const TokenIndex first = pos_;
+    ScopeWord scope = ScopeWord::None;
+    bool reported = false;
+    if (kind() == K::KwLocal || isTaskDirective(pos_)) {
+        scope = kind() == K::KwLocal ? ScopeWord::Local : ScopeWord::Task;
+        report(Code::ScopeInsideRoutine, pos_, {scope == ScopeWord::Local ? "LOCAL" : "TASK"});
+        reported = true;
+        take();
+    }
+    if (kind() != K::KwVar && kind() != K::KwPers && kind() != K::KwConst) {
+        if (!reported) unexpected("a data declaration");
+        syncStatement();
+        return errorStmt(first);
+    }
+    const size_t errorsBefore = errors_;
+    node->decl = parseData(scope, first);
+    if (!reported && errors_ == errorsBefore) {
+        const TokenIndex name = node->decl->name;
+        report(Code::DeclarationAfterInstruction, name == kNoToken ? first : name,
+               {std::string(textOf(name))});
+    }
+    return finish(node);
+}
+
+} // namespace rapid::syntax
