@@ -8,7 +8,7 @@ namespace stdlibgen {
 /// Whether a native is called by value without a task (class Const) or with a task and a status (class
 /// Plain). Const: `effects: const`, result and all parameters are required num, dnum or bool, mode IN.
 bool isConstNative(const Model& model, const Routine& routine);
-/// False for routines that the compiler replaces altogether (Present, Dim).
+/// False for routines that the compiler replaces altogether (Present, Dim, WaitUntil).
 bool hasPrototype(const Routine& routine);
 /// "rt_" and the name as declared.
 std::string symbolOf(const Routine& routine);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
 
 namespace stdlibgen {
 
@@ -37,8 +38,8 @@ std::string typeText(const TypeInfo& type) {
 
 /// Chapter numbers in natural order: 1.2 before 1.10.
 bool chapterLess(const std::string& a, const std::string& b) {
-    const char* p = a.c_str();
-    const char* q = b.c_str();
+    const char* p = a.c_str() + std::min(a.size(), a.find_first_of("0123456789"));
+    const char* q = b.c_str() + std::min(b.size(), b.find_first_of("0123456789"));
     while (true) {
         char* pe = nullptr;
         char* qe = nullptr;
@@ -58,14 +59,42 @@ struct Section {
 
 std::string chapterOf(const Doc& doc) {
     const std::string manual = doc.get("manual");
-    return manual.empty() ? "other" : manual;
+    return manual.empty() || manual == "-" ? "Not in the overview manual" : "Chapter " + manual;
+}
+
+/// The word after "@tag " and the rest of the line.
+std::pair<std::string, std::string> firstWord(const std::string& text) {
+    const size_t space = text.find(' ');
+    if (space == std::string::npos) return {text, ""};
+    return {text.substr(0, space), text.substr(text.find_first_not_of(' ', space))};
+}
+
+/// Documentation lines as Markdown: summary, arguments, result, examples. Errors stand in the attributes.
+std::string markdown(const std::string& doc) {
+    std::istringstream lines(doc);
+    std::string text, params, examples;
+    for (std::string line; std::getline(lines, line);) {
+        const auto [tag, rest] = firstWord(line);
+        if (tag == "@param") {
+            const auto [name, meaning] = firstWord(rest);
+            params += fmt::format("- `{}`: {}\n", name, meaning);
+        } else if (tag == "@return") {
+            params += fmt::format("- result: {}\n", rest);
+        } else if (tag == "@example") {
+            examples += rest + "\n";
+        } else if (!tag.starts_with('@')) {
+            text += line + "\n";
+        }
+    }
+    if (!params.empty()) text += "\n" + params;
+    if (!examples.empty()) text += "\nExample:\n\n```\n" + examples + "```\n";
+    return text;
 }
 
 std::string routineBlock(const Routine& r) {
-    std::string out = fmt::format("### {}\n\n```\n{}\n```\n\n{}\n", r.name, r.signature, r.doc.text);
+    std::string out = fmt::format("### {}\n\n```\n{}\n```\n\n{}", r.name, r.signature, markdown(r.doc.text));
     if (const std::string e = r.doc.get("raises"); !e.empty()) out += fmt::format("\nErrors: {}.\n", e);
-    if (const std::string o = r.doc.get("option"); !o.empty() && o != "-")
-        out += fmt::format("\nOption: {}.\n", o);
+    if (const std::string o = r.doc.get("option"); !o.empty() && o != "-") out += fmt::format("\nOption: {}.\n", o);
     return out;
 }
 

@@ -1,0 +1,63 @@
+// Manual 1.6: waiting for a time, a condition, the robot.
+
+#include "runtime/host/controller.h"
+#include "stdlib/impl/support/fail.h"
+#include "stdlib/impl/support/support_natives.h"
+
+#include "stdlib_constants.h"
+#include "stdlib_natives.h"
+
+#include <algorithm>
+
+using namespace rt;
+
+namespace {
+
+constexpr double kPollSeconds = 0.1;
+constexpr double kShortestPoll = 0.04; // manual 1.20 for the default; the limit as on a controller
+
+/// Until robot and additional axes stand in the last point; a task without a robot has nothing to wait for.
+Status waitInPosition(TaskCore* task) {
+    Task& owner = taskOf(task);
+    return owner.isMotionTask() ? owner.controller().motion().waitIdle(owner) : kOk;
+}
+
+} // namespace
+
+extern "C" {
+
+Status rt_WaitTime(TaskCore* task, bool InPos, float Time) {
+    if (!(Time >= 0)) return lib::fail(task, err::ERR_ARGVALERR, "WaitTime: the time must not be negative");
+    if (InPos)
+        if (const Status status = waitInPosition(task)) return status;
+    return taskOf(task).sleepFor(fromSeconds(Time));
+}
+
+Status rt_WaitRob(TaskCore* task, bool InPos, bool ZeroSpeed) {
+    if (InPos == ZeroSpeed) return lib::fail(task, err::ERR_ARGVALERR, "WaitRob needs one of \\InPos and \\ZeroSpeed");
+    if (InPos) return waitInPosition(task);
+    Task& owner = taskOf(task);
+    return owner.isMotionTask() ? owner.controller().motion().waitZeroSpeed(owner) : kOk;
+}
+
+/// `state` holds the deadline (kNever without \MaxTime) from the first call on; it is never 0 then.
+Status rt_waitUntilPoll(TaskCore* task, bool* again, bool InPos, const float* MaxTime, bool* TimeFlag,
+                        const float* PollRate, int64_t* state) {
+    Task& owner = taskOf(task);
+    if (*state == 0) {
+        if (InPos)
+            if (const Status status = waitInPosition(task)) return status;
+        *state = MaxTime ? std::max<Time>(1, addTime(owner.now(), fromSeconds(*MaxTime))) : kNever;
+    }
+    *again = owner.now() < *state;
+    if (!*again) {
+        if (!TimeFlag)
+            return lib::fail(task, err::ERR_WAIT_MAXTIME, "the condition did not become TRUE within \\MaxTime");
+        *TimeFlag = true;
+        return kOk;
+    }
+    const double poll = PollRate ? std::max<double>(*PollRate, kShortestPoll) : kPollSeconds;
+    // The condition is looked at once more exactly when the time is over.
+    return owner.sleepUntil(std::min<Time>(addTime(owner.now(), fromSeconds(poll)), *state));
+}
+}

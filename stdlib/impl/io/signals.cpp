@@ -1,0 +1,65 @@
+#include "stdlib/impl/io/signals.h"
+
+#include "stdlib/impl/support/fail.h"
+#include "stdlib/impl/support/format.h"
+#include "stdlib/impl/support/support_natives.h"
+
+#include "stdlib_constants.h"
+
+namespace rt::lib {
+
+Status ioStatus(TaskCore* task, IoResult result, Handle handle) {
+    if (result == IoResult::Ok) return kOk;
+    const IoSystem& io = taskOf(task).controller().io();
+    const SignalId id = io.idOf(handle);
+    const std::string name = id < 0 ? std::string() : io.config(id).name;
+    switch (result) {
+    case IoResult::Ok: return kOk;
+    case IoResult::NoSignal:
+        return fail(task, err::ERR_NO_ALIASIO_DEF, "the signal variable is not connected; connect it with AliasIO first");
+    case IoResult::OutOfRange: {
+        const SignalConfig& config = io.config(id);
+        const bool analog = isAnalog(config.type);
+        return fail(task, analog ? err::ERR_AO_LIM : err::ERR_GO_LIM,
+                    "the value is outside the limits of signal " + name + ", " + formatDnum(config.minValue) + " to " +
+                        formatDnum(config.maxValue));
+    }
+    case IoResult::NotWritable:
+        return fail(task, err::ERR_SIG_NOT_VALID, "signal " + name + " cannot be set from a program (input, or Access level)");
+    case IoResult::BadTime:
+        return fail(task, err::ERR_ARGVALERR, "delay and pulse length must lie between 0.001 and 2000 s");
+    case IoResult::TooManyPulses:
+        return fail(task, err::ERR_ARGVALERR, "10 signals pulse already, which is the most");
+    case IoResult::TooManyDelays:
+        return fail(task, err::ERR_ARGVALERR, "20 delayed changes are pending already, which is the most");
+    }
+    return kOk;
+}
+
+SignalId signalOf(TaskCore* task, Handle handle, Status& status) {
+    const SignalId id = taskOf(task).controller().io().idOf(handle);
+    status = id < 0 ? ioStatus(task, IoResult::NoSignal, handle) : kOk;
+    return id;
+}
+
+Status readSignal(TaskCore* task, Handle handle, double& value) {
+    IoResult result = IoResult::Ok;
+    value = taskOf(task).controller().io().read(handle, result);
+    return ioStatus(task, result, handle);
+}
+
+} // namespace rt::lib
+
+extern "C" {
+
+rt::Status rt_readSignalNum(rt::TaskCore* task, float* result, const rt::Handle* signal) {
+    double value = 0;
+    if (const rt::Status status = rt::lib::readSignal(task, *signal, value)) return status;
+    *result = static_cast<float>(value);
+    return rt::kOk;
+}
+
+rt::Status rt_readSignalDnum(rt::TaskCore* task, double* result, const rt::Handle* signal) {
+    return rt::lib::readSignal(task, *signal, *result);
+}
+}

@@ -1,0 +1,15 @@
+#pragma once
+// From the results of the I/O system to RAPID's errors (manual 1.9).
+
+#include "runtime/host/controller.h"
+
+namespace rt::lib {
+
+/// kOk, or the error raised; `handle` is the signal concerned.
+Status ioStatus(TaskCore* task, IoResult result, Handle handle);
+/// The signal behind a variable; -1 and ERR_NO_ALIASIO_DEF raised (in `status`) when there is none.
+SignalId signalOf(TaskCore* task, Handle handle, Status& status);
+/// Value of a signal.
+Status readSignal(TaskCore* task, Handle handle, double& value);
+
+} // namespace rt::lib

@@ -1,0 +1,67 @@
+// Manual 1.10: texts for the operator.
+
+#include "runtime/host/controller.h"
+#include "stdlib/impl/support/fail.h"
+#include "stdlib/impl/support/format.h"
+#include "stdlib/impl/support/utf8.h"
+
+#include "stdlib_natives.h"
+
+using namespace rt;
+
+namespace {
+
+std::string bracketed(std::initializer_list<float> values) {
+    std::string out;
+    for (const float value : values) out += (out.empty() ? "[" : ",") + lib::formatDisplayNum(value);
+    return out + "]";
+}
+
+/// The text and the value behind it, without a blank between them; at most 80 bytes.
+std::string withValue(const String& text, const float* num, const bool* boolean, const data::Pos* pos,
+                      const data::Orient* orient, const double* dnum) {
+    std::string out(text.view());
+    if (num) out += lib::formatDisplayNum(*num);
+    if (boolean) out += *boolean ? "TRUE" : "FALSE";
+    if (pos) out += bracketed({pos->x, pos->y, pos->z});
+    if (orient) out += bracketed({orient->q1, orient->q2, orient->q3, orient->q4});
+    if (dnum) out += lib::formatDisplayDnum(*dnum);
+    return out;
+}
+
+constexpr int kErrWriteEvent = 80001; // domain 8, user events
+constexpr int kWarnWriteEvent = 80002;
+constexpr int kInfoWriteEvent = 80003;
+
+} // namespace
+
+extern "C" {
+
+Status rt_TPErase(TaskCore* task) {
+    taskOf(task).controller().panel().erase();
+    return kOk;
+}
+
+Status rt_TPWrite(TaskCore* task, const String* String, const float* Num, const bool* Bool, const data::Pos* Pos,
+                  const data::Orient* Orient, const double* Dnum) {
+    taskOf(task).controller().panel().writeLine(withValue(*String, Num, Bool, Pos, Orient, Dnum));
+    return kOk;
+}
+
+Status rt_ErrWrite(TaskCore* task, bool W, bool I, const String* Header, const String* Reason, const String* RL2,
+                   const String* RL3, const String* RL4) {
+    std::string text(Reason->view());
+    for (const String* line : {RL2, RL3, RL4})
+        if (line) text += "\n" + std::string(line->view());
+    const EventType type = W ? EventType::Warning : I ? EventType::Information : EventType::Error;
+    const int number = W ? kWarnWriteEvent : I ? kInfoWriteEvent : kErrWriteEvent;
+    Controller& controller = taskOf(task).controller();
+    controller.log().write(type, number, std::string(Header->view()), text, &taskOf(task));
+    return kOk;
+}
+
+Status rt_UIClientExist(TaskCore* task, bool* result) {
+    *result = taskOf(task).controller().panel().canAnswer();
+    return kOk;
+}
+}

@@ -1,0 +1,10 @@
+#include "runtime/host/controller.h"
+#include "stdlib/native_table.h"
+
+namespace rt {
+
+void setUpStandardLibrary(Controller& controller) {
+    for (const ErrorEntry& entry : errorTable()) controller.log().addErrorName(entry.number, entry.name, entry.summary);
+}
+
+} // namespace rt

@@ -1,0 +1,55 @@
+// Manual 1.14: clocks count virtual time.
+
+#include "runtime/host/controller.h"
+#include "stdlib/impl/support/fail.h"
+
+#include "stdlib_constants.h"
+#include "stdlib_natives.h"
+
+using namespace rt;
+
+namespace {
+
+/// A clock overflows after 4294967 s (49 days), as on a controller.
+constexpr Time kLongest = Time{4294967} * kSecond;
+
+ClockObject& clockOf(TaskCore* task, Handle* slot) {
+    return taskOf(task).controller().clocks().at(*slot);
+}
+
+Status checked(TaskCore* task, const ClockObject& clock) {
+    if (clock.elapsed(taskOf(task).now()) <= kLongest) return kOk;
+    return lib::fail(task, err::ERR_OVERFLOW, "the clock has counted more than 4294967 s; reset it with ClkReset");
+}
+
+} // namespace
+
+extern "C" {
+
+Status rt_ClkReset(TaskCore* task, Handle* Clock) {
+    clockOf(task, Clock).reset(taskOf(task).now());
+    return kOk;
+}
+
+Status rt_ClkStart(TaskCore* task, Handle* Clock) {
+    ClockObject& clock = clockOf(task, Clock);
+    if (const Status status = checked(task, clock)) return status;
+    clock.start(taskOf(task).now());
+    return kOk;
+}
+
+Status rt_ClkStop(TaskCore* task, Handle* Clock) {
+    ClockObject& clock = clockOf(task, Clock);
+    clock.stop(taskOf(task).now());
+    return checked(task, clock);
+}
+
+Status rt_ClkRead(TaskCore* task, float* result, Handle* Clock, bool HighRes) {
+    const ClockObject& clock = clockOf(task, Clock);
+    if (const Status status = checked(task, clock)) return status;
+    const Time resolution = HighRes ? kMicrosecond : kMillisecond;
+    const Time elapsed = clock.elapsed(taskOf(task).now()) / resolution * resolution;
+    *result = static_cast<float>(toSeconds(elapsed));
+    return kOk;
+}
+}

@@ -1,0 +1,167 @@
+// Manual 1.6 and 1.17: modes, tasks, types of data.
+
+#include "runtime/host/controller.h"
+#include "stdlib/impl/support/fail.h"
+
+#include "stdlib_constants.h"
+#include "stdlib_natives.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+
+using namespace rt;
+
+namespace {
+
+constexpr double kNumInteger = 8388608;
+constexpr double kDnumInteger = 4503599627370496;
+constexpr uint8_t kPersistent = 1; // ir::GlobalKind::Persistent
+
+/// The data lie in (are, or are a part of) a persistent of the program.
+bool isPersistent(TaskCore* task, const void* data) {
+    const ProgramDesc& program = taskOf(task).controller().program();
+    const auto* at = static_cast<const char*>(data);
+    for (uint32_t i = 0; i < program.globalCount; ++i) {
+        const GlobalDesc& global = program.globals[i];
+        const auto* first = static_cast<const char*>(global.address);
+        if (global.kind == kPersistent && at >= first && at < first + global.type->size) return true;
+    }
+    return false;
+}
+
+bool sameName(std::string_view a, std::string_view b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
+        return std::tolower(x) == std::tolower(y);
+    });
+}
+
+/// The task asked for: by a taskid (number of the task from 1) or by name; null and ERR_TASKNAME when there is none.
+Task* taskAsked(TaskCore* task, const Handle* ref, const String* name, Status& status) {
+    Controller& controller = taskOf(task).controller();
+    Task* found = nullptr;
+    if (name)
+        found = controller.findTask(name->view());
+    else if (ref && *ref >= 1 && *ref <= static_cast<Handle>(controller.tasks().size()))
+        found = controller.tasks()[static_cast<size_t>(*ref - 1)].get();
+    status = found ? kOk
+                   : lib::fail(task, err::ERR_TASKNAME,
+                               name ? "there is no task named " + std::string(name->view())
+                                    : std::string("the taskid variable names no task"));
+    return found;
+}
+
+} // namespace
+
+extern "C" {
+
+Status rt_TryInt(TaskCore* task, const float* DataObj, const double* DataObj2) {
+    const double value = DataObj ? static_cast<double>(*DataObj) : *DataObj2;
+    if (std::trunc(value) != value) return lib::fail(task, err::ERR_INT_NOTVAL, "the value is not a whole number");
+    if (std::fabs(value) > (DataObj ? kNumInteger : kDnumInteger))
+        return lib::fail(task, err::ERR_INT_MAXVAL, "the value is too large to be held as an exact integer");
+    return kOk;
+}
+
+Status rt_Type(TaskCore*, String* result, void*, const TypeDesc* DataType, bool BaseName) {
+    const TypeDesc* type = DataType->kind == DescKind::Array ? DataType->fields[0] : DataType;
+    result->assign(BaseName ? type->baseName : type->name);
+    return kOk;
+}
+
+Status rt_IsPers(TaskCore* task, bool* result, void* DatObj, const TypeDesc*) {
+    *result = isPersistent(task, DatObj);
+    return kOk;
+}
+
+Status rt_IsVar(TaskCore* task, bool* result, void* DatObj, const TypeDesc*) {
+    *result = !isPersistent(task, DatObj);
+    return kOk;
+}
+
+Status rt_ResetData(TaskCore*, void* Data, const TypeDesc* DataType) {
+    std::memset(Data, 0, DataType->size); // zero, "" and FALSE are the default values of every value type
+    return kOk;
+}
+
+/// A virtual controller runs in automatic mode, continuously.
+Status rt_OpMode(TaskCore*, float* result) {
+    *result = k::OP_AUTO;
+    return kOk;
+}
+Status rt_RunMode(TaskCore*, float* result, bool) {
+    *result = k::RUN_CONT_CYCLE;
+    return kOk;
+}
+Status rt_NonMotionMode(TaskCore*, float* result, bool) {
+    *result = k::RUN_CONT_CYCLE;
+    return kOk;
+}
+Status rt_RobOS(TaskCore*, bool* result) {
+    *result = false;
+    return kOk;
+}
+
+Status rt_GetTaskName(TaskCore* task, String* result, float* TaskNo, float* MecTaskNo) {
+    const Task& owner = taskOf(task);
+    const auto number = static_cast<float>(owner.index() + 1);
+    if (TaskNo) *TaskNo = number;
+    if (MecTaskNo) *MecTaskNo = owner.isMotionTask() ? 1 : 0; // one robot
+    result->assign(owner.name());
+    return kOk;
+}
+Status rt_TaskRunMec(TaskCore* task, bool* result) {
+    *result = taskOf(task).isMotionTask();
+    return kOk;
+}
+Status rt_TaskRunRob(TaskCore* task, bool* result) {
+    *result = taskOf(task).isMotionTask();
+    return kOk;
+}
+Status rt_TaskIsExecuting(TaskCore* task, bool* result, Handle* TaskRef, const String* TaskName) {
+    Status status = kOk;
+    const Task* other = taskAsked(task, TaskRef, TaskName, status);
+    if (other) *result = other->isExecuting();
+    return status;
+}
+Status rt_TaskIsActive(TaskCore* task, bool* result, Handle* TaskRef, const String* TaskName) {
+    Status status = kOk;
+    const Task* other = taskAsked(task, TaskRef, TaskName, status);
+    if (other) *result = other->kind() == TaskKind::Normal;
+    return status;
+}
+Status rt_MotionPlannerNo(TaskCore* task, float* result) {
+    *result = taskOf(task).isMotionTask() ? 1 : 0;
+    return kOk;
+}
+Status rt_IsSyncMoveOn(TaskCore*, bool* result) {
+    *result = false; // one robot: never synchronized
+    return kOk;
+}
+
+/// Tasks cannot interrupt each other inside a native, so this is one indivisible step.
+Status rt_TestAndSet(TaskCore*, bool* result, bool* Object) {
+    *result = !*Object;
+    *Object = true;
+    return kOk;
+}
+
+Status rt_ModExist(TaskCore* task, bool* result, const String* ModuleName) {
+    const Task& owner = taskOf(task);
+    const ProgramDesc& program = owner.controller().program();
+    const auto visible = [&](int32_t index) { return index < 0 || index == static_cast<int32_t>(owner.index()); };
+    *result = false;
+    for (uint32_t i = 0; i < program.routineCount && !*result; ++i)
+        *result = visible(program.routines[i].task) && sameName(program.routines[i].module, ModuleName->view());
+    for (uint32_t i = 0; i < program.globalCount && !*result; ++i)
+        *result = visible(program.globals[i].task) && sameName(program.globals[i].module, ModuleName->view());
+    return kOk;
+}
+
+Status rt_Rand(TaskCore* task, float* result) {
+    // 24 bits: every value is exact in binary32 and below 1
+    *result = static_cast<float>(taskOf(task).controller().random()() >> 8) * 0x1p-24f;
+    return kOk;
+}
+}
