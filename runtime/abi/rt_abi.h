@@ -30,6 +30,8 @@ using Handle = int64_t;
 using Status = int32_t;
 inline constexpr Status kOk = 0;
 inline constexpr Status kUnwind = -1;
+/// As kUnwind, but UNDO handlers are not run (the run ends, UNDO was aborted). Passed up unchanged.
+inline constexpr Status kUnwindSilent = -2;
 
 enum class DescKind : uint8_t { Num, Dnum, Bool, String, Record, Array, Handle, Other };
 
@@ -38,9 +40,9 @@ struct TypeDesc {
     const char* name;     ///< as declared; an alias keeps its name
     const char* baseName; ///< aliases resolved
     DescKind kind;
-    uint32_t size;        ///< bytes
-    uint32_t count;       ///< record: number of fields; array: number of elements in all
-    int32_t dims[3];      ///< array; unused entries 0
+    uint32_t size;                 ///< bytes
+    uint32_t count;                ///< record: number of fields; array: number of elements in all
+    int32_t dims[3];               ///< array; unused entries 0
     const TypeDesc* const* fields; ///< record: per field; array: one entry, the element
     const char* const* fieldNames; ///< record
     const uint32_t* offsets;       ///< record: byte offset per field
@@ -54,13 +56,13 @@ struct AnyRef {
 
 struct StmtDesc {
     uint32_t line, column, endLine, endColumn; ///< from 1
-    uint8_t kind;    ///< ir::StmtKind
-    uint8_t handled; ///< 1: an error here goes to the routine's error handler
+    uint8_t kind;                              ///< ir::StmtKind
+    uint8_t handled;                           ///< 1: an error here goes to the routine's error handler
     uint8_t pad[2];
 };
 
 struct RoutineDesc {
-    const char* name;   ///< as people see it
+    const char* name; ///< as people see it
     const char* module;
     const char* file;
     const StmtDesc* statements;
@@ -84,10 +86,11 @@ struct Frame {
 
 /// The part of a task that compiled code touches directly. rt::Task begins with it.
 struct TaskCore {
-    int64_t budget;     ///< instructions left in this slice; negative after a safepoint's charge: call rt_safepoint
-    char* stackLimit;   ///< lowest address a routine may use; below: rt_stackOverflow
-    Frame* frame;       ///< innermost frame record, stored before native calls
-    float errorNumber;  ///< ERRNO
+    int64_t
+        budget; ///< instructions left in this slice; negative after a safepoint's charge: call rt_safepoint
+    char* stackLimit;      ///< lowest address a routine may use; below: rt_stackOverflow
+    Frame* frame;          ///< innermost frame record, stored before native calls
+    float errorNumber;     ///< ERRNO
     float interruptNumber; ///< INTNO
 };
 
@@ -107,8 +110,8 @@ struct GlobalDesc { ///< module data, for SetDataVal, the debugger, saving of pe
     const char* module;
     void* address;
     const TypeDesc* type;
-    uint8_t kind;   ///< ir::GlobalKind
-    int32_t task;   ///< index into tasks; -1 = shared
+    uint8_t kind; ///< ir::GlobalKind
+    int32_t task; ///< index into tasks; -1 = shared
     const char* file;
     uint32_t line;
 };

@@ -96,6 +96,8 @@ struct EventText {
     const char* text;
 };
 EventText eventText(EventId id);
+/// Its text with {0} {1} ... replaced.
+std::string formatEventText(EventId id, std::initializer_list<std::string> arguments);
 /// Lower-case word used in JSON and on stderr: "error", "program" ...
 const char* typeName(EventType type);
 const char* domainName(int eventNumber);

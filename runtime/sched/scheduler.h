@@ -6,9 +6,9 @@
 #include "runtime/sched/time.h"
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -96,30 +96,34 @@ class Scheduler {
     using EventKey = std::pair<Time, EventToken>;
 
     void fireDueEvents();
-    Task* nextRunnable();
-    bool otherRunnable(const Task& task) const;
+    Task* takeRunnable();
+    bool anyRunnable() const;
     void runSlice(Task& task);
-    Time slicePaid() const;
-    void advanceTo(Time time);
-    bool waitOutside(Time until);
+    int64_t unitsUsed() const;
+    void settle(Task& task);
+    void moveTo(Time time);
+    void jumpTo(Time time);
     void anchorWall();
-    Time wallLimit() const;
+    Time wallTime() const;
     bool paced() const { return options_.realtime || !externals_.empty(); }
-    void wakeStopping();
+    void sleepOutside(Time until);
 
     SchedulerOptions options_;
     Time now_ = 0;
-    int64_t residue_ = 0; // instructions * 10^6 not yet a whole ns, in units of 1/rate ns
     std::map<EventKey, std::function<void()>> events_;
     std::map<EventToken, Time> eventTimes_;
     EventToken lastToken_ = 0;
     std::vector<Task*> tasks_;
-    std::vector<Task*> ready_; // round robin order
+    std::deque<Task*> ready_; // round robin order
     Task* running_ = nullptr;
+    // the slice in progress; time in units of 1/rate ns, so that an instruction is exactly 10^6 of them
     int64_t granted_ = 0;
+    int64_t debtAtStart_ = 0;
+    int64_t sliceUnits_ = 0;
+    Time horizon_ = kNever;
     std::vector<ExternalWait*> externals_;
     Time anchorVirtual_ = 0;
-    int64_t anchorWall_ = 0;
+    int64_t anchorWall_ = 0; // ns of the steady clock
     std::function<void(Time)> timeObserver_;
     std::function<void()> beforeSleep_;
 };

@@ -27,6 +27,7 @@
 namespace rt {
 
 class Controller;
+class EventLog;
 class Fibre; // sched/fibre.h
 class Scheduler;
 class WaitQueue;
@@ -44,6 +45,7 @@ enum class TaskState : uint8_t {
     Waiting,  ///< for a time, a WaitQueue or something outside
     Finished, ///< its cycles are over, or EXIT with no start to come
 };
+class Task;
 /// Why a task does not run although it could.
 enum class StopCause : uint8_t {
     None,
@@ -65,10 +67,28 @@ struct WaitSpec {
     Time pollPeriod = 0;
 };
 
+/// What a task asks of the controller it belongs to (so that tasks can be tested without one).
+class TaskHost {
+  public:
+    virtual EventLog& log() = 0;
+    /// main is to be run (again).
+    virtual bool cyclesLeft(const Task& task) const = 0;
+    /// Another order to start the NORMAL tasks may come.
+    virtual bool startToCome() const = 0;
+    /// No Of Retry.
+    virtual int retryLimit() const = 0;
+    /// The system handler has stopped this task.
+    virtual void taskFailed(Task& task) = 0;
+    virtual void stopNormalTasks(StopCause cause) = 0;
+
+  protected:
+    ~TaskHost() = default;
+};
+
 class Task : public TaskCore {
   public:
     /// `desc` must outlive the task. Tasks are made by the Controller.
-    Task(Controller& controller, Scheduler& scheduler, const TaskDesc& desc, uint32_t index);
+    Task(TaskHost& host, Controller* controller, Scheduler& scheduler, const TaskDesc& desc, uint32_t index);
     ~Task();
     Task(const Task&) = delete;
     Task& operator=(const Task&) = delete;
@@ -79,7 +99,7 @@ class Task : public TaskCore {
     TaskKind kind() const { return kind_; }
     uint32_t index() const { return index_; } ///< in ProgramDesc::tasks
     bool isMotionTask() const { return desc_.motionTask != 0; }
-    Controller& controller() const { return controller_; }
+    Controller& controller() const { return *controller_; }
     Scheduler& scheduler() const { return scheduler_; }
     TaskState state() const { return state_; }
     StopCause stopCause() const { return stopCause_; }
@@ -124,15 +144,15 @@ class Task : public TaskCore {
         return errorNumber;
     }
     /// SkipWarn: the error handled last leaves no warning in the event log.
-    void skipWarn() { handledPending_ = false; }
+    void skipWarn() { handled_.frame = nullptr; }
     /// RETRYs that remain for the error being handled (RemainingRetries); ResetRetryCount.
     int remainingRetries() const;
     void resetRetryCount();
     /// Place of the statement in progress / the call chain, innermost first.
     SourcePlace place() const;
     std::vector<SourcePlace> callChain() const;
-    /// Text of the last error raised in this task (for ErrLog, FlexPendant ...); place where it was raised.
-    const std::string& errorDetail() const { return errorDetail_; }
+    /// Sentence about the last error raised in this task ("ERR_DIVZERO (1003): division by zero."); where it was raised.
+    const std::string& errorText() const { return errorText_; }
     const SourcePlace& errorPlace() const { return errorPlace_; }
 
     InterruptTable& interrupts() { return interrupts_; }
@@ -145,46 +165,70 @@ class Task : public TaskCore {
         return *static_cast<T*>(slot.get());
     }
 
-    // ---- Used by the scheduler, the ABI entry points and the controller
-    // ---------------------------------------------
-    Status safepoint(Frame* frame_);
-    Status raiseAt(Frame* frame_, int errorNumber);
-    Status propagateFrom(Frame* frame_);
-    Status handlerEndAt(Frame* frame_);
-    Status retryAt(Frame* frame_);
-    Status stackOverflowAt(Frame* frame_);
+    // ---- Entry points of compiled code (rt_abi.h) --------------------------------------------------------------
+    Status safepoint(Frame* at);
+    Status raiseAt(Frame* at, int errorNumber);
+    Status propagateFrom(Frame* handler);
+    Status handlerEndAt(Frame* handler);
+    Status retryAt(Frame* handler);
+    Status stackOverflowAt(Frame* at);
 
-    /// Makes a waiting task runnable; others are not touched.
-    void wake();
+    // ---- Used by the scheduler, wait queues, interrupts and the controller ------------------------------------------
+    /// A queue the task waits on was notified / is gone.
+    void notify();
+    void forget(WaitQueue& queue);
     /// Lets the next safepoint of a running task go to the scheduler although budget is left.
     void forceSafepoint();
-    /// Stops the task where it is / lets it go on. resume() is false when it cannot go on from here (stopped
-    /// by an error).
+    /// Stops the task where it is / lets it go on. resume() is false when it cannot go on from here (stopped by
+    /// an error).
     void stop(StopCause cause);
     bool resume();
     /// Program pointer to main: the chain is unwound with its UNDO handlers at once; afterwards AtMain.
     void moveToMain();
-    /// Ends the task without UNDO handlers (end of the run).
-    void abandon();
+    /// Can be given the processor: not waiting and not stopped, or being unwound.
+    bool runnable() const;
+    bool isUnwinding() const { return pendingUnwind_ != Unwind::None || unwinding_ != Unwind::None; }
+    /// An interrupt without a trap routine or another fatal condition: the system handler. Negative.
+    Status fatal(int eventNumber, std::string text);
 
   private:
     friend class Scheduler;
-    friend class WaitQueue;
 
-    enum class Unwind : uint8_t { None, Exit, ExitCycle, ToMain, Abandon, Error };
+    enum class Unwind : uint8_t { None, Exit, ExitCycle, ToMain, Abandon };
+    /// RETRYs of one statement; belongs to a frame record as long as that one carries its id.
+    struct RetryCount {
+        Frame* frame = nullptr;
+        int32_t statement = -1;
+        int32_t id = 0;
+        int count = 0;
+    };
+    struct HandledError {
+        Frame* frame = nullptr; ///< of the routine whose handler took it; null: nothing to report
+        const RoutineDesc* routine = nullptr;
+        int number = 0;
+        std::string text;
+        SourcePlace place;
+        Time time = 0;
+    };
 
     void fibreMain();
-    bool runOneCycle();
+    bool runCycle();
     Status block();
-    Status afterResume();
+    Status suspendStopped();
+    Status enterWait();
+    Status afterSwitch();
     Status beginUnwind(Unwind cause);
-    Status systemHandler(Frame* frame_, int errorNumber, int eventNumber, const SourcePlace& where);
+    Status systemHandler(int eventNumber, int errorNumber, std::string text, const SourcePlace& where);
     Status dispatchError(Frame* first, int errorNumber);
-    void noteHandled(Frame* handlerFrame, int errorNumber);
+    std::string describeError(int errorNumber) const;
+    RetryCount* retryCountOf(Frame* handler);
+    void noteHandled(Frame* handler, int errorNumber);
     void flushHandledWarning();
+    void writeHandledWarning();
     bool insideHandler() const;
 
-    Controller& controller_;
+    TaskHost& host_;
+    Controller* controller_;
     Scheduler& scheduler_;
     const TaskDesc& desc_;
     uint32_t index_;
@@ -196,31 +240,24 @@ class Task : public TaskCore {
     InterruptTable interrupts_{*this};
     std::map<const void*, std::shared_ptr<void>> locals_;
 
-    // budget (see Scheduler)
-    int64_t debt_ = 0;  // charged, not yet paid with time
-    int64_t stash_ = 0; // budget set aside to force a safepoint
+    // kept by the scheduler: charged but not yet paid with time (in 1/rate ns); budget set aside by forceSafepoint
+    int64_t debt_ = 0;
+    int64_t stash_ = 0;
 
-    // waiting
     std::vector<WaitQueue*> waitingOn_;
-    uint64_t wakeEvent_ = 0; // event id of the deadline, 0 = none
     bool notified_ = false;
 
-    // ending
     Unwind pendingUnwind_ = Unwind::None; // to be returned by the call the task is suspended in
-    Unwind unwinding_ = Unwind::None;     // status < 0 is travelling up
-    bool needsReset_ = true;              // variables get their initial values before main is entered
+    Unwind unwinding_ = Unwind::None;     // a negative status is travelling up
+    bool undoAborted_ = false;
+    bool needsReset_ = true; // variables get their initial values before main is entered
     uint64_t cyclesDone_ = 0;
 
-    // errors
-    std::string errorDetail_;
+    std::string errorDetail_, errorText_;
     SourcePlace errorPlace_;
-    Frame* retryFrame_ = nullptr;
-    int32_t retryStatement_ = -1;
-    int retryCount_ = 0;
-    bool handledPending_ = false; // a warning is to be written when the handler is left
-    Frame* handledBy_ = nullptr;
-    int handledNumber_ = 0;
-    Time handledTime_ = 0;
+    std::vector<RetryCount> retries_;
+    int32_t lastRetryId_ = 0;
+    HandledError handled_;
 };
 
 static_assert(!std::is_polymorphic_v<Task>, "a Task must begin with its TaskCore: no virtual functions");

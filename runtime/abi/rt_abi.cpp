@@ -1,0 +1,33 @@
+// Entry points of compiled code into the runtime; the work is done by Task.
+
+#include "runtime/abi/rt_abi.h"
+
+#include "runtime/sched/task.h"
+
+extern "C" {
+
+rt::Status rt_safepoint(rt::TaskCore* task, rt::Frame* frame) {
+    return rt::taskOf(task).safepoint(frame);
+}
+
+rt::Status rt_raise(rt::TaskCore* task, rt::Frame* frame, rt::Status errorNumber) {
+    return rt::taskOf(task).raiseAt(frame, errorNumber);
+}
+
+rt::Status rt_propagate(rt::TaskCore* task, rt::Frame* frame) {
+    return rt::taskOf(task).propagateFrom(frame);
+}
+
+rt::Status rt_handlerEnd(rt::TaskCore* task, rt::Frame* frame) {
+    return rt::taskOf(task).handlerEndAt(frame);
+}
+
+rt::Status rt_retry(rt::TaskCore* task, rt::Frame* frame) {
+    return rt::taskOf(task).retryAt(frame);
+}
+
+rt::Status rt_stackOverflow(rt::TaskCore* task, rt::Frame* frame) {
+    return rt::taskOf(task).stackOverflowAt(frame);
+}
+
+} // extern "C"

@@ -1,0 +1,128 @@
+#include "runtime/sched/interrupts.h"
+
+#include "runtime/log/event_log.h"
+#include "runtime/sched/task.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace rt {
+
+const RoutineDesc kTrapBoundary = {"(interrupt)", "", "", nullptr, 0, 0, 0, 0, 0, nullptr, 0};
+
+int InterruptTable::connect(const Trap& trap) {
+    if (defined_.size() >= kMaxDefined) return 0;
+    defined_[++lastNumber_].trap = trap;
+    return lastNumber_;
+}
+
+bool InterruptTable::isOrdered(int number) const {
+    const auto found = defined_.find(number);
+    return found != defined_.end() && found->second.ordered;
+}
+
+bool InterruptTable::order(int number, std::function<void()> disarm, bool single, bool safe) {
+    const auto found = defined_.find(number);
+    if (found == defined_.end()) return false;
+    Definition& definition = found->second;
+    if (definition.disarm) definition.disarm();
+    definition.disarm = std::move(disarm);
+    definition.single = single;
+    definition.safe = safe;
+    definition.asleep = false;
+    definition.ordered = true;
+    return true;
+}
+
+bool InterruptTable::remove(int number) {
+    const auto found = defined_.find(number);
+    if (found == defined_.end()) return false;
+    const std::function<void()> disarm = std::move(found->second.disarm);
+    defined_.erase(found);
+    queue_.erase(std::remove(queue_.begin(), queue_.end(), number), queue_.end());
+    if (disarm) disarm();
+    return true;
+}
+
+void InterruptTable::clear() {
+    std::map<int, Definition> all;
+    all.swap(defined_);
+    queue_.clear();
+    enabled_ = true;
+    for (auto& [number, definition] : all) {
+        if (definition.disarm) definition.disarm();
+    }
+}
+
+void InterruptTable::post(int number) {
+    const auto found = defined_.find(number);
+    if (found == defined_.end() || !found->second.ordered || found->second.asleep) return;
+    Definition& definition = found->second;
+    if (task_.state() == TaskState::Finished || (task_.isStopped() && !definition.safe)) return;
+    queue_.push_back(number);
+    if (definition.single) {
+        definition.ordered = false;
+        const std::function<void()> disarm = std::move(definition.disarm);
+        definition.disarm = nullptr;
+        if (disarm) disarm();
+    }
+    if (deliverable()) task_.notify();
+}
+
+bool InterruptTable::sleep(int number) {
+    const auto found = defined_.find(number);
+    if (found == defined_.end()) return false;
+    found->second.asleep = true;
+    return true;
+}
+
+bool InterruptTable::watch(int number) {
+    const auto found = defined_.find(number);
+    if (found == defined_.end()) return false;
+    found->second.asleep = false;
+    return true;
+}
+
+bool InterruptTable::isSafe(int number) const {
+    const auto found = defined_.find(number);
+    return found != defined_.end() && found->second.safe;
+}
+
+void InterruptTable::enable() {
+    enabled_ = true;
+    if (deliverable()) task_.notify();
+}
+
+Status InterruptTable::deliver() {
+    while (deliverable()) {
+        const int number = queue_.front();
+        queue_.pop_front();
+        const auto found = defined_.find(number);
+        if (found == defined_.end()) continue;
+        const Trap trap = found->second.trap;
+        if (trap.function == nullptr) {
+            return task_.fatal(static_cast<int>(EventId::TrapMissing), std::to_string(number));
+        }
+        // The interrupted code must not see that a trap ran in between: ERRNO and INTNO are its own.
+        Frame* const interrupted = task_.frame;
+        const float errorNumber = task_.errorNumber;
+        const float interruptNumber = task_.interruptNumber;
+        Frame boundary{interrupted, &kTrapBoundary, -1, 0};
+        task_.interruptNumber = static_cast<float>(number);
+        running_ = true;
+        const Status status = trap.function(&task_, &boundary);
+        running_ = false;
+        task_.frame = interrupted;
+        task_.errorNumber = errorNumber;
+        task_.interruptNumber = interruptNumber;
+        if (status != kOk) return status < 0 ? status : task_.raiseAt(&boundary, status);
+    }
+    return kOk;
+}
+
+void InterruptTable::taskStopped() {
+    const auto unsafe = [this](int number) { return !isSafe(number); };
+    queue_.erase(std::remove_if(queue_.begin(), queue_.end(), unsafe), queue_.end());
+}
+
+} // namespace rt

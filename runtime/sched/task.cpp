@@ -1,0 +1,299 @@
+// Task: cycles of main on a fibre, waiting, stopping and ending. Errors: task_errors.cpp.
+
+#include "runtime/sched/task.h"
+
+#include "runtime/log/event_log.h"
+#include "runtime/sched/error_search.h"
+#include "runtime/sched/fibre.h"
+#include "runtime/sched/scheduler.h"
+#include "runtime/sched/wait_queue.h"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace rt {
+namespace {
+
+TaskKind kindFrom(const char* type) {
+    if (type != nullptr && std::strcmp(type, "STATIC") == 0) return TaskKind::Static;
+    if (type != nullptr && std::strcmp(type, "SEMISTATIC") == 0) return TaskKind::SemiStatic;
+    return TaskKind::Normal;
+}
+
+} // namespace
+
+Task::Task(TaskHost& host, Controller* controller, Scheduler& scheduler, const TaskDesc& desc, uint32_t index)
+    : TaskCore{}, host_(host), controller_(controller), scheduler_(scheduler), desc_(desc), index_(index),
+      name_(desc.name), kind_(kindFrom(desc.type)) {
+    fibre_ = std::make_unique<Fibre>(scheduler.options().stackBytes, [this] { fibreMain(); });
+    stackLimit = fibre_->stackLimit();
+}
+
+Task::~Task() {
+    for (WaitQueue* queue : waitingOn_)
+        queue->remove(*this);
+}
+
+// ---- Cycles --------------------------------------------------------------------------------------------------------
+
+void Task::fibreMain() {
+    while (pendingUnwind_ != Unwind::Abandon) {
+        if (isStopped()) {
+            state_ = TaskState::Ready;
+            scheduler_.makeReady(*this);
+            scheduler_.switchOut(*this);
+            // At main there is nothing left to unwind.
+            if (pendingUnwind_ != Unwind::Abandon) pendingUnwind_ = Unwind::None;
+            continue;
+        }
+        if (!runCycle()) break;
+    }
+    pendingUnwind_ = Unwind::None;
+    state_ = TaskState::Finished;
+    interrupts_.clear();
+}
+
+bool Task::runCycle() {
+    pendingUnwind_ = Unwind::None;
+    undoAborted_ = false;
+    frame = nullptr;
+    Status status = kOk;
+    if (needsReset_) {
+        interrupts_.clear();
+        needsReset_ = false;
+        if (desc_.reset != nullptr) status = desc_.reset(this, nullptr);
+    }
+    if (status == kOk && desc_.entry != nullptr) status = desc_.entry(this, nullptr);
+    if (status > 0) status = raiseAt(nullptr, status); // no routine took it, and none reported it
+    frame = nullptr;
+    retries_.clear();
+    flushHandledWarning();
+    interrupts_.unwound();
+    const Unwind how = unwinding_;
+    unwinding_ = Unwind::None;
+    switch (how) {
+    case Unwind::Abandon: return false;
+    case Unwind::Exit:
+        needsReset_ = true;
+        if (kind_ != TaskKind::Normal || !host_.startToCome()) return false;
+        stopCause_ = StopCause::AtMain;
+        return true;
+    case Unwind::ToMain: needsReset_ = true; return true;
+    case Unwind::None:
+    case Unwind::ExitCycle: break;
+    }
+    ++cyclesDone_;
+    if (!host_.cyclesLeft(*this)) return false;
+    // An empty main costs an instruction as well, so that a cycle without end lets time pass.
+    budget -= 1;
+    if (budget < 0) (void)safepoint(nullptr);
+    return true;
+}
+
+// ---- Waiting -------------------------------------------------------------------------------------------------------
+
+Time Task::now() const {
+    return scheduler_.now();
+}
+
+bool Task::runnable() const {
+    return state_ == TaskState::Ready && (!isStopped() || isUnwinding());
+}
+
+Status Task::beginUnwind(Unwind cause) {
+    pendingUnwind_ = Unwind::None;
+    const bool silent = cause == Unwind::Abandon || unwinding_ != Unwind::None;
+    if (unwinding_ == Unwind::None || cause == Unwind::Abandon) unwinding_ = cause;
+    return silent ? kUnwindSilent : kUnwind;
+}
+
+/// What a call that may suspend looks at first: the task may be on its way out.
+Status Task::enterWait() {
+    if (unwinding_ == Unwind::Abandon || undoAborted_) return kUnwindSilent;
+    if (pendingUnwind_ != Unwind::None) return beginUnwind(pendingUnwind_);
+    if (unwinding_ == Unwind::None && interrupts_.deliverable()) return interrupts_.deliver();
+    return kOk;
+}
+
+Status Task::afterSwitch() {
+    if (undoAborted_) return kUnwindSilent;
+    if (pendingUnwind_ != Unwind::None) return beginUnwind(pendingUnwind_);
+    return kOk;
+}
+
+Status Task::block() {
+    state_ = TaskState::Waiting;
+    scheduler_.switchOut(*this);
+    return afterSwitch();
+}
+
+Status Task::yield() {
+    if (const Status status = enterWait(); status < 0) return status;
+    state_ = TaskState::Ready;
+    scheduler_.makeReady(*this);
+    scheduler_.switchOut(*this);
+    if (const Status status = afterSwitch(); status < 0) return status;
+    return enterWait();
+}
+
+Status Task::sleepUntil(Time time) {
+    WaitResult result{};
+    return waitFor({{}, {}, time, 0}, result);
+}
+
+Status Task::sleepFor(Time span) {
+    return sleepUntil(addTime(now(), std::max<Time>(span, 0)));
+}
+
+Status Task::waitFor(const WaitSpec& spec, WaitResult& result) {
+    flushHandledWarning();
+    Time nextPoll = spec.pollPeriod > 0 ? addTime(now(), spec.pollPeriod) : kNever;
+    for (bool first = true;; first = false) {
+        if (const Status status = enterWait(); status < 0) return status;
+        if (spec.condition ? spec.condition() : !first && notified_) {
+            result = WaitResult::Done;
+            return kOk;
+        }
+        if (now() >= spec.deadline) {
+            result = WaitResult::Timeout;
+            return kOk;
+        }
+        while (nextPoll <= now())
+            nextPoll = addTime(nextPoll, spec.pollPeriod);
+        notified_ = false;
+        waitingOn_ = spec.queues;
+        for (WaitQueue* queue : waitingOn_)
+            queue->add(*this);
+        const Time wakeAt = std::min(spec.deadline, nextPoll);
+        const EventToken timer =
+            wakeAt == kNever ? 0 : scheduler_.at(wakeAt, [this] { scheduler_.makeReady(*this); });
+        const Status status = block();
+        scheduler_.cancel(timer);
+        for (WaitQueue* queue : waitingOn_)
+            queue->remove(*this);
+        waitingOn_.clear();
+        if (status < 0) return status;
+    }
+}
+
+Status Task::waitExternal(int fd, short pollEvents, Time deadline, WaitResult& result) {
+    flushHandledWarning();
+    for (;;) {
+        if (const Status status = enterWait(); status < 0) return status;
+        pollfd ready{fd, pollEvents, 0};
+        if (::poll(&ready, 1, 0) != 0) { // an error shows itself at the read or write that follows
+            result = WaitResult::Done;
+            return kOk;
+        }
+        if (now() >= deadline) {
+            result = WaitResult::Timeout;
+            return kOk;
+        }
+        Scheduler::ExternalWait wait{this, fd, pollEvents};
+        scheduler_.addExternal(wait);
+        const EventToken timer =
+            deadline == kNever ? 0 : scheduler_.at(deadline, [this] { scheduler_.makeReady(*this); });
+        const Status status = block();
+        scheduler_.cancel(timer);
+        scheduler_.removeExternal(wait);
+        if (status < 0) return status;
+    }
+}
+
+void Task::notify() {
+    notified_ = true;
+    if (state_ == TaskState::Waiting)
+        scheduler_.makeReady(*this);
+    else if (scheduler_.running() == this)
+        forceSafepoint();
+}
+
+void Task::forget(WaitQueue& queue) {
+    waitingOn_.erase(std::remove(waitingOn_.begin(), waitingOn_.end(), &queue), waitingOn_.end());
+    notify();
+}
+
+// ---- Safepoints ----------------------------------------------------------------------------------------------------
+
+void Task::forceSafepoint() {
+    if (budget <= 0) return;
+    stash_ += budget;
+    budget = 0;
+}
+
+Status Task::safepoint(Frame* at) {
+    frame = at;
+    flushHandledWarning();
+    return yield();
+}
+
+// ---- Ending and stopping -------------------------------------------------------------------------------------------
+
+Status Task::requestExit() {
+    if (unwinding_ != Unwind::None) {
+        if (unwinding_ != Unwind::Abandon) host_.log().write(EventId::UndoSkipped, this, {"EXIT"});
+        undoAborted_ = true;
+        return kUnwindSilent;
+    }
+    unwinding_ = Unwind::Exit;
+    return kUnwind;
+}
+
+Status Task::requestExitCycle() {
+    if (unwinding_ != Unwind::None) return requestExit();
+    unwinding_ = Unwind::ExitCycle;
+    return kUnwind;
+}
+
+Status Task::stopHere(bool allNormal) {
+    if (const Status status = enterWait(); status < 0) return status;
+    if (unwinding_ != Unwind::None) {
+        host_.log().write(EventId::UndoIgnored, this, {"Stop"});
+        return kOk;
+    }
+    host_.log().write(EventId::ProgramStopped, this, {name_, "Stop"});
+    stop(StopCause::Instruction);
+    if (allNormal) host_.stopNormalTasks(StopCause::Order);
+    return suspendStopped();
+}
+
+/// Stands still until started again or unwound.
+Status Task::suspendStopped() {
+    while (isStopped()) {
+        state_ = TaskState::Ready;
+        scheduler_.makeReady(*this);
+        scheduler_.switchOut(*this);
+        if (const Status status = afterSwitch(); status < 0) return status;
+    }
+    return kOk;
+}
+
+void Task::stop(StopCause cause) {
+    if (state_ == TaskState::Finished || isStopped()) return;
+    if (unwinding_ != Unwind::None && unwinding_ != Unwind::Abandon) {
+        host_.log().write(EventId::UndoSkipped, this, {"Program stop"});
+        undoAborted_ = true;
+    }
+    stopCause_ = cause;
+    interrupts_.taskStopped();
+    if (scheduler_.running() == this) forceSafepoint();
+}
+
+bool Task::resume() {
+    if (stopCause_ == StopCause::Error) return false;
+    stopCause_ = StopCause::None;
+    return true;
+}
+
+void Task::moveToMain() {
+    if (state_ == TaskState::Finished) return;
+    needsReset_ = true;
+    stopCause_ = StopCause::AtMain;
+    if (!fibre_->started()) return;
+    pendingUnwind_ = Unwind::ToMain;
+    if (state_ == TaskState::Waiting) scheduler_.makeReady(*this);
+}
+
+} // namespace rt
