@@ -141,26 +141,40 @@ class IoSystem {
 
   private:
     struct Signal;
-    struct PendingConnection;
+    struct ListenerEntry {
+        uint64_t number = 0; ///< 0: removed while listeners were being called
+        SignalId signal = -1;
+        Listener call;
+    };
+    struct PendingConnection {
+        CfgInstance instance;
+        std::string file;
+    };
+
     Signal* byHandle(Handle handle);
-    IoResult check(const Signal& signal, double& value) const;
+    /// Brings a value to the form the signal has; OutOfRange when it has no such value.
+    static IoResult normalise(const SignalConfig& config, double& value);
+    IoResult checkWrite(Handle handle, double& value, Signal*& signal);
     void cancelPending(Signal& signal);
     void change(SignalId id, double value, bool propagate);
     void propagateFrom(SignalId id);
     double evaluate(const CrossConnection& connection) const;
     bool reaches(SignalId from, SignalId to) const;
+    void configureSignal(const CfgInstance& instance, const std::string& file,
+                         std::vector<CfgProblem>& problems);
     void resolveConnection(const PendingConnection& pending, std::vector<CfgProblem>& problems);
+    SignalId crossSignal(const PendingConnection& pending, const std::string& attribute,
+                         std::vector<CfgProblem>& problems) const;
 
     Scheduler& scheduler_;
     std::vector<std::unique_ptr<Signal>> signals_;
     std::unordered_map<std::string, SignalId> names_; // upper case
     std::vector<CrossConnection> connections_;
-    std::vector<PendingConnection> pending_;
+    std::vector<PendingConnection> pendingConnections_;
     std::unordered_map<std::string, bool> accessLevels_; // upper case -> RAPID may write
-    struct ListenerEntry;
     std::vector<ListenerEntry> listeners_;
     uint64_t lastListener_ = 0;
-    int notifying_ = 0;
+    int calling_ = 0; // depth of listener calls
     std::size_t pulsing_ = 0, delayed_ = 0;
 };
 

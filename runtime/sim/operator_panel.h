@@ -58,9 +58,13 @@ class OperatorPanel {
 
     /// An answer from outside: goes to the dialog that waits longest, or to the one asked next.
     void giveAnswer(std::string text);
-    /// How many answers are still to come from the stimulus.
+    /// How many answers are still to come from the stimulus / one of them is due.
     void setAnswersToCome(std::size_t count) { answersToCome_ = count; }
-    void answerCame() { answersToCome_ -= answersToCome_ > 0 ? 1 : 0; }
+    void answerCame(std::string text) {
+        answersToCome_ -= answersToCome_ > 0 ? 1 : 0;
+        giveAnswer(std::move(text));
+        if (answersToCome_ == 0) answered_.notifyAll(); // whoever still asks learns that nobody will answer
+    }
     /// Somebody is there to answer or an answer is due (UIClientExist).
     bool canAnswer() const;
 

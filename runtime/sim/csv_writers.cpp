@@ -1,0 +1,76 @@
+#include "runtime/sim/csv_writers.h"
+
+#include "runtime/io/text_util.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+
+namespace rt {
+namespace {
+
+/// Fixed decimals; what rounds to zero has no sign, so that the last bit of a sum never shows.
+void appendFixed(std::string& line, double value, int decimals) {
+    const double half = 0.5 * std::pow(10.0, -decimals);
+    if (std::fabs(value) < half) value = 0;
+    fmt::format_to(std::back_inserter(line), ",{:.{}f}", value, decimals);
+}
+
+} // namespace
+
+bool OutputFile::open(const std::string& path, std::string& error) {
+    file_ = std::fopen(path.c_str(), "w");
+    if (file_ == nullptr) error = fmt::format("cannot write {}: {}", path, std::strerror(errno));
+    return file_ != nullptr;
+}
+
+void OutputFile::write(std::string_view text) {
+    if (file_ != nullptr && std::fwrite(text.data(), 1, text.size(), file_) != text.size()) failed_ = true;
+}
+
+bool OutputFile::close() {
+    if (file_ != nullptr && std::fclose(file_) != 0) failed_ = true;
+    file_ = nullptr;
+    return !failed_;
+}
+
+bool SignalsWriter::open(const std::string& path, std::string& error) {
+    if (!file_.open(path, error)) return false;
+    file_.write("time_s,signal,value\n");
+    return true;
+}
+
+void SignalsWriter::change(Time time, std::string_view signal, double value) {
+    file_.write(fmt::format("{},{},{}\n", formatSeconds(time, 6), signal, shortestNumber(value)));
+}
+
+bool TraceWriter::open(const std::string& path, std::string& error) {
+    if (!file_.open(path, error)) return false;
+    file_.write("time_s,unit,j1,j2,j3,j4,j5,j6,e1,e2,e3,e4,e5,e6,x,y,z,q1,q2,q3,q4,speed_mm_s,move\n");
+    return true;
+}
+
+void TraceWriter::sample(Time time, std::string_view unit, const motion::MotionState& state) {
+    std::string line = fmt::format("{},{}", formatSeconds(time, 3), unit);
+    for (const double joint : state.joints)
+        appendFixed(line, joint, 6);
+    for (const double axis : state.extax) {
+        if (motion::isConnected(axis))
+            appendFixed(line, axis, 6);
+        else
+            line += ',';
+    }
+    for (const double length : {state.tcp.pos.x, state.tcp.pos.y, state.tcp.pos.z})
+        appendFixed(line, length, 6);
+    for (const double q : {state.tcp.rot.w, state.tcp.rot.x, state.tcp.rot.y, state.tcp.rot.z}) {
+        appendFixed(line, q, 9);
+    }
+    appendFixed(line, state.tcpSpeed, 4);
+    fmt::format_to(std::back_inserter(line), ",{}\n", state.tag);
+    file_.write(line);
+}
+
+} // namespace rt
