@@ -19,7 +19,7 @@ struct TaskInput {
 };
 
 struct CheckOptions {
-    bool requireMain = false;   ///< build and run: a task without entry routine is an error
+    bool requireMain = false;        ///< build and run: a task without entry routine is an error
     bool configurationKnown = false; ///< some EIO configuration was given: an unknown signal name is an error
     std::vector<SignalInfo> signals; ///< from the configuration
     std::span<const LibraryText> library;

@@ -27,14 +27,19 @@ struct ConstValue {
 
 enum class SymbolKind : uint8_t { Type, Data, Routine, Module, Label };
 
+/// How far a declaration has been worked out; declarations are resolved on demand, in any order.
+enum class Progress : uint8_t { Pending, Active, Done };
+
 struct Symbol {
     SymbolKind kind = SymbolKind::Data;
-    std::string name;                        ///< as declared
-    Module* module = nullptr;                ///< null for labels' and parameters' routine-level symbols too
-    const syntax::Node* decl = nullptr;      ///< null for configured signals
+    Progress progress = Progress::Pending; ///< types, and the data type of data
+    std::string name;                      ///< as declared
+    uint32_t nameId = 0;                   ///< equal for names that differ only in case
+    Module* module = nullptr;              ///< null for configured signals
+    const syntax::Node* decl = nullptr;    ///< null for configured signals
     syntax::TokenIndex nameToken = syntax::kNoToken;
-    bool isLocal = false;                    ///< LOCAL
-    bool predefined = false;                 ///< declared in stdlib
+    bool isLocal = false;    ///< LOCAL
+    bool predefined = false; ///< declared in stdlib
     bool used = false;
 };
 
@@ -47,9 +52,14 @@ enum class Storage : uint8_t {
     RoutineData, ///< declared in a routine
     Parameter,
     LoopVariable,
-    Signal,      ///< configured I/O signal, resolved by name when the program is loaded
+    /// Configured object, resolved by name when the program is loaded: an I/O signal, or, as `type` tells, a
+    /// mechanical unit (`mecunit`) or the identity of a task (`taskid`).
+    Signal,
     SystemVariable ///< ERRNO, INTNO ...
 };
+
+/// What a parameter of pseudo-type `anytype` takes; from `where:` in the declaration.
+enum class ParamClass : uint8_t { Any, Value, Atomic, Numeric, Signal, SignalOrString, Array };
 
 struct DataSymbol : Symbol {
     Storage storage = Storage::ModuleData;
@@ -57,16 +67,19 @@ struct DataSymbol : Symbol {
     syntax::ScopeWord scope = syntax::ScopeWord::None;
     DataType type;
     const syntax::Expr* init = nullptr;
-    ConstValue value;                       ///< CONST, and initial values of VAR and PERS at module level (None = zero)
+    ConstValue value; ///< CONST, and initial values of VAR and PERS at module level (None = zero)
     // Parameters
     syntax::ParamMode mode = syntax::ParamMode::In;
     bool optional = false;
     bool isSwitch = false;
-    uint32_t group = 0;                     ///< equal for mutually exclusive parameters
-    bool requiredAlternative = false;       ///< built-ins: `a | b` between required parameters
-    bool assigned = false;                  ///< an IN parameter or other data that some statement writes
-    RoutineSymbol* routine = nullptr;       ///< routine data, parameters, loop variables
-    uint32_t index = 0;                     ///< dense per routine (parameters first) or per module
+    uint32_t group = 0;               ///< equal for mutually exclusive parameters
+    bool requiredAlternative = false; ///< built-ins: `a | b` between required parameters
+    bool assigned = false;            ///< some statement writes it, or it is passed on as VAR, INOUT or PERS
+    bool deferred = false; ///< parameter of a built-in whose expression is evaluated again and again
+    ParamClass accepts = ParamClass::Any; ///< parameters of type `anytype`
+    Progress valueProgress = Progress::Pending;
+    RoutineSymbol* routine = nullptr; ///< routine data, parameters, loop variables
+    uint32_t index = 0;               ///< dense per routine (parameters first) or per module
 };
 
 /// How a native may be called; from `effects:` in the declaration.
@@ -75,14 +88,14 @@ enum class Effects : uint8_t { None, Const, Pure, Reads, Writes, Waits, Motion }
 struct RoutineSymbol : Symbol {
     syntax::RoutineKind routineKind = syntax::RoutineKind::Proc;
     const syntax::RoutineDecl* routineDecl = nullptr;
-    DataType returnType;                    ///< functions
+    DataType returnType; ///< functions
     std::vector<DataSymbol*> params;
-    std::vector<DataSymbol*> data;          ///< all routine data and loop variables
-    bool native = false;                    ///< declared without body in stdlib
-    bool special = false;                   ///< `lower: special`
-    bool noStepIn = false;
+    std::vector<DataSymbol*> data; ///< all routine data and loop variables
+    bool native = false;           ///< declared without body in stdlib
+    bool special = false;          ///< `lower: special`
+    bool noStepIn = false;         ///< its module is NOSTEPIN or NOVIEW
     Effects effects = Effects::None;
-    std::string option;                     ///< RobotWare option it needs
+    std::string option; ///< RobotWare option it needs
     std::string documentation;
 };
 

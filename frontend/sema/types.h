@@ -27,14 +27,16 @@ struct Type {
         const Type* type = nullptr;
     };
     TypeKind kind = TypeKind::Error;
-    std::string name;                 ///< as written in its declaration
-    const Type* aliasOf = nullptr;    ///< aliases: the type named in the ALIAS; kind and components are the base's
+    std::string name; ///< as written in its declaration
+    const Type* aliasOf =
+        nullptr; ///< aliases: the type named in the ALIAS; kind and components are the base's
     std::vector<Component> components; ///< records
-    bool containsNonValue = false;    ///< records with a non-value component are non-value
+    bool containsNonValue = false;     ///< records with a non-value component are non-value
 
     const Type* base() const {
         const Type* t = this;
-        while (t->aliasOf) t = t->aliasOf;
+        while (t->aliasOf)
+            t = t->aliasOf;
         return t;
     }
     bool isNumeric() const { return kind == TypeKind::Num || kind == TypeKind::Dnum; }
@@ -44,8 +46,8 @@ struct Type {
 /// Type of a data object or expression: element type and array shape.
 struct DataType {
     const Type* type = nullptr;
-    uint8_t rank = 0;             ///< 0 = not an array
-    int32_t dims[3] = {0, 0, 0};  ///< 0 = conformant, known at run time only
+    uint8_t rank = 0;            ///< 0 = not an array
+    int32_t dims[3] = {0, 0, 0}; ///< 0 = conformant, known at run time only
     bool isArray() const { return rank > 0; }
 };
 

@@ -1,0 +1,325 @@
+#pragma once
+// The analysis behind check(): one Analyzer works through the library and then each task. Internal to frontend/sema;
+// its methods are spread over collect, resolve_*, expr_*, call_*, stmt_* and names_* .cpp.
+
+#include "frontend/sema/checker.h"
+#include "frontend/sema/names.h"
+
+#include <unordered_set>
+#include <utility>
+
+namespace rapid::sema {
+
+using diag::Code;
+
+/// Why the numeric type of an expression is still open.
+enum class Flex : uint8_t {
+    None,    ///< it is not
+    Literal, ///< literals only: num unless the context asks for dnum
+    Group    ///< reads group signals: dnum unless the context asks for num
+};
+
+/// Outcome of checking an expression; the facts are in its ExprInfo.
+struct Typed {
+    ExprInfo* info = nullptr;
+    Flex flex = Flex::None;
+    const Type* base() const { return info->type.type->base(); }
+    bool isError() const { return info->type.type->kind == TypeKind::Error; }
+    bool isScalar(TypeKind kind) const { return info->type.rank == 0 && info->type.type->kind == kind; }
+};
+
+/// A reference to data or a part of it.
+struct Place {
+    DataSymbol* root = nullptr; ///< null: wrong, already reported
+    const syntax::Expr* name = nullptr;
+    bool whole = true; ///< neither an element nor a component
+};
+
+/// Names of one module, found before global and predefined names.
+struct ModuleScope {
+    NameMap<Symbol> names;
+    /// A declaration could not be read: names may be missing through no fault of their users.
+    bool incomplete = false;
+};
+
+enum class Part : uint8_t { Body, Backward, Error, Undo };
+
+/// A label or a jump, judged when the whole routine is known.
+struct JumpPoint {
+    NameId name = 0;
+    uint32_t block = 0;
+    Part part = Part::Body;
+    const syntax::Node* node = nullptr;
+    LabelSymbol* label = nullptr;
+};
+
+/// What is being checked now.
+struct Context {
+    Module* module = nullptr;
+    const syntax::SyntaxTree* tree = nullptr;
+    ExprInfo* exprs = nullptr;
+    RoutineSymbol* routine = nullptr; ///< null at module level
+    bool constant = false;            ///< inside a constant expression
+};
+
+class Analyzer {
+  public:
+    Analyzer(CheckedProgram& program, const CheckOptions& options, diag::Sink& sink);
+    void loadLibrary();
+    void checkTask(const TaskInput& input);
+    /// What concerns several tasks: persistents they share.
+    void checkAcrossTasks();
+
+  private:
+    // ---- reporting (report.cpp)
+    SourceRange range(const syntax::Node& node) const { return context_.tree->range(node); }
+    SourceRange range(syntax::TokenIndex token) const { return context_.tree->range(token); }
+    std::string text(const syntax::Node& node) const;
+    std::string text(syntax::TokenIndex token) const { return std::string(context_.tree->text(token)); }
+    diag::Diagnostic& report(Code code, SourceRange where, std::initializer_list<std::string> args = {});
+    /// Adds "declared here" at the declaration of `symbol`, when it has one in a file of the user.
+    void noteDeclared(diag::Diagnostic& diagnostic, const Symbol& symbol);
+    static std::string typeName(const DataType& type);
+    static std::string typeName(const ExprInfo& info) { return typeName(info.type); }
+    /// "a constant", "a procedure" ...
+    static std::string describe(const Symbol& symbol);
+    enum class Wanted : uint8_t { Data, Type, Procedure, Function, Trap };
+    bool isWanted(const Symbol& symbol, Wanted wanted) const;
+    /// "; did you mean 'x'?" or "".
+    std::string suggestion(NameId name, Wanted wanted);
+    static std::string bestComponent(const Type& record, std::string_view name);
+
+    // ---- names (lookup.cpp)
+    NameId idOf(syntax::TokenIndex token) { return interner_.intern(context_.tree->text(token)); }
+    Symbol* lookup(NameId name) const;
+    Symbol* lookupOutside(NameId name) const; ///< skips the routine
+    Symbol* reportUnknownData(syntax::TokenIndex token, NameId name, const Type* handle);
+    DataSymbol* configuredObject(NameId name, std::string spelling, const Type* type);
+    const Type* signalTypeByUse(NameId name);
+    void gatherSignalUses();
+    void gatherSignalUses(syntax::StmtList list);
+    void gatherSignalUses(const syntax::Expr* expr);
+    void gatherSignalUses(const RoutineSymbol& routine, std::span<syntax::Argument* const> args);
+    void declareConfiguration();
+    bool mayReportUnknown() const;
+
+    // ---- collecting declarations (collect.cpp)
+    void enterModule(Module* module);
+    Module* addModule(const syntax::SyntaxTree& tree, const syntax::ModuleDecl& decl, bool predefined,
+                      std::vector<ExprInfo>* exprs);
+    void collect(Module& module);
+    void declareInModule(Symbol& symbol, ModuleScope& scope);
+    void checkModuleNames();
+    DataSymbol& newData(const syntax::DataDecl& decl);
+    RoutineSymbol& newRoutine(const syntax::RoutineDecl& decl);
+    TypeSymbol& newType(const syntax::Decl& decl, syntax::TokenIndex name, bool local);
+    template <class S>
+    S& fill(S& symbol, SymbolKind kind, const syntax::Node& decl, syntax::TokenIndex name, bool local);
+
+    // ---- attributes of library declarations (attributes.cpp)
+    void applyTypeAttributes(TypeSymbol& symbol);
+    void applyDataAttributes(DataSymbol& symbol);
+    void applyRoutineAttributes(RoutineSymbol& symbol);
+
+    // ---- types (resolve_types.cpp)
+    const Type* resolveType(syntax::TokenIndex token);
+    const Type* ensureType(TypeSymbol& symbol);
+    void resolveRecord(Type& type, const syntax::RecordDecl& decl);
+    void resolveAlias(Type& type, const syntax::AliasDecl& decl);
+    void resolveSignature(RoutineSymbol& symbol);
+    void resolveParameter(RoutineSymbol& routine, const syntax::ParamDecl& decl);
+    static bool isValueType(const Type& type);
+    static bool isHandle(const Type& type) { return !isValueType(type) && type.kind != TypeKind::SemiValue; }
+    static bool isReal(const Type& type) {
+        return type.kind != TypeKind::Switch && type.kind != TypeKind::AnyType;
+    }
+
+    // ---- data (resolve_data.cpp)
+    void ensureData(DataSymbol& symbol);
+    void ensureValue(DataSymbol& symbol);
+    void resolveDimensions(DataSymbol& symbol, const syntax::DataDecl& decl);
+    void initialise(DataSymbol& symbol, const syntax::DataDecl& decl);
+    void checkDeclaration(DataSymbol& symbol);
+    bool reportNonConstant(const syntax::Expr& expr);
+    const syntax::Expr* findNonLiteral(const syntax::Expr& expr) const;
+
+    // ---- expressions (expr*.cpp)
+    Typed expr(const syntax::Expr& e, const DataType* want = nullptr, ConstValue* slot = nullptr);
+    ExprInfo& info(const syntax::Expr& e) { return context_.exprs[e.id]; }
+    Typed errorExpr(const syntax::Expr& e);
+    Typed literal(const syntax::NumLiteralExpr& e, const DataType* want, ConstValue* slot);
+    Typed placeValue(const syntax::Expr& e);
+    Typed paren(const syntax::ParenExpr& e, const DataType* want, ConstValue* slot);
+    Typed unary(const syntax::UnaryExpr& e, const DataType* want, ConstValue* slot);
+    Typed binaryChain(const syntax::BinaryExpr& e);
+    Typed combine(const syntax::BinaryExpr& e, Typed left, Typed right);
+    Typed arithmetic(const syntax::BinaryExpr& e, Typed left, Typed right);
+    Typed vectorArithmetic(const syntax::BinaryExpr& e, Typed left, Typed right);
+    Typed comparison(const syntax::BinaryExpr& e, Typed left, Typed right);
+    Typed equality(const syntax::BinaryExpr& e, Typed left, Typed right);
+    Typed logic(const syntax::BinaryExpr& e, Typed left, Typed right);
+    Typed operatorError(const syntax::BinaryExpr& e, Typed left, Typed right);
+    enum class Numeric : uint8_t { Ok, Mixed, NotNumeric };
+    Numeric unify(const syntax::BinaryExpr& e, Typed& left, Typed& right, Flex& flex);
+    Typed aggregate(const syntax::AggregateExpr& e, const DataType* want, ConstValue* slot);
+    void visitLoose(const syntax::Expr& e);
+    Typed result(const syntax::Expr& e, const Type* type, Flex flex = Flex::None);
+    /// Gives an expression of open numeric type the type `to`.
+    void settle(const syntax::Expr& e, const Type* to);
+    /// Whether `e` fits `want`; settles it. Nothing is reported.
+    bool fits(const syntax::Expr& e, Typed t, const DataType& want);
+    static bool sameShape(const DataType& found, const DataType& want);
+    static bool equivalent(const DataType& found, const DataType& want);
+    bool condition(const syntax::Expr& e, const char* what);
+    void checkBigLiterals();
+    std::string numDnumRemedy(Typed t, const DataType& want) const;
+
+    // ---- references (place.cpp)
+    Place place(const syntax::Expr& e, const Type* handle = nullptr);
+    static bool isPlaceExpr(const syntax::Expr& e);
+    Place namePlace(const syntax::NameExpr& e, const Type* handle);
+    Place indexPlace(const syntax::IndexExpr& e, const Type* handle);
+    Place componentPlace(const syntax::ComponentExpr& e, const Type* handle);
+    void checkIndex(const syntax::Expr& index, int32_t dimension, int64_t& value);
+
+    // ---- folding (fold.cpp)
+    ConstValue* newConst() { return &program_.constStore.emplace_back(); }
+    void foldBinary(const syntax::BinaryExpr& e);
+    bool foldArithmetic(const syntax::BinaryExpr& e, double a, double b, bool isDnum, double& out);
+    void foldUnary(const syntax::UnaryExpr& e, ConstValue* slot);
+    void foldBool(ExprInfo& info, bool value);
+
+    // ---- calls (call.cpp: matching; arguments.cpp: judging each argument)
+    Typed functionCall(const syntax::CallExpr& e);
+    void bindCall(const syntax::Node& node, RoutineSymbol& routine, syntax::TokenIndex name,
+                  std::span<syntax::Argument* const> args);
+    /// Gives each written argument its parameter; false when "missing" would only repeat what was reported.
+    bool matchArguments(BoundCall& call, syntax::TokenIndex name, std::span<syntax::Argument* const> args);
+    size_t matchRequired(BoundCall& call, const syntax::Argument& arg, size_t slot);
+    size_t matchOptional(BoundCall& call, const syntax::Argument& arg, syntax::TokenIndex name);
+    size_t chooseAlternative(BoundCall& call, const syntax::Argument& arg, size_t first, size_t end);
+    size_t alternativesEnd(const RoutineSymbol& routine, size_t first) const;
+    size_t nextRequired(const RoutineSymbol& routine, size_t from) const;
+    size_t requiredSlots(const RoutineSymbol& routine) const;
+    void reportMissing(const BoundCall& call, syntax::TokenIndex name);
+    void checkExclusive(const BoundCall& call);
+    std::string optionalSuggestion(const RoutineSymbol& routine, NameId name);
+    void visitArguments(std::span<syntax::Argument* const> args);
+    void lateCall(const syntax::CallStmt& stmt);
+
+    void checkArgument(const RoutineSymbol& routine, BoundArg& bound);
+    void checkConditional(const RoutineSymbol& routine, BoundArg& bound);
+    void checkReference(const RoutineSymbol& routine, const BoundArg& bound);
+    void judgeReference(const RoutineSymbol& routine, const BoundArg& bound, const Place& place);
+    void judgeValue(const RoutineSymbol& routine, const BoundArg& bound, Typed t);
+    void checkAccess(const RoutineSymbol& routine, const BoundArg& bound, const Place& place);
+    void reportAccess(const RoutineSymbol& routine, const BoundArg& bound, const Symbol* symbol,
+                      std::string found);
+    bool checkClass(const RoutineSymbol& routine, const BoundArg& bound, const DataType& type);
+    void checkPresent(const BoundArg& bound);
+    DataSymbol* ownOptional(const syntax::Expr& e);
+    const Type* handleHint(const DataSymbol& param) const;
+    static std::string describeExpr(const syntax::Expr& e);
+
+    // ---- routines and instructions (routine.cpp, stmt*.cpp, jumps.cpp)
+    void checkRoutine(RoutineSymbol& symbol);
+    void declareInRoutine(Symbol& symbol);
+    void declareRoutineData(const syntax::DataDecl& decl);
+    void checkErrorNumber(const syntax::Expr& e, const char* what);
+    bool checkPart(Part part, syntax::StmtList list);
+    void callInUndo(const RoutineSymbol& routine, syntax::TokenIndex name);
+    bool block(syntax::StmtList list); ///< a new block; whether its end can be reached
+    bool statements(syntax::StmtList list);
+    bool statement(const syntax::Stmt& s);
+    bool ifStmt(const syntax::IfStmt& s);
+    bool testStmt(const syntax::TestStmt& s);
+    void testValues(const syntax::TestStmt& s, Typed subject);
+    bool forStmt(const syntax::ForStmt& s);
+    bool whileStmt(const syntax::WhileStmt& s);
+    void assign(const syntax::AssignStmt& s);
+    bool assignable(const Place& place, const syntax::Expr& target);
+    bool callStmt(const syntax::CallStmt& s);
+    void reportNotCallable(const Symbol& symbol, syntax::TokenIndex name);
+    void returnStmt(const syntax::ReturnStmt& s);
+    void raiseStmt(const syntax::RaiseStmt& s);
+    void connectStmt(const syntax::ConnectStmt& s);
+    void connectTarget(const syntax::Expr& target);
+    void labelStmt(const syntax::LabelStmt& s);
+    void placeholder(const syntax::Node& node);
+    void loopWord(const syntax::Stmt& s, const char* word);
+    void resolveJumps();
+    bool isInside(uint32_t block, uint32_t outer) const;
+    void checkEntry(Task& task);
+
+    // ---- state
+    CheckedProgram& program_;
+    const CheckOptions& options_;
+    diag::Sink& sink_;
+    Interner interner_;
+    Context context_;
+    Task* task_ = nullptr;
+    Type* anyType_ = nullptr;
+    Type* switchType_ = nullptr;
+    const Type* intnum_ = nullptr;
+    NameId presentId_ = 0;
+    std::vector<Symbol*> predefined_;     ///< by NameId
+    std::vector<Symbol*> globals_;        ///< of the task, by NameId
+    std::vector<DataSymbol*> configured_; ///< signals and mechanical units of the task, by NameId
+    std::vector<std::unique_ptr<ModuleScope>> scopes_; ///< by Module::id
+    NameMap<Module> moduleNames_;                      ///< of the task
+    std::vector<Symbol*> routineNames_; ///< by NameId: parameters, data and loop variables of the routine
+    std::vector<NameId> declaredInRoutine_;
+    NameMap<const Type> signalUses_; ///< undeclared names that stand where a signal is expected
+    bool signalUsesKnown_ = false;
+    bool incomplete_ = false;                  ///< some declaration of the task could not be read
+    std::unordered_set<NameId> reportedNames_; ///< unknown signals, reported once a task
+    std::vector<const syntax::Expr*> bigLiterals_;
+    std::vector<const syntax::BinaryExpr*> spine_;
+    std::vector<const syntax::Argument*> judged_; ///< arguments judged already to choose an alternative
+    unsigned suggestionsLeft_ = 200;              ///< they cost time; nobody reads more
+
+    // of the routine being checked
+    Part part_ = Part::Body;
+    unsigned loopDepth_ = 0;
+    bool breakSeen_ = false;
+    bool returnSeen_ = false;
+    uint32_t block_ = 0;
+    std::vector<uint32_t> blockParents_;
+    std::vector<JumpPoint> labels_;
+    std::vector<JumpPoint> gotos_;
+};
+
+template <class S>
+S& Analyzer::fill(S& symbol, SymbolKind kind, const syntax::Node& decl, syntax::TokenIndex name, bool local) {
+    symbol.kind = kind;
+    symbol.name = text(name);
+    symbol.nameId = idOf(name);
+    symbol.module = context_.module;
+    symbol.decl = &decl;
+    symbol.nameToken = name;
+    symbol.isLocal = local;
+    symbol.predefined = context_.module->predefined;
+    return symbol;
+}
+
+template <class T> T* at(const std::vector<T*>& table, NameId name) {
+    return name < table.size() ? table[name] : nullptr;
+}
+template <class T> void put(std::vector<T*>& table, NameId name, T* value) {
+    if (name >= table.size()) table.resize(name + name / 2 + 64, nullptr);
+    table[name] = value;
+}
+template <class T> T* symbolAs(Symbol* symbol, SymbolKind kind) {
+    return symbol && symbol->kind == kind ? static_cast<T*>(symbol) : nullptr;
+}
+inline DataSymbol* asData(Symbol* symbol) {
+    return symbolAs<DataSymbol>(symbol, SymbolKind::Data);
+}
+inline RoutineSymbol* asRoutine(Symbol* symbol) {
+    return symbolAs<RoutineSymbol>(symbol, SymbolKind::Routine);
+}
+inline TypeSymbol* asType(Symbol* symbol) {
+    return symbolAs<TypeSymbol>(symbol, SymbolKind::Type);
+}
+
+} // namespace rapid::sema

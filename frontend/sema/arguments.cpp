@@ -1,0 +1,239 @@
+// One argument against its parameter: type, access mode, optional and conditional forms (manual 1.1.5, 1.3.4).
+
+#include "frontend/sema/analysis.h"
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+// The type an undeclared name gets when it stands for this parameter.
+const Type* Analyzer::handleHint(const DataSymbol& param) const {
+    const Type& type = *param.type.type;
+    const bool configured =
+        type.kind == TypeKind::SemiValue || (param.predefined && type.base()->name == "mecunit");
+    return configured && param.type.rank == 0 ? param.type.type : nullptr;
+}
+
+std::string Analyzer::describeExpr(const Expr& e) {
+    switch (e.kind) {
+    case NodeKind::NumLiteral:
+    case NodeKind::StringLiteral:
+    case NodeKind::BoolLiteral: return "a literal";
+    case NodeKind::Call: return "a function call";
+    case NodeKind::Aggregate: return "an aggregate";
+    default: return "an expression";
+    }
+}
+
+void Analyzer::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
+    const DataSymbol& param = *bound.param;
+    const Argument& arg = *bound.argument;
+    if (arg.argKind == ArgKind::Conditional) {
+        checkConditional(routine, bound);
+        return;
+    }
+    if (param.isSwitch) {
+        if (!bound.value) return;
+        report(Code::SwitchWithValue, range(*bound.value), {param.name});
+        visitLoose(*bound.value);
+        return;
+    }
+    if (!bound.value) {
+        report(Code::OptionalWithoutValue, range(arg), {param.name, typeName(param.type)});
+        return;
+    }
+    if (routine.predefined && routine.nameId == presentId_) {
+        checkPresent(bound);
+        return;
+    }
+    const bool byReference = param.mode != ParamMode::In || param.type.type->kind == TypeKind::SemiValue;
+    if (byReference)
+        checkReference(routine, bound);
+    else {
+        const bool any = param.type.type->kind == TypeKind::AnyType;
+        judgeValue(routine, bound, expr(*bound.value, any ? nullptr : &param.type));
+    }
+}
+
+void Analyzer::judgeValue(const RoutineSymbol& routine, const BoundArg& bound, Typed t) {
+    const DataSymbol& param = *bound.param;
+    if (t.isError()) return;
+    if (param.type.type->kind == TypeKind::AnyType) {
+        checkClass(routine, bound, t.info->type);
+        return;
+    }
+    if (fits(*bound.value, t, param.type)) return;
+    report(Code::ArgumentType, range(*bound.value),
+           {param.name, routine.name, typeName(*t.info), typeName(param.type)});
+}
+
+void Analyzer::checkReference(const RoutineSymbol& routine, const BoundArg& bound) {
+    const Expr& e = *bound.value;
+    if (isPlaceExpr(e)) {
+        judgeReference(routine, bound, place(e, handleHint(*bound.param)));
+        return;
+    }
+    if (bound.param->accepts == ParamClass::SignalOrString) {
+        const Typed t = expr(e);
+        if (!t.isError()) checkClass(routine, bound, t.info->type);
+        return;
+    }
+    visitLoose(e);
+    if (e.kind == NodeKind::PlaceholderExpr || e.kind == NodeKind::ErrorExpr) return;
+    reportAccess(routine, bound, nullptr, describeExpr(e));
+}
+
+void Analyzer::judgeReference(const RoutineSymbol& routine, const BoundArg& bound, const Place& place) {
+    if (!place.root) return;
+    const DataSymbol& param = *bound.param;
+    const DataType& found = info(*bound.value).type;
+    if (param.type.type->kind == TypeKind::AnyType) {
+        if (!checkClass(routine, bound, found)) return;
+    } else if (!equivalent(found, param.type)) {
+        report(Code::ArgumentType, range(*bound.value),
+               {param.name, routine.name, typeName(found), typeName(param.type)});
+        return;
+    }
+    if (param.mode != ParamMode::In && param.mode != ParamMode::Ref) checkAccess(routine, bound, place);
+}
+
+void Analyzer::reportAccess(const RoutineSymbol& routine, const BoundArg& bound, const Symbol* symbol,
+                            std::string found) {
+    const char* expected = "data";
+    switch (bound.param->mode) {
+    case ParamMode::Var: expected = "a variable"; break;
+    case ParamMode::Pers: expected = "an entire persistent"; break;
+    case ParamMode::Inout: expected = "a variable or an entire persistent"; break;
+    case ParamMode::In: expected = "a signal"; break;
+    case ParamMode::Ref: break;
+    }
+    auto& d = report(Code::ArgumentNotVariable, range(*bound.value),
+                     {bound.param->name, routine.name, std::move(found), expected});
+    if (symbol) noteDeclared(d, *symbol);
+}
+
+// What may be passed on for the callee to change. An INOUT parameter may stand for a variable or for a persistent:
+// which one shows at run time (ERR_ARGNOTVAR, ERR_ARGNOTPER).
+void Analyzer::checkAccess(const RoutineSymbol& routine, const BoundArg& bound, const Place& place) {
+    DataSymbol& root = *place.root;
+    const ParamMode mode = bound.param->mode;
+    const bool parameter = root.storage == Storage::Parameter;
+    if (root.storage == Storage::Signal) {
+        if (mode == ParamMode::Pers) reportAccess(routine, bound, &root, describe(root));
+        return;
+    }
+    const bool constant = root.dataKind == DataKind::Const && !parameter;
+    if (root.storage == Storage::SystemVariable && isHandle(*root.type.type))
+        return; // passed on, never changed
+    if (constant || root.storage == Storage::SystemVariable || root.storage == Storage::LoopVariable) {
+        reportAccess(routine, bound, &root, describe(root));
+        return;
+    }
+    const bool persistent = parameter ? root.mode == ParamMode::Pers : root.dataKind == DataKind::Pers;
+    const bool either = parameter && root.mode == ParamMode::Inout;
+    const bool wrong = mode == ParamMode::Var    ? persistent
+                       : mode == ParamMode::Pers ? !persistent && !either
+                                                 : false;
+    if (wrong) {
+        std::string found = parameter && root.mode == ParamMode::In    ? "a parameter of mode IN"
+                            : parameter && root.mode == ParamMode::Var ? "a parameter of mode VAR"
+                            : parameter && persistent                  ? "a parameter of mode PERS"
+                                                                       : describe(root);
+        reportAccess(routine, bound, &root, std::move(found));
+        return;
+    }
+    const bool mustBeWhole = mode == ParamMode::Pers || (mode == ParamMode::Inout && persistent);
+    if (mustBeWhole && !place.whole) {
+        report(Code::ArgumentNotWhole, range(*bound.value),
+               {bound.param->name, routine.name, "'" + root.name + "'"});
+        return;
+    }
+    root.assigned = true;
+}
+
+bool Analyzer::checkClass(const RoutineSymbol& routine, const BoundArg& bound, const DataType& found) {
+    const Type& type = *found.type;
+    if (type.kind == TypeKind::Error || type.kind == TypeKind::AnyType) return true;
+    const bool scalar = found.rank == 0;
+    const bool atomic = type.isNumeric() || type.kind == TypeKind::Bool || type.kind == TypeKind::String;
+    bool ok = true;
+    const char* expected = "";
+    switch (bound.param->accepts) {
+    case ParamClass::Any: return true;
+    case ParamClass::Value:
+        ok = isValueType(type);
+        expected = "data of a value type";
+        break;
+    case ParamClass::Atomic:
+        ok = scalar && atomic;
+        expected = "data of type num, dnum, bool or string";
+        break;
+    case ParamClass::Numeric:
+        ok = scalar && type.isNumeric();
+        expected = "data of type num or dnum";
+        break;
+    case ParamClass::Signal:
+        ok = scalar && type.kind == TypeKind::SemiValue;
+        expected = "a signal";
+        break;
+    case ParamClass::SignalOrString:
+        ok = scalar && (type.kind == TypeKind::SemiValue || type.kind == TypeKind::String);
+        expected = "a signal or its name as string";
+        break;
+    case ParamClass::Array:
+        ok = found.rank > 0;
+        expected = "an array";
+        break;
+    }
+    if (!ok)
+        report(Code::ArgumentClass, range(*bound.value),
+               {bound.param->name, routine.name, typeName(found), expected});
+    return ok;
+}
+
+// The optional parameter of the current routine that `e` names, or null.
+DataSymbol* Analyzer::ownOptional(const Expr& e) {
+    if (e.kind != NodeKind::Name || !context_.routine) return nullptr;
+    DataSymbol* data = asData(lookup(idOf(as<NameExpr>(e).name)));
+    return data && data->storage == Storage::Parameter && data->optional ? data : nullptr;
+}
+
+void Analyzer::checkPresent(const BoundArg& bound) {
+    const Expr& e = *bound.value;
+    if (!isPlaceExpr(e)) {
+        visitLoose(e);
+        if (e.kind == NodeKind::PlaceholderExpr) return;
+    } else if (!place(e).root)
+        return;
+    if (!ownOptional(e)) report(Code::PresentNotOptional, range(e), {text(e)});
+}
+
+// `\Arg?Param`: present if the caller's own optional parameter is.
+void Analyzer::checkConditional(const RoutineSymbol& routine, BoundArg& bound) {
+    if (!bound.value || bound.value->kind == NodeKind::PlaceholderExpr) {
+        if (bound.value) placeholder(*bound.value);
+        return;
+    }
+    const Expr& e = *bound.value;
+    if (!isPlaceExpr(e))
+        visitLoose(e);
+    else if (!place(e).root)
+        return;
+    const DataSymbol* own = ownOptional(e);
+    if (!own) {
+        report(Code::ConditionalNotParameter, range(e), {text(e)});
+        return;
+    }
+    const DataSymbol& param = *bound.param;
+    if (own->isSwitch != param.isSwitch) {
+        report(Code::ConditionalSwitch, range(e), {param.name, own->name});
+        return;
+    }
+    if (param.isSwitch) return;
+    if (param.mode != ParamMode::In || param.type.type->kind == TypeKind::SemiValue)
+        judgeReference(routine, bound, place(e));
+    else
+        judgeValue(routine, bound, placeValue(e));
+}
+
+} // namespace rapid::sema

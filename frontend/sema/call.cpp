@@ -1,0 +1,286 @@
+// Calls: which argument goes to which parameter (manual 1.1.5, 1.3.4).
+
+#include "frontend/sema/analysis.h"
+
+#include <algorithm>
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+namespace {
+constexpr size_t kNoParam = static_cast<size_t>(-1);
+}
+
+Typed Analyzer::functionCall(const CallExpr& e) {
+    Symbol* symbol = e.name == kNoToken ? nullptr : lookup(idOf(e.name));
+    RoutineSymbol* routine = asRoutine(symbol);
+    if (!routine || routine->routineKind != RoutineKind::Func) {
+        if (symbol) {
+            noteDeclared(report(Code::NotAFunction, range(e.name), {text(e.name), describe(*symbol)}),
+                         *symbol);
+        } else if (mayReportUnknown() && e.name != kNoToken) {
+            std::string hint = suggestion(idOf(e.name), Wanted::Function);
+            report(Code::UnknownFunction, range(e.name), {text(e.name), std::move(hint)});
+        }
+        visitArguments(e.args);
+        return errorExpr(e);
+    }
+    routine->used = true;
+    bindCall(e, *routine, e.name, e.args);
+    ExprInfo& out = info(e);
+    out.type = routine->returnType;
+    out.symbol = routine;
+    return {&out};
+}
+
+void Analyzer::visitArguments(std::span<Argument* const> args) {
+    for (const Argument* a : args)
+        if (a->value) visitLoose(*a->value);
+}
+
+void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex name,
+                        std::span<Argument* const> args) {
+    BoundCall& call = task_->calls[&node];
+    call.routine = &routine;
+    call.args.resize(routine.params.size());
+    for (size_t i = 0; i < routine.params.size(); ++i)
+        call.args[i].param = routine.params[i];
+    const size_t judgedBefore = judged_.size();
+    const bool complete = matchArguments(call, name, args);
+    if (complete) reportMissing(call, name);
+    checkExclusive(call);
+    for (BoundArg& bound : call.args) {
+        if (!bound.argument) continue;
+        const auto begin = judged_.begin() + static_cast<std::ptrdiff_t>(judgedBefore);
+        if (std::find(begin, judged_.end(), bound.argument) == judged_.end()) checkArgument(routine, bound);
+    }
+    judged_.resize(judgedBefore);
+}
+
+size_t Analyzer::alternativesEnd(const RoutineSymbol& routine, size_t first) const {
+    size_t end = first + 1;
+    if (first < routine.params.size() && routine.params[first]->requiredAlternative)
+        while (end < routine.params.size() && !routine.params[end]->optional &&
+               routine.params[end]->group == routine.params[first]->group)
+            ++end;
+    return end;
+}
+
+size_t Analyzer::nextRequired(const RoutineSymbol& routine, size_t from) const {
+    while (from < routine.params.size() && routine.params[from]->optional)
+        ++from;
+    return from;
+}
+
+size_t Analyzer::requiredSlots(const RoutineSymbol& routine) const {
+    size_t count = 0;
+    for (size_t i = nextRequired(routine, 0); i < routine.params.size();
+         i = nextRequired(routine, alternativesEnd(routine, i)))
+        ++count;
+    return count;
+}
+
+bool Analyzer::matchArguments(BoundCall& call, TokenIndex name, std::span<Argument* const> args) {
+    const RoutineSymbol& routine = *call.routine;
+    size_t slot = nextRequired(routine, 0);
+    size_t last = 0;
+    const Argument* lastArg = nullptr;
+    bool complete = true;
+    bool orderReported = false;
+    bool tooMany = false;
+    for (const Argument* arg : args) {
+        size_t index = kNoParam;
+        if (arg->argKind == ArgKind::Placeholder) {
+            placeholder(*arg);
+            complete = false;
+        } else if (arg->argKind != ArgKind::Required) {
+            index = matchOptional(call, *arg, name);
+            if (index == kNoParam)
+                complete = false;
+            else if (index == slot)
+                slot = nextRequired(routine, alternativesEnd(routine, slot));
+        } else if (slot < routine.params.size()) {
+            index = matchRequired(call, *arg, slot);
+            if (index != kNoParam && !routine.params[index]->optional)
+                slot = nextRequired(routine, alternativesEnd(routine, slot));
+            if (index == kNoParam) complete = false;
+        } else if (!std::exchange(tooMany, true)) {
+            const auto given = std::count_if(
+                args.begin(), args.end(), [](const Argument* a) { return a->argKind == ArgKind::Required; });
+            report(Code::TooManyArguments, range(*arg),
+                   {text(name), std::to_string(requiredSlots(routine)), std::to_string(given)});
+        }
+        if (index != kNoParam && call.args[index].argument) {
+            report(Code::DuplicateArgument, range(*arg), {routine.params[index]->name});
+            index = kNoParam;
+        }
+        if (index == kNoParam) {
+            if (arg->value) visitLoose(*arg->value);
+            continue;
+        }
+        if (lastArg && index < last && !std::exchange(orderReported, true)) {
+            report(Code::ArgumentOrder, range(*arg),
+                   {routine.params[index]->name, routine.params[last]->name});
+            complete = false;
+        }
+        last = std::max(last, index);
+        lastArg = arg;
+        BoundArg& bound = call.args[index];
+        bound.kind =
+            arg->argKind == ArgKind::Conditional ? BoundArg::Kind::Conditional : BoundArg::Kind::Present;
+        bound.value = arg->value;
+        bound.argument = arg;
+    }
+    return complete && !tooMany;
+}
+
+// The parameter of a required argument; its name, if written, must be that of the parameter in turn.
+size_t Analyzer::matchRequired(BoundCall& call, const Argument& arg, size_t slot) {
+    const RoutineSymbol& routine = *call.routine;
+    const size_t end = alternativesEnd(routine, slot);
+    if (arg.name == kNoToken) return end - slot == 1 ? slot : chooseAlternative(call, arg, slot, end);
+    const NameId name = idOf(arg.name);
+    for (size_t i = slot; i < end; ++i)
+        if (routine.params[i]->nameId == name) return i;
+    for (size_t i = 0; i < routine.params.size(); ++i) {
+        if (routine.params[i]->nameId != name || !routine.params[i]->optional) continue;
+        report(Code::OptionalWithoutBackslash, range(arg.name), {routine.name, routine.params[i]->name});
+        return i;
+    }
+    report(Code::ArgumentName, range(arg.name), {routine.name, text(arg.name), routine.params[slot]->name});
+    return slot;
+}
+
+size_t Analyzer::matchOptional(BoundCall& call, const Argument& arg, TokenIndex) {
+    const RoutineSymbol& routine = *call.routine;
+    const NameId name = idOf(arg.name);
+    for (size_t i = 0; i < routine.params.size(); ++i) {
+        const DataSymbol& param = *routine.params[i];
+        if (param.nameId != name) continue;
+        if (!param.optional)
+            report(arg.argKind == ArgKind::Conditional ? Code::ConditionalRequired : Code::NotOptional,
+                   range(arg.name), {routine.name, param.name});
+        return i;
+    }
+    report(Code::UnknownParameter, range(arg.name),
+           {routine.name, text(arg.name), optionalSuggestion(routine, name)});
+    return kNoParam;
+}
+
+std::string Analyzer::optionalSuggestion(const RoutineSymbol& routine, NameId name) {
+    const std::string_view written = interner_.folded(name);
+    unsigned limit = written.size() < 4 ? 1 : 2;
+    const DataSymbol* best = nullptr;
+    for (const DataSymbol* param : routine.params) {
+        if (!param->optional) continue;
+        const unsigned distance = editDistance(written, interner_.folded(param->nameId), limit);
+        if (distance > limit || (best && distance == limit)) continue;
+        best = param;
+        limit = distance;
+    }
+    return best && limit < written.size() ? "; did you mean '" + best->name + "'?" : std::string();
+}
+
+// One of several parameters takes the argument (`num Value | dnum Dvalue`): the first one whose type fits.
+size_t Analyzer::chooseAlternative(BoundCall& call, const Argument& arg, size_t first, size_t end) {
+    const RoutineSymbol& routine = *call.routine;
+    const Expr& e = *arg.value;
+    const Type* hint = nullptr;
+    for (size_t i = first; i < end; ++i)
+        if (const Type* handle = handleHint(*routine.params[i])) hint = handle;
+    Place found;
+    Typed t;
+    if (isPlaceExpr(e)) {
+        found = place(e, hint);
+        t = {&info(e)};
+        const bool signal = t.info->type.rank == 0 && t.info->type.type->kind == TypeKind::SemiValue;
+        if (signal && !hint) t = placeValue(e), found = {};
+    } else {
+        DataType want = routine.params[first]->type;
+        t = expr(e, e.kind == NodeKind::Aggregate ? &want : nullptr);
+    }
+    judged_.push_back(&arg);
+    if (t.isError()) return first;
+    for (size_t i = first; i < end; ++i) {
+        const DataSymbol& param = *routine.params[i];
+        if (param.mode != ParamMode::In && !found.root && isPlaceExpr(e)) continue;
+        if (param.type.type->kind != TypeKind::AnyType && !fits(e, t, param.type)) continue;
+        BoundArg bound{routine.params[i], BoundArg::Kind::Present, &e, &arg};
+        if (param.mode == ParamMode::In)
+            judgeValue(routine, bound, t);
+        else if (isPlaceExpr(e))
+            judgeReference(routine, bound, found);
+        else
+            reportAccess(routine, bound, nullptr, describeExpr(e));
+        return i;
+    }
+    std::string expected;
+    for (size_t i = first; i < end; ++i)
+        expected += (i == first ? "'" : " or '") + typeName(routine.params[i]->type) + "'";
+    report(Code::ArgumentAlternatives, range(e), {routine.name, typeName(*t.info), expected});
+    return first;
+}
+
+void Analyzer::reportMissing(const BoundCall& call, TokenIndex name) {
+    const RoutineSymbol& routine = *call.routine;
+    std::string missing;
+    for (size_t i = nextRequired(routine, 0); i < routine.params.size();) {
+        const size_t end = alternativesEnd(routine, i);
+        bool given = false;
+        std::string names;
+        for (size_t k = i; k < end; ++k) {
+            given = given || call.args[k].argument;
+            names += (k == i ? "'" : " or '") + routine.params[k]->name + "'";
+        }
+        if (!given) missing += (missing.empty() ? "" : ", ") + names;
+        i = nextRequired(routine, end);
+    }
+    if (missing.empty()) return;
+    noteDeclared(report(Code::MissingArgument, range(name), {text(name), missing}), routine);
+}
+
+void Analyzer::checkExclusive(const BoundCall& call) {
+    const BoundArg* previous = nullptr;
+    for (const BoundArg& bound : call.args) {
+        if (!bound.param->optional || bound.kind != BoundArg::Kind::Present) continue;
+        if (previous && previous->param->group == bound.param->group)
+            report(Code::ExclusiveArguments, range(*bound.argument),
+                   {previous->param->name, bound.param->name});
+        else
+            previous = &bound;
+    }
+}
+
+// Late binding: the procedure is known at run time only, so arguments are collected as they are (manual 1.1.5).
+void Analyzer::lateCall(const CallStmt& stmt) {
+    const Typed name = expr(*stmt.lateName);
+    if (!name.isError() && !name.isScalar(TypeKind::String))
+        report(Code::LateBindingName, range(*stmt.lateName), {typeName(*name.info)});
+    BoundCall& call = task_->calls[&stmt];
+    for (const Argument* arg : stmt.args) {
+        if (arg->argKind == ArgKind::Placeholder) {
+            placeholder(*arg);
+            continue;
+        }
+        BoundArg bound;
+        bound.kind =
+            arg->argKind == ArgKind::Conditional ? BoundArg::Kind::Conditional : BoundArg::Kind::Present;
+        bound.value = arg->value;
+        bound.argument = arg;
+        call.args.push_back(bound);
+        if (!arg->value) continue;
+        if (arg->argKind == ArgKind::Conditional) {
+            place(*arg->value);
+            if (!ownOptional(*arg->value))
+                report(Code::ConditionalNotParameter, range(*arg->value), {text(*arg->value)});
+        } else if (isPlaceExpr(*arg->value)) {
+            if (DataSymbol* root = place(*arg->value).root)
+                root->assigned = true; // the callee may take it as VAR
+        } else {
+            expr(*arg->value);
+        }
+    }
+}
+
+} // namespace rapid::sema

@@ -1,0 +1,221 @@
+// check(): the library first, then each task: parse, collect names, resolve declarations, check bodies.
+
+#include "frontend/sema/analysis.h"
+
+#include "frontend/syntax/parser.h"
+
+#include <algorithm>
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+Analyzer::Analyzer(CheckedProgram& program, const CheckOptions& options, diag::Sink& sink)
+    : program_(program), options_(options), sink_(sink) {
+    const auto make = [&](TypeKind kind, const char* name) {
+        Type& type = program_.typeStore.emplace_back();
+        type.kind = kind;
+        type.name = name;
+        return &type;
+    };
+    program_.errorType = make(TypeKind::Error, "?");
+    program_.num = make(TypeKind::Num, "num");
+    program_.dnum = make(TypeKind::Dnum, "dnum");
+    program_.boolean = make(TypeKind::Bool, "bool");
+    program_.string = make(TypeKind::String, "string");
+    switchType_ = make(TypeKind::Switch, "switch");
+    anyType_ = make(TypeKind::AnyType, "anytype");
+    // Known even without a library; its declarations take these over.
+    for (const Type* atomic : {program_.num, program_.dnum, program_.boolean, program_.string,
+                               static_cast<const Type*>(switchType_), static_cast<const Type*>(anyType_)}) {
+        TypeSymbol& symbol = program_.typeSymbols.emplace_back();
+        symbol.kind = SymbolKind::Type;
+        symbol.progress = Progress::Done;
+        symbol.name = atomic->name;
+        symbol.nameId = interner_.intern(atomic->name);
+        symbol.predefined = true;
+        symbol.type = const_cast<Type*>(atomic);
+        put<Symbol>(predefined_, symbol.nameId, &symbol);
+    }
+    presentId_ = interner_.intern("present");
+}
+
+void Analyzer::loadLibrary() {
+    task_ = &program_.library;
+    task_->name = "library";
+    std::vector<std::pair<NameId, Symbol*>> atomics;
+    for (NameId id = 0; id < predefined_.size(); ++id)
+        if (predefined_[id]) atomics.emplace_back(id, std::exchange(predefined_[id], nullptr));
+    for (const LibraryText& text : options_.library) {
+        auto file = std::make_shared<const SourceFile>(std::string(text.name), std::string(text.text));
+        ParseOptions parseOptions;
+        parseOptions.declarations = true;
+        program_.trees.push_back(parse(std::move(file), sink_, parseOptions));
+        const SyntaxTree& tree = *program_.trees.back();
+        program_.exprStore.push_back(std::make_unique<std::vector<ExprInfo>>(
+            tree.exprCount, ExprInfo{{program_.errorType, 0, {}}, nullptr, -1, nullptr}));
+        for (const ModuleDecl* decl : tree.modules)
+            program_.predefinedModules.push_back(
+                addModule(tree, *decl, true, program_.exprStore.back().get()));
+    }
+    for (Module* module : program_.predefinedModules)
+        collect(*module);
+    for (const auto& [id, atomic] : atomics) {
+        Symbol* declared = at(predefined_, id);
+        if (TypeSymbol* type = asType(declared))
+            type->type = static_cast<TypeSymbol*>(atomic)->type;
+        else
+            put(predefined_, id, atomic);
+    }
+    for (Module* module : program_.predefinedModules)
+        for (TypeSymbol* type : module->types)
+            ensureType(*type);
+    const auto typeNamed = [&](const char* name) -> const Type* {
+        const TypeSymbol* symbol = asType(at(predefined_, interner_.intern(name)));
+        return symbol ? symbol->type->base() : nullptr;
+    };
+    program_.pos = typeNamed("pos");
+    program_.orient = typeNamed("orient");
+    if (const TypeSymbol* symbol = asType(at(predefined_, interner_.intern("intnum"))))
+        intnum_ = symbol->type;
+    for (Module* module : program_.predefinedModules)
+        for (RoutineSymbol* routine : module->routines)
+            resolveSignature(*routine);
+    for (Module* module : program_.predefinedModules) {
+        for (DataSymbol* data : module->data)
+            ensureValue(*data);
+        for (RoutineSymbol* routine : module->routines)
+            checkRoutine(*routine);
+    }
+}
+
+void Analyzer::checkTask(const TaskInput& input) {
+    program_.tasks.push_back(std::make_unique<Task>());
+    task_ = program_.tasks.back().get();
+    task_->name = input.name;
+    task_->type = input.type;
+    task_->entry = input.entry;
+    globals_.assign(globals_.size(), nullptr);
+    configured_.assign(configured_.size(), nullptr);
+    moduleNames_ = {};
+    signalUses_ = {};
+    reportedNames_.clear();
+    signalUsesKnown_ = incomplete_ = false;
+    declareConfiguration();
+
+    std::vector<std::string_view> paths;
+    for (const auto& file : input.files) {
+        if (std::find(paths.begin(), paths.end(), file->path()) != paths.end()) {
+            sink_.report(Code::SameFileTwice, nullptr, {}, {file->path()});
+            continue;
+        }
+        paths.push_back(file->path());
+        const size_t errorsBefore = sink_.errorCount();
+        program_.trees.push_back(parse(file, sink_));
+        const SyntaxTree& tree = *program_.trees.back();
+        program_.exprStore.push_back(std::make_unique<std::vector<ExprInfo>>(
+            tree.exprCount, ExprInfo{{program_.errorType, 0, {}}, nullptr, -1, nullptr}));
+        if (tree.modules.empty() && sink_.errorCount() > errorsBefore) incomplete_ = true;
+        for (const ModuleDecl* decl : tree.modules)
+            task_->modules.push_back(addModule(tree, *decl, false, program_.exprStore.back().get()));
+    }
+    for (Module* module : task_->modules) {
+        enterModule(module);
+        const NameId name = interner_.intern(module->name);
+        if (Module* other = moduleNames_.find(name)) {
+            auto& d = report(Code::DuplicateModule, range(module->decl->name), {module->name});
+            d.notes.push_back({other->tree->source, other->tree->range(other->decl->name),
+                               "'" + other->name + "' is declared here"});
+        } else if (!module->name.empty()) {
+            moduleNames_.set(name, module);
+        }
+        collect(*module);
+    }
+    checkModuleNames();
+    for (Module* module : task_->modules)
+        for (TypeSymbol* type : module->types)
+            ensureType(*type);
+    for (Module* module : task_->modules)
+        for (RoutineSymbol* routine : module->routines)
+            resolveSignature(*routine);
+    for (Module* module : task_->modules) {
+        enterModule(module);
+        for (DataSymbol* data : module->data)
+            ensureValue(*data);
+    }
+    for (Module* module : task_->modules)
+        for (RoutineSymbol* routine : module->routines)
+            checkRoutine(*routine);
+    checkEntry(*task_);
+}
+
+void Analyzer::checkEntry(Task& task) {
+    const NameId name = interner_.intern(task.entry);
+    Symbol* symbol = at(globals_, name);
+    RoutineSymbol* routine = asRoutine(symbol);
+    if (routine && routine->routineKind == RoutineKind::Proc &&
+        nextRequired(*routine, 0) >= routine->params.size()) {
+        task.entryRoutine = routine;
+        routine->used = true;
+        return;
+    }
+    if (!options_.requireMain) return;
+    if (symbol) {
+        enterModule(symbol->module);
+        std::string found = routine && routine->routineKind == RoutineKind::Proc
+                                ? "a procedure with required parameters"
+                                : describe(*symbol);
+        report(Code::EntryNotProcedure, range(symbol->nameToken), {symbol->name, std::move(found)});
+        return;
+    }
+    for (const Module* module : task.modules) {
+        const Symbol* local = scopes_[module->id]->names.find(name);
+        if (!local) continue;
+        enterModule(const_cast<Module*>(module));
+        report(Code::EntryLocal, range(local->nameToken), {task.name, local->name});
+        return;
+    }
+    if (!incomplete_) sink_.report(Code::NoEntry, nullptr, {}, {task.name, task.entry});
+}
+
+// A global persistent is one object for all tasks that declare it (manual 1.20).
+void Analyzer::checkAcrossTasks() {
+    NameMap<DataSymbol> shared;
+    NameMap<const Task> names;
+    for (const auto& task : program_.tasks) {
+        const NameId taskName = interner_.intern(task->name);
+        if (names.find(taskName)) sink_.report(Code::DuplicateTask, nullptr, {}, {task->name});
+        names.set(taskName, task.get());
+        for (Module* module : task->modules) {
+            for (DataSymbol* data : module->data) {
+                if (data->dataKind != DataKind::Pers || data->scope != ScopeWord::None) continue;
+                DataSymbol* other = shared.find(data->nameId);
+                if (!other) {
+                    shared.set(data->nameId, data);
+                    continue;
+                }
+                const std::string own = typeName(data->type), theirs = typeName(other->type);
+                if (equivalent(data->type, other->type) ||
+                    (data->type.type->base()->name == other->type.type->base()->name &&
+                     sameShape(data->type, other->type)))
+                    continue;
+                enterModule(module);
+                noteDeclared(report(Code::PersConflict, range(data->nameToken), {data->name, own, theirs}),
+                             *other);
+            }
+        }
+    }
+}
+
+std::unique_ptr<CheckedProgram> check(const std::vector<TaskInput>& tasks, const CheckOptions& options,
+                                      diag::Sink& sink) {
+    auto program = std::make_unique<CheckedProgram>();
+    Analyzer analyzer(*program, options, sink);
+    analyzer.loadLibrary();
+    for (const TaskInput& task : tasks)
+        analyzer.checkTask(task);
+    analyzer.checkAcrossTasks();
+    return program;
+}
+
+} // namespace rapid::sema

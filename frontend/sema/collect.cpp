@@ -1,0 +1,139 @@
+// Declares the names of modules: modules themselves, types, data, routines (manual 1.1.3, 1.1.5, 1.2.2).
+
+#include "frontend/sema/analysis.h"
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+void Analyzer::enterModule(Module* module) {
+    context_ = {module, module->tree, module->exprs->data(), nullptr, false};
+}
+
+Module* Analyzer::addModule(const SyntaxTree& tree, const ModuleDecl& decl, bool predefined,
+                            std::vector<ExprInfo>* exprs) {
+    auto owned = std::make_unique<Module>();
+    Module* module = owned.get();
+    module->name = std::string(tree.text(decl.name));
+    module->id = static_cast<uint32_t>(program_.moduleStore.size());
+    module->tree = &tree;
+    module->decl = &decl;
+    module->predefined = predefined;
+    module->exprs = exprs;
+    program_.moduleStore.push_back(std::move(owned));
+    scopes_.push_back(std::make_unique<ModuleScope>());
+    return module;
+}
+
+DataSymbol& Analyzer::newData(const DataDecl& decl) {
+    DataSymbol& symbol = fill(program_.dataSymbols.emplace_back(), SymbolKind::Data, decl, decl.name,
+                              decl.scope == ScopeWord::Local);
+    symbol.dataKind = decl.dataKind;
+    symbol.scope = decl.scope;
+    symbol.init = decl.init;
+    symbol.routine = context_.routine;
+    symbol.storage = context_.routine ? Storage::RoutineData : Storage::ModuleData;
+    return symbol;
+}
+
+RoutineSymbol& Analyzer::newRoutine(const RoutineDecl& decl) {
+    RoutineSymbol& symbol =
+        fill(program_.routineSymbols.emplace_back(), SymbolKind::Routine, decl, decl.name, decl.local);
+    symbol.routineKind = decl.routineKind;
+    symbol.routineDecl = &decl;
+    symbol.native = !decl.hasBody;
+    symbol.noStepIn = (context_.module->decl->attributes & (kAttrNostepin | kAttrNoview)) != 0;
+    return symbol;
+}
+
+TypeSymbol& Analyzer::newType(const Decl& decl, TokenIndex name, bool local) {
+    return fill(program_.typeSymbols.emplace_back(), SymbolKind::Type, decl, name, local);
+}
+
+// One declaration without a readable name, or that could not be read at all, leaves its users without blame.
+void Analyzer::collect(Module& module) {
+    enterModule(&module);
+    ModuleScope& scope = *scopes_[module.id];
+    for (const Decl* decl : module.decl->decls) {
+        switch (decl->kind) {
+        case NodeKind::Record:
+        case NodeKind::Alias: {
+            const bool record = decl->kind == NodeKind::Record;
+            const TokenIndex name = record ? as<RecordDecl>(*decl).name : as<AliasDecl>(*decl).name;
+            if (name == kNoToken) {
+                scope.incomplete = incomplete_ = true;
+                break;
+            }
+            TypeSymbol& symbol =
+                newType(*decl, name, record ? as<RecordDecl>(*decl).local : as<AliasDecl>(*decl).local);
+            module.types.push_back(&symbol);
+            declareInModule(symbol, scope);
+            break;
+        }
+        case NodeKind::Data: {
+            const auto& data = as<DataDecl>(*decl);
+            if (data.name == kNoToken) {
+                scope.incomplete = incomplete_ = true;
+                break;
+            }
+            DataSymbol& symbol = newData(data);
+            symbol.index = static_cast<uint32_t>(module.data.size());
+            module.data.push_back(&symbol);
+            declareInModule(symbol, scope);
+            break;
+        }
+        case NodeKind::Routine: {
+            const auto& routine = as<RoutineDecl>(*decl);
+            if (routine.name == kNoToken) {
+                scope.incomplete = incomplete_ = true;
+                break;
+            }
+            RoutineSymbol& symbol = newRoutine(routine);
+            module.routines.push_back(&symbol);
+            declareInModule(symbol, scope);
+            break;
+        }
+        case NodeKind::PlaceholderDecl:
+            placeholder(*decl);
+            scope.incomplete = incomplete_ = true;
+            break;
+        default: scope.incomplete = incomplete_ = true; break;
+        }
+    }
+}
+
+void Analyzer::declareInModule(Symbol& symbol, ModuleScope& scope) {
+    if (const Symbol* other = scope.names.find(symbol.nameId)) {
+        noteDeclared(
+            report(Code::DuplicateInModule, range(symbol.nameToken), {symbol.name, symbol.module->name}),
+            *other);
+        return;
+    }
+    scope.names.set(symbol.nameId, &symbol);
+    if (symbol.isLocal) return;
+    std::vector<Symbol*>& table = symbol.predefined ? predefined_ : globals_;
+    if (const Symbol* other = at(table, symbol.nameId)) {
+        noteDeclared(
+            report(Code::DuplicateGlobal, range(symbol.nameToken), {symbol.name, other->module->name}),
+            *other);
+        return;
+    }
+    put(table, symbol.nameId, &symbol);
+}
+
+// A module must not have the name of global data or of a global routine (manual 1.1.3).
+void Analyzer::checkModuleNames() {
+    for (Module* module : task_->modules) {
+        enterModule(module);
+        const auto check = [&](const Symbol& symbol, const char* what) {
+            if (symbol.isLocal || !moduleNames_.find(symbol.nameId)) return;
+            report(Code::NameOfModule, range(symbol.nameToken), {symbol.name, what});
+        };
+        for (const DataSymbol* data : module->data)
+            check(*data, "data");
+        for (const RoutineSymbol* routine : module->routines)
+            check(*routine, "routine");
+    }
+}
+
+} // namespace rapid::sema

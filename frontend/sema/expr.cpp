@@ -1,0 +1,259 @@
+// Expressions: literals, values of data, aggregates, and how a value fits the type its context wants
+// (manual 1.3.1 to 1.3.3).
+
+#include "frontend/sema/analysis.h"
+
+#include <cfloat>
+#include <cmath>
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+Typed Analyzer::result(const Expr& e, const Type* type, Flex flex) {
+    ExprInfo& out = info(e);
+    out.type = {type, 0, {}};
+    return {&out, flex};
+}
+
+Typed Analyzer::errorExpr(const Expr& e) {
+    return result(e, program_.errorType);
+}
+
+Typed Analyzer::expr(const Expr& e, const DataType* want, ConstValue* slot) {
+    switch (e.kind) {
+    case NodeKind::NumLiteral: return literal(as<NumLiteralExpr>(e), want, slot);
+    case NodeKind::StringLiteral: {
+        const Typed t = result(e, program_.string);
+        ConstValue* value = slot ? slot : newConst();
+        value->kind = ConstValue::Kind::String;
+        value->text = decodeStringLiteral(context_.tree->text(e.first));
+        t.info->constant = value;
+        return t;
+    }
+    case NodeKind::BoolLiteral: {
+        const Typed t = result(e, program_.boolean);
+        ConstValue* value = slot ? slot : newConst();
+        value->kind = ConstValue::Kind::Bool;
+        value->boolean = as<BoolLiteralExpr>(e).value;
+        t.info->constant = value;
+        return t;
+    }
+    case NodeKind::Name:
+    case NodeKind::Index:
+    case NodeKind::Component: return placeValue(e);
+    case NodeKind::Call: return functionCall(as<CallExpr>(e));
+    case NodeKind::Aggregate: return aggregate(as<AggregateExpr>(e), want, slot);
+    case NodeKind::Paren: return paren(as<ParenExpr>(e), want, slot);
+    case NodeKind::Unary: return unary(as<UnaryExpr>(e), want, slot);
+    case NodeKind::Binary: return binaryChain(as<BinaryExpr>(e));
+    case NodeKind::PlaceholderExpr: placeholder(e); return errorExpr(e);
+    default: return errorExpr(e);
+    }
+}
+
+Typed Analyzer::literal(const NumLiteralExpr& e, const DataType* want, ConstValue* slot) {
+    const bool dnum = want && want->rank == 0 && want->type->kind == TypeKind::Dnum;
+    const Typed t = result(e, dnum ? program_.dnum : program_.num, Flex::Literal);
+    ConstValue* value = slot ? slot : newConst();
+    value->kind = ConstValue::Kind::Number;
+    value->number = dnum ? e.value : static_cast<double>(static_cast<float>(e.value));
+    t.info->constant = value;
+    if (e.value > FLT_MAX) bigLiterals_.push_back(&e);
+    return t;
+}
+
+// Literals that ended up as num although they do not fit it.
+void Analyzer::checkBigLiterals() {
+    for (const Expr* e : bigLiterals_)
+        if (info(*e).type.type->kind == TypeKind::Num) report(Code::NumberBeyondNum, range(*e), {text(*e)});
+    bigLiterals_.clear();
+}
+
+// Data as a value: signals are read, handles have no value.
+Typed Analyzer::placeValue(const Expr& e) {
+    const Place found = place(e);
+    ExprInfo& out = info(e);
+    if (!found.root) return {&out};
+    const Type& type = *out.type.type;
+    switch (type.kind) {
+    case TypeKind::SemiValue: {
+        if (out.type.rank > 0) return {&out};
+        const std::string& name = type.base()->name;
+        const bool group = name == "signalgi" || name == "signalgo";
+        return result(e, group ? program_.dnum : program_.num, group ? Flex::Group : Flex::None);
+    }
+    case TypeKind::Switch: report(Code::SwitchAsValue, range(e), {text(e)}); return errorExpr(e);
+    case TypeKind::AnyType: return errorExpr(e);
+    case TypeKind::NonValue: break;
+    case TypeKind::Record:
+        if (!type.containsNonValue) return {&out};
+        break;
+    default: return {&out};
+    }
+    report(Code::NonValueInExpression, range(e), {text(e), type.name});
+    return errorExpr(e);
+}
+
+Typed Analyzer::paren(const ParenExpr& e, const DataType* want, ConstValue* slot) {
+    const Typed inner = expr(*e.inner, want, slot);
+    ExprInfo& out = info(e);
+    out = *inner.info;
+    out.symbol = nullptr;
+    out.component = -1;
+    return {&out, inner.flex};
+}
+
+// Members get their constants in the place where the whole value keeps them.
+Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstValue* slot) {
+    if (!want || want->type->kind == TypeKind::Error) {
+        if (!want) report(Code::AggregateWithoutType, range(e));
+        for (const Expr* element : e.elements)
+            visitLoose(*element);
+        return errorExpr(e);
+    }
+    const bool array = want->rank > 0;
+    const Type& type = *want->type;
+    if (!array && type.kind != TypeKind::Record) {
+        if (type.kind == TypeKind::AnyType)
+            report(Code::AggregateWithoutType, range(e));
+        else
+            report(Code::AggregateForAtomic, range(e), {typeName(*want)});
+        for (const Expr* element : e.elements)
+            visitLoose(*element);
+        return errorExpr(e);
+    }
+    const std::vector<Type::Component>& components = type.base()->components;
+    const size_t count = e.elements.size();
+    const size_t expected = !array              ? components.size()
+                            : want->dims[0] > 0 ? static_cast<size_t>(want->dims[0])
+                                                : count;
+    if (count != expected) {
+        report(Code::AggregateCount, range(e),
+               {std::to_string(count), std::to_string(expected), typeName(*want)});
+        for (const Expr* element : e.elements)
+            visitLoose(*element);
+        return errorExpr(e);
+    }
+    ConstValue* value = slot ? slot : newConst();
+    value->members.resize(count);
+    bool constant = true;
+    bool wrong = false;
+    DataType member = {
+        want->type, static_cast<uint8_t>(array ? want->rank - 1 : 0), {want->dims[1], want->dims[2], 0}};
+    DataType own = *want;
+    if (array) own.dims[0] = static_cast<int32_t>(count);
+    for (size_t i = 0; i < count; ++i) {
+        const Expr& element = *e.elements[i];
+        if (!array) member = {components[i].type, 0, {}};
+        const Typed t = expr(element, &member, &value->members[i]);
+        if (!fits(element, t, member)) {
+            report(Code::AggregateMember, range(element), {typeName(*t.info), typeName(member)});
+            wrong = true;
+        } else if (t.isError())
+            wrong = true;
+        if (array && i == 0)
+            for (int d = 0; d < member.rank; ++d)
+                own.dims[d + 1] = t.info->type.dims[d];
+        if (array) member.dims[0] = own.dims[1], member.dims[1] = own.dims[2];
+        if (!t.info->constant)
+            constant = false;
+        else if (t.info->constant != &value->members[i])
+            value->members[i] = *t.info->constant;
+    }
+    ExprInfo& out = info(e);
+    out.type = own;
+    if (wrong) out.type.type = program_.errorType;
+    if (constant && !wrong) {
+        value->kind = ConstValue::Kind::Aggregate;
+        out.constant = value;
+    }
+    return {&out};
+}
+
+// Looks at an expression whose context is wrong already: own mistakes only, no type is asked for.
+void Analyzer::visitLoose(const Expr& e) {
+    const DataType any = {program_.errorType, 0, {}};
+    if (isPlaceExpr(e))
+        place(e);
+    else
+        expr(e, &any);
+}
+
+void Analyzer::settle(const Expr& top, const Type* to) {
+    const Expr* e = &top;
+    std::vector<const Expr*> parents; // operators, folded again from the inside out
+    for (;;) {
+        ExprInfo& out = info(*e);
+        if (out.type.type == to) break;
+        out.type.type = to;
+        if (e->kind == NodeKind::NumLiteral) {
+            const double value = as<NumLiteralExpr>(*e).value;
+            const bool dnum = to->kind == TypeKind::Dnum;
+            if (out.constant)
+                const_cast<ConstValue*>(out.constant)->number =
+                    dnum ? value : static_cast<double>(static_cast<float>(value));
+            break;
+        }
+        if (e->kind == NodeKind::Paren) {
+            parents.push_back(e);
+            e = as<ParenExpr>(*e).inner;
+        } else if (e->kind == NodeKind::Unary) {
+            parents.push_back(e);
+            e = as<UnaryExpr>(*e).operand;
+        } else if (e->kind == NodeKind::Binary) {
+            parents.push_back(e);
+            settle(*as<BinaryExpr>(*e).right, to);
+            e = as<BinaryExpr>(*e).left;
+        } else
+            break; // a group signal
+    }
+    for (; !parents.empty(); parents.pop_back()) {
+        const Expr& parent = *parents.back();
+        ConstValue* slot = const_cast<ConstValue*>(info(parent).constant);
+        if (!slot) continue; // it has no value, and that was judged already
+        if (parent.kind == NodeKind::Paren)
+            info(parent).constant = info(*as<ParenExpr>(parent).inner).constant;
+        else if (parent.kind == NodeKind::Unary)
+            foldUnary(as<UnaryExpr>(parent), slot);
+        else
+            foldBinary(as<BinaryExpr>(parent));
+    }
+}
+
+bool Analyzer::sameShape(const DataType& found, const DataType& want) {
+    if (found.rank != want.rank) return false;
+    for (int i = 0; i < want.rank; ++i) // 0: known at run time only, compared there
+        if (found.dims[i] != want.dims[i] && found.dims[i] != 0 && want.dims[i] != 0) return false;
+    return true;
+}
+
+bool Analyzer::equivalent(const DataType& found, const DataType& want) {
+    if (found.type->kind == TypeKind::Error || want.type->kind == TypeKind::Error) return true;
+    return found.type->base() == want.type->base() && sameShape(found, want);
+}
+
+bool Analyzer::fits(const Expr& e, Typed t, const DataType& want) {
+    const Type& type = *want.type;
+    if (t.flex != Flex::None && want.rank == 0 && type.isNumeric()) {
+        settle(e, type.base());
+        return true;
+    }
+    return equivalent(t.info->type, want);
+}
+
+std::string Analyzer::numDnumRemedy(Typed t, const DataType& want) const {
+    if (t.info->type.rank > 0 || want.rank > 0) return {};
+    if (t.info->type.type->kind == TypeKind::Num && want.type->kind == TypeKind::Dnum) return "NumToDnum";
+    if (t.info->type.type->kind == TypeKind::Dnum && want.type->kind == TypeKind::Num) return "DnumToNum";
+    return {};
+}
+
+bool Analyzer::condition(const Expr& e, const char* what) {
+    const Typed t = expr(e);
+    if (t.isError() || t.isScalar(TypeKind::Bool)) return true;
+    report(Code::ConditionNotBool, range(e), {what, typeName(*t.info)});
+    return false;
+}
+
+} // namespace rapid::sema

@@ -1,0 +1,208 @@
+// Operators: which operands they take and what they give (manual 1.3.1).
+
+#include "frontend/sema/analysis.h"
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+namespace {
+const Expr& withoutParens(const Expr& e) {
+    const Expr* inner = &e;
+    while (inner->kind == NodeKind::Paren)
+        inner = as<ParenExpr>(*inner).inner;
+    return *inner;
+}
+} // namespace
+
+Typed Analyzer::unary(const UnaryExpr& e, const DataType* want, ConstValue* slot) {
+    const Typed operand = expr(*e.operand, e.op == UnaryOp::Not ? nullptr : want);
+    if (operand.isError()) return errorExpr(e);
+    const char* name = e.op == UnaryOp::Not ? "NOT" : e.op == UnaryOp::Plus ? "+" : "-";
+    const DataType& type = operand.info->type;
+    const bool scalar = type.rank == 0;
+    if (e.op == UnaryOp::Not && scalar && type.type->kind == TypeKind::Bool) {
+        const Typed t = result(e, program_.boolean);
+        foldUnary(e, slot);
+        return t;
+    }
+    if (e.op != UnaryOp::Not && scalar && type.type->isNumeric()) {
+        const Typed t = result(e, operand.base(), operand.flex);
+        foldUnary(e, slot);
+        return t;
+    }
+    if (e.op != UnaryOp::Not && scalar && program_.pos && operand.base() == program_.pos)
+        return result(e, program_.pos);
+    report(Code::UnaryOperatorType, range(e.first), {name, typeName(*operand.info)});
+    return errorExpr(e);
+}
+
+// Long chains of operators lean to the left: a loop instead of recursion.
+Typed Analyzer::binaryChain(const BinaryExpr& top) {
+    const size_t begin = spine_.size();
+    const Expr* leaf = &top;
+    for (; leaf->kind == NodeKind::Binary; leaf = as<BinaryExpr>(*leaf).left)
+        spine_.push_back(&as<BinaryExpr>(*leaf));
+    Typed left;
+    bool first = true;
+    while (spine_.size() > begin) {
+        const BinaryExpr& e = *spine_.back();
+        spine_.pop_back();
+        const bool equal = e.op == BinaryOp::Eq || e.op == BinaryOp::Ne;
+        if (first && equal && withoutParens(*leaf).kind == NodeKind::Aggregate &&
+            withoutParens(*e.right).kind != NodeKind::Aggregate) {
+            const Typed right = expr(*e.right);
+            left = combine(e, expr(*leaf, &right.info->type), right);
+        } else {
+            if (first) left = expr(*leaf);
+            // The partner of a comparison gives an aggregate its type.
+            const Typed right = expr(*e.right, equal ? &left.info->type : nullptr);
+            left = combine(e, left, right);
+        }
+        first = false;
+    }
+    return left;
+}
+
+Typed Analyzer::combine(const BinaryExpr& e, Typed left, Typed right) {
+    if (left.isError() || right.isError()) {
+        // What a comparison gives is known all the same.
+        const bool gives = e.op >= BinaryOp::Lt;
+        return gives ? result(e, program_.boolean) : errorExpr(e);
+    }
+    switch (e.op) {
+    case BinaryOp::Add:
+    case BinaryOp::Sub:
+    case BinaryOp::Mul:
+    case BinaryOp::Div:
+    case BinaryOp::IntDiv:
+    case BinaryOp::Mod: return arithmetic(e, left, right);
+    case BinaryOp::Lt:
+    case BinaryOp::Le:
+    case BinaryOp::Gt:
+    case BinaryOp::Ge: return comparison(e, left, right);
+    case BinaryOp::Eq:
+    case BinaryOp::Ne: return equality(e, left, right);
+    case BinaryOp::And:
+    case BinaryOp::Or:
+    case BinaryOp::Xor: return logic(e, left, right);
+    }
+    return errorExpr(e);
+}
+
+Typed Analyzer::operatorError(const BinaryExpr& e, Typed left, Typed right) {
+    report(Code::OperatorTypes, range(e.opToken),
+           {text(e.opToken), typeName(*left.info), typeName(*right.info)});
+    return errorExpr(e);
+}
+
+// Brings two numbers to one type; `flex` tells whether it is still open.
+Analyzer::Numeric Analyzer::unify(const BinaryExpr& e, Typed& left, Typed& right, Flex& flex) {
+    const DataType &a = left.info->type, &b = right.info->type;
+    if (a.rank > 0 || b.rank > 0 || !a.type->isNumeric() || !b.type->isNumeric()) return Numeric::NotNumeric;
+    flex = Flex::None;
+    if (left.flex != Flex::None && right.flex != Flex::None) {
+        flex = left.flex == Flex::Group || right.flex == Flex::Group ? Flex::Group : Flex::Literal;
+        const Type* common = flex == Flex::Group ? program_.dnum : left.base();
+        settle(*e.left, common);
+        settle(*e.right, common);
+    } else if (left.flex != Flex::None)
+        settle(*e.left, right.base());
+    else if (right.flex != Flex::None)
+        settle(*e.right, left.base());
+    else if (left.base() != right.base())
+        return Numeric::Mixed;
+    return Numeric::Ok;
+}
+
+Typed Analyzer::arithmetic(const BinaryExpr& e, Typed left, Typed right) {
+    Flex flex = Flex::None;
+    switch (unify(e, left, right, flex)) {
+    case Numeric::Mixed: report(Code::NumDnumMixed, range(e.opToken), {text(e.opToken)}); return errorExpr(e);
+    case Numeric::NotNumeric: return vectorArithmetic(e, left, right);
+    case Numeric::Ok: break;
+    }
+    const Typed t = result(e, left.base(), flex);
+    foldBinary(e);
+    return t;
+}
+
+// Strings, vectors and rotations.
+Typed Analyzer::vectorArithmetic(const BinaryExpr& e, Typed left, Typed right) {
+    const Type *pos = program_.pos, *orient = program_.orient;
+    if (left.info->type.rank > 0 || right.info->type.rank > 0) return operatorError(e, left, right);
+    // A group signal in a product with a vector counts as num; so does a literal already.
+    const auto asNum = [&](const Expr& side, Typed t) {
+        if (t.flex != Flex::None) settle(side, program_.num);
+        return t.base() == program_.num;
+    };
+    const bool leftPos = pos && left.base() == pos, rightPos = pos && right.base() == pos;
+    switch (e.op) {
+    case BinaryOp::Add:
+        if (left.isScalar(TypeKind::String) && right.isScalar(TypeKind::String)) {
+            const Typed t = result(e, program_.string);
+            foldBinary(e);
+            return t;
+        }
+        if (leftPos && rightPos) return result(e, pos);
+        break;
+    case BinaryOp::Sub:
+        if (leftPos && rightPos) return result(e, pos);
+        break;
+    case BinaryOp::Mul:
+        if (leftPos && rightPos) return result(e, pos);
+        if (leftPos && asNum(*e.right, right)) return result(e, pos);
+        if (rightPos && asNum(*e.left, left)) return result(e, pos);
+        if (orient && left.base() == orient && right.base() == orient) return result(e, orient);
+        break;
+    case BinaryOp::Div:
+        if (leftPos && asNum(*e.right, right)) return result(e, pos);
+        break;
+    default: break;
+    }
+    return operatorError(e, left, right);
+}
+
+Typed Analyzer::comparison(const BinaryExpr& e, Typed left, Typed right) {
+    Flex flex = Flex::None;
+    switch (unify(e, left, right, flex)) {
+    case Numeric::Mixed: report(Code::NumDnumMixed, range(e.opToken), {text(e.opToken)}); break;
+    case Numeric::NotNumeric: operatorError(e, left, right); break;
+    case Numeric::Ok: {
+        const Typed t = result(e, program_.boolean);
+        foldBinary(e);
+        return t;
+    }
+    }
+    return result(e, program_.boolean);
+}
+
+Typed Analyzer::equality(const BinaryExpr& e, Typed left, Typed right) {
+    Flex flex = Flex::None;
+    const Numeric numeric = unify(e, left, right, flex);
+    const Typed t = result(e, program_.boolean);
+    const DataType &a = left.info->type, &b = right.info->type;
+    if (numeric == Numeric::Ok)
+        foldBinary(e);
+    else if (numeric == Numeric::Mixed)
+        report(Code::NumDnumMixed, range(e.opToken), {text(e.opToken)});
+    else if (a.type->base() != b.type->base() || a.rank != b.rank)
+        report(Code::CompareTypes, range(e.opToken), {text(e.opToken), typeName(a), typeName(b)});
+    else if (a.rank > 0)
+        report(Code::CompareArrays, range(e.opToken), {text(e.opToken)});
+    else
+        foldBinary(e);
+    return t;
+}
+
+Typed Analyzer::logic(const BinaryExpr& e, Typed left, Typed right) {
+    if (!left.isScalar(TypeKind::Bool) || !right.isScalar(TypeKind::Bool)) {
+        operatorError(e, left, right);
+        return result(e, program_.boolean);
+    }
+    const Typed t = result(e, program_.boolean);
+    foldBinary(e);
+    return t;
+}
+
+} // namespace rapid::sema

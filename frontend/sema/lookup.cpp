@@ -1,0 +1,179 @@
+// What a name means: routine, module, task, configuration, library, in this order (manual 1.1.5, 1.2.2). Signals that
+// nobody declares are part of the controller's configuration and are recognised by how they are used.
+
+#include "frontend/sema/analysis.h"
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+Symbol* Analyzer::lookup(NameId name) const {
+    if (context_.routine)
+        if (Symbol* found = at(routineNames_, name)) return found;
+    return lookupOutside(name);
+}
+
+Symbol* Analyzer::lookupOutside(NameId name) const {
+    if (Symbol* found = scopes_[context_.module->id]->names.find(name)) return found;
+    if (!context_.module->predefined) {
+        if (Symbol* found = at(globals_, name)) return found;
+        if (DataSymbol* found = at(configured_, name)) return found;
+    }
+    return at(predefined_, name);
+}
+
+bool Analyzer::mayReportUnknown() const {
+    return !incomplete_ || context_.module->predefined;
+}
+
+DataSymbol* Analyzer::configuredObject(NameId name, std::string spelling, const Type* type) {
+    DataSymbol& symbol = program_.dataSymbols.emplace_back();
+    symbol.kind = SymbolKind::Data;
+    symbol.progress = symbol.valueProgress = Progress::Done;
+    symbol.name = std::move(spelling);
+    symbol.nameId = name;
+    symbol.storage = Storage::Signal;
+    symbol.type.type = type;
+    symbol.index = static_cast<uint32_t>(program_.dataSymbols.size());
+    put(configured_, name, &symbol);
+    return &symbol;
+}
+
+void Analyzer::declareConfiguration() {
+    for (const SignalInfo& signal : options_.signals) {
+        const TypeSymbol* type = asType(at(predefined_, interner_.intern(signal.type)));
+        if (type) configuredObject(interner_.intern(signal.name), signal.name, type->type);
+    }
+}
+
+// An unknown name as data: a signal where one is expected or where it is used as one elsewhere, otherwise an error.
+Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* handle) {
+    const bool mecunit = handle && handle->base()->name == "mecunit";
+    const Type* type = handle && handle->kind == TypeKind::SemiValue ? handle : nullptr;
+    if (!type && !mecunit && context_.routine) type = signalTypeByUse(name);
+    if (!type && !mecunit) {
+        if (mayReportUnknown()) {
+            std::string hint = suggestion(name, Wanted::Data);
+            report(Code::UnknownName, range(token), {text(token), std::move(hint)});
+        }
+        return nullptr;
+    }
+    const bool isError = !mecunit && options_.configurationKnown;
+    if (reportedNames_.insert(name).second && mayReportUnknown()) {
+        const Code code = mecunit   ? Code::MechanicalUnitUnknown
+                          : isError ? Code::SignalUndefined
+                                    : Code::SignalUnknown;
+        report(code, range(token), {text(token)});
+    }
+    return configuredObject(name, text(token), mecunit ? handle : type);
+}
+
+const Type* Analyzer::signalTypeByUse(NameId name) {
+    if (!signalUsesKnown_) {
+        signalUsesKnown_ = true;
+        gatherSignalUses();
+    }
+    return signalUses_.find(name);
+}
+
+void Analyzer::gatherSignalUses() {
+    const Context saved = context_;
+    for (Module* module : task_->modules) {
+        enterModule(module);
+        for (const RoutineSymbol* routine : module->routines) {
+            const RoutineDecl& decl = *routine->routineDecl;
+            gatherSignalUses(decl.body);
+            gatherSignalUses(decl.backward);
+            for (const ErrorClause* clause : decl.errors)
+                gatherSignalUses(clause->body);
+            gatherSignalUses(decl.undo);
+        }
+    }
+    context_ = saved;
+}
+
+void Analyzer::gatherSignalUses(StmtList list) {
+    for (const Stmt* s : list) {
+        switch (s->kind) {
+        case NodeKind::CallStmt: {
+            const auto& call = as<CallStmt>(*s);
+            const RoutineSymbol* routine =
+                call.lateName ? nullptr : asRoutine(lookupOutside(idOf(call.name)));
+            if (routine) gatherSignalUses(*routine, call.args);
+            for (const Argument* a : call.args)
+                gatherSignalUses(a->value);
+            break;
+        }
+        case NodeKind::Assign: gatherSignalUses(as<AssignStmt>(*s).value); break;
+        case NodeKind::Return: gatherSignalUses(as<ReturnStmt>(*s).value); break;
+        case NodeKind::If:
+            for (const IfBranch* b : as<IfStmt>(*s).branches) {
+                gatherSignalUses(b->condition);
+                gatherSignalUses(b->body);
+            }
+            gatherSignalUses(as<IfStmt>(*s).elseBody);
+            break;
+        case NodeKind::CompactIf: {
+            gatherSignalUses(as<CompactIfStmt>(*s).condition);
+            Stmt* body = as<CompactIfStmt>(*s).body;
+            if (body) gatherSignalUses(StmtList(&body, 1));
+            break;
+        }
+        case NodeKind::For: gatherSignalUses(as<ForStmt>(*s).body); break;
+        case NodeKind::While:
+            gatherSignalUses(as<WhileStmt>(*s).condition);
+            gatherSignalUses(as<WhileStmt>(*s).body);
+            break;
+        case NodeKind::Test:
+            gatherSignalUses(as<TestStmt>(*s).subject);
+            for (const TestCase* c : as<TestStmt>(*s).cases)
+                gatherSignalUses(c->body);
+            gatherSignalUses(as<TestStmt>(*s).defaultBody);
+            break;
+        default: break;
+        }
+    }
+}
+
+void Analyzer::gatherSignalUses(const Expr* e) {
+    if (!e) return;
+    switch (e->kind) {
+    case NodeKind::Call: {
+        const auto& call = as<CallExpr>(*e);
+        if (const RoutineSymbol* routine = asRoutine(lookupOutside(idOf(call.name))))
+            gatherSignalUses(*routine, call.args);
+        for (const Argument* a : call.args)
+            gatherSignalUses(a->value);
+        break;
+    }
+    case NodeKind::Paren: gatherSignalUses(as<ParenExpr>(*e).inner); break;
+    case NodeKind::Unary: gatherSignalUses(as<UnaryExpr>(*e).operand); break;
+    case NodeKind::Binary:
+        for (; e->kind == NodeKind::Binary; e = as<BinaryExpr>(*e).left)
+            gatherSignalUses(as<BinaryExpr>(*e).right);
+        gatherSignalUses(e);
+        break;
+    default: break;
+    }
+}
+
+void Analyzer::gatherSignalUses(const RoutineSymbol& routine, std::span<Argument* const> args) {
+    size_t next = nextRequired(routine, 0);
+    for (const Argument* a : args) {
+        const DataSymbol* param = nullptr;
+        if (a->argKind == ArgKind::Required) {
+            if (next < routine.params.size()) param = routine.params[next];
+            next = nextRequired(routine, alternativesEnd(routine, next));
+        } else if (a->name != kNoToken) {
+            const NameId name = idOf(a->name);
+            for (const DataSymbol* p : routine.params)
+                if (p->nameId == name) param = p;
+        }
+        if (!param || !a->value || a->value->kind != NodeKind::Name) continue;
+        const NameId name = idOf(as<NameExpr>(*a->value).name);
+        if (param->type.type->kind == TypeKind::SemiValue && !signalUses_.find(name) && !lookupOutside(name))
+            signalUses_.set(name, param->type.type);
+    }
+}
+
+} // namespace rapid::sema

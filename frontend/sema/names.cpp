@@ -1,0 +1,106 @@
+// Interning of identifiers and the measure behind "did you mean".
+
+#include "frontend/sema/names.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace rapid::sema {
+
+namespace {
+
+constexpr unsigned char kLatin1Lead = 0xC3; // first byte of U+00C0 to U+00FF in UTF-8
+
+/// Lower case of one byte; `previous` tells the second byte of an ISO 8859-1 letter from others.
+unsigned char foldByte(unsigned char c, unsigned char previous) {
+    if (c >= 'A' && c <= 'Z') return static_cast<unsigned char>(c + 32);
+    const bool upperLatin1 = previous == kLatin1Lead && c >= 0x80 && c <= 0x9E && c != 0x97;
+    return upperLatin1 ? static_cast<unsigned char>(c + 0x20) : c;
+}
+
+uint32_t foldedHash(std::string_view name) {
+    uint32_t hash = 2166136261u;
+    unsigned char previous = 0;
+    for (const char ch : name) {
+        const auto c = static_cast<unsigned char>(ch);
+        hash = (hash ^ foldByte(c, previous)) * 16777619u;
+        previous = c;
+    }
+    return hash ^ (hash >> 15);
+}
+
+bool equalsFolded(std::string_view name, const char* folded) {
+    unsigned char previous = 0;
+    for (size_t i = 0; i < name.size(); ++i) {
+        const auto c = static_cast<unsigned char>(name[i]);
+        if (foldByte(c, previous) != static_cast<unsigned char>(folded[i])) return false;
+        previous = c;
+    }
+    return true;
+}
+
+} // namespace
+
+Interner::Interner() : slots_(4096, 0) {}
+
+NameId Interner::intern(std::string_view name) {
+    const uint32_t hash = foldedHash(name);
+    for (size_t slot = hash & (slots_.size() - 1);; slot = (slot + 1) & (slots_.size() - 1)) {
+        if (slots_[slot] == 0) return add(name, hash, slot);
+        const Entry& entry = entries_[slots_[slot] - 1];
+        if (entry.hash == hash && entry.length == name.size() &&
+            equalsFolded(name, text_.data() + entry.begin))
+            return slots_[slot] - 1;
+    }
+}
+
+NameId Interner::add(std::string_view name, uint32_t hash, size_t slot) {
+    const auto id = static_cast<NameId>(entries_.size());
+    entries_.push_back({hash, static_cast<uint32_t>(text_.size()), static_cast<uint32_t>(name.size())});
+    unsigned char previous = 0;
+    for (const char ch : name) {
+        const auto c = static_cast<unsigned char>(ch);
+        text_.push_back(static_cast<char>(foldByte(c, previous)));
+        previous = c;
+    }
+    slots_[slot] = id + 1;
+    if (entries_.size() * 2 > slots_.size()) grow();
+    return id;
+}
+
+void Interner::grow() {
+    slots_.assign(slots_.size() * 2, 0);
+    for (size_t i = 0; i < entries_.size(); ++i) {
+        size_t slot = entries_[i].hash & (slots_.size() - 1);
+        while (slots_[slot] != 0)
+            slot = (slot + 1) & (slots_.size() - 1);
+        slots_[slot] = static_cast<uint32_t>(i + 1);
+    }
+}
+
+unsigned editDistance(std::string_view a, std::string_view b, unsigned limit) {
+    constexpr size_t kLongest = 64;
+    if (a.size() > b.size()) std::swap(a, b);
+    if (b.size() - a.size() > limit || b.size() >= kLongest) return limit + 1;
+    std::array<std::array<unsigned, kLongest>, 3> rows{}; // before previous, previous, current
+    for (size_t j = 0; j <= b.size(); ++j)
+        rows[1][j] = static_cast<unsigned>(j);
+    for (size_t i = 1; i <= a.size(); ++i) {
+        rows[2][0] = static_cast<unsigned>(i);
+        unsigned best = rows[2][0];
+        for (size_t j = 1; j <= b.size(); ++j) {
+            const unsigned replace = rows[1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            unsigned cost = std::min({replace, rows[1][j] + 1, rows[2][j - 1] + 1});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                cost = std::min(cost, rows[0][j - 2] + 1);
+            rows[2][j] = cost;
+            best = std::min(best, cost);
+        }
+        if (best > limit) return limit + 1;
+        rows[0] = rows[1];
+        rows[1] = rows[2];
+    }
+    return rows[1][b.size()];
+}
+
+} // namespace rapid::sema

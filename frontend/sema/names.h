@@ -1,0 +1,84 @@
+#pragma once
+// Identifiers as small numbers: RAPID names are compared without regard to case (manual 1.1.1, 1.1.2).
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rapid::sema {
+
+using NameId = uint32_t;
+
+/// Gives equal numbers to names that differ only in case; letters of ISO 8859-1 are folded too.
+class Interner {
+  public:
+    Interner();
+    NameId intern(std::string_view name);
+    /// The folded (lower-case) spelling.
+    std::string_view folded(NameId id) const {
+        return {text_.data() + entries_[id].begin, entries_[id].length};
+    }
+    size_t size() const { return entries_.size(); }
+
+  private:
+    struct Entry {
+        uint32_t hash = 0;
+        uint32_t begin = 0;
+        uint32_t length = 0;
+    };
+    NameId add(std::string_view name, uint32_t hash, size_t slot);
+    void grow();
+
+    std::vector<char> text_;
+    std::vector<Entry> entries_;
+    std::vector<uint32_t> slots_; ///< entry + 1, 0 = free; size is a power of two
+};
+
+/// Map from names to pointers, made for many small scopes: open addressing, no node allocation.
+template <class T> class NameMap {
+  public:
+    T* find(NameId name) const {
+        if (slots_.empty()) return nullptr;
+        for (size_t i = name * kSpread & (slots_.size() - 1);; i = (i + 1) & (slots_.size() - 1)) {
+            if (!slots_[i].value) return nullptr;
+            if (slots_[i].name == name) return slots_[i].value;
+        }
+    }
+    /// Adds or replaces.
+    void set(NameId name, T* value) {
+        if ((count_ + 1) * 2 > slots_.size()) grow();
+        for (size_t i = name * kSpread & (slots_.size() - 1);; i = (i + 1) & (slots_.size() - 1)) {
+            if (slots_[i].value && slots_[i].name != name) continue;
+            if (!slots_[i].value) ++count_;
+            slots_[i] = {name, value};
+            return;
+        }
+    }
+    template <class F> void forEach(F&& visit) const {
+        for (const Slot& s : slots_)
+            if (s.value) visit(s.name, s.value);
+    }
+
+  private:
+    static constexpr size_t kSpread = 2654435761u;
+    struct Slot {
+        NameId name = 0;
+        T* value = nullptr;
+    };
+    void grow() {
+        std::vector<Slot> old = std::move(slots_);
+        slots_.assign(old.empty() ? 16 : old.size() * 2, Slot{});
+        count_ = 0;
+        for (const Slot& s : old)
+            if (s.value) set(s.name, s.value);
+    }
+    std::vector<Slot> slots_;
+    size_t count_ = 0;
+};
+
+/// Number of edits (insert, delete, replace, swap of neighbours) between two folded names, at most `limit` + 1.
+unsigned editDistance(std::string_view a, std::string_view b, unsigned limit);
+
+} // namespace rapid::sema

@@ -1,0 +1,150 @@
+// References to data: entire data, array elements, record components (manual 1.3.2).
+
+#include "frontend/sema/analysis.h"
+
+#include <cmath>
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+bool Analyzer::isPlaceExpr(const Expr& e) {
+    return e.kind == NodeKind::Name || e.kind == NodeKind::Index || e.kind == NodeKind::Component;
+}
+
+// `handle`: a signal or mechanical unit is expected here, an undeclared name is taken as one.
+Place Analyzer::place(const Expr& e, const Type* handle) {
+    if (e.kind == NodeKind::Name) return namePlace(as<NameExpr>(e), handle);
+    if (e.kind == NodeKind::Index) return indexPlace(as<IndexExpr>(e), handle);
+    return componentPlace(as<ComponentExpr>(e), handle);
+}
+
+Place Analyzer::namePlace(const NameExpr& e, const Type* handle) {
+    ExprInfo& result = info(e);
+    result.type = {program_.errorType, 0, {}};
+    Place place;
+    place.name = &e;
+    if (context_.tree->tokens[e.name].kind != TokenKind::Identifier) return place;
+    const NameId name = idOf(e.name);
+    Symbol* symbol = lookup(name);
+    if (!symbol) symbol = reportUnknownData(e.name, name, handle);
+    if (!symbol) return place;
+    DataSymbol* data = asData(symbol);
+    if (!data) {
+        const RoutineSymbol* routine = asRoutine(symbol);
+        const bool function = routine && routine->routineKind == RoutineKind::Func;
+        auto& d = function ? report(Code::FunctionWithoutParentheses, range(e), {text(e)})
+                           : report(Code::NotData, range(e), {text(e), describe(*symbol)});
+        noteDeclared(d, *symbol);
+        return place;
+    }
+    if (!data->used) {
+        data->used = true;
+        if (data->storage == Storage::Signal) task_->signals.push_back(data);
+    }
+    ensureData(*data);
+    place.root = data;
+    result.symbol = data;
+    result.type = data->type;
+    if (data->dataKind == DataKind::Const && data->storage != Storage::Parameter &&
+        data->storage != Storage::Signal) {
+        ensureValue(*data);
+        if (data->value.kind != ConstValue::Kind::None) result.constant = &data->value;
+    }
+    return place;
+}
+
+// The value of a constant index in `value`, 0 if it is not known.
+void Analyzer::checkIndex(const Expr& index, int32_t dimension, int64_t& value) {
+    const Typed t = expr(index);
+    value = 0;
+    if (t.isError()) return;
+    if (t.flex == Flex::Group) settle(index, program_.num);
+    if (!t.isScalar(TypeKind::Num)) {
+        report(Code::IndexType, range(index), {typeName(*t.info)});
+        return;
+    }
+    const ConstValue* constant = t.info->constant;
+    if (!constant || constant->kind != ConstValue::Kind::Number) return;
+    const double number = constant->number;
+    const bool integer = number == std::floor(number);
+    if (dimension > 0 && (!integer || number < 1 || number > dimension))
+        report(Code::IndexOutOfRange, range(index), {text(index), std::to_string(dimension)});
+    else if (!integer || number < 1)
+        report(Code::IndexBelowOne, range(index), {text(index)});
+    else if (number < 2e9)
+        value = static_cast<int64_t>(number);
+}
+
+Place Analyzer::indexPlace(const IndexExpr& e, const Type* handle) {
+    ExprInfo& result = info(e);
+    result.type = {program_.errorType, 0, {}};
+    Place place;
+    if (!isPlaceExpr(*e.base)) {
+        visitLoose(*e.base);
+        for (const Expr* i : e.indices)
+            visitLoose(*i);
+        return place;
+    }
+    place = this->place(*e.base, handle);
+    place.whole = false;
+    const DataType type = info(*e.base).type;
+    const bool error = type.type->kind == TypeKind::Error;
+    const ConstValue* constant = info(*e.base).constant;
+    const bool countOk = type.rank == e.indices.size();
+    for (size_t i = 0; i < e.indices.size(); ++i) {
+        int64_t value = 0;
+        checkIndex(*e.indices[i], countOk && !error ? type.dims[i] : 0, value);
+        const bool inside = constant && value >= 1 && static_cast<size_t>(value) <= constant->members.size();
+        constant = inside ? &constant->members[static_cast<size_t>(value - 1)] : nullptr;
+    }
+    if (error) return {};
+    if (type.rank == 0)
+        report(Code::IndexNotArray, range(e), {text(*e.base), typeName(type)});
+    else if (!countOk) {
+        const SourceRange where = {range(*e.indices.front()).begin, range(*e.indices.back()).end};
+        report(Code::IndexCount, where,
+               {text(*e.base), std::to_string(e.indices.size()), std::to_string(type.rank)});
+    }
+    if (!countOk) return {};
+    result.type = {type.type, 0, {}};
+    if (constant && constant->kind != ConstValue::Kind::None) result.constant = constant;
+    return place;
+}
+
+Place Analyzer::componentPlace(const ComponentExpr& e, const Type*) {
+    ExprInfo& result = info(e);
+    result.type = {program_.errorType, 0, {}};
+    Place place;
+    if (!isPlaceExpr(*e.base)) {
+        visitLoose(*e.base);
+        return place;
+    }
+    place = this->place(*e.base);
+    place.whole = false;
+    const ExprInfo& base = info(*e.base);
+    if (base.type.type->kind == TypeKind::Error || e.name == kNoToken) return {};
+    if (base.type.rank > 0) {
+        report(Code::ComponentOfArray, range(e.name), {text(e.name)});
+        return {};
+    }
+    if (base.type.type->kind != TypeKind::Record) {
+        report(Code::ComponentOfNonRecord, range(e.name), {text(e.name), typeName(base)});
+        return {};
+    }
+    const std::string_view name = context_.tree->text(e.name);
+    const int component = base.type.type->findComponent(name);
+    if (component < 0) {
+        report(Code::UnknownComponent, range(e.name),
+               {text(e.name), base.type.type->name, bestComponent(*base.type.type, name)});
+        return {};
+    }
+    const auto index = static_cast<size_t>(component);
+    result.component = component;
+    result.type = {base.type.type->base()->components[index].type, 0, {}};
+    if (base.constant && index < base.constant->members.size())
+        result.constant = &base.constant->members[index];
+    return place;
+}
+
+} // namespace rapid::sema

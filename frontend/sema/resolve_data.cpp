@@ -1,0 +1,183 @@
+// Data declarations: types, dimensions and initial values, worked out on demand because constants may refer to
+// constants of other modules in any order (manual 1.2.2).
+
+#include "frontend/sema/analysis.h"
+
+#include <cmath>
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+namespace {
+constexpr int64_t kMaxElements = 100'000'000; // far beyond the memory of a controller, still safe to multiply
+}
+
+void Analyzer::ensureData(DataSymbol& symbol) {
+    if (symbol.progress != Progress::Pending) {
+        if (!symbol.type.type) symbol.type.type = program_.errorType; // its dimensions ask for itself
+        return;
+    }
+    symbol.progress = Progress::Active;
+    const Context saved = context_;
+    if (!symbol.routine) enterModule(symbol.module);
+    const auto& decl = as<DataDecl>(*symbol.decl);
+    const Type* type = resolveType(decl.type);
+    resolveDimensions(symbol, decl);
+    symbol.type.type = type;
+    symbol.progress = Progress::Done;
+    if (symbol.predefined) applyDataAttributes(symbol);
+    checkDeclaration(symbol);
+    context_ = saved;
+}
+
+void Analyzer::checkDeclaration(DataSymbol& symbol) {
+    const auto& decl = as<DataDecl>(*symbol.decl);
+    const Type& type = *symbol.type.type;
+    if (symbol.routine && symbol.dataKind == DataKind::Pers)
+        report(Code::PersInRoutine, range(symbol.nameToken), {symbol.name});
+    if (!isValueType(type) && symbol.dataKind == DataKind::Const)
+        report(Code::ConstantNonValue, range(symbol.nameToken), {symbol.name, type.name});
+    else if (!isValueType(type) && decl.init)
+        report(Code::NonValueInit, range(*decl.init), {symbol.name, type.name});
+    if (symbol.dataKind == DataKind::Pers && !decl.init && decl.scope != ScopeWord::None && isValueType(type))
+        report(Code::PersWithoutValue, range(symbol.nameToken),
+               {symbol.name, decl.scope == ScopeWord::Local ? "LOCAL" : "TASK"});
+}
+
+void Analyzer::resolveDimensions(DataSymbol& symbol, const DataDecl& decl) {
+    if (decl.dims.empty()) return;
+    if (decl.dims.size() > 3) {
+        report(Code::TooManyDimensions, range(*decl.dims[3]), {std::to_string(decl.dims.size())});
+        return;
+    }
+    int64_t elements = 1;
+    for (size_t i = 0; i < decl.dims.size(); ++i) {
+        const Expr& e = *decl.dims[i];
+        const bool wasConstant = std::exchange(context_.constant, true);
+        const Typed t = expr(e);
+        context_.constant = wasConstant;
+        int32_t size = 1; // after an error: something that can be indexed
+        const ConstValue* value = t.info->constant;
+        if (!value || value->kind != ConstValue::Kind::Number) {
+            if (!t.isError() && e.kind != NodeKind::PlaceholderExpr)
+                report(Code::DimensionNotConstant, range(e));
+        } else if (!(value->number >= 1) || value->number != std::floor(value->number) ||
+                   value->number > 2e9) {
+            report(Code::DimensionValue, range(e), {text(e)});
+        } else {
+            size = static_cast<int32_t>(value->number);
+            elements = std::min(elements * size, kMaxElements + 1);
+        }
+        symbol.type.dims[i] = size;
+    }
+    symbol.type.rank = static_cast<uint8_t>(decl.dims.size());
+    if (elements > kMaxElements) {
+        report(Code::ArrayTooLarge, range(symbol.nameToken), {symbol.name});
+        for (int i = 0; i < symbol.type.rank; ++i)
+            symbol.type.dims[i] = 1;
+        symbol.type.type = program_.errorType;
+    }
+}
+
+void Analyzer::ensureValue(DataSymbol& symbol) {
+    if (symbol.valueProgress == Progress::Done) return;
+    const auto& decl = as<DataDecl>(*symbol.decl);
+    if (symbol.valueProgress == Progress::Active) {
+        const Context saved = context_;
+        if (!symbol.routine) enterModule(symbol.module);
+        report(Code::ConstantCycle, range(symbol.nameToken), {symbol.name});
+        context_ = saved;
+        symbol.valueProgress = Progress::Done;
+        return;
+    }
+    symbol.valueProgress = Progress::Active;
+    ensureData(symbol);
+    if (decl.init) {
+        const Context saved = context_;
+        if (!symbol.routine) enterModule(symbol.module);
+        initialise(symbol, decl);
+        context_ = saved;
+    }
+    symbol.valueProgress = Progress::Done;
+}
+
+void Analyzer::initialise(DataSymbol& symbol, const DataDecl& decl) {
+    const Expr& init = *decl.init;
+    const bool mustFold = !symbol.routine || symbol.dataKind != DataKind::Var;
+    const bool usable = isValueType(*symbol.type.type);
+    context_.constant = mustFold;
+    const DataType& want = symbol.type;
+    ConstValue* slot = mustFold ? &symbol.value : nullptr;
+    if (symbol.dataKind == DataKind::Pers && usable) {
+        if (const Expr* culprit = findNonLiteral(init)) {
+            report(Code::NotLiteral, range(*culprit), {symbol.name});
+            visitLoose(init);
+            return;
+        }
+    }
+    if (!usable) {
+        visitLoose(init);
+        return;
+    }
+    const Typed t = expr(init, &want, slot);
+    const bool cycle = symbol.valueProgress == Progress::Done;
+    if (!fits(init, t, want)) {
+        report(Code::InitialValueType, range(init), {typeName(*t.info), typeName(want), symbol.name});
+    } else if (mustFold && !t.info->constant && !t.isError() && !cycle) {
+        reportNonConstant(init);
+    }
+    if (mustFold && t.info->constant && t.info->constant != &symbol.value) symbol.value = *t.info->constant;
+    if (mustFold && !t.info->constant) symbol.value = ConstValue{};
+    if (mustFold) checkBigLiterals();
+}
+
+// Names the first part that keeps `expr` from being constant. False: nothing of that kind, something else was
+// reported already.
+bool Analyzer::reportNonConstant(const Expr& e) {
+    switch (e.kind) {
+    case NodeKind::Name:
+    case NodeKind::Index:
+    case NodeKind::Component: {
+        const Expr* root = &e;
+        while (root->kind != NodeKind::Name)
+            root = root->kind == NodeKind::Index ? as<IndexExpr>(*root).base : as<ComponentExpr>(*root).base;
+        const Symbol* symbol = info(*root).symbol;
+        const DataSymbol* data = asData(const_cast<Symbol*>(symbol));
+        if (!data || (data->dataKind == DataKind::Const && e.kind != NodeKind::Index)) return false;
+        report(Code::NotConstant, range(*root), {text(*root), describe(*data)});
+        return true;
+    }
+    case NodeKind::Call: report(Code::NotConstant, range(e), {text(e), "a function call"}); return true;
+    case NodeKind::Paren: return reportNonConstant(*as<ParenExpr>(e).inner);
+    case NodeKind::Unary: return reportNonConstant(*as<UnaryExpr>(e).operand);
+    case NodeKind::Binary:
+        return reportNonConstant(*as<BinaryExpr>(e).left) || reportNonConstant(*as<BinaryExpr>(e).right);
+    case NodeKind::Aggregate:
+        for (const Expr* element : as<AggregateExpr>(e).elements)
+            if (!info(*element).constant && reportNonConstant(*element)) return true;
+        return false;
+    default: return false;
+    }
+}
+
+const Expr* Analyzer::findNonLiteral(const Expr& e) const {
+    switch (e.kind) {
+    case NodeKind::NumLiteral:
+    case NodeKind::StringLiteral:
+    case NodeKind::BoolLiteral:
+    case NodeKind::PlaceholderExpr:
+    case NodeKind::ErrorExpr: return nullptr;
+    case NodeKind::Unary: {
+        const auto& u = as<UnaryExpr>(e);
+        return u.op != UnaryOp::Not && u.operand->kind == NodeKind::NumLiteral ? nullptr : &e;
+    }
+    case NodeKind::Aggregate:
+        for (const Expr* element : as<AggregateExpr>(e).elements)
+            if (const Expr* culprit = findNonLiteral(*element)) return culprit;
+        return nullptr;
+    default: return &e;
+    }
+}
+
+} // namespace rapid::sema

@@ -1,0 +1,167 @@
+// Types of names: records, aliases (manual 1.2.1) and the parameter lists of routines (manual 1.1.5).
+
+#include "frontend/sema/analysis.h"
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+bool Analyzer::isValueType(const Type& type) {
+    switch (type.kind) {
+    case TypeKind::Error:
+    case TypeKind::Num:
+    case TypeKind::Dnum:
+    case TypeKind::Bool:
+    case TypeKind::String: return true;
+    case TypeKind::Record: return !type.containsNonValue;
+    case TypeKind::NonValue:
+    case TypeKind::SemiValue:
+    case TypeKind::Switch:
+    case TypeKind::AnyType: return false;
+    }
+    return false;
+}
+
+// A name of data may equal the name of a type (`PROC place(pos pos)`): types are looked for on their own.
+const Type* Analyzer::resolveType(TokenIndex token) {
+    if (token == kNoToken) return program_.errorType;
+    if (context_.tree->tokens[token].kind != TokenKind::Identifier)
+        return program_.errorType; // <ID>, reported
+    const NameId name = idOf(token);
+    const Symbol* other = scopes_[context_.module->id]->names.find(name);
+    TypeSymbol* found = asType(scopes_[context_.module->id]->names.find(name));
+    if (!found && !context_.module->predefined) found = asType(at(globals_, name));
+    if (!found) found = asType(at(predefined_, name));
+    if (!found) {
+        if (!other) other = lookupOutside(name);
+        if (other)
+            noteDeclared(report(Code::NotAType, range(token), {text(token), describe(*other)}), *other);
+        else if (mayReportUnknown()) {
+            std::string hint = suggestion(name, Wanted::Type);
+            report(Code::UnknownType, range(token), {text(token), std::move(hint)});
+        }
+        return program_.errorType;
+    }
+    found->used = true;
+    const Type* type = ensureType(*found);
+    if (!isReal(*type) && !context_.module->predefined) {
+        report(Code::PseudoType, range(token), {text(token)});
+        return program_.errorType;
+    }
+    return type;
+}
+
+const Type* Analyzer::ensureType(TypeSymbol& symbol) {
+    if (symbol.progress == Progress::Done) return symbol.type;
+    const Context saved = context_;
+    enterModule(symbol.module);
+    if (symbol.progress == Progress::Active) {
+        report(Code::TypeCycle, range(symbol.nameToken), {symbol.name});
+        symbol.type->kind = TypeKind::Error;
+        symbol.progress = Progress::Done;
+        context_ = saved;
+        return symbol.type;
+    }
+    symbol.progress = Progress::Active;
+    if (!symbol.type) symbol.type = &program_.typeStore.emplace_back();
+    Type& type = *symbol.type;
+    if (type.kind == TypeKind::Error) { // not one of the atomic types, which exist beforehand
+        type.kind = TypeKind::Record;
+        type.name = symbol.name;
+        if (symbol.decl->kind == NodeKind::Record)
+            resolveRecord(type, as<RecordDecl>(*symbol.decl));
+        else
+            resolveAlias(type, as<AliasDecl>(*symbol.decl));
+        if (symbol.predefined) applyTypeAttributes(symbol);
+    }
+    symbol.progress = Progress::Done;
+    context_ = saved;
+    return symbol.type;
+}
+
+void Analyzer::resolveRecord(Type& type, const RecordDecl& decl) {
+    NameMap<const RecordComponent> names;
+    for (const RecordComponent* c : decl.components) {
+        if (c->name == kNoToken) continue;
+        const NameId name = idOf(c->name);
+        if (names.find(name)) report(Code::DuplicateComponent, range(c->name), {text(c->name), type.name});
+        names.set(name, c);
+        const Type* part = resolveType(c->type);
+        type.components.push_back({text(c->name), part});
+        if (!isValueType(*part)) type.containsNonValue = true;
+    }
+}
+
+void Analyzer::resolveAlias(Type& type, const AliasDecl& decl) {
+    const Type* target = resolveType(decl.type);
+    if (target == &type || type.kind == TypeKind::Error) return; // a cycle, reported
+    type.aliasOf = target;
+    type.kind = target->kind;
+    type.components = target->components;
+    type.containsNonValue = target->containsNonValue;
+}
+
+void Analyzer::resolveSignature(RoutineSymbol& symbol) {
+    if (symbol.progress != Progress::Pending) return;
+    symbol.progress = Progress::Done;
+    enterModule(symbol.module);
+    const RoutineDecl& decl = *symbol.routineDecl;
+    if (decl.routineKind == RoutineKind::Func) {
+        symbol.returnType.type = resolveType(decl.returnType);
+        const Type& type = *symbol.returnType.type;
+        if (!isValueType(type) && !symbol.predefined)
+            report(Code::NonValueReturn, range(decl.returnType), {symbol.name, type.name});
+    }
+    for (const ParamDecl* param : decl.params)
+        resolveParameter(symbol, *param);
+    for (size_t i = 0; i + 1 < symbol.params.size(); ++i) {
+        DataSymbol &a = *symbol.params[i], &b = *symbol.params[i + 1];
+        if (!a.optional && !b.optional && a.group == b.group)
+            a.requiredAlternative = b.requiredAlternative = true;
+    }
+    if (symbol.predefined) applyRoutineAttributes(symbol);
+}
+
+void Analyzer::resolveParameter(RoutineSymbol& routine, const ParamDecl& decl) {
+    if (decl.placeholder || decl.name == kNoToken) {
+        if (decl.placeholder) placeholder(decl);
+        incomplete_ = true;
+        return;
+    }
+    DataSymbol& symbol = program_.dataSymbols.emplace_back();
+    symbol.kind = SymbolKind::Data;
+    symbol.progress = symbol.valueProgress = Progress::Done;
+    symbol.name = text(decl.name);
+    symbol.nameId = idOf(decl.name);
+    symbol.module = routine.module;
+    symbol.decl = &decl;
+    symbol.nameToken = decl.name;
+    symbol.predefined = routine.predefined;
+    symbol.storage = Storage::Parameter;
+    symbol.mode = decl.mode;
+    symbol.dataKind = decl.mode == ParamMode::Pers ? DataKind::Pers : DataKind::Var;
+    symbol.optional = decl.optional;
+    symbol.isSwitch = decl.isSwitch;
+    symbol.group = decl.group;
+    symbol.routine = &routine;
+    symbol.index = static_cast<uint32_t>(routine.params.size());
+    routine.params.push_back(&symbol);
+    if (decl.isSwitch) {
+        symbol.type.type = switchType_;
+        if (!decl.optional) report(Code::SwitchNotOptional, range(decl.name), {symbol.name});
+        return;
+    }
+    symbol.type.type = resolveType(decl.type);
+    symbol.type.rank = decl.rank > 3 ? 0 : decl.rank;
+    if (decl.rank > 3) { // <DIM>, or more than three stars
+        if (decl.rank == 255)
+            placeholder(decl);
+        else
+            report(Code::TooManyDimensions, range(decl), {std::to_string(decl.rank)});
+        symbol.type.type = program_.errorType;
+    }
+    if (decl.mode == ParamMode::In && isHandle(*symbol.type.type) && isReal(*symbol.type.type))
+        report(Code::NonValueInParameter, range(decl.type), {symbol.name, symbol.type.type->name});
+}
+
+} // namespace rapid::sema

@@ -1,0 +1,144 @@
+// Bodies of routines: scope of parameters and data, handlers, labels and jumps (manual 1.1.5, 1.12, 1.13, 1.21).
+
+#include "frontend/sema/analysis.h"
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+namespace {
+constexpr uint32_t kNoBlock = 0xFFFFFFFFu;
+}
+
+void Analyzer::checkRoutine(RoutineSymbol& symbol) {
+    if (symbol.native) return;
+    enterModule(symbol.module);
+    context_.routine = &symbol;
+    const RoutineDecl& decl = *symbol.routineDecl;
+    loopDepth_ = 0;
+    breakSeen_ = returnSeen_ = false;
+    block_ = kNoBlock;
+    blockParents_.clear();
+    labels_.clear();
+    gotos_.clear();
+
+    for (DataSymbol* param : symbol.params)
+        declareInRoutine(*param);
+    const size_t firstOwn = symbol.data.size();
+    for (const DataDecl* data : decl.data)
+        if (data->name != kNoToken) declareRoutineData(*data);
+    for (size_t i = firstOwn; i < symbol.data.size(); ++i) {
+        ensureValue(*symbol.data[i]);
+        context_.constant = false;
+    }
+    const bool completes = checkPart(Part::Body, decl.body);
+    const bool returned = returnSeen_;
+    checkPart(Part::Backward, decl.backward);
+    for (const ErrorClause* clause : decl.errors) {
+        for (const Expr* number : clause->numbers)
+            checkErrorNumber(*number, "ERROR");
+        checkPart(Part::Error, clause->body);
+    }
+    checkPart(Part::Undo, decl.undo);
+    if (decl.routineKind == RoutineKind::Func && completes && !incomplete_) {
+        if (!returned)
+            report(Code::FunctionWithoutReturn, range(decl.name), {symbol.name});
+        else
+            report(Code::FunctionPathWithoutReturn, range(decl.name), {symbol.name});
+    }
+    resolveJumps();
+    checkBigLiterals();
+    for (const NameId name : declaredInRoutine_)
+        routineNames_[name] = nullptr;
+    declaredInRoutine_.clear();
+}
+
+void Analyzer::declareInRoutine(Symbol& symbol) {
+    if (const Symbol* other = at(routineNames_, symbol.nameId)) {
+        noteDeclared(
+            report(Code::DuplicateInRoutine, range(symbol.nameToken), {symbol.name, context_.routine->name}),
+            *other);
+        return;
+    }
+    put(routineNames_, symbol.nameId, &symbol);
+    declaredInRoutine_.push_back(symbol.nameId);
+}
+
+void Analyzer::declareRoutineData(const DataDecl& decl) {
+    RoutineSymbol& routine = *context_.routine;
+    DataSymbol& symbol = newData(decl);
+    symbol.index = static_cast<uint32_t>(routine.params.size() + routine.data.size());
+    routine.data.push_back(&symbol);
+    declareInRoutine(symbol);
+}
+
+bool Analyzer::checkPart(Part part, StmtList list) {
+    if (list.empty()) return true;
+    part_ = part;
+    block_ = kNoBlock;
+    return block(list);
+}
+
+bool Analyzer::block(StmtList list) {
+    const uint32_t outer = block_;
+    block_ = static_cast<uint32_t>(blockParents_.size());
+    blockParents_.push_back(outer);
+    const bool completes = statements(list);
+    block_ = outer;
+    return completes;
+}
+
+bool Analyzer::isInside(uint32_t inner, uint32_t outer) const {
+    while (inner != outer && inner != kNoBlock)
+        inner = blockParents_[inner];
+    return inner == outer;
+}
+
+void Analyzer::labelStmt(const LabelStmt& s) {
+    if (s.name == kNoToken) return;
+    const NameId name = idOf(s.name);
+    for (const JumpPoint& other : labels_) {
+        if (other.name != name) continue;
+        noteDeclared(report(Code::DuplicateLabel, range(s.name), {text(s.name)}), *other.label);
+        return;
+    }
+    if (const Symbol* data = at(routineNames_, name))
+        noteDeclared(report(Code::LabelNamedAsData, range(s.name), {text(s.name)}), *data);
+    LabelSymbol& symbol = fill(program_.labelSymbols.emplace_back(), SymbolKind::Label, s, s.name, false);
+    symbol.routine = context_.routine;
+    labels_.push_back({name, block_, part_, &s, &symbol});
+}
+
+// A jump may leave IF, TEST, FOR and WHILE but never enter one, and it stays in the body or in its handler.
+void Analyzer::resolveJumps() {
+    NameMap<const JumpPoint> byName;
+    for (const JumpPoint& label : labels_)
+        byName.set(label.name, &label);
+    for (const JumpPoint& jump : gotos_) {
+        const TokenIndex token = as<GotoStmt>(*jump.node).label;
+        const JumpPoint* target = byName.find(jump.name);
+        if (!target) {
+            std::string hint;
+            for (const JumpPoint& label : labels_)
+                if (hint.empty() &&
+                    editDistance(interner_.folded(jump.name), interner_.folded(label.name), 2) <= 2)
+                    hint = "; did you mean '" + label.label->name + "'?";
+            report(Code::UnknownLabel, range(token), {text(token), std::move(hint)});
+            continue;
+        }
+        target->label->used = true;
+        task_->references[jump.node] = target->label;
+        if (target->part != jump.part)
+            noteDeclared(report(Code::GotoOtherPart, range(token), {text(token)}), *target->label);
+        else if (!isInside(jump.block, target->block))
+            noteDeclared(report(Code::GotoIntoBlock, range(token), {text(token)}), *target->label);
+    }
+}
+
+void Analyzer::placeholder(const Node& node) {
+    const TokenIndex first = node.first;
+    const Code code = options_.requireMain ? Code::PlaceholderExecuted : Code::Placeholder;
+    report(code, range(first), {text(first)});
+}
+
+} // namespace rapid::sema

@@ -1,0 +1,280 @@
+// Instructions: assignment, branches, loops, calls (manual 1.4, 1.5).
+
+#include "frontend/sema/analysis.h"
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+bool Analyzer::statements(StmtList list) {
+    bool reachable = true;
+    for (const Stmt* s : list) {
+        if (s->kind == NodeKind::Label) reachable = true;
+        const bool goesOn = statement(*s);
+        reachable = reachable && goesOn;
+    }
+    return reachable;
+}
+
+/// Checks one instruction; whether the next one can be reached from it.
+bool Analyzer::statement(const Stmt& s) {
+    switch (s.kind) {
+    case NodeKind::Assign: assign(as<AssignStmt>(s)); return true;
+    case NodeKind::CallStmt: return callStmt(as<CallStmt>(s));
+    case NodeKind::If: return ifStmt(as<IfStmt>(s));
+    case NodeKind::CompactIf: {
+        const auto& compact = as<CompactIfStmt>(s);
+        if (compact.condition) condition(*compact.condition, "IF");
+        Stmt* body = compact.body;
+        if (body) block(StmtList(&body, 1));
+        return true;
+    }
+    case NodeKind::For: return forStmt(as<ForStmt>(s));
+    case NodeKind::While: return whileStmt(as<WhileStmt>(s));
+    case NodeKind::Test: return testStmt(as<TestStmt>(s));
+    case NodeKind::Goto: {
+        const auto& jump = as<GotoStmt>(s);
+        if (jump.label != kNoToken) gotos_.push_back({idOf(jump.label), block_, part_, &s, nullptr});
+        return false;
+    }
+    case NodeKind::Label: labelStmt(as<LabelStmt>(s)); return true;
+    case NodeKind::Return: returnStmt(as<ReturnStmt>(s)); return false;
+    case NodeKind::Raise: raiseStmt(as<RaiseStmt>(s)); return false;
+    case NodeKind::Connect: connectStmt(as<ConnectStmt>(s)); return true;
+    case NodeKind::Retry:
+    case NodeKind::TryNext:
+        if (part_ != Part::Error)
+            report(Code::OutsideErrorHandler, range(s.first),
+                   {s.kind == NodeKind::Retry ? "RETRY" : "TRYNEXT"});
+        return false;
+    case NodeKind::Exit: return false;
+    case NodeKind::Break:
+        loopWord(s, "BREAK");
+        breakSeen_ = true;
+        return false;
+    case NodeKind::Continue: loopWord(s, "CONTINUE"); return false;
+    case NodeKind::PlaceholderStmt: placeholder(s); return true;
+    case NodeKind::DeclStmt: { // its place was reported by the parser
+        const DataDecl* decl = as<DeclStmt>(s).decl;
+        if (!decl || decl->name == kNoToken) return true;
+        declareRoutineData(*decl);
+        ensureValue(*context_.routine->data.back());
+        context_.constant = false;
+        return true;
+    }
+    case NodeKind::ErrorStmt: incomplete_ = true; return true;
+    default: return true;
+    }
+}
+
+void Analyzer::loopWord(const Stmt& s, const char* word) {
+    if (loopDepth_ == 0) report(Code::OutsideLoop, range(s.first), {word});
+}
+
+bool Analyzer::ifStmt(const IfStmt& s) {
+    bool completes = !s.hasElse;
+    bool first = true;
+    for (const IfBranch* branch : s.branches) {
+        if (branch->condition)
+            condition(*branch->condition, first ? "IF" : "ELSEIF");
+        else if (branch->first != kNoToken)
+            placeholder(*branch);
+        completes |= block(branch->body);
+        first = false;
+    }
+    if (s.hasElse) completes |= block(s.elseBody);
+    return completes;
+}
+
+bool Analyzer::whileStmt(const WhileStmt& s) {
+    bool forever = false;
+    if (s.condition) {
+        condition(*s.condition, "WHILE");
+        const ConstValue* value = info(*s.condition).constant;
+        forever = value && value->kind == ConstValue::Kind::Bool && value->boolean;
+    }
+    const bool outerBreak = std::exchange(breakSeen_, false);
+    ++loopDepth_;
+    block(s.body);
+    --loopDepth_;
+    const bool left = std::exchange(breakSeen_, outerBreak);
+    return !forever || left;
+}
+
+// The loop variable is declared by FOR, read-only, and hides other names inside the loop.
+bool Analyzer::forStmt(const ForStmt& s) {
+    const auto bound = [&](const Expr* e, const char* what) {
+        if (!e) return;
+        const Typed t = expr(*e);
+        if (t.isError()) return;
+        if (!fits(*e, t, {program_.num, 0, {}}))
+            report(Code::ForBoundType, range(*e), {what, typeName(*t.info)});
+    };
+    bound(s.from, "start value");
+    bound(s.to, "end value");
+    bound(s.step, "step");
+
+    RoutineSymbol& routine = *context_.routine;
+    DataSymbol* variable = nullptr;
+    Symbol* hidden = nullptr;
+    if (s.variable != kNoToken) {
+        variable = &fill(program_.dataSymbols.emplace_back(), SymbolKind::Data, s, s.variable, false);
+        variable->storage = Storage::LoopVariable;
+        variable->type = {program_.num, 0, {}};
+        variable->progress = variable->valueProgress = Progress::Done;
+        variable->routine = &routine;
+        variable->index = static_cast<uint32_t>(routine.params.size() + routine.data.size());
+        routine.data.push_back(variable);
+        task_->loopVariables[&s] = variable;
+        hidden = at(routineNames_, variable->nameId);
+        put<Symbol>(routineNames_, variable->nameId, variable);
+    }
+    const bool outerBreak = std::exchange(breakSeen_, false);
+    ++loopDepth_;
+    block(s.body);
+    --loopDepth_;
+    breakSeen_ = outerBreak;
+    if (variable) put(routineNames_, variable->nameId, hidden);
+    return true;
+}
+
+// Values of all cases first: a group signal as subject takes its numeric type from them.
+void Analyzer::testValues(const TestStmt& s, Typed subject) {
+    std::vector<std::pair<const Expr*, Typed>> values;
+    const bool known = subject.info && !subject.isError();
+    for (const TestCase* c : s.cases) {
+        if (c->values.empty() && c->first != kNoToken) placeholder(*c);
+        for (const Expr* value : c->values) {
+            const Typed t = expr(*value, known ? &subject.info->type : &info(*s.subject).type);
+            if (t.isError() || !known) continue;
+            const bool decides = subject.flex != Flex::None && t.flex == Flex::None &&
+                                 t.info->type.rank == 0 && t.info->type.type->isNumeric();
+            if (decides) {
+                settle(*s.subject, t.base());
+                subject.flex = Flex::None;
+            }
+            values.push_back({value, t});
+        }
+    }
+    std::unordered_set<double> seen;
+    for (const auto& [value, t] : values) {
+        if (!fits(*value, t, subject.info->type)) {
+            report(Code::TestValueType, range(*value), {typeName(*t.info), typeName(*subject.info)});
+            continue;
+        }
+        const ConstValue* constant = info(*value).constant;
+        if (constant && constant->kind == ConstValue::Kind::Number && !seen.insert(constant->number).second)
+            report(Code::DuplicateCase, range(*value), {text(*value)});
+    }
+}
+
+bool Analyzer::testStmt(const TestStmt& s) {
+    Typed subject;
+    if (s.subject) {
+        subject = expr(*s.subject);
+        const DataType& type = subject.info->type;
+        if (!subject.isError() && (type.rank > 0 || !isValueType(*type.type))) {
+            report(Code::TestSubjectType, range(*s.subject), {typeName(type)});
+            subject = errorExpr(*s.subject);
+        }
+        testValues(s, subject);
+    }
+    bool completes = !s.hasDefault;
+    for (const TestCase* c : s.cases)
+        completes |= block(c->body);
+    if (s.hasDefault) completes |= block(s.defaultBody);
+    return completes;
+}
+
+void Analyzer::assign(const AssignStmt& s) {
+    if (!s.target || !s.value) return;
+    if (!isPlaceExpr(*s.target)) {
+        visitLoose(*s.target);
+        visitLoose(*s.value);
+        if (s.target->kind == NodeKind::PlaceholderExpr || s.target->kind == NodeKind::ErrorExpr) return;
+        report(Code::AssignTarget, range(*s.target), {describeExpr(*s.target)});
+        return;
+    }
+    const Place target = place(*s.target);
+    if (!target.root || !assignable(target, *s.target)) {
+        visitLoose(*s.value);
+        return;
+    }
+    target.root->assigned = true;
+    const DataType want = info(*s.target).type;
+    const Typed value = expr(*s.value, &want);
+    if (fits(*s.value, value, want)) return;
+    const std::string remedy = numDnumRemedy(value, want);
+    if (remedy.empty())
+        report(Code::AssignType, range(*s.value), {typeName(*value.info), typeName(want)});
+    else
+        report(Code::NumDnumAssign, range(*s.value), {typeName(*value.info), typeName(want), remedy});
+}
+
+bool Analyzer::assignable(const Place& place, const Expr& target) {
+    const DataSymbol& root = *place.root;
+    const Type& type = *info(target).type.type;
+    const bool parameter = root.storage == Storage::Parameter;
+    if (type.kind == TypeKind::Switch) {
+        report(Code::SwitchAsValue, range(target), {text(target)});
+    } else if (type.kind == TypeKind::SemiValue) {
+        const std::string& name = type.base()->name;
+        std::string remedy = name == "signalao" ? "SetAO" : name == "signalgo" ? "SetGO" : "SetDO";
+        if (name == "signaldi" || name == "signalai" || name == "signalgi")
+            remedy = "AliasIO to connect it, inputs are read-only";
+        report(Code::AssignSignal, range(target), {text(target), remedy});
+    } else if (root.storage == Storage::SystemVariable) {
+        report(Code::AssignReadOnly, range(target), {root.name});
+    } else if (root.storage == Storage::LoopVariable) {
+        noteDeclared(report(Code::AssignLoopVariable, range(target), {root.name}), root);
+    } else if (root.dataKind == DataKind::Const && !parameter) {
+        noteDeclared(report(Code::AssignConstant, range(target), {root.name}), root);
+    } else if (!isValueType(type) && type.kind != TypeKind::AnyType) {
+        report(Code::AssignNonValue, range(target), {text(target), type.name});
+    } else {
+        return true;
+    }
+    return false;
+}
+
+bool Analyzer::callStmt(const CallStmt& s) {
+    if (s.lateName) {
+        lateCall(s);
+        return true;
+    }
+    if (s.name == kNoToken || context_.tree->tokens[s.name].kind != TokenKind::Identifier) {
+        visitArguments(s.args);
+        return true;
+    }
+    const NameId name = idOf(s.name);
+    Symbol* symbol = lookup(name);
+    RoutineSymbol* routine = asRoutine(symbol);
+    if (!routine || routine->routineKind != RoutineKind::Proc) {
+        if (symbol)
+            reportNotCallable(*symbol, s.name);
+        else if (mayReportUnknown()) {
+            std::string hint = suggestion(name, Wanted::Procedure);
+            report(Code::UnknownProcedure, range(s.name), {text(s.name), std::move(hint)});
+        }
+        visitArguments(s.args);
+        return true;
+    }
+    routine->used = true;
+    bindCall(s, *routine, s.name, s.args);
+    if (part_ == Part::Undo) callInUndo(*routine, s.name);
+    if (!routine->predefined) return true;
+    const std::string_view folded = interner_.folded(name);
+    return folded != "exitcycle" && folded != "raisetouser";
+}
+
+void Analyzer::reportNotCallable(const Symbol& symbol, TokenIndex name) {
+    const auto* routine = asRoutine(const_cast<Symbol*>(&symbol));
+    if (routine && routine->routineKind == RoutineKind::Func)
+        noteDeclared(report(Code::FunctionAsInstruction, range(name), {text(name)}), symbol);
+    else if (routine)
+        noteDeclared(report(Code::TrapCalled, range(name), {text(name)}), symbol);
+    else
+        noteDeclared(report(Code::NotAProcedure, range(name), {text(name), describe(symbol)}), symbol);
+}
+
+} // namespace rapid::sema

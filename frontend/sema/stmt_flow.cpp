@@ -1,0 +1,122 @@
+// Instructions of control flow that depend on the kind of routine or handler: RETURN, RAISE, CONNECT, UNDO
+// (manual 1.1.5, 1.11 to 1.13).
+
+#include "frontend/sema/analysis.h"
+
+#include <cmath>
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+void Analyzer::returnStmt(const ReturnStmt& s) {
+    const RoutineSymbol& routine = *context_.routine;
+    if (part_ == Part::Body) returnSeen_ = true;
+    if (part_ == Part::Undo) {
+        if (s.value) visitLoose(*s.value);
+        report(Code::IgnoredInUndo, range(s.first), {"RETURN"});
+        return;
+    }
+    if (routine.routineKind != RoutineKind::Func) {
+        if (!s.value) return;
+        visitLoose(*s.value);
+        report(Code::ReturnValueUnexpected, range(*s.value),
+               {routine.name, routine.routineKind == RoutineKind::Proc ? "procedure" : "trap routine"});
+        return;
+    }
+    if (!s.value) {
+        report(Code::ReturnWithoutValue, range(s), {routine.name, typeName(routine.returnType)});
+        return;
+    }
+    const Typed t = expr(*s.value, &routine.returnType);
+    if (!fits(*s.value, t, routine.returnType))
+        report(Code::ReturnType, range(*s.value),
+               {typeName(*t.info), typeName(routine.returnType), routine.name});
+}
+
+void Analyzer::checkErrorNumber(const Expr& e, const char* what) {
+    const Typed t = expr(e);
+    if (t.isError() || fits(e, t, {program_.num, 0, {}})) return;
+    report(Code::ErrorNumberType, range(e), {what, typeName(*t.info)});
+}
+
+void Analyzer::raiseStmt(const RaiseStmt& s) {
+    if (part_ == Part::Undo) {
+        if (s.value) visitLoose(*s.value);
+        report(Code::IgnoredInUndo, range(s.first), {"RAISE"});
+        return;
+    }
+    if (!s.value) {
+        if (part_ != Part::Error) report(Code::RaiseWithoutNumber, range(s.first));
+        return;
+    }
+    checkErrorNumber(*s.value, "RAISE");
+    const ExprInfo& value = info(*s.value);
+    if (!value.constant || value.constant->kind != ConstValue::Kind::Number) return;
+    if (value.symbol && value.symbol->predefined) return; // ERR_...
+    const double number = value.constant->number;
+    if (number < 1 || number > 90 || number != std::floor(number))
+        report(Code::RaiseRange, range(*s.value), {text(*s.value)});
+}
+
+void Analyzer::connectStmt(const ConnectStmt& s) {
+    if (s.target) connectTarget(*s.target);
+    if (s.trap == kNoToken || context_.tree->tokens[s.trap].kind != TokenKind::Identifier) return;
+    const NameId name = idOf(s.trap);
+    Symbol* symbol = lookup(name);
+    RoutineSymbol* trap = asRoutine(symbol);
+    if (trap && trap->routineKind == RoutineKind::Trap) {
+        trap->used = true;
+        task_->references[&s] = trap;
+        return;
+    }
+    if (symbol) {
+        noteDeclared(report(Code::NotATrap, range(s.trap), {text(s.trap), describe(*symbol)}), *symbol);
+        return;
+    }
+    if (!mayReportUnknown()) return;
+    std::string hint = suggestion(name, Wanted::Trap);
+    report(Code::UnknownTrap, range(s.trap), {text(s.trap), std::move(hint)});
+}
+
+void Analyzer::connectTarget(const Expr& target) {
+    if (!isPlaceExpr(target)) {
+        visitLoose(target);
+        if (target.kind != NodeKind::PlaceholderExpr && target.kind != NodeKind::ErrorExpr)
+            report(Code::ConnectNotVariable, range(target), {describeExpr(target)});
+        return;
+    }
+    const Place found = place(target);
+    if (!found.root) return;
+    DataSymbol& root = *found.root;
+    const DataType& type = info(target).type;
+    bool isIntnum = type.rank == 0 && (!intnum_ || type.type->kind == TypeKind::Error);
+    for (const Type* t = type.type; t && type.rank == 0; t = t->aliasOf)
+        isIntnum |= t == intnum_;
+    if (!isIntnum) {
+        report(Code::ConnectNotInterrupt, range(target), {typeName(type)});
+        return;
+    }
+    const bool parameter = root.storage == Storage::Parameter;
+    const bool variable = root.storage != Storage::SystemVariable && root.storage != Storage::LoopVariable &&
+                          root.dataKind == DataKind::Var;
+    if (!variable) {
+        noteDeclared(report(Code::ConnectNotVariable, range(target), {describe(root)}), root);
+        return;
+    }
+    root.assigned = true;
+    if (root.storage == Storage::RoutineData || (parameter && root.mode == ParamMode::In))
+        noteDeclared(report(Code::ConnectRoutineData, range(target), {root.name}), root);
+}
+
+// Stops, raised errors and movement are not for UNDO handlers (manual 1.13).
+void Analyzer::callInUndo(const RoutineSymbol& routine, TokenIndex name) {
+    if (!routine.predefined) return;
+    const std::string_view folded = interner_.folded(routine.nameId);
+    if (routine.effects == Effects::Motion && routine.native)
+        report(Code::MotionInUndo, range(name), {text(name)});
+    else if (folded == "stop" || folded == "debugbreak")
+        report(Code::IgnoredInUndo, range(name), {text(name)});
+}
+
+} // namespace rapid::sema
