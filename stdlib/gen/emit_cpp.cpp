@@ -94,7 +94,8 @@ bool isErrorConstant(const Model& model, const Datum& d) {
 bool hasPrototype(const Routine& routine) {
     if (!routine.native) return false;
     const std::string key = lowered(routine.name);
-    return key != "present" && key != "dim" && key != "waituntil"; // WaitUntil becomes a loop around its condition
+    return key != "present" && key != "dim" &&
+           key != "waituntil"; // WaitUntil becomes a loop around its condition
 }
 
 std::string symbolOf(const Routine& routine) {

@@ -45,7 +45,7 @@ bool chapterLess(const std::string& a, const std::string& b) {
         char* qe = nullptr;
         const long x = std::strtol(p, &pe, 10);
         const long y = std::strtol(q, &qe, 10);
-        if (pe == p || qe == q) return std::string_view(p) < std::string_view(q);
+        if (pe == p || qe == q) return (pe == p) != (qe == q) ? pe != p : a < b; // numbers come first
         if (x != y) return x < y;
         p = *pe == '.' ? pe + 1 : pe;
         q = *qe == '.' ? qe + 1 : qe;
@@ -94,7 +94,8 @@ std::string markdown(const std::string& doc) {
 std::string routineBlock(const Routine& r) {
     std::string out = fmt::format("### {}\n\n```\n{}\n```\n\n{}", r.name, r.signature, markdown(r.doc.text));
     if (const std::string e = r.doc.get("raises"); !e.empty()) out += fmt::format("\nErrors: {}.\n", e);
-    if (const std::string o = r.doc.get("option"); !o.empty() && o != "-") out += fmt::format("\nOption: {}.\n", o);
+    if (const std::string o = r.doc.get("option"); !o.empty() && o != "-")
+        out += fmt::format("\nOption: {}.\n", o);
     return out;
 }
 

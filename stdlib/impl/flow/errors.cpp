@@ -41,15 +41,18 @@ Status rt_BookErrNo(TaskCore* task, float* ErrorName) {
     return kOk;
 }
 
-Status rt_ErrLog(TaskCore* task, float ErrorId, bool W, bool I, const String* Argument1, const String* Argument2,
-                 const String* Argument3, const String* Argument4, const String* Argument5) {
+Status rt_ErrLog(TaskCore* task, float ErrorId, bool W, bool I, const String* Argument1,
+                 const String* Argument2, const String* Argument3, const String* Argument4,
+                 const String* Argument5) {
     if (!(ErrorId >= 4800 && ErrorId <= 4814) && !(ErrorId >= 5000 && ErrorId <= 9999))
-        return lib::fail(task, err::ERR_ARGVALERR, "ErrLog: the number must be 4800 (title in Argument1) or 5000 to 9999");
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "ErrLog: the number must be 4800 (title in Argument1) or 5000 to 9999");
     std::string text;
     for (const String* line : {Argument2, Argument3, Argument4, Argument5})
         if (line->length > 0) text += (text.empty() ? "" : "\n") + std::string(line->view());
     const EventType type = W ? EventType::Warning : I ? EventType::Information : EventType::Error;
-    const int number = ErrorId < 5000 ? 40000 + static_cast<int>(ErrorId) : 110000 + static_cast<int>(ErrorId);
+    const int number =
+        ErrorId < 5000 ? 40000 + static_cast<int>(ErrorId) : 110000 + static_cast<int>(ErrorId);
     Task& owner = taskOf(task);
     owner.controller().log().write(type, number, std::string(Argument1->view()), text, &owner);
     return kOk;

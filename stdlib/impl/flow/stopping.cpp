@@ -25,7 +25,8 @@ Status rt_DebugBreak(TaskCore* task) {
 
 Status rt_SystemStopAction(TaskCore* task, bool Stop, bool StopBlock, bool Halt) {
     if (Stop + StopBlock + Halt != 1)
-        return lib::fail(task, err::ERR_ARGVALERR, "SystemStopAction needs one of \\Stop, \\StopBlock and \\Halt");
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "SystemStopAction needs one of \\Stop, \\StopBlock and \\Halt");
     return taskOf(task).stopHere(true);
 }
 
@@ -33,7 +34,7 @@ Status rt_ExitCycle(TaskCore* task) {
     return taskOf(task).requestExitCycle();
 }
 
-Status rt_exit(TaskCore* task) {
+Status rt_exitProgram(TaskCore* task) {
     return taskOf(task).requestExit();
 }
 }

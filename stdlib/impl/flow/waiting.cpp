@@ -34,25 +34,28 @@ Status rt_WaitTime(TaskCore* task, bool InPos, float Time) {
 }
 
 Status rt_WaitRob(TaskCore* task, bool InPos, bool ZeroSpeed) {
-    if (InPos == ZeroSpeed) return lib::fail(task, err::ERR_ARGVALERR, "WaitRob needs one of \\InPos and \\ZeroSpeed");
+    if (InPos == ZeroSpeed)
+        return lib::fail(task, err::ERR_ARGVALERR, "WaitRob needs one of \\InPos and \\ZeroSpeed");
     if (InPos) return waitInPosition(task);
     Task& owner = taskOf(task);
     return owner.isMotionTask() ? owner.controller().motion().waitZeroSpeed(owner) : kOk;
 }
 
+Status rt_waitInPos(TaskCore* task, bool inPos) {
+    return inPos ? waitInPosition(task) : kOk;
+}
+
 /// `state` holds the deadline (kNever without \MaxTime) from the first call on; it is never 0 then.
-Status rt_waitUntilPoll(TaskCore* task, bool* again, bool InPos, const float* MaxTime, bool* TimeFlag,
+Status rt_waitUntilPoll(TaskCore* task, bool* again, bool, const float* MaxTime, bool* TimeFlag,
                         const float* PollRate, int64_t* state) {
     Task& owner = taskOf(task);
-    if (*state == 0) {
-        if (InPos)
-            if (const Status status = waitInPosition(task)) return status;
+    if (*state == 0)
         *state = MaxTime ? std::max<Time>(1, addTime(owner.now(), fromSeconds(*MaxTime))) : kNever;
-    }
     *again = owner.now() < *state;
     if (!*again) {
         if (!TimeFlag)
-            return lib::fail(task, err::ERR_WAIT_MAXTIME, "the condition did not become TRUE within \\MaxTime");
+            return lib::fail(task, err::ERR_WAIT_MAXTIME,
+                             "the condition did not become TRUE within \\MaxTime");
         *TimeFlag = true;
         return kOk;
     }

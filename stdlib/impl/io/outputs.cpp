@@ -56,9 +56,11 @@ Status rt_SetDO(TaskCore* task, const float* SDelay, bool, Handle* Signal, float
 Status rt_SetAO(TaskCore* task, Handle* Signal, float Value) {
     return setNow(task, *Signal, Value);
 }
-Status rt_SetGO(TaskCore* task, const float* SDelay, Handle* Signal, const float* Value, const double* Dvalue) {
+Status rt_SetGO(TaskCore* task, const float* SDelay, Handle* Signal, const float* Value,
+                const double* Dvalue) {
     const double value = Value ? static_cast<double>(*Value) : *Dvalue;
-    if (std::trunc(value) != value) return lib::fail(task, err::ERR_ARGVALERR, "a group takes whole numbers only");
+    if (std::trunc(value) != value)
+        return lib::fail(task, err::ERR_ARGVALERR, "a group takes whole numbers only");
     return setAfter(task, *Signal, value, SDelay);
 }
 Status rt_PulseDO(TaskCore* task, bool High, const float* PLength, Handle* Signal) {

@@ -16,16 +16,18 @@ Status ioStatus(TaskCore* task, IoResult result, Handle handle) {
     switch (result) {
     case IoResult::Ok: return kOk;
     case IoResult::NoSignal:
-        return fail(task, err::ERR_NO_ALIASIO_DEF, "the signal variable is not connected; connect it with AliasIO first");
+        return fail(task, err::ERR_NO_ALIASIO_DEF,
+                    "the signal variable is not connected; connect it with AliasIO first");
     case IoResult::OutOfRange: {
         const SignalConfig& config = io.config(id);
         const bool analog = isAnalog(config.type);
         return fail(task, analog ? err::ERR_AO_LIM : err::ERR_GO_LIM,
-                    "the value is outside the limits of signal " + name + ", " + formatDnum(config.minValue) + " to " +
-                        formatDnum(config.maxValue));
+                    "the value is outside the limits of signal " + name + ", " + formatDnum(config.minValue) +
+                        " to " + formatDnum(config.maxValue));
     }
     case IoResult::NotWritable:
-        return fail(task, err::ERR_SIG_NOT_VALID, "signal " + name + " cannot be set from a program (input, or Access level)");
+        return fail(task, err::ERR_SIG_NOT_VALID,
+                    "signal " + name + " cannot be set from a program (input, or Access level)");
     case IoResult::BadTime:
         return fail(task, err::ERR_ARGVALERR, "delay and pulse length must lie between 0.001 and 2000 s");
     case IoResult::TooManyPulses:

@@ -36,13 +36,15 @@ Status waitSignal(TaskCore* core, const SignalWait& wait, double& last) {
     if (status != kOk) return status;
     if (wait.timeFlag) *wait.timeFlag = result == WaitResult::Timeout;
     if (result == WaitResult::Done || wait.timeFlag) return kOk;
-    return lib::fail(core, err::ERR_WAIT_MAXTIME, "signal " + io.config(id).name + " did not get the value within \\MaxTime");
+    return lib::fail(core, err::ERR_WAIT_MAXTIME,
+                     "signal " + io.config(id).name + " did not get the value within \\MaxTime");
 }
 
 Status waitDigital(TaskCore* task, Handle signal, float value, const float* maxTime, bool* timeFlag) {
     const double wanted = value != 0 ? 1 : 0;
     double last = 0;
-    return waitSignal(task, {signal, [wanted](double now) { return now == wanted; }, maxTime, timeFlag}, last);
+    return waitSignal(task, {signal, [wanted](double now) { return now == wanted; }, maxTime, timeFlag},
+                      last);
 }
 
 enum class Relation { Equal, NotEqual, Less, Greater };
@@ -61,7 +63,8 @@ Status waitValue(TaskCore* task, const ValueWait& wait, float* numAtTimeout, dou
     if (status != kOk) return status;
     const SignalConfig& config = taskOf(task).controller().io().config(id);
     if (wait.value < config.minValue || wait.value > config.maxValue)
-        return lib::fail(task, wait.limitError, "the value to wait for is outside the limits of signal " + config.name);
+        return lib::fail(task, wait.limitError,
+                         "the value to wait for is outside the limits of signal " + config.name);
     const auto condition = [&wait](double now) {
         switch (wait.relation) {
         case Relation::Equal: return now == wait.value;
@@ -87,7 +90,10 @@ Status waitGroup(TaskCore* task, Handle signal, Relation relation, const float* 
 }
 
 Relation groupRelation(bool notEqual, bool less, bool greater) {
-    return notEqual ? Relation::NotEqual : less ? Relation::Less : greater ? Relation::Greater : Relation::Equal;
+    return notEqual  ? Relation::NotEqual
+           : less    ? Relation::Less
+           : greater ? Relation::Greater
+                     : Relation::Equal;
 }
 
 Status waitAnalog(TaskCore* task, Handle signal, bool less, bool greater, float value, const float* maxTime,
@@ -103,39 +109,43 @@ Status waitAnalog(TaskCore* task, Handle signal, bool less, bool greater, float 
 // The arguments of the message box (\Visualize ...) have no effect here: no FlexPendant shows it.
 extern "C" {
 
-Status rt_WaitDI(TaskCore* task, Handle* Signal, float Value, const float* MaxTime, bool* TimeFlag, bool, const String*,
-                 const String*, const String*, int32_t, bool, const float*, const String*, const float*, Handle*) {
+Status rt_WaitDI(TaskCore* task, Handle* Signal, float Value, const float* MaxTime, bool* TimeFlag, bool,
+                 const String*, const String*, const String*, int32_t, bool, const float*, const String*,
+                 const float*, Handle*) {
     return waitDigital(task, *Signal, Value, MaxTime, TimeFlag);
 }
 
-Status rt_WaitDO(TaskCore* task, Handle* Signal, float Value, const float* MaxTime, bool* TimeFlag, bool, const String*,
-                 const String*, const String*, int32_t, bool, const float*, const String*, const float*, Handle*) {
+Status rt_WaitDO(TaskCore* task, Handle* Signal, float Value, const float* MaxTime, bool* TimeFlag, bool,
+                 const String*, const String*, const String*, int32_t, bool, const float*, const String*,
+                 const float*, Handle*) {
     return waitDigital(task, *Signal, Value, MaxTime, TimeFlag);
 }
 
-Status rt_WaitGI(TaskCore* task, Handle* Signal, bool NOTEQ, bool LT, bool GT, const float* Value, const double* Dvalue,
-                 const float* MaxTime, float* ValueAtTimeout, double* DvalueAtTimeout, bool, const String*, const String*,
-                 const String*, int32_t, bool, const float*, const String*, const float*, Handle*) {
+Status rt_WaitGI(TaskCore* task, Handle* Signal, bool NOTEQ, bool LT, bool GT, const float* Value,
+                 const double* Dvalue, const float* MaxTime, float* ValueAtTimeout, double* DvalueAtTimeout,
+                 bool, const String*, const String*, const String*, int32_t, bool, const float*,
+                 const String*, const float*, Handle*) {
     return waitGroup(task, *Signal, groupRelation(NOTEQ, LT, GT), Value, Dvalue, MaxTime, ValueAtTimeout,
                      DvalueAtTimeout);
 }
 
-Status rt_WaitGO(TaskCore* task, Handle* Signal, bool NOTEQ, bool LT, bool GT, const float* Value, const double* Dvalue,
-                 const float* MaxTime, float* ValueAtTimeout, double* DvalueAtTimeout, bool, const String*, const String*,
-                 const String*, int32_t, bool, const float*, const String*, const float*, Handle*) {
+Status rt_WaitGO(TaskCore* task, Handle* Signal, bool NOTEQ, bool LT, bool GT, const float* Value,
+                 const double* Dvalue, const float* MaxTime, float* ValueAtTimeout, double* DvalueAtTimeout,
+                 bool, const String*, const String*, const String*, int32_t, bool, const float*,
+                 const String*, const float*, Handle*) {
     return waitGroup(task, *Signal, groupRelation(NOTEQ, LT, GT), Value, Dvalue, MaxTime, ValueAtTimeout,
                      DvalueAtTimeout);
 }
 
 Status rt_WaitAI(TaskCore* task, Handle* Signal, bool LT, bool GT, float Value, const float* MaxTime,
-                 float* ValueAtTimeout, bool, const String*, const String*, const String*, int32_t, bool, const float*,
-                 const String*, const float*, Handle*) {
+                 float* ValueAtTimeout, bool, const String*, const String*, const String*, int32_t, bool,
+                 const float*, const String*, const float*, Handle*) {
     return waitAnalog(task, *Signal, LT, GT, Value, MaxTime, ValueAtTimeout);
 }
 
 Status rt_WaitAO(TaskCore* task, Handle* Signal, bool LT, bool GT, float Value, const float* MaxTime,
-                 float* ValueAtTimeout, bool, const String*, const String*, const String*, int32_t, bool, const float*,
-                 const String*, const float*, Handle*) {
+                 float* ValueAtTimeout, bool, const String*, const String*, const String*, int32_t, bool,
+                 const float*, const String*, const float*, Handle*) {
     return waitAnalog(task, *Signal, LT, GT, Value, MaxTime, ValueAtTimeout);
 }
 }

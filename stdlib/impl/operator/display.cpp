@@ -13,7 +13,8 @@ namespace {
 
 std::string bracketed(std::initializer_list<float> values) {
     std::string out;
-    for (const float value : values) out += (out.empty() ? "[" : ",") + lib::formatDisplayNum(value);
+    for (const float value : values)
+        out += (out.empty() ? "[" : ",") + lib::formatDisplayNum(value);
     return out + "]";
 }
 
@@ -42,14 +43,14 @@ Status rt_TPErase(TaskCore* task) {
     return kOk;
 }
 
-Status rt_TPWrite(TaskCore* task, const String* String, const float* Num, const bool* Bool, const data::Pos* Pos,
-                  const data::Orient* Orient, const double* Dnum) {
+Status rt_TPWrite(TaskCore* task, const String* String, const float* Num, const bool* Bool,
+                  const data::Pos* Pos, const data::Orient* Orient, const double* Dnum) {
     taskOf(task).controller().panel().writeLine(withValue(*String, Num, Bool, Pos, Orient, Dnum));
     return kOk;
 }
 
-Status rt_ErrWrite(TaskCore* task, bool W, bool I, const String* Header, const String* Reason, const String* RL2,
-                   const String* RL3, const String* RL4) {
+Status rt_ErrWrite(TaskCore* task, bool W, bool I, const String* Header, const String* Reason,
+                   const String* RL2, const String* RL3, const String* RL4) {
     std::string text(Reason->view());
     for (const String* line : {RL2, RL3, RL4})
         if (line) text += "\n" + std::string(line->view());

@@ -24,7 +24,8 @@ Status store(TaskCore* task, String* result, std::string_view text) {
 
 Status decimalsText(TaskCore* task, String* result, double value, float dec, bool exponent) {
     if (!(dec >= 0 && dec <= 80) || std::trunc(dec) != dec)
-        return lib::fail(task, err::ERR_ARGVALERR, "the number of decimals must be a whole number, not negative");
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "the number of decimals must be a whole number, not negative");
     return store(task, result, lib::formatDecimals(value, static_cast<int>(dec), exponent));
 }
 
@@ -75,14 +76,16 @@ Status rt_StrToVal(TaskCore*, bool* result, const String* Str, void* Val, const 
 Status rt_DecToHex(TaskCore* task, String* result, const String* Str) {
     uint64_t value = 0;
     if (!readDigits(Str->view(), 10, kLargest, value))
-        return lib::fail(task, err::ERR_ARGVALERR, "the text must be a decimal integer up to 9223372036854775807");
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "the text must be a decimal integer up to 9223372036854775807");
     return store(task, result, digits(value, 16, 1));
 }
 
 Status rt_HexToDec(TaskCore* task, String* result, const String* Str) {
     uint64_t value = 0;
     if (!readDigits(Str->view(), 16, kLargest, value))
-        return lib::fail(task, err::ERR_ARGVALERR, "the text must be a hexadecimal integer up to 7FFFFFFFFFFFFFFF");
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "the text must be a hexadecimal integer up to 7FFFFFFFFFFFFFFF");
     return store(task, result, digits(value, 10, 1));
 }
 
@@ -94,7 +97,8 @@ Status rt_ByteToStr(TaskCore* task, String* result, float BitData, bool Hex, boo
     return store(task, result, digits(value, baseOf(Hex, Okt, Bin), Hex ? 2 : Okt ? 3 : Bin ? 8 : 1));
 }
 
-Status rt_StrToByte(TaskCore* task, float* result, const String* ConStr, bool Hex, bool Okt, bool Bin, bool Char) {
+Status rt_StrToByte(TaskCore* task, float* result, const String* ConStr, bool Hex, bool Okt, bool Bin,
+                    bool Char) {
     const std::string_view text = ConStr->view();
     uint64_t value = 0;
     const bool valid = Char ? lib::characterCount(text) == 1 && (value = lib::codePoint(text)) <= 255
@@ -107,15 +111,18 @@ Status rt_StrToByte(TaskCore* task, float* result, const String* ConStr, bool He
     return kOk;
 }
 
-Status rt_StrMap(TaskCore* task, String* result, const String* Str, const String* FromMap, const String* ToMap) {
+Status rt_StrMap(TaskCore* task, String* result, const String* Str, const String* FromMap,
+                 const String* ToMap) {
     const auto from = lib::characters(FromMap->view());
     const auto to = lib::characters(ToMap->view());
     if (from.size() != to.size())
-        return lib::fail(task, err::ERR_ARGVALERR, "FromMap and ToMap must have the same number of characters");
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "FromMap and ToMap must have the same number of characters");
     std::string mapped;
     for (const std::string_view character : lib::characters(Str->view())) {
         size_t i = 0;
-        while (i < from.size() && from[i] != character) ++i;
+        while (i < from.size() && from[i] != character)
+            ++i;
         mapped += i < from.size() ? to[i] : character;
     }
     return store(task, result, mapped);
@@ -127,8 +134,8 @@ Status rt_StrFormat(TaskCore* task, String* result, const String* Str, const Str
     const std::string_view text = Str->view();
     std::string out;
     for (size_t i = 0; i < text.size(); ++i) {
-        const bool placeholder = text[i] == '{' && i + 2 < text.size() && text[i + 2] == '}' && text[i + 1] >= '1' &&
-                                 text[i + 1] <= '6';
+        const bool placeholder = text[i] == '{' && i + 2 < text.size() && text[i + 2] == '}' &&
+                                 text[i + 1] >= '1' && text[i + 1] <= '6';
         const String* arg = placeholder ? args[text[i + 1] - '1'] : nullptr;
         if (!arg) { // a placeholder without argument stays as it is
             out += text[i];

@@ -21,7 +21,8 @@ bool contains(const Characters& set, std::string_view character) {
 
 /// A whole number from `low` to `high`.
 bool readPosition(float value, size_t low, size_t high, size_t& out) {
-    if (!(value >= static_cast<float>(low) && value <= static_cast<float>(high)) || std::trunc(value) != value)
+    if (!(value >= static_cast<float>(low) && value <= static_cast<float>(high)) ||
+        std::trunc(value) != value)
         return false;
     out = static_cast<size_t>(value);
     return true;
@@ -60,9 +61,11 @@ Status rt_StrPart(TaskCore* task, String* result, const String* Str, float ChPos
     size_t count = 0;
     if (!readPosition(ChPos, 1, text.size(), first)) return badPosition(task, ChPos, text.size());
     if (!readPosition(Len, 0, text.size() - first + 1, count))
-        return lib::fail(task, err::ERR_ARGVALERR, "the part is negative or reaches beyond the end of the string");
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "the part is negative or reaches beyond the end of the string");
     std::string part;
-    for (size_t i = 0; i < count; ++i) part += text[first - 1 + i];
+    for (size_t i = 0; i < count; ++i)
+        part += text[first - 1 + i];
     result->assign(part);
     return kOk;
 }
@@ -75,13 +78,16 @@ Status rt_StrMemb(TaskCore* task, bool* result, const String* Str, float ChPos, 
     return kOk;
 }
 
-Status rt_StrFind(TaskCore* task, float* result, const String* Str, float ChPos, const String* Set, bool NotInSet) {
+Status rt_StrFind(TaskCore* task, float* result, const String* Str, float ChPos, const String* Set,
+                  bool NotInSet) {
     const Characters text = lib::characters(Str->view());
     const Characters set = lib::characters(Set->view());
     size_t position = 0;
     // Nothing can be found in an empty string, but looking there is no mistake.
-    if (!readPosition(ChPos, 1, std::max<size_t>(text.size(), 1), position)) return badPosition(task, ChPos, text.size());
-    while (position <= text.size() && contains(set, text[position - 1]) == NotInSet) ++position;
+    if (!readPosition(ChPos, 1, std::max<size_t>(text.size(), 1), position))
+        return badPosition(task, ChPos, text.size());
+    while (position <= text.size() && contains(set, text[position - 1]) == NotInSet)
+        ++position;
     *result = static_cast<float>(std::min(position, text.size() + 1));
     return kOk;
 }
@@ -90,7 +96,8 @@ Status rt_StrMatch(TaskCore* task, float* result, const String* Str, float ChPos
     const std::string_view bytes = Str->view();
     const Characters text = lib::characters(bytes);
     size_t position = 0;
-    if (!readPosition(ChPos, 1, std::max<size_t>(text.size(), 1), position)) return badPosition(task, ChPos, text.size());
+    if (!readPosition(ChPos, 1, std::max<size_t>(text.size(), 1), position))
+        return badPosition(task, ChPos, text.size());
     for (; position <= text.size(); ++position) {
         const size_t offset = static_cast<size_t>(text[position - 1].data() - bytes.data());
         if (bytes.substr(offset).starts_with(Pattern->view())) break;
@@ -103,10 +110,9 @@ Status rt_StrOrder(TaskCore*, bool* result, const String* Str1, const String* St
     const Characters a = lib::characters(Str1->view());
     const Characters b = lib::characters(Str2->view());
     const Characters order = lib::characters(Order->view());
-    *result = !std::lexicographical_compare(b.begin(), b.end(), a.begin(), a.end(),
-                                            [&](std::string_view x, std::string_view y) {
-                                                return rankOf(x, order) < rankOf(y, order);
-                                            });
+    *result = !std::lexicographical_compare(
+        b.begin(), b.end(), a.begin(), a.end(),
+        [&](std::string_view x, std::string_view y) { return rankOf(x, order) < rankOf(y, order); });
     return kOk;
 }
 }

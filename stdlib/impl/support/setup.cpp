@@ -4,7 +4,8 @@
 namespace rt {
 
 void setUpStandardLibrary(Controller& controller) {
-    for (const ErrorEntry& entry : errorTable()) controller.log().addErrorName(entry.number, entry.name, entry.summary);
+    for (const ErrorEntry& entry : errorTable())
+        controller.log().addErrorName(entry.number, entry.name, entry.summary);
 }
 
 } // namespace rt

@@ -24,8 +24,20 @@ rt::Status rt_readSignalDnum(rt::TaskCore* task, double* result, const rt::Handl
 rt::Status rt_waitUntilPoll(rt::TaskCore* task, bool* again, bool InPos, const float* MaxTime, bool* TimeFlag,
                             const float* PollRate, int64_t* state);
 
+/// \InPos of WaitUntil: before the condition is looked at. Does nothing when `inPos` is false.
+rt::Status rt_waitInPos(rt::TaskCore* task, bool inPos);
+
+/// %name%: number (from 0) of the procedure in a table of `count` names. Raises ERR_REFUNKPRC when it is not there and
+/// ERR_CALLPROC when the text cannot be a name. "module:name" is accepted.
+rt::Status rt_lateLookup(rt::TaskCore* task, int32_t* result, const rt::String* name, const rt::String* table,
+                         int32_t count);
+/// Description of an array whose dimensions are known at run time only (unused ones 0); lives as long as the
+/// controller.
+rt::Status rt_arrayDesc(rt::TaskCore* task, const rt::TypeDesc** result, const rt::TypeDesc* element,
+                        int32_t dim1, int32_t dim2, int32_t dim3);
+
 /// EXIT: UNDO handlers run, the program ends. Returns the status of unwinding.
-rt::Status rt_exit(rt::TaskCore* task);
-/// A predefined routine was called that is declared only: event 41600-like stop, never a silent no-op.
+rt::Status rt_exitProgram(rt::TaskCore* task);
+/// A predefined routine was called that is declared only: the task stops with an event, never a silent no-op.
 rt::Status rt_notImplemented(rt::TaskCore* task, const rt::String* name);
 }

@@ -19,7 +19,8 @@ ClockObject& clockOf(TaskCore* task, Handle* slot) {
 
 Status checked(TaskCore* task, const ClockObject& clock) {
     if (clock.elapsed(taskOf(task).now()) <= kLongest) return kOk;
-    return lib::fail(task, err::ERR_OVERFLOW, "the clock has counted more than 4294967 s; reset it with ClkReset");
+    return lib::fail(task, err::ERR_OVERFLOW,
+                     "the clock has counted more than 4294967 s; reset it with ClkReset");
 }
 
 } // namespace

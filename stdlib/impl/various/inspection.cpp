@@ -32,9 +32,8 @@ bool isPersistent(TaskCore* task, const void* data) {
 }
 
 bool sameName(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
-        return std::tolower(x) == std::tolower(y);
-    });
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
 /// The task asked for: by a taskid (number of the task from 1) or by name; null and ERR_TASKNAME when there is none.
@@ -58,7 +57,8 @@ extern "C" {
 
 Status rt_TryInt(TaskCore* task, const float* DataObj, const double* DataObj2) {
     const double value = DataObj ? static_cast<double>(*DataObj) : *DataObj2;
-    if (std::trunc(value) != value) return lib::fail(task, err::ERR_INT_NOTVAL, "the value is not a whole number");
+    if (std::trunc(value) != value)
+        return lib::fail(task, err::ERR_INT_NOTVAL, "the value is not a whole number");
     if (std::fabs(value) > (DataObj ? kNumInteger : kDnumInteger))
         return lib::fail(task, err::ERR_INT_MAXVAL, "the value is too large to be held as an exact integer");
     return kOk;
@@ -150,10 +150,13 @@ Status rt_TestAndSet(TaskCore*, bool* result, bool* Object) {
 Status rt_ModExist(TaskCore* task, bool* result, const String* ModuleName) {
     const Task& owner = taskOf(task);
     const ProgramDesc& program = owner.controller().program();
-    const auto visible = [&](int32_t index) { return index < 0 || index == static_cast<int32_t>(owner.index()); };
+    const auto visible = [&](int32_t index) {
+        return index < 0 || index == static_cast<int32_t>(owner.index());
+    };
     *result = false;
     for (uint32_t i = 0; i < program.routineCount && !*result; ++i)
-        *result = visible(program.routines[i].task) && sameName(program.routines[i].module, ModuleName->view());
+        *result =
+            visible(program.routines[i].task) && sameName(program.routines[i].module, ModuleName->view());
     for (uint32_t i = 0; i < program.globalCount && !*result; ++i)
         *result = visible(program.globals[i].task) && sameName(program.globals[i].module, ModuleName->view());
     return kOk;

@@ -1,0 +1,64 @@
+// Manual 1.8: stopping and starting movement.
+
+#include "stdlib/impl/motion/state.h"
+#include "stdlib/impl/support/fail.h"
+
+#include "stdlib_constants.h"
+#include "stdlib_natives.h"
+
+using namespace rt;
+
+namespace {
+
+MotionDriver& driverOf(TaskCore* task) {
+    return taskOf(task).controller().motion();
+}
+
+} // namespace
+
+// \AllMotionTasks changes nothing: there is one robot.
+extern "C" {
+
+/// The arm always brakes on its path as fast as its limits allow, with and without \Quick.
+Status rt_StopMove(TaskCore* task, bool, bool) {
+    driverOf(task).stopMove();
+    return kOk;
+}
+
+Status rt_StartMove(TaskCore* task, bool) {
+    MotionDriver& driver = driverOf(task);
+    if (!driver.isStopMoveActive() && driver.system().isMoving())
+        return lib::fail(task, err::ERR_ALRDY_MOVING, "the robot moves already");
+    driver.startMove();
+    return kOk;
+}
+
+/// The stop is forgotten: the next movement ordered starts at once.
+Status rt_StopMoveReset(TaskCore* task, bool) {
+    MotionDriver& driver = driverOf(task);
+    if (!driver.isStopMoveActive()) return kOk;
+    driver.clearPath();
+    driver.startMove();
+    return kOk;
+}
+
+Status rt_ClearPath(TaskCore* task) {
+    driverOf(task).clearPath();
+    return kOk;
+}
+
+Status rt_IsStopMoveAct(TaskCore* task, bool* result, bool, bool) {
+    *result = driverOf(task).isStopMoveActive();
+    return kOk;
+}
+
+Status rt_PathLevel(TaskCore*, float* result) {
+    *result = 1; // StorePath is not available
+    return kOk;
+}
+
+Status rt_PFRestart(TaskCore*, bool* result, bool, bool) {
+    *result = false; // a virtual controller knows no power failure
+    return kOk;
+}
+}

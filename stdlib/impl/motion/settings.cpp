@@ -1,0 +1,189 @@
+// Manual 1.7: motion settings. They hold for all movements ordered afterwards.
+
+#include "stdlib/impl/math/convert.h"
+#include "stdlib/impl/motion/state.h"
+#include "stdlib/impl/support/fail.h"
+
+#include "stdlib_constants.h"
+#include "stdlib_natives.h"
+
+#include <algorithm>
+
+using namespace rt;
+
+namespace {
+
+constexpr double kLeastAcceleration = 0.1; // m/s^2, PathAccLim and WorldAccLim
+
+Status tooLow(TaskCore* task) {
+    return lib::fail(task, err::ERR_ACC_TOO_LOW, "the limit of acceleration must be at least 0.1 m/s2");
+}
+
+/// The limit when it is switched on; ERR_ACC_TOO_LOW when it is too small.
+Status pathLimit(TaskCore* task, bool on, const float* value, double& limit) {
+    if (on && !value)
+        return lib::fail(task, err::ERR_ARGVALERR, "PathAccLim: TRUE needs \\AccMax or \\DecelMax");
+    if (on && *value < kLeastAcceleration) return tooLow(task);
+    limit = on ? static_cast<double>(*value) : 0.0;
+    return kOk;
+}
+
+} // namespace
+
+extern "C" {
+
+Status rt_MaxRobSpeed(TaskCore* task, float* result) {
+    *result = static_cast<float>(taskOf(task).controller().motion().system().model().maxTcpSpeed);
+    return kOk;
+}
+
+Status rt_VelSet(TaskCore* task, float Override, float Max) {
+    motion::MotionSettings& settings = lib::motionState(task).settings;
+    settings.velocityPercent = std::clamp(static_cast<double>(Override), 0.0, 100.0);
+    settings.maxTcpSpeed = std::max(static_cast<double>(Max), 0.0);
+    return kOk;
+}
+
+/// \FinePointRamp (the ramp at stop points) is not modelled apart.
+Status rt_AccSet(TaskCore* task, float Acc, float Ramp, const float*) {
+    motion::MotionSettings& settings = lib::motionState(task).settings;
+    settings.accelerationPercent = std::clamp(static_cast<double>(Acc), 20.0, 100.0);
+    settings.rampPercent = std::clamp(static_cast<double>(Ramp), 10.0, 100.0);
+    return kOk;
+}
+
+Status rt_WorldAccLim(TaskCore* task, const float* On, bool Off) {
+    if ((On != nullptr) == Off)
+        return lib::fail(task, err::ERR_ARGVALERR, "WorldAccLim needs one of \\On and \\Off");
+    if (On && *On < kLeastAcceleration) return tooLow(task);
+    lib::motionState(task).settings.worldAcceleration = On ? static_cast<double>(*On) : 0.0;
+    return kOk;
+}
+
+Status rt_PathAccLim(TaskCore* task, bool AccLim, const float* AccMax, bool DecelLim, const float* DecelMax) {
+    motion::MotionSettings settings = lib::motionState(task).settings;
+    if (const Status status = pathLimit(task, AccLim, AccMax, settings.pathAcceleration)) return status;
+    if (const Status status = pathLimit(task, DecelLim, DecelMax, settings.pathDeceleration)) return status;
+    lib::motionState(task).settings = settings;
+    return kOk;
+}
+
+/// Without a switch: on.
+Status rt_ConfJ(TaskCore* task, bool, bool Off) {
+    lib::motionState(task).confJ = !Off;
+    return kOk;
+}
+
+Status rt_ConfL(TaskCore* task, bool, bool Off) {
+    lib::motionState(task).confL = !Off;
+    return kOk;
+}
+
+Status rt_SpeedRefresh(TaskCore* task, float Override) {
+    if (!(Override >= 0 && Override <= 100))
+        return lib::fail(task, err::ERR_SPEED_REFRESH_LIM, "the override must lie between 0 and 100 percent");
+    MotionDriver& driver = taskOf(task).controller().motion();
+    driver.system().setOverride(Override);
+    driver.refresh();
+    return kOk;
+}
+
+Status rt_CSpeedOverride(TaskCore* task, float* result, bool) {
+    *result = static_cast<float>(taskOf(task).controller().motion().system().speedOverride());
+    return kOk;
+}
+
+Status rt_PDispSet(TaskCore* task, const data::Pose* DispFrame) {
+    lib::motionState(task).displacement = lib::toFrame(*DispFrame);
+    return kOk;
+}
+
+Status rt_PDispOff(TaskCore* task) {
+    lib::motionState(task).displacement = {};
+    return kOk;
+}
+
+/// From the programmed point to the executed one (default: where the robot is), both in the work object.
+Status rt_PDispOn(TaskCore* task, bool Rot, const data::Robtarget* ExeP, const data::Robtarget* ProgPoint,
+                  data::Tooldata* Tool, data::Wobjdata* WObj) {
+    lib::MotionState& state = lib::motionState(task);
+    static const data::Wobjdata kWorld = lib::MotionState().workObject;
+    motion::FrameSetup frames = lib::frameSetup(state, Tool, WObj ? WObj : &kWorld);
+    frames.displacement = {};
+    motion::Pose executed;
+    if (ExeP) {
+        executed = lib::toFrame(*ExeP);
+    } else {
+        motion::MotionSystem& system = taskOf(task).controller().motion().system();
+        frames.baseFrame = system.model().baseFrame;
+        executed = system.currentTarget(frames).pose;
+    }
+    const motion::Pose point = lib::toFrame(*ProgPoint);
+    state.displacement = Rot ? executed * robot::inverse(point) : motion::Pose{executed.pos - point.pos, {}};
+    return kOk;
+}
+
+Status rt_EOffsSet(TaskCore* task, const data::Extjoint* EAxOffs) {
+    motion::ExternalAxes offsets = lib::toAxes(*EAxOffs);
+    for (double& offset : offsets)
+        if (!motion::isConnected(offset)) offset = 0;
+    lib::motionState(task).axisOffsets = offsets;
+    return kOk;
+}
+
+Status rt_EOffsOff(TaskCore* task) {
+    lib::motionState(task).axisOffsets = {};
+    return kOk;
+}
+
+Status rt_EOffsOn(TaskCore* task, const data::Robtarget* ExeP, const data::Robtarget* ProgPoint) {
+    const motion::ExternalAxes executed =
+        ExeP ? lib::toAxes(ExeP->extax) : taskOf(task).controller().motion().system().currentJoints().extax;
+    const motion::ExternalAxes point = lib::toAxes(ProgPoint->extax);
+    motion::ExternalAxes offsets{};
+    for (size_t i = 0; i < offsets.size(); ++i)
+        if (motion::isConnected(executed[i]) && motion::isConnected(point[i]))
+            offsets[i] = executed[i] - point[i];
+    lib::motionState(task).axisOffsets = offsets;
+    return kOk;
+}
+
+/// The path near singular points is computed exactly and refused where an axis would have to move too fast; \Wrist and
+/// \LockAxis4, which would let the orientation deviate instead, therefore change nothing.
+Status rt_SingArea(TaskCore* task, bool Wrist, bool LockAxis4, bool Off) {
+    if (Wrist + LockAxis4 + Off > 1)
+        return lib::fail(task, err::ERR_ARGVALERR, "SingArea takes one of \\Wrist, \\LockAxis4 and \\Off");
+    return kOk;
+}
+
+// Settings of what the virtual arm does not have - soft servos, servo tuning, collisions, loads, a path resolution -
+// are accepted: they have nothing to act on.
+Status rt_SoftDeact(TaskCore*, const float*) {
+    return kOk;
+}
+Status rt_TuneReset(TaskCore*) {
+    return kOk;
+}
+Status rt_PathResol(TaskCore*, float) {
+    return kOk;
+}
+Status rt_MotionSup(TaskCore*, bool, bool, const float*, bool) {
+    return kOk;
+}
+Status rt_CornerPathWarning(TaskCore*, bool) {
+    return kOk;
+}
+Status rt_GripLoad(TaskCore*, data::Loaddata*) {
+    return kOk;
+}
+
+/// The orientation turns evenly along the arc, which is what \PathFrame asks for; the other modes are not available.
+Status rt_CirPathMode(TaskCore* task, bool PathFrame, bool ObjectFrame, bool CirPointOri, bool Wrist45,
+                      bool Wrist46, bool Wrist56) {
+    const bool other = ObjectFrame || CirPointOri || Wrist45 || Wrist46 || Wrist56;
+    if (other && PathFrame) return lib::fail(task, err::ERR_ARGVALERR, "CirPathMode takes one mode only");
+    if (!other) return kOk;
+    return taskOf(task).fatal(static_cast<int>(EventId::NotImplemented),
+                              "CirPathMode with another mode than \\PathFrame");
+}
+}

@@ -1,0 +1,94 @@
+#include "stdlib/impl/motion/state.h"
+
+#include "stdlib/impl/math/convert.h"
+#include "stdlib/impl/support/fail.h"
+
+#include "stdlib_constants.h"
+
+#include <cmath>
+
+namespace rt::lib {
+
+MotionState& motionState(TaskCore* task) {
+    return taskOf(task).controller().service<MotionState>();
+}
+
+Status requireMotionTask(TaskCore* task) {
+    if (taskOf(task).isMotionTask()) return kOk;
+    return fail(task, err::ERR_NOT_MOVETASK,
+                "only a motion task may move the robot; set MotionTask of this task");
+}
+
+motion::FrameSetup frameSetup(const MotionState& state, const data::Tooldata* tool,
+                              const data::Wobjdata* workObject) {
+    const data::Tooldata& t = tool ? *tool : state.tool;
+    const data::Wobjdata& w = workObject ? *workObject : state.workObject;
+    motion::FrameSetup frames;
+    frames.tool = {t.robhold, toFrame(t.tframe)};
+    frames.workObject = {w.robhold, toFrame(w.uframe), toFrame(w.oframe)};
+    frames.displacement = state.displacement;
+    return frames;
+}
+
+motion::ExternalAxes toAxes(const data::Extjoint& a) {
+    return {a.eax_a, a.eax_b, a.eax_c, a.eax_d, a.eax_e, a.eax_f};
+}
+
+namespace {
+
+data::Extjoint toExtjoint(const motion::ExternalAxes& axes) {
+    const auto f = [&](size_t i) { return static_cast<float>(motion::isConnected(axes[i]) ? axes[i] : 9e9); };
+    return {f(0), f(1), f(2), f(3), f(4), f(5)};
+}
+
+} // namespace
+
+motion::RobTarget toTarget(const data::Robtarget& target) {
+    const auto whole = [](float v) { return static_cast<int>(std::lround(v)); };
+    const data::Confdata& c = target.robconf;
+    return {toFrame(target), {whole(c.cf1), whole(c.cf4), whole(c.cf6), whole(c.cfx)}, toAxes(target.extax)};
+}
+
+data::Robtarget toRobtarget(const motion::RobTarget& target) {
+    const motion::ConfData& c = target.conf;
+    return {toPos(target.pose.pos),
+            toOrient(target.pose.rot),
+            {static_cast<float>(c.cf1), static_cast<float>(c.cf4), static_cast<float>(c.cf6),
+             static_cast<float>(c.cfx)},
+            toExtjoint(target.extax)};
+}
+
+motion::JointTarget toJoints(const data::Jointtarget& target) {
+    const data::Robjoint& r = target.robax;
+    return {{r.rax_1, r.rax_2, r.rax_3, r.rax_4, r.rax_5, r.rax_6}, toAxes(target.extax)};
+}
+
+data::Jointtarget toJointtarget(const motion::JointTarget& joints) {
+    const auto f = [&](size_t i) { return static_cast<float>(joints.robax[i]); };
+    return {{f(0), f(1), f(2), f(3), f(4), f(5)}, toExtjoint(joints.extax)};
+}
+
+void addOffsets(motion::ExternalAxes& axes, const motion::ExternalAxes& offsets, double sign) {
+    for (size_t i = 0; i < axes.size(); ++i)
+        if (motion::isConnected(axes[i]) && motion::isConnected(offsets[i])) axes[i] += sign * offsets[i];
+}
+
+Status motionErrno(const motion::MotionError& error) {
+    using Kind = motion::MotionErrorKind;
+    switch (error.kind) {
+    case Kind::BadArgument: return err::ERR_ARGVALERR;
+    case Kind::JointOutOfRange:
+    case Kind::NoSuchConfiguration:
+    case Kind::ConfigurationMismatch:
+    case Kind::Singularity: return err::ERR_ROBLIMIT;
+    case Kind::Unreachable:
+    case Kind::CirclePointsTooClose:
+    case Kind::CirclePointsCollinear:
+    case Kind::CircleTooLarge:
+    case Kind::UnsupportedRobot:
+    case Kind::QueueFull: return err::ERR_OUTSIDE_REACH;
+    }
+    return err::ERR_OUTSIDE_REACH;
+}
+
+} // namespace rt::lib

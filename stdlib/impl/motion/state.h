@@ -1,0 +1,41 @@
+#pragma once
+// What motion instructions have in common: the settings in force (manual 1.7), frames, errors.
+
+#include "runtime/host/controller.h"
+
+#include "stdlib_types.h"
+
+namespace rt::lib {
+
+/// Settings of the robot; one per controller. The defaults are those SYS_RESET restores.
+struct MotionState {
+    motion::MotionSettings settings;
+    bool confJ = true, confL = true;
+    motion::Pose displacement;          ///< program displacement (PDisp...), in the object frame
+    motion::ExternalAxes axisOffsets{}; ///< EOffs..., deg or mm
+    data::Tooldata tool{true, {{0, 0, 0}, {1, 0, 0, 0}}, {0.001F, {0, 0, 0.001F}, {1, 0, 0, 0}, 0, 0, 0}};
+    data::Wobjdata workObject{false, true, {}, {{0, 0, 0}, {1, 0, 0, 0}}, {{0, 0, 0}, {1, 0, 0, 0}}};
+    int concurrentMoves = 0; ///< \Conc moves in succession
+};
+MotionState& motionState(TaskCore* task);
+
+/// kOk, or ERR_NOT_MOVETASK raised: only a task that controls the robot may move it.
+Status requireMotionTask(TaskCore* task);
+
+/// Frames for a tool and a work object; null = the one in force. With the program displacement.
+motion::FrameSetup frameSetup(const MotionState& state, const data::Tooldata* tool,
+                              const data::Wobjdata* workObject);
+
+/// Positions as programmed; axis offsets are not looked at.
+motion::RobTarget toTarget(const data::Robtarget& target);
+data::Robtarget toRobtarget(const motion::RobTarget& target);
+motion::JointTarget toJoints(const data::Jointtarget& target);
+data::Jointtarget toJointtarget(const motion::JointTarget& joints);
+/// Adds `sign` times the offsets to the external axes that are connected.
+void addOffsets(motion::ExternalAxes& axes, const motion::ExternalAxes& offsets, double sign);
+motion::ExternalAxes toAxes(const data::Extjoint& axes);
+
+/// The ERRNO for a target that cannot be reached or a move that cannot be made.
+Status motionErrno(const motion::MotionError& error);
+
+} // namespace rt::lib
