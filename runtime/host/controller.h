@@ -17,6 +17,7 @@
 #include "runtime/sim/stimulus.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <random>
 #include <string>
@@ -28,12 +29,12 @@ namespace rt {
 class SignalsWriter;
 class TraceWriter;
 
-/// Persistents of SYS.cfg that the runtime itself obeys.
+/// Parameters of SYS.cfg that the runtime itself obeys.
 struct SystemSettings {
     int noOfRetry = 4; ///< SYS_MISC NoOfRetry
 };
 
-class Controller {
+class Controller final : public TaskHost {
   public:
     explicit Controller(const RunOptions& options);
     ~Controller();
@@ -44,7 +45,7 @@ class Controller {
     // -------------------------------------------------------------------------------------------------
     Scheduler& scheduler() { return scheduler_; }
     IoSystem& io() { return io_; }
-    EventLog& log() { return log_; }
+    EventLog& log() override { return log_; }
     OperatorPanel& panel() { return panel_; }
     HomeFolder& home() { return home_; }
     /// Present as soon as prepare() succeeded.
@@ -62,7 +63,7 @@ class Controller {
     /// Data that a part of the standard library keeps per controller; made on first use, destroyed with the
     /// controller.
     template <class T> T& service() {
-        static const char key = 0;
+        static char key = 0;
         std::shared_ptr<void>& slot = services_[&key];
         if (!slot) slot = std::make_shared<T>();
         return *static_cast<T*>(slot.get());
@@ -93,27 +94,33 @@ class Controller {
     void actionPpToMain();
     void actionStep(bool forward);
 
-    // ---- Used by Task
-    // ------------------------------------------------------------------------------------------
-    /// Another `start` may come: the stimulus has one ahead.
-    bool startToCome() const { return startsToCome_ > 0; }
-    /// A task was stopped by the system handler: NORMAL tasks stop; of a STATIC or SEMISTATIC task by its
-    /// TrustLevel.
-    void taskFailed(Task& task);
-    void stopNormalTasks(StopCause cause);
-    bool cyclesLeft(const Task& task) const;
+    // ---- TaskHost ----------------------------------------------------------------------------------------------
+    bool cyclesLeft(const Task& task) const override;
+    /// The stimulus has a `start` ahead.
+    bool startToCome() const override { return startsToCome_ > 0; }
+    int retryLimit() const override { return settings_.noOfRetry; }
+    /// NORMAL tasks stop; when a STATIC or SEMISTATIC task failed, its TrustLevel decides (manual 1.20).
+    void taskFailed(Task& task) override;
+    void stopNormalTasks(StopCause cause) override;
 
   private:
-    bool readConfiguration(const ProgramDesc& program);
-    bool applySystemParameters();
+    ExitStatus readConfiguration(const ProgramDesc& program);
+    void applySystemParameters();
+    ExitStatus openRobot();
+    void applyMotionParameters(robot::RobotModel& model) const;
+    ExitStatus openFiles();
+    ExitStatus readStimulusFile();
     bool connectExternals(const ProgramDesc& program);
-    bool openOutputs();
-    bool readStimulusFile();
-    bool openRobot();
+    bool connectExternal(const ExternalDesc& external);
+    void makeTasks(const ProgramDesc& program);
     void scheduleStimulus();
     void perform(const StimulusItem& item);
     bool runOver() const;
-    bool anyNormal(bool (*test)(const Task&)) const;
+    bool stoppedByError() const;
+    ExitStatus finish(RunEnd end);
+    std::string trustLevel(const Task& task) const;
+    /// All instances of a type in the files of a domain, in order.
+    std::vector<const CfgInstance*> instances(std::string_view domain, std::string_view type) const;
 
     RunOptions options_;
     EventLog log_;
@@ -133,9 +140,8 @@ class Controller {
     std::map<const void*, std::shared_ptr<void>> services_;
     const ProgramDesc* program_ = nullptr;
     std::vector<std::unique_ptr<Task>> tasks_;
-    std::vector<std::string> noSafetyTasks_;
     std::size_t startsToCome_ = 0;
-    bool failed_ = false;
+    bool systemFailed_ = false; // a background task with TrustLevel SysFail or SysHalt has stopped
 };
 
 /// What a host adds to a controller before the program runs (names of errors, services).

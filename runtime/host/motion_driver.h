@@ -13,7 +13,7 @@
 
 namespace rt {
 
-class EventLog;
+class Task;
 class TraceWriter;
 
 class MotionDriver {
@@ -57,6 +57,8 @@ class MotionDriver {
     void clearPath();
 
     void setTrace(TraceWriter* trace) { trace_ = trace; }
+    /// Nothing left to do: idle, or held by a stop and standing still.
+    bool isSettled() const;
     /// Samples up to the present are written.
     void finishTrace();
 
@@ -76,6 +78,7 @@ class MotionDriver {
     std::map<uint32_t, std::function<void(const motion::MotionEvent&)>> triggers_;
     WaitQueue changed_;
     TraceWriter* trace_ = nullptr;
+    Time nextSample_ = 0;
     bool stopMove_ = false, programStop_ = false;
     bool advancing_ = false;
 };

@@ -159,7 +159,7 @@ class Task : public TaskCore {
 
     /// Data that a part of the standard library keeps per task; made on first use, destroyed with the task.
     template <class T> T& local() {
-        static const char key = 0;
+        static char key = 0;
         std::shared_ptr<void>& slot = locals_[&key];
         if (!slot) slot = std::make_shared<T>();
         return *static_cast<T*>(slot.get());

@@ -41,7 +41,7 @@ class SignalsWriter {
 };
 
 /// --trace: a row each 4 ms: `time_s,unit,j1..j6,e1..e6,x,y,z,q1,q2,q3,q4,speed_mm_s,move`; degrees, mm, the active TCP in
-/// world; axes that are not connected are empty fields; `move` counts move instructions.
+/// world; axes that are not connected read 9E+09; `move` counts move instructions.
 class TraceWriter {
   public:
     static constexpr Time kPeriod = 4 * kMillisecond;

@@ -147,8 +147,10 @@ std::vector<StimulusItem> parseStimulus(std::string_view text, std::vector<Stimu
         else
             problems.push_back({lineNumber, std::move(error)});
     }
-    std::stable_sort(items.begin(), items.end(),
-                     [](const StimulusItem& a, const StimulusItem& b) { return a.time < b.time; });
+    // Lines of the same time keep their order.
+    std::sort(items.begin(), items.end(), [](const StimulusItem& x, const StimulusItem& y) {
+        return x.time != y.time ? x.time < y.time : x.line < y.line;
+    });
     return items;
 }
 

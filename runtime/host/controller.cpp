@@ -1,0 +1,266 @@
+// Controller: the run, its actions and its end. Building it: controller_prepare.cpp.
+
+#include "runtime/host/controller.h"
+
+#include "runtime/io/text_util.h"
+#include "runtime/sim/csv_writers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+
+namespace rt {
+namespace {
+
+SchedulerOptions schedulerOptions(const RunOptions& options) {
+    SchedulerOptions result;
+    result.rate = options.rate;
+    result.maxTime = options.hasMaxTime ? fromSeconds(options.maxTime) : kNever;
+    result.realtime = options.realtime;
+    result.stackBytes = options.stackBytes;
+    return result;
+}
+
+bool isNormal(const std::unique_ptr<Task>& task) {
+    return task->kind() == TaskKind::Normal;
+}
+
+} // namespace
+
+Controller::Controller(const RunOptions& options)
+    : options_(options), scheduler_(schedulerOptions(options)), io_(scheduler_), random_(options.seed),
+      startCalendar_(static_cast<int64_t>(std::time(nullptr))) {
+    log_.setClock([this] { return scheduler_.now(); });
+    scheduler_.setBeforeSleep([this] {
+        panel_.flush();
+        log_.flush();
+    });
+}
+
+Controller::~Controller() {
+    scheduler_.abandonTasks();
+    // Interrupts and services may hold listeners and timers of the parts below them.
+    tasks_.clear();
+    services_.clear();
+}
+
+int64_t Controller::calendarSeconds() const {
+    return startCalendar_ + scheduler_.now() / kSecond;
+}
+
+// ---- Program -------------------------------------------------------------------------------------------------------
+
+Task* Controller::findTask(std::string_view name) {
+    for (const auto& task : tasks_) {
+        if (sameName(task->name(), name)) return task.get();
+    }
+    return nullptr;
+}
+
+const GlobalDesc* Controller::findGlobal(std::string_view name, std::string_view module,
+                                         const Task& task) const {
+    const GlobalDesc* shared = nullptr;
+    for (uint32_t i = 0; i < program_->globalCount; ++i) {
+        const GlobalDesc& global = program_->globals[i];
+        if (!sameName(global.name, name) || (!module.empty() && !sameName(global.module, module))) continue;
+        if (global.task == static_cast<int32_t>(task.index())) return &global;
+        if (global.task < 0 && shared == nullptr) shared = &global;
+    }
+    return shared;
+}
+
+const RoutineEntry* Controller::findRoutine(std::string_view name, std::string_view module,
+                                            const Task& task) const {
+    for (uint32_t i = 0; i < program_->routineCount; ++i) {
+        const RoutineEntry& routine = program_->routines[i];
+        if (routine.task >= 0 && routine.task != static_cast<int32_t>(task.index())) continue;
+        if (sameName(routine.name, name) && (module.empty() || sameName(routine.module, module)))
+            return &routine;
+    }
+    return nullptr;
+}
+
+// ---- Run -----------------------------------------------------------------------------------------------------------
+
+ExitStatus Controller::run() {
+    scheduleStimulus();
+    for (const auto& task : tasks_)
+        scheduler_.add(*task);
+    return finish(scheduler_.run([this] { return runOver(); }));
+}
+
+bool Controller::runOver() const {
+    for (const auto& task : tasks_) {
+        if (!isNormal(task) || task->state() == TaskState::Finished) continue;
+        const bool stoppedForGood = task->isStopped() && !task->isUnwinding() && !startToCome();
+        if (!stoppedForGood) return false;
+    }
+    return motion_->isSettled();
+}
+
+bool Controller::stoppedByError() const {
+    const auto failed = [](const auto& task) {
+        return isNormal(task) && task->stopCause() == StopCause::Error;
+    };
+    return systemFailed_ || std::any_of(tasks_.begin(), tasks_.end(), failed);
+}
+
+ExitStatus Controller::finish(RunEnd end) {
+    ExitStatus status = stoppedByError() ? ExitStatus::StoppedByError : ExitStatus::Ended;
+    if (end == RunEnd::Deadlock) {
+        std::string waiting;
+        for (const auto& task : tasks_) {
+            if (task->state() == TaskState::Finished) continue;
+            const SourcePlace place = task->place();
+            waiting += fmt::format("{}{} waits in {}:{}", waiting.empty() ? "" : ", ", task->name(),
+                                   place.module, place.line);
+        }
+        log_.write(EventId::NothingPending, nullptr, {waiting.empty() ? waiting : waiting + "."});
+        status = options_.hasMaxTime ? ExitStatus::MaxTimeReached : ExitStatus::StoppedByError;
+    } else if (end == RunEnd::MaxTime) {
+        log_.write(EventId::MaxTimeReached, nullptr);
+        status = ExitStatus::MaxTimeReached;
+    }
+    motion_->finishTrace();
+    scheduler_.abandonTasks();
+    panel_.flush();
+    log_.flush();
+    if (trace_ && !trace_->close())
+        fmt::print(stderr, "error: {} could not be written in full\n", options_.trace);
+    if (signalsWriter_ && !signalsWriter_->close()) {
+        fmt::print(stderr, "error: {} could not be written in full\n", options_.signals);
+    }
+    return status;
+}
+
+bool Controller::cyclesLeft(const Task& task) const {
+    if (task.kind() != TaskKind::Normal || options_.cycles == 0) return true;
+    return task.cyclesDone() < static_cast<uint64_t>(options_.cycles);
+}
+
+std::string Controller::trustLevel(const Task& task) const {
+    for (const CfgInstance* instance : instances("SYS", "CAB_TASKS")) {
+        if (sameName(instance->text("Name"), task.name())) return instance->text("TrustLevel", "SysFail");
+    }
+    return "SysFail";
+}
+
+void Controller::taskFailed(Task& task) {
+    if (task.kind() != TaskKind::Normal) {
+        const std::string level = trustLevel(task);
+        if (sameName(level, "NoSafety") || sameName(level, "None")) return;
+        const char* type = task.kind() == TaskKind::Static ? "STATIC" : "SEMISTATIC";
+        log_.write(EventId::SystemFailure, &task, {task.name(), type, level});
+        systemFailed_ = true;
+    }
+    stopNormalTasks(StopCause::Order);
+    motion_->programStop();
+}
+
+void Controller::stopNormalTasks(StopCause cause) {
+    for (const auto& task : tasks_) {
+        if (isNormal(task)) task->stop(cause);
+    }
+}
+
+// ---- Controller actions --------------------------------------------------------------------------------------------
+
+void Controller::actionStop() {
+    bool any = false;
+    for (const auto& task : tasks_) {
+        if (!isNormal(task) || !task->isExecuting()) continue;
+        any = true;
+        log_.write(EventId::ProgramStopped, task.get(), {task->name(), "stop order"});
+        task->stop(StopCause::Order);
+    }
+    if (!any) log_.write(EventId::NothingStopped, nullptr, {"stop", "executing"});
+    motion_->programStop();
+}
+
+void Controller::actionStart() {
+    bool any = false;
+    for (const auto& task : tasks_) {
+        if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished) continue;
+        any = true;
+        if (task->stopCause() != StopCause::Error && !systemFailed_) continue;
+        log_.write(EventId::StartRefused, task.get(), {task->name()});
+        return;
+    }
+    if (!any) {
+        log_.write(EventId::NothingStopped, nullptr, {"start", "stopped"});
+        return;
+    }
+    motion_->programStart();
+    for (const auto& task : tasks_) {
+        if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished) continue;
+        const bool atMain = task->stopCause() == StopCause::AtMain;
+        log_.write(atMain ? EventId::ProgramStarted : EventId::ProgramRestarted, task.get(), {task->name()});
+        task->resume();
+    }
+}
+
+void Controller::actionPpToMain() {
+    for (const auto& task : tasks_) {
+        if (!isNormal(task) || !task->isExecuting()) continue;
+        log_.write(EventId::ActionRefusedRunning, task.get(), {"pp_to_main", task->name()});
+        return;
+    }
+    motion_->clearPath();
+    for (const auto& task : tasks_) {
+        if (!isNormal(task) || task->state() == TaskState::Finished) continue;
+        task->moveToMain();
+        log_.write(EventId::ProgramPointerReset, task.get(), {task->name()});
+    }
+}
+
+void Controller::actionStep(bool forward) {
+    for (const auto& task : tasks_) {
+        if (!isNormal(task) || !task->isExecuting()) continue;
+        log_.write(EventId::ActionRefusedRunning, task.get(),
+                   {forward ? "step_forward" : "step_backward", task->name()});
+        return;
+    }
+    log_.write(EventId::StepUnavailable, nullptr);
+}
+
+// ---- Stimulus ------------------------------------------------------------------------------------------------------
+
+void Controller::scheduleStimulus() {
+    std::size_t answers = 0;
+    for (const StimulusItem& item : stimulus_) {
+        answers += item.kind == StimulusKind::Answer ? 1 : 0;
+        startsToCome_ += item.kind == StimulusKind::Start ? 1 : 0;
+        scheduler_.at(item.time, [this, &item] { perform(item); });
+    }
+    panel_.setAnswersToCome(answers);
+}
+
+void Controller::perform(const StimulusItem& item) {
+    switch (item.kind) {
+    case StimulusKind::Signal:
+        if (io_.force(io_.find(item.target), item.value) != IoResult::Ok) {
+            log_.write(EventId::StimulusRefused, nullptr,
+                       {std::to_string(item.line), item.target, shortestNumber(item.value)});
+        }
+        return;
+    case StimulusKind::Answer: panel_.answerCame(item.text); return;
+    case StimulusKind::Stop: actionStop(); return;
+    case StimulusKind::Start:
+        --startsToCome_;
+        actionStart();
+        return;
+    case StimulusKind::PpToMain: actionPpToMain(); return;
+    case StimulusKind::StepForward: actionStep(true); return;
+    case StimulusKind::StepBackward: actionStep(false); return;
+    }
+}
+
+int runProgram(const ProgramDesc& program, const RunOptions& options, ControllerSetup setup) {
+    Controller controller(options);
+    if (setup != nullptr) setup(controller);
+    const ExitStatus prepared = controller.prepare(program);
+    return static_cast<int>(prepared == ExitStatus::Ended ? controller.run() : prepared);
+}
+
+} // namespace rt

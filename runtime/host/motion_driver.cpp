@@ -1,0 +1,160 @@
+#include "runtime/host/motion_driver.h"
+
+#include "runtime/sched/task.h"
+#include "runtime/sim/csv_writers.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace rt {
+
+MotionDriver::MotionDriver(Scheduler& scheduler, robot::RobotModel model)
+    : scheduler_(scheduler), system_(std::move(model)) {}
+
+MotionDriver::~MotionDriver() = default;
+
+motion::MotionSystem& MotionDriver::system() {
+    advance(scheduler_.now());
+    return system_;
+}
+
+void MotionDriver::refresh() {
+    advance(scheduler_.now());
+    schedule();
+}
+
+/// Event by event, so that samples lie on the move in progress and triggers act before motion goes on.
+void MotionDriver::advance(Time time) {
+    if (advancing_) return; // a trigger's action asks for the motion system
+    advancing_ = true;
+    for (bool reached = false; !reached;) {
+        Time step = time;
+        if (const auto next = system_.nextEventTime())
+            step = std::min(time, std::max<Time>(*next, system_.now()));
+        while (trace_ != nullptr && nextSample_ <= step) {
+            trace_->sample(nextSample_, unitName_, system_.sample(nextSample_));
+            nextSample_ += TraceWriter::kPeriod;
+        }
+        system_.advanceTo(step);
+        const std::vector<motion::MotionEvent> events = system_.takeEvents();
+        for (const motion::MotionEvent& event : events)
+            handle(event);
+        if (!events.empty()) changed_.notifyAll();
+        reached = step >= time && events.empty();
+    }
+    advancing_ = false;
+}
+
+void MotionDriver::handle(const motion::MotionEvent& event) {
+    if (event.kind != motion::MotionEventKind::Trigger) return;
+    const auto found = triggers_.find(event.trigger);
+    if (found == triggers_.end()) return;
+    const auto action = std::move(found->second);
+    triggers_.erase(found);
+    action(event);
+}
+
+void MotionDriver::schedule() {
+    const Time next = system_.nextEventTime().value_or(kNever);
+    if (next == nextTime_) return;
+    scheduler_.cancel(next_);
+    nextTime_ = next;
+    next_ = 0;
+    if (next == kNever) return;
+    next_ = scheduler_.at(next, [this] {
+        nextTime_ = kNever;
+        refresh();
+    });
+}
+
+Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::MoveId& id,
+                           std::optional<motion::MotionError>& error) {
+    error.reset();
+    command.tag = instructions_ + 1;
+    WaitResult result{};
+    for (;;) {
+        refresh();
+        const auto ordered = system_.enqueue(command);
+        if (ordered) {
+            id = *ordered;
+            break;
+        }
+        if (ordered.error().kind != motion::MotionErrorKind::QueueFull) {
+            error = ordered.error();
+            return kOk;
+        }
+        const std::size_t full = system_.unfinishedMoves();
+        const Status status =
+            task.waitFor({{&changed_}, [&] { return system().unfinishedMoves() < full; }}, result);
+        if (status < 0) return status;
+    }
+    ++instructions_;
+    refresh();
+    return task.waitFor({{&changed_}, [&] { return system().isReleased(id); }}, result);
+}
+
+Status MotionDriver::waitDone(Task& task, motion::MoveId id) {
+    WaitResult result{};
+    return task.waitFor({{&changed_}, [this, id] { return system().isDone(id); }}, result);
+}
+
+Status MotionDriver::waitIdle(Task& task) {
+    WaitResult result{};
+    return task.waitFor({{&changed_}, [this] { return system().isIdle(); }}, result);
+}
+
+Status MotionDriver::waitZeroSpeed(Task& task) {
+    WaitResult result{};
+    return task.waitFor({{&changed_}, [this] { return !system().isMoving(); }}, result);
+}
+
+uint32_t MotionDriver::addTrigger(std::function<void(const motion::MotionEvent&)> action) {
+    triggers_.emplace(++lastTrigger_, std::move(action));
+    return lastTrigger_;
+}
+
+void MotionDriver::applyStops() {
+    advance(scheduler_.now());
+    const bool held = stopMove_ || programStop_;
+    if (held && !system_.isStopRequested()) system_.stop();
+    if (!held && system_.isStopRequested()) system_.start();
+    refresh();
+}
+
+void MotionDriver::stopMove() {
+    stopMove_ = true;
+    applyStops();
+}
+
+void MotionDriver::startMove() {
+    stopMove_ = false;
+    applyStops();
+}
+
+void MotionDriver::programStop() {
+    programStop_ = true;
+    applyStops();
+}
+
+void MotionDriver::programStart() {
+    programStop_ = false;
+    applyStops();
+}
+
+void MotionDriver::clearPath() {
+    advance(scheduler_.now());
+    system_.clear();
+    refresh();
+    changed_.notifyAll(); // moves that tasks wait for are gone
+}
+
+bool MotionDriver::isSettled() const {
+    return system_.isStopRequested() ? !system_.isMoving() : system_.isIdle();
+}
+
+void MotionDriver::finishTrace() {
+    advance(scheduler_.now());
+}
+
+} // namespace rt
