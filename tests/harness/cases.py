@@ -240,12 +240,12 @@ class ProgramTest:
 
 
 def normal_signal_row(line):
-    """time_s,signal,value with numbers compared as numbers; None for the header, comments and blank lines."""
+    """time_s (to 10 ms),signal,value with numbers compared as numbers; None for the header, comments and blank lines."""
     fields = [field.strip() for field in line.split(",")]
     if len(fields) != 3 or line.startswith("#") or fields[0] == "time_s":
         return None
     try:
-        return (round(float(fields[0]), 6), fields[1].lower(), float(fields[2]))
+        return (round(float(fields[0]), 2), fields[1].lower(), float(fields[2]))
     except ValueError:
         return None
 
