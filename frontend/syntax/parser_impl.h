@@ -105,7 +105,7 @@ class Parser {
     bool startsAfresh() const;
     bool looksLikeStatement(TokenIndex i) const;
     bool opensBlock(TokenIndex i) const;
-    bool calleeEndsHere(TokenIndex callee) const;
+    bool calleeEndsHere(TokenIndex callee, TokenIndex calleeEnd) const;
     bool findOnLine(TokenIndex from, K wanted, TokenIndex& found) const;
     void expectWord(K word);
     void expectClosing(K closing, TokenIndex opening, bool inList);

@@ -186,8 +186,8 @@ bool Parser::startsAfresh() const {
 
 /// A name that ends its line, followed by a line at the same margin that is an instruction of its own: the
 /// semicolon is missing, although the second name could be read as an argument.
-bool Parser::calleeEndsHere(TokenIndex callee) const {
-    const TokenIndex next = callee + 1;
+bool Parser::calleeEndsHere(TokenIndex callee, TokenIndex calleeEnd) const {
+    const TokenIndex next = calleeEnd + 1;
     if (!isName(kindAt(next)) || !startsLine(next) || !startsLine(callee)) return false;
     switch (kindAt(next + 1)) {
     case K::Identifier:

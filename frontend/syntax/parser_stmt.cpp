@@ -208,7 +208,7 @@ Stmt* Parser::parseLabel() {
 Stmt* Parser::parseCallStmt() {
     auto* node = make<CallStmt>(NodeKind::CallStmt);
     node->name = take();
-    if (calleeEndsHere(node->name)) {
+    if (calleeEndsHere(node->name, node->name)) {
         reportAt(Code::MissingSemicolon, endOf(node->name), {describe(node->name)});
         return finish(node);
     }
@@ -249,7 +249,7 @@ Stmt* Parser::parseLateCall() {
     const TokenIndex opening = take();
     node->lateName = parseExpr();
     expectClosing(K::Percent, opening, false);
-    if (!panic_) node->args = parseArguments(true);
+    if (!panic_ && !calleeEndsHere(opening, pos_ - 1)) node->args = parseArguments(true);
     endStatement(node->args.empty() ? "an argument or ';'" : "',' or ';'");
     return finish(node);
 }
@@ -427,7 +427,7 @@ Stmt* Parser::parseGoto() {
 Stmt* Parser::parseValueStmt(bool isReturn) {
     Expr* value = nullptr;
     const TokenIndex first = take();
-    if (kind() != K::Semicolon && startsExpr(kind()) && !calleeEndsHere(first) &&
+    if (kind() != K::Semicolon && startsExpr(kind()) && !calleeEndsHere(first, first) &&
         !(startsLine(pos_) && isName(kind()) && (peek() == K::Assign || peek() == K::Colon)))
         value = parseExpr();
     Stmt* result;
