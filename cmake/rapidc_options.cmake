@@ -1,5 +1,14 @@
 # Warnings, sanitizers and the helper every library of the project is made with.
 
+# Found here, at the root, so that every folder sees the imported targets.
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(Eigen3 REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(Threads REQUIRED)
+find_package(Boost 1.74 REQUIRED)
+find_package(LLVM 19.1 REQUIRED CONFIG)
+
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
