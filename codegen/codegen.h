@@ -18,8 +18,10 @@ struct ProgramDesc;
 namespace codegen {
 
 struct CodegenOptions {
-    bool optimise = true;  ///< LLVM's O2 pipeline; off for the stepping profile, where variables stay in memory
-    bool debugInfo = true; ///< DWARF line tables that name the lines of the source; in the JIT gdb gets them, too
+    bool optimise =
+        true; ///< LLVM's O2 pipeline; off for the stepping profile, where variables stay in memory
+    bool debugInfo =
+        true; ///< DWARF line tables that name the lines of the source; in the JIT gdb gets them, too
 };
 
 /// A C function (or datum) that compiled code may refer to.
@@ -51,10 +53,12 @@ std::string emitLlvm(const ir::Module& module, const CodegenOptions& options, st
 std::string emitAsm(const ir::Module& module, const CodegenOptions& options, std::string& error);
 
 struct LinkOptions {
-    std::vector<std::string> libraries;      ///< paths of static libraries and objects, in link order (may refer to
-                                             ///< each other in circles)
-    std::vector<std::string> extraArguments; ///< passed on to the linker driver after the libraries, e.g. "-lpthread"
-    std::string driver;                      ///< compiler driver; empty: clang++-19, clang++, g++-12, g++, c++ in turn
+    std::vector<std::string>
+        libraries; ///< paths of static libraries and objects, in link order (may refer to
+                   ///< each other in circles)
+    std::vector<std::string>
+        extraArguments; ///< passed on to the linker driver after the libraries, e.g. "-lpthread"
+    std::string driver; ///< compiler driver; empty: clang++-19, clang++, g++-12, g++, c++ in turn
     bool stripDebug = false;
 };
 

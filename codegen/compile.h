@@ -1,0 +1,27 @@
+#pragma once
+// The common way of JIT and object file: target machine, emission, optimisation.
+
+#include <llvm/IR/LLVMContext.h>
+#include <llvm/IR/Module.h>
+#include <llvm/Target/TargetMachine.h>
+
+#include <memory>
+#include <string>
+
+#include "codegen/codegen.h"
+
+namespace codegen {
+
+/// Machine code is made for one fixed feature set, never for the host's: results and objects must not depend on it.
+std::unique_ptr<llvm::TargetMachine> makeTargetMachine(const CodegenOptions& options, std::string& error);
+
+/// Emits `module`, checks the result and optimises it. Null and `error` when LLVM's verifier objects (our bug).
+std::unique_ptr<llvm::Module> compile(const ir::Module& module, const CodegenOptions& options,
+                                      llvm::TargetMachine& machine, llvm::LLVMContext& context,
+                                      std::string& error);
+
+/// Machine code of a compiled module as the bytes of an object file, or its assembly.
+bool generate(llvm::Module& module, llvm::TargetMachine& machine, llvm::CodeGenFileType type,
+              llvm::SmallVectorImpl<char>& out, std::string& error);
+
+} // namespace codegen

@@ -1,0 +1,131 @@
+// Calls of routines and natives, safepoints.
+
+#include <llvm/ADT/StringSwitch.h>
+#include <llvm/IR/Intrinsics.h>
+
+#include <cstddef>
+
+#include "codegen/routine_emitter.h"
+#include "runtime/abi/rt_abi.h"
+
+namespace codegen {
+namespace {
+
+/// Functions whose result IEEE 754 fixes to the last bit: the instruction gives the same as the library.
+llvm::Intrinsic::ID exactIntrinsic(llvm::StringRef symbol) {
+    return llvm::StringSwitch<llvm::Intrinsic::ID>(symbol)
+        .Cases("sqrt", "sqrtf", llvm::Intrinsic::sqrt)
+        .Cases("fabs", "fabsf", llvm::Intrinsic::fabs)
+        .Cases("floor", "floorf", llvm::Intrinsic::floor)
+        .Cases("ceil", "ceilf", llvm::Intrinsic::ceil)
+        .Cases("trunc", "truncf", llvm::Intrinsic::trunc)
+        .Cases("rint", "rintf", llvm::Intrinsic::rint)
+        .Default(llvm::Intrinsic::not_intrinsic);
+}
+
+} // namespace
+
+llvm::Value* RoutineEmitter::stmtNumber(const ir::Inst& inst) const {
+    // kNone becomes -1: no statement.
+    return llvm::ConstantInt::getSigned(llvm::Type::getInt32Ty(m_.context()),
+                                        static_cast<int32_t>(inst.stmt));
+}
+
+llvm::Value* RoutineEmitter::taskField(size_t offset, const char* name) {
+    return b_.CreateInBoundsGEP(b_.getInt8Ty(), task_, b_.getInt64(offset), name);
+}
+
+void RoutineEmitter::storeStatement(Value* stmt) {
+    b_.CreateStore(stmt, b_.CreateStructGEP(m_.runtime().frame, frame_, 2))
+        ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().frame);
+}
+
+void RoutineEmitter::call(const ir::Inst& inst, ir::ValueId id) {
+    const ir::Routine& callee = module_.routines[inst.index];
+    llvm::Function* function = m_.routine(inst.index);
+    std::vector<Value*> args{task_, frame_};
+    for (ir::ValueId operandId : inst.operands)
+        args.push_back(value(operandId));
+    storeStatement(stmtNumber(inst));
+    llvm::CallInst* result = b_.CreateCall(function, args);
+    result->setCallingConv(llvm::CallingConv::Fast);
+    result->setDoesNotThrow();
+    bool byValue = callee.result != ir::kVoid && module_.isScalar(callee.result);
+    continueIfOk(inst, byValue ? b_.CreateExtractValue(result, 0) : result, true);
+    if (byValue) define(id, b_.CreateExtractValue(result, 1));
+}
+
+void RoutineEmitter::nativeCall(const ir::Inst& inst, ir::ValueId id) {
+    const ir::Native& native = module_.natives[inst.index];
+    if (native.nativeClass == ir::NativeClass::Const) return constNative(inst, id);
+    std::vector<Value*> args{task_};
+    bool byValue = native.result != ir::kVoid && module_.isScalar(native.result);
+    llvm::AllocaInst* slot = nullptr;
+    if (byValue) args.push_back(slot = resultSlot(native.result));
+    size_t hidden = !byValue && native.result != ir::kVoid ? 1 : 0;
+    for (size_t i = 0; i < inst.operands.size(); ++i) {
+        Value* argument = operand(inst, i);
+        if (i >= hidden && native.params[i - hidden] == ir::kBool)
+            argument = b_.CreateZExt(argument, b_.getInt8Ty());
+        args.push_back(argument);
+    }
+    storeStatement(stmtNumber(inst));
+    b_.CreateStore(frame_, taskField(offsetof(rt::TaskCore, frame), "taskFrame"))
+        ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
+    llvm::CallInst* status = b_.CreateCall(m_.nativeFunction(inst.index), args);
+    continueIfOk(inst, status, false);
+    if (byValue) define(id, load(native.result, slot));
+}
+
+/// One slot for each type is enough: the result is taken out at once.
+llvm::AllocaInst* RoutineEmitter::resultSlot(ir::TypeId type) {
+    if (!resultSlots_[type]) {
+        llvm::BasicBlock& entry = function_->getEntryBlock();
+        llvm::IRBuilder<> b(&entry, entry.begin());
+        resultSlots_[type] = b.CreateAlloca(m_.memoryType(type), nullptr, "native.result");
+    }
+    return resultSlots_[type];
+}
+
+void RoutineEmitter::constNative(const ir::Inst& inst, ir::ValueId id) {
+    const ir::Native& native = module_.natives[inst.index];
+    bool isFloat = native.result == ir::kF32 || native.result == ir::kF64;
+    llvm::Intrinsic::ID intrinsic = exactIntrinsic(native.symbol);
+    if (isFloat && intrinsic != llvm::Intrinsic::not_intrinsic && inst.operands.size() == 1 &&
+        native.params[0] == native.result) {
+        define(id, b_.CreateUnaryIntrinsic(intrinsic, operand(inst, 0)));
+        return;
+    }
+    std::vector<Value*> args;
+    for (size_t i = 0; i < inst.operands.size(); ++i) {
+        Value* argument = operand(inst, i);
+        if (native.params[i] == ir::kBool) argument = b_.CreateZExt(argument, b_.getInt8Ty());
+        args.push_back(argument);
+    }
+    Value* result = b_.CreateCall(m_.nativeFunction(inst.index), args);
+    if (native.result == ir::kBool) result = b_.CreateICmpNE(result, b_.getInt8(0));
+    define(id, result);
+}
+
+void RoutineEmitter::safepoint(const ir::Inst& inst) {
+    Value* budget = taskField(offsetof(rt::TaskCore, budget), "budget");
+    llvm::Type* i64 = b_.getInt64Ty();
+    auto* before = b_.CreateLoad(i64, budget);
+    before->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
+    Value* cost = llvm::ConstantInt::getSigned(i64, inst.extra);
+    if (!inst.operands.empty()) cost = b_.CreateAdd(cost, operand(inst, 0));
+    Value* after = b_.CreateSub(before, cost);
+    b_.CreateStore(after, budget)->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
+    BasicBlock *go = newBlock("go"), *slow = newBlock("safepoint");
+    b_.CreateCondBr(b_.CreateICmpSGE(after, llvm::ConstantInt::get(i64, 0)), go, slow, m_.unlikely());
+    b_.SetInsertPoint(slow);
+    llvm::CallInst* status =
+        b_.CreateCall(m_.runtime().safepointSlow, {task_, frame_, caller_, desc_, stmtNumber(inst)});
+    status->setCallingConv(llvm::CallingConv::PreserveAll);
+    ErrorJoin& leave = leaveJoin();
+    BasicBlock* target = joinFrom(leave, inst, status);
+    b_.CreateCondBr(b_.CreateICmpEQ(status, b_.getInt32(rt::kOk)), go, target, m_.unlikely());
+    b_.SetInsertPoint(go);
+}
+
+} // namespace codegen

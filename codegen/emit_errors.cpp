@@ -1,0 +1,193 @@
+// Errors: cold blocks shared by all places of the routine. A place that fails jumps there with its statement and the
+// number; phi nodes carry both, so that a check costs one compare and one branch.
+
+#include "codegen/routine_emitter.h"
+#include "runtime/abi/rt_abi.h"
+
+namespace codegen {
+
+bool RoutineEmitter::isHandled(const ir::Inst& inst) const {
+    return routine_.errorHandler != ir::kNone && inst.stmt < routine_.statements.size() &&
+           routine_.statements[inst.stmt].handled;
+}
+
+RoutineEmitter::ErrorJoin& RoutineEmitter::makeJoin(ErrorJoin& join, const char* name) {
+    if (join.block) return join;
+    join.block = newBlock(name);
+    llvm::IRBuilder<> b(join.block);
+    join.stmt = b.CreatePHI(b.getInt32Ty(), 4, "stmt");
+    join.number = b.CreatePHI(b.getInt32Ty(), 4, "number");
+    return join;
+}
+
+RoutineEmitter::ErrorJoin& RoutineEmitter::raiseJoin(bool handled) {
+    if (inUndo()) return makeJoin(raiseUndo_, "raise.undo");
+    return handled ? makeJoin(raiseHandled_, "raise.handled") : makeJoin(raiseUnhandled_, "raise");
+}
+RoutineEmitter::ErrorJoin& RoutineEmitter::nativeJoin(bool handled) {
+    if (inUndo()) return makeJoin(nativeUndo_, "native.undo");
+    return handled ? makeJoin(nativeHandled_, "native.handled") : makeJoin(nativeUnhandled_, "native");
+}
+RoutineEmitter::ErrorJoin& RoutineEmitter::dispatchJoin() {
+    return makeJoin(dispatch_, "dispatch");
+}
+RoutineEmitter::ErrorJoin& RoutineEmitter::leaveJoin() {
+    return inUndo() ? makeJoin(leaveUndo_, "leave.undo") : makeJoin(leave_, "leave");
+}
+
+/// Adds the current block as a way into `join`; the caller branches to the block returned.
+llvm::BasicBlock* RoutineEmitter::joinFrom(ErrorJoin& join, const ir::Inst& inst, Value* number) {
+    join.stmt->addIncoming(stmtNumber(inst), b_.GetInsertBlock());
+    join.number->addIncoming(number, b_.GetInsertBlock());
+    return join.block;
+}
+
+void RoutineEmitter::check(const ir::Inst& inst) {
+    Value* condition = operand(inst, 0);
+    BasicBlock* ok = newBlock("ok");
+    BasicBlock* fail =
+        joinFrom(raiseJoin(isHandled(inst)), inst, b_.getInt32(static_cast<uint32_t>(inst.extra)));
+    b_.CreateCondBr(condition, ok, fail, m_.unlikely());
+    b_.SetInsertPoint(ok);
+}
+
+void RoutineEmitter::raise(const ir::Inst& inst) {
+    Value* number = operand(inst, 0);
+    if (number->getType()->isFloatTy())
+        number =
+            b_.CreateIntrinsic(llvm::Intrinsic::fptosi_sat, {b_.getInt32Ty(), number->getType()}, {number});
+    b_.CreateBr(joinFrom(raiseJoin(isHandled(inst)), inst, number));
+}
+
+/// Goes on when `status` is 0. A routine that was called has raised its error itself; a native only reports it.
+void RoutineEmitter::continueIfOk(const ir::Inst& inst, Value* status, bool calleeRaised) {
+    BasicBlock* ok = newBlock("ok");
+    ErrorJoin* join = nullptr;
+    if (!calleeRaised)
+        join = &nativeJoin(isHandled(inst));
+    else
+        join = isHandled(inst) && !inUndo() ? &dispatchJoin() : &leaveJoin();
+    BasicBlock* fail = joinFrom(*join, inst, status);
+    b_.CreateCondBr(b_.CreateICmpEQ(status, b_.getInt32(rt::kOk)), ok, fail, m_.unlikely());
+    b_.SetInsertPoint(ok);
+}
+
+/// propagate, handlerend: the runtime decides, the routine is left.
+void RoutineEmitter::handlerCall(const ir::Inst& inst, llvm::FunctionCallee callee) {
+    storeStatement(stmtNumber(inst));
+    Value* status = b_.CreateCall(callee, {task_, frame_});
+    b_.CreateBr(joinFrom(leaveJoin(), inst, status));
+}
+
+void RoutineEmitter::retry(const ir::Inst& inst) {
+    storeStatement(stmtNumber(inst));
+    Value* status = b_.CreateCall(m_.runtime().retry, {task_, frame_});
+    BasicBlock* again = newBlock("retry");
+    BasicBlock* fail = joinFrom(leaveJoin(), inst, status);
+    b_.CreateCondBr(b_.CreateICmpEQ(status, b_.getInt32(rt::kOk)), again, fail, m_.unlikely());
+    b_.SetInsertPoint(again);
+    resumeSwitch(&ir::Statement::start);
+}
+
+void RoutineEmitter::tryNext(const ir::Inst&) {
+    resumeSwitch(&ir::Statement::next);
+}
+
+/// Jumps to `where` of the statement that failed.
+void RoutineEmitter::resumeSwitch(ir::BlockId ir::Statement::* where) {
+    BasicBlock* never = newBlock("never");
+    auto* branch = b_.CreateSwitch(b_.CreateLoad(b_.getInt32Ty(), failed_), never);
+    for (uint32_t s = 0; s < routine_.statements.size(); ++s) {
+        const ir::Statement& statement = routine_.statements[s];
+        ir::BlockId target = statement.*where;
+        if (statement.handled && target != ir::kNone) branch->addCase(b_.getInt32(s), blockOf(target));
+    }
+    b_.SetInsertPoint(never);
+    b_.CreateUnreachable();
+}
+
+void RoutineEmitter::emitErrorBlocks() {
+    if (m_.debug()) b_.SetCurrentDebugLocation(m_.debug()->location(routine_, ir::kNone));
+    current_ = 0; // outside the undo handler
+    if (nativeHandled_.block) emitNative(nativeHandled_, raiseJoin(true), leaveJoin());
+    if (nativeUnhandled_.block) emitNative(nativeUnhandled_, raiseJoin(false), leaveJoin());
+    if (nativeUndo_.block)
+        emitNative(nativeUndo_, makeJoin(raiseUndo_, "raise.undo"), makeJoin(leaveUndo_, "leave.undo"));
+    if (raiseHandled_.block) emitRaise(raiseHandled_, true);
+    if (raiseUnhandled_.block) emitRaise(raiseUnhandled_, false);
+    if (raiseUndo_.block) emitRaise(raiseUndo_, false);
+    if (dispatch_.block) emitDispatch();
+    if (leave_.block) emitLeave();
+    if (!leaveUndo_.block) return;
+    b_.SetInsertPoint(leaveUndo_.block);
+    returnStatus(b_.CreateLoad(b_.getInt32Ty(), unwinding_));
+}
+
+void RoutineEmitter::emitNative(ErrorJoin& join, ErrorJoin& raising, ErrorJoin& leaving) {
+    b_.SetInsertPoint(join.block);
+    for (ErrorJoin* next : {&raising, &leaving}) {
+        next->stmt->addIncoming(join.stmt, join.block);
+        next->number->addIncoming(join.number, join.block);
+    }
+    b_.CreateCondBr(b_.CreateICmpSGT(join.number, b_.getInt32(0)), raising.block, leaving.block);
+}
+
+void RoutineEmitter::emitRaise(ErrorJoin& join, bool handled) {
+    b_.SetInsertPoint(join.block);
+    if (!frameInPrologue_) { // it may not have been filled on the way here
+        llvm::StructType* type = m_.runtime().frame;
+        b_.CreateStore(caller_, b_.CreateStructGEP(type, frame_, 0));
+        b_.CreateStore(desc_, b_.CreateStructGEP(type, frame_, 1));
+        b_.CreateStore(b_.getInt32(0), b_.CreateStructGEP(type, frame_, 3));
+    }
+    storeStatement(join.stmt);
+    Value* status = b_.CreateCall(m_.runtime().raise, {task_, frame_, join.number});
+    if (&join == &raiseUndo_) {
+        returnStatus(b_.CreateLoad(b_.getInt32Ty(), unwinding_));
+        return;
+    }
+    ErrorJoin& next = handled ? dispatchJoin() : leaveJoin();
+    next.stmt->addIncoming(join.stmt, join.block);
+    next.number->addIncoming(status, join.block);
+    b_.CreateBr(next.block);
+}
+
+/// An error on its way meets this routine's handler: notes the statement, and takes the error if the filter lets it.
+void RoutineEmitter::emitDispatch() {
+    b_.SetInsertPoint(dispatch_.block);
+    b_.CreateStore(dispatch_.stmt, failed_);
+    ErrorJoin& leaving = leaveJoin();
+    BasicBlock* handler = blockOf(routine_.errorHandler);
+    if (routine_.errorFilter.empty()) {
+        leaving.stmt->addIncoming(dispatch_.stmt, dispatch_.block);
+        leaving.number->addIncoming(dispatch_.number, dispatch_.block);
+        b_.CreateCondBr(b_.CreateICmpSGT(dispatch_.number, b_.getInt32(0)), handler, leaving.block);
+        return;
+    }
+    leaving.stmt->addIncoming(dispatch_.stmt, dispatch_.block);
+    leaving.number->addIncoming(dispatch_.number, dispatch_.block);
+    auto* filter = b_.CreateSwitch(dispatch_.number, leaving.block);
+    for (int32_t number : routine_.errorFilter) {
+        auto* value = b_.getInt32(static_cast<uint32_t>(number));
+        if (number > 0 && filter->findCaseValue(value) == filter->case_default())
+            filter->addCase(value, handler);
+    }
+}
+
+/// Leaves the routine with the status; when the stack is being unwound, by way of the undo handler.
+void RoutineEmitter::emitLeave() {
+    b_.SetInsertPoint(leave_.block);
+    if (!unwinding_) {
+        returnStatus(leave_.number);
+        return;
+    }
+    BasicBlock *unwind = newBlock("unwind"), *pass = newBlock("pass");
+    b_.CreateCondBr(b_.CreateICmpSLT(leave_.number, b_.getInt32(0)), unwind, pass);
+    b_.SetInsertPoint(unwind);
+    b_.CreateStore(leave_.number, unwinding_);
+    b_.CreateBr(blockOf(routine_.undoHandler));
+    b_.SetInsertPoint(pass);
+    returnStatus(leave_.number);
+}
+
+} // namespace codegen

@@ -1,0 +1,206 @@
+// The structures of rt_abi.h: type descriptions, statement tables, routine descriptions, the program description.
+
+#include <cstddef>
+
+#include "codegen/module_emitter.h"
+#include "runtime/abi/rt_abi.h"
+
+namespace codegen {
+
+// Natural alignment makes LLVM's layout that of the C structures; these are the ones with gaps.
+static_assert(offsetof(rt::TypeDesc, size) == 20 && offsetof(rt::TypeDesc, fields) == 40 &&
+              sizeof(rt::TypeDesc) == 64);
+static_assert(sizeof(rt::StmtDesc) == 20 && offsetof(rt::RoutineDesc, errorFilter) == 40);
+static_assert(offsetof(rt::GlobalDesc, task) == 36 && offsetof(rt::RoutineEntry, address) == 24);
+static_assert(sizeof(rt::RoutineDesc) == 56 && sizeof(rt::TaskDesc) == 40 && sizeof(rt::GlobalDesc) == 56);
+static_assert(sizeof(rt::ExternalDesc) == 40 && sizeof(rt::ProgramDesc) == 96);
+
+namespace {
+
+constexpr const char* kProgramSymbol = "rapidc_program";
+
+llvm::GlobalVariable* placeholder(llvm::Module& module, llvm::Type* type, const std::string& name) {
+    return new llvm::GlobalVariable(module, type, true, llvm::GlobalValue::PrivateLinkage, nullptr, name);
+}
+
+} // namespace
+
+llvm::Constant* ModuleEmitter::i32(int64_t value) {
+    return llvm::ConstantInt::getSigned(i32_, value);
+}
+llvm::Constant* ModuleEmitter::i8(int64_t value) {
+    return llvm::ConstantInt::get(i8_, static_cast<uint64_t>(value) & 0xff);
+}
+
+llvm::Constant* ModuleEmitter::constant(llvm::Constant* value, const std::string& name) {
+    auto* variable = new llvm::GlobalVariable(*target_, value->getType(), true,
+                                              llvm::GlobalValue::PrivateLinkage, value, name);
+    return variable;
+}
+
+llvm::Constant* ModuleEmitter::text(const std::string& value) {
+    llvm::Constant*& known = texts_[value];
+    if (!known) {
+        known = constant(llvm::ConstantDataArray::getString(context_, value), "text");
+        llvm::cast<llvm::GlobalVariable>(known)->setUnnamedAddr(llvm::GlobalValue::UnnamedAddr::Global);
+        llvm::cast<llvm::GlobalVariable>(known)->setAlignment(llvm::Align(1));
+    }
+    return known;
+}
+
+llvm::Constant* ModuleEmitter::array(llvm::Type* element, const std::vector<llvm::Constant*>& values,
+                                     const std::string& name) {
+    if (values.empty()) return llvm::ConstantPointerNull::get(ptr_);
+    return constant(llvm::ConstantArray::get(llvm::ArrayType::get(element, values.size()), values), name);
+}
+
+llvm::Constant* ModuleEmitter::fileName(uint32_t file) {
+    if (file >= module_.files.size()) return llvm::ConstantPointerNull::get(ptr_);
+    return text(module_.files[file]);
+}
+
+void ModuleEmitter::declareTables() {
+    auto make = [&](const char* name, std::vector<llvm::Type*> fields) {
+        return llvm::StructType::create(context_, fields, name);
+    };
+    llvm::Type* dims = llvm::ArrayType::get(i32_, 3);
+    typeDescType_ = make("rt.TypeDesc", {ptr_, ptr_, i8_, i32_, i32_, dims, ptr_, ptr_, ptr_});
+    stmtDescType_ = make("rt.StmtDesc", {i32_, i32_, i32_, i32_, i8_, i8_, i8_, i8_});
+    routineDescType_ = make("rt.RoutineDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i8_, i8_, i8_, i8_, ptr_, i32_});
+    taskDescType_ = make("rt.TaskDesc", {ptr_, ptr_, ptr_, ptr_, i8_});
+    globalDescType_ = make("rt.GlobalDesc", {ptr_, ptr_, ptr_, ptr_, i8_, i32_, ptr_, i32_});
+    externalDescType_ = make("rt.ExternalDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i32_});
+    routineEntryType_ = make("rt.RoutineEntry", {ptr_, ptr_, i32_, ptr_, ptr_});
+    programDescType_ =
+        make("rt.ProgramDesc", {ptr_, ptr_, i32_, ptr_, i32_, ptr_, i32_, ptr_, i32_, ptr_, ptr_, i32_});
+    for (const ir::TypeDesc& desc : module_.typeDescs)
+        typeDescs_.push_back(placeholder(*target_, typeDescType_, "type." + desc.name));
+    for (const ir::Routine& routine : module_.routines)
+        routineDescs_.push_back(placeholder(*target_, routineDescType_, "routine." + routine.name));
+}
+
+llvm::Constant* ModuleEmitter::typeDescValue(const ir::TypeDesc& desc) {
+    const ir::Type& type = module_.type(desc.type);
+    std::vector<llvm::Constant*> fields, names, offsets;
+    for (uint32_t part : desc.fieldDescs)
+        fields.push_back(typeDescs_[part]);
+    for (const std::string& name : desc.fieldNames)
+        names.push_back(text(name));
+    int64_t count = 0, dims[3] = {0, 0, 0};
+    if (desc.kind == ir::DescKind::Record) {
+        count = static_cast<int64_t>(type.fields.size());
+        for (uint32_t f = 0; f < type.fields.size(); ++f)
+            offsets.push_back(i32(module_.fieldOffset(desc.type, f)));
+    } else if (desc.kind == ir::DescKind::Array) {
+        count = 1;
+        for (size_t i = 0; i < type.dims.size(); ++i)
+            count *= dims[i] = type.dims[i];
+    }
+    llvm::Constant* dimValues =
+        llvm::ConstantArray::get(llvm::ArrayType::get(i32_, 3), {i32(dims[0]), i32(dims[1]), i32(dims[2])});
+    return llvm::ConstantStruct::get(
+        typeDescType_, {text(desc.name), text(desc.baseName), i8(static_cast<int64_t>(desc.kind)),
+                        i32(module_.size(desc.type)), i32(count), dimValues, array(ptr_, fields, "fields"),
+                        array(ptr_, names, "fieldNames"), array(i32_, offsets, "offsets")});
+}
+
+llvm::Constant* ModuleEmitter::routineDescValue(const ir::Routine& routine) {
+    std::vector<llvm::Constant*> statements, filter;
+    for (const ir::Statement& s : routine.statements)
+        statements.push_back(llvm::ConstantStruct::get(
+            stmtDescType_, {i32(s.line), i32(s.column), i32(s.endLine), i32(s.endColumn),
+                            i8(static_cast<int64_t>(s.kind)), i8(s.handled), i8(0), i8(0)}));
+    for (int32_t number : routine.errorFilter)
+        filter.push_back(i32(number));
+    return llvm::ConstantStruct::get(
+        routineDescType_,
+        {text(routine.displayName), text(routine.moduleName), fileName(routine.file),
+         array(stmtDescType_, statements, "statements"), i32(static_cast<int64_t>(statements.size())),
+         i8(routine.errorHandler != ir::kNone), i8(routine.undoHandler != ir::kNone), i8(routine.noStepIn),
+         i8(0), array(i32_, filter, "filter"), i32(static_cast<int64_t>(filter.size()))});
+}
+
+llvm::Constant* ModuleEmitter::tasks() {
+    std::vector<llvm::Constant*> rows;
+    for (const ir::TaskEntry& task : module_.tasks) {
+        llvm::Constant* reset = llvm::ConstantPointerNull::get(ptr_);
+        if (task.reset != ir::kNone) reset = cEntries_[task.reset];
+        rows.push_back(
+            llvm::ConstantStruct::get(taskDescType_, {text(task.name), text(task.type), cEntries_[task.entry],
+                                                      reset, i8(task.motionTask)}));
+    }
+    return array(taskDescType_, rows, "tasks");
+}
+
+llvm::Constant* ModuleEmitter::globalTable(uint32_t& count) {
+    std::vector<llvm::Constant*> rows;
+    for (uint32_t i = 0; i < module_.globals.size(); ++i) {
+        const ir::Global& global = module_.globals[i];
+        // Constants that the compiler made for itself have no name that anybody could ask for.
+        if (global.displayName.empty() || global.typeDesc == ir::kNone) continue;
+        int64_t task = global.task == ir::kNone ? -1 : int64_t{global.task};
+        rows.push_back(llvm::ConstantStruct::get(
+            globalDescType_,
+            {text(global.displayName), text(global.moduleName), globals_[i], typeDescs_[global.typeDesc],
+             i8(static_cast<int64_t>(global.kind)), i32(task), fileName(global.file), i32(global.line)}));
+    }
+    count = static_cast<uint32_t>(rows.size());
+    return array(globalDescType_, rows, "globals");
+}
+
+llvm::Constant* ModuleEmitter::externals() {
+    std::vector<llvm::Constant*> rows;
+    for (const ir::ExternalRef& external : module_.externals)
+        rows.push_back(llvm::ConstantStruct::get(
+            externalDescType_, {text(external.name), text(external.kind), globals_[external.global],
+                                fileName(external.file), i32(external.line), i32(external.column)}));
+    return array(externalDescType_, rows, "externals");
+}
+
+/// The task a routine belongs to is the first part of its linkage name ("T_ROB1/MainModule/main"); -1 = any.
+llvm::Constant* ModuleEmitter::routineTable(uint32_t& count) {
+    std::vector<llvm::Constant*> rows;
+    for (uint32_t i = 0; i < module_.routines.size(); ++i) {
+        const ir::Routine& routine = module_.routines[i];
+        if (!routine.exported) continue;
+        std::string prefix = routine.name.substr(0, routine.name.find('/'));
+        int64_t task = -1;
+        for (size_t t = 0; t < module_.tasks.size(); ++t)
+            if (module_.tasks[t].name == prefix) task = static_cast<int64_t>(t);
+        rows.push_back(
+            llvm::ConstantStruct::get(routineEntryType_, {text(routine.displayName), text(routine.moduleName),
+                                                          i32(task), cEntries_[i], routineDescs_[i]}));
+    }
+    count = static_cast<uint32_t>(rows.size());
+    return array(routineEntryType_, rows, "routines");
+}
+
+void ModuleEmitter::emitTables() {
+    for (uint32_t i = 0; i < module_.typeDescs.size(); ++i)
+        typeDescs_[i]->setInitializer(typeDescValue(module_.typeDescs[i]));
+    for (uint32_t i = 0; i < module_.routines.size(); ++i)
+        routineDescs_[i]->setInitializer(routineDescValue(module_.routines[i]));
+    emitProgram();
+}
+
+void ModuleEmitter::emitProgram() {
+    uint32_t globalCount = 0, routineCount = 0;
+    llvm::Constant* globalRows = globalTable(globalCount);
+    llvm::Constant* routineRows = routineTable(routineCount);
+    std::vector<llvm::Constant*> names, texts;
+    for (const std::string& name : module_.configNames)
+        names.push_back(text(name));
+    for (const std::string& config : module_.configTexts)
+        texts.push_back(text(config));
+    llvm::Constant* value = llvm::ConstantStruct::get(
+        programDescType_,
+        {text(module_.name), tasks(), i32(static_cast<int64_t>(module_.tasks.size())), globalRows,
+         i32(globalCount), externals(), i32(static_cast<int64_t>(module_.externals.size())), routineRows,
+         i32(routineCount), array(ptr_, names, "configNames"), array(ptr_, texts, "configTexts"),
+         i32(static_cast<int64_t>(texts.size()))});
+    auto* program = new llvm::GlobalVariable(*target_, programDescType_, true,
+                                             llvm::GlobalValue::ExternalLinkage, value, kProgramSymbol);
+    program->setDSOLocal(true);
+}
+
+} // namespace codegen

@@ -1,0 +1,306 @@
+#include "codegen/module_emitter.h"
+
+#include <llvm/IR/Verifier.h>
+
+#include <cstddef>
+#include <cstring>
+
+#include "codegen/routine_emitter.h"
+#include "runtime/abi/rt_abi.h"
+
+namespace codegen {
+namespace {
+
+constexpr unsigned kErrorsAreCold = 2000; // usual : error, in branch weights
+
+void putBytes(std::string& image, size_t at, const void* source, size_t count) {
+    std::memcpy(image.data() + at, source, count);
+}
+
+/// Lays flattened constant data out in memory, type by type.
+class DataImage {
+  public:
+    DataImage(const ir::Module& module, const ir::ConstData& data) : module_(module), data_(data) {}
+
+    std::string build(ir::TypeId type) {
+        image_.assign(module_.size(type), '\0');
+        place(type, 0);
+        return std::move(image_);
+    }
+
+  private:
+    void place(ir::TypeId type, size_t at) {
+        const ir::Type& t = module_.type(type);
+        if (t.kind == ir::TypeKind::Record) {
+            for (uint32_t f = 0; f < t.fields.size(); ++f)
+                place(t.fields[f].type, at + module_.fieldOffset(type, f));
+        } else if (t.kind == ir::TypeKind::Array) {
+            size_t size = module_.size(t.element), count = size ? module_.size(type) / size : 0;
+            for (size_t i = 0; i < count; ++i)
+                place(t.element, at + i * size);
+        } else {
+            scalar(data_[next_++], at);
+        }
+    }
+
+    void scalar(const ir::ConstScalar& value, size_t at) {
+        switch (value.kind) {
+        case ir::TypeKind::Bool: image_[at] = value.number != 0; break;
+        case ir::TypeKind::I32: put(static_cast<int32_t>(value.number), at); break;
+        case ir::TypeKind::I64: put(static_cast<int64_t>(value.number), at); break;
+        case ir::TypeKind::F32: put(static_cast<float>(value.number), at); break;
+        case ir::TypeKind::F64: put(value.number, at); break;
+        case ir::TypeKind::Str: {
+            rt::String string;
+            string.assign(value.text);
+            put(string, at);
+            break;
+        }
+        default: break;
+        }
+    }
+
+    template <class T> void put(const T& value, size_t at) { putBytes(image_, at, &value, sizeof value); }
+
+    const ir::Module& module_;
+    const ir::ConstData& data_;
+    std::string image_;
+    size_t next_ = 0;
+};
+
+} // namespace
+
+ModuleEmitter::ModuleEmitter(const ir::Module& module, const CodegenOptions& options,
+                             llvm::LLVMContext& context)
+    : module_(module), options_(options), context_(context) {}
+
+std::unique_ptr<llvm::Module> ModuleEmitter::run(const llvm::DataLayout& layout, const std::string& triple) {
+    target_ = std::make_unique<llvm::Module>(module_.name, context_);
+    target_->setDataLayout(layout);
+    target_->setTargetTriple(triple);
+    target_->setPICLevel(llvm::PICLevel::BigPIC);
+    target_->setPIELevel(llvm::PIELevel::Large);
+    if (options_.debugInfo) debug_ = std::make_unique<DebugInfo>(module_, *target_, options_.optimise);
+    declareTypes();
+    declareRuntime();
+    declareGlobals();
+    declareNatives();
+    declareRoutines();
+    declareTables();
+    emitSafepointSlow();
+    for (uint32_t i = 0; i < module_.routines.size(); ++i)
+        RoutineEmitter(*this, i).run();
+    for (uint32_t i = 0; i < module_.routines.size(); ++i)
+        if (cEntries_[i]) emitCEntry(i);
+    emitTables();
+    if (debug_) debug_->finish();
+    return std::move(target_);
+}
+
+llvm::Type* ModuleEmitter::valueType(ir::TypeId type) {
+    return type == ir::kBool ? llvm::Type::getInt1Ty(context_) : memoryType(type);
+}
+
+llvm::Type* ModuleEmitter::memoryType(ir::TypeId type) {
+    switch (type) {
+    case ir::kVoid: return llvm::Type::getVoidTy(context_);
+    case ir::kBool: return i8_;
+    case ir::kI32: return i32_;
+    case ir::kI64: return i64_;
+    case ir::kF32: return llvm::Type::getFloatTy(context_);
+    case ir::kF64: return llvm::Type::getDoubleTy(context_);
+    case ir::kPtr: return ptr_;
+    default: return llvm::ArrayType::get(i8_, module_.size(type));
+    }
+}
+
+void ModuleEmitter::declareTypes() {
+    ptr_ = llvm::PointerType::getUnqual(context_);
+    i8_ = llvm::Type::getInt8Ty(context_);
+    i32_ = llvm::Type::getInt32Ty(context_);
+    i64_ = llvm::Type::getInt64Ty(context_);
+    llvm::MDBuilder md(context_);
+    unlikely_ = md.createBranchWeights(kErrorsAreCold, 1);
+    llvm::MDNode* root = md.createTBAARoot("rapidc");
+    auto tag = [&](const char* name) {
+        llvm::MDNode* node = md.createTBAAScalarTypeNode(name, root);
+        return md.createTBAAStructTagNode(node, node, 0);
+    };
+    constexpr const char* kNames[] = {"void", "bool", "i32", "i64", "f32", "f64", "str", "ptr"};
+    for (ir::TypeId t : {ir::kBool, ir::kI32, ir::kI64, ir::kF32, ir::kF64, ir::kPtr})
+        tags_.data[t] = tag(kNames[t]);
+    tags_.task = tag("task");
+    tags_.frame = tag("frame");
+}
+
+void ModuleEmitter::declareRuntime() {
+    runtime_.frame = llvm::StructType::create(context_, {ptr_, ptr_, i32_, i32_}, "rt.Frame");
+    static_assert(sizeof(rt::Frame) == 24 && offsetof(rt::Frame, statement) == 16);
+    auto declare = [&](const char* name, std::vector<llvm::Type*> params) {
+        auto* type = llvm::FunctionType::get(i32_, params, false);
+        auto* function = llvm::Function::Create(type, llvm::Function::ExternalLinkage, name, *target_);
+        function->setDoesNotThrow();
+        function->addFnAttr(llvm::Attribute::Cold);
+        return llvm::FunctionCallee(type, function);
+    };
+    runtime_.raise = declare("rt_raise", {ptr_, ptr_, i32_});
+    runtime_.propagate = declare("rt_propagate", {ptr_, ptr_});
+    runtime_.handlerEnd = declare("rt_handlerEnd", {ptr_, ptr_});
+    runtime_.retry = declare("rt_retry", {ptr_, ptr_});
+    runtime_.stackOverflow = declare("rt_stackOverflow", {ptr_, ptr_});
+}
+
+llvm::Constant* ModuleEmitter::initialValue(const ir::Global& global) {
+    llvm::Type* type = memoryType(global.type);
+    if (global.init.empty()) return llvm::Constant::getNullValue(type);
+    std::string image = DataImage(module_, global.init).build(global.type);
+    if (image.find_first_not_of('\0') == std::string::npos) return llvm::Constant::getNullValue(type);
+    return llvm::ConstantDataArray::getRaw(image, image.size(), i8_);
+}
+
+void ModuleEmitter::declareGlobals() {
+    constexpr uint32_t kVectorAlign = 16;
+    for (const ir::Global& global : module_.globals) {
+        bool external = global.kind == ir::GlobalKind::External;
+        llvm::Constant* init = external ? nullptr : initialValue(global);
+        llvm::Type* type = init ? init->getType() : memoryType(global.type);
+        auto linkage = external ? llvm::GlobalValue::ExternalLinkage : llvm::GlobalValue::InternalLinkage;
+        auto* variable = new llvm::GlobalVariable(*target_, type, global.kind == ir::GlobalKind::Const,
+                                                  linkage, init, global.name);
+        uint32_t align = module_.align(global.type);
+        if (!external && module_.size(global.type) >= kVectorAlign) align = kVectorAlign;
+        variable->setAlignment(llvm::Align(align));
+        if (!external) variable->setDSOLocal(true);
+        globals_.push_back(variable);
+    }
+}
+
+void ModuleEmitter::declareNatives() {
+    for (const ir::Native& native : module_.natives) {
+        bool constant = native.nativeClass == ir::NativeClass::Const;
+        std::vector<llvm::Type*> params;
+        if (!constant) params.push_back(ptr_);
+        if (!constant && native.result != ir::kVoid) params.push_back(ptr_);
+        size_t first = params.size();
+        for (ir::TypeId param : native.params)
+            params.push_back(memoryType(param));
+        llvm::Type* result = constant ? memoryType(native.result) : i32_;
+        auto* type = llvm::FunctionType::get(result, params, false);
+        auto* function =
+            llvm::cast<llvm::Function>(target_->getOrInsertFunction(native.symbol, type).getCallee());
+        function->setDoesNotThrow();
+        // LLVM must not fold calls by the host's mathematical library: results are those of the run-time library.
+        function->addFnAttr(llvm::Attribute::NoBuiltin);
+        if (constant) {
+            function->setDoesNotAccessMemory();
+            function->setWillReturn();
+            if (native.result == ir::kBool) function->addRetAttr(llvm::Attribute::ZExt);
+        }
+        for (size_t i = 0; i < native.params.size(); ++i)
+            if (native.params[i] == ir::kBool)
+                function->addParamAttr(static_cast<unsigned>(first + i), llvm::Attribute::ZExt);
+        natives_.push_back(function);
+    }
+}
+
+void ModuleEmitter::declareRoutines() {
+    for (const ir::Routine& routine : module_.routines) {
+        bool inMemory = !module_.isScalar(routine.result);
+        std::vector<llvm::Type*> params{ptr_, ptr_};
+        if (inMemory) params.push_back(ptr_);
+        for (const ir::Param& param : routine.params)
+            params.push_back(valueType(param.type));
+        llvm::Type* result = i32_;
+        if (!inMemory && routine.result != ir::kVoid)
+            result = llvm::StructType::get(context_, {i32_, valueType(routine.result)});
+        auto* function = llvm::Function::Create(llvm::FunctionType::get(result, params, false),
+                                                llvm::Function::InternalLinkage, routine.name, *target_);
+        function->setCallingConv(llvm::CallingConv::Fast);
+        function->setDoesNotThrow();
+        function->addFnAttr(llvm::Attribute::MustProgress);
+        function->addParamAttr(0, llvm::Attribute::NoAlias);
+        function->addParamAttr(0, llvm::Attribute::NonNull);
+        function->addDereferenceableParamAttr(0, sizeof(rt::TaskCore));
+        function->getArg(0)->setName("task");
+        function->getArg(1)->setName("caller");
+        if (inMemory) {
+            function->addParamAttr(2, llvm::Attribute::NonNull);
+            function->getArg(2)->setName("result");
+        }
+        routines_.push_back(function);
+        cEntries_.push_back(nullptr);
+    }
+    auto exportRoutine = [&](uint32_t index) {
+        if (index == ir::kNone || cEntries_[index]) return;
+        const ir::Routine& routine = module_.routines[index];
+        std::vector<llvm::Type*> params{ptr_, ptr_};
+        if (routine.result != ir::kVoid) params.push_back(ptr_);
+        for (const ir::Param& param : routine.params)
+            params.push_back(memoryType(param.type));
+        auto* function =
+            llvm::Function::Create(llvm::FunctionType::get(i32_, params, false),
+                                   llvm::Function::InternalLinkage, routine.name + "$entry", *target_);
+        function->setDoesNotThrow();
+        cEntries_[index] = function;
+    };
+    for (uint32_t i = 0; i < module_.routines.size(); ++i)
+        if (module_.routines[i].exported) exportRoutine(i);
+    for (const ir::TaskEntry& task : module_.tasks) {
+        exportRoutine(task.entry);
+        exportRoutine(task.reset);
+    }
+}
+
+/// C entry: Bool travels as a byte, a scalar result through a pointer.
+void ModuleEmitter::emitCEntry(uint32_t index) {
+    const ir::Routine& routine = module_.routines[index];
+    llvm::Function* entry = cEntries_[index];
+    llvm::IRBuilder<> b(llvm::BasicBlock::Create(context_, "", entry));
+    bool inMemory = !module_.isScalar(routine.result);
+    bool byValue = !inMemory && routine.result != ir::kVoid;
+    std::vector<llvm::Value*> args{entry->getArg(0), entry->getArg(1)};
+    unsigned next = 2;
+    llvm::Value* slot = routine.result != ir::kVoid ? entry->getArg(next++) : nullptr;
+    if (inMemory) args.push_back(slot);
+    for (const ir::Param& param : routine.params) {
+        llvm::Value* value = entry->getArg(next++);
+        if (param.type == ir::kBool) value = b.CreateICmpNE(value, llvm::ConstantInt::get(i8_, 0));
+        args.push_back(value);
+    }
+    llvm::CallInst* call = b.CreateCall(routines_[index], args);
+    call->setCallingConv(llvm::CallingConv::Fast);
+    if (!byValue) {
+        call->setTailCall();
+        b.CreateRet(call);
+        return;
+    }
+    llvm::Value* value = b.CreateFreeze(b.CreateExtractValue(call, 1));
+    if (routine.result == ir::kBool) value = b.CreateZExt(value, i8_);
+    b.CreateStore(value, slot);
+    b.CreateRet(b.CreateExtractValue(call, 0));
+}
+
+/// Fills the frame record and calls rt_safepoint. Keeps every register, so that the loop around pays nothing for the
+/// path that is hardly ever taken.
+void ModuleEmitter::emitSafepointSlow() {
+    auto* type = llvm::FunctionType::get(i32_, {ptr_, ptr_, ptr_, ptr_, i32_}, false);
+    auto* function =
+        llvm::Function::Create(type, llvm::Function::InternalLinkage, "rapidc.safepoint", *target_);
+    function->setCallingConv(llvm::CallingConv::PreserveAll);
+    function->setDoesNotThrow();
+    function->addFnAttr(llvm::Attribute::NoInline);
+    function->addFnAttr(llvm::Attribute::Cold);
+    llvm::IRBuilder<> b(llvm::BasicBlock::Create(context_, "", function));
+    llvm::Value *task = function->getArg(0), *frame = function->getArg(1);
+    b.CreateStore(function->getArg(2), b.CreateStructGEP(runtime_.frame, frame, 0));
+    b.CreateStore(function->getArg(3), b.CreateStructGEP(runtime_.frame, frame, 1));
+    b.CreateStore(function->getArg(4), b.CreateStructGEP(runtime_.frame, frame, 2));
+    auto* callType = llvm::FunctionType::get(i32_, {ptr_, ptr_}, false);
+    llvm::FunctionCallee callee = target_->getOrInsertFunction("rt_safepoint", callType);
+    llvm::CallInst* call = b.CreateCall(callee, {task, frame});
+    call->setDoesNotThrow();
+    b.CreateRet(call);
+    runtime_.safepointSlow = function;
+}
+
+} // namespace codegen

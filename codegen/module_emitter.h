@@ -1,0 +1,109 @@
+#pragma once
+// IR module -> LLVM module: declarations, data, run-time tables. The bodies are RoutineEmitter's.
+
+#include <llvm/IR/IRBuilder.h>
+#include <llvm/IR/MDBuilder.h>
+#include <llvm/IR/Module.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "codegen/codegen.h"
+#include "codegen/debug_info.h"
+#include "ir/core/ir.h"
+
+namespace codegen {
+
+/// Metadata that keeps accesses to program data, to the task and to frame records apart.
+struct AccessTags {
+    llvm::MDNode* data[8] = {}; ///< by scalar TypeId
+    llvm::MDNode* task = nullptr;
+    llvm::MDNode* frame = nullptr;
+};
+
+/// The runtime's functions and the structures of rt_abi.h.
+struct RuntimeParts {
+    llvm::StructType* frame = nullptr;
+    llvm::FunctionCallee raise, propagate, handlerEnd, retry, stackOverflow;
+    llvm::Function* safepointSlow = nullptr; ///< own function that keeps all registers, calls rt_safepoint
+};
+
+class ModuleEmitter {
+  public:
+    ModuleEmitter(const ir::Module& module, const CodegenOptions& options, llvm::LLVMContext& context);
+    std::unique_ptr<llvm::Module> run(const llvm::DataLayout& layout, const std::string& triple);
+
+    const ir::Module& source() const { return module_; }
+    const CodegenOptions& options() const { return options_; }
+    llvm::LLVMContext& context() { return context_; }
+    llvm::Module& target() { return *target_; }
+    DebugInfo* debug() { return debug_.get(); }
+
+    /// Register type of a scalar (Bool: i1) and the type it has in memory and in C signatures (Bool: i8).
+    llvm::Type* valueType(ir::TypeId type);
+    llvm::Type* memoryType(ir::TypeId type);
+    const AccessTags& tags() const { return tags_; }
+    const RuntimeParts& runtime() const { return runtime_; }
+    llvm::MDNode* unlikely() {
+        return unlikely_;
+    } ///< weights of a branch whose first target is the usual one
+
+    llvm::Function* routine(uint32_t index) { return routines_[index]; }
+    llvm::Function* nativeFunction(uint32_t index) { return natives_[index]; }
+    llvm::Constant* global(uint32_t index) { return globals_[index]; }
+    llvm::Constant* typeDesc(uint32_t index) { return typeDescs_[index]; }
+    llvm::Constant* routineDesc(uint32_t index) { return routineDescs_[index]; }
+    /// The entry with the C calling convention of an exported routine.
+    llvm::Function* cEntry(uint32_t index) { return cEntries_[index]; }
+
+  private:
+    // module_emitter.cpp
+    void declareTypes();
+    void declareRuntime();
+    void declareGlobals();
+    void declareNatives();
+    void declareRoutines();
+    void emitSafepointSlow();
+    void emitCEntry(uint32_t index);
+    llvm::Constant* initialValue(const ir::Global& global);
+    // emit_tables.cpp
+    void declareTables();
+    void emitTables();
+    llvm::Constant* text(const std::string& value);
+    llvm::Constant* constant(llvm::Constant* value, const std::string& name);
+    /// A private array and its address; null when empty.
+    llvm::Constant* array(llvm::Type* element, const std::vector<llvm::Constant*>& values,
+                          const std::string& name);
+    llvm::Constant* fileName(uint32_t file);
+    llvm::Constant* i32(int64_t value);
+    llvm::Constant* i8(int64_t value);
+    llvm::Constant* typeDescValue(const ir::TypeDesc& desc);
+    llvm::Constant* routineDescValue(const ir::Routine& routine);
+    llvm::Constant* tasks();
+    llvm::Constant* globalTable(uint32_t& count);
+    llvm::Constant* externals();
+    llvm::Constant* routineTable(uint32_t& count);
+    void emitProgram();
+
+    const ir::Module& module_;
+    const CodegenOptions& options_;
+    llvm::LLVMContext& context_;
+    std::unique_ptr<llvm::Module> target_;
+    std::unique_ptr<DebugInfo> debug_;
+    AccessTags tags_;
+    RuntimeParts runtime_;
+    llvm::MDNode* unlikely_ = nullptr;
+    std::vector<llvm::Function*> routines_, natives_, cEntries_;
+    std::vector<llvm::GlobalVariable*> globals_, typeDescs_, routineDescs_;
+    std::map<std::string, llvm::Constant*> texts_;
+    // Layout of rt_abi.h
+    llvm::StructType *typeDescType_ = nullptr, *stmtDescType_ = nullptr, *routineDescType_ = nullptr,
+                     *taskDescType_ = nullptr, *globalDescType_ = nullptr, *externalDescType_ = nullptr,
+                     *routineEntryType_ = nullptr, *programDescType_ = nullptr;
+    llvm::PointerType* ptr_ = nullptr;
+    llvm::IntegerType *i32_ = nullptr, *i64_ = nullptr, *i8_ = nullptr;
+};
+
+} // namespace codegen

@@ -1,0 +1,252 @@
+#include "codegen/routine_emitter.h"
+
+#include <cstddef>
+
+#include "ir/core/op_info.h"
+#include "runtime/abi/rt_abi.h"
+
+namespace codegen {
+namespace {
+
+/// Larger locals are allocated behind the check of the stack, so that overflow is found before they are touched.
+constexpr uint64_t kLargeLocal = 4096;
+
+} // namespace
+
+RoutineEmitter::RoutineEmitter(ModuleEmitter& module, uint32_t index)
+    : m_(module), module_(module.source()), routine_(module_.routines[index]),
+      function_(module.routine(index)), desc_(module.routineDesc(index)), b_(module.context()) {}
+
+void RoutineEmitter::run() {
+    if (m_.debug()) m_.debug()->attach(routine_, *function_);
+    analyse();
+    BasicBlock* entry = BasicBlock::Create(m_.context(), "entry", function_);
+    for (const ir::Block& source : routine_.blocks)
+        blocks_.push_back(BasicBlock::Create(m_.context(), source.name, function_));
+    b_.SetInsertPoint(entry);
+    if (m_.debug()) b_.SetCurrentDebugLocation(m_.debug()->location(routine_, ir::kNone));
+    allocate();
+    prologue();
+    b_.CreateBr(blocks_[0]);
+    // Reverse postorder: definitions are met before their uses in other blocks.
+    for (ir::BlockId id : cfg_.order)
+        block(id);
+    for (ir::BlockId id = 0; id < blocks_.size(); ++id) {
+        if (cfg_.reachable(id)) continue;
+        b_.SetInsertPoint(blocks_[id]);
+        b_.CreateUnreachable();
+    }
+    emitErrorBlocks();
+}
+
+bool RoutineEmitter::needsFrame(const ir::Inst& inst) const {
+    if (inst.op == ir::Op::Call) return true;
+    return inst.op == ir::Op::CallNative && ir::mayRaise(module_, inst);
+}
+
+void RoutineEmitter::analyse() {
+    cfg_ = ir::buildCfg(module_, routine_, ir::HandlerEdges::Yes);
+    values_.assign(routine_.insts.size(), nullptr);
+    spills_.assign(routine_.insts.size(), nullptr);
+    homeOf_.assign(routine_.insts.size(), ir::kNone);
+    for (ir::BlockId b = 0; b < routine_.blocks.size(); ++b)
+        for (ir::ValueId id : routine_.blocks[b].insts)
+            homeOf_[id] = b;
+    inUndo_.assign(routine_.blocks.size(), false);
+    std::vector<ir::BlockId> work{routine_.undoHandler};
+    while (!work.empty()) {
+        ir::BlockId b = work.back();
+        work.pop_back();
+        if (b >= inUndo_.size() || inUndo_[b]) continue;
+        inUndo_[b] = true;
+        for (ir::BlockId succ : ir::successors(routine_, b))
+            work.push_back(succ);
+    }
+    findFrameBlock();
+}
+
+/// The frame record is filled where all calls are still ahead, but no earlier: a routine that returns before its first
+/// call pays nothing. Never inside a loop. Routines with handlers fill it at once, because handlers look at it.
+void RoutineEmitter::findFrameBlock() {
+    bool handlers = routine_.errorHandler != ir::kNone || routine_.undoHandler != ir::kNone;
+    if (handlers) {
+        frameInPrologue_ = true;
+        return;
+    }
+    for (ir::BlockId b : cfg_.order) {
+        bool calls = false;
+        for (ir::ValueId id : routine_.blocks[b].insts)
+            calls = calls || needsFrame(routine_.insts[id]);
+        if (!calls) continue;
+        if (frameBlock_ == ir::kNone) frameBlock_ = b;
+        while (!cfg_.dominates(frameBlock_, b))
+            frameBlock_ = cfg_.idom[frameBlock_];
+    }
+    if (frameBlock_ == ir::kNone) return;
+    ir::LoopInfo loops = ir::findLoops(cfg_);
+    bool irreducible = !loops.irreducible.empty();
+    while (frameBlock_ != 0 && (irreducible || loops.loopOf[frameBlock_] != ir::kNone))
+        frameBlock_ = cfg_.idom[frameBlock_];
+    if (frameBlock_ == 0 || !m_.options().optimise) frameInPrologue_ = true;
+}
+
+llvm::BasicBlock* RoutineEmitter::newBlock(const char* name) {
+    return BasicBlock::Create(m_.context(), name, function_);
+}
+
+void RoutineEmitter::allocate() {
+    task_ = function_->getArg(0);
+    caller_ = function_->getArg(1);
+    if (!module_.isScalar(routine_.result)) result_ = function_->getArg(2);
+    frame_ = b_.CreateAlloca(m_.runtime().frame, nullptr, "frame");
+    llvm::Type* i32 = b_.getInt32Ty();
+    if (routine_.errorHandler != ir::kNone) failed_ = b_.CreateAlloca(i32, nullptr, "failed");
+    if (routine_.undoHandler != ir::kNone) unwinding_ = b_.CreateAlloca(i32, nullptr, "unwinding");
+    for (const ir::Local& local : routine_.locals) {
+        if (module_.size(local.type) > kLargeLocal) {
+            locals_.push_back(nullptr);
+            continue;
+        }
+        auto* slot = b_.CreateAlloca(m_.memoryType(local.type), nullptr, local.name);
+        slot->setAlignment(llvm::Align(module_.align(local.type)));
+        locals_.push_back(slot);
+    }
+    // A handler, retry and trynext make paths that LLVM's dominance would not allow for values used in other blocks.
+    if (!failed_ && !unwinding_) return;
+    for (ir::BlockId b = 0; b < routine_.blocks.size(); ++b) {
+        for (ir::ValueId id : routine_.blocks[b].insts) {
+            for (ir::ValueId operand : routine_.insts[id].operands) {
+                if (homeOf_[operand] == b || spills_[operand]) continue;
+                spills_[operand] = b_.CreateAlloca(m_.valueType(ir::valueType(routine_.insts[operand])));
+            }
+        }
+    }
+}
+
+void RoutineEmitter::prologue() {
+    uint64_t small = 0, large = 0;
+    for (const ir::Local& local : routine_.locals) {
+        uint64_t size = module_.size(local.type);
+        (size > kLargeLocal ? large : small) += size;
+    }
+    bool leaf = frameBlock_ == ir::kNone;
+    frameInPrologue_ = frameInPrologue_ || large > 0 || (leaf && small > kLargeLocal);
+    if (frameInPrologue_) enterFrame();
+    for (size_t i = 0; i < locals_.size(); ++i) {
+        if (locals_[i]) continue;
+        const ir::Local& local = routine_.locals[i];
+        auto* slot = b_.CreateAlloca(m_.memoryType(local.type), nullptr, local.name);
+        slot->setAlignment(llvm::Align(16));
+        locals_[i] = slot;
+    }
+}
+
+/// Checks that the stack suffices and fills the frame record.
+void RoutineEmitter::enterFrame() {
+    uint64_t bytes = 0;
+    for (const ir::Local& local : routine_.locals)
+        bytes += module_.size(local.type);
+    llvm::Value* lowest = b_.CreatePtrToInt(frame_, b_.getInt64Ty());
+    if (bytes > kLargeLocal) lowest = b_.CreateSub(lowest, b_.getInt64(bytes));
+    auto* limit = b_.CreateLoad(b_.getInt64Ty(), taskField(offsetof(rt::TaskCore, stackLimit), "stackLimit"));
+    limit->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
+    BasicBlock *ok = newBlock("enter"), *overflow = newBlock("overflow");
+    llvm::StructType* type = m_.runtime().frame;
+    auto fill = [&](unsigned field, Value* content) {
+        b_.CreateStore(content, b_.CreateStructGEP(type, frame_, field))
+            ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().frame);
+    };
+    b_.CreateCondBr(b_.CreateICmpUGE(lowest, limit), ok, overflow, m_.unlikely());
+    b_.SetInsertPoint(overflow);
+    fill(0, caller_);
+    fill(1, desc_);
+    fill(2, b_.getInt32(0));
+    returnStatus(b_.CreateCall(m_.runtime().stackOverflow, {task_, frame_}));
+    b_.SetInsertPoint(ok);
+    fill(0, caller_);
+    fill(1, desc_);
+    fill(3, b_.getInt32(0));
+}
+
+void RoutineEmitter::block(ir::BlockId id) {
+    current_ = id;
+    b_.SetInsertPoint(blocks_[id]);
+    if (id == frameBlock_ && !frameInPrologue_) enterFrame();
+    for (ir::ValueId inst : routine_.blocks[id].insts)
+        instruction(inst);
+}
+
+void RoutineEmitter::define(ir::ValueId id, Value* result) {
+    values_[id] = result;
+    if (spills_[id]) b_.CreateStore(result, spills_[id]);
+}
+
+llvm::Value* RoutineEmitter::value(ir::ValueId id) {
+    if (spills_[id] && homeOf_[id] != current_)
+        return b_.CreateLoad(spills_[id]->getAllocatedType(), spills_[id]);
+    return values_[id];
+}
+
+void RoutineEmitter::instruction(ir::ValueId id) {
+    const ir::Inst& inst = routine_.insts[id];
+    if (m_.debug()) b_.SetCurrentDebugLocation(m_.debug()->location(routine_, inst.stmt));
+    if (ir::opInfo(inst.op).terminator) return terminator(inst);
+    if (arithmetic(inst, id) || memory(inst, id)) return;
+    switch (inst.op) {
+    case ir::Op::Check: return check(inst);
+    case ir::Op::Call: return call(inst, id);
+    case ir::Op::CallNative: return nativeCall(inst, id);
+    case ir::Op::Safepoint: return safepoint(inst);
+    default: return; // Stmt: its number travels with the instructions
+    }
+}
+
+void RoutineEmitter::terminator(const ir::Inst& inst) {
+    switch (inst.op) {
+    case ir::Op::Br: b_.CreateBr(blockOf(inst.target[0])); return;
+    case ir::Op::CondBr:
+        b_.CreateCondBr(operand(inst, 0), blockOf(inst.target[0]), blockOf(inst.target[1]));
+        return;
+    case ir::Op::Switch: return switchOn(inst);
+    case ir::Op::Ret: return ret(inst);
+    case ir::Op::Raise: return raise(inst);
+    case ir::Op::Propagate: return handlerCall(inst, m_.runtime().propagate);
+    case ir::Op::HandlerEnd: return handlerCall(inst, m_.runtime().handlerEnd);
+    case ir::Op::Retry: return retry(inst);
+    case ir::Op::TryNext: return tryNext(inst);
+    default: b_.CreateUnreachable(); return;
+    }
+}
+
+void RoutineEmitter::switchOn(const ir::Inst& inst) {
+    auto* branch =
+        b_.CreateSwitch(operand(inst, 0), blockOf(inst.target[0]), static_cast<unsigned>(inst.cases.size()));
+    for (const ir::SwitchCase& entry : inst.cases)
+        branch->addCase(b_.getInt32(static_cast<uint32_t>(entry.value)), blockOf(entry.target));
+}
+
+void RoutineEmitter::ret(const ir::Inst& inst) {
+    if (inUndo()) {
+        returnStatus(b_.CreateLoad(b_.getInt32Ty(), unwinding_));
+        return;
+    }
+    llvm::Value* status = b_.getInt32(rt::kOk);
+    if (!function_->getReturnType()->isStructTy()) {
+        b_.CreateRet(status);
+        return;
+    }
+    llvm::Value* both = llvm::PoisonValue::get(function_->getReturnType());
+    both = b_.CreateInsertValue(both, status, 0);
+    b_.CreateRet(b_.CreateInsertValue(both, operand(inst, 0), 1));
+}
+
+void RoutineEmitter::returnStatus(Value* status) {
+    if (!function_->getReturnType()->isStructTy()) {
+        b_.CreateRet(status);
+        return;
+    }
+    llvm::Value* both = llvm::PoisonValue::get(function_->getReturnType());
+    b_.CreateRet(b_.CreateInsertValue(both, status, 0));
+}
+
+} // namespace codegen

@@ -1,0 +1,118 @@
+#pragma once
+// One routine: IR instructions -> LLVM instructions. Split over files by family of instructions.
+
+#include <llvm/IR/IRBuilder.h>
+
+#include <vector>
+
+#include "codegen/module_emitter.h"
+#include "ir/core/cfg.h"
+
+namespace codegen {
+
+class RoutineEmitter {
+  public:
+    RoutineEmitter(ModuleEmitter& module, uint32_t index);
+    void run();
+
+  private:
+    using Value = llvm::Value;
+    using BasicBlock = llvm::BasicBlock;
+
+    // routine_emitter.cpp: frame, blocks, control flow
+    void analyse();
+    bool needsFrame(const ir::Inst& inst) const;
+    void findFrameBlock();
+    void allocate();
+    void prologue();
+    void enterFrame();
+    void block(ir::BlockId id);
+    void instruction(ir::ValueId id);
+    void define(ir::ValueId id, Value* value);
+    Value* value(ir::ValueId id);
+    Value* operand(const ir::Inst& inst, size_t i) { return value(inst.operands[i]); }
+    void terminator(const ir::Inst& inst);
+    void ret(const ir::Inst& inst);
+    void switchOn(const ir::Inst& inst);
+    BasicBlock* newBlock(const char* name);
+    BasicBlock* blockOf(ir::BlockId id) { return blocks_[id]; }
+
+    // emit_arith.cpp
+    bool arithmetic(const ir::Inst& inst, ir::ValueId id);
+    Value* floatArithmetic(const ir::Inst& inst);
+    Value* intArithmetic(const ir::Inst& inst);
+    Value* divide(const ir::Inst& inst);
+    Value* comparison(const ir::Inst& inst);
+    Value* conversion(const ir::Inst& inst);
+    Value* constant(const ir::Inst& inst);
+
+    // emit_memory.cpp
+    bool memory(const ir::Inst& inst, ir::ValueId id);
+    Value* addressOf(const ir::Inst& inst);
+    Value* load(ir::TypeId type, Value* pointer);
+    void store(ir::TypeId type, Value* value, Value* pointer);
+    void copy(const ir::Inst& inst);
+    Value* byteOffset(Value* pointer, Value* offset);
+
+    // emit_calls.cpp
+    void call(const ir::Inst& inst, ir::ValueId id);
+    void nativeCall(const ir::Inst& inst, ir::ValueId id);
+    void constNative(const ir::Inst& inst, ir::ValueId id);
+    void safepoint(const ir::Inst& inst);
+    void storeStatement(Value* stmt);
+    llvm::AllocaInst* resultSlot(ir::TypeId type);
+    Value* taskField(size_t offset, const char* name);
+    Value* stmtNumber(const ir::Inst& inst) const;
+
+    // emit_errors.cpp
+    /// A cold block that several places jump to with their own statement and number.
+    struct ErrorJoin {
+        BasicBlock* block = nullptr;
+        llvm::PHINode *stmt = nullptr, *number = nullptr;
+    };
+    bool isHandled(const ir::Inst& inst) const;
+    bool inUndo() const { return inUndo_[current_]; }
+    ErrorJoin& makeJoin(ErrorJoin& join, const char* name);
+    BasicBlock* joinFrom(ErrorJoin& join, const ir::Inst& inst, Value* number);
+    void check(const ir::Inst& inst);
+    void raise(const ir::Inst& inst);
+    void continueIfOk(const ir::Inst& inst, Value* status, bool calleeRaised);
+    void handlerCall(const ir::Inst& inst, llvm::FunctionCallee callee);
+    void retry(const ir::Inst& inst);
+    void tryNext(const ir::Inst& inst);
+    void resumeSwitch(ir::BlockId ir::Statement::* where);
+    ErrorJoin& raiseJoin(bool handled);
+    ErrorJoin& nativeJoin(bool handled);
+    ErrorJoin& dispatchJoin();
+    ErrorJoin& leaveJoin();
+    void emitErrorBlocks();
+    void emitRaise(ErrorJoin& join, bool handled);
+    void emitNative(ErrorJoin& join, ErrorJoin& raising, ErrorJoin& leaving);
+    void emitDispatch();
+    void emitLeave();
+    void returnStatus(Value* status);
+
+    ModuleEmitter& m_;
+    const ir::Module& module_;
+    const ir::Routine& routine_;
+    llvm::Function* function_;
+    llvm::Constant* desc_;
+    llvm::IRBuilder<> b_;
+    ir::Cfg cfg_;
+    std::vector<bool> inUndo_;
+    std::vector<BasicBlock*> blocks_;
+    std::vector<Value*> values_;
+    std::vector<llvm::AllocaInst*> spills_; ///< of values that handlers may need in other blocks
+    std::vector<ir::BlockId> homeOf_;
+    std::vector<Value*> locals_;
+    llvm::AllocaInst* resultSlots_[8] = {}; ///< for scalar results of natives, by type
+    Value *task_ = nullptr, *caller_ = nullptr, *result_ = nullptr;
+    llvm::AllocaInst *frame_ = nullptr, *failed_ = nullptr, *unwinding_ = nullptr;
+    ir::BlockId frameBlock_ = ir::kNone; ///< where the frame record is filled; kNone: only on cold paths
+    bool frameInPrologue_ = false;
+    ir::BlockId current_ = 0;
+    ErrorJoin raiseHandled_, raiseUnhandled_, nativeHandled_, nativeUnhandled_, dispatch_, leave_, raiseUndo_,
+        nativeUndo_, leaveUndo_;
+};
+
+} // namespace codegen
