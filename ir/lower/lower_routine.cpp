@@ -219,6 +219,7 @@ ir::Routine RoutineLowering::run() {
     if (hasErrorHandler_) routine_.errorHandler = b_.addBlock("error");
     lowerParameters();
     lowerData();
+    inInstructions_ = true;
     lowerList(symbol_.routineDecl->body);
     if (!b_.terminated()) {
         if (symbol_.routineKind == syntax::RoutineKind::Func) {

@@ -19,7 +19,7 @@ void RoutineLowering::startStatement(const Node& node, ir::StmtKind kind) {
     row.endLine = to.line;
     row.endColumn = to.column;
     row.kind = region_ == Region::Body ? kind : ir::StmtKind::Handler;
-    row.handled = region_ == Region::Body && hasErrorHandler_;
+    row.handled = region_ == Region::Body && hasErrorHandler_ && inInstructions_;
     b_.setStatement(b_.addStatement(row));
 }
 
@@ -94,14 +94,11 @@ void RoutineLowering::lowerStmt(const Stmt& stmt) {
     case NodeKind::Goto: {
         startStatement(stmt, ir::StmtKind::Control);
         const auto& refs = facts().references;
-        if (auto found = refs.find(&stmt); found != refs.end()) b_.br(labelBlock(found->second));
+        if (auto found = refs.find(&stmt); found != refs.end()) b_.br(labelBlock(found->second->decl));
         return;
     }
     case NodeKind::Label: {
-        const auto& refs = facts().references;
-        auto found = refs.find(&stmt);
-        if (found == refs.end()) return; // no GOTO names it
-        const ir::BlockId block = labelBlock(found->second);
+        const ir::BlockId block = labelBlock(&stmt);
         branchIfOpen(block);
         b_.setBlock(block);
         return;
@@ -266,10 +263,10 @@ void RoutineLowering::lowerExit() {
     b_.unreachable();
 }
 
-ir::BlockId RoutineLowering::labelBlock(const sema::Symbol* label) {
+ir::BlockId RoutineLowering::labelBlock(const Node* label) {
     auto found = labels_.find(label);
     if (found != labels_.end()) return found->second;
-    const ir::BlockId block = b_.addBlock(label->name);
+    const ir::BlockId block = b_.addBlock("label");
     labels_[label] = block;
     return block;
 }

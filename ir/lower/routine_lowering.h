@@ -64,7 +64,7 @@ class RoutineLowering {
     void lowerRaise(const syntax::RaiseStmt& stmt);
     void lowerConnect(const syntax::ConnectStmt& stmt);
     void lowerExit();
-    ir::BlockId labelBlock(const sema::Symbol* label);
+    ir::BlockId labelBlock(const syntax::Node* label); ///< `label`: its LabelStmt
     void startStatement(const syntax::Node& node, ir::StmtKind kind);
     void unfinished(const syntax::Node& node, const char* what);
 
@@ -152,11 +152,12 @@ class RoutineLowering {
     ir::Routine routine_;
     ir::Builder b_;
     std::unordered_map<const sema::DataSymbol*, Slot> slots_;
-    std::unordered_map<const sema::Symbol*, ir::BlockId> labels_;
+    std::unordered_map<const syntax::Node*, ir::BlockId> labels_;
     std::vector<LoopTargets> loops_;
     std::multimap<ir::TypeId, uint32_t> freeTemps_;
     std::vector<std::pair<ir::TypeId, uint32_t>> usedTemps_;
     bool hasErrorHandler_ = false;
+    bool inInstructions_ = false; ///< past the data: from here on the error handler is responsible
     enum class Region : uint8_t { Body, Error, Undo } region_ = Region::Body;
 };
 
