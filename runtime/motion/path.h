@@ -6,6 +6,7 @@
 #include "runtime/robot/kinematics.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace motion {
@@ -43,13 +44,16 @@ class CartesianCurve {
 struct PathNode {
     double s = 0;
     Joints joints{};
+    double distance = 0; ///< mm of TCP path from the start
 };
 
 /// One move with its start state, resolved to a path in joint space.
 class MotionPath {
   public:
-    /// Resolves the command from where the arm stands. All geometric errors are found here: reach, joint
-    /// range along the whole path, configuration, circle data, singularities.
+    MotionPath() = default; ///< stands still with all axes at 0
+
+    /// Resolves the command from where the arm stands. All geometric errors are found here: reach, joint range along
+    /// the whole path, configuration, circle data, singularities.
     static Expected<MotionPath, MotionError> make(const robot::Kinematics& kinematics,
                                                   const JointTarget& start, const MoveCommand& command);
 
@@ -60,33 +64,43 @@ class MotionPath {
     Pose tcpAt(double s) const;
     /// First and second derivative of the axis angles by s, deg.
     void derivativesAt(double s, Joints& first, Joints& second) const;
+    /// Rates of the TCP in the object frame: mm and degrees per unit of s.
+    void tcpRatesAt(double s, double& mm, double& deg) const;
 
     bool isCartesian() const { return isCartesian_; }
     /// Nothing moves.
     bool isEmpty() const { return isEmpty_; }
     /// TCP path length, mm (measured along the grid for joint moves).
-    double length() const { return length_; }
+    double length() const { return nodes_.empty() ? 0 : nodes_.back().distance; }
+    /// Path parameter at which the TCP has travelled this many mm (clamped).
+    double parameterAtDistance(double mm) const;
     const CartesianCurve& curve() const { return curve_; }
     const JointTarget& start() const { return start_; }
     const JointTarget& end() const { return end_; }
     const FrameSetup& frames() const { return frames_; }
-    const std::vector<PathNode>& nodes() const { return nodes_; }
+    const std::vector<PathNode>& nodes() const { return nodes_; } ///< finer where axes turn fast
+
     const robot::Kinematics& kinematics() const { return kinematics_; }
 
   private:
-    Expected<bool, MotionError> layGrid();
-    Expected<bool, MotionError> refine(const PathNode& from, const PathNode& to, int depth);
-    Expected<PathNode, MotionError> solveAt(double s, const Joints& seed) const;
-    Expected<bool, MotionError> checkArrival(const MoveCommand& command) const;
-    const Joints& seedFor(double s) const;
+    using Problem = std::optional<MotionError>;
+    Problem resolveJointTarget(const MoveCommand& command);
+    Problem resolveCurve(const MoveCommand& command);
+    Problem march();
+    Problem checkNode(const PathNode& node) const;
+    Problem checkArrival(const MoveCommand& command) const;
+    bool solve(double s, const Joints& seed, Joints& out) const;
+    bool isSmoothStep(const PathNode& from, const PathNode& to) const;
+    MotionError errorAt(MotionErrorKind kind, double s, int joint, double value) const;
+    void layStraightGrid();
+    const PathNode& nodeNear(double s) const;
 
     robot::Kinematics kinematics_;
     FrameSetup frames_;
     JointTarget start_, end_;
     bool isCartesian_ = false;
-    bool isEmpty_ = false;
+    bool isEmpty_ = true;
     CartesianCurve curve_;
-    double length_ = 0;
     std::vector<PathNode> nodes_;
 };
 

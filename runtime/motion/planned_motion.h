@@ -3,6 +3,7 @@
 
 #include "runtime/motion/path.h"
 #include "runtime/motion/profile.h"
+#include "runtime/motion/warp.h"
 #include "runtime/robot/robot_model.h"
 
 #include <array>
@@ -37,38 +38,45 @@ struct MotionState {
     bool moving = false;
 };
 
-/// One move, timed. The path parameter's bounds hold anywhere on the path, so that any jerk-limited profile
-/// within them respects every joint limit: stopping, restarting and changing speed never leave the path.
+/// One move, timed. The motion is a jerk-limited profile of a parameter u (0..1) that a warp maps to the path parameter.
+/// The bounds of u's derivatives hold anywhere on the path, so that any profile within them respects every limit:
+/// stopping, restarting and changing speed never leave the path.
 class PlannedMotion {
   public:
-    /// Times the path: joint speed, acceleration and jerk, TCP and reorientation speed, external axes,
-    /// settings. `overridePercent` is the operator's speed override (1..100).
+    PlannedMotion() = default;
+    /// Times the path: joint speed and acceleration, jerk along the path, TCP and reorientation speed, external axes,
+    /// settings of the program.
     static PlannedMotion plan(MotionPath path, const robot::RobotModel& model,
-                              const ExternalAxisModels& external, const MoveCommand& command,
-                              double overridePercent = 100);
+                              const ExternalAxisModels& external, const MoveCommand& command);
 
-    double duration() const { return profile_.duration(); } ///< s
+    double duration() const { return profile_.duration(); } ///< s, at 100 % override
     const MotionPath& path() const { return path_; }
-    const Profile& profile() const { return profile_; }
-    const ProfileLimits& limits() const { return limits_; } ///< of s, at 100 % override
+    const Profile& profile() const { return profile_; }     ///< of u, at 100 % override
+    const ProfileLimits& limits() const { return limits_; } ///< of u, at 100 % override
     Limiter limiter() const { return limiter_; }
     int limitingAxis() const {
         return limitingAxis_;
     } ///< 1..6 or external 7..12 for the axis limiters, else 0
 
+    /// Bounds and profile under the operator's speed override (above 0, to 100 percent): a slower pace on the same path.
+    ProfileLimits limitsAt(double overridePercent) const;
+    Profile profileAt(double overridePercent) const;
+
     /// State `time` seconds after the start, clamped to the motion. `move`, `tag` are left to the caller.
     MotionState sample(double time) const;
-    /// State for a given state of the path parameter.
+    /// State for a given state of u.
     MotionState sampleAt(const ProfileState& state) const;
-    /// Time at which the TCP has travelled this many mm (clamped).
-    double timeAtDistance(double mm) const;
-    /// Path parameter at which the TCP has travelled this many mm (clamped).
+    /// u at which the TCP has travelled this many mm (clamped).
     double parameterAtDistance(double mm) const;
+    /// Time at which the TCP has travelled this many mm (clamped), at 100 % override.
+    double timeAtDistance(double mm) const { return profile_.timeAt(parameterAtDistance(mm)); }
 
   private:
     MotionPath path_;
+    Warp warp_;
     Profile profile_;
     ProfileLimits limits_;
+    double programmedDuration_ = 0;
     Limiter limiter_ = Limiter::None;
     int limitingAxis_ = 0;
 };

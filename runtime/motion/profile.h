@@ -33,9 +33,13 @@ class Profile {
     /// From a state in motion to rest as soon as the limits allow; the place follows.
     static Profile brake(const ProfileState& start, const ProfileLimits& limits);
 
+    /// Stands still at 0 for `duration` s.
+    static Profile pause(double duration);
+
     double duration() const { return duration_; } ///< s
     ProfileState at(double time) const;           ///< clamped to [0, duration]
     double end() const { return end_; }           ///< final s
+    double peakSpeed() const;                     ///< highest v
     /// Earliest time at which s is reached; s is clamped. Monotone in s.
     double timeAt(double s) const;
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace robot {
 
@@ -290,7 +291,7 @@ Expected<Joints, IkError> Kinematics::inverse(const Pose& flange, const ConfData
         const std::size_t i = axes[k];
         const double centre = 90.0 * quarters[k] + 45.0;
         joints[i] = nearestTurn(joints[i], centre);
-        if (std::fabs(joints[i] - centre) > 135.0 + kNoise) {
+        if (std::abs(quarterRevolution(joints[i]) - quarters[k]) > 1) {
             return Unexpected{IkError{IkErrorKind::NoSuchConfiguration, static_cast<int>(i) + 1, joints[i]}};
         }
     }

@@ -1,0 +1,500 @@
+// The arm on the controller's clock: a queue of planned moves, the stretch of motion in progress, and what happens when.
+
+#include "runtime/motion/motion_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace motion {
+
+namespace {
+
+/// Nanoseconds that are not before the given seconds, so that what is promised for a time has happened by then.
+TimeNs toNs(double seconds) {
+    return static_cast<TimeNs>(std::ceil(seconds * 1e9 - 1e-6));
+}
+double toSeconds(TimeNs time) {
+    return static_cast<double>(time) * 1e-9;
+}
+
+Joints startPosture() {
+    return {0, 0, 0, 0, 30, 0};
+}
+
+struct Trigger {
+    PathTrigger wanted;
+    bool fired = false;
+};
+
+struct Move {
+    MoveId id = 0;
+    uint64_t tag = 0;
+    bool isFlyBy = false;
+    bool isConcurrent = false;
+    double zone = 0; // mm, the largest
+    std::vector<Trigger> triggers;
+    PlannedMotion plan;
+    bool isStarted = false;
+    bool isReleased = false;
+    double doneSeconds = 0; // time spent on the path before the stretch in progress
+};
+
+/// A piece of the past, present or planned future: one move run by one profile, or standing still (no move).
+struct Stretch {
+    TimeNs start = 0;
+    TimeNs end = 0;
+    std::shared_ptr<const Move> move;
+    Profile profile;
+    MotionState still; // without a move
+};
+
+} // namespace
+
+struct MotionSystem::Impl {
+    robot::RobotModel model;
+    MotionOptions options;
+    robot::Kinematics kinematics;
+
+    TimeNs now = 0;
+    double override = 100;
+    bool isStopRequested = false;
+    bool isBraking = false;   // the current stretch ends before the end of the path
+    bool isAbandoned = false; // ... and the rest of its move has been thrown away
+    bool isStopAnnounced = true;
+
+    std::deque<std::shared_ptr<Move>> queue; // the first may be in progress
+    std::deque<Stretch> stretches;           // in order of time; the last one is valid from its start on
+    std::vector<MotionEvent> events;
+    MoveId nextId = 1;
+    MoveId lastDone = 0;
+    uint64_t lastTag = 0;
+    std::vector<std::pair<MoveId, MoveId>> cleared; // first and last of each range
+    std::deque<std::pair<MoveId, TimeNs>> reached;  // the most recent
+
+    const Stretch& stretch() const { return stretches.back(); }
+    bool isMoving() const { return stretch().move != nullptr && now < stretch().end; }
+    bool isHeld() const { return isStopRequested || override <= 0; }
+
+    void report(MotionEventKind kind, const Move* move, TimeNs time, uint32_t trigger = 0);
+    ProfileState profileState(TimeNs time) const;
+    void begin(const std::shared_ptr<Move>& move, Profile profile);
+    void startNext();
+    bool replaceProfile(bool toStop);
+    void hold();
+    void goOn();
+    std::optional<TimeNs> nextEvent() const;
+    std::optional<TimeNs> triggerTime(const Trigger& trigger) const;
+    std::optional<TimeNs> releaseTime() const;
+    bool happensNow(std::optional<TimeNs> time) const { return time && *time <= now; }
+    void handleEventsNow();
+    void finishStretch();
+    MotionState stateAt(TimeNs time) const;
+    JointTarget standing() const;
+    JointTarget plannedEnd() const;
+    void forgetBefore(TimeNs time);
+};
+
+void MotionSystem::Impl::report(MotionEventKind kind, const Move* move, TimeNs time, uint32_t trigger) {
+    events.push_back({time, kind, move == nullptr ? 0 : move->id, move == nullptr ? 0 : move->tag, trigger});
+}
+
+ProfileState MotionSystem::Impl::profileState(TimeNs time) const {
+    return stretch().profile.at(toSeconds(time - stretch().start));
+}
+
+void MotionSystem::Impl::begin(const std::shared_ptr<Move>& move, Profile profile) {
+    Stretch next;
+    next.start = now;
+    next.end = now + toNs(profile.duration());
+    next.move = move;
+    next.profile = std::move(profile);
+    stretches.push_back(std::move(next));
+}
+
+void MotionSystem::Impl::startNext() {
+    if (queue.empty() || isHeld() || isMoving() || queue.front()->isStarted) return;
+    const std::shared_ptr<Move>& move = queue.front();
+    move->isStarted = true;
+    begin(move, move->plan.profileAt(override));
+    report(MotionEventKind::Started, move.get(), now);
+}
+
+/// Goes on along the path of the current move from the present state: to a stop, or to the end at the present override.
+/// False if the motion is already braking for its end and cannot do better than that.
+bool MotionSystem::Impl::replaceProfile(bool toStop) {
+    const std::shared_ptr<Move> move = queue.front();
+    if (!(move->plan.limits().speed > 0)) return false; // a pause has no path
+    const ProfileState state = profileState(now);
+    bool isFeasible = true;
+    Profile profile = toStop ? Profile::brake(state, move->plan.limits())
+                             : Profile::continueTo(state, 1, move->plan.limitsAt(override), isFeasible);
+    if (!isFeasible || (toStop && profile.end() >= 1 - 1e-12)) return false;
+    move->doneSeconds += toSeconds(std::min(now, stretch().end) - stretch().start);
+    begin(move, std::move(profile));
+    isBraking = toStop;
+    return true;
+}
+
+void MotionSystem::Impl::hold() {
+    if (isMoving() && !isBraking && stretch().profile.end() > 0) replaceProfile(true);
+}
+
+void MotionSystem::Impl::goOn() {
+    if (isHeld()) return;
+    const bool isUnfinished = !queue.empty() && queue.front()->isStarted;
+    if (!isUnfinished) return startNext();
+    if (isBraking && !isAbandoned) replaceProfile(false);
+}
+
+std::optional<TimeNs> MotionSystem::Impl::triggerTime(const Trigger& trigger) const {
+    if (trigger.fired || stretch().move == nullptr) return {};
+    const PathTrigger& wanted = trigger.wanted;
+    const Stretch& current = stretch();
+    const PlannedMotion& plan = current.move->plan;
+    double seconds = 0;
+    if (wanted.inTime && wanted.fromStart) {
+        seconds = wanted.amount - current.move->doneSeconds;
+    } else if (wanted.inTime) {
+        if (isBraking) return {}; // the end of the path is not in sight
+        seconds = current.profile.duration() - wanted.amount;
+    } else {
+        const double mm = wanted.fromStart ? wanted.amount : plan.path().length() - wanted.amount;
+        const double place = plan.parameterAtDistance(mm);
+        if (place > current.profile.end() + 1e-12) return {};
+        seconds = current.profile.timeAt(place);
+    }
+    const TimeNs time = current.start + toNs(std::max(0.0, seconds - wanted.lag));
+    return isBraking && time > current.end ? std::nullopt : std::optional(time);
+}
+
+std::optional<TimeNs> MotionSystem::Impl::releaseTime() const {
+    const Stretch& current = stretch();
+    if (current.move == nullptr || current.move->isReleased || isAbandoned) return {};
+    if (current.move->isConcurrent) return current.start;
+    if (!current.move->isFlyBy || isBraking) return {}; // with the point itself
+    const double length = current.move->plan.path().length();
+    const double zone = std::min(current.move->zone, 0.5 * length);
+    const double entry = current.profile.timeAt(current.move->plan.parameterAtDistance(length - zone));
+    return std::max(current.start, current.start + toNs(entry) - options.programLead);
+}
+
+std::optional<TimeNs> MotionSystem::Impl::nextEvent() const {
+    const Stretch& current = stretch();
+    if (current.move == nullptr) return {};
+    const bool isOver = queue.empty() || queue.front() != current.move;
+    if (isOver) return {};
+    std::optional<TimeNs> next;
+    const auto consider = [&](std::optional<TimeNs> time) {
+        if (time && (!next || *time < *next)) next = std::max(*time, now);
+    };
+    if (!isAbandoned) {
+        for (const Trigger& trigger : current.move->triggers)
+            consider(triggerTime(trigger));
+        consider(releaseTime());
+    }
+    const bool isStanding = isBraking && isStopAnnounced && !isAbandoned && now >= current.end;
+    if (!isStanding) consider(current.end);
+    return next;
+}
+
+void MotionSystem::Impl::finishStretch() {
+    const std::shared_ptr<Move> move = queue.front();
+    if (isBraking) {
+        if (isAbandoned) queue.pop_front();
+        isBraking = !isAbandoned; // an unfinished move stays first in line
+        isAbandoned = false;
+    } else {
+        if (!std::exchange(move->isReleased, true)) report(MotionEventKind::Released, move.get(), now);
+        // What was to fire later than the point is reached (negative lag) fires with it.
+        for (Trigger& trigger : move->triggers) {
+            if (!std::exchange(trigger.fired, true)) {
+                report(MotionEventKind::Trigger, move.get(), now, trigger.wanted.id);
+            }
+        }
+        report(MotionEventKind::Reached, move.get(), now);
+        queue.pop_front();
+        lastDone = move->id;
+        lastTag = move->tag;
+        reached.emplace_back(move->id, now);
+        if (reached.size() > 64) reached.pop_front();
+    }
+    if (isHeld() && !std::exchange(isStopAnnounced, true)) report(MotionEventKind::Stopped, move.get(), now);
+    goOn();
+}
+
+void MotionSystem::Impl::handleEventsNow() {
+    const std::shared_ptr<Move> move = queue.front();
+    if (!isAbandoned) {
+        for (Trigger& trigger : move->triggers) {
+            if (!happensNow(triggerTime(trigger))) continue;
+            trigger.fired = true;
+            report(MotionEventKind::Trigger, move.get(), now, trigger.wanted.id);
+        }
+        if (happensNow(releaseTime())) {
+            move->isReleased = true;
+            report(MotionEventKind::Released, move.get(), now);
+        }
+    }
+    if (now >= stretch().end) finishStretch();
+}
+
+MotionState MotionSystem::Impl::stateAt(TimeNs time) const {
+    const auto after = std::upper_bound(stretches.begin(), stretches.end(), time,
+                                        [](TimeNs value, const Stretch& s) { return value < s.start; });
+    const Stretch& at = after == stretches.begin() ? stretches.front() : *(after - 1);
+    if (at.move == nullptr) return at.still;
+    MotionState state = at.move->plan.sampleAt(at.profile.at(toSeconds(time - at.start)));
+    state.move = at.move->id;
+    state.tag = at.move->tag;
+    state.moving = time >= at.start && time < at.end;
+    return state;
+}
+
+JointTarget MotionSystem::Impl::standing() const {
+    const MotionState state = stateAt(now);
+    return {state.joints, state.extax};
+}
+
+JointTarget MotionSystem::Impl::plannedEnd() const {
+    if (!queue.empty() && !(isAbandoned && queue.size() == 1)) return queue.back()->plan.path().end();
+    const MotionState state = stateAt(std::max(now, stretch().end));
+    return {state.joints, state.extax};
+}
+
+void MotionSystem::Impl::forgetBefore(TimeNs time) {
+    while (stretches.size() > 1 && stretches[1].start <= time)
+        stretches.pop_front();
+}
+
+MotionSystem::MotionSystem(robot::RobotModel model, MotionOptions options) : impl_(std::make_unique<Impl>()) {
+    impl_->model = std::move(model);
+    impl_->options = options;
+    impl_->kinematics = robot::Kinematics(impl_->model);
+    ExternalAxes external = kNoExternalAxes;
+    for (std::size_t i = 0; i < external.size(); ++i) {
+        const ExternalAxisModel& axis = options.external[i];
+        if (axis.present) external[i] = std::clamp(0.0, axis.lower, axis.upper);
+    }
+    impl_->stretches.emplace_back();
+    placeAt({startPosture(), external});
+}
+
+MotionSystem::~MotionSystem() = default;
+MotionSystem::MotionSystem(MotionSystem&&) noexcept = default;
+MotionSystem& MotionSystem::operator=(MotionSystem&&) noexcept = default;
+
+const robot::RobotModel& MotionSystem::model() const {
+    return impl_->model;
+}
+const robot::Kinematics& MotionSystem::kinematics() const {
+    return impl_->kinematics;
+}
+
+Expected<MoveId, MotionError> MotionSystem::enqueue(const MoveCommand& command) {
+    MotionError error;
+    if (impl_->model.kinematics != robot::KinematicsKind::SphericalWrist) {
+        error.kind = MotionErrorKind::UnsupportedRobot;
+        return Unexpected{error};
+    }
+    if (impl_->queue.size() >= impl_->options.maxQueued) {
+        error.kind = MotionErrorKind::QueueFull;
+        error.value = static_cast<double>(impl_->queue.size());
+        return Unexpected{error};
+    }
+    MoveCommand based = command;
+    based.frames.baseFrame = impl_->model.baseFrame;
+    auto path = MotionPath::make(impl_->kinematics, impl_->plannedEnd(), based);
+    if (!path) return Unexpected{path.error()};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kExternalCount); ++i) {
+        const ExternalAxisModel& axis = impl_->options.external[i];
+        const double value = path->end().extax[i];
+        if (!isConnected(value) || (value >= axis.lower - 1e-9 && value <= axis.upper + 1e-9)) continue;
+        error.kind = MotionErrorKind::JointOutOfRange;
+        error.joint = robot::kJointCount + 1 + static_cast<int>(i);
+        error.value = value;
+        error.pathFraction = 1;
+        error.position = path->tcpAt(1).pos;
+        return Unexpected{error};
+    }
+    auto move = std::make_shared<Move>();
+    move->id = impl_->nextId++;
+    move->tag = command.tag;
+    move->isConcurrent = command.concurrent;
+    move->isFlyBy = !command.zone.finep;
+    move->zone = std::max({command.zone.pzoneTcp, command.zone.pzoneOri, command.zone.pzoneEax});
+    for (const PathTrigger& trigger : command.triggers)
+        move->triggers.push_back({trigger, false});
+    move->plan = PlannedMotion::plan(std::move(*path), impl_->model, impl_->options.external, based);
+    impl_->queue.push_back(move);
+    impl_->startNext();
+    return move->id;
+}
+
+void MotionSystem::clear() {
+    Impl& s = *impl_;
+    if (s.queue.empty()) return;
+    const bool isUnderWay = s.queue.front()->isStarted;
+    const bool isFinishing = isUnderWay && s.isMoving() && !s.isBraking && !s.replaceProfile(true);
+    const MoveId first = s.queue.front()->id + (isFinishing ? 1 : 0);
+    if (first < s.nextId) s.cleared.emplace_back(first, s.nextId - 1);
+    if (isUnderWay && s.isMoving()) {
+        s.queue.resize(1); // it comes to rest first
+        s.isAbandoned = !isFinishing;
+    } else {
+        s.queue.clear();
+        s.isBraking = false;
+        s.isAbandoned = false;
+    }
+}
+
+bool MotionSystem::placeAt(const JointTarget& joints) {
+    Impl& s = *impl_;
+    if (!s.queue.empty() || s.isMoving()) return false;
+    Stretch still;
+    still.start = s.now;
+    still.end = s.now;
+    still.still = s.stateAt(s.now);
+    still.still.joints = joints.robax;
+    still.still.extax = joints.extax;
+    still.still.jointSpeed = {};
+    still.still.tcpSpeed = 0;
+    still.still.moving = false;
+    FrameSetup frames;
+    if (s.stretch().move != nullptr) frames = s.stretch().move->plan.path().frames();
+    frames.baseFrame = s.model.baseFrame;
+    still.still.tcp = frames.tcpInWorld(s.kinematics.forward(joints.robax));
+    s.stretches.push_back(std::move(still));
+    return true;
+}
+
+void MotionSystem::stop() {
+    Impl& s = *impl_;
+    if (std::exchange(s.isStopRequested, true)) return;
+    s.isStopAnnounced = false;
+    s.hold();
+    if (s.isMoving()) return;
+    s.isStopAnnounced = true;
+    s.report(MotionEventKind::Stopped, s.queue.empty() ? nullptr : s.queue.front().get(), s.now);
+}
+
+void MotionSystem::start() {
+    impl_->isStopRequested = false;
+    impl_->isStopAnnounced = true;
+    impl_->goOn();
+}
+
+bool MotionSystem::isStopRequested() const {
+    return impl_->isStopRequested;
+}
+
+void MotionSystem::setOverride(double percent) {
+    Impl& s = *impl_;
+    const double wanted = std::isfinite(percent) ? std::clamp(percent, 0.0, 100.0) : 100.0;
+    if (wanted == std::exchange(s.override, wanted)) return;
+    if (s.isHeld()) return s.hold();
+    if (s.isAbandoned) return;
+    if (s.isMoving() && !s.isBraking)
+        s.replaceProfile(false);
+    else
+        s.goOn();
+}
+
+double MotionSystem::speedOverride() const {
+    return impl_->override;
+}
+
+void MotionSystem::advanceTo(TimeNs time) {
+    Impl& s = *impl_;
+    if (time < s.now) return;
+    s.forgetBefore(s.now);
+    for (;;) {
+        const auto next = s.nextEvent();
+        if (!next || *next > time) break;
+        s.now = std::max(s.now, *next);
+        s.handleEventsNow();
+    }
+    s.now = time;
+}
+
+TimeNs MotionSystem::now() const {
+    return impl_->now;
+}
+std::optional<TimeNs> MotionSystem::nextEventTime() const {
+    return impl_->nextEvent();
+}
+std::vector<MotionEvent> MotionSystem::takeEvents() {
+    return std::exchange(impl_->events, {});
+}
+
+bool MotionSystem::isIdle() const {
+    return impl_->queue.empty();
+}
+bool MotionSystem::isMoving() const {
+    return impl_->isMoving();
+}
+std::size_t MotionSystem::unfinishedMoves() const {
+    return impl_->queue.size();
+}
+
+MoveStatus MotionSystem::status(MoveId move) const {
+    const Impl& s = *impl_;
+    if (move <= 0 || move >= s.nextId) return MoveStatus::Unknown;
+    for (const auto& [first, last] : s.cleared) {
+        if (move >= first && move <= last) return MoveStatus::Cleared;
+    }
+    for (const auto& queued : s.queue) {
+        if (queued->id == move) return queued->isStarted ? MoveStatus::Moving : MoveStatus::Queued;
+    }
+    return MoveStatus::Done;
+}
+
+bool MotionSystem::isStarted(MoveId move) const {
+    const MoveStatus state = status(move);
+    return state == MoveStatus::Moving || state == MoveStatus::Done;
+}
+
+bool MotionSystem::isReleased(MoveId move) const {
+    if (isDone(move)) return true;
+    const auto& queue = impl_->queue;
+    const auto found = std::find_if(queue.begin(), queue.end(), [&](const auto& m) { return m->id == move; });
+    return found != queue.end() && (*found)->isReleased;
+}
+
+bool MotionSystem::isDone(MoveId move) const {
+    const MoveStatus state = status(move);
+    return state == MoveStatus::Done || state == MoveStatus::Cleared;
+}
+
+MoveId MotionSystem::currentMove() const {
+    const Impl& s = *impl_;
+    return !s.queue.empty() && s.queue.front()->isStarted ? s.queue.front()->id : s.lastDone;
+}
+
+std::optional<TimeNs> MotionSystem::reachTime(MoveId move) const {
+    const Impl& s = *impl_;
+    for (const auto& [id, time] : s.reached) {
+        if (id == move) return time;
+    }
+    const bool isCurrent = !s.queue.empty() && s.queue.front()->id == move && s.queue.front()->isStarted;
+    if (!isCurrent || s.isBraking) return {};
+    return s.stretch().end;
+}
+
+MotionState MotionSystem::sample(TimeNs time) const {
+    return impl_->stateAt(time);
+}
+JointTarget MotionSystem::currentJoints() const {
+    return impl_->standing();
+}
+JointTarget MotionSystem::plannedEnd() const {
+    return impl_->plannedEnd();
+}
+
+RobTarget MotionSystem::currentTarget(const FrameSetup& frames) const {
+    FrameSetup based = frames;
+    based.baseFrame = impl_->model.baseFrame;
+    return calcRobTarget(impl_->kinematics, impl_->standing(), based);
+}
+
+} // namespace motion

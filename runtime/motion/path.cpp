@@ -1,0 +1,356 @@
+// Resolves a move into a path in joint space and lays a grid over it that is fine where the axes turn fast.
+
+#include "runtime/motion/path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace motion {
+
+namespace {
+
+constexpr double kNothing = 1e-9; // mm or deg: no motion
+constexpr double kCoarseMm = 10;  // grid of a curve
+constexpr double kCoarseDeg = 2;
+constexpr double kLargestStep = 3;    // deg an axis may turn between two nodes
+constexpr double kLargestBend = 0.01; // deg an axis may be off the straight at half a step
+constexpr double kFinestMm = 2e-3;    // a path that still jumps within this is singular
+constexpr double kFinestDeg = 2e-3;
+constexpr double kDerivativeStep = 1e-4;
+constexpr int kJointGrid = 48;
+constexpr std::size_t kMostNodes = 200000;
+
+bool isFinite(const Pose& pose) {
+    return std::isfinite(pose.pos.x + pose.pos.y + pose.pos.z + pose.rot.w + pose.rot.x + pose.rot.y +
+                         pose.rot.z);
+}
+
+double largestDifference(const Joints& a, const Joints& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        largest = std::max(largest, std::fabs(a[i] - b[i]));
+    return largest;
+}
+
+int mostDifferent(const Joints& a, const Joints& b) {
+    std::size_t axis = 0;
+    for (std::size_t i = 1; i < a.size(); ++i) {
+        if (std::fabs(a[i] - b[i]) > std::fabs(a[axis] - b[axis])) axis = i;
+    }
+    return static_cast<int>(axis) + 1;
+}
+
+Joints between(const Joints& a, const Joints& b, double k) {
+    Joints result;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        result[i] = a[i] + (b[i] - a[i]) * k;
+    return result;
+}
+
+MotionError badArgument(const char* what, double value) {
+    MotionError error;
+    error.what = what;
+    error.value = value;
+    return error;
+}
+
+/// First figure of a command that cannot be worked with.
+std::optional<MotionError> checkArguments(const MoveCommand& command) {
+    const FrameSetup& f = command.frames;
+    if (!f.isConsistent()) {
+        return badArgument("a tool and a work object of which not exactly one is held by the robot", 0);
+    }
+    for (const Pose& pose : {f.tool.tframe, f.workObject.uframe, f.workObject.oframe, f.displacement,
+                             f.baseFrame, command.target.pose, command.circlePoint}) {
+        if (!isFinite(pose)) return badArgument("a frame or target that is not a number", NAN);
+        if (std::fabs(norm(pose.rot) - 1) > 1e-3) {
+            return badArgument("an orientation that is not a unit quaternion", norm(pose.rot));
+        }
+    }
+    for (double angle : command.joints.robax) {
+        if (!std::isfinite(angle)) return badArgument("an axis angle that is not a number", angle);
+    }
+    for (const ExternalAxes* axes : {&command.joints.extax, &command.target.extax}) {
+        for (double value : *axes) {
+            if (!std::isfinite(value))
+                return badArgument("an external axis value that is not a number", value);
+        }
+    }
+    const SpeedData& speed = command.speed;
+    for (double value : {speed.vTcp, speed.vOri, speed.vLeax, speed.vReax}) {
+        if (!(value >= 0) || std::isinf(value)) return badArgument("a negative speed", value);
+    }
+    if (!(command.duration >= 0) || std::isinf(command.duration))
+        return badArgument("a negative time", command.duration);
+    return {};
+}
+
+ExternalAxes targetAxes(const ExternalAxes& start, const ExternalAxes& target) {
+    ExternalAxes result = start;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        if (isConnected(start[i]) && isConnected(target[i])) result[i] = target[i];
+    }
+    return result;
+}
+
+} // namespace
+
+Expected<MotionPath, MotionError> MotionPath::make(const robot::Kinematics& kinematics,
+                                                   const JointTarget& start, const MoveCommand& command) {
+    if (auto error = checkArguments(command)) return Unexpected{*error};
+    MotionPath path;
+    path.kinematics_ = kinematics;
+    path.frames_ = command.frames;
+    path.start_ = start;
+    path.end_ = start;
+    const bool isAbsolute = command.kind == MoveKind::AbsJoint;
+    path.end_.extax = targetAxes(start.extax, isAbsolute ? command.joints.extax : command.target.extax);
+    path.isCartesian_ = command.kind == MoveKind::Linear || command.kind == MoveKind::Circular;
+    const auto error = path.isCartesian_ ? path.resolveCurve(command) : path.resolveJointTarget(command);
+    if (error) return Unexpected{*error};
+    path.isEmpty_ = path.isEmpty_ && path.end_.extax == start.extax;
+    return path;
+}
+
+std::optional<MotionError> MotionPath::resolveJointTarget(const MoveCommand& command) {
+    if (command.kind == MoveKind::AbsJoint) {
+        end_.robax = command.joints.robax;
+    } else {
+        const Pose flange = frames_.toFlange(command.target.pose);
+        const auto joints = command.confJ ? kinematics_.inverse(flange, command.target.conf, start_.robax)
+                                          : kinematics_.inverseNear(flange, start_.robax);
+        if (!joints) {
+            const robot::IkError& problem = joints.error();
+            const MotionErrorKind kind =
+                problem.kind == robot::IkErrorKind::Unreachable        ? MotionErrorKind::Unreachable
+                : problem.kind == robot::IkErrorKind::OutOfJointLimits ? MotionErrorKind::JointOutOfRange
+                                                                       : MotionErrorKind::NoSuchConfiguration;
+            MotionError error = errorAt(kind, 1, problem.joint, problem.angleDeg);
+            error.position = command.target.pose.pos;
+            return error;
+        }
+        end_.robax = *joints;
+    }
+    layStraightGrid();
+    isEmpty_ = largestDifference(start_.robax, end_.robax) < kNothing;
+    // Between two postures within limits a straight joint path stays within them.
+    return checkNode({1, end_.robax, 0});
+}
+
+void MotionPath::layStraightGrid() {
+    nodes_.reserve(kJointGrid + 1);
+    Vec3 last{};
+    double distance = 0;
+    for (int i = 0; i <= kJointGrid; ++i) {
+        const double s = static_cast<double>(i) / kJointGrid;
+        const Joints joints = between(start_.robax, end_.robax, s);
+        const Vec3 tcp = frames_.fromFlange(kinematics_.forward(joints)).pos;
+        if (i > 0) distance += norm(tcp - last);
+        last = tcp;
+        nodes_.push_back({s, joints, distance});
+    }
+}
+
+std::optional<MotionError> MotionPath::resolveCurve(const MoveCommand& command) {
+    const Pose from = frames_.fromFlange(kinematics_.forward(start_.robax));
+    const Pose to{command.target.pose.pos, robot::normalized(command.target.pose.rot)};
+    if (command.kind == MoveKind::Linear) {
+        curve_ = CartesianCurve::line(from, to);
+    } else {
+        auto arc = CartesianCurve::arc(from, command.circlePoint, to);
+        if (!arc) return arc.error();
+        curve_ = *arc;
+    }
+    isEmpty_ = curve_.length() < kNothing && curve_.rotationDeg() < kNothing;
+    if (isEmpty_) {
+        nodes_ = {{0, start_.robax, 0}, {1, start_.robax, 0}};
+        return checkArrival(command);
+    }
+    if (auto error = march()) return error;
+    end_.robax = nodes_.back().joints;
+    return checkArrival(command);
+}
+
+MotionError MotionPath::errorAt(MotionErrorKind kind, double s, int joint, double value) const {
+    MotionError error;
+    error.kind = kind;
+    error.pathFraction = s;
+    error.joint = joint;
+    error.value = value;
+    if (isCartesian_) error.position = curve_.at(s).pos;
+    return error;
+}
+
+bool MotionPath::solve(double s, const Joints& seed, Joints& out) const {
+    return kinematics_.inverseContinue(frames_.toFlange(curve_.at(s)), seed, out);
+}
+
+std::optional<MotionError> MotionPath::checkNode(const PathNode& node) const {
+    const int joint = kinematics_.jointOutsideLimits(node.joints);
+    if (joint == 0) return {};
+    return errorAt(MotionErrorKind::JointOutOfRange, node.s, joint,
+                   node.joints[static_cast<std::size_t>(joint) - 1]);
+}
+
+/// No jump between two nodes: the axes go nearly straight from one to the other. Where the branch of the inverse
+/// changes (axis 5 through 0, wrist centre through axis 1) the place of the change is closed in on, since a turn of half a
+/// revolution can hide in a tenth of a millimetre there.
+bool MotionPath::isSmoothStep(const PathNode& from, const PathNode& to) const {
+    if (largestDifference(from.joints, to.joints) > kLargestStep) return false;
+    Joints middle;
+    if (!solve(0.5 * (from.s + to.s), from.joints, middle)) return false;
+    if (largestDifference(middle, between(from.joints, to.joints, 0.5)) > kLargestBend) return false;
+    const int branch = kinematics_.configuration(from.joints).cfx;
+    if (branch == kinematics_.configuration(to.joints).cfx) return true;
+    double low = 0;
+    double high = 1;
+    for (int i = 0; i < 24; ++i) {
+        const double k = 0.5 * (low + high);
+        const double s = from.s + (to.s - from.s) * k;
+        if (!solve(s, between(from.joints, to.joints, k), middle)) return false;
+        if (largestDifference(middle, between(from.joints, to.joints, k)) > kLargestBend) return false;
+        (kinematics_.configuration(middle).cfx == branch ? low : high) = k;
+    }
+    return true;
+}
+
+std::optional<MotionError> MotionPath::march() {
+    const double size = std::max(curve_.length() / kCoarseMm, curve_.rotationDeg() / kCoarseDeg);
+    const double coarse = 1.0 / std::ceil(std::clamp(size, 8.0, 4000.0));
+    const double finest =
+        std::min(coarse, std::max(1e-10, std::min(kFinestMm / std::max(curve_.length(), 1e-12),
+                                                  kFinestDeg / std::max(curve_.rotationDeg(), 1e-12))));
+    PathNode node{0, start_.robax, 0};
+    nodes_.push_back(node);
+    double step = coarse;
+    while (node.s < 1) {
+        PathNode next;
+        next.s = node.s + step > 1 - 0.5 * finest ? 1 : node.s + step;
+        next.distance = next.s * curve_.length();
+        const bool isReached = solve(next.s, node.joints, next.joints);
+        if (isReached && isSmoothStep(node, next)) {
+            if (auto error = checkNode(next)) return error;
+            if (nodes_.size() >= kMostNodes) return errorAt(MotionErrorKind::Singularity, next.s, 0, 0);
+            nodes_.push_back(next);
+            node = next;
+            step = std::min(coarse, 2 * step);
+        } else if (step > finest) {
+            step *= 0.5;
+        } else if (!isReached) {
+            return errorAt(MotionErrorKind::Unreachable, next.s, 0, 0);
+        } else {
+            const int joint = mostDifferent(node.joints, next.joints);
+            return errorAt(MotionErrorKind::Singularity, next.s, joint,
+                           node.joints[static_cast<std::size_t>(joint) - 1]);
+        }
+    }
+    return {};
+}
+
+std::optional<MotionError> MotionPath::checkArrival(const MoveCommand& command) const {
+    if (!command.confL) return {};
+    const robot::Singularity near = kinematics_.singularity(end_.robax);
+    const bool isUndecided = near.wristDeg < 0.1 || near.armMm < 0.1 || near.elbowDeg < 0.1;
+    if (isUndecided) return {}; // two configurations meet here
+    const auto wanted =
+        kinematics_.inverse(frames_.toFlange(command.target.pose), command.target.conf, end_.robax);
+    if (wanted && largestDifference(*wanted, end_.robax) < 0.01) return {};
+    const int joint = wanted ? mostDifferent(*wanted, end_.robax) : wanted.error().joint;
+    return errorAt(MotionErrorKind::ConfigurationMismatch, 1, joint,
+                   joint == 0 ? 0 : end_.robax[static_cast<std::size_t>(joint) - 1]);
+}
+
+const PathNode& MotionPath::nodeNear(double s) const {
+    const auto after = std::upper_bound(nodes_.begin(), nodes_.end(), s,
+                                        [](double value, const PathNode& n) { return value < n.s; });
+    if (after == nodes_.begin()) return nodes_.front();
+    if (after == nodes_.end()) return nodes_.back();
+    return s - (after - 1)->s < after->s - s ? *(after - 1) : *after;
+}
+
+Joints MotionPath::jointsAt(double s) const {
+    if (s <= 0) return start_.robax;
+    if (s >= 1) return end_.robax;
+    if (!isCartesian_ || isEmpty_ || nodes_.size() < 2) return between(start_.robax, end_.robax, s);
+    const PathNode& near = nodeNear(s);
+    Joints joints;
+    return solve(s, near.joints, joints) ? joints : near.joints;
+}
+
+ExternalAxes MotionPath::externalAt(double s) const {
+    ExternalAxes result = start_.extax;
+    const double k = std::clamp(s, 0.0, 1.0);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        if (!isConnected(result[i])) continue;
+        result[i] = k == 1 ? end_.extax[i] : result[i] + (end_.extax[i] - result[i]) * k;
+    }
+    return result;
+}
+
+Pose MotionPath::tcpAt(double s) const {
+    if (isCartesian_ && !isEmpty_) return curve_.at(std::clamp(s, 0.0, 1.0));
+    return frames_.fromFlange(kinematics_.forward(jointsAt(s)));
+}
+
+void MotionPath::derivativesAt(double s, Joints& first, Joints& second) const {
+    if (!isCartesian_ || isEmpty_ || nodes_.size() < 2) {
+        for (std::size_t i = 0; i < first.size(); ++i)
+            first[i] = end_.robax[i] - start_.robax[i];
+        second = {};
+        return;
+    }
+    // Central differences of the exact inverse, narrower than the grid; lines and circles go on beyond their ends.
+    const auto after = std::upper_bound(nodes_.begin(), nodes_.end(), s,
+                                        [](double value, const PathNode& n) { return value < n.s; });
+    const auto right = after == nodes_.end() ? after - 1 : after;
+    const auto left = right == nodes_.begin() ? right : right - 1;
+    const double spacing = std::max(right->s - left->s, 1e-10);
+    const double h = std::min(kDerivativeStep, 0.1 * spacing);
+    const Joints& seed = nodeNear(s).joints;
+    Joints before;
+    Joints here;
+    Joints behind;
+    const double centre = s;
+    bool isKnown =
+        solve(centre - h, seed, before) && solve(centre, seed, here) && solve(centre + h, seed, behind);
+    for (double inward : {1.0, -1.0}) { // the end of the path may be the end of reach
+        if (isKnown) break;
+        const double c = s + inward * h;
+        isKnown = solve(c - h, seed, before) && solve(c, seed, here) && solve(c + h, seed, behind);
+    }
+    if (!isKnown) {
+        before = left->joints;
+        behind = right->joints;
+        here = between(before, behind, 0.5);
+    }
+    const double width = isKnown ? h : 0.5 * spacing;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        first[i] = (behind[i] - before[i]) / (2 * width);
+        second[i] = (behind[i] - 2 * here[i] + before[i]) / (width * width);
+    }
+}
+
+void MotionPath::tcpRatesAt(double s, double& mm, double& deg) const {
+    if (isCartesian_) {
+        mm = curve_.length();
+        deg = curve_.rotationDeg();
+        return;
+    }
+    constexpr double kStep = 1e-4;
+    const Pose from = frames_.fromFlange(kinematics_.forward(between(start_.robax, end_.robax, s - kStep)));
+    const Pose to = frames_.fromFlange(kinematics_.forward(between(start_.robax, end_.robax, s + kStep)));
+    mm = norm(to.pos - from.pos) / (2 * kStep);
+    deg = robot::angleBetween(from.rot, to.rot) / (2 * kStep);
+}
+
+double MotionPath::parameterAtDistance(double mm) const {
+    if (nodes_.size() < 2 || mm <= 0) return 0;
+    if (mm >= length()) return 1;
+    const auto after = std::upper_bound(nodes_.begin(), nodes_.end(), mm,
+                                        [](double value, const PathNode& n) { return value < n.distance; });
+    const auto before = after - 1;
+    const double share = (mm - before->distance) / (after->distance - before->distance);
+    return before->s + share * (after->s - before->s);
+}
+
+} // namespace motion

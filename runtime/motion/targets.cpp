@@ -1,0 +1,128 @@
+// Frames between a programmed pose and the flange, and the words for what can go wrong.
+
+#include "runtime/motion/targets.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace motion {
+
+namespace {
+
+MotionError fromInverse(const robot::IkError& error, const Vec3& position) {
+    MotionError result;
+    switch (error.kind) {
+    case robot::IkErrorKind::Unreachable: result.kind = MotionErrorKind::Unreachable; break;
+    case robot::IkErrorKind::OutOfJointLimits: result.kind = MotionErrorKind::JointOutOfRange; break;
+    case robot::IkErrorKind::NoSuchConfiguration: result.kind = MotionErrorKind::NoSuchConfiguration; break;
+    }
+    result.joint = error.joint;
+    result.value = error.angleDeg;
+    result.pathFraction = 1;
+    result.position = position;
+    return result;
+}
+
+std::string axisName(int joint) {
+    if (joint == 0) return "an axis";
+    if (joint <= robot::kJointCount) return fmt::format("axis {}", joint);
+    return fmt::format("external axis {}", static_cast<char>('a' + joint - robot::kJointCount - 1));
+}
+
+} // namespace
+
+Pose FrameSetup::toFlange(const Pose& target) const {
+    const Pose object = workObject.uframe * workObject.oframe * displacement * target;
+    if (tool.robotHeld) return inverse(baseFrame) * object * inverse(tool.tframe);
+    // The robot holds the work object: uframe counts from the flange and the tool stands in world.
+    return inverse(baseFrame) * tool.tframe * inverse(object);
+}
+
+Pose FrameSetup::fromFlange(const Pose& flange) const {
+    const Pose object = workObject.uframe * workObject.oframe * displacement;
+    if (tool.robotHeld) return inverse(object) * baseFrame * flange * tool.tframe;
+    return inverse(object) * inverse(baseFrame * flange) * tool.tframe;
+}
+
+Pose FrameSetup::tcpInWorld(const Pose& flange) const {
+    return tool.robotHeld ? baseFrame * flange * tool.tframe : tool.tframe;
+}
+
+Pose poseFromFloats(const float* trans, const float* rot) {
+    const Quat q{rot[0], rot[1], rot[2], rot[3]};
+    return {{trans[0], trans[1], trans[2]}, robot::normalized(q)};
+}
+
+void poseToFloats(const Pose& pose, float* trans, float* rot) {
+    trans[0] = static_cast<float>(pose.pos.x);
+    trans[1] = static_cast<float>(pose.pos.y);
+    trans[2] = static_cast<float>(pose.pos.z);
+    rot[0] = static_cast<float>(pose.rot.w);
+    rot[1] = static_cast<float>(pose.rot.x);
+    rot[2] = static_cast<float>(pose.rot.y);
+    rot[3] = static_cast<float>(pose.rot.z);
+}
+
+std::string MotionError::message() const {
+    const std::string place = fmt::format("at {:.1f} % of the path, [{:.2f}, {:.2f}, {:.2f}]",
+                                          100 * pathFraction, position.x, position.y, position.z);
+    switch (kind) {
+    case MotionErrorKind::BadArgument:
+        return fmt::format("{} ({:.6g}) cannot be used for a move", what, value);
+    case MotionErrorKind::Unreachable:
+        return fmt::format("position outside the reach of the robot {}; move the target or the work object",
+                           place);
+    case MotionErrorKind::JointOutOfRange:
+        return fmt::format(
+            "{} would have to go to {:.2f}, outside its range, {}; change the target or its configuration",
+            axisName(joint), value, place);
+    case MotionErrorKind::NoSuchConfiguration:
+        return fmt::format(
+            "the position does not have the programmed configuration ({}); correct its confdata",
+            joint == 0 ? std::string("cfx") : fmt::format("axis {} at {:.2f} degrees", joint, value));
+    case MotionErrorKind::ConfigurationMismatch:
+        return fmt::format(
+            "the path would arrive in another configuration than programmed ({} at {:.2f} degrees); "
+            "correct the confdata or use ConfL\\Off",
+            axisName(joint), value);
+    case MotionErrorKind::Singularity:
+        return fmt::format("too close to a singularity ({}) {}; keep away from it or move axis by axis",
+                           axisName(joint), place);
+    case MotionErrorKind::CirclePointsTooClose:
+        return fmt::format("points of the circle are only {:.3f} mm apart; 0.1 mm is the least", value);
+    case MotionErrorKind::CirclePointsCollinear:
+        return fmt::format("the points of the circle lie on one line (angle {:.3f} degrees; 1 is the least)",
+                           value);
+    case MotionErrorKind::CircleTooLarge:
+        return fmt::format("circle of {:.1f} degrees in one move; 240 is the most, divide it", value);
+    case MotionErrorKind::UnsupportedRobot:
+        return "this robot model has no closed-form kinematics and cannot move";
+    case MotionErrorKind::QueueFull:
+        return fmt::format("{:.0f} moves are ordered already; wait for one to end", value);
+    }
+    return {};
+}
+
+Expected<JointTarget, MotionError> calcJointTarget(const robot::Kinematics& kinematics,
+                                                   const RobTarget& target, const FrameSetup& frames,
+                                                   const Joints& seed) {
+    if (!frames.isConsistent()) {
+        MotionError error;
+        error.what = "a tool and a work object of which not exactly one is held by the robot";
+        return Unexpected{error};
+    }
+    const auto joints = kinematics.inverse(frames.toFlange(target.pose), target.conf, seed);
+    if (!joints) return Unexpected{fromInverse(joints.error(), target.pose.pos)};
+    return JointTarget{*joints, target.extax};
+}
+
+RobTarget calcRobTarget(const robot::Kinematics& kinematics, const JointTarget& joints,
+                        const FrameSetup& frames) {
+    Pose pose = frames.fromFlange(kinematics.forward(joints.robax));
+    // Of the two quaternions of an orientation controllers show the one with q1 >= 0.
+    if (pose.rot.w < 0) pose.rot = {-pose.rot.w, -pose.rot.x, -pose.rot.y, -pose.rot.z};
+    return {pose, kinematics.configuration(joints.robax), joints.extax};
+}
+
+} // namespace motion
