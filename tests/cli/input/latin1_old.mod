@@ -1,0 +1,5 @@
+MODULE Latin1Old
+  PROC main()
+    TPWrite "Länge";
+  ENDPROC
+ENDMODULE
