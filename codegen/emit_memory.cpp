@@ -39,6 +39,12 @@ bool RoutineEmitter::memory(const ir::Inst& inst, ir::ValueId id) {
         b_.CreateMemMove(operand(inst, 0), llvm::Align(1), operand(inst, 1), llvm::Align(1),
                          operand(inst, 2));
         return true;
+    case Op::StackAlloc: {
+        auto* memory = b_.CreateAlloca(b_.getInt8Ty(), operand(inst, 0));
+        memory->setAlignment(llvm::Align(8));
+        define(id, memory);
+        return true;
+    }
     case Op::Zero:
         if (module_.isScalar(inst.type))
             store(inst.type, llvm::Constant::getNullValue(m_.valueType(inst.type)), operand(inst, 0));

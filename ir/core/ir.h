@@ -252,6 +252,7 @@ class Builder {
     void store(TypeId type, ValueId value, ValueId ptr);
     void copy(TypeId type, ValueId dst, ValueId src);
     void copyDynamic(ValueId dst, ValueId src, ValueId bytes);
+    ValueId stackAlloc(ValueId bytes); ///< I64; memory until the routine returns, zero bytes are allowed
     void zero(TypeId type, ValueId dst);
     ValueId fieldAddr(TypeId record, ValueId ptr, uint32_t field);
     ValueId elemAddr(TypeId element, ValueId ptr, ValueId zeroBasedIndex);

@@ -75,7 +75,6 @@ TypeId conversionTo(Op op) {
 bool showsType(Op op) {
     switch (op) {
     case Op::Const:
-    case Op::ParamVal:
     case Op::Load:
     case Op::Store:
     case Op::Copy:

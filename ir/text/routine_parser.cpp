@@ -228,6 +228,8 @@ void RoutineParser::inferTypes() {
             break;
         case ResultRule::Typed:
             if (inst.op == Op::Sysvar) inst.type = kF32;
+            if (inst.op == Op::ParamVal && inst.index < routine_.params.size())
+                inst.type = routine_.params[inst.index].type;
             break;
         case ResultRule::Same:
         case ResultRule::None: break;
