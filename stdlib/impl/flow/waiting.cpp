@@ -30,7 +30,8 @@ Status rt_WaitTime(TaskCore* task, bool InPos, float Time) {
     if (!(Time >= 0)) return lib::fail(task, err::ERR_ARGVALERR, "WaitTime: the time must not be negative");
     if (InPos)
         if (const Status status = waitInPosition(task)) return status;
-    return taskOf(task).sleepFor(fromSeconds(Time));
+    // The resolution is a millisecond; binary32 does not hold most decimal fractions exactly.
+    return taskOf(task).sleepFor((fromSeconds(Time) + kMillisecond / 2) / kMillisecond * kMillisecond);
 }
 
 Status rt_WaitRob(TaskCore* task, bool InPos, bool ZeroSpeed) {

@@ -49,7 +49,8 @@ Status rt_ClkRead(TaskCore* task, float* result, Handle* Clock, bool HighRes) {
     const ClockObject& clock = clockOf(task, Clock);
     if (const Status status = checked(task, clock)) return status;
     const Time resolution = HighRes ? kMicrosecond : kMillisecond;
-    const Time elapsed = clock.elapsed(taskOf(task).now()) / resolution * resolution;
+    // To the nearest: a wait of 0.7 s, which binary32 holds as 0.69999999, shall read 0.7.
+    const Time elapsed = (clock.elapsed(taskOf(task).now()) + resolution / 2) / resolution * resolution;
     *result = static_cast<float>(toSeconds(elapsed));
     return kOk;
 }
