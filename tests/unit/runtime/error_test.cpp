@@ -1,0 +1,247 @@
+#include "unit/runtime/test_program.h"
+
+#include "runtime/sched/error_search.h"
+
+#include <catch2/catch.hpp>
+
+using namespace rt;
+using testing::Routine;
+using testing::Run;
+
+namespace {
+
+Status fails(TaskCore* core, Frame* caller, const Routine& routine, int statement, Status number) {
+    Frame frame{caller, &routine.desc, statement, 0};
+    return rt_raise(core, &frame, number);
+}
+
+/// Burns stack until the limit, as an endless recursion does.
+Status recurse(TaskCore* core, Frame* caller, const RoutineDesc* routine) {
+    Frame frame{caller, routine, 0, 0};
+    volatile char room[512];
+    room[0] = 1;
+    if (reinterpret_cast<char*>(&frame) < core->stackLimit) return rt_stackOverflow(core, &frame);
+    const Status status = recurse(core, &frame, routine);
+    return room[0] == 1 ? status : kOk;
+}
+
+} // namespace
+
+TEST_CASE("the search for a handler follows manual 1.12", "[errors]") {
+    const Routine main("main", 4, 2), middle("middle", 2), picky("picky", 3, 2, {5, 7}),
+        any("any", 2, 1, {kAllErrors});
+    Frame outer{nullptr, &main.desc, 0, 0};
+    Frame inner{&outer, &middle.desc, 1, 0};
+    CHECK(findErrorHandler(&inner, 3) == &outer); // a routine without handler passes the error on
+    Frame selective{&outer, &picky.desc, 1, 0};
+    CHECK(findErrorHandler(&selective, 7) == &selective);
+    CHECK(findErrorHandler(&selective, 8) == &outer);
+    Frame all{&outer, &any.desc, 0, 0};
+    CHECK(findErrorHandler(&all, 1234) == &all);
+    selective.statement = 2; // within its own handler: no recovery, not even by the caller
+    CHECK(findErrorHandler(&selective, 7) == nullptr);
+    outer.statement = 3;
+    CHECK(findErrorHandler(&inner, 3) == nullptr);
+    outer.statement = 0;
+    Frame boundary{&outer, &kTrapBoundary, -1, 0};
+    Frame trap{&boundary, &middle.desc, 0, 0};
+    CHECK(findErrorHandler(&trap, 3) == nullptr); // the system called it
+    CHECK(findErrorHandler(nullptr, 3) == nullptr);
+}
+
+TEST_CASE("an error without handler stops the program with an event that tells place and chain", "[errors]") {
+    static const Routine main("main", 9), helper("helper", 30);
+    Run run;
+    run.task("T_ROB1", [](TaskCore* core, Frame* caller) -> Status {
+        Frame frame{caller, &main.desc, 4, 0};
+        taskOf(core).setErrorDetail("the reason");
+        const Status status = fails(core, &frame, helper, 16, 1003);
+        CHECK(status == kUnwindSilent); // the run ends: no UNDO
+        return status;
+    });
+    REQUIRE(run.prepare());
+    run.controller->log().addErrorName(1003, "ERR_DIVZERO", "division by zero");
+    CHECK(run.controller->run() == ExitStatus::StoppedByError);
+    const Event* event = run.find(EventId::UnhandledError);
+    REQUIRE(event != nullptr);
+    CHECK(event->text == "ERR_DIVZERO (1003): the reason.");
+    CHECK(event->errorName == "ERR_DIVZERO");
+    CHECK(event->task == "T_ROB1");
+    CHECK(event->place.module == "TestModule");
+    CHECK(event->place.routine == "helper");
+    CHECK(event->place.line == 17);
+    REQUIRE(event->calls.size() == 1);
+    CHECK(event->calls[0].routine == "main");
+    CHECK(event->calls[0].line == 5);
+}
+
+TEST_CASE("a handled error leaves a warning, unless SkipWarn takes it back", "[errors]") {
+    static const Routine main("main", 5, 3);
+    static bool skip = false;
+    const auto body = [](TaskCore* core, Frame* caller) -> Status {
+        Frame frame{caller, &main.desc, 1, 0};
+        CHECK(rt_raise(core, &frame, 42) == 42);
+        CHECK(core->errorNumber == 42);
+        frame.statement = 3; // in the handler
+        if (const Status status = taskOf(core).sleepFor(kMillisecond)) return status;
+        if (skip) taskOf(core).skipWarn();
+        return kOk;
+    };
+    for (const bool skipped : {false, true}) {
+        skip = skipped;
+        Run run;
+        run.task("T", body);
+        CHECK(run.run() == ExitStatus::Ended);
+        CHECK(run.count(EventId::HandledError) == (skipped ? 0 : 1));
+    }
+}
+
+TEST_CASE("RETRY is allowed four times for the same statement", "[errors]") {
+    static const Routine main("main", 5, 3);
+    static int attempts = 0;
+    attempts = 0;
+    Run run;
+    run.task("T", [](TaskCore* core, Frame* caller) -> Status {
+        Frame frame{caller, &main.desc, 1, 0};
+        for (;;) {
+            ++attempts;
+            frame.statement = 1;
+            if (const Status status = rt_raise(core, &frame, 42); status < 0) return status;
+            CHECK(taskOf(core).remainingRetries() == 5 - attempts);
+            frame.statement = 3;
+            if (const Status status = rt_retry(core, &frame); status < 0) return status;
+        }
+    });
+    CHECK(run.run() == ExitStatus::StoppedByError);
+    CHECK(attempts == 5); // once, and four times more
+    CHECK(run.count(EventId::RetryExceeded) == 1);
+}
+
+TEST_CASE("a new call of a routine counts its RETRYs anew", "[errors]") {
+    static const Routine main("main", 3), flaky("flaky", 5, 3);
+    Run run;
+    run.task("T", [](TaskCore* core, Frame* caller) -> Status {
+        Frame frame{caller, &main.desc, 1, 0};
+        for (int call = 0; call < 3; ++call) {
+            Frame inner{&frame, &flaky.desc, 1, 0}; // at the same address each time
+            for (int i = 0; i < 4; ++i) {
+                inner.statement = 1;
+                if (const Status status = rt_raise(core, &inner, 42); status < 0) return status;
+                inner.statement = 3;
+                if (const Status status = rt_retry(core, &inner); status < 0) return status;
+            }
+        }
+        return kOk;
+    });
+    CHECK(run.run() == ExitStatus::Ended);
+}
+
+TEST_CASE("RAISE in a handler goes to the caller; without one there to the system handler", "[errors]") {
+    static const Routine main("main", 5, 3), helper("helper", 5, 3);
+    static bool covered = true;
+    const auto body = [](TaskCore* core, Frame* caller) -> Status {
+        Frame frame{caller, &main.desc, covered ? 1 : 4, 0};
+        Frame inner{&frame, &helper.desc, 2, 0};
+        CHECK(rt_raise(core, &inner, 9) == 9);
+        inner.statement = 4;
+        const Status status = rt_propagate(core, &inner);
+        CHECK(status == (covered ? 9 : kUnwindSilent));
+        return status < 0 ? status : kOk;
+    };
+    for (const bool caught : {true, false}) {
+        covered = caught;
+        Run run;
+        run.task("T", body);
+        CHECK(run.run() == (caught ? ExitStatus::Ended : ExitStatus::StoppedByError));
+        const Event* event = run.find(EventId::UnhandledError);
+        CHECK((event == nullptr) == caught);
+        if (event != nullptr) CHECK(event->place.line == 3); // where it was raised first
+    }
+}
+
+TEST_CASE("the end of an error handler calls the system handler", "[errors]") {
+    static const Routine main("main", 5, 3);
+    Run run;
+    run.task("T", [](TaskCore* core, Frame* caller) -> Status {
+        Frame frame{caller, &main.desc, 0, 0};
+        rt_raise(core, &frame, 9);
+        frame.statement = 4;
+        return rt_handlerEnd(core, &frame);
+    });
+    CHECK(run.run() == ExitStatus::StoppedByError);
+    CHECK(run.count(EventId::HandlerEnd) == 1);
+    CHECK(run.count(EventId::HandledError) == 0);
+}
+
+TEST_CASE("endless recursion is an event, not a crash", "[errors]") {
+    static const Routine main("main", 2, 1);
+    Run run;
+    run.options.stackBytes = 4u << 20;
+    run.task("T", [](TaskCore* core, Frame* caller) -> Status { return recurse(core, caller, &main.desc); });
+    CHECK(run.run() == ExitStatus::StoppedByError);
+    const Event* event = run.find(EventId::StackOverflow);
+    REQUIRE(event != nullptr);
+    CHECK(event->calls.size() < 40);
+}
+
+TEST_CASE("an error in a trap goes to the system handler even when main could handle it", "[errors]") {
+    static const Routine main("main", 5, 3), trap("etrap", 3);
+    Run run;
+    run.task("T", [](TaskCore* core, Frame* caller) -> Status {
+        Frame frame{caller, &main.desc, 1, 0};
+        core->frame = &frame;
+        InterruptTable& table = taskOf(core).interrupts();
+        const int number = table.connect(
+            {[](TaskCore* inner, Frame* boundary) -> Status { return fails(inner, boundary, trap, 1, 12); },
+             &trap.desc});
+        table.order(number, {});
+        table.post(number);
+        return taskOf(core).sleepFor(kSecond);
+    });
+    CHECK(run.run() == ExitStatus::StoppedByError);
+    const Event* event = run.find(EventId::UnhandledError);
+    REQUIRE(event != nullptr);
+    CHECK(event->place.routine == "etrap");
+}
+
+TEST_CASE("an error in one NORMAL task stops the others", "[errors]") {
+    static const Routine main("main", 5);
+    static bool reached = false;
+    reached = false;
+    Run run;
+    run.task("A",
+             [](TaskCore* core, Frame* caller) -> Status {
+                 if (const Status status = taskOf(core).sleepFor(kSecond)) return status;
+                 return fails(core, caller, main, 0, 3);
+             })
+        .task("B", [](TaskCore* core, Frame*) -> Status {
+            const Status status = taskOf(core).sleepFor(2 * kSecond);
+            reached = status == kOk;
+            return status;
+        });
+    CHECK(run.run() == ExitStatus::StoppedByError);
+    CHECK_FALSE(reached);
+    CHECK(run.now() == kSecond);
+}
+
+TEST_CASE("TrustLevel decides what the failure of a background task does", "[errors]") {
+    static const Routine main("main", 5);
+    const auto front = [](TaskCore* core, Frame*) -> Status { return taskOf(core).sleepFor(2 * kSecond); };
+    const auto back = [](TaskCore* core, Frame* caller) -> Status {
+        if (const Status status = taskOf(core).sleepFor(kSecond)) return status;
+        return fails(core, caller, main, 0, 3);
+    };
+    Run strict;
+    strict.task("T", front).task("BACK", back, "STATIC");
+    CHECK(strict.run() == ExitStatus::StoppedByError);
+    CHECK(strict.now() == kSecond);
+
+    const testing::TempFolder folder;
+    Run lax;
+    lax.options.configFiles = {folder.write("SYS.cfg",
+                                            "SYS:CFG_1.0:7:0::\n\n#\n\nCAB_TASKS:\n\n      -Name \"BACK\" "
+                                            "-Type \"STATIC\" -TrustLevel \"NoSafety\"\n")};
+    lax.task("T", front).task("BACK", back, "STATIC");
+    CHECK(lax.run() == ExitStatus::Ended);
+    CHECK(lax.now() == 2 * kSecond);
+}
