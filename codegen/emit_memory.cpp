@@ -1,5 +1,7 @@
 // Addresses, loads, stores, copies.
 
+#include <llvm/IR/Intrinsics.h>
+
 #include <cstddef>
 
 #include "codegen/routine_emitter.h"
@@ -39,12 +41,7 @@ bool RoutineEmitter::memory(const ir::Inst& inst, ir::ValueId id) {
         b_.CreateMemMove(operand(inst, 0), llvm::Align(1), operand(inst, 1), llvm::Align(1),
                          operand(inst, 2));
         return true;
-    case Op::StackAlloc: {
-        auto* memory = b_.CreateAlloca(b_.getInt8Ty(), operand(inst, 0));
-        memory->setAlignment(llvm::Align(8));
-        define(id, memory);
-        return true;
-    }
+    case Op::StackAlloc: define(id, stackAlloc(inst)); return true;
     case Op::Zero:
         if (module_.isScalar(inst.type))
             store(inst.type, llvm::Constant::getNullValue(m_.valueType(inst.type)), operand(inst, 0));
@@ -90,6 +87,28 @@ void RoutineEmitter::store(ir::TypeId type, Value* content, Value* pointer) {
     if (type == ir::kBool) content = b_.CreateZExt(content, b_.getInt8Ty());
     auto* write = b_.CreateAlignedStore(content, pointer, llvm::Align(module_.align(type)));
     write->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().data[type]);
+}
+
+/// Memory of a size known only now: it has to fit above the stack's limit.
+llvm::Value* RoutineEmitter::stackAlloc(const ir::Inst& inst) {
+    llvm::Type* i64 = b_.getInt64Ty();
+    Value* bytes = operand(inst, 0);
+    Value* top = b_.CreatePtrToInt(b_.CreateStackSave(), i64);
+    auto* limit = b_.CreateLoad(i64, taskField(offsetof(rt::TaskCore, stackLimit), "stackLimit"));
+    limit->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
+    // Unsigned and without wrapping: the distance to the limit, 0 when it has been passed.
+    Value* room = b_.CreateBinaryIntrinsic(llvm::Intrinsic::usub_sat, top, limit);
+    BasicBlock *fits = newBlock("fits"), *overflow = newBlock("overflow");
+    b_.CreateCondBr(b_.CreateICmpULE(bytes, room), fits, overflow, m_.unlikely());
+    b_.SetInsertPoint(overflow);
+    fillFrame();
+    storeStatement(stmtNumber(inst));
+    Value* status = b_.CreateCall(m_.runtime().stackOverflow, {task_, frame_});
+    b_.CreateBr(joinFrom(leaveJoin(), inst, status));
+    b_.SetInsertPoint(fits);
+    auto* memory = b_.CreateAlloca(b_.getInt8Ty(), bytes);
+    memory->setAlignment(llvm::Align(8));
+    return memory;
 }
 
 void RoutineEmitter::copy(const ir::Inst& inst) {

@@ -42,7 +42,7 @@ RoutineLowering::Place RoutineLowering::placeOf(const DataSymbol& symbol) {
         break;
     case Slot::Kind::Pointer:
         checkPresent(*slot);
-        p.addr = b_.param(slot->param);
+        p.addr = slot->local == ir::kNone ? b_.param(slot->param) : b_.load(ir::kPtr, b_.localAddr(slot->local));
         for (int k = 0; k < symbol.type.rank; ++k)
             p.dims[k] = b_.param(slot->param + 1 + static_cast<uint32_t>(k));
         break;

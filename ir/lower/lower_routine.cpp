@@ -169,9 +169,7 @@ void RoutineLowering::lowerParameters() {
         slot.optional = param->optional;
         const bool in = param->mode == syntax::ParamMode::In;
         if (in && param->type.isArray() && param->assigned) {
-            // Arrays travel by reference; a private copy of unknown size is not made yet.
-            program_.sink().report(diag::Code::ArrayParameterAssigned, module_->tree->source,
-                                   module_->tree->range(param->nameToken), {param->name});
+            copyArrayParameter(*param, slot);
         } else if (in && !param->type.isArray() && type != ir::kI64 && (param->assigned || copyAggregates)) {
             // IN is a private value: the caller's data may change while the routine runs.
             slot.kind = Slot::Kind::Local;
@@ -190,6 +188,20 @@ void RoutineLowering::lowerParameters() {
         }
         slots_[param] = slot;
     }
+}
+
+/// IN is a private value: an array that the routine changes is copied, its size is known at run time only.
+void RoutineLowering::copyArrayParameter(const DataSymbol& param, Slot& slot) {
+    ValueId count = b_.param(slot.param + 1);
+    for (uint32_t k = 1; k < param.type.rank; ++k) count = b_.binary(ir::Op::IMul, count, b_.param(slot.param + 1 + k));
+    const ir::TypeId element = program_.irType(param.type.type);
+    const ValueId bytes = b_.binary(ir::Op::IMul, b_.convert(ir::Op::I32ToI64, count),
+                                    b_.constI64(program_.module().size(element)));
+    b_.callNative(program_.support("rt_reserveStack", ir::NativeClass::Plain, ir::kVoid, {ir::kI64}), {bytes});
+    const ValueId copy = b_.stackAlloc(bytes);
+    b_.copyDynamic(copy, b_.param(slot.param), bytes);
+    slot.local = b_.addLocal(param.name, ir::kPtr, true);
+    b_.store(ir::kPtr, copy, b_.localAddr(slot.local));
 }
 
 void RoutineLowering::lowerData() {

@@ -26,7 +26,8 @@ class RoutineLowering {
     /// Where a data object of the routine lives.
     struct Slot {
         enum class Kind : uint8_t { Local, Pointer, IntLoop } kind = Kind::Local;
-        uint32_t local = ir::kNone; ///< Local: the object; IntLoop: the I32 counter
+        uint32_t local = ir::kNone; ///< Local: the object; Pointer: its address, if not the
+                                    ///< argument itself; IntLoop: the I32 counter
         uint32_t param = ir::kNone; ///< parameters: number of the IR parameter
         bool optional = false;      ///< must be checked before use
         int64_t lo = 0, hi = 0;     ///< IntLoop: range of the counter
@@ -46,6 +47,7 @@ class RoutineLowering {
 
     // lower_routine.cpp
     void lowerParameters();
+    void copyArrayParameter(const sema::DataSymbol& param, Slot& slot);
     void lowerData();
     void lowerHandlers();
     void lowerErrorHandler();

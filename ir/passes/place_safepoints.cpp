@@ -31,8 +31,6 @@ class Placer {
             payAtEntry();
         for (uint32_t l = 0; l < info_.loops.size(); ++l)
             placeInLoop(l, profile);
-        for (const Edge& edge : info_.irreducible)
-            payOnEdge(edge);
     }
 
   private:

@@ -42,6 +42,7 @@ void RoutineVerifier::types(const Inst& inst) {
     case Op::Store:
     case Op::Copy:
     case Op::CopyDynamic:
+    case Op::StackAlloc:
     case Op::Zero:
     case Op::FieldAddr:
     case Op::ElemAddr: typesOfMemory(inst); return;
@@ -128,6 +129,7 @@ void RoutineVerifier::typesOfMemory(const Inst& inst) {
         want(inst, 0, inst.type);
         want(inst, 1, kPtr);
         return;
+    case Op::StackAlloc: want(inst, 0, kI64); return;
     case Op::CopyDynamic: want(inst, 2, kI64); [[fallthrough]];
     case Op::Copy: want(inst, 1, kPtr); [[fallthrough]];
     case Op::Zero:

@@ -36,6 +36,9 @@ rt::Status rt_lateLookup(rt::TaskCore* task, int32_t* result, const rt::String* 
 rt::Status rt_arrayDesc(rt::TaskCore* task, const rt::TypeDesc** result, const rt::TypeDesc* element,
                         int32_t dim1, int32_t dim2, int32_t dim3);
 
+/// Before memory of a size known at run time is taken from the task's stack: stops the task when there is not as much.
+rt::Status rt_reserveStack(rt::TaskCore* task, int64_t bytes);
+
 /// EXIT: UNDO handlers run, the program ends. Returns the status of unwinding.
 rt::Status rt_exitProgram(rt::TaskCore* task);
 /// A predefined routine was called that is declared only: the task stops with an event, never a silent no-op.
