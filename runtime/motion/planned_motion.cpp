@@ -11,7 +11,9 @@ namespace motion {
 namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-constexpr double kMargin = 0.99;    // grid nodes are not the whole path
+constexpr double kMargin = 0.99; // grid nodes are not the whole path
+constexpr double kTcpMargin =
+    0.999; // the same for the TCP where its speed is not proportional to the parameter's
 constexpr double kBendShare = 0.9;  // share of an axis' acceleration that bends of the path may take at most
 constexpr double kUnevenPace = 1.1; // ratio of fastest to slowest place that makes a warp worth it
 
@@ -118,7 +120,8 @@ Rates warped(const Rates& r, const Warp::Point& w) {
 /// Constant bounds of u's derivatives for one warp.
 class BoundFinder {
   public:
-    BoundFinder(const Bounds& bounds, const ExternalAxes& travel) : bounds_(bounds), travel_(travel) {}
+    BoundFinder(const Bounds& bounds, const ExternalAxes& travel, bool isCartesian)
+        : bounds_(bounds), travel_(travel), isCartesian_(isCartesian) {}
 
     /// The warp must be the identity or made from the places of `rates`.
     Candidate find(const std::vector<Rates>& rates, Warp warp) const {
@@ -133,8 +136,9 @@ class BoundFinder {
         }
         Candidate fastest;
         fastest.limits.speed = kUnlimited;
+        const double tcpMargin = warp.isIdentity() && isCartesian_ ? 1 : kTcpMargin;
         for (std::size_t i = 0; i < byU.size(); ++i)
-            limitSpeed(byU[i], points[i], fastest);
+            limitSpeed(byU[i], points[i], tcpMargin, fastest);
         if (fastest.limits.speed == kUnlimited) return best; // nothing moves
         // Going through bends slower leaves more acceleration for starting and stopping: the best trade is tried out.
         for (double share : {1.0, 0.9, 0.8, 0.7, 0.55, 0.4}) {
@@ -150,15 +154,15 @@ class BoundFinder {
     }
 
   private:
-    void limitSpeed(const Rates& r, const Warp::Point& w, Candidate& c) const {
+    void limitSpeed(const Rates& r, const Warp::Point& w, double tcpMargin, Candidate& c) const {
         const auto limit = [&](double speed, Limiter limiter, int axis) {
             if (speed >= c.limits.speed) return;
             c.limits.speed = speed;
             c.limiter = limiter;
             c.axis = axis;
         };
-        limit(atMost(bounds_.tcpSpeed, r.mm), Limiter::TcpSpeed, 0);
-        limit(atMost(bounds_.orientationSpeed, r.deg), Limiter::OrientationSpeed, 0);
+        limit(atMost(tcpMargin * bounds_.tcpSpeed, r.mm), Limiter::TcpSpeed, 0);
+        limit(atMost(tcpMargin * bounds_.orientationSpeed, r.deg), Limiter::OrientationSpeed, 0);
         for (std::size_t i = 0; i < r.first.size(); ++i) {
             const int axis = static_cast<int>(i) + 1;
             limit(atMost(bounds_.speed[i], r.first[i]), Limiter::JointSpeed, axis);
@@ -206,6 +210,7 @@ class BoundFinder {
 
     const Bounds& bounds_;
     const ExternalAxes& travel_;
+    bool isCartesian_;
 };
 
 /// Slowness (s per unit of path parameter) at each place when every place is run as fast as it allows and speed changes
@@ -283,7 +288,7 @@ PlannedMotion PlannedMotion::plan(MotionPath path, const robot::RobotModel& mode
     const ExternalAxes travel = externalTravel(path);
     if (!path.isEmpty()) {
         const std::vector<Rates> rates = ratesAlong(path);
-        const BoundFinder finder(bounds, travel);
+        const BoundFinder finder(bounds, travel, path.isCartesian());
         Candidate best = finder.find(rates, Warp{});
         std::vector<double> places;
         for (const Rates& r : rates)

@@ -1,0 +1,465 @@
+// The arm on the clock: order of events, looking ahead, stopping on the path, override, clearing, sampling.
+
+#include "runtime/motion/motion_system.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+using namespace motion;
+
+namespace {
+
+constexpr TimeNs kMs = 1'000'000;
+
+MotionSystem makeSystem(MotionOptions options = {}) {
+    auto model = robot::loadRobotModel("IRB 120-3/0.58");
+    REQUIRE(model.hasValue());
+    return MotionSystem(*model, options);
+}
+
+MoveCommand jointsTo(const Joints& joints, uint64_t tag = 0) {
+    MoveCommand command;
+    command.joints.robax = joints;
+    command.speed.vTcp = 1000;
+    command.tag = tag;
+    return command;
+}
+
+MoveCommand lineFrom(const MotionSystem& system, double x, double y, double z) {
+    MoveCommand command;
+    command.kind = MoveKind::Linear;
+    command.target = calcRobTarget(system.kinematics(), system.plannedEnd(), command.frames);
+    command.target.pose = robot::offs(command.target.pose, x, y, z);
+    command.speed.vTcp = 200;
+    command.confL = false;
+    return command;
+}
+
+std::vector<MotionEventKind> kinds(const std::vector<MotionEvent>& events) {
+    std::vector<MotionEventKind> result;
+    for (const MotionEvent& event : events)
+        result.push_back(event.kind);
+    return result;
+}
+
+TimeNs timeOf(const std::vector<MotionEvent>& events, MotionEventKind kind, MoveId move) {
+    for (const MotionEvent& event : events) {
+        if (event.kind == kind && event.move == move) return event.time;
+    }
+    return -1;
+}
+
+void run(MotionSystem& system, std::vector<MotionEvent>* events = nullptr) {
+    while (const auto next = system.nextEventTime()) {
+        system.advanceTo(*next);
+        for (const MotionEvent& event : system.takeEvents()) {
+            if (events != nullptr) events->push_back(event);
+        }
+    }
+}
+
+} // namespace
+
+TEST_CASE("the arm starts where it should and is idle", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    CHECK(system.isIdle());
+    CHECK_FALSE(system.isMoving());
+    CHECK_FALSE(system.nextEventTime().has_value());
+    CHECK(system.currentJoints().robax == Joints{0, 0, 0, 0, 30, 0});
+    CHECK(system.current().move == 0);
+    CHECK(system.status(1) == MoveStatus::Unknown);
+    const RobTarget here = system.currentTarget({});
+    CHECK(here.pose.pos.x == Approx(302 + 72 * std::cos(M_PI / 6)));
+    CHECK(norm(system.current().tcp.pos - here.pose.pos) < 1e-9);
+    CHECK(here.conf == ConfData{0, 0, 0, 0});
+}
+
+TEST_CASE("a move starts at once, is released and reached when it stands", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    system.advanceTo(5 * kMs);
+    const auto id = system.enqueue(jointsTo({30, 0, 0, 0, 30, 0}, 77));
+    REQUIRE(id.hasValue());
+    CHECK(*id == 1);
+    CHECK(system.status(1) == MoveStatus::Moving);
+    CHECK(system.isStarted(1));
+    CHECK_FALSE(system.isReleased(1));
+    const auto end = system.reachTime(1);
+    REQUIRE(end.has_value());
+    CHECK(system.nextEventTime() == end);
+    system.advanceTo(*end - 1);
+    CHECK(system.isMoving());
+    system.advanceTo(*end);
+    CHECK_FALSE(system.isMoving());
+    CHECK(system.isIdle());
+    CHECK(system.isDone(1));
+    CHECK(system.isReleased(1));
+    CHECK(system.currentJoints().robax == Joints{30, 0, 0, 0, 30, 0});
+    const auto events = system.takeEvents();
+    CHECK(kinds(events) ==
+          std::vector{MotionEventKind::Started, MotionEventKind::Released, MotionEventKind::Reached});
+    CHECK(events[0].time == 5 * kMs);
+    CHECK(events[2].time == *end);
+    CHECK(events[2].tag == 77);
+    CHECK(system.takeEvents().empty());
+    CHECK(system.current().tag == 77);
+    CHECK(system.reachTime(1) == end);
+}
+
+TEST_CASE("moves ordered ahead run one after another without a gap", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    std::vector<MotionEvent> events;
+    const Joints targets[] = {{20, 0, 0, 0, 30, 0}, {20, 20, 0, 0, 30, 0}, {0, 0, 0, 0, 30, 0}};
+    for (const Joints& target : targets)
+        REQUIRE(system.enqueue(jointsTo(target)).hasValue());
+    CHECK(system.unfinishedMoves() == 3);
+    CHECK(system.status(2) == MoveStatus::Queued);
+    CHECK(system.plannedEnd().robax == targets[2]);
+    run(system, &events);
+    CHECK(timeOf(events, MotionEventKind::Started, 2) == timeOf(events, MotionEventKind::Reached, 1));
+    CHECK(timeOf(events, MotionEventKind::Started, 3) == timeOf(events, MotionEventKind::Reached, 2));
+    CHECK(system.isIdle());
+    CHECK(system.currentJoints().robax == targets[2]);
+}
+
+TEST_CASE("an error leaves the queue as it was", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    REQUIRE(system.enqueue(jointsTo({20, 0, 0, 0, 30, 0})).hasValue());
+    const auto bad = system.enqueue(jointsTo({20, 0, 500, 0, 30, 0}));
+    REQUIRE_FALSE(bad.hasValue());
+    CHECK(bad.error().kind == MotionErrorKind::JointOutOfRange);
+    CHECK(system.unfinishedMoves() == 1);
+    CHECK(*system.enqueue(jointsTo({0, 0, 0, 0, 30, 0})) == 2);
+
+    MotionOptions options;
+    options.maxQueued = 2;
+    MotionSystem small = makeSystem(options);
+    REQUIRE(small.enqueue(jointsTo({1, 0, 0, 0, 30, 0})).hasValue());
+    REQUIRE(small.enqueue(jointsTo({2, 0, 0, 0, 30, 0})).hasValue());
+    CHECK(small.enqueue(jointsTo({3, 0, 0, 0, 30, 0})).error().kind == MotionErrorKind::QueueFull);
+
+    auto collaborative = robot::loadRobotModel("CRB 15000-5/0.95");
+    REQUIRE(collaborative.hasValue());
+    MotionSystem unsupported(*collaborative);
+    CHECK(unsupported.enqueue(jointsTo({1, 0, 0, 0, 30, 0})).error().kind ==
+          MotionErrorKind::UnsupportedRobot);
+}
+
+TEST_CASE("a fly-by move releases its program ahead of the zone, a concurrent one at its start",
+          "[motion][system]") {
+    MotionSystem system = makeSystem();
+    MoveCommand flying = lineFrom(system, 0, 0, -150);
+    flying.zone = {false, 50, 75, 75, 7.5, 75, 7.5};
+    REQUIRE(system.enqueue(flying).hasValue());
+    std::vector<MotionEvent> events;
+    run(system, &events);
+    const TimeNs released = timeOf(events, MotionEventKind::Released, 1);
+    const TimeNs reached = timeOf(events, MotionEventKind::Reached, 1);
+    CHECK(released > timeOf(events, MotionEventKind::Started, 1));
+    // The largest zone, 75 mm, is half of the way; the program goes on 0.1 s before it.
+    const double zoneEntry = 0.5 * static_cast<double>(reached);
+    CHECK(static_cast<double>(released) == Approx(zoneEntry - 1e8).epsilon(1e-3));
+
+    MoveCommand concurrent = lineFrom(system, 0, 0, 100);
+    concurrent.concurrent = true;
+    REQUIRE(system.enqueue(concurrent).hasValue());
+    events.clear();
+    run(system, &events);
+    CHECK(timeOf(events, MotionEventKind::Released, 2) == timeOf(events, MotionEventKind::Started, 2));
+    CHECK(timeOf(events, MotionEventKind::Reached, 2) > timeOf(events, MotionEventKind::Started, 2));
+}
+
+TEST_CASE("triggers fire where and when they are asked to", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    MoveCommand line = lineFrom(system, 0, 0, -150);
+    line.triggers = {{1, false, false, 30, 0},   {2, true, false, 20, 0},     {3, false, true, 0.2, 0},
+                     {4, true, true, 0.25, 0},   {5, false, false, 30, 0.05}, {6, false, false, 0, 0},
+                     {7, false, false, 0, -0.5}, {8, false, false, 400, 0}};
+    REQUIRE(system.enqueue(line).hasValue());
+    std::vector<MotionEvent> events;
+    std::vector<double> fired(9, -1);
+    const Vec3 from = system.current().tcp.pos;
+    std::vector<double> travelled(9, -1);
+    while (const auto next = system.nextEventTime()) {
+        system.advanceTo(*next);
+        for (const MotionEvent& event : system.takeEvents()) {
+            events.push_back(event);
+            if (event.kind != MotionEventKind::Trigger) continue;
+            fired[event.trigger] = static_cast<double>(event.time) * 1e-9;
+            travelled[event.trigger] = norm(system.sample(event.time).tcp.pos - from);
+        }
+    }
+    const double end = static_cast<double>(timeOf(events, MotionEventKind::Reached, 1)) * 1e-9;
+    CHECK(travelled[1] == Approx(120).margin(1e-4));
+    CHECK(travelled[2] == Approx(20).margin(1e-4));
+    CHECK(fired[3] == Approx(end - 0.2).margin(1e-8));
+    CHECK(fired[4] == Approx(0.25).margin(1e-8));
+    CHECK(fired[5] == Approx(fired[1] - 0.05).margin(1e-8));
+    CHECK(fired[6] == Approx(end).margin(1e-8));
+    CHECK(fired[7] == Approx(end).margin(1e-8)); // later than the end: with it
+    CHECK(fired[8] == Approx(0).margin(1e-8));   // before the start: with it
+    CHECK(std::is_sorted(events.begin(), events.end(),
+                         [](const auto& a, const auto& b) { return a.time < b.time; }));
+}
+
+TEST_CASE("stop brakes on the path and start goes on from there", "[motion][system]") {
+    MotionSystem straight = makeSystem();
+    MotionSystem system = makeSystem();
+    const MoveCommand line = lineFrom(system, 50, 100, -150);
+    REQUIRE(straight.enqueue(line).hasValue());
+    REQUIRE(system.enqueue(line).hasValue());
+    const Vec3 from = system.current().tcp.pos;
+    const Vec3 way = line.target.pose.pos - from;
+    const TimeNs whole = *system.reachTime(1);
+    system.advanceTo(whole / 2);
+    system.stop();
+    CHECK(system.isStopRequested());
+    CHECK_FALSE(system.reachTime(1).has_value());
+    CHECK(system.isMoving()); // braking
+    const TimeNs standing = *system.nextEventTime();
+    CHECK(standing < whole);
+    system.advanceTo(standing + 500 * kMs);
+    CHECK_FALSE(system.isMoving());
+    CHECK(system.status(1) == MoveStatus::Moving);
+    CHECK_FALSE(system.nextEventTime().has_value());
+    auto events = system.takeEvents();
+    CHECK(kinds(events) == std::vector{MotionEventKind::Started, MotionEventKind::Stopped});
+    CHECK(events[1].time == standing);
+    const Vec3 there = system.current().tcp.pos;
+    const double share = dot(there - from, way) / dot(way, way);
+    CHECK(norm(there - (from + way * share)) < 1e-6);
+    CHECK(share > 0.45);
+    CHECK(share < 0.8);
+    // Ordering goes on while stopped; nothing starts.
+    REQUIRE(system.enqueue(jointsTo({0, 0, 0, 0, 30, 0})).hasValue());
+    CHECK(system.status(2) == MoveStatus::Queued);
+
+    system.start();
+    run(system, &events);
+    CHECK(system.isIdle());
+    CHECK(timeOf(events, MotionEventKind::Reached, 1) > standing + 500 * kMs);
+    CHECK(system.currentJoints().robax == Joints{0, 0, 0, 0, 30, 0});
+}
+
+TEST_CASE("a stop in the last moment lets the move end", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    REQUIRE(system.enqueue(jointsTo({20, 0, 0, 0, 30, 0})).hasValue());
+    REQUIRE(system.enqueue(jointsTo({0, 0, 0, 0, 30, 0})).hasValue());
+    const TimeNs end = *system.reachTime(1);
+    system.advanceTo(end - kMs);
+    system.stop();
+    std::vector<MotionEvent> events;
+    run(system, &events);
+    CHECK(timeOf(events, MotionEventKind::Reached, 1) == end);
+    CHECK(timeOf(events, MotionEventKind::Stopped, 1) == end);
+    CHECK(system.status(2) == MoveStatus::Queued);
+    system.start();
+    CHECK(system.status(2) == MoveStatus::Moving);
+    run(system);
+    CHECK(system.isIdle());
+}
+
+TEST_CASE("stop while standing is answered at once and holds later moves", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    system.stop();
+    CHECK(kinds(system.takeEvents()) == std::vector{MotionEventKind::Stopped});
+    REQUIRE(system.enqueue(jointsTo({20, 0, 0, 0, 30, 0})).hasValue());
+    CHECK_FALSE(system.nextEventTime().has_value());
+    system.advanceTo(1000 * kMs);
+    system.start();
+    CHECK(system.isMoving());
+    CHECK(system.takeEvents().front().time == 1000 * kMs);
+}
+
+TEST_CASE("stopping and starting at random never leaves the path or the limits", "[motion][system]") {
+    std::mt19937_64 random(6);
+    for (int n = 0; n < 20; ++n) {
+        MotionSystem system = makeSystem();
+        const MoveCommand line = lineFrom(system, 60, 120, -160);
+        REQUIRE(system.enqueue(line).hasValue());
+        const robot::RobotModel& model = system.model();
+        const Vec3 from = system.current().tcp.pos;
+        const Vec3 way = line.target.pose.pos - from;
+        Joints before = system.currentJoints().robax;
+        Joints here = before;
+        double last = 0;
+        int steps = 0;
+        while (!system.isIdle() && steps < 60000) {
+            ++steps;
+            const unsigned dice = random() % 200;
+            if (dice == 0) system.stop();
+            if (dice == 1 || (dice < 12 && system.isStopRequested())) system.start();
+            if (dice == 20) system.setOverride(static_cast<double>(random() % 5) * 25);
+            if (dice == 21) system.setOverride(100);
+            system.advanceTo(system.now() + kMs);
+            const Joints after = system.currentJoints().robax;
+            for (std::size_t i = 0; i < 6; ++i) {
+                REQUIRE(std::fabs(after[i] - here[i]) <= model.maxSpeed[i] * 1e-3 * (1 + 1e-6));
+                REQUIRE(std::fabs(after[i] - 2 * here[i] + before[i]) <=
+                        model.maxAcceleration[i] * 1e-6 * (1 + 1e-4) + 1e-9);
+            }
+            const Vec3 tcp = system.current().tcp.pos;
+            const double share = dot(tcp - from, way) / dot(way, way);
+            REQUIRE(norm(tcp - (from + way * share)) < 1e-6);
+            REQUIRE(share >= last - 1e-9);
+            last = share;
+            before = here;
+            here = after;
+        }
+        CHECK(system.isIdle());
+        CHECK(norm(system.current().tcp.pos - line.target.pose.pos) < 1e-6);
+    }
+}
+
+TEST_CASE("override changes the pace, not the path", "[motion][system]") {
+    MotionSystem full = makeSystem();
+    MotionSystem half = makeSystem();
+    half.setOverride(50);
+    CHECK(half.speedOverride() == 50);
+    const MoveCommand line = lineFrom(full, 0, 100, -150);
+    REQUIRE(full.enqueue(line).hasValue());
+    REQUIRE(half.enqueue(line).hasValue());
+    CHECK(*half.reachTime(1) > *full.reachTime(1));
+    half.advanceTo(*half.reachTime(1) / 2);
+    CHECK(half.current().tcpSpeed == Approx(100).epsilon(1e-3));
+    half.setOverride(0); // stops on the path
+    const auto standing = half.nextEventTime();
+    REQUIRE(standing.has_value());
+    half.advanceTo(*standing + 10 * kMs);
+    CHECK_FALSE(half.isMoving());
+    CHECK_FALSE(half.nextEventTime().has_value());
+    CHECK(half.status(1) == MoveStatus::Moving);
+    half.setOverride(100);
+    run(half);
+    CHECK(half.isIdle());
+    CHECK(norm(half.current().tcp.pos - line.target.pose.pos) < 1e-6);
+}
+
+TEST_CASE("clearing throws away what is not finished", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    REQUIRE(system.enqueue(jointsTo({60, 0, 0, 0, 30, 0})).hasValue());
+    REQUIRE(system.enqueue(jointsTo({0, 0, 0, 0, 30, 0})).hasValue());
+    system.advanceTo(*system.reachTime(1) / 2);
+    system.takeEvents();
+    system.clear();
+    CHECK(system.status(1) == MoveStatus::Cleared);
+    CHECK(system.status(2) == MoveStatus::Cleared);
+    CHECK(system.isDone(1));
+    CHECK(system.isReleased(2));
+    CHECK(system.isMoving()); // still braking
+    // A new move starts from where the arm will stand, when it stands.
+    const Joints stop = system.plannedEnd().robax;
+    CHECK(stop[0] > 10);
+    CHECK(stop[0] < 60);
+    REQUIRE(*system.enqueue(jointsTo({5, 0, 0, 0, 30, 0})) == 3);
+    CHECK(system.status(3) == MoveStatus::Queued);
+    std::vector<MotionEvent> events;
+    run(system, &events);
+    CHECK(kinds(events) ==
+          std::vector{MotionEventKind::Started, MotionEventKind::Released, MotionEventKind::Reached});
+    CHECK(events[0].move == 3);
+    CHECK(system.currentJoints().robax[0] == 5);
+    CHECK(system.sample(events[0].time).joints[0] == Approx(stop[0]).margin(1e-9));
+
+    // After a stop the path is gone at once.
+    REQUIRE(system.enqueue(jointsTo({60, 0, 0, 0, 30, 0})).hasValue());
+    system.advanceTo(system.now() + 200 * kMs);
+    system.stop();
+    while (system.isMoving())
+        system.advanceTo(*system.nextEventTime());
+    system.clear();
+    CHECK(system.isIdle());
+    CHECK(system.isStopRequested());
+    const Joints rest = system.currentJoints().robax;
+    CHECK(system.plannedEnd().robax == rest);
+    CHECK_FALSE(system.nextEventTime().has_value());
+    system.start();
+    REQUIRE(system.enqueue(jointsTo(rest)).hasValue());
+    run(system);
+    CHECK(system.currentJoints().robax == rest);
+}
+
+TEST_CASE("the past since the last step can be sampled for a trace", "[motion][system]") {
+    MotionSystem fine = makeSystem();
+    MotionSystem coarse = makeSystem();
+    for (MotionSystem* system : {&fine, &coarse}) {
+        REQUIRE(system->enqueue(jointsTo({20, 10, 0, 0, 30, 0}, 1)).hasValue());
+        REQUIRE(system->enqueue(jointsTo({0, 0, 0, 50, 30, 0}, 2)).hasValue());
+    }
+    std::vector<MotionState> trace;
+    for (TimeNs time = 4 * kMs; time <= 3000 * kMs; time += 4 * kMs) {
+        fine.advanceTo(time);
+        trace.push_back(fine.sample(time));
+    }
+    // In one leap, and everything in between asked afterwards.
+    coarse.advanceTo(3000 * kMs);
+    for (std::size_t i = 0; i < trace.size(); ++i) {
+        const MotionState state = coarse.sample(static_cast<TimeNs>(i + 1) * 4 * kMs);
+        CHECK(state.joints == trace[i].joints);
+        CHECK(state.move == trace[i].move);
+        CHECK(state.tag == trace[i].tag);
+        CHECK(state.moving == trace[i].moving);
+    }
+    CHECK(fine.takeEvents().size() == coarse.takeEvents().size());
+}
+
+TEST_CASE("the arm can be placed only when idle", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    REQUIRE(system.placeAt({{10, 20, 30, 0, 40, 0}, kNoExternalAxes}));
+    CHECK(system.currentJoints().robax == Joints{10, 20, 30, 0, 40, 0});
+    CHECK(norm(system.current().tcp.pos - system.kinematics().forward({10, 20, 30, 0, 40, 0}).pos) < 1e-9);
+    REQUIRE(system.enqueue(jointsTo({20, 0, 0, 0, 30, 0})).hasValue());
+    CHECK_FALSE(system.placeAt({{0, 0, 0, 0, 30, 0}, kNoExternalAxes}));
+    run(system);
+    CHECK(system.placeAt({{0, 0, 0, 0, 30, 0}, kNoExternalAxes}));
+    CHECK(system.currentJoints().robax == Joints{0, 0, 0, 0, 30, 0});
+    CHECK(system.currentMove() == 1);
+}
+
+TEST_CASE("an external axis outside its range is refused by its number", "[motion][system]") {
+    MotionOptions options;
+    options.external[1] = {true, true, -90, 90, 100, 500, 5000};
+    MotionSystem system = makeSystem(options);
+    CHECK(system.currentJoints().extax[1] == 0);
+    MoveCommand command = jointsTo({10, 0, 0, 0, 30, 0});
+    command.joints.extax[1] = 120;
+    const auto refused = system.enqueue(command);
+    REQUIRE_FALSE(refused.hasValue());
+    CHECK(refused.error().kind == MotionErrorKind::JointOutOfRange);
+    CHECK(refused.error().joint == 8);
+    command.joints.extax[1] = 80;
+    REQUIRE(system.enqueue(command).hasValue());
+    run(system);
+    CHECK(system.currentJoints().extax[1] == 80);
+}
+
+TEST_CASE("moves without a way come and go in no time, in order", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    for (int i = 0; i < 5; ++i)
+        REQUIRE(system.enqueue(jointsTo({0, 0, 0, 0, 30, 0})).hasValue());
+    system.advanceTo(0);
+    CHECK(system.isIdle());
+    CHECK(system.now() == 0);
+    CHECK(system.takeEvents().size() == 15);
+}
+
+TEST_CASE("the base frame moves world, not the arm", "[motion][system]") {
+    auto model = robot::loadRobotModel("IRB 120-3/0.58");
+    REQUIRE(model.hasValue());
+    model->baseFrame = {{1000, 0, 500}, robot::fromEulerZyx(90, 0, 0)};
+    MotionSystem system(*model);
+    const Vec3 inBase = system.kinematics().forward({0, 0, 0, 0, 30, 0}).pos;
+    const Vec3 tcp = system.current().tcp.pos;
+    CHECK(tcp.x == Approx(1000 - inBase.y).margin(1e-9));
+    CHECK(tcp.y == Approx(inBase.x));
+    CHECK(tcp.z == Approx(500 + inBase.z));
+    CHECK(norm(system.currentTarget({}).pose.pos - tcp) < 1e-9);
+    MoveCommand line = lineFrom(system, 0, 0, 0);
+    line.target.pose = system.currentTarget({}).pose;
+    line.target.pose.pos.z -= 100;
+    REQUIRE(system.enqueue(line).hasValue());
+    run(system);
+    CHECK(system.current().tcp.pos.z == Approx(tcp.z - 100));
+}
