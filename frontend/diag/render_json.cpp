@@ -2,6 +2,7 @@
 
 #include "frontend/diag/catalogue.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <set>
@@ -36,9 +37,24 @@ std::string dump(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+/// A path as a relative URI reference.
+std::string uriOf(std::string_view path) {
+    static constexpr std::string_view kPlain =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
+    std::string out;
+    for (const char c : path) {
+        if (kPlain.find(c) != std::string_view::npos) {
+            out.push_back(c);
+        } else {
+            out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+        }
+    }
+    return out;
+}
+
 Json sarifLocation(const Place& place) {
     Json location = {{"physicalLocation",
-                      {{"artifactLocation", {{"uri", place.file}}},
+                      {{"artifactLocation", {{"uri", uriOf(place.file)}}},
                        {"region",
                         {{"startLine", place.begin.line},
                          {"startColumn", place.begin.column},

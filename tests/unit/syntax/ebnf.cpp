@@ -88,7 +88,7 @@ class Reader {
     }
 
     Part choice() {
-        Part result{Kind::Choice, {}, 0, 0, {}};
+        Part result{Kind::Choice, {}, 0, 0, {}, 0};
         do
             result.parts.push_back(sequence());
         while (accept("|"));
@@ -96,7 +96,7 @@ class Reader {
     }
 
     Part sequence() {
-        Part result{Kind::Sequence, {}, 0, 0, {}};
+        Part result{Kind::Sequence, {}, 0, 0, {}, 0};
         for (skip();
              at_ < text_.size() && std::string_view("|;)]}").find(text_[at_]) == std::string_view::npos;
              skip())
@@ -107,7 +107,7 @@ class Reader {
 
     Part item() {
         if (text_[at_] == '\'') {
-            Part result{Kind::Terminal, terminal(), 0, 0, {}};
+            Part result{Kind::Terminal, terminal(), 0, 0, {}, 0};
             if (!accept("..")) return result;
             skip();
             result.kind = Kind::Range;
@@ -122,11 +122,11 @@ class Reader {
             expect(")");
             return result;
         }
-        return {Kind::Rule, word(), 0, 0, {}};
+        return {Kind::Rule, word(), 0, 0, {}, 0};
     }
 
     Part enclosed(Kind kind, std::string_view closing) {
-        Part result{kind, {}, 0, 0, {}};
+        Part result{kind, {}, 0, 0, {}, 0};
         result.parts.push_back(choice());
         expect(closing);
         return result;
@@ -163,6 +163,12 @@ uint32_t depthOf(const Grammar& grammar, const Part& part) {
     return std::min(result, kEndless);
 }
 
+void store(const Grammar& grammar, Part& part) {
+    part.depth = depthOf(grammar, part);
+    for (Part& child : part.parts)
+        store(grammar, child);
+}
+
 void computeDepths(Grammar& grammar) {
     for (auto& [name, rule] : grammar.rules)
         rule.depth = kEndless;
@@ -174,8 +180,10 @@ void computeDepths(Grammar& grammar) {
             rule.depth = std::min(rule.depth, depth);
         }
     }
-    for (const auto& [name, rule] : grammar.rules)
+    for (auto& [name, rule] : grammar.rules) {
         if (rule.depth >= kEndless) throw std::runtime_error("rapid.ebnf: rule " + name + " never ends");
+        store(grammar, rule.body);
+    }
 }
 
 std::string encode(uint32_t c) {
@@ -218,7 +226,7 @@ class Deriver {
 
   private:
     bool chance(uint32_t percent) { return random_() % 100 < percent; }
-    bool fits(const Part& part, uint32_t budget) const { return depthOf(grammar_, part) <= budget; }
+    static bool fits(const Part& part, uint32_t budget) { return part.depth <= budget; }
 
     void choose(const Part& part, uint32_t budget) {
         std::vector<const Part*> possible;
@@ -226,9 +234,8 @@ class Deriver {
             if (fits(child, budget)) possible.push_back(&child);
         if (possible.empty()) {
             const auto least =
-                std::min_element(part.parts.begin(), part.parts.end(), [&](const Part& a, const Part& b) {
-                    return depthOf(grammar_, a) < depthOf(grammar_, b);
-                });
+                std::min_element(part.parts.begin(), part.parts.end(),
+                                 [](const Part& a, const Part& b) { return a.depth < b.depth; });
             possible.push_back(&*least);
         }
         derive(*possible[random_() % possible.size()], budget);

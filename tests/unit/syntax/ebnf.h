@@ -18,6 +18,7 @@ struct Grammar {
         uint32_t low = 0;  ///< first character of a range
         uint32_t high = 0; ///< last one
         std::vector<Part> parts;
+        uint32_t depth = 0; ///< height of the lowest derivation
     };
     struct Rule {
         Part body;

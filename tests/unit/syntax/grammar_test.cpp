@@ -55,7 +55,7 @@ TEST_CASE("the grammar uses every keyword and placeholder, and no other", "[synt
 }
 
 TEST_CASE("random sentences of the grammar parse without a diagnostic", "[syntax][grammar]") {
-    constexpr int kSentences = 6000;
+    constexpr int kSentences = 3000;
     size_t tokens = 0;
     for (int seed = 0; seed < kSentences; ++seed) {
         std::mt19937 random(static_cast<uint32_t>(seed));
@@ -73,7 +73,7 @@ TEST_CASE("random sentences of the grammar parse without a diagnostic", "[syntax
 }
 
 TEST_CASE("broken sentences are read without loss and reported within bounds", "[syntax][grammar]") {
-    constexpr int kSentences = 4000;
+    constexpr int kSentences = 2000;
     for (int seed = 0; seed < kSentences; ++seed) {
         std::mt19937 random(static_cast<uint32_t>(seed) + 1000000u);
         auto sentence =

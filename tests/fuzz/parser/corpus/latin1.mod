@@ -1,0 +1,4 @@
+MODULE m
+  VAR string הצ := "grüße \07";
+  ! י
+ENDMODULE

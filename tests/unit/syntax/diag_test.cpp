@@ -1,0 +1,158 @@
+// Diagnostics: catalogue, order, renderers.
+
+#include "syntax_test.h"
+
+#include "frontend/diag/catalogue.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+using namespace rapid;
+using diag::Code;
+
+namespace {
+
+std::shared_ptr<const SourceFile> file(std::string text) {
+    return std::make_shared<const SourceFile>("a.modx", std::move(text));
+}
+
+} // namespace
+
+TEST_CASE("every text of the catalogue follows the wording rules", "[diag]") {
+    for (const diag::CatalogueEntry& entry : diag::catalogue()) {
+        INFO(entry.number << " " << entry.text);
+        const char first = entry.text.front();
+        // Lower-case start, unless the sentence starts with a word of RAPID or a quoted name.
+        const bool upperWord = entry.text.size() > 1 && std::isupper(static_cast<unsigned char>(first)) &&
+                               std::isupper(static_cast<unsigned char>(entry.text[1]));
+        CHECK((!std::isupper(static_cast<unsigned char>(first)) || upperWord));
+        CHECK(entry.text.back() != '.');
+        CHECK(entry.text.find("illegal") == std::string_view::npos);
+        CHECK(entry.text.find("invalid") == std::string_view::npos);
+        CHECK(diag::findEntry(entry.number) == &entry);
+    }
+    CHECK(diag::findEntry(1) == nullptr);
+    CHECK(diag::codeName(Code::UnexpectedCharacter) == "RAP1001");
+}
+
+TEST_CASE("braces in a catalogue text are no placeholders", "[diag]") {
+    const std::string args[] = {"x"};
+    CHECK(diag::formatText("a {0} b", args) == "a x b");
+    CHECK(diag::formatText("found '{' and {0} and '}'", args) == "found '{' and x and '}'");
+}
+
+TEST_CASE("diagnostics are sorted by place, the limit comes last", "[diag]") {
+    diag::Sink sink;
+    const auto source = file("abc\ndef\n");
+    sink.report(Code::TooManyErrors, source, {0, 1});
+    sink.report(Code::EqualInAssignment, source, {5, 6});
+    sink.report(Code::UnterminatedString, source, {1, 2});
+    const auto sorted = sink.sorted();
+    REQUIRE(sorted.size() == 3);
+    CHECK(sorted[0].range.begin == 1);
+    CHECK(sorted[1].range.begin == 5);
+    CHECK(sorted[2].code == Code::TooManyErrors);
+    CHECK(sink.errorCount() == 2);
+    CHECK(sink.hasErrors());
+}
+
+TEST_CASE("text: heading, excerpt, marks", "[diag]") {
+    diag::Sink sink;
+    const auto source = file("MODULE m\n\tx\t= größer;\nENDMODULE\n");
+    auto& d = sink.report(Code::EqualInAssignment, source, {12, 13});
+    d.notes.push_back({source, {0, 6}, "MODULE begins here"});
+    CHECK(renderText(d, false) == "a.modx:2:4: error[RAP1205]: found '=', expected ':='\n"
+                                  "    2 |     x   = größer;\n"
+                                  "      |         ^\n"
+                                  "a.modx:1:1: note: MODULE begins here\n"
+                                  "    1 | MODULE m\n"
+                                  "      | ^~~~~~\n");
+    CHECK(renderText(d, true).find("\x1b[") != std::string::npos);
+}
+
+TEST_CASE("text: places at ends and over several lines", "[diag]") {
+    diag::Sink sink;
+    const auto source = file("ab\ncd");
+    CHECK(
+        renderText(sink.report(Code::EqualInAssignment, source, {2, 2}), false).find(" ab\n      |   ^\n") !=
+        std::string::npos);
+    CHECK(renderText(sink.report(Code::EqualInAssignment, source, {1, 5}), false).find(" ab\n      |  ^\n") !=
+          std::string::npos);
+    CHECK(
+        renderText(sink.report(Code::EqualInAssignment, source, {5, 5}), false).find(" cd\n      |   ^\n") !=
+        std::string::npos);
+}
+
+TEST_CASE("text: a long line is cut around the place, control characters are not passed on", "[diag]") {
+    diag::Sink sink;
+    const std::string line = std::string(5000, 'a') + "HERE" + std::string(5000, 'b');
+    const std::string shown =
+        renderText(sink.report(Code::EqualInAssignment, file(line), {5000, 5004}), false);
+    CHECK(shown.size() < 400);
+    CHECK(shown.find("aHEREb") != std::string::npos);
+    const size_t row = shown.find("...a");
+    REQUIRE(row != std::string::npos);
+    const size_t lineStart = shown.rfind('\n', row) + 1;
+    const size_t marks = shown.find("^~~~");
+    const size_t markStart = shown.rfind('\n', marks) + 1;
+    CHECK(shown.find("HERE") - lineStart == marks - markStart);
+
+    const std::string evil =
+        renderText(sink.report(Code::EqualInAssignment, file("a\x1b[31mb"), {0, 1}), false);
+    CHECK(evil.find('\x1b') == std::string::npos);
+}
+
+TEST_CASE("a message without a file", "[diag]") {
+    diag::Sink sink;
+    const auto& d = sink.report(Code::NoModule, nullptr, {0, 0});
+    CHECK(renderText(d, false) == "rapidc: error[RAP1301]: file contains no module, expected MODULE\n");
+    const auto json = nlohmann::json::parse(renderJson(sink.sorted()));
+    CHECK(json[0]["file"] == "");
+    CHECK(json[0]["line"] == 1);
+    CHECK(json[0]["column"] == 1);
+}
+
+TEST_CASE("JSON: an array of objects, columns count characters", "[diag]") {
+    CHECK(nlohmann::json::parse(diag::renderJson({})) == nlohmann::json::array());
+    diag::Sink sink;
+    const auto source = file("é = 1;\n");
+    sink.report(Code::EqualInAssignment, source, {3, 4});
+    const auto json = nlohmann::json::parse(renderJson(sink.sorted()));
+    REQUIRE(json.size() == 1);
+    CHECK(json[0] == nlohmann::json({{"file", "a.modx"},
+                                     {"line", 1},
+                                     {"column", 3},
+                                     {"endLine", 1},
+                                     {"endColumn", 4},
+                                     {"severity", "error"},
+                                     {"code", "RAP1205"},
+                                     {"message", "found '=', expected ':='"}}));
+}
+
+TEST_CASE("JSON: bytes that are not UTF-8 in a path", "[diag]") {
+    diag::Sink sink;
+    sink.report(Code::NoModule, std::make_shared<const SourceFile>("\xFF.modx", ""), {0, 0});
+    CHECK(nlohmann::json::parse(renderJson(sink.sorted())).size() == 1);
+    CHECK_FALSE(nlohmann::json::parse(renderSarif(sink.sorted())).empty());
+}
+
+TEST_CASE("SARIF 2.1.0", "[diag]") {
+    diag::Sink sink;
+    const auto source = std::make_shared<const SourceFile>("my folder/a.modx", "x = 1;\n");
+    auto& d = sink.report(Code::EqualInAssignment, source, {2, 3});
+    d.notes.push_back({source, {0, 1}, "here"});
+    const auto sarif = nlohmann::json::parse(renderSarif(sink.sorted()));
+    CHECK(sarif["version"] == "2.1.0");
+    const auto& run = sarif["runs"][0];
+    CHECK(run["tool"]["driver"]["name"] == "rapidc");
+    CHECK(run["tool"]["driver"]["rules"][0]["id"] == "RAP1205");
+    const auto& result = run["results"][0];
+    CHECK(result["ruleId"] == "RAP1205");
+    CHECK(result["level"] == "error");
+    CHECK(result["message"]["text"] == "found '=', expected ':='");
+    const auto& place = result["locations"][0]["physicalLocation"];
+    CHECK(place["artifactLocation"]["uri"] == "my%20folder/a.modx");
+    CHECK(place["region"]["startLine"] == 1);
+    CHECK(place["region"]["startColumn"] == 3);
+    CHECK(result["relatedLocations"][0]["message"]["text"] == "here");
+}
