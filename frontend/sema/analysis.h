@@ -95,6 +95,7 @@ class Analyzer {
     Symbol* lookupOutside(NameId name) const; ///< skips the routine
     Symbol* reportUnknownData(syntax::TokenIndex token, NameId name, const Type* handle);
     DataSymbol* configuredObject(NameId name, std::string spelling, const Type* type);
+    void declareUnknown(NameId name);
     const Type* signalTypeByUse(NameId name);
     void gatherSignalUses();
     void gatherSignalUses(syntax::StmtList list);
@@ -151,7 +152,7 @@ class Analyzer {
     Typed placeValue(const syntax::Expr& e);
     Typed paren(const syntax::ParenExpr& e, const DataType* want, ConstValue* slot);
     Typed unary(const syntax::UnaryExpr& e, const DataType* want, ConstValue* slot);
-    Typed binaryChain(const syntax::BinaryExpr& e);
+    Typed binaryChain(const syntax::BinaryExpr& e, const DataType* want);
     Typed combine(const syntax::BinaryExpr& e, Typed left, Typed right);
     Typed arithmetic(const syntax::BinaryExpr& e, Typed left, Typed right);
     Typed vectorArithmetic(const syntax::BinaryExpr& e, Typed left, Typed right);

@@ -2,6 +2,8 @@
 
 #include "frontend/sema/analysis.h"
 
+#include <algorithm>
+
 namespace rapid::sema {
 
 using namespace syntax;
@@ -125,10 +127,15 @@ void Analyzer::applyRoutineAttributes(RoutineSymbol& symbol) {
             symbol.option = std::string(value);
         else if (key == "deferred") {
             if (DataSymbol* param = findParam(value)) param->deferred = true;
-        } else if (key == "where") {
-            const size_t is = value.find(" is ");
-            DataSymbol* param = is == std::string_view::npos ? nullptr : findParam(value.substr(0, is));
-            if (param) param->accepts = classOf(trim(value.substr(is + 4)));
+        } else if (key == "where") { // "Signal is signal, Data is value"
+            while (!value.empty()) {
+                const size_t comma = std::min(value.find(','), value.size());
+                const std::string_view one = trim(value.substr(0, comma));
+                value.remove_prefix(std::min(comma + 1, value.size()));
+                const size_t is = one.find(" is ");
+                DataSymbol* param = is == std::string_view::npos ? nullptr : findParam(one.substr(0, is));
+                if (param) param->accepts = classOf(trim(one.substr(is + 4)));
+            }
         }
     });
 }

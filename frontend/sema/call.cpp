@@ -124,8 +124,12 @@ bool Analyzer::matchArguments(BoundCall& call, TokenIndex name, std::span<Argume
                    {routine.params[index]->name, routine.params[last]->name});
             complete = false;
         }
-        last = std::max(last, index);
-        lastArg = arg;
+        const bool misplaced =
+            arg->argKind == ArgKind::Required && routine.params[index]->optional; // reported
+        if (!misplaced) {
+            last = std::max(last, index);
+            lastArg = arg;
+        }
         BoundArg& bound = call.args[index];
         bound.kind =
             arg->argKind == ArgKind::Conditional ? BoundArg::Kind::Conditional : BoundArg::Kind::Present;

@@ -46,7 +46,7 @@ Typed Analyzer::expr(const Expr& e, const DataType* want, ConstValue* slot) {
     case NodeKind::Aggregate: return aggregate(as<AggregateExpr>(e), want, slot);
     case NodeKind::Paren: return paren(as<ParenExpr>(e), want, slot);
     case NodeKind::Unary: return unary(as<UnaryExpr>(e), want, slot);
-    case NodeKind::Binary: return binaryChain(as<BinaryExpr>(e));
+    case NodeKind::Binary: return binaryChain(as<BinaryExpr>(e), want);
     case NodeKind::PlaceholderExpr: placeholder(e); return errorExpr(e);
     default: return errorExpr(e);
     }

@@ -38,13 +38,16 @@ Typed Analyzer::unary(const UnaryExpr& e, const DataType* want, ConstValue* slot
 }
 
 // Long chains of operators lean to the left: a loop instead of recursion.
-Typed Analyzer::binaryChain(const BinaryExpr& top) {
+Typed Analyzer::binaryChain(const BinaryExpr& top, const DataType* want) {
     const size_t begin = spine_.size();
     const Expr* leaf = &top;
     for (; leaf->kind == NodeKind::Binary; leaf = as<BinaryExpr>(*leaf).left)
         spine_.push_back(&as<BinaryExpr>(*leaf));
     Typed left;
     bool first = true;
+    // Literals are folded as dnum from the start where the context says so.
+    const bool dnum = top.op < BinaryOp::Lt && want && want->rank == 0 && want->type->kind == TypeKind::Dnum;
+    const DataType* numeric = dnum ? want : nullptr;
     while (spine_.size() > begin) {
         const BinaryExpr& e = *spine_.back();
         spine_.pop_back();
@@ -54,9 +57,9 @@ Typed Analyzer::binaryChain(const BinaryExpr& top) {
             const Typed right = expr(*e.right);
             left = combine(e, expr(*leaf, &right.info->type), right);
         } else {
-            if (first) left = expr(*leaf);
+            if (first) left = expr(*leaf, numeric);
             // The partner of a comparison gives an aggregate its type.
-            const Typed right = expr(*e.right, equal ? &left.info->type : nullptr);
+            const Typed right = expr(*e.right, equal ? &left.info->type : numeric);
             left = combine(e, left, right);
         }
         first = false;

@@ -56,6 +56,7 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
             std::string hint = suggestion(name, Wanted::Data);
             report(Code::UnknownName, range(token), {text(token), std::move(hint)});
         }
+        if (context_.routine) declareUnknown(name);
         return nullptr;
     }
     const bool isError = !mecunit && options_.configurationKnown;
@@ -66,6 +67,20 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
         report(code, range(token), {text(token)});
     }
     return configuredObject(name, text(token), mecunit ? handle : type);
+}
+
+// From now on the routine has data of this name and of the type that fits everything: one mistake, one diagnostic.
+void Analyzer::declareUnknown(NameId name) {
+    DataSymbol& symbol = program_.dataSymbols.emplace_back();
+    symbol.kind = SymbolKind::Data;
+    symbol.progress = symbol.valueProgress = Progress::Done;
+    symbol.nameId = name;
+    symbol.module = context_.module;
+    symbol.storage = Storage::RoutineData;
+    symbol.type.type = program_.errorType;
+    symbol.routine = context_.routine;
+    put<Symbol>(routineNames_, name, &symbol);
+    declaredInRoutine_.push_back(name);
 }
 
 const Type* Analyzer::signalTypeByUse(NameId name) {

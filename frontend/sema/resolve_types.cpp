@@ -109,8 +109,10 @@ void Analyzer::resolveSignature(RoutineSymbol& symbol) {
     if (decl.routineKind == RoutineKind::Func) {
         symbol.returnType.type = resolveType(decl.returnType);
         const Type& type = *symbol.returnType.type;
-        if (!isValueType(type) && !symbol.predefined)
+        if (!isValueType(type) && !symbol.predefined) {
             report(Code::NonValueReturn, range(decl.returnType), {symbol.name, type.name});
+            symbol.returnType.type = program_.errorType;
+        }
     }
     for (const ParamDecl* param : decl.params)
         resolveParameter(symbol, *param);
@@ -149,6 +151,7 @@ void Analyzer::resolveParameter(RoutineSymbol& routine, const ParamDecl& decl) {
     if (decl.isSwitch) {
         symbol.type.type = switchType_;
         if (!decl.optional) report(Code::SwitchNotOptional, range(decl.name), {symbol.name});
+        symbol.optional = true;
         return;
     }
     symbol.type.type = resolveType(decl.type);

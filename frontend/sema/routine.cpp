@@ -137,8 +137,8 @@ void Analyzer::resolveJumps() {
 
 void Analyzer::placeholder(const Node& node) {
     const TokenIndex first = node.first;
-    const Code code = options_.requireMain ? Code::PlaceholderExecuted : Code::Placeholder;
-    report(code, range(first), {text(first)});
+    // A program with placeholders can be loaded and run; ERR_EXECPHR is raised where one is reached (manual 1.1.2).
+    report(Code::Placeholder, range(first), {text(first)});
 }
 
 } // namespace rapid::sema

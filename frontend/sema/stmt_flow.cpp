@@ -25,7 +25,11 @@ void Analyzer::returnStmt(const ReturnStmt& s) {
         return;
     }
     if (!s.value) {
-        report(Code::ReturnWithoutValue, range(s), {routine.name, typeName(routine.returnType)});
+        report(Code::ReturnWithoutValue, range(s.first), {routine.name, typeName(routine.returnType)});
+        return;
+    }
+    if (routine.returnType.type->kind == TypeKind::Error) {
+        visitLoose(*s.value);
         return;
     }
     const Typed t = expr(*s.value, &routine.returnType);
