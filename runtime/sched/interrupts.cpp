@@ -66,7 +66,7 @@ void InterruptTable::post(int number) {
         definition.disarm = nullptr;
         if (disarm) disarm();
     }
-    if (deliverable()) task_.notify();
+    if (deliverable()) task_.interruptPosted();
 }
 
 bool InterruptTable::sleep(int number) {
@@ -90,7 +90,7 @@ bool InterruptTable::isSafe(int number) const {
 
 void InterruptTable::enable() {
     enabled_ = true;
-    if (deliverable()) task_.notify();
+    if (deliverable()) task_.interruptPosted();
 }
 
 Status InterruptTable::deliver() {

@@ -204,6 +204,10 @@ Status Task::waitExternal(int fd, short pollEvents, Time deadline, WaitResult& r
 
 void Task::notify() {
     notified_ = true;
+    interruptPosted();
+}
+
+void Task::interruptPosted() {
     if (state_ == TaskState::Waiting)
         scheduler_.makeReady(*this);
     else if (scheduler_.running() == this)

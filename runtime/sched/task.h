@@ -177,6 +177,8 @@ class Task : public TaskCore {
     /// A queue the task waits on was notified / is gone.
     void notify();
     void forget(WaitQueue& queue);
+    /// An interrupt can be delivered: does not end what the task waits for.
+    void interruptPosted();
     /// Lets the next safepoint of a running task go to the scheduler although budget is left.
     void forceSafepoint();
     /// Stops the task where it is / lets it go on. resume() is false when it cannot go on from here (stopped by

@@ -170,7 +170,7 @@ TEST_CASE("wrong cross connections are refused with place", "[io]") {
                 "      -Res a -Act1 nowhere\n\n      -Res b -Act1 a -Oper1 XOR -Act2 a\n");
     REQUIRE(bench.problems.size() == 4);
     CHECK_THAT(bench.problems[0].text(), Contains("loop"));
-    CHECK(bench.problems[0].line == 17);
+    CHECK(bench.problems[0].line == 19);
     CHECK_THAT(bench.problems[1].text(), Contains("analog"));
     CHECK_THAT(bench.problems[2].text(), Contains("nowhere"));
     CHECK_THAT(bench.problems[3].text(), Contains("XOR"));
