@@ -40,13 +40,20 @@ void RoutineEmitter::storeStatement(Value* stmt) {
         ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().frame);
 }
 
+/// Stores the statement ahead of a call, unless the call before it in this block did.
+void RoutineEmitter::noteStatement(const ir::Inst& inst) {
+    if (storedStmt_ == inst.stmt) return;
+    storeStatement(stmtNumber(inst));
+    storedStmt_ = inst.stmt;
+}
+
 void RoutineEmitter::call(const ir::Inst& inst, ir::ValueId id) {
     const ir::Routine& callee = module_.routines[inst.index];
     llvm::Function* function = m_.routine(inst.index);
     std::vector<Value*> args{task_, frame_};
     for (ir::ValueId operandId : inst.operands)
         args.push_back(value(operandId));
-    storeStatement(stmtNumber(inst));
+    noteStatement(inst);
     llvm::CallInst* result = b_.CreateCall(function, args);
     result->setCallingConv(llvm::CallingConv::Fast);
     result->setDoesNotThrow();
@@ -69,7 +76,7 @@ void RoutineEmitter::nativeCall(const ir::Inst& inst, ir::ValueId id) {
             argument = b_.CreateZExt(argument, b_.getInt8Ty());
         args.push_back(argument);
     }
-    storeStatement(stmtNumber(inst));
+    noteStatement(inst);
     b_.CreateStore(frame_, taskField(offsetof(rt::TaskCore, frame), "taskFrame"))
         ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
     llvm::CallInst* status = b_.CreateCall(m_.nativeFunction(inst.index), args);
@@ -126,6 +133,7 @@ void RoutineEmitter::safepoint(const ir::Inst& inst) {
     BasicBlock* target = joinFrom(leave, inst, status);
     b_.CreateCondBr(b_.CreateICmpEQ(status, b_.getInt32(rt::kOk)), go, target, m_.unlikely());
     b_.SetInsertPoint(go);
+    storedStmt_.reset(); // the slow path stores its own
 }
 
 } // namespace codegen

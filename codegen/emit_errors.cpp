@@ -134,12 +134,7 @@ void RoutineEmitter::emitNative(ErrorJoin& join, ErrorJoin& raising, ErrorJoin& 
 
 void RoutineEmitter::emitRaise(ErrorJoin& join, bool handled) {
     b_.SetInsertPoint(join.block);
-    if (!frameInPrologue_) { // it may not have been filled on the way here
-        llvm::StructType* type = m_.runtime().frame;
-        b_.CreateStore(caller_, b_.CreateStructGEP(type, frame_, 0));
-        b_.CreateStore(desc_, b_.CreateStructGEP(type, frame_, 1));
-        b_.CreateStore(b_.getInt32(0), b_.CreateStructGEP(type, frame_, 3));
-    }
+    if (!frameInPrologue_) fillFrame(); // it may not have been filled on the way here
     storeStatement(join.stmt);
     Value* status = b_.CreateCall(m_.runtime().raise, {task_, frame_, join.number});
     if (&join == &raiseUndo_) {

@@ -151,25 +151,29 @@ void RoutineEmitter::enterFrame() {
     auto* limit = b_.CreateLoad(b_.getInt64Ty(), taskField(offsetof(rt::TaskCore, stackLimit), "stackLimit"));
     limit->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
     BasicBlock *ok = newBlock("enter"), *overflow = newBlock("overflow");
-    llvm::StructType* type = m_.runtime().frame;
-    auto fill = [&](unsigned field, Value* content) {
-        b_.CreateStore(content, b_.CreateStructGEP(type, frame_, field))
-            ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().frame);
-    };
     b_.CreateCondBr(b_.CreateICmpUGE(lowest, limit), ok, overflow, m_.unlikely());
     b_.SetInsertPoint(overflow);
-    fill(0, caller_);
-    fill(1, desc_);
-    fill(2, b_.getInt32(0));
+    fillFrame();
+    storeStatement(b_.getInt32(0));
     returnStatus(b_.CreateCall(m_.runtime().stackOverflow, {task_, frame_}));
     b_.SetInsertPoint(ok);
+    fillFrame();
+}
+
+/// Everything but the statement.
+void RoutineEmitter::fillFrame() {
+    auto fill = [&](unsigned field, Value* content) {
+        b_.CreateStore(content, b_.CreateStructGEP(m_.runtime().frame, frame_, field))
+            ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().frame);
+    };
     fill(0, caller_);
     fill(1, desc_);
-    fill(3, b_.getInt32(0));
+    if (routine_.errorHandler != ir::kNone) fill(3, b_.getInt32(0)); // the runtime counts retries here
 }
 
 void RoutineEmitter::block(ir::BlockId id) {
     current_ = id;
+    storedStmt_.reset();
     b_.SetInsertPoint(blocks_[id]);
     if (id == frameBlock_ && !frameInPrologue_) enterFrame();
     for (ir::ValueId inst : routine_.blocks[id].insts)

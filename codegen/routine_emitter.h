@@ -3,6 +3,7 @@
 
 #include <llvm/IR/IRBuilder.h>
 
+#include <optional>
 #include <vector>
 
 #include "codegen/module_emitter.h"
@@ -26,6 +27,7 @@ class RoutineEmitter {
     void allocate();
     void prologue();
     void enterFrame();
+    void fillFrame();
     void block(ir::BlockId id);
     void instruction(ir::ValueId id);
     void define(ir::ValueId id, Value* value);
@@ -52,6 +54,7 @@ class RoutineEmitter {
     Value* load(ir::TypeId type, Value* pointer);
     void store(ir::TypeId type, Value* value, Value* pointer);
     void copy(const ir::Inst& inst);
+    Value* stackAlloc(const ir::Inst& inst);
     Value* byteOffset(Value* pointer, Value* offset);
 
     // emit_calls.cpp
@@ -60,6 +63,7 @@ class RoutineEmitter {
     void constNative(const ir::Inst& inst, ir::ValueId id);
     void safepoint(const ir::Inst& inst);
     void storeStatement(Value* stmt);
+    void noteStatement(const ir::Inst& inst);
     llvm::AllocaInst* resultSlot(ir::TypeId type);
     Value* taskField(size_t offset, const char* name);
     Value* stmtNumber(const ir::Inst& inst) const;
@@ -111,6 +115,7 @@ class RoutineEmitter {
     ir::BlockId frameBlock_ = ir::kNone; ///< where the frame record is filled; kNone: only on cold paths
     bool frameInPrologue_ = false;
     ir::BlockId current_ = 0;
+    std::optional<ir::StmtId> storedStmt_; ///< what the frame record is known to hold at this point
     ErrorJoin raiseHandled_, raiseUnhandled_, nativeHandled_, nativeUnhandled_, dispatch_, leave_, raiseUndo_,
         nativeUndo_, leaveUndo_;
 };
