@@ -1,5 +1,6 @@
 // Parameters, routine data, handlers and the frame of one routine.
 
+#include "frontend/syntax/token_set.h"
 #include "ir/lower/routine_lowering.h"
 
 #include <fmt/format.h>
@@ -40,6 +41,9 @@ RoutineLowering::RoutineLowering(ProgramLowering& program, const RoutineSymbol& 
     : program_(program), symbol_(symbol), module_(symbol.module), task_(task), routine_(declared),
       b_(program.module(), routine_) {
     hasErrorHandler_ = !symbol.routineDecl->errors.empty();
+    const auto& tree = *symbol.module->tree;
+    for (syntax::TokenIndex t = symbol.routineDecl->first; t <= symbol.routineDecl->last; ++t)
+        routineHasPlaceholders_ = routineHasPlaceholders_ || syntax::isPlaceholder(tree.tokens[t].kind);
 }
 
 namespace {
@@ -192,6 +196,7 @@ void RoutineLowering::lowerParameters() {
 
 /// IN is a private value: an array that the routine changes is copied, its size is known at run time only.
 void RoutineLowering::copyArrayParameter(const DataSymbol& param, Slot& slot) {
+    startStatement(*param.decl, ir::StmtKind::Plain);
     ValueId count = b_.param(slot.param + 1);
     for (uint32_t k = 1; k < param.type.rank; ++k) count = b_.binary(ir::Op::IMul, count, b_.param(slot.param + 1 + k));
     const ir::TypeId element = program_.irType(param.type.type);

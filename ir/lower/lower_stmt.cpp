@@ -1,5 +1,6 @@
 // Statements except FOR.
 
+#include "frontend/syntax/tree_walk.h"
 #include "ir/lower/routine_lowering.h"
 
 #include <fmt/format.h>
@@ -62,7 +63,25 @@ void RoutineLowering::lowerList(StmtList list) {
     }
 }
 
+/// Does the instruction itself, not one nested in it, hold a placeholder?
+bool RoutineLowering::hasPlaceholder(const Node& node) const {
+    if (node.kind == NodeKind::PlaceholderExpr) return true;
+    if (node.kind == NodeKind::Argument && as<Argument>(node).argKind == ArgKind::Placeholder) return true;
+    if (node.kind == NodeKind::IfBranch && !as<IfBranch>(node).condition) return true;
+    if (node.kind == NodeKind::TestCase && as<TestCase>(node).values.empty()) return true;
+    bool found = false;
+    forEachChild(node, [&](const Node& child) {
+        if (!isStmt(child.kind) && !found) found = hasPlaceholder(child);
+    });
+    return found;
+}
+
 void RoutineLowering::lowerStmt(const Stmt& stmt) {
+    if (routineHasPlaceholders_ && (stmt.kind == NodeKind::PlaceholderStmt || hasPlaceholder(stmt))) {
+        startStatement(stmt, ir::StmtKind::Plain);
+        b_.raise(b_.constI32(program_.errorNumber("ERR_EXECPHR")));
+        return;
+    }
     switch (stmt.kind) {
     case NodeKind::Assign: return lowerAssign(as<AssignStmt>(stmt));
     case NodeKind::CallStmt: {
@@ -101,11 +120,6 @@ void RoutineLowering::lowerStmt(const Stmt& stmt) {
         const ir::BlockId block = labelBlock(&stmt);
         branchIfOpen(block);
         b_.setBlock(block);
-        return;
-    }
-    case NodeKind::PlaceholderStmt: {
-        startStatement(stmt, ir::StmtKind::Plain);
-        b_.raise(b_.constI32(program_.errorNumber("ERR_EXECPHR")));
         return;
     }
     default: return; // empty instructions; errors do not get here
@@ -150,12 +164,8 @@ void RoutineLowering::lowerIf(const IfStmt& stmt) {
     for (const IfBranch* branch : stmt.branches) {
         const ir::BlockId body = b_.addBlock("then");
         const ir::BlockId next = b_.addBlock("else");
-        startStatement(branch->condition ? static_cast<const Node&>(*branch->condition) : *branch,
-                       ir::StmtKind::Control);
-        if (branch->condition)
-            lowerCond(*branch->condition, body, next);
-        else
-            b_.raise(b_.constI32(program_.errorNumber("ERR_EXECPHR")));
+        startStatement(*branch->condition, ir::StmtKind::Control);
+        lowerCond(*branch->condition, body, next);
         b_.setBlock(body);
         lowerList(branch->body);
         branchIfOpen(end);

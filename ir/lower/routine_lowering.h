@@ -57,6 +57,7 @@ class RoutineLowering {
     // lower_stmt.cpp
     void lowerList(syntax::StmtList list);
     void lowerStmt(const syntax::Stmt& stmt);
+    bool hasPlaceholder(const syntax::Node& node) const;
     void lowerAssign(const syntax::AssignStmt& stmt);
     void lowerIf(const syntax::IfStmt& stmt);
     void lowerCompactIf(const syntax::CompactIfStmt& stmt);
@@ -159,6 +160,7 @@ class RoutineLowering {
     std::multimap<ir::TypeId, uint32_t> freeTemps_;
     std::vector<std::pair<ir::TypeId, uint32_t>> usedTemps_;
     bool hasErrorHandler_ = false;
+    bool routineHasPlaceholders_ = false;
     bool inInstructions_ = false; ///< past the data: from here on the error handler is responsible
     enum class Region : uint8_t { Body, Error, Undo } region_ = Region::Body;
 };
