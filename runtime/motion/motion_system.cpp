@@ -18,6 +18,8 @@ double toSeconds(TimeNs time) {
     return static_cast<double>(time) * 1e-9;
 }
 
+constexpr double kReturnSpeed = 250; // mm/s, back to an interrupted path
+
 Joints startPosture() {
     return {0, 0, 0, 0, 30, 0};
 }
@@ -32,12 +34,21 @@ struct Move {
     uint64_t tag = 0;
     bool isFlyBy = false;
     bool isConcurrent = false;
-    double zone = 0; // mm, the largest
+    bool isReturn = false; // back to an interrupted path, on behalf of the move that goes on there
+    double zone = 0;       // mm, the largest
     std::vector<Trigger> triggers;
     PlannedMotion plan;
     bool isStarted = false;
     bool isReleased = false;
     double doneSeconds = 0; // time spent on the path before the stretch in progress
+    double pausedAt = 0;    // profile parameter at which it was put aside
+};
+
+/// What storePath() puts aside.
+struct Level {
+    std::deque<std::shared_ptr<Move>> queue;
+    bool isStopRequested = false;
+    bool isBraking = false;
 };
 
 /// A piece of the past, present or planned future: one move run by one profile, or standing still (no move).
@@ -64,15 +75,16 @@ struct MotionSystem::Impl {
     bool isStopAnnounced = true;
 
     std::deque<std::shared_ptr<Move>> queue; // the first may be in progress
-    std::deque<Stretch> stretches;           // in order of time; the last one is valid from its start on
+    std::vector<Level> levels;
+    std::deque<Stretch> stretches; // in order of time; the last one is valid from its start on
     std::vector<MotionEvent> events;
     MoveId nextId = 1;
     MoveId lastDone = 0;
-    uint64_t lastTag = 0;
     std::vector<std::pair<MoveId, MoveId>> cleared; // first and last of each range
     std::deque<std::pair<MoveId, TimeNs>> reached;  // the most recent
 
     const Stretch& stretch() const { return stretches.back(); }
+    const Move* findUnfinished(MoveId id) const;
     bool isMoving() const { return stretch().move != nullptr && now < stretch().end; }
     bool isHeld() const { return isStopRequested || override <= 0; }
 
@@ -83,6 +95,7 @@ struct MotionSystem::Impl {
     bool replaceProfile(bool toStop);
     void hold();
     void goOn();
+    void orderReturnToPath();
     std::optional<TimeNs> nextEvent() const;
     std::optional<TimeNs> triggerTime(const Trigger& trigger) const;
     std::optional<TimeNs> releaseTime() const;
@@ -94,6 +107,19 @@ struct MotionSystem::Impl {
     JointTarget plannedEnd() const;
     void forgetBefore(TimeNs time);
 };
+
+const Move* MotionSystem::Impl::findUnfinished(MoveId id) const {
+    const auto in = [&](const std::deque<std::shared_ptr<Move>>& moves) -> const Move* {
+        const auto found = std::find_if(moves.begin(), moves.end(),
+                                        [&](const auto& m) { return m->id == id && !m->isReturn; });
+        return found == moves.end() ? nullptr : found->get();
+    };
+    if (const Move* move = in(queue)) return move;
+    for (const Level& level : levels) {
+        if (const Move* move = in(level.queue)) return move;
+    }
+    return nullptr;
+}
 
 void MotionSystem::Impl::report(MotionEventKind kind, const Move* move, TimeNs time, uint32_t trigger) {
     events.push_back({time, kind, move == nullptr ? 0 : move->id, move == nullptr ? 0 : move->tag, trigger});
@@ -117,7 +143,7 @@ void MotionSystem::Impl::startNext() {
     const std::shared_ptr<Move>& move = queue.front();
     move->isStarted = true;
     begin(move, move->plan.profileAt(override));
-    report(MotionEventKind::Started, move.get(), now);
+    if (!move->isReturn) report(MotionEventKind::Started, move.get(), now);
 }
 
 /// Goes on along the path of the current move from the present state: to a stop, or to the end at the present override.
@@ -125,12 +151,13 @@ void MotionSystem::Impl::startNext() {
 bool MotionSystem::Impl::replaceProfile(bool toStop) {
     const std::shared_ptr<Move> move = queue.front();
     if (!(move->plan.limits().speed > 0)) return false; // a pause has no path
-    const ProfileState state = profileState(now);
+    const bool isRunning = stretch().move == move;      // else it has been put aside meanwhile
+    const ProfileState state = isRunning ? profileState(now) : ProfileState{move->pausedAt, 0, 0, 0};
     bool isFeasible = true;
     Profile profile = toStop ? Profile::brake(state, move->plan.limits())
                              : Profile::continueTo(state, 1, move->plan.limitsAt(override), isFeasible);
     if (!isFeasible || (toStop && profile.end() >= 1 - 1e-12)) return false;
-    move->doneSeconds += toSeconds(std::min(now, stretch().end) - stretch().start);
+    if (isRunning) move->doneSeconds += toSeconds(std::min(now, stretch().end) - stretch().start);
     begin(move, std::move(profile));
     isBraking = toStop;
     return true;
@@ -144,7 +171,28 @@ void MotionSystem::Impl::goOn() {
     if (isHeld()) return;
     const bool isUnfinished = !queue.empty() && queue.front()->isStarted;
     if (!isUnfinished) return startNext();
-    if (isBraking && !isAbandoned) replaceProfile(false);
+    const bool isInterrupted = isBraking || stretch().move != queue.front();
+    if (isInterrupted && !isAbandoned) replaceProfile(false);
+}
+
+/// Puts a joint move in front of the queue if the arm does not stand where the first move goes on.
+void MotionSystem::Impl::orderReturnToPath() {
+    const Move& first = *queue.front();
+    MoveCommand back;
+    const MotionState goal = first.plan.sampleAt({first.pausedAt, 0, 0, 0});
+    back.joints = {goal.joints, goal.extax};
+    back.frames = first.plan.path().frames();
+    back.speed.vTcp = kReturnSpeed;
+    auto path = MotionPath::make(kinematics, standing(), back);
+    if (!path || path->isEmpty()) return;
+    auto move = std::make_shared<Move>();
+    move->id = first.id;
+    move->tag = first.tag;
+    move->isReturn = true;
+    move->isReleased = true;
+    move->plan = PlannedMotion::plan(std::move(*path), model, options.external, back);
+    queue.push_front(std::move(move));
+    isBraking = false;
 }
 
 std::optional<TimeNs> MotionSystem::Impl::triggerTime(const Trigger& trigger) const {
@@ -200,7 +248,9 @@ std::optional<TimeNs> MotionSystem::Impl::nextEvent() const {
 
 void MotionSystem::Impl::finishStretch() {
     const std::shared_ptr<Move> move = queue.front();
-    if (isBraking) {
+    if (move->isReturn && !isBraking) {
+        queue.pop_front();
+    } else if (isBraking) {
         if (isAbandoned) queue.pop_front();
         isBraking = !isAbandoned; // an unfinished move stays first in line
         isAbandoned = false;
@@ -215,7 +265,6 @@ void MotionSystem::Impl::finishStretch() {
         report(MotionEventKind::Reached, move.get(), now);
         queue.pop_front();
         lastDone = move->id;
-        lastTag = move->tag;
         reached.emplace_back(move->id, now);
         if (reached.size() > 64) reached.pop_front();
     }
@@ -348,6 +397,32 @@ void MotionSystem::clear() {
     }
 }
 
+bool MotionSystem::storePath() {
+    Impl& s = *impl_;
+    if (s.isMoving()) return false;
+    if (!s.queue.empty() && s.queue.front()->isStarted) {
+        s.queue.front()->pausedAt = s.profileState(s.now).s;
+    }
+    s.levels.push_back({std::exchange(s.queue, {}), s.isStopRequested, s.isBraking});
+    s.isStopRequested = false;
+    s.isBraking = false;
+    s.isStopAnnounced = true;
+    return true;
+}
+
+bool MotionSystem::restorePath() {
+    Impl& s = *impl_;
+    if (s.isMoving() || !s.queue.empty() || s.levels.empty()) return false;
+    Level level = std::move(s.levels.back());
+    s.levels.pop_back();
+    s.queue = std::move(level.queue);
+    s.isStopRequested = level.isStopRequested;
+    s.isBraking = level.isBraking;
+    if (!s.queue.empty()) s.orderReturnToPath();
+    s.goOn();
+    return true;
+}
+
 bool MotionSystem::placeAt(const JointTarget& joints) {
     Impl& s = *impl_;
     if (!s.queue.empty() || s.isMoving()) return false;
@@ -443,10 +518,9 @@ MoveStatus MotionSystem::status(MoveId move) const {
     for (const auto& [first, last] : s.cleared) {
         if (move >= first && move <= last) return MoveStatus::Cleared;
     }
-    for (const auto& queued : s.queue) {
-        if (queued->id == move) return queued->isStarted ? MoveStatus::Moving : MoveStatus::Queued;
-    }
-    return MoveStatus::Done;
+    const Move* unfinished = s.findUnfinished(move);
+    if (unfinished == nullptr) return MoveStatus::Done;
+    return unfinished->isStarted ? MoveStatus::Moving : MoveStatus::Queued;
 }
 
 bool MotionSystem::isStarted(MoveId move) const {
@@ -456,9 +530,8 @@ bool MotionSystem::isStarted(MoveId move) const {
 
 bool MotionSystem::isReleased(MoveId move) const {
     if (isDone(move)) return true;
-    const auto& queue = impl_->queue;
-    const auto found = std::find_if(queue.begin(), queue.end(), [&](const auto& m) { return m->id == move; });
-    return found != queue.end() && (*found)->isReleased;
+    const Move* unfinished = impl_->findUnfinished(move);
+    return unfinished != nullptr && unfinished->isReleased;
 }
 
 bool MotionSystem::isDone(MoveId move) const {
@@ -477,7 +550,7 @@ std::optional<TimeNs> MotionSystem::reachTime(MoveId move) const {
         if (id == move) return time;
     }
     const bool isCurrent = !s.queue.empty() && s.queue.front()->id == move && s.queue.front()->isStarted;
-    if (!isCurrent || s.isBraking) return {};
+    if (!isCurrent || s.isBraking || s.queue.front()->isReturn) return {};
     return s.stretch().end;
 }
 
@@ -495,6 +568,19 @@ RobTarget MotionSystem::currentTarget(const FrameSetup& frames) const {
     FrameSetup based = frames;
     based.baseFrame = impl_->model.baseFrame;
     return calcRobTarget(impl_->kinematics, impl_->standing(), based);
+}
+
+RobTarget MotionSystem::toRobTarget(const JointTarget& joints, const FrameSetup& frames) const {
+    FrameSetup based = frames;
+    based.baseFrame = impl_->model.baseFrame;
+    return calcRobTarget(impl_->kinematics, joints, based);
+}
+
+Expected<JointTarget, MotionError> MotionSystem::toJointTarget(const RobTarget& target,
+                                                               const FrameSetup& frames) const {
+    FrameSetup based = frames;
+    based.baseFrame = impl_->model.baseFrame;
+    return calcJointTarget(impl_->kinematics, target, based, impl_->standing().robax);
 }
 
 } // namespace motion

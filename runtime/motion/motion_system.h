@@ -75,6 +75,15 @@ class MotionSystem {
     /// otherwise.
     bool placeAt(const JointTarget& joints);
 
+    // ---- path levels ----
+    /// Puts the unfinished moves aside (StorePath): what is ordered next runs from where the arm stands, also after a
+    /// stop(). False while the arm moves. Levels nest.
+    bool storePath();
+    /// Takes back what was put aside last (RestoPath), stopped as it was then. If the arm stands elsewhere it first
+    /// goes back to the path axis by axis when motion goes on. False while moves of this level are unfinished or when
+    /// nothing was put aside.
+    bool restorePath();
+
     // ---- stopping on the path ----
     /// Brakes on the path as fast as the limits allow; a Stopped event follows. No effect when stopped
     /// already.
@@ -119,6 +128,10 @@ class MotionSystem {
     JointTarget plannedEnd() const;
     /// CRobT: the TCP now, for a tool and work object.
     RobTarget currentTarget(const FrameSetup& frames) const;
+    /// CalcRobT and CalcJointT with the base frame of this robot; the arm's present posture decides where a
+    /// singular position leaves a choice.
+    RobTarget toRobTarget(const JointTarget& joints, const FrameSetup& frames) const;
+    Expected<JointTarget, MotionError> toJointTarget(const RobTarget& target, const FrameSetup& frames) const;
 
   private:
     struct Impl;

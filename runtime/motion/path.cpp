@@ -9,8 +9,9 @@ namespace motion {
 
 namespace {
 
-constexpr double kNothing = 1e-9; // mm or deg: no motion
-constexpr double kCoarseMm = 10;  // grid of a curve
+constexpr double kRounding = 2e-4; // mm and deg: a target read from the arm and kept in single precision
+constexpr double kNothing = 1e-9;  // mm or deg: no motion
+constexpr double kCoarseMm = 10;   // grid of a curve
 constexpr double kCoarseDeg = 2;
 constexpr double kLargestStep = 3;    // deg an axis may turn between two nodes
 constexpr double kLargestBend = 0.01; // deg an axis may be off the straight at half a step
@@ -161,7 +162,7 @@ std::optional<MotionError> MotionPath::resolveCurve(const MoveCommand& command) 
         if (!arc) return arc.error();
         curve_ = *arc;
     }
-    isEmpty_ = curve_.length() < kNothing && curve_.rotationDeg() < kNothing;
+    isEmpty_ = curve_.length() < kRounding && curve_.rotationDeg() < kRounding;
     if (isEmpty_) {
         nodes_ = {{0, start_.robax, 0}, {1, start_.robax, 0}};
         return checkArrival(command);

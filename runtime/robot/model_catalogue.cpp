@@ -211,6 +211,13 @@ Expected<RobotModel, ModelError> loadRobotModel(std::string_view nameOrPath,
     if (nameOrPath.size() > 5 && nameOrPath.substr(nameOrPath.size() - 5) == ".json") {
         return readFile(std::string(nameOrPath));
     }
+    if (searchDirs.empty()) { // the usual case without reading all models
+        const std::string line = fmt::format("\"name\": \"{}\",", nameOrPath);
+        for (std::string_view text : embeddedModelTexts()) {
+            if (text.find(line) != std::string_view::npos)
+                return parseRobotModel(text, "shipped with rapidc");
+        }
+    }
     std::vector<RobotModel> models;
     std::string problems;
     for (const std::string& folder : searchDirs)

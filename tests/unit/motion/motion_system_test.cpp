@@ -381,6 +381,55 @@ TEST_CASE("clearing throws away what is not finished", "[motion][system]") {
     CHECK(system.currentJoints().robax == rest);
 }
 
+TEST_CASE("a path can be put aside for an errand and taken up again", "[motion][system]") {
+    for (bool returnsByProgram : {true, false}) {
+        MotionSystem system = makeSystem();
+        const MoveCommand line = lineFrom(system, 50, 100, -150);
+        REQUIRE(system.enqueue(line).hasValue());
+        REQUIRE(system.enqueue(jointsTo({0, 0, 0, 0, 30, 0})).hasValue());
+        const Vec3 from = system.current().tcp.pos;
+        const Vec3 way = line.target.pose.pos - from;
+        system.advanceTo(*system.reachTime(1) / 2);
+        CHECK_FALSE(system.storePath()); // still moving
+        system.stop();
+        while (system.isMoving())
+            system.advanceTo(*system.nextEventTime());
+        const Joints left = system.currentJoints().robax;
+        REQUIRE(system.storePath());
+        CHECK(system.isIdle());
+        CHECK_FALSE(system.isStopRequested());
+        CHECK(system.status(1) == MoveStatus::Moving);
+        CHECK(system.status(2) == MoveStatus::Queued);
+        REQUIRE(*system.enqueue(jointsTo({40, -20, 0, 0, 60, 0})) == 3);
+        CHECK_FALSE(system.restorePath()); // the errand is not over
+        if (returnsByProgram) REQUIRE(system.enqueue(jointsTo(left)).hasValue());
+        run(system);
+        REQUIRE(system.restorePath());
+        CHECK_FALSE(system.restorePath());
+        CHECK(system.isStopRequested());
+        CHECK_FALSE(system.nextEventTime().has_value());
+        system.takeEvents();
+        system.start();
+        // Back on the line it goes on along it to the end.
+        bool isOnLine = returnsByProgram;
+        std::vector<MotionEvent> events;
+        while (system.status(1) != MoveStatus::Done) {
+            REQUIRE(system.nextEventTime().has_value());
+            system.advanceTo(std::min(system.now() + kMs, *system.nextEventTime()));
+            const Vec3 tcp = system.current().tcp.pos;
+            const double share = dot(tcp - from, way) / dot(way, way);
+            const double distance = norm(tcp - (from + way * share));
+            if (distance < 1e-6) isOnLine = true;
+            if (isOnLine && returnsByProgram) REQUIRE(distance < 1e-6);
+        }
+        CHECK(isOnLine);
+        CHECK(norm(system.current().tcp.pos - line.target.pose.pos) < 1e-6);
+        run(system);
+        CHECK(system.isIdle());
+        CHECK(system.currentJoints().robax == Joints{0, 0, 0, 0, 30, 0});
+    }
+}
+
 TEST_CASE("the past since the last step can be sampled for a trace", "[motion][system]") {
     MotionSystem fine = makeSystem();
     MotionSystem coarse = makeSystem();
