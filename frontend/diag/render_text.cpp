@@ -71,6 +71,10 @@ Excerpt makeExcerpt(std::string_view line, size_t begin, size_t end) {
         } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
             out.text.push_back('?');
             ++column;
+        } else if (c == '\xC2' && i + 1 < line.size() && static_cast<unsigned char>(line[i + 1]) < 0xA0) {
+            out.text.push_back('?'); // U+0080 to U+009F
+            ++column;
+            ++i;
         } else {
             out.text.push_back(c);
             if (!isContinuation(c)) ++column;
@@ -78,6 +82,7 @@ Excerpt makeExcerpt(std::string_view line, size_t begin, size_t end) {
     }
     if (begin >= i) out.markBegin = column;
     if (end >= i) out.markEnd = column;
+    out.markEnd = std::max(out.markEnd, out.markBegin);
     if (i < line.size()) out.text += "...";
     return out;
 }
@@ -111,7 +116,8 @@ std::string renderText(const Diagnostic& diagnostic, bool colour) {
         fmt::format("{}{}{}{}[{}]:{} {}{}{}\n", colours.bold, placePrefix(diagnostic.file, diagnostic.range),
                     severityColour, severityName(diagnostic.severity), codeName(diagnostic.code),
                     colours.reset, colours.bold, diagnostic.message, colours.reset);
-    if (diagnostic.file) renderPlace(out, *diagnostic.file, diagnostic.range, severityColour, colours);
+    if (diagnostic.file && !diagnostic.file->isBinary())
+        renderPlace(out, *diagnostic.file, diagnostic.range, severityColour, colours);
     for (const Diagnostic::Note& note : diagnostic.notes) {
         out += fmt::format("{}{}{}note:{} {}\n", colours.bold, placePrefix(note.file, note.range),
                            colours.note, colours.reset, note.message);

@@ -3,6 +3,7 @@
 #include "tools/rapidc/commands.h"
 
 #include "frontend/diag/catalogue.h"
+#include "frontend/diag/explain.h"
 #include "runtime/host/run_options.h"
 
 #include <CLI/CLI.hpp>
@@ -29,6 +30,15 @@ const char* areaOf(uint16_t number) {
     }
 }
 
+std::string indented(std::string_view example) {
+    std::string out = "    ";
+    for (const char c : example) {
+        out += c;
+        if (c == '\n') out += "    ";
+    }
+    return out;
+}
+
 int explain(const std::string& code) {
     std::string digits;
     std::copy_if(code.begin(), code.end(), std::back_inserter(digits), [](unsigned char c) { return std::isdigit(c); });
@@ -40,6 +50,11 @@ int explain(const std::string& code) {
     }
     fmt::print("RAP{} {} ({})\n", entry->number, entry->name, rapid::diag::severityName(entry->severity));
     fmt::print("area: {}\ntext: {}\n", areaOf(entry->number), entry->text);
+    if (const rapid::diag::Explanation* explanation = rapid::diag::findExplanation(entry->number)) {
+        fmt::print("\n{}\n", explanation->meaning);
+        if (!explanation->wrong.empty()) fmt::print("\nwrong:\n{}\n", indented(explanation->wrong));
+        fmt::print("\nright:\n{}\n", indented(explanation->right));
+    }
     return 0;
 }
 

@@ -1,0 +1,31 @@
+#pragma once
+// What diagnostics mean, with a wrong and a right example: `rapidc explain`, and the help of editors.
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace rapid::diag {
+
+/// Where the examples of an explanation stand.
+enum class ExampleKind : uint8_t {
+    File,   ///< a whole file
+    Module, ///< between MODULE and ENDMODULE
+    Body    ///< in a procedure
+};
+
+struct Explanation {
+    uint16_t number = 0;
+    ExampleKind kind = ExampleKind::Body;
+    std::string_view meaning; ///< sentences: what is wrong, what to do, where the manual says so
+    std::string_view wrong;   ///< causes this diagnostic and no other; empty if it cannot be shown as text
+    std::string_view right;   ///< causes none
+};
+
+/// Explanations of the 1xxx codes, ascending.
+std::span<const Explanation> explanations1xxx();
+
+/// Null when there is none for the code.
+const Explanation* findExplanation(uint16_t number);
+
+} // namespace rapid::diag
