@@ -43,6 +43,7 @@ void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex nam
                         std::span<Argument* const> args) {
     BoundCall& call = task_->calls[&node];
     call.routine = &routine;
+    call.module = context_.module;
     call.args.resize(routine.params.size());
     for (size_t i = 0; i < routine.params.size(); ++i)
         call.args[i].param = routine.params[i];
@@ -262,6 +263,7 @@ void Analyzer::lateCall(const CallStmt& stmt) {
     if (!name.isError() && !name.isScalar(TypeKind::String))
         report(Code::LateBindingName, range(*stmt.lateName), {typeName(*name.info)});
     BoundCall& call = task_->calls[&stmt];
+    call.module = context_.module;
     for (const Argument* arg : stmt.args) {
         if (arg->argKind == ArgKind::Placeholder) {
             placeholder(*arg);

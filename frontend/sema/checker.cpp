@@ -100,7 +100,8 @@ void Analyzer::checkTask(const TaskInput& input) {
     moduleNames_ = {};
     signalUses_ = {};
     reportedNames_.clear();
-    signalUsesKnown_ = incomplete_ = false;
+    signalUsesKnown_ = false;
+    incomplete_ = input.incomplete && !options_.requireMain;
     declareConfiguration();
 
     std::vector<std::string_view> paths;

@@ -16,6 +16,7 @@ struct TaskInput {
     std::string type = "NORMAL"; ///< NORMAL, STATIC, SEMISTATIC
     std::string entry = "main";
     std::vector<std::shared_ptr<const SourceFile>> files;
+    bool incomplete = false; ///< modules are missing or encrypted: names that are not found are not reported
 };
 
 struct CheckOptions {

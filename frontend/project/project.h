@@ -1,0 +1,30 @@
+#pragma once
+// From the command line to tasks: files, folders, program files (.pgf) and controller backups become lists of source
+// files for each task, and the configuration files found beside them.
+
+#include "frontend/sema/checker.h"
+
+#include <string>
+#include <vector>
+
+namespace rapid::project {
+
+/// A task beside the main one: `--task=NAME=INPUT`, `--task=NAME:STATIC=INPUT`.
+struct TaskSpec {
+    std::string name;
+    std::string type = "NORMAL"; ///< NORMAL, STATIC, SEMISTATIC
+    std::string input;           ///< file, folder or .pgf
+};
+
+struct ProjectInput {
+    std::vector<sema::TaskInput> tasks;
+    std::vector<std::string> configFiles; ///< *.cfg files named or found, in the order of reading
+};
+
+/// Resolves `inputs` (they make up task T_ROB1, unless one of them is a backup, which brings its own tasks) and the
+/// additional tasks. What cannot be used is reported with its remedy. Returns false if something was an error; `out`
+/// then holds what could be read.
+bool loadProject(const std::vector<std::string>& inputs, const std::vector<TaskSpec>& extraTasks,
+                 ProjectInput& out, diag::Sink& sink);
+
+} // namespace rapid::project
