@@ -40,7 +40,7 @@ codegen::LinkOptions linkOptions(bool strip) {
     options.stripDebug = strip;
     const std::string arguments = RAPIDC_LINK_ARGUMENTS;
     for (size_t at = 0; at < arguments.size();) {
-        const size_t end = std::min(arguments.find(';', at), arguments.size());
+        const size_t end = std::min(arguments.find(' ', at), arguments.size());
         options.extraArguments.push_back(arguments.substr(at, end - at));
         at = end + 1;
     }
