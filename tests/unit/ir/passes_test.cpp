@@ -1,0 +1,233 @@
+// The passes, on small routines whose outcome follows from the rules in ir/LANGREF.md and design chapter 4.
+
+#include <functional>
+
+#include "ir/core/cfg.h"
+#include "ir/passes/passes.h"
+#include "ir/verify/verify.h"
+#include "tests/unit/ir/ir_testing.h"
+
+using namespace ir_testing;
+using ir::Op;
+
+namespace {
+
+ir::Module run(ir::Module module, std::vector<std::string_view> passes,
+               ir::Profile profile = ir::Profile::Release) {
+    ir::PassOptions options;
+    options.profile = profile;
+    for (const std::string& finding : ir::runPasses(module, options, passes))
+        FAIL_CHECK(finding);
+    return module;
+}
+
+struct Found {
+    ir::BlockId block;
+    size_t place;
+    int32_t cost;
+    bool computed; ///< has an operand
+};
+
+std::vector<Found> safepoints(const ir::Routine& routine) {
+    std::vector<Found> result;
+    for (ir::BlockId b = 0; b < routine.blocks.size(); ++b)
+        for (size_t i = 0; i < routine.blocks[b].insts.size(); ++i) {
+            const ir::Inst& inst = routine.insts[routine.blocks[b].insts[i]];
+            if (inst.op == Op::Safepoint) result.push_back({b, i, inst.extra, !inst.operands.empty()});
+        }
+    return result;
+}
+
+size_t count(const ir::Routine& routine, Op op) {
+    size_t result = 0;
+    for (const ir::Block& block : routine.blocks)
+        for (ir::ValueId id : block.insts)
+            result += routine.insts[id].op == op;
+    return result;
+}
+
+/// A routine around a few lines of one block; `result` is its type.
+ir::Module body(const std::string& result, const std::string& lines) {
+    return parse("routine @\"r\" \"r\" in \"M\" " + result +
+                 " () {\n  stmt 0 plain 1:1 1:2\n  b0:\n    stmt 0\n" + lines + "}\n");
+}
+
+/// The constant that the routine returns after folding; fails when it is not one.
+double foldedResult(const std::string& result, const std::string& lines) {
+    ir::Module module = run(body(result, lines), {"fold-constants"});
+    const ir::Routine& r = module.routines[0];
+    const ir::Inst& ret = r.insts[r.blocks[0].insts.back()];
+    REQUIRE(ret.op == Op::Ret);
+    const ir::Inst& value = r.insts[ret.operands[0]];
+    REQUIRE(value.op == Op::Const);
+    return value.number;
+}
+
+} // namespace
+
+TEST_CASE("a counted loop without calls pays ahead, for all its rounds", "[ir]") {
+    ir::Module module = run(corpusModule("loops.rir"), {"place-safepoints"});
+    const ir::Routine& r = routine(module, "counted");
+    auto found = safepoints(r);
+    REQUIRE(found.size() == 2);
+    CHECK(found[0].block == 0);
+    CHECK(found[0].place == 0);
+    CHECK(found[0].cost == 1); // one statement outside the loop
+    CHECK_FALSE(found[0].computed);
+    CHECK(found[1].block == 0); // the entry is the preheader
+    CHECK(found[1].computed);
+    CHECK(found[1].cost == 0);
+    // cost of a round: the two statements of the body
+    const ir::Inst& safepoint = r.insts[r.blocks[0].insts[found[1].place]];
+    const ir::Inst& product = r.insts[safepoint.operands[0]];
+    REQUIRE(product.op == Op::IMul);
+    CHECK(r.insts[product.operands[1]].number == 2);
+    ir::BlockId latch = 3;
+    bool marked = false;
+    for (ir::ValueId id : r.blocks[latch].insts)
+        marked = marked || (r.insts[id].op == Op::IAdd && r.insts[id].extra == 1);
+    CHECK(marked);
+}
+
+TEST_CASE("other loops pay at the back edge", "[ir]") {
+    ir::Module module = run(corpusModule("loops.rir"), {"place-safepoints"});
+    auto calling = safepoints(routine(module, "calling"));
+    REQUIRE(calling.size() == 2);
+    CHECK(calling[0].cost == 1);
+    CHECK(calling[1].block == 2);
+    CHECK(calling[1].cost == 1);
+    CHECK_FALSE(calling[1].computed);
+
+    // The entry was the header of the loop: it gets a block of its own in front, otherwise it would pay each round.
+    const ir::Routine& loop = routine(module, "while");
+    auto whileLoop = safepoints(loop);
+    REQUIRE(whileLoop.size() == 2);
+    CHECK(whileLoop[0].block == 0);
+    CHECK(ir::successors(loop, 0).size() == 1);
+    CHECK(whileLoop[1].block == 1);
+    CHECK(whileLoop[1].cost == 2); // condition and body
+}
+
+TEST_CASE("a loop that is entered in the middle pays on the edge back", "[ir]") {
+    ir::Module module = run(corpusModule("loops.rir"), {"place-safepoints"});
+    const ir::Routine& r = routine(module, "irreducible");
+    auto found = safepoints(r);
+    REQUIRE(found.size() >= 2);
+    // Without the blocks that hold a safepoint no cycle is left.
+    std::vector<int> state(r.blocks.size(), 0);
+    std::vector<bool> paying(r.blocks.size(), false);
+    for (const Found& f : found)
+        paying[f.block] = f.block != 0;
+    bool cycle = false;
+    std::function<void(ir::BlockId)> visit = [&](ir::BlockId b) {
+        state[b] = 1;
+        for (ir::BlockId succ : ir::successors(r, b)) {
+            if (paying[succ]) continue;
+            if (state[succ] == 1) cycle = true;
+            if (state[succ] == 0) visit(succ);
+        }
+        state[b] = 2;
+    };
+    visit(0);
+    CHECK_FALSE(cycle);
+}
+
+TEST_CASE("the stepping profile has a safepoint before every statement", "[ir]") {
+    ir::Module module = run(corpusModule("loops.rir"), {"place-safepoints"}, ir::Profile::Stepping);
+    for (const ir::Routine& r : module.routines) {
+        // A jump back into the middle of a loop gets one more, in case there is no statement on the way.
+        size_t extra = r.name == "irreducible" ? 1 : 0;
+        CHECK(count(r, Op::Safepoint) == count(r, Op::Stmt) + extra);
+        for (const ir::Block& block : r.blocks)
+            for (size_t i = 0; i < block.insts.size(); ++i) {
+                const ir::Inst& inst = r.insts[block.insts[i]];
+                if (inst.op != Op::Stmt) continue;
+                const ir::Inst& next = r.insts[block.insts[i + 1]];
+                CHECK(next.op == Op::Safepoint);
+                CHECK(next.stmt == inst.index);
+            }
+    }
+}
+
+TEST_CASE("constants are folded as compiled code would compute them", "[ir]") {
+    // 16777216 + 1 is not representable in binary32
+    CHECK(foldedResult("f32", "%0 = const f32 16777216\n%1 = const f32 1\n%2 = fadd %0, %1\nret %2\n") ==
+          16777216);
+    CHECK(foldedResult("f64", "%0 = const f64 16777216\n%1 = const f64 1\n%2 = fadd %0, %1\nret %2\n") ==
+          16777217);
+    CHECK(foldedResult("f32", "%0 = const f64 0.1\n%1 = f64tof32 %0\nret %1\n") == 0.1f);
+    CHECK(foldedResult("i32", "%0 = const f32 1e20\n%1 = f32toi32 %0\nret %1\n") == 2147483647);
+    CHECK(foldedResult("i32", "%0 = const f32 -2.75\n%1 = f32toi32 %0\nret %1\n") == -2);
+    CHECK(foldedResult("i32", "%0 = const f32 nan\n%1 = f32toi32 %0\nret %1\n") == 0);
+    CHECK(foldedResult("i32", "%0 = const i32 2147483647\n%1 = const i32 1\n%2 = iadd %0, %1\nret %2\n") ==
+          -2147483648.0);
+    CHECK(foldedResult("i32", "%0 = const i32 -7\n%1 = const i32 2\n%2 = idiv %0, %1\nret %2\n") == -3);
+    CHECK(foldedResult("i32", "%0 = const i32 -7\n%1 = const i32 2\n%2 = irem %0, %1\nret %2\n") == -1);
+    CHECK(foldedResult("bool", "%0 = const i32 -1\n%1 = const i32 1\n%2 = iult %0, %1\nret %2\n") == 0);
+    CHECK(foldedResult(
+              "f32",
+              "%0 = const bool 0\n%1 = const f32 1\n%2 = const f32 2\n%3 = select %0, %1, %2\nret %3\n") ==
+          2);
+}
+
+TEST_CASE("checks that hold go, checks that fail stay", "[ir]") {
+    ir::Module module =
+        run(body("void", "%0 = const bool 1\ncheck %0, 5\n%1 = const bool 0\ncheck %1, 6\nret\n"),
+            {"fold-constants"});
+    CHECK(count(module.routines[0], Op::Check) == 1);
+}
+
+TEST_CASE("unreachable and empty blocks go, markers of statements stay", "[ir]") {
+    ir::Module module = parse(R"(
+routine @"r" "r" in "M" f32 () {
+  stmt 0 control 1:1 1:9
+  b0:
+    %0 = const bool 1
+    condbr %0, b1, b2
+  b1:
+    br b3
+  b2:
+    %1 = const f32 2
+    ret %1
+  b3:
+    stmt 0
+    br b4
+  b4:
+    %2 = const f32 4
+    ret %2
+})");
+    ir::Module simple = run(module, {"simplify-cfg", "fold-constants", "simplify-cfg"});
+    const ir::Routine& r = simple.routines[0];
+    CHECK(r.blocks.size() == 1);
+    CHECK(count(r, Op::Stmt) == 1);
+    CHECK(count(r, Op::Ret) == 1);
+}
+
+TEST_CASE("blocks that only a handler reaches stay", "[ir]") {
+    ir::Module module = run(corpusModule("handlers.rir"), {"simplify-cfg"});
+    const ir::Routine& r = routine(module, "trynext");
+    CHECK(count(r, Op::TryNext) == 1);
+    CHECK(r.statements[0].next != ir::kNone);
+    CHECK(r.statements[1].next != ir::kNone);
+    CHECK(routine(module, "undoes").undoHandler != ir::kNone);
+}
+
+TEST_CASE("all passes leave the corpus well formed", "[ir]") {
+    for (const auto& path : rirFiles(corpusFolder())) {
+        for (ir::Profile profile : {ir::Profile::Release, ir::Profile::Stepping}) {
+            INFO(path);
+            ir::Module module = parse(readText(path));
+            if (path.filename() == "everything.rir") continue; // holds safepoints already
+            ir::PassOptions options;
+            options.profile = profile;
+            CHECK(ir::runPasses(module, options).empty());
+        }
+    }
+}
+
+TEST_CASE("a broken module is reported, not transformed", "[ir]") {
+    ir::Module module = parse("routine @\"r\" \"r\" in \"M\" void () {\n  b0:\n    %0 = const f32 1\n}\n");
+    auto findings = ir::runPasses(module, {});
+    REQUIRE(findings.size() == 1);
+    CHECK(findings[0].rfind("input: ", 0) == 0);
+}
