@@ -1,4 +1,5 @@
-// The arm on the controller's clock: a queue of planned moves, the stretch of motion in progress, and what happens when.
+// The arm on the controller's clock: a queue of planned moves, the stretch of motion in progress, and what
+// happens when.
 
 #include "runtime/motion/motion_system.h"
 
@@ -10,7 +11,8 @@ namespace motion {
 
 namespace {
 
-/// Nanoseconds that are not before the given seconds, so that what is promised for a time has happened by then.
+/// Nanoseconds that are not before the given seconds, so that what is promised for a time has happened by
+/// then.
 TimeNs toNs(double seconds) {
     return static_cast<TimeNs>(std::ceil(seconds * 1e9 - 1e-6));
 }
@@ -146,8 +148,8 @@ void MotionSystem::Impl::startNext() {
     if (!move->isReturn) report(MotionEventKind::Started, move.get(), now);
 }
 
-/// Goes on along the path of the current move from the present state: to a stop, or to the end at the present override.
-/// False if the motion is already braking for its end and cannot do better than that.
+/// Goes on along the path of the current move from the present state: to a stop, or to the end at the present
+/// override. False if the motion is already braking for its end and cannot do better than that.
 bool MotionSystem::Impl::replaceProfile(bool toStop) {
     const std::shared_ptr<Move> move = queue.front();
     if (!(move->plan.limits().speed > 0)) return false; // a pause has no path

@@ -76,12 +76,12 @@ class MotionSystem {
     bool placeAt(const JointTarget& joints);
 
     // ---- path levels ----
-    /// Puts the unfinished moves aside (StorePath): what is ordered next runs from where the arm stands, also after a
-    /// stop(). False while the arm moves. Levels nest.
+    /// Puts the unfinished moves aside (StorePath): what is ordered next runs from where the arm stands, also
+    /// after a stop(). False while the arm moves. Levels nest.
     bool storePath();
-    /// Takes back what was put aside last (RestoPath), stopped as it was then. If the arm stands elsewhere it first
-    /// goes back to the path axis by axis when motion goes on. False while moves of this level are unfinished or when
-    /// nothing was put aside.
+    /// Takes back what was put aside last (RestoPath), stopped as it was then. If the arm stands elsewhere it
+    /// first goes back to the path axis by axis when motion goes on. False while moves of this level are
+    /// unfinished or when nothing was put aside.
     bool restorePath();
 
     // ---- stopping on the path ----
@@ -116,7 +116,7 @@ class MotionSystem {
     bool isDone(MoveId move) const;     ///< Done or Cleared
     /// The move in progress or, when idle, the one finished last; 0 before the first.
     MoveId currentMove() const;
-    /// Where the move will be or was reached, if it is being run, stands first in line or ended recently.
+    /// When the move is or was reached, if it is being run (and not braking) or ended recently.
     std::optional<TimeNs> reachTime(MoveId move) const;
 
     /// State at a time not before the one at the previous advanceTo (so that a trace can fill the gap) and

@@ -193,9 +193,9 @@ std::optional<MotionError> MotionPath::checkNode(const PathNode& node) const {
                    node.joints[static_cast<std::size_t>(joint) - 1]);
 }
 
-/// No jump between two nodes: the axes go nearly straight from one to the other. Where the branch of the inverse
-/// changes (axis 5 through 0, wrist centre through axis 1) the place of the change is closed in on, since a turn of half a
-/// revolution can hide in a tenth of a millimetre there.
+/// No jump between two nodes: the axes go nearly straight from one to the other. Where the branch of the
+/// inverse changes (axis 5 through 0, wrist centre through axis 1) the place of the change is closed in on,
+/// since a turn of half a revolution can hide in a tenth of a millimetre there.
 bool MotionPath::isSmoothStep(const PathNode& from, const PathNode& to) const {
     if (largestDifference(from.joints, to.joints) > kLargestStep) return false;
     Joints middle;
@@ -300,7 +300,8 @@ void MotionPath::derivativesAt(double s, Joints& first, Joints& second) const {
         second = {};
         return;
     }
-    // Central differences of the exact inverse, narrower than the grid; lines and circles go on beyond their ends.
+    // Central differences of the exact inverse, narrower than the grid; lines and circles go on beyond their
+    // ends.
     const auto after = std::upper_bound(nodes_.begin(), nodes_.end(), s,
                                         [](double value, const PathNode& n) { return value < n.s; });
     const auto right = after == nodes_.end() ? after - 1 : after;

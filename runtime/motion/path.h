@@ -52,8 +52,8 @@ class MotionPath {
   public:
     MotionPath() = default; ///< stands still with all axes at 0
 
-    /// Resolves the command from where the arm stands. All geometric errors are found here: reach, joint range along
-    /// the whole path, configuration, circle data, singularities.
+    /// Resolves the command from where the arm stands. All geometric errors are found here: reach, joint
+    /// range along the whole path, configuration, circle data, singularities.
     static Expected<MotionPath, MotionError> make(const robot::Kinematics& kinematics,
                                                   const JointTarget& start, const MoveCommand& command);
 

@@ -140,7 +140,8 @@ class BoundFinder {
         for (std::size_t i = 0; i < byU.size(); ++i)
             limitSpeed(byU[i], points[i], tcpMargin, fastest);
         if (fastest.limits.speed == kUnlimited) return best; // nothing moves
-        // Going through bends slower leaves more acceleration for starting and stopping: the best trade is tried out.
+        // Going through bends slower leaves more acceleration for starting and stopping: the best trade is
+        // tried out.
         for (double share : {1.0, 0.9, 0.8, 0.7, 0.55, 0.4}) {
             Candidate candidate = fastest;
             candidate.limits.speed = share * fastest.limits.speed;
@@ -197,7 +198,8 @@ class BoundFinder {
             limit(travel_[i] * w.first, travel_[i] * w.second, bounds_.externalAcceleration[i],
                   bounds_.externalJerk[i]);
         }
-        // On a warped path the TCP's acceleration has a part that comes from the pace; it is small where it matters.
+        // On a warped path the TCP's acceleration has a part that comes from the pace; it is small where it
+        // matters.
         const double world = 0.7 * bounds_.worldAcceleration;
         const double pace = std::fabs(r.mm / std::max(w.first, 1e-300) * w.second) * square;
         const auto pathBound = [&](double a) { return atMost(std::max(a - pace, 0.05 * a), r.mm); };
@@ -213,8 +215,9 @@ class BoundFinder {
     bool isCartesian_;
 };
 
-/// Slowness (s per unit of path parameter) at each place when every place is run as fast as it allows and speed changes
-/// between them are within reach. Shares: of the acceleration for bends and for changes of speed.
+/// Slowness (s per unit of path parameter) at each place when every place is run as fast as it allows and
+/// speed changes between them are within reach. Shares: of the acceleration for bends and for changes of
+/// speed.
 std::vector<double> slownessAlong(const std::vector<Rates>& rates, const Bounds& bounds,
                                   const ExternalAxes& travel, double bendShare, double changeShare) {
     const std::size_t n = rates.size();

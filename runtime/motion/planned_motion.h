@@ -38,14 +38,14 @@ struct MotionState {
     bool moving = false;
 };
 
-/// One move, timed. The motion is a jerk-limited profile of a parameter u (0..1) that a warp maps to the path parameter.
-/// The bounds of u's derivatives hold anywhere on the path, so that any profile within them respects every limit:
-/// stopping, restarting and changing speed never leave the path.
+/// One move, timed. The motion is a jerk-limited profile of a parameter u (0..1) that a warp maps to the path
+/// parameter. The bounds of u's derivatives hold anywhere on the path, so that any profile within them
+/// respects every limit: stopping, restarting and changing speed never leave the path.
 class PlannedMotion {
   public:
     PlannedMotion() = default;
-    /// Times the path: joint speed and acceleration, jerk along the path, TCP and reorientation speed, external axes,
-    /// settings of the program.
+    /// Times the path: joint speed and acceleration, jerk along the path, TCP and reorientation speed,
+    /// external axes, settings of the program.
     static PlannedMotion plan(MotionPath path, const robot::RobotModel& model,
                               const ExternalAxisModels& external, const MoveCommand& command);
 
@@ -58,7 +58,8 @@ class PlannedMotion {
         return limitingAxis_;
     } ///< 1..6 or external 7..12 for the axis limiters, else 0
 
-    /// Bounds and profile under the operator's speed override (above 0, to 100 percent): a slower pace on the same path.
+    /// Bounds and profile under the operator's speed override (above 0, to 100 percent): a slower pace on the
+    /// same path.
     ProfileLimits limitsAt(double overridePercent) const;
     Profile profileAt(double overridePercent) const;
 

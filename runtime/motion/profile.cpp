@@ -1,5 +1,5 @@
-// Jerk-limited profiles, put together from speed changes: each speed change is a ramp of acceleration up, a plateau and
-// a ramp down (trapezoid or triangle of acceleration).
+// Jerk-limited profiles, put together from speed changes: each speed change is a ramp of acceleration up, a
+// plateau and a ramp down (trapezoid or triangle of acceleration).
 
 #include "runtime/motion/profile.h"
 
@@ -50,7 +50,8 @@ SpeedChange changeSpeed(double v, double a, double target, const ProfileLimits& 
     double plateau = 0;
     if (peak > limit) {
         peak = limit;
-        // Speed gained by the two ramps; a start above the limit (it has just been lowered) is given back first.
+        // Speed gained by the two ramps; a start above the limit (it has just been lowered) is given back
+        // first.
         const double ramps = (start > peak ? start * start : 2 * peak * peak - start * start) / (2 * j);
         plateau = std::max(0.0, (rise - ramps) / peak);
     }

@@ -1,6 +1,7 @@
 #pragma once
-// Warp: a smooth, growing map from the profile's parameter u to the path parameter s, both 0..1. It slows the motion
-// down where axes have to turn fast, so that one constant bound on u's derivatives serves the whole path.
+// Warp: a smooth, growing map from the profile's parameter u to the path parameter s, both 0..1. It slows the
+// motion down where axes have to turn fast, so that one constant bound on u's derivatives serves the whole
+// path.
 
 #include <cstddef>
 #include <vector>
@@ -15,8 +16,8 @@ class Warp {
 
     /// The identity.
     Warp() = default;
-    /// A cubic spline through places `s` (from 0 to 1, growing) with the pace ds/du proportional to 1/slowness there.
-    /// Gives the identity if no growing spline comes out.
+    /// A cubic spline through places `s` (from 0 to 1, growing) with the pace ds/du proportional to
+    /// 1/slowness there. Gives the identity if no growing spline comes out.
     static Warp fromSlowness(const std::vector<double>& s, const std::vector<double>& slowness);
 
     bool isIdentity() const { return knots_.empty(); }

@@ -1,4 +1,5 @@
-// Paths: lines and arcs are what they say, frames are composed the right way round, errors name what is wrong.
+// Paths: lines and arcs are what they say, frames are composed the right way round, errors name what is
+// wrong.
 
 #include "runtime/motion/path.h"
 #include "runtime/motion/targets.h"

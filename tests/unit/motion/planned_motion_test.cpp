@@ -1,5 +1,6 @@
-// Invariants of timed moves, checked on random moves of several arms: finite, exact ends, no limit exceeded anywhere,
-// on the programmed path. Limits are checked on differences of sampled axis angles, not on what the planner believes.
+// Invariants of timed moves, checked on random moves of several arms: finite, exact ends, no limit exceeded
+// anywhere, on the programmed path. Limits are checked on differences of sampled axis angles, not on what the
+// planner believes.
 
 #include "runtime/motion/planned_motion.h"
 
