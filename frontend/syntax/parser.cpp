@@ -205,6 +205,7 @@ Decl* Parser::parseScopedDecl() {
     default: break;
     }
     unexpected("a declaration after LOCAL");
+    quietOutside_ = true;
     skipToDecl();
     auto* node = make<PlaceholderDecl>(NodeKind::ErrorDecl);
     node->first = first;

@@ -271,7 +271,8 @@ void Parser::parseDimensions(ParamDecl* param) {
         param->rank = kPlaceholderRank;
     } else {
         do {
-            if (kind() == K::NumLiteral || isName(kind())) {
+            const bool isSize = kind() == K::NumLiteral || isName(kind());
+            if (isSize && (peek() == K::Comma || peek() == K::RightBrace)) {
                 report(Code::DimensionWithoutStar, pos_);
                 take();
             } else if (!accept(K::Star)) {

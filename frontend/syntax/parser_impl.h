@@ -52,6 +52,7 @@ class Parser {
     bool isName(K k) const { return k == K::Identifier || k == K::PlaceId; }
     bool startsLine(TokenIndex i) const;
     uint32_t columnOf(TokenIndex i) const;
+    uint32_t indentOf(TokenIndex i) const;
     bool isContextual(TokenIndex i, std::string_view upper) const {
         return kindAt(i) == K::Identifier && equalsNoCase(textOf(i), upper);
     }
@@ -103,6 +104,7 @@ class Parser {
     void endStatement(std::string_view expected = "';'");
     void syncStatement();
     bool startsAfresh() const;
+    bool continuesBlock() const;
     bool looksLikeStatement(TokenIndex i) const;
     bool opensBlock(TokenIndex i) const;
     bool calleeEndsHere(TokenIndex callee, TokenIndex calleeEnd) const;

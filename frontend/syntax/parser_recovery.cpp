@@ -124,6 +124,13 @@ uint32_t Parser::columnOf(TokenIndex i) const {
     return tokens_[i].offset - at;
 }
 
+/// The column of the first token in the line of a token.
+uint32_t Parser::indentOf(TokenIndex i) const {
+    for (uint32_t k = 0; k < kSearchTokens && !startsLine(i); ++k)
+        --i;
+    return columnOf(i);
+}
+
 /// Is this the beginning of an instruction, if a line begins here?
 bool Parser::looksLikeStatement(TokenIndex i) const {
     if (!isName(kindAt(i))) return kindAt(i) == K::Percent;
@@ -152,7 +159,7 @@ bool Parser::looksLikeStatement(TokenIndex i) const {
     return false;
 }
 
-/// Does the word really open a block, or is it part of a sentence?
+/// Does the word really begin a block or a declaration, or is it part of a sentence?
 bool Parser::opensBlock(TokenIndex i) const {
     TokenIndex found = 0;
     switch (kindAt(i)) {
@@ -160,6 +167,11 @@ bool Parser::opensBlock(TokenIndex i) const {
     case K::KwWhile: return findOnLine(i + 1, K::KwDo, found);
     case K::KwFor: return findOnLine(i + 1, K::KwFrom, found);
     case K::KwTest: return findOnLine(i + 1, K::KwCase, found);
+    case K::KwProc: return isName(kindAt(i + 1)) && kindAt(i + 2) == K::LeftParen;
+    case K::KwVar:
+    case K::KwPers:
+    case K::KwConst:
+    case K::KwFunc: return isName(kindAt(i + 1)) && isName(kindAt(i + 2));
     default: return false;
     }
 }
@@ -177,10 +189,16 @@ bool Parser::findOnLine(TokenIndex from, K wanted, TokenIndex& found) const {
     return false;
 }
 
+/// ELSE in an IF, CASE in a TEST.
+bool Parser::continuesBlock() const {
+    constexpr TokenSet kBranches = {K::KwElse, K::KwElseif, K::KwCase};
+    return (kBranches.has(kind()) || (kind() == K::KwDefault && peek() == K::Colon)) &&
+           enclosing_.has(kind());
+}
+
 /// At a token that cannot continue the instruction: does another one begin here?
 bool Parser::startsAfresh() const {
-    if (kEndWords.has(kind())) return true;
-    if (startsLine(pos_)) return true;
+    if (kEndWords.has(kind()) || startsLine(pos_) || continuesBlock()) return true;
     return (isName(kind()) && peek() == K::Assign) || opensBlock(pos_);
 }
 
@@ -208,7 +226,7 @@ void Parser::endStatement(std::string_view expected) {
     if (!panic_ && kind() != K::Error) {
         if (startsAfresh()) {
             reportAt(Code::MissingSemicolon, endOf(pos_ - 1), {describe(pos_ - 1)});
-            if (kLineWords.has(kind()) || looksLikeStatement(pos_) || kind() == K::Semicolon) return;
+            if (kLineWords.has(kind()) || looksLikeStatement(pos_)) return;
         } else if (kind() == K::Equal) {
             report(Code::EqualInAssignment, pos_);
         } else {
@@ -223,7 +241,7 @@ void Parser::syncStatement() {
     panic_ = false;
     for (; kind() != K::EndOfFile; take()) {
         if (accept(K::Semicolon)) return;
-        if (kEndWords.has(kind())) return;
+        if (kEndWords.has(kind()) || continuesBlock()) return;
         if (startsLine(pos_) && (kLineWords.has(kind()) || looksLikeStatement(pos_))) return;
         if (isTaskDirective(pos_) && startsLine(pos_)) return;
         // "FI a = b THEN" and the like: the block is there, only its head is broken.

@@ -147,14 +147,18 @@ Stmt* Parser::parseOrphan() {
     TokenSet ends = {K::KwEndfor, K::KwEndwhile};
     if (word == K::KwCase || word == K::KwDefault || word == K::PlaceCse) ends = kTestEnds;
     if (kIfEnds.has(word) || word == K::KwThen) ends = kIfEnds;
+    // In an IF, and in line with it: this was an ELSEIF, and the ENDIF is not its own.
+    const bool isBranch = word == K::KwThen && blockOpening_ != kNoToken &&
+                          kindAt(blockOpening_) == K::KwIf && indentOf(first) == columnOf(blockOpening_);
     constexpr TokenSet kEnds = {K::KwEndif, K::KwEndfor, K::KwEndwhile, K::KwEndtest};
     do {
         const bool hasCondition = kind() == K::KwElseif || kind() == K::KwCase;
         take();
         if (hasCondition) skipHead();
+        if (tokens_[pos_ - 1].kind == K::KwDefault) accept(K::Colon);
         parseList(ends);
     } while (ends.has(kind()) && !kEnds.has(kind()));
-    if (ends.has(kind())) take();
+    if (ends.has(kind()) && !isBranch) take();
     panic_ = false;
     return errorStmt(first);
 }
@@ -174,7 +178,11 @@ Stmt* Parser::parseNamedStmt() {
     case K::Assign:
     case K::LeftBrace:
     case K::Dot: return parseAssignment(parseNamed(false), first);
-    case K::Equal: return parseAssignment(parseNamed(false), first);
+    case K::Equal: {
+        TokenIndex then = 0;
+        if (findOnLine(pos_ + 2, K::KwThen, then)) break; // the word IF is missing
+        return parseAssignment(parseNamed(false), first);
+    }
     case K::Colon: return parseLabel();
     default: break;
     }
@@ -322,8 +330,12 @@ Stmt* Parser::parseFor() {
     const Restore restore(blockOpening_);
     auto* node = make<ForStmt>(NodeKind::For);
     const TokenIndex opening = blockOpening_ = take();
-    node->variable = expectName();
-    checkNameLength(node->variable);
+    if (kind() == K::KwFrom && peek() != K::KwFrom) {
+        report(Code::UnexpectedToken, pos_, {describe(pos_), "a name"});
+    } else {
+        node->variable = expectName();
+        checkNameLength(node->variable);
+    }
     if (!panic_ && (kind() == K::Assign || kind() == K::Equal)) { // FOR i := 1 TO 5 DO
         report(Code::MissingBlockWord, pos_, {describe(pos_), "FROM"});
         take();
@@ -361,9 +373,10 @@ Stmt* Parser::parseTest() {
     if (!kTestEnds.has(kind()) && kind() != K::EndOfFile) {
         auto* lost = make<TestCase>(NodeKind::TestCase);
         const TokenIndex at = pos_;
+        const size_t errorsBefore = errors_;
         lost->body = parseList(kTestEnds);
         if (!lost->body.empty()) {
-            report(Code::InstructionOutsideCase, at);
+            if (errors_ == errorsBefore) report(Code::InstructionOutsideCase, at);
             cases_.push_back(finish(lost));
         }
     }
