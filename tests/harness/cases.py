@@ -258,6 +258,10 @@ EXPECT = re.compile(r"!@\s*expect\s+@?([+-]?\d+)(?::(\d+)(?:-(\d+))?)?\s+(error|
 END_OF_LINE = re.compile(r"\S.*!\s*(error|warning|note)\[(RAP\d{4})\](?::\s*(.*?))?\s*$")
 
 
+# Warnings that something is not implemented yet: they come and go with the work and are no part of a rule.
+STATE_OF_WORK = {"RAP7002", "RAP7003", "RAP7004"}
+
+
 @dataclasses.dataclass
 class Expected:
     line: int
@@ -332,6 +336,7 @@ class DiagnosticTest:
                 problems.append(f"expected, not reported: {want}")
             else:
                 rest.remove(hit)
+        rest = [d for d in rest if d["code"] not in STATE_OF_WORK]
         problems += [f"reported, not expected: {d['line']}:{d['column']}-{d['endColumn']} "
                      f"{d['severity']}[{d['code']}]: {d['message']}" for d in rest]
         return problems
