@@ -73,6 +73,7 @@ int build(BuildSettings& settings) {
     const TemporaryFile object{fmt::format("{}.{}.o", settings.output, getpid())};
     codegen::CodegenOptions options;
     options.optimise = !settings.noOptimise;
+    options.debugInfo = !settings.strip;
     std::string error;
     if (!codegen::emitObject(module, object.path, options, error) ||
         !codegen::linkExecutable(object.path, settings.output, linkOptions(settings.strip), error)) {
