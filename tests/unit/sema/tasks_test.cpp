@@ -1,0 +1,160 @@
+// Rules about whole tasks: entry routine, several modules and files, persistents shared by tasks, hard programs.
+
+#include "sema_testing.h"
+
+#include <catch2/catch.hpp>
+
+namespace {
+
+using namespace rapid;
+using namespace rapid::sema;
+using namespace rapid::sema::testing;
+using Messages = std::vector<std::string>;
+
+std::unique_ptr<Checked> checkMain(const std::vector<std::string>& texts) {
+    CheckOptions options;
+    options.requireMain = true;
+    return checkTexts(texts, options);
+}
+
+} // namespace
+
+TEST_CASE("a program that is to run needs one global procedure main", "[sema]") {
+    const auto missing = checkMain({"MODULE m\nENDMODULE\n"});
+    REQUIRE(
+        missing->messages() ==
+        Messages{"RAP6001: task 'T_ROB1' has no routine 'main': declare PROC main() in one of its modules"});
+    CHECK(checkTexts({"MODULE m\nENDMODULE\n"})->messages().empty());
+
+    const auto function = checkMain({"MODULE m\n  FUNC num Main()\n    RETURN 1;\n  ENDFUNC\nENDMODULE\n"});
+    REQUIRE(function->codes() == Messages{"RAP6002"});
+    const auto required = checkMain({"MODULE m\n  PROC main(num a)\n  ENDPROC\nENDMODULE\n"});
+    REQUIRE(
+        required->messages() ==
+        Messages{"RAP6002 at 2:8: entry routine 'main' is a procedure with required parameters, expected a "
+                 "global procedure without required parameters"});
+    const auto local = checkMain({"MODULE m\n  LOCAL PROC main()\n  ENDPROC\nENDMODULE\n"});
+    REQUIRE(local->codes() == Messages{"RAP6003"});
+    const auto two = checkMain({"MODULE a\n  PROC main()\n  ENDPROC\nENDMODULE\n",
+                                "MODULE b\n  PROC MAIN()\n  ENDPROC\nENDMODULE\n"});
+    REQUIRE(two->codes() == Messages{"RAP2011"});
+    const auto good = checkMain({"MODULE m\n  PROC Main(\\num a)\n  ENDPROC\nENDMODULE\n"});
+    CHECK(good->messages().empty());
+    CHECK(good->program->tasks[0]->entryRoutine != nullptr);
+}
+
+TEST_CASE("placeholders are notes: a program with them can be loaded", "[sema]") {
+    const std::string text = "MODULE m\n  PROC main()\n    <SMT>\n    reg1 := <EXP>;\n  ENDPROC\nENDMODULE\n";
+    const auto checked = checkTexts({text});
+    CHECK(checked->messages().empty());
+    CHECK(checked->sink.all().size() == 2);
+    CHECK(checked->sink.all()[0].code == diag::Code::Placeholder);
+    const auto run = checkMain({text});
+    CHECK(run->messages().empty());
+}
+
+TEST_CASE("a file given twice is read once", "[sema]") {
+    CheckOptions options;
+    options.library = library();
+    const auto file =
+        std::make_shared<const SourceFile>("m.modx", "MODULE m\n  PROC main()\n  ENDPROC\nENDMODULE\n");
+    TaskInput task;
+    task.files = {file, file};
+    diag::Sink sink;
+    const auto program = check({task}, options, sink);
+    REQUIRE(sink.all().size() == 1);
+    CHECK(sink.all()[0].code == diag::Code::SameFileTwice);
+    CHECK(program->tasks[0]->modules.size() == 1);
+}
+
+TEST_CASE("tasks have names of their own but share global persistents", "[sema]") {
+    const std::string first =
+        "MODULE m\n  VAR num own;\n  PERS num shared := 1;\n  PERS bool same;\n"
+        "  PERS num list{3};\n  LOCAL PERS num mine := 1;\n  RECORD part\n    num x;\n  "
+        "ENDRECORD\n  PERS part record1;\nENDMODULE\n";
+    const std::string second =
+        "MODULE m\n  VAR bool own;\n  PERS bool shared := TRUE;\n  PERS bool SAME;\n"
+        "  PERS num list{4};\n  LOCAL PERS bool mine := TRUE;\n  RECORD part\n    num x;\n  "
+        "ENDRECORD\n  PERS part record1;\nENDMODULE\n";
+    const auto checked = checkTasks({{first}, {second}});
+    CHECK(checked->messages() ==
+          Messages{"RAP6004 at 3:13: global persistent 'shared' is 'bool', but 'num' in another task",
+                   "RAP6004 at 5:12: global persistent 'list' is 'num{4}', but 'num{3}' in another task"});
+    CHECK(checked->program->tasks.size() == 2);
+}
+
+TEST_CASE("two tasks cannot have one name", "[sema]") {
+    CheckOptions options;
+    options.library = library();
+    TaskInput a, b;
+    a.files = {std::make_shared<const SourceFile>("a.modx", "MODULE a\nENDMODULE\n")};
+    b.files = {std::make_shared<const SourceFile>("b.modx", "MODULE b\nENDMODULE\n")};
+    b.name = "t_rob1";
+    diag::Sink sink;
+    check({a, b}, options, sink);
+    REQUIRE(sink.all().size() == 1);
+    CHECK(sink.all()[0].code == diag::Code::DuplicateTask);
+}
+
+TEST_CASE("an incomplete task does not report names it cannot know", "[sema]") {
+    CheckOptions options;
+    options.library = library();
+    TaskInput task;
+    task.incomplete = true;
+    task.files = {std::make_shared<const SourceFile>(
+        "a.modx", "MODULE a\n  PROC main()\n    hidden 1;\n    reg1 := other + more(2);\n    reg1 := TRUE;\n"
+                  "  ENDPROC\nENDMODULE\n")};
+    diag::Sink sink;
+    check({task}, options, sink);
+    REQUIRE(sink.all().size() == 1);
+    CHECK(sink.all()[0].code == diag::Code::AssignType);
+}
+
+TEST_CASE("one mistake in a declaration does not report every use", "[sema]") {
+    const auto checked = checkTexts({"MODULE m\n"
+                                     "  VAR unknowntype a;\n"
+                                     "  CONST num b := missing;\n"
+                                     "  PROC work(nosuch c)\n"
+                                     "    a := c;\n"
+                                     "    a.x := b + c;\n"
+                                     "    IF a = c work a;\n"
+                                     "    FOR i FROM a TO c DO\n"
+                                     "      a{i} := [1, 2];\n"
+                                     "    ENDFOR\n"
+                                     "  ENDPROC\n"
+                                     "ENDMODULE\n"});
+    CHECK(checked->codes() == Messages{"RAP2002", "RAP2001", "RAP2002"});
+}
+
+TEST_CASE("letters of ISO 8859-1 are names without regard to case", "[sema]") {
+    const auto checked = checkTexts({"MODULE m\n  VAR num größe;\n  VAR num ÅNGSTRÖM;\n  PROC main()\n"
+                                     "    GRÖßE := ångström;\n  ENDPROC\nENDMODULE\n"});
+    CHECK(checked->messages().empty());
+}
+
+TEST_CASE("long chains of operators and many names are no trouble", "[sema]") {
+    std::string sum = "1";
+    for (int i = 0; i < 20000; ++i)
+        sum += i % 100 == 99 ? "\n+1" : "+1";
+    const auto chain = checkTexts({"MODULE m\n  VAR dnum d;\n  PROC main()\n    d := " + sum +
+                                   ";\n    d := d + " + sum + ";\n  ENDPROC\nENDMODULE\n"});
+    CHECK(chain->messages().empty());
+
+    std::string text = "MODULE m\n";
+    for (int i = 0; i < 3000; ++i)
+        text += "  CONST num c" + std::to_string(i) + " := c" + std::to_string(i + 1) + " + 1;\n";
+    text += "  CONST num c3000 := 0;\nENDMODULE\n";
+    const auto constants = checkTexts({text});
+    REQUIRE(constants->messages().empty());
+    CHECK(static_cast<const DataSymbol*>(findSymbol(*constants->program, "c0"))->value.number == 3000);
+}
+
+TEST_CASE("without a library the atomic types exist", "[sema]") {
+    diag::Sink sink;
+    TaskInput task;
+    task.files = {std::make_shared<const SourceFile>(
+        "a.modx", "MODULE a\n  VAR num n := 1;\n  VAR string s := \"x\";\n"
+                  "  PROC main()\n    n := n + 1;\n  ENDPROC\nENDMODULE\n")};
+    check({task}, {}, sink);
+    CHECK(sink.all().empty());
+}
