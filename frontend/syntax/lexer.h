@@ -21,7 +21,8 @@ struct LexResult {
 
 inline constexpr size_t kMaxLexErrors = 64;
 
-/// Splits a text; what cannot be read becomes an Error token with one LexError a line.
+/// Splits a text; what cannot be read becomes an Error token with one LexError a line. A NUL must follow the text, as
+/// it does in the text of a SourceFile.
 LexResult lex(std::string_view text);
 
 /// Value of a number token. `valid` is false when the text is not a number, `inRange` when binary64 cannot hold it.

@@ -65,13 +65,7 @@ void Parser::parseFile(const LexResult& lexed) {
         }
         return;
     }
-    for (const LexError& error : lexed.errors) {
-        if (++errors_ <= kMaxErrorsPerFile) {
-            sink_.report(error.code, tree_.source, error.range, error.args);
-        } else if (errors_ == kMaxErrorsPerFile + 1) {
-            sink_.report(Code::TooManyErrors, tree_.source, error.range);
-        }
-    }
+    reportLexErrors(lexed);
     accept(K::FileHeader);
     while (kind() != K::EndOfFile) {
         if (kind() == K::KwModule) {
@@ -80,6 +74,23 @@ void Parser::parseFile(const LexResult& lexed) {
             skipOutsideModule();
         }
     }
+}
+
+void Parser::reportLexErrors(const LexResult& lexed) {
+    for (const LexError& error : lexed.errors) {
+        if (++errors_ <= kMaxErrorsPerFile) {
+            sink_.report(error.code, tree_.source, error.range, error.args);
+        } else if (errors_ == kMaxErrorsPerFile + 1) {
+            sink_.report(Code::TooManyErrors, tree_.source, error.range);
+        }
+    }
+}
+
+Expr* Parser::parseWholeExpression(const LexResult& lexed) {
+    reportLexErrors(lexed);
+    Expr* result = parseExpr();
+    if (kind() != K::EndOfFile && !panic_) unexpected("the end of the expression");
+    return result;
 }
 
 /// Anything between modules but comments is reported once.
@@ -242,18 +253,40 @@ void Parser::skipToDecl() {
     }
 }
 
-std::unique_ptr<SyntaxTree> parse(std::shared_ptr<const SourceFile> source, diag::Sink& sink,
-                                  const ParseOptions& options) {
+namespace {
+
+/// The tree with its tokens; a binary file has none but the end.
+std::unique_ptr<SyntaxTree> makeTree(std::shared_ptr<const SourceFile> source, diag::Sink& sink,
+                                     LexResult& lexed) {
     auto tree = std::make_unique<SyntaxTree>();
     tree->source = std::move(source);
-    if (!checkEncoding(tree->source, sink)) {
-        tree->tokens.push_back({static_cast<uint32_t>(tree->source->text().size()), 0, TokenKind::EndOfFile});
-        return tree;
+    const std::string_view text = tree->source->text();
+    if (checkEncoding(tree->source, sink)) {
+        lexed = lex(text);
+        tree->tokens = std::move(lexed.tokens);
+    } else {
+        tree->tokens.push_back({static_cast<uint32_t>(text.size()), 0, TokenKind::EndOfFile});
     }
-    LexResult lexed = lex(tree->source->text());
-    tree->tokens = std::move(lexed.tokens);
-    Parser(*tree, sink, options).parseFile(lexed);
     return tree;
+}
+
+} // namespace
+
+std::unique_ptr<SyntaxTree> parse(std::shared_ptr<const SourceFile> source, diag::Sink& sink,
+                                  const ParseOptions& options) {
+    LexResult lexed;
+    auto tree = makeTree(std::move(source), sink, lexed);
+    if (!tree->source->isBinary()) Parser(*tree, sink, options).parseFile(lexed);
+    return tree;
+}
+
+ParsedExpr parseExpression(std::shared_ptr<const SourceFile> source, diag::Sink& sink) {
+    LexResult lexed;
+    ParsedExpr result;
+    result.tree = makeTree(std::move(source), sink, lexed);
+    const ParseOptions options;
+    result.expr = Parser(*result.tree, sink, options).parseWholeExpression(lexed);
+    return result;
 }
 
 } // namespace rapid::syntax

@@ -16,6 +16,15 @@ struct ParseOptions {
 std::unique_ptr<SyntaxTree> parse(std::shared_ptr<const SourceFile> source, diag::Sink& sink,
                                   const ParseOptions& options = {});
 
+/// An expression that stands alone, for debuggers and for values given as text.
+struct ParsedExpr {
+    std::unique_ptr<SyntaxTree> tree; ///< owns `expr`; it has no modules
+    Expr* expr = nullptr;             ///< never null; an ErrorExpr when nothing could be read
+};
+
+/// Parses a text that is one expression and nothing else. Mistakes are reported to `sink`.
+ParsedExpr parseExpression(std::shared_ptr<const SourceFile> source, diag::Sink& sink);
+
 /// Indented text form of a tree, for `rapidc emit --as=tree` and the tests.
 std::string printTree(const SyntaxTree& tree);
 /// One token a line: kind, position, text.

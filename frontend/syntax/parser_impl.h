@@ -21,6 +21,7 @@ class Parser {
   public:
     Parser(SyntaxTree& tree, diag::Sink& sink, const ParseOptions& options);
     void parseFile(const LexResult& lexed);
+    Expr* parseWholeExpression(const LexResult& lexed);
 
   private:
     using K = TokenKind;
@@ -98,6 +99,7 @@ class Parser {
     std::string describe(TokenIndex i) const;
     SourceRange endOf(TokenIndex i) const { return {tree_.range(i).end, tree_.range(i).end}; }
     void reportTooDeep();
+    void reportLexErrors(const LexResult& lexed);
     void checkNameLength(TokenIndex name);
 
     // ---- Recovery (parser_recovery.cpp)

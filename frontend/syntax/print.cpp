@@ -219,8 +219,18 @@ std::string printTree(const SyntaxTree& tree) {
 
 std::string printTokens(const SyntaxTree& tree) {
     std::string out;
+    // Lines and columns are counted along: asking for each would take squared time in a very long line.
+    const std::string_view source = tree.source->text();
+    LineColumn at;
+    uint32_t counted = 0;
     for (TokenIndex i = 0; i < tree.tokens.size(); ++i) {
-        const LineColumn at = tree.source->lineColumn(tree.tokens[i].offset);
+        for (; counted < tree.tokens[i].offset; ++counted) {
+            if (at.line < tree.source->lineCount() && counted + 1 == tree.source->lineStart(at.line + 1)) {
+                at = {at.line + 1, 1};
+            } else if ((static_cast<unsigned char>(source[counted]) & 0xC0) != 0x80) {
+                ++at.column;
+            }
+        }
         const std::string_view text = tree.text(i);
         out += fmt::format("{}:{} {}{}{}\n", at.line, at.column, tokenKindName(tree.tokens[i].kind),
                            text.empty() ? "" : " ", text);

@@ -253,6 +253,31 @@ TEST_CASE("expressions are numbered densely", "[syntax][tree]") {
         CHECK(was);
 }
 
+TEST_CASE("an expression alone", "[syntax][tree]") {
+    const auto parse = [](const char* text) {
+        diag::Sink sink;
+        const ParsedExpr parsed = parseExpression(std::make_shared<const SourceFile>("value", text), sink);
+        REQUIRE(parsed.expr != nullptr);
+        CHECK(printSource(*parsed.tree) == parsed.tree->source->text());
+        return sink.all().empty() ? show(*parsed.tree, *parsed.expr) : codeName(sink.all()[0].code);
+    };
+    CHECK(parse("a + 2 * b") == "(a + (2 * b))");
+    CHECK(parse(" -1 ") == "(-1)");
+    CHECK(parse("[1,[2,3],\"x\"]") == "[");
+    CHECK(parse("") == "RAP1101");
+    CHECK(parse("1 2") == "RAP1101");
+    CHECK(parse("1;") == "RAP1101");
+    CHECK(parse("(1") == "RAP1103");
+    CHECK(parse("\"a") == "RAP1006");
+}
+
+TEST_CASE("positions of tokens in several lines", "[syntax][tree]") {
+    const test::Parsed parsed = parseText("MODULE é ! c\r\n\tVAR num a;\rENDMODULE\n\n");
+    CHECK(printTokens(*parsed.tree) ==
+          "1:1 KwModule MODULE\n1:8 Identifier é\n2:2 KwVar VAR\n2:6 Identifier num\n"
+          "2:10 Identifier a\n2:11 Semicolon ;\n3:1 KwEndmodule ENDMODULE\n5:1 EndOfFile\n");
+}
+
 TEST_CASE("printed forms", "[syntax][tree]") {
     const test::Parsed parsed = parseText(
         "MODULE m(SYSMODULE)\n  LOCAL CONST num a{2} := [1, .5];\n  FUNC bool f(num b)\n"
