@@ -1,5 +1,6 @@
 #include "codegen/module_emitter.h"
 
+#include <algorithm>
 #include <llvm/IR/Verifier.h>
 
 #include <cstddef>
@@ -10,6 +11,11 @@
 
 namespace codegen {
 namespace {
+
+/// Name of an internal symbol. A plain word could be that of a C function (memcpy) which LLVM calls on its own account.
+std::string internalName(const std::string& name) {
+    return name.find_first_of("/$") == std::string::npos ? name + "$" : name;
+}
 
 constexpr unsigned kErrorsAreCold = 2000; // usual : error, in branch weights
 
@@ -83,8 +89,8 @@ std::unique_ptr<llvm::Module> ModuleEmitter::run(const llvm::DataLayout& layout,
     if (options_.debugInfo) debug_ = std::make_unique<DebugInfo>(module_, *target_, options_.optimise);
     declareTypes();
     declareRuntime();
-    declareGlobals();
     declareNatives();
+    declareGlobals();
     declareRoutines();
     declareTables();
     emitSafepointSlow();
@@ -165,8 +171,9 @@ void ModuleEmitter::declareGlobals() {
         llvm::Constant* init = external ? nullptr : initialValue(global);
         llvm::Type* type = init ? init->getType() : memoryType(global.type);
         auto linkage = external ? llvm::GlobalValue::ExternalLinkage : llvm::GlobalValue::InternalLinkage;
-        auto* variable = new llvm::GlobalVariable(*target_, type, global.kind == ir::GlobalKind::Const,
-                                                  linkage, init, global.name);
+        auto* variable =
+            new llvm::GlobalVariable(*target_, type, global.kind == ir::GlobalKind::Const, linkage, init,
+                                     external ? global.name : internalName(global.name));
         uint32_t align = module_.align(global.type);
         if (!external && module_.size(global.type) >= kVectorAlign) align = kVectorAlign;
         variable->setAlignment(llvm::Align(align));
@@ -192,7 +199,15 @@ void ModuleEmitter::declareNatives() {
         // LLVM must not fold calls by the host's mathematical library: results are those of the run-time library.
         function->addFnAttr(llvm::Attribute::NoBuiltin);
         if (constant) {
-            function->setDoesNotAccessMemory();
+            // Strings and records to be compared lie in memory: two calls with one address may differ.
+            if (std::find(native.params.begin(), native.params.end(), ir::kPtr) != native.params.end())
+                function->setOnlyReadsMemory();
+            else
+                // What it is given addresses of (strings, records) it reads; otherwise it depends on its values alone.
+                if (std::find(native.params.begin(), native.params.end(), ir::kPtr) != native.params.end())
+                    function->setOnlyReadsMemory();
+                else
+                    function->setDoesNotAccessMemory();
             function->setWillReturn();
             if (native.result == ir::kBool) function->addRetAttr(llvm::Attribute::ZExt);
         }
@@ -213,8 +228,9 @@ void ModuleEmitter::declareRoutines() {
         llvm::Type* result = i32_;
         if (!inMemory && routine.result != ir::kVoid)
             result = llvm::StructType::get(context_, {i32_, valueType(routine.result)});
-        auto* function = llvm::Function::Create(llvm::FunctionType::get(result, params, false),
-                                                llvm::Function::InternalLinkage, routine.name, *target_);
+        auto* function =
+            llvm::Function::Create(llvm::FunctionType::get(result, params, false),
+                                   llvm::Function::InternalLinkage, internalName(routine.name), *target_);
         function->setCallingConv(llvm::CallingConv::Fast);
         function->setDoesNotThrow();
         function->addFnAttr(llvm::Attribute::MustProgress);

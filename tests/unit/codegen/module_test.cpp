@@ -82,6 +82,52 @@ TEST_CASE("the program description tells what the module holds", "[codegen]") {
     }
 }
 
+TEST_CASE("data of other modules are reached by name, and names of C functions do no harm", "[codegen]") {
+    ir::Module module = ir_testing::parse(R"(
+type 8 array f32 [100]
+global @"elsewhere" "elsewhere" in "" f32 external
+global @"memcpy" "memcpy" in "M" %8 var = { f32 1, zero 98 f32, f32 5 }
+global @"rt_raise" "x" in "M" %8 var
+native @"rt_void" plain void ()
+routine @"memset" "r" in "M" exported f32 () {
+  stmt 0 plain 1:1 1:2
+  b0:
+    stmt 0
+    %to = global @"rt_raise"
+    %from = global @"memcpy"
+    native @"rt_void" ()
+    copy %8 %to, %from
+    %i = const i32 99
+    %last = elem f32 %to, %i
+    %x = load f32 %last
+    %there = global @"elsewhere"
+    %y = load f32 %there
+    %z = fadd %x, %y
+    store f32 %z, %there
+    ret %z
+})");
+    REQUIRE(ir::runPasses(module, {}).empty());
+    static float elsewhere = 37;
+    for (bool optimise : {false, true}) {
+        elsewhere = 37;
+        std::vector<codegen::NativeSymbol> table = symbols();
+        std::string error;
+        codegen::CodegenOptions options;
+        options.optimise = optimise;
+        CHECK(codegen::jit(module, options, table, error) == nullptr);
+        CHECK(error.find("elsewhere") != std::string::npos);
+        table.push_back({"elsewhere", &elsewhere});
+        auto program = codegen::jit(module, options, table, error);
+        REQUIRE(program);
+        using Function = rt::Status (*)(rt::TaskCore*, rt::Frame*, float*);
+        float result = 0;
+        Task task;
+        CHECK(reinterpret_cast<Function>(entry(*program, "r"))(&task.core, nullptr, &result) == rt::kOk);
+        CHECK(result == 42.0f);
+        CHECK(elsewhere == 42.0f);
+    }
+}
+
 TEST_CASE("symbols that nobody supplies are named", "[codegen]") {
     ir::Module module = prepared("handlers.rir");
     std::vector<codegen::NativeSymbol> table;
