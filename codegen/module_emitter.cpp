@@ -203,11 +203,7 @@ void ModuleEmitter::declareNatives() {
             if (std::find(native.params.begin(), native.params.end(), ir::kPtr) != native.params.end())
                 function->setOnlyReadsMemory();
             else
-                // What it is given addresses of (strings, records) it reads; otherwise it depends on its values alone.
-                if (std::find(native.params.begin(), native.params.end(), ir::kPtr) != native.params.end())
-                    function->setOnlyReadsMemory();
-                else
-                    function->setDoesNotAccessMemory();
+                function->setDoesNotAccessMemory();
             function->setWillReturn();
             if (native.result == ir::kBool) function->addRetAttr(llvm::Attribute::ZExt);
         }
