@@ -39,6 +39,10 @@ rt::Status rt_arrayDesc(rt::TaskCore* task, const rt::TypeDesc** result, const r
 /// Before memory of a size known at run time is taken from the task's stack: stops the task when there is not as much.
 rt::Status rt_reserveStack(rt::TaskCore* task, int64_t bytes);
 
+/// CONNECT interrupt WITH trap: `trap` is the address of the compiled trap routine (rt::EntryFunction). Raises
+/// ERR_ALRDYCNT and ERR_INOMAX.
+rt::Status rt_connect(rt::TaskCore* task, float* interrupt, void* trap);
+
 /// EXIT: UNDO handlers run, the program ends. Returns the status of unwinding.
 rt::Status rt_exitProgram(rt::TaskCore* task);
 /// A predefined routine was called that is declared only: the task stops with an event, never a silent no-op.
