@@ -281,6 +281,8 @@ void ModuleEmitter::emitCEntry(uint32_t index) {
     }
     llvm::CallInst* call = b.CreateCall(routines_[index], args);
     call->setCallingConv(llvm::CallingConv::Fast);
+    // The entry has no line table of its own: a body inlined here would lose its lines.
+    call->setIsNoInline();
     if (!byValue) {
         call->setTailCall();
         b.CreateRet(call);
