@@ -120,7 +120,7 @@ void RoutineEmitter::emitErrorBlocks() {
     if (leave_.block) emitLeave();
     if (!leaveUndo_.block) return;
     b_.SetInsertPoint(leaveUndo_.block);
-    returnStatus(b_.CreateLoad(b_.getInt32Ty(), unwinding_));
+    returnFromUndo(leaveUndo_.number);
 }
 
 void RoutineEmitter::emitNative(ErrorJoin& join, ErrorJoin& raising, ErrorJoin& leaving) {
@@ -138,13 +138,19 @@ void RoutineEmitter::emitRaise(ErrorJoin& join, bool handled) {
     storeStatement(join.stmt);
     Value* status = b_.CreateCall(m_.runtime().raise, {task_, frame_, join.number});
     if (&join == &raiseUndo_) {
-        returnStatus(b_.CreateLoad(b_.getInt32Ty(), unwinding_));
+        returnFromUndo(status);
         return;
     }
     ErrorJoin& next = handled ? dispatchJoin() : leaveJoin();
     next.stmt->addIncoming(join.stmt, join.block);
     next.number->addIncoming(status, join.block);
     b_.CreateBr(next.block);
+}
+
+/// An UNDO handler that ends early: the runtime may have told to skip those of the callers, too (kUnwindSilent).
+void RoutineEmitter::returnFromUndo(Value* status) {
+    Value* unwinding = b_.CreateLoad(b_.getInt32Ty(), unwinding_);
+    returnStatus(b_.CreateSelect(b_.CreateICmpSLT(status, b_.getInt32(0)), status, unwinding));
 }
 
 /// An error on its way meets this routine's handler: notes the statement, and takes the error if the filter lets it.
@@ -177,9 +183,12 @@ void RoutineEmitter::emitLeave() {
         return;
     }
     BasicBlock *unwind = newBlock("unwind"), *pass = newBlock("pass");
-    b_.CreateCondBr(b_.CreateICmpSLT(leave_.number, b_.getInt32(0)), unwind, pass);
+    b_.CreateCondBr(b_.CreateICmpEQ(leave_.number, b_.getInt32(static_cast<uint32_t>(rt::kUnwind))), unwind,
+                    pass);
     b_.SetInsertPoint(unwind);
     b_.CreateStore(leave_.number, unwinding_);
+    if (!frameInPrologue_) fillFrame();
+    markUndo();
     b_.CreateBr(blockOf(routine_.undoHandler));
     b_.SetInsertPoint(pass);
     returnStatus(leave_.number);

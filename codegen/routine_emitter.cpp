@@ -168,7 +168,14 @@ void RoutineEmitter::fillFrame() {
     };
     fill(0, caller_);
     fill(1, desc_);
-    if (routine_.errorHandler != ir::kNone) fill(3, b_.getInt32(0)); // the runtime counts retries here
+    // The runtime counts retries here and finds out whether the routine is in its UNDO handler.
+    if (routine_.errorHandler != ir::kNone || unwinding_) fill(3, b_.getInt32(0));
+}
+
+void RoutineEmitter::markUndo() {
+    b_.CreateStore(b_.getInt32(static_cast<uint32_t>(rt::kFrameInUndo)),
+                   b_.CreateStructGEP(m_.runtime().frame, frame_, 3))
+        ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().frame);
 }
 
 void RoutineEmitter::block(ir::BlockId id) {

@@ -28,6 +28,8 @@ class RoutineEmitter {
     void prologue();
     void enterFrame();
     void fillFrame();
+    void markUndo();
+    void returnFromUndo(llvm::Value* status);
     void block(ir::BlockId id);
     void instruction(ir::ValueId id);
     void define(ir::ValueId id, Value* value);

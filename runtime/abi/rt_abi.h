@@ -22,9 +22,6 @@ struct String {
 };
 static_assert(sizeof(String) == 84 && alignof(String) == 4);
 
-/// Handle of an object that the controller owns (signal, clock, file ...); 0 = not connected yet.
-using Handle = int64_t;
-
 /// Result of every compiled routine and native call. 0: done. > 0: a recoverable error with this ERRNO is on its way
 /// to a handler. < 0: the stack is being unwound (EXIT, end of the run, program pointer moved).
 using Status = int32_t;
@@ -34,6 +31,9 @@ inline constexpr Status kUnwind = -1;
 inline constexpr Status kUnwindSilent = -2;
 
 enum class DescKind : uint8_t { Num, Dnum, Bool, String, Record, Array, Handle, Other };
+
+/// Handle of an object that the controller owns (signal, clock, file ...); 0 = not connected yet.
+using Handle = int64_t;
 
 /// Run-time description of a type of the source language.
 struct TypeDesc {
@@ -81,8 +81,9 @@ struct Frame {
     Frame* caller;
     const RoutineDesc* routine;
     int32_t statement;
-    int32_t reserved;
+    int32_t reserved; ///< 0 at first; kept by the runtime (retries), kFrameInUndo once the UNDO handler runs
 };
+inline constexpr int32_t kFrameInUndo = -1;
 
 /// The part of a task that compiled code touches directly. rt::Task begins with it.
 struct TaskCore {

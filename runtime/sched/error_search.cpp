@@ -22,7 +22,10 @@ const StmtDesc* statementOf(const Frame& frame) {
 
 Frame* findErrorHandler(Frame* first, int errorNumber) {
     for (Frame* frame = first; frame != nullptr && frame->routine != &kTrapBoundary; frame = frame->caller) {
-        if (frame->routine == nullptr || !frame->routine->hasErrorHandler) continue;
+        if (frame->routine == nullptr) continue;
+        // Errors in an UNDO handler end it; they do not reach routines that are being left.
+        if (frame->routine->hasUndo && frame->reserved == kFrameInUndo) return nullptr;
+        if (!frame->routine->hasErrorHandler) continue;
         const StmtDesc* statement = statementOf(*frame);
         // A statement that the handler does not cover is part of the handler itself: no recovery from there.
         if (statement == nullptr || !statement->handled) return nullptr;

@@ -14,7 +14,7 @@ bool takesError(const RoutineDesc& routine, int errorNumber);
 /// The statement in progress of a frame; null when the record names none.
 const StmtDesc* statementOf(const Frame& frame);
 /// The frame whose error handler takes an error raised at first->statement; null: the system handler. The search goes
-/// outward and ends at a statement of an error handler and where the system called a trap routine.
+/// outward and ends at a statement of an error or UNDO handler and where the system called a trap routine.
 Frame* findErrorHandler(Frame* first, int errorNumber);
 SourcePlace placeOf(const Frame* frame);
 

@@ -139,9 +139,9 @@ class Task : public TaskCore {
     /// Sets the text that the event shows if the error the native returns next is not handled. Any length.
     void setErrorDetail(std::string text) { errorDetail_ = std::move(text); }
     /// setErrorDetail and the number: `return task.raise(ERR_X, "why");`
-    Status raise(int errorNumber, std::string detail) {
+    Status raise(int number, std::string detail) {
         setErrorDetail(std::move(detail));
-        return errorNumber;
+        return number;
     }
     /// SkipWarn: the error handled last leaves no warning in the event log.
     void skipWarn() { handled_.frame = nullptr; }
@@ -167,7 +167,7 @@ class Task : public TaskCore {
 
     // ---- Entry points of compiled code (rt_abi.h) --------------------------------------------------------------
     Status safepoint(Frame* at);
-    Status raiseAt(Frame* at, int errorNumber);
+    Status raiseAt(Frame* at, int number);
     Status propagateFrom(Frame* handler);
     Status handlerEndAt(Frame* handler);
     Status retryAt(Frame* handler);
@@ -220,11 +220,11 @@ class Task : public TaskCore {
     Status enterWait();
     Status afterSwitch();
     Status beginUnwind(Unwind cause);
-    Status systemHandler(int eventNumber, int errorNumber, std::string text, const SourcePlace& where);
-    Status dispatchError(Frame* first, int errorNumber);
-    std::string describeError(int errorNumber) const;
+    Status systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where);
+    Status dispatchError(Frame* first, int number);
+    std::string describeError(int number) const;
     RetryCount* retryCountOf(Frame* handler);
-    void noteHandled(Frame* handler, int errorNumber);
+    void noteHandled(Frame* handler, int number);
     void flushHandledWarning();
     void writeHandledWarning();
     bool insideHandler() const;

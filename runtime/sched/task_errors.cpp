@@ -32,12 +32,12 @@ std::vector<SourcePlace> Task::callChain() const {
     return chain;
 }
 
-std::string Task::describeError(int errorNumber) const {
+std::string Task::describeError(int number) const {
     const EventLog& log = host_.log();
-    const std::string name = log.errorName(errorNumber);
+    const std::string name = log.errorName(number);
     std::string text =
-        name.empty() ? fmt::format("Error {}", errorNumber) : fmt::format("{} ({})", name, errorNumber);
-    const std::string& why = errorDetail_.empty() ? log.errorText(errorNumber) : errorDetail_;
+        name.empty() ? fmt::format("Error {}", number) : fmt::format("{} ({})", name, number);
+    const std::string& why = errorDetail_.empty() ? log.errorText(number) : errorDetail_;
     text += why.empty() ? "." : ": " + why;
     if (text.back() != '.' && text.back() != '!' && text.back() != '?') text += '.';
     return text;

@@ -22,7 +22,7 @@ struct Bench {
         io.finishConfiguration(problems);
         io.addListener(-1, [this](SignalId id, double, double value) {
             changes.push_back(formatSeconds(scheduler.now(), 1) + " " + io.config(id).name + "=" +
-                              std::to_string(static_cast<int>(value)));
+                              std::to_string(static_cast<int64_t>(value)));
         });
     }
     Handle handle(const char* name) const { return IoSystem::handleOf(io.find(name)); }
