@@ -97,9 +97,8 @@ template <class Function> codegen::NativeSymbol symbol(const char* name, Functio
 
 Task::Task() {
     constexpr size_t kStack = 1 << 20;
-    char here = 0;
     core.budget = 1000000;
-    core.stackLimit = &here - kStack;
+    core.stackLimit = static_cast<char*>(__builtin_frame_address(0)) - kStack;
     events.clear();
     fallibleStatuses.clear();
 }
