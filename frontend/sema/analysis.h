@@ -73,7 +73,14 @@ class Analyzer {
   private:
     // ---- reporting (report.cpp)
     SourceRange range(const syntax::Node& node) const { return context_.tree->range(node); }
-    SourceRange range(syntax::TokenIndex token) const { return context_.tree->range(token); }
+    SourceRange range(syntax::TokenIndex token) const {
+        return token == syntax::kNoToken ? SourceRange{} : context_.tree->range(token);
+    }
+    /// False for what is missing after a syntax error and for the placeholder <ID>.
+    bool isName(syntax::TokenIndex token) const {
+        return token != syntax::kNoToken &&
+               context_.tree->tokens[token].kind == syntax::TokenKind::Identifier;
+    }
     std::string text(const syntax::Node& node) const;
     std::string text(syntax::TokenIndex token) const { return std::string(context_.tree->text(token)); }
     diag::Diagnostic& report(Code code, SourceRange where, std::initializer_list<std::string> args = {});

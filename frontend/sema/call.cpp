@@ -13,13 +13,13 @@ constexpr size_t kNoParam = static_cast<size_t>(-1);
 }
 
 Typed Analyzer::functionCall(const CallExpr& e) {
-    Symbol* symbol = e.name == kNoToken ? nullptr : lookup(idOf(e.name));
+    Symbol* symbol = isName(e.name) ? lookup(idOf(e.name)) : nullptr;
     RoutineSymbol* routine = asRoutine(symbol);
     if (!routine || routine->routineKind != RoutineKind::Func) {
         if (symbol) {
             noteDeclared(report(Code::NotAFunction, range(e.name), {text(e.name), describe(*symbol)}),
                          *symbol);
-        } else if (mayReportUnknown() && e.name != kNoToken) {
+        } else if (mayReportUnknown() && isName(e.name)) {
             std::string hint = suggestion(idOf(e.name), Wanted::Function);
             report(Code::UnknownFunction, range(e.name), {text(e.name), std::move(hint)});
         }
@@ -159,6 +159,7 @@ size_t Analyzer::matchRequired(BoundCall& call, const Argument& arg, size_t slot
 
 size_t Analyzer::matchOptional(BoundCall& call, const Argument& arg, TokenIndex) {
     const RoutineSymbol& routine = *call.routine;
+    if (!isName(arg.name)) return kNoParam;
     const NameId name = idOf(arg.name);
     for (size_t i = 0; i < routine.params.size(); ++i) {
         const DataSymbol& param = *routine.params[i];

@@ -60,7 +60,7 @@ void Analyzer::collect(Module& module) {
         case NodeKind::Alias: {
             const bool record = decl->kind == NodeKind::Record;
             const TokenIndex name = record ? as<RecordDecl>(*decl).name : as<AliasDecl>(*decl).name;
-            if (name == kNoToken) {
+            if (!isName(name)) {
                 scope.incomplete = incomplete_ = true;
                 break;
             }
@@ -72,7 +72,7 @@ void Analyzer::collect(Module& module) {
         }
         case NodeKind::Data: {
             const auto& data = as<DataDecl>(*decl);
-            if (data.name == kNoToken) {
+            if (!isName(data.name)) {
                 scope.incomplete = incomplete_ = true;
                 break;
             }
@@ -84,7 +84,7 @@ void Analyzer::collect(Module& module) {
         }
         case NodeKind::Routine: {
             const auto& routine = as<RoutineDecl>(*decl);
-            if (routine.name == kNoToken) {
+            if (!isName(routine.name)) {
                 scope.incomplete = incomplete_ = true;
                 break;
             }

@@ -24,7 +24,7 @@ Place Analyzer::namePlace(const NameExpr& e, const Type* handle) {
     result.type = {program_.errorType, 0, {}};
     Place place;
     place.name = &e;
-    if (context_.tree->tokens[e.name].kind != TokenKind::Identifier) return place;
+    if (!isName(e.name)) return place;
     const NameId name = idOf(e.name);
     Symbol* symbol = lookup(name);
     if (!symbol) symbol = reportUnknownData(e.name, name, handle);

@@ -82,7 +82,7 @@ const Type* Analyzer::ensureType(TypeSymbol& symbol) {
 void Analyzer::resolveRecord(Type& type, const RecordDecl& decl) {
     NameMap<const RecordComponent> names;
     for (const RecordComponent* c : decl.components) {
-        if (c->name == kNoToken) continue;
+        if (!isName(c->name)) continue;
         const NameId name = idOf(c->name);
         if (names.find(name)) report(Code::DuplicateComponent, range(c->name), {text(c->name), type.name});
         names.set(name, c);
@@ -125,7 +125,7 @@ void Analyzer::resolveSignature(RoutineSymbol& symbol) {
 }
 
 void Analyzer::resolveParameter(RoutineSymbol& routine, const ParamDecl& decl) {
-    if (decl.placeholder || decl.name == kNoToken) {
+    if (decl.placeholder || !isName(decl.name)) {
         if (decl.placeholder) placeholder(decl);
         incomplete_ = true;
         return;

@@ -26,7 +26,7 @@ void Analyzer::checkRoutine(RoutineSymbol& symbol) {
         declareInRoutine(*param);
     const size_t firstOwn = symbol.data.size();
     for (const DataDecl* data : decl.data)
-        if (data->name != kNoToken) declareRoutineData(*data);
+        if (isName(data->name)) declareRoutineData(*data);
     for (size_t i = firstOwn; i < symbol.data.size(); ++i) {
         ensureValue(*symbol.data[i]);
         context_.constant = false;
@@ -95,7 +95,7 @@ bool Analyzer::isInside(uint32_t inner, uint32_t outer) const {
 }
 
 void Analyzer::labelStmt(const LabelStmt& s) {
-    if (s.name == kNoToken) return;
+    if (!isName(s.name)) return;
     const NameId name = idOf(s.name);
     for (const JumpPoint& other : labels_) {
         if (other.name != name) continue;

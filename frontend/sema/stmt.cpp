@@ -34,7 +34,7 @@ bool Analyzer::statement(const Stmt& s) {
     case NodeKind::Test: return testStmt(as<TestStmt>(s));
     case NodeKind::Goto: {
         const auto& jump = as<GotoStmt>(s);
-        if (jump.label != kNoToken) gotos_.push_back({idOf(jump.label), block_, part_, &s, nullptr});
+        if (isName(jump.label)) gotos_.push_back({idOf(jump.label), block_, part_, &s, nullptr});
         return false;
     }
     case NodeKind::Label: labelStmt(as<LabelStmt>(s)); return true;
@@ -56,7 +56,7 @@ bool Analyzer::statement(const Stmt& s) {
     case NodeKind::PlaceholderStmt: placeholder(s); return true;
     case NodeKind::DeclStmt: { // its place was reported by the parser
         const DataDecl* decl = as<DeclStmt>(s).decl;
-        if (!decl || decl->name == kNoToken) return true;
+        if (!decl || !isName(decl->name)) return true;
         declareRoutineData(*decl);
         ensureValue(*context_.routine->data.back());
         context_.constant = false;
@@ -117,7 +117,7 @@ bool Analyzer::forStmt(const ForStmt& s) {
     RoutineSymbol& routine = *context_.routine;
     DataSymbol* variable = nullptr;
     Symbol* hidden = nullptr;
-    if (s.variable != kNoToken) {
+    if (isName(s.variable)) {
         variable = &fill(program_.dataSymbols.emplace_back(), SymbolKind::Data, s, s.variable, false);
         variable->storage = Storage::LoopVariable;
         variable->type = {program_.num, 0, {}};
@@ -242,7 +242,7 @@ bool Analyzer::callStmt(const CallStmt& s) {
         lateCall(s);
         return true;
     }
-    if (s.name == kNoToken || context_.tree->tokens[s.name].kind != TokenKind::Identifier) {
+    if (!isName(s.name)) {
         visitArguments(s.args);
         return true;
     }

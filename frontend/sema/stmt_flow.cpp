@@ -65,7 +65,7 @@ void Analyzer::raiseStmt(const RaiseStmt& s) {
 
 void Analyzer::connectStmt(const ConnectStmt& s) {
     if (s.target) connectTarget(*s.target);
-    if (s.trap == kNoToken || context_.tree->tokens[s.trap].kind != TokenKind::Identifier) return;
+    if (!isName(s.trap)) return;
     const NameId name = idOf(s.trap);
     Symbol* symbol = lookup(name);
     RoutineSymbol* trap = asRoutine(symbol);
