@@ -119,7 +119,9 @@ void Builder::copy(TypeId type, ValueId dst, ValueId src) {
 void Builder::copyDynamic(ValueId dst, ValueId src, ValueId bytes) {
     emit(make(Op::CopyDynamic, kVoid, {dst, src, bytes}));
 }
-ValueId Builder::stackAlloc(ValueId bytes) { return emit(make(Op::StackAlloc, kPtr, {bytes})); }
+ValueId Builder::stackAlloc(ValueId bytes) {
+    return emit(make(Op::StackAlloc, kPtr, {bytes}));
+}
 void Builder::zero(TypeId type, ValueId dst) {
     emit(make(Op::Zero, type, {dst}));
 }

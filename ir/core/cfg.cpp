@@ -118,7 +118,7 @@ std::vector<BlockId> successors(const Routine& routine, BlockId block) {
 bool mayRaise(const Module& module, const Inst& inst) {
     if (inst.op == Op::CallNative && inst.index < module.natives.size())
         return module.natives[inst.index].nativeClass == NativeClass::Plain;
-    return opInfo(inst.op).mayRaise;
+    return opInfo(inst.op).mayRaise && inst.op != Op::Safepoint;
 }
 
 bool Cfg::dominates(BlockId a, BlockId b) const {

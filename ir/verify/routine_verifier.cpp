@@ -122,8 +122,7 @@ void RoutineVerifier::handlers() {
 
 void RoutineVerifier::raising(const Inst& inst) {
     if (inst.stmt == kNone) {
-        if (mayRaise(module_, inst) && inst.op != Op::Safepoint)
-            add("may raise, but belongs to no statement");
+        if (mayRaise(module_, inst)) add("may raise, but belongs to no statement");
         return;
     }
     inRange(inst.stmt, routine_.statements.size(), "statement");
