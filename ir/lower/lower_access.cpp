@@ -96,7 +96,21 @@ RoutineLowering::Place RoutineLowering::elementPlace(const IndexExpr& expr) {
     return p;
 }
 
+/// As place(), but a signal that the context reads as a number gets its value into a temporary.
 RoutineLowering::Place RoutineLowering::place(const Expr& outer) {
+    const Expr& expr = unparen(outer);
+    const sema::DataType& type = info(expr).type;
+    if (type.type && type.type->isNumeric() && !type.isArray() && namesSignal(expr)) {
+        Place p;
+        p.type = type;
+        p.addr = tempAddr(program_.irType(type));
+        b_.store(program_.irType(type), readSignal(expr, type.type->base()->kind == sema::TypeKind::Dnum), p.addr);
+        return p;
+    }
+    return reference(expr);
+}
+
+RoutineLowering::Place RoutineLowering::reference(const Expr& outer) {
     const Expr& expr = unparen(outer);
     switch (expr.kind) {
     case NodeKind::Name: {

@@ -232,18 +232,49 @@ void RoutineLowering::lowerWaitUntil(const BoundCall& call) {
 
 namespace {
 
+/// Can a VAR, INOUT or PERS parameter take it?
+bool isReference(const Expr& value, const sema::ExprInfo& facts) {
+    if (facts.constant) return false;
+    return value.kind == NodeKind::Name || value.kind == NodeKind::Index || value.kind == NodeKind::Component;
+}
+
+/// Matches the written arguments to the parameters of one candidate: required ones in order, optional ones by name.
+bool bindLate(const CallStmt& stmt, const sema::RoutineSymbol& callee, const sema::Module& module,
+              std::vector<BoundArg>& bound) {
+    for (DataSymbol* param : callee.params) bound.emplace_back().param = param;
+    size_t next = 0;
+    for (const Argument* arg : stmt.args) {
+        if (arg->argKind == ArgKind::Placeholder) return false;
+        BoundArg* target = nullptr;
+        if (arg->argKind == ArgKind::Required) {
+            while (next < bound.size() && bound[next].param->optional) ++next;
+            if (next < bound.size()) target = &bound[next++];
+        } else {
+            const std::string name = foldCase(module.tree->text(arg->name));
+            for (BoundArg& candidate : bound)
+                if (candidate.param->optional && foldCase(candidate.param->name) == name) target = &candidate;
+        }
+        if (!target || target->kind != BoundArg::Kind::Absent) return false;
+        if (target->param->isSwitch != (arg->value == nullptr) && arg->argKind != ArgKind::Conditional) return false;
+        target->kind = arg->argKind == ArgKind::Conditional ? BoundArg::Kind::Conditional : BoundArg::Kind::Present;
+        target->value = arg->value;
+        target->argument = arg;
+    }
+    for (const BoundArg& arg : bound)
+        if (!arg.param->optional && arg.kind == BoundArg::Kind::Absent) return false;
+    return true;
+}
+
 /// Can the arguments of a late-bound call be given to `callee`? Names and kinds were collected unchecked by sema.
 bool fits(const CallStmt& stmt, const sema::RoutineSymbol& callee, const sema::Module& module) {
-    size_t required = 0;
-    for (const DataSymbol* param : callee.params) required += param->optional ? 0u : 1u;
-    if (required != stmt.args.size()) return false;
-    size_t next = 0;
-    for (const DataSymbol* param : callee.params) {
-        if (param->optional) continue;
-        const Argument& arg = *stmt.args[next++];
-        if (arg.argKind != ArgKind::Required || !arg.value) return false;
-        const sema::DataType& have = (*module.exprs)[arg.value->id].type;
-        if (!have.type || have.rank != param->type.rank || have.type->base() != param->type.type->base()) return false;
+    std::vector<BoundArg> bound;
+    if (!bindLate(stmt, callee, module, bound)) return false;
+    for (const BoundArg& arg : bound) {
+        if (!arg.value || arg.param->isSwitch) continue;
+        const sema::ExprInfo& have = (*module.exprs)[arg.value->id];
+        const sema::DataType& want = arg.param->type;
+        if (!have.type.type || have.type.rank != want.rank || have.type.type->base() != want.type->base()) return false;
+        if (arg.param->mode != ParamMode::In && !isReference(*arg.value, have)) return false;
     }
     return true;
 }
@@ -256,8 +287,7 @@ void RoutineLowering::lowerLateCall(const CallStmt& stmt) {
     std::vector<const sema::RoutineSymbol*> candidates;
     for (const sema::Module* m : task.modules)
         for (const sema::RoutineSymbol* routine : m->routines)
-            if (routine->routineKind == RoutineKind::Proc && (!routine->isLocal || m == module_))
-                candidates.push_back(routine);
+            if (!routine->isLocal || m == module_) candidates.push_back(routine);
     ir::ConstData names;
     for (const auto* candidate : candidates) {
         ir::ConstScalar scalar;
@@ -279,21 +309,15 @@ void RoutineLowering::lowerLateCall(const CallStmt& stmt) {
     const ir::BlockId here = b_.block();
     for (int32_t i = 0; i < count; ++i) {
         const sema::RoutineSymbol& callee = *candidates[static_cast<size_t>(i)];
-        if (!fits(stmt, callee, *module_)) continue;
+        // A name that is found but cannot be called so is ERR_CALLPROC, an unknown one ERR_REFUNKPRC.
+        if (callee.routineKind != RoutineKind::Proc || !fits(stmt, callee, *module_)) continue;
         const ir::BlockId block = b_.addBlock("late");
         cases.push_back({i, block});
         b_.setBlock(block);
+        std::vector<BoundArg> bound;
+        bindLate(stmt, callee, *module_, bound);
         std::vector<ValueId> args;
-        size_t next = 0;
-        for (DataSymbol* param : callee.params) {
-            BoundArg arg;
-            arg.param = param;
-            if (!param->optional) {
-                arg.kind = BoundArg::Kind::Present;
-                arg.value = stmt.args[next++]->value;
-            }
-            pushArgument(arg, args);
-        }
+        for (const BoundArg& arg : bound) pushArgument(arg, args);
         b_.call(program_.routineFor(callee, task_), std::move(args));
         b_.br(end);
     }

@@ -14,9 +14,15 @@ ir::ValueId RoutineLowering::constantScalar(const sema::ConstValue& value, ir::T
     return b_.constF32(value.number);
 }
 
+/// A signal or an element of a signal array; whether its value or the signal itself is meant, the context says.
+bool RoutineLowering::namesSignal(const Expr& expr) const {
+    const sema::DataSymbol* root = rootSymbol(expr);
+    return root && root->type.type->base()->kind == TypeKind::SemiValue;
+}
+
 /// The value of a signal in an expression: num, or dnum for groups (manual 1.9).
 ir::ValueId RoutineLowering::readSignal(const Expr& expr, bool asDnum) {
-    const Place signal = place(expr);
+    const Place signal = reference(expr);
     const ir::TypeId result = asDnum ? ir::kF64 : ir::kF32;
     const uint32_t native = program_.support(asDnum ? "rt_readSignalDnum" : "rt_readSignalNum",
                                              ir::NativeClass::Plain, result, {ir::kPtr});
@@ -29,12 +35,7 @@ ir::ValueId RoutineLowering::lowerValueAs(const Expr& expr, const sema::Type* wa
     const sema::ExprInfo& facts = info(inner);
     if (facts.constant && facts.constant->kind != sema::ConstValue::Kind::Aggregate)
         return constantScalar(*facts.constant, type);
-    if (facts.type.type && facts.type.type->base()->kind == TypeKind::SemiValue)
-        return readSignal(inner, type == ir::kF64);
-    const sema::Symbol* symbol = facts.symbol;
-    if (inner.kind == NodeKind::Name && symbol && symbol->kind == sema::SymbolKind::Data &&
-        static_cast<const sema::DataSymbol*>(symbol)->type.type->base()->kind == TypeKind::SemiValue)
-        return readSignal(inner, type == ir::kF64);
+    if (namesSignal(inner)) return readSignal(inner, type == ir::kF64);
     const ValueId value = lowerValue(inner);
     const ir::TypeId have = routine_.insts[value].type;
     if (have == ir::kF32 && type == ir::kF64) return b_.convert(Op::F32ToF64, value);
@@ -51,8 +52,8 @@ ir::ValueId RoutineLowering::lowerValue(const Expr& outer) {
     switch (expr.kind) {
     case NodeKind::Name: {
         if (intRange(expr)) return b_.convert(Op::I32ToF32, lowerInt(expr));
+        if (namesSignal(expr)) return readSignal(expr, type == ir::kF64);
         const auto* symbol = static_cast<const sema::DataSymbol*>(facts.symbol);
-        if (symbol->type.type->base()->kind == TypeKind::SemiValue) return readSignal(expr, type == ir::kF64);
         if (symbol->isSwitch) {
             const Slot* slot = findSlot(*symbol);
             return b_.param(slot->param);
@@ -60,7 +61,9 @@ ir::ValueId RoutineLowering::lowerValue(const Expr& outer) {
         return b_.load(type, placeOf(*symbol).addr);
     }
     case NodeKind::Index:
-    case NodeKind::Component: return b_.load(type, place(expr).addr);
+    case NodeKind::Component:
+        if (namesSignal(expr)) return readSignal(expr, type == ir::kF64);
+        return b_.load(type, place(expr).addr);
     case NodeKind::Call: return lowerCall(expr, ir::kNone);
     case NodeKind::Unary: {
         const auto& unary = as<UnaryExpr>(expr);

@@ -68,9 +68,7 @@ void RoutineLowering::lowerFor(const ForStmt& stmt) {
     lowerFloatLoop(stmt, variable);
 }
 
-ir::ValueId RoutineLowering::boundAsInt(const Expr& to, bool roundDown) {
-    if (intRange(to)) return lowerInt(to);
-    const ValueId value = lowerValueAs(to, program_.program().num);
+ir::ValueId RoutineLowering::boundAsInt(ValueId value, bool roundDown) {
     const ValueId whole = b_.unary(Op::FTrunc, value);
     const ValueId number = b_.convert(Op::F32ToI32, whole);
     // Toward minus or plus infinity: one further where truncation went the other way.
@@ -85,7 +83,8 @@ void RoutineLowering::lowerIntLoop(const ForStmt& stmt, sema::DataSymbol& variab
                                    IntRange from) {
     const auto to = intRange(*stmt.to);
     const ValueId first = lowerInt(*stmt.from);
-    const ValueId last = boundAsInt(*stmt.to, step > 0);
+    const ValueId last =
+        to ? lowerInt(*stmt.to) : boundAsInt(lowerValueAs(*stmt.to, program_.program().num), step > 0);
     IntRange range = from;
     if (step > 0)
         range.hi = std::max(from.lo, to ? to->hi : kExact);
@@ -128,10 +127,11 @@ void RoutineLowering::lowerCountedBody(const ForStmt& stmt, sema::DataSymbol& va
 
 void RoutineLowering::lowerUnknownDirection(const ForStmt& stmt, sema::DataSymbol& variable, IntRange from) {
     const ValueId first = lowerInt(*stmt.from);
-    const ValueId up = boundAsInt(*stmt.to, true);
-    const ValueId down = boundAsInt(*stmt.to, false);
     const auto to = intRange(*stmt.to);
-    const ValueId to32 = to ? b_.convert(Op::I32ToF32, up) : lowerValueAs(*stmt.to, program_.program().num);
+    const ValueId exact = to ? lowerInt(*stmt.to) : ir::kNone;
+    const ValueId to32 = to ? b_.convert(Op::I32ToF32, exact) : lowerValueAs(*stmt.to, program_.program().num);
+    const ValueId up = to ? exact : boundAsInt(to32, true);
+    const ValueId down = to ? exact : boundAsInt(to32, false);
     const ValueId forward = b_.binary(Op::FLe, b_.convert(Op::I32ToF32, first), to32);
     int budget = 12;
     if (isSmallBody(stmt.body, budget)) {

@@ -208,7 +208,7 @@ void RoutineLowering::lowerTest(const TestStmt& stmt) {
     startStatement(*stmt.subject, ir::StmtKind::Control);
     const sema::DataType type = info(*stmt.subject).type;
     const ir::TypeId irType = program_.irType(type.type);
-    const bool signal = type.type->base()->kind == sema::TypeKind::SemiValue;
+    const bool signal = namesSignal(*stmt.subject);
     const bool scalar = signal || (!type.isArray() && program_.module().isScalar(irType));
     const ir::TypeId valueType = signal ? ir::kF32 : irType;
     // The subject is evaluated once (manual 1.5).

@@ -163,7 +163,7 @@ uint32_t ProgramLowering::addGlobal(const DataSymbol& symbol, uint32_t task, boo
     global.type = irType(symbol.type);
     global.task = shared ? ir::kNone : task;
     if (symbol.storage == sema::Storage::Signal) {
-        global.kind = ir::GlobalKind::External;
+        global.kind = ir::GlobalKind::Var; // filled when the program is loaded
     } else {
         switch (symbol.dataKind) {
         case syntax::DataKind::Var: global.kind = ir::GlobalKind::Var; break;
@@ -335,6 +335,7 @@ uint32_t ProgramLowering::makeReset(uint32_t taskIndex) {
     const size_t count = module_.globals.size();
     for (size_t i = 0; i < count; ++i) {
         if (module_.globals[i].kind != ir::GlobalKind::Var || module_.globals[i].task != taskIndex) continue;
+        if (module_.globals[i].typeDesc == ir::kNone) continue; // the slot of a signal keeps its connection
         const ir::TypeId type = module_.globals[i].type;
         const ir::ValueId target = b.globalAddr(static_cast<uint32_t>(i));
         if (module_.globals[i].init.empty())

@@ -78,7 +78,7 @@ class RoutineLowering {
     void lowerCountedBody(const syntax::ForStmt& stmt, sema::DataSymbol& variable, ValueId first,
                           ValueId last, int32_t step, IntRange range);
     void lowerFloatLoop(const syntax::ForStmt& stmt, sema::DataSymbol& variable);
-    ValueId boundAsInt(const Expr& to, bool roundDown);
+    ValueId boundAsInt(ValueId value, bool roundDown); ///< num to I32, toward minus or plus infinity
 
     // lower_expr.cpp
     ValueId lowerValue(const Expr& expr); ///< scalar in its own type
@@ -95,6 +95,7 @@ class RoutineLowering {
     ValueId equalPlaces(ValueId a, ValueId b, const sema::DataType& type);
     ValueId lowerShortCircuit(const syntax::BinaryExpr& expr);
     ValueId constantScalar(const sema::ConstValue& value, ir::TypeId type);
+    bool namesSignal(const Expr& expr) const;
     ValueId readSignal(const Expr& expr, bool asDnum);
     bool isCheap(const Expr& expr) const;
 
@@ -109,6 +110,7 @@ class RoutineLowering {
 
     // lower_access.cpp
     Place place(const Expr& expr);
+    Place reference(const Expr& expr); ///< the object itself, even where a signal stands for its value
     Place placeOf(const sema::DataSymbol& symbol);
     Place elementPlace(const syntax::IndexExpr& expr);
     ValueId lowerIndex(const Expr& index, ValueId dim, int32_t knownDim, bool& safe);
