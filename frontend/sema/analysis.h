@@ -38,11 +38,15 @@ struct Place {
 /// Names of one module, found before global and predefined names.
 struct ModuleScope {
     NameMap<Symbol> names;
-    /// A declaration could not be read: names may be missing through no fault of their users.
-    bool incomplete = false;
 };
 
 enum class Part : uint8_t { Body, Backward, Error, Undo };
+
+/// What a routine does with one of its optional parameters.
+struct OptionalUse {
+    const syntax::Expr* first = nullptr; ///< first reference outside Present and conditional arguments
+    bool tested = false;                 ///< by Present
+};
 
 /// A label or a jump, judged when the whole routine is known.
 struct JumpPoint {
@@ -109,7 +113,7 @@ class Analyzer {
     void gatherSignalUses(const syntax::Expr* expr);
     void gatherSignalUses(const RoutineSymbol& routine, std::span<syntax::Argument* const> args);
     void declareConfiguration();
-    bool mayReportUnknown() const;
+    bool mayReportUnknown(NameId name);
 
     // ---- collecting declarations (collect.cpp)
     void enterModule(Module* module);
@@ -192,6 +196,7 @@ class Analyzer {
 
     // ---- folding (fold.cpp)
     ConstValue* newConst() { return &program_.constStore.emplace_back(); }
+    void warnDivision(const syntax::BinaryExpr& e);
     void foldBinary(const syntax::BinaryExpr& e);
     bool foldArithmetic(const syntax::BinaryExpr& e, double a, double b, bool isDnum, double& out);
     void foldUnary(const syntax::UnaryExpr& e, ConstValue* slot);
@@ -217,6 +222,7 @@ class Analyzer {
 
     void checkArgument(const RoutineSymbol& routine, BoundArg& bound);
     void checkConditional(const RoutineSymbol& routine, BoundArg& bound);
+    void judgeConditional(const RoutineSymbol& routine, const BoundArg& bound, const syntax::Expr& e);
     void checkReference(const RoutineSymbol& routine, const BoundArg& bound);
     void judgeReference(const RoutineSymbol& routine, const BoundArg& bound, const Place& place);
     void judgeValue(const RoutineSymbol& routine, const BoundArg& bound, Typed t);
@@ -256,6 +262,10 @@ class Analyzer {
     void placeholder(const syntax::Node& node);
     void loopWord(const syntax::Stmt& s, const char* word);
     void resolveJumps();
+    void reportUntestedOptionals();
+    bool hasErrorHandler() const {
+        return context_.routine && !context_.routine->routineDecl->errors.empty();
+    }
     bool isInside(uint32_t block, uint32_t outer) const;
     void checkEntry(Task& task);
 
@@ -279,8 +289,10 @@ class Analyzer {
     std::vector<NameId> declaredInRoutine_;
     NameMap<const Type> signalUses_; ///< undeclared names that stand where a signal is expected
     bool signalUsesKnown_ = false;
-    bool incomplete_ = false;                  ///< some declaration of the task could not be read
-    std::unordered_set<NameId> reportedNames_; ///< unknown signals, reported once a task
+    bool incomplete_ = false; ///< modules of the task are missing: names may be unknown
+    std::vector<const syntax::SyntaxTree*> brokenTrees_; ///< with syntax errors
+    std::unordered_set<NameId> maybeDeclared_;           ///< names in declarations that could not be read
+    std::unordered_set<NameId> reportedNames_;           ///< unknown signals, reported once a task
     std::vector<const syntax::Expr*> bigLiterals_;
     std::vector<const syntax::BinaryExpr*> spine_;
     std::vector<const syntax::Argument*> judged_; ///< arguments judged already to choose an alternative
@@ -291,6 +303,9 @@ class Analyzer {
     unsigned loopDepth_ = 0;
     bool breakSeen_ = false;
     bool returnSeen_ = false;
+    bool broken_ = false;                   ///< an instruction could not be read
+    bool presenceOnly_ = false;             ///< a name is looked at for its presence, not for its value
+    std::vector<OptionalUse> optionalUses_; ///< by index of the parameter
     uint32_t block_ = 0;
     std::vector<uint32_t> blockParents_;
     std::vector<JumpPoint> labels_;

@@ -200,12 +200,15 @@ DataSymbol* Analyzer::ownOptional(const Expr& e) {
 
 void Analyzer::checkPresent(const BoundArg& bound) {
     const Expr& e = *bound.value;
-    if (!isPlaceExpr(e)) {
-        visitLoose(e);
-        if (e.kind == NodeKind::PlaceholderExpr) return;
-    } else if (!place(e).root)
-        return;
-    if (!ownOptional(e)) report(Code::PresentNotOptional, range(e), {text(e)});
+    const bool outer = std::exchange(presenceOnly_, true);
+    const bool known = isPlaceExpr(e) ? place(e).root != nullptr : (visitLoose(e), true);
+    presenceOnly_ = outer;
+    if (!known || e.kind == NodeKind::PlaceholderExpr) return;
+    const DataSymbol* own = ownOptional(e);
+    if (own)
+        optionalUses_[own->index].tested = true;
+    else
+        report(Code::PresentNotOptional, range(e), {text(e)});
 }
 
 // `\Arg?Param`: present if the caller's own optional parameter is.
@@ -215,6 +218,12 @@ void Analyzer::checkConditional(const RoutineSymbol& routine, BoundArg& bound) {
         return;
     }
     const Expr& e = *bound.value;
+    const bool outer = std::exchange(presenceOnly_, true);
+    judgeConditional(routine, bound, e);
+    presenceOnly_ = outer;
+}
+
+void Analyzer::judgeConditional(const RoutineSymbol& routine, const BoundArg& bound, const Expr& e) {
     if (!isPlaceExpr(e))
         visitLoose(e);
     else if (!place(e).root)

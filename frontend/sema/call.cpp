@@ -19,7 +19,7 @@ Typed Analyzer::functionCall(const CallExpr& e) {
         if (symbol) {
             noteDeclared(report(Code::NotAFunction, range(e.name), {text(e.name), describe(*symbol)}),
                          *symbol);
-        } else if (mayReportUnknown() && isName(e.name)) {
+        } else if (isName(e.name) && mayReportUnknown(idOf(e.name))) {
             std::string hint = suggestion(idOf(e.name), Wanted::Function);
             report(Code::UnknownFunction, range(e.name), {text(e.name), std::move(hint)});
         }
@@ -47,6 +47,10 @@ void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex nam
     call.args.resize(routine.params.size());
     for (size_t i = 0; i < routine.params.size(); ++i)
         call.args[i].param = routine.params[i];
+    if (routine.incomplete) {
+        visitArguments(args);
+        return;
+    }
     const size_t judgedBefore = judged_.size();
     const bool complete = matchArguments(call, name, args);
     if (complete) reportMissing(call, name);
@@ -176,7 +180,7 @@ size_t Analyzer::matchOptional(BoundCall& call, const Argument& arg, TokenIndex)
 
 std::string Analyzer::optionalSuggestion(const RoutineSymbol& routine, NameId name) {
     const std::string_view written = interner_.folded(name);
-    unsigned limit = written.size() < 4 ? 1 : 2;
+    unsigned limit = suggestionLimit(written.size());
     const DataSymbol* best = nullptr;
     for (const DataSymbol* param : routine.params) {
         if (!param->optional) continue;
@@ -278,7 +282,9 @@ void Analyzer::lateCall(const CallStmt& stmt) {
         call.args.push_back(bound);
         if (!arg->value) continue;
         if (arg->argKind == ArgKind::Conditional) {
-            place(*arg->value);
+            const bool outer = std::exchange(presenceOnly_, true);
+            visitLoose(*arg->value);
+            presenceOnly_ = outer;
             if (!ownOptional(*arg->value))
                 report(Code::ConditionalNotParameter, range(*arg->value), {text(*arg->value)});
         } else if (isPlaceExpr(*arg->value)) {

@@ -102,6 +102,8 @@ void Analyzer::checkTask(const TaskInput& input) {
     reportedNames_.clear();
     signalUsesKnown_ = false;
     incomplete_ = input.incomplete && !options_.requireMain;
+    brokenTrees_.clear();
+    maybeDeclared_.clear();
     declareConfiguration();
 
     std::vector<std::string_view> paths;
@@ -116,7 +118,7 @@ void Analyzer::checkTask(const TaskInput& input) {
         const SyntaxTree& tree = *program_.trees.back();
         program_.exprStore.push_back(std::make_unique<std::vector<ExprInfo>>(
             tree.exprCount, ExprInfo{{program_.errorType, 0, {}}, nullptr, -1, nullptr}));
-        if (tree.modules.empty() && sink_.errorCount() > errorsBefore) incomplete_ = true;
+        if (sink_.errorCount() > errorsBefore) brokenTrees_.push_back(&tree);
         for (const ModuleDecl* decl : tree.modules)
             task_->modules.push_back(addModule(tree, *decl, false, program_.exprStore.back().get()));
     }
@@ -176,7 +178,7 @@ void Analyzer::checkEntry(Task& task) {
         report(Code::EntryLocal, range(local->nameToken), {task.name, local->name});
         return;
     }
-    if (!incomplete_) sink_.report(Code::NoEntry, nullptr, {}, {task.name, task.entry});
+    if (mayReportUnknown(name)) sink_.report(Code::NoEntry, nullptr, {}, {task.name, task.entry});
 }
 
 // A global persistent is one object for all tasks that declare it (manual 1.20).

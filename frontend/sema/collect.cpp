@@ -50,7 +50,6 @@ TypeSymbol& Analyzer::newType(const Decl& decl, TokenIndex name, bool local) {
     return fill(program_.typeSymbols.emplace_back(), SymbolKind::Type, decl, name, local);
 }
 
-// One declaration without a readable name, or that could not be read at all, leaves its users without blame.
 void Analyzer::collect(Module& module) {
     enterModule(&module);
     ModuleScope& scope = *scopes_[module.id];
@@ -60,10 +59,7 @@ void Analyzer::collect(Module& module) {
         case NodeKind::Alias: {
             const bool record = decl->kind == NodeKind::Record;
             const TokenIndex name = record ? as<RecordDecl>(*decl).name : as<AliasDecl>(*decl).name;
-            if (!isName(name)) {
-                scope.incomplete = incomplete_ = true;
-                break;
-            }
+            if (!isName(name)) break;
             TypeSymbol& symbol =
                 newType(*decl, name, record ? as<RecordDecl>(*decl).local : as<AliasDecl>(*decl).local);
             module.types.push_back(&symbol);
@@ -72,10 +68,7 @@ void Analyzer::collect(Module& module) {
         }
         case NodeKind::Data: {
             const auto& data = as<DataDecl>(*decl);
-            if (!isName(data.name)) {
-                scope.incomplete = incomplete_ = true;
-                break;
-            }
+            if (!isName(data.name)) break;
             DataSymbol& symbol = newData(data);
             symbol.index = static_cast<uint32_t>(module.data.size());
             module.data.push_back(&symbol);
@@ -84,20 +77,14 @@ void Analyzer::collect(Module& module) {
         }
         case NodeKind::Routine: {
             const auto& routine = as<RoutineDecl>(*decl);
-            if (!isName(routine.name)) {
-                scope.incomplete = incomplete_ = true;
-                break;
-            }
+            if (!isName(routine.name)) break;
             RoutineSymbol& symbol = newRoutine(routine);
             module.routines.push_back(&symbol);
             declareInModule(symbol, scope);
             break;
         }
-        case NodeKind::PlaceholderDecl:
-            placeholder(*decl);
-            scope.incomplete = incomplete_ = true;
-            break;
-        default: scope.incomplete = incomplete_ = true; break;
+        case NodeKind::PlaceholderDecl: placeholder(*decl); break;
+        default: break;
         }
     }
 }

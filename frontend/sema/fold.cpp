@@ -63,6 +63,11 @@ void Analyzer::foldUnary(const UnaryExpr& e, ConstValue* slot) {
     out.constant = value;
 }
 
+// A routine with an ERROR handler may well mean it.
+void Analyzer::warnDivision(const BinaryExpr& e) {
+    if (!hasErrorHandler()) report(Code::DivisionByZero, range(e.opToken), {text(e.opToken)});
+}
+
 // False: there is no such value. An error where a constant is demanded; elsewhere it is left to run time.
 bool Analyzer::foldArithmetic(const BinaryExpr& e, double a, double b, bool isDnum, double& out) {
     switch (e.op) {
@@ -71,8 +76,10 @@ bool Analyzer::foldArithmetic(const BinaryExpr& e, double a, double b, bool isDn
     case BinaryOp::Mul: out = a * b; break;
     default: {
         if (b == 0) {
-            report(context_.constant ? Code::ConstantDivision : Code::DivisionByZero, range(e.opToken),
-                   {text(e.opToken)});
+            if (context_.constant)
+                report(Code::ConstantDivision, range(e.opToken), {text(e.opToken)});
+            else
+                warnDivision(e);
             return false;
         }
         if (e.op == BinaryOp::Div) {
@@ -101,8 +108,7 @@ void Analyzer::foldBinary(const BinaryExpr& e) {
     out.constant = nullptr;
     if (!a || !b) {
         const bool divides = e.op == BinaryOp::Div || e.op == BinaryOp::IntDiv || e.op == BinaryOp::Mod;
-        if (divides && b && b->kind == ConstValue::Kind::Number && b->number == 0)
-            report(Code::DivisionByZero, range(e.opToken), {text(e.opToken)});
+        if (divides && b && b->kind == ConstValue::Kind::Number && b->number == 0) warnDivision(e);
         return;
     }
     switch (e.op) {

@@ -7,6 +7,16 @@ namespace rapid::sema {
 
 using namespace syntax;
 
+namespace {
+/// di1, doGrip, gi_part: the usual way to name signals. Only used to word a remedy.
+bool looksLikeSignal(std::string_view name) {
+    static constexpr std::string_view kPrefixes[] = {"di", "do", "gi", "go", "ai", "ao"};
+    for (const std::string_view prefix : kPrefixes)
+        if (name.starts_with(prefix) && name.size() > 2) return true;
+    return false;
+}
+} // namespace
+
 Symbol* Analyzer::lookup(NameId name) const {
     if (context_.routine)
         if (Symbol* found = at(routineNames_, name)) return found;
@@ -22,8 +32,21 @@ Symbol* Analyzer::lookupOutside(NameId name) const {
     return at(predefined_, name);
 }
 
-bool Analyzer::mayReportUnknown() const {
-    return !incomplete_ || context_.module->predefined;
+// After a syntax error a name may be missing because its declaration could not be read: whoever uses it is not to
+// blame. Such a declaration still shows two words in a row, the second of which is the name.
+bool Analyzer::mayReportUnknown(NameId name) {
+    if (incomplete_) return false;
+    if (brokenTrees_.empty()) return true;
+    for (const SyntaxTree* tree : std::exchange(brokenTrees_, {nullptr})) {
+        for (size_t i = 0; tree && i + 1 < tree->tokens.size(); ++i) {
+            const TokenKind before = tree->tokens[i].kind;
+            const bool declares = before == TokenKind::Identifier || before == TokenKind::KwProc ||
+                                  before == TokenKind::KwTrap || before == TokenKind::KwRecord;
+            if (declares && tree->tokens[i + 1].kind == TokenKind::Identifier)
+                maybeDeclared_.insert(interner_.intern(tree->text(static_cast<TokenIndex>(i + 1))));
+        }
+    }
+    return !maybeDeclared_.contains(name);
 }
 
 DataSymbol* Analyzer::configuredObject(NameId name, std::string spelling, const Type* type) {
@@ -52,15 +75,17 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
     const Type* type = handle && handle->kind == TypeKind::SemiValue ? handle : nullptr;
     if (!type && !mecunit && context_.routine) type = signalTypeByUse(name);
     if (!type && !mecunit) {
-        if (mayReportUnknown()) {
+        if (mayReportUnknown(name)) {
             std::string hint = suggestion(name, Wanted::Data);
+            if (hint.empty() && looksLikeSignal(interner_.folded(name)) && !options_.configurationKnown)
+                hint = "; if it is a signal, pass the configuration with --config=EIO.cfg";
             report(Code::UnknownName, range(token), {text(token), std::move(hint)});
         }
         if (context_.routine) declareUnknown(name);
         return nullptr;
     }
     const bool isError = !mecunit && options_.configurationKnown;
-    if (reportedNames_.insert(name).second && mayReportUnknown()) {
+    if (reportedNames_.insert(name).second && mayReportUnknown(name)) {
         const Code code = mecunit   ? Code::MechanicalUnitUnknown
                           : isError ? Code::SignalUndefined
                                     : Code::SignalUnknown;

@@ -78,6 +78,11 @@ template <class T> class NameMap {
     size_t count_ = 0;
 };
 
+/// How many edits may lie between a name and what was probably meant by it.
+inline unsigned suggestionLimit(size_t length) {
+    return length < 6 ? 1 : length < 9 ? 2 : 3;
+}
+
 /// Number of edits (insert, delete, replace, swap of neighbours) between two folded names, at most `limit` + 1.
 unsigned editDistance(std::string_view a, std::string_view b, unsigned limit);
 

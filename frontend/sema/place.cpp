@@ -43,6 +43,10 @@ Place Analyzer::namePlace(const NameExpr& e, const Type* handle) {
         if (data->storage == Storage::Signal) task_->signals.push_back(data);
     }
     ensureData(*data);
+    if (data->optional && !data->isSwitch && data->routine == context_.routine && !presenceOnly_) {
+        OptionalUse& use = optionalUses_[data->index];
+        if (!use.first) use.first = &e;
+    }
     place.root = data;
     result.symbol = data;
     result.type = data->type;

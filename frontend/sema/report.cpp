@@ -85,7 +85,7 @@ std::string Analyzer::suggestion(NameId name, Wanted wanted) {
     if (suggestionsLeft_ == 0) return {};
     --suggestionsLeft_;
     const std::string_view written = interner_.folded(name);
-    unsigned limit = written.size() < 4 ? 1 : written.size() < 8 ? 2 : 3;
+    unsigned limit = suggestionLimit(written.size());
     const Symbol* best = nullptr;
     const auto consider = [&](const Symbol* symbol) {
         if (!symbol || symbol->nameId == name || symbol->name.empty() || !isWanted(*symbol, wanted)) return;
@@ -111,7 +111,7 @@ std::string Analyzer::suggestion(NameId name, Wanted wanted) {
 }
 
 std::string Analyzer::bestComponent(const Type& record, std::string_view name) {
-    unsigned limit = name.size() < 4 ? 1 : 2;
+    unsigned limit = suggestionLimit(name.size());
     const Type::Component* best = nullptr;
     for (const Type::Component& c : record.base()->components) {
         const unsigned distance = editDistance(name, c.name, limit);

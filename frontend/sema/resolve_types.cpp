@@ -36,7 +36,7 @@ const Type* Analyzer::resolveType(TokenIndex token) {
         if (!other) other = lookupOutside(name);
         if (other)
             noteDeclared(report(Code::NotAType, range(token), {text(token), describe(*other)}), *other);
-        else if (mayReportUnknown()) {
+        else if (mayReportUnknown(name)) {
             std::string hint = suggestion(name, Wanted::Type);
             report(Code::UnknownType, range(token), {text(token), std::move(hint)});
         }
@@ -127,7 +127,7 @@ void Analyzer::resolveSignature(RoutineSymbol& symbol) {
 void Analyzer::resolveParameter(RoutineSymbol& routine, const ParamDecl& decl) {
     if (decl.placeholder || !isName(decl.name)) {
         if (decl.placeholder) placeholder(decl);
-        incomplete_ = true;
+        routine.incomplete = true;
         return;
     }
     DataSymbol& symbol = program_.dataSymbols.emplace_back();

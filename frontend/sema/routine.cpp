@@ -16,7 +16,7 @@ void Analyzer::checkRoutine(RoutineSymbol& symbol) {
     context_.routine = &symbol;
     const RoutineDecl& decl = *symbol.routineDecl;
     loopDepth_ = 0;
-    breakSeen_ = returnSeen_ = false;
+    breakSeen_ = returnSeen_ = broken_ = false;
     block_ = kNoBlock;
     blockParents_.clear();
     labels_.clear();
@@ -24,6 +24,7 @@ void Analyzer::checkRoutine(RoutineSymbol& symbol) {
 
     for (DataSymbol* param : symbol.params)
         declareInRoutine(*param);
+    optionalUses_.assign(symbol.params.size(), {});
     const size_t firstOwn = symbol.data.size();
     for (const DataDecl* data : decl.data)
         if (isName(data->name)) declareRoutineData(*data);
@@ -40,7 +41,7 @@ void Analyzer::checkRoutine(RoutineSymbol& symbol) {
         checkPart(Part::Error, clause->body);
     }
     checkPart(Part::Undo, decl.undo);
-    if (decl.routineKind == RoutineKind::Func && completes && !incomplete_) {
+    if (decl.routineKind == RoutineKind::Func && completes && !broken_) {
         if (!returned)
             report(Code::FunctionWithoutReturn, range(decl.name), {symbol.name});
         else
@@ -48,6 +49,7 @@ void Analyzer::checkRoutine(RoutineSymbol& symbol) {
     }
     resolveJumps();
     checkBigLiterals();
+    reportUntestedOptionals();
     for (const NameId name : declaredInRoutine_)
         routineNames_[name] = nullptr;
     declaredInRoutine_.clear();
@@ -119,9 +121,10 @@ void Analyzer::resolveJumps() {
         const JumpPoint* target = byName.find(jump.name);
         if (!target) {
             std::string hint;
+            const std::string_view written = interner_.folded(jump.name);
+            const unsigned limit = suggestionLimit(written.size());
             for (const JumpPoint& label : labels_)
-                if (hint.empty() &&
-                    editDistance(interner_.folded(jump.name), interner_.folded(label.name), 2) <= 2)
+                if (hint.empty() && editDistance(written, interner_.folded(label.name), limit) <= limit)
                     hint = "; did you mean '" + label.label->name + "'?";
             report(Code::UnknownLabel, range(token), {text(token), std::move(hint)});
             continue;
@@ -132,6 +135,20 @@ void Analyzer::resolveJumps() {
             noteDeclared(report(Code::GotoOtherPart, range(token), {text(token)}), *target->label);
         else if (!isInside(jump.block, target->block))
             noteDeclared(report(Code::GotoIntoBlock, range(token), {text(token)}), *target->label);
+    }
+}
+
+// An omitted optional parameter must not be referenced (manual 1.1.5). A routine that never asks Present for it, nor for
+// one that excludes it, cannot know.
+void Analyzer::reportUntestedOptionals() {
+    const std::vector<DataSymbol*>& params = context_.routine->params;
+    if (hasErrorHandler()) return; // it may answer ERR_NOTPRES
+    for (size_t i = 0; i < params.size(); ++i) {
+        if (!optionalUses_[i].first) continue;
+        bool tested = false;
+        for (size_t k = 0; k < params.size(); ++k)
+            tested |= optionalUses_[k].tested && params[k]->group == params[i]->group;
+        if (!tested) report(Code::OptionalWithoutPresent, range(*optionalUses_[i].first), {params[i]->name});
     }
 }
 

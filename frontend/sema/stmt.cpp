@@ -62,7 +62,7 @@ bool Analyzer::statement(const Stmt& s) {
         context_.constant = false;
         return true;
     }
-    case NodeKind::ErrorStmt: incomplete_ = true; return true;
+    case NodeKind::ErrorStmt: broken_ = true; return true;
     default: return true;
     }
 }
@@ -252,7 +252,7 @@ bool Analyzer::callStmt(const CallStmt& s) {
     if (!routine || routine->routineKind != RoutineKind::Proc) {
         if (symbol)
             reportNotCallable(*symbol, s.name);
-        else if (mayReportUnknown()) {
+        else if (mayReportUnknown(name)) {
             std::string hint = suggestion(name, Wanted::Procedure);
             report(Code::UnknownProcedure, range(s.name), {text(s.name), std::move(hint)});
         }

@@ -91,6 +91,7 @@ struct RoutineSymbol : Symbol {
     DataType returnType; ///< functions
     std::vector<DataSymbol*> params;
     std::vector<DataSymbol*> data; ///< all routine data and loop variables
+    bool incomplete = false;       ///< a parameter could not be read: calls are not judged
     bool native = false;           ///< declared without body in stdlib
     bool special = false;          ///< `lower: special`
     bool noStepIn = false;         ///< its module is NOSTEPIN or NOVIEW
