@@ -239,6 +239,7 @@ ir::Routine RoutineLowering::run() {
     inInstructions_ = true;
     lowerList(symbol_.routineDecl->body);
     if (!b_.terminated()) {
+        inInstructions_ = false; // the end is no instruction that RETRY or TRYNEXT could name
         if (symbol_.routineKind == syntax::RoutineKind::Func) {
             startStatement(*symbol_.routineDecl, ir::StmtKind::Return);
             b_.raise(b_.constI32(program_.errorNumber("ERR_FNCNORET")));
