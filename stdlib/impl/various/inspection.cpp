@@ -140,13 +140,6 @@ Status rt_IsSyncMoveOn(TaskCore*, bool* result) {
     return kOk;
 }
 
-/// Tasks cannot interrupt each other inside a native, so this is one indivisible step.
-Status rt_TestAndSet(TaskCore*, bool* result, bool* Object) {
-    *result = !*Object;
-    *Object = true;
-    return kOk;
-}
-
 Status rt_ModExist(TaskCore* task, bool* result, const String* ModuleName) {
     const Task& owner = taskOf(task);
     const ProgramDesc& program = owner.controller().program();
