@@ -30,13 +30,17 @@ ExitStatus printProblems(const std::vector<CfgProblem>& problems) {
     return problems.front().line == 0 ? ExitStatus::BadUsage : ExitStatus::BadProgram;
 }
 
-bool signalTypeOf(const char* kind, SignalType& type) {
+std::string textOf(const char* text) {
+    return text != nullptr ? text : "";
+}
+
+bool signalTypeOf(const std::string& kind, SignalType& type) {
     static constexpr std::pair<const char*, SignalType> kKinds[] = {
         {"signaldi", SignalType::DI}, {"signaldo", SignalType::DO}, {"signalai", SignalType::AI},
         {"signalao", SignalType::AO}, {"signalgi", SignalType::GI}, {"signalgo", SignalType::GO},
     };
-    for (const auto& [name, value] : kKinds) {
-        if (!sameName(kind, name)) continue;
+    for (const auto& [word, value] : kKinds) {
+        if (!sameName(kind, word)) continue;
         type = value;
         return true;
     }
@@ -208,40 +212,45 @@ bool Controller::connectExternals(const ProgramDesc& program) {
 }
 
 bool Controller::connectExternal(const ExternalDesc& external) {
+    const std::string kind = textOf(external.kind), name = textOf(external.name);
     const auto fail = [&external](const std::string& message) {
-        fmt::print(stderr, "{}:{}:{}: error: {}\n", external.file, external.line, external.column, message);
+        const std::string file = textOf(external.file);
+        if (file.empty())
+            print(message);
+        else
+            fmt::print(stderr, "{}:{}:{}: error: {}\n", file, external.line, external.column, message);
         return false;
     };
     SignalType type{};
-    if (signalTypeOf(external.kind, type)) {
-        const SignalId id = io_.find(external.name);
+    if (signalTypeOf(kind, type)) {
+        const SignalId id = io_.find(name);
         if (id < 0) {
             return fail(fmt::format(
                 "signal '{}' ({}) is not defined; define it in an EIO configuration file "
                 "(EIO_SIGNAL: -Name \"{}\" -SignalType \"{}\") and pass it with --config=FILE.cfg",
-                external.name, external.kind, external.name, signalTypeName(type)));
+                name, kind, name, signalTypeName(type)));
         }
         const SignalConfig& config = io_.config(id);
         if (config.type != type) {
             return fail(fmt::format(
-                "signal '{}' is used as {} but configured as {} in {}:{}; change one of the two",
-                external.name, signalTypeName(type), signalTypeName(config.type), config.file, config.line));
+                "signal '{}' is used as {} but configured as {} in {}:{}; change one of the two", name,
+                signalTypeName(type), signalTypeName(config.type), config.file, config.line));
         }
         *external.slot = IoSystem::handleOf(id);
         return true;
     }
-    if (sameName(external.kind, "mecunit") && sameName(external.name, motion_->unitName())) {
+    if (sameName(kind, "mecunit") && sameName(name, motion_->unitName())) {
         *external.slot = 1;
         return true;
     }
-    if (sameName(external.kind, "taskid")) { // predefined for each task as <name>Id
+    if (sameName(kind, "taskid")) { // predefined for each task as <name>Id
         for (uint32_t i = 0; i < program_->taskCount; ++i) {
-            if (!sameName(external.name, std::string(program_->tasks[i].name) + "Id")) continue;
+            if (!sameName(name, std::string(program_->tasks[i].name) + "Id")) continue;
             *external.slot = static_cast<Handle>(i) + 1;
             return true;
         }
     }
-    return fail(fmt::format("'{}' ({}) is not configured on this controller", external.name, external.kind));
+    return fail(fmt::format("'{}' ({}) is not configured on this controller", name, kind));
 }
 
 } // namespace rt

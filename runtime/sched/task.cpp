@@ -237,7 +237,7 @@ Status Task::safepoint(Frame* at) {
 
 Status Task::requestExit() {
     if (unwinding_ != Unwind::None) {
-        if (unwinding_ != Unwind::Abandon) host_.log().write(EventId::UndoSkipped, this, {"EXIT"});
+        if (unwinding_ != Unwind::Abandon) host_.log().write(EventId::UndoSkipped, this, {"EXIT was executed."});
         undoAborted_ = true;
         return kUnwindSilent;
     }
@@ -277,7 +277,7 @@ Status Task::suspendStopped() {
 void Task::stop(StopCause cause) {
     if (state_ == TaskState::Finished || isStopped()) return;
     if (unwinding_ != Unwind::None && unwinding_ != Unwind::Abandon) {
-        host_.log().write(EventId::UndoSkipped, this, {"Program stop"});
+        host_.log().write(EventId::UndoSkipped, this, {"The program was stopped."});
         undoAborted_ = true;
     }
     stopCause_ = cause;

@@ -61,7 +61,7 @@ void TraceWriter::sample(Time time, std::string_view unit, const motion::MotionS
         if (motion::isConnected(axis))
             appendFixed(line, axis, 6);
         else
-            line += ',';
+            line += ",9E+09"; // as RAPID writes an axis that is not there
     }
     for (const double length : {state.tcp.pos.x, state.tcp.pos.y, state.tcp.pos.z})
         appendFixed(line, length, 6);

@@ -45,6 +45,7 @@ std::vector<Row> rows(const std::string& text) {
             values.push_back(field);
         REQUIRE(values.size() == 23);
         CHECK(values[1] == "ROB_1");
+        CHECK(values[8] == "9E+09"); // no external axis
         result.push_back(
             {std::stod(values[0]), std::stod(values[2]), std::stod(values[21]), std::stoi(values[22])});
     }
