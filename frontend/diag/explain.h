@@ -22,8 +22,13 @@ struct Explanation {
     std::string_view right;   ///< causes none
 };
 
-/// Explanations of the 1xxx codes, ascending.
+/// Explanations of the 1xxx codes, ascending; those of the parser, and so on as in diagnostics.def.
 std::span<const Explanation> explanations1xxx();
+std::span<const Explanation> explanations2xxx();
+std::span<const Explanation> explanations3xxx();
+std::span<const Explanation> explanations4xxx();
+std::span<const Explanation> explanations5xxx();
+std::span<const Explanation> explanations6xxx();
 
 /// Null when there is none for the code.
 const Explanation* findExplanation(uint16_t number);

@@ -1,0 +1,52 @@
+// Explanations of the checker's diagnostics: one for each code, and their examples do what they say.
+
+#include "sema_testing.h"
+
+#include "frontend/diag/catalogue.h"
+#include "frontend/diag/explain.h"
+
+#include <catch2/catch.hpp>
+
+namespace {
+
+using namespace rapid;
+
+std::string whole(const diag::Explanation& e, std::string_view example) {
+    const std::string text(example);
+    switch (e.kind) {
+    case diag::ExampleKind::File: return text + "\n";
+    case diag::ExampleKind::Module: return "MODULE m\n" + text + "\nENDMODULE\n";
+    case diag::ExampleKind::Body: return "MODULE m\nPROC main()\n" + text + "\nENDPROC\nENDMODULE\n";
+    }
+    return text;
+}
+
+void checkExamples(std::span<const diag::Explanation> explanations) {
+    for (const diag::Explanation& e : explanations) {
+        INFO(e.number << "\nwrong: " << e.wrong << "\nright: " << e.right);
+        CHECK(diag::findEntry(e.number) != nullptr);
+        CHECK(sema::testing::checkTexts({whole(e, e.right)})->messages() == std::vector<std::string>{});
+        if (e.wrong.empty()) continue;
+        const auto wrong = sema::testing::checkTexts({whole(e, e.wrong)});
+        REQUIRE(wrong->sink.all().size() == 1);
+        CHECK(static_cast<int>(wrong->sink.all()[0].code) == e.number);
+    }
+}
+
+} // namespace
+
+TEST_CASE("every code of the checker is explained", "[sema][diag]") {
+    for (const diag::CatalogueEntry& entry : diag::catalogue()) {
+        if (entry.number < 2000 || entry.number >= 6040) continue;
+        INFO(entry.number);
+        CHECK(diag::findExplanation(entry.number) != nullptr);
+    }
+}
+
+TEST_CASE("wrong examples of the checker cause their diagnostic, right ones none", "[sema][diag]") {
+    checkExamples(diag::explanations2xxx());
+    checkExamples(diag::explanations3xxx());
+    checkExamples(diag::explanations4xxx());
+    checkExamples(diag::explanations5xxx());
+    checkExamples(diag::explanations6xxx());
+}
