@@ -41,6 +41,28 @@ size_t rankOf(std::string_view character, const Characters& order) {
                                 : order.size() + lib::codePoint(character);
 }
 
+/// Not found: the length plus 1.
+float offsetToPosition(size_t offset, size_t length) {
+    return static_cast<float>(offset < length ? offset + 1 : length + 1);
+}
+
+/// StrFind where positions are offsets.
+Status findAscii(TaskCore* task, float* result, const String& text, float from, const String& set,
+                 bool notInSet) {
+    const std::string_view bytes = text.view();
+    size_t position = 0;
+    if (!readPosition(from, 1, std::max<size_t>(bytes.size(), 1), position))
+        return badPosition(task, from, bytes.size());
+    bool listed[128] = {};
+    for (const char character : set.view())
+        listed[static_cast<uint8_t>(character)] = true;
+    size_t offset = position - 1;
+    while (offset < bytes.size() && listed[static_cast<uint8_t>(bytes[offset])] == notInSet)
+        ++offset;
+    *result = offsetToPosition(offset, bytes.size());
+    return kOk;
+}
+
 } // namespace
 
 extern "C" {
@@ -56,13 +78,19 @@ Status rt_StrSize(TaskCore*, float* result, const String* Str) {
 }
 
 Status rt_StrPart(TaskCore* task, String* result, const String* Str, float ChPos, float Len) {
-    const Characters text = lib::characters(Str->view());
+    const std::string_view bytes = Str->view();
+    const size_t length = lib::characterCount(bytes);
     size_t first = 0;
     size_t count = 0;
-    if (!readPosition(ChPos, 1, text.size(), first)) return badPosition(task, ChPos, text.size());
-    if (!readPosition(Len, 0, text.size() - first + 1, count))
+    if (!readPosition(ChPos, 1, length, first)) return badPosition(task, ChPos, length);
+    if (!readPosition(Len, 0, length - first + 1, count))
         return lib::fail(task, err::ERR_ARGVALERR,
                          "the part is negative or reaches beyond the end of the string");
+    if (length == bytes.size()) {
+        result->assign(bytes.substr(first - 1, count));
+        return kOk;
+    }
+    const Characters text = lib::characters(bytes);
     std::string part;
     for (size_t i = 0; i < count; ++i)
         part += text[first - 1 + i];
@@ -80,6 +108,8 @@ Status rt_StrMemb(TaskCore* task, bool* result, const String* Str, float ChPos, 
 
 Status rt_StrFind(TaskCore* task, float* result, const String* Str, float ChPos, const String* Set,
                   bool NotInSet) {
+    if (lib::isAscii(Str->view()) && lib::isAscii(Set->view()))
+        return findAscii(task, result, *Str, ChPos, *Set, NotInSet);
     const Characters text = lib::characters(Str->view());
     const Characters set = lib::characters(Set->view());
     size_t position = 0;
@@ -94,8 +124,14 @@ Status rt_StrFind(TaskCore* task, float* result, const String* Str, float ChPos,
 
 Status rt_StrMatch(TaskCore* task, float* result, const String* Str, float ChPos, const String* Pattern) {
     const std::string_view bytes = Str->view();
-    const Characters text = lib::characters(bytes);
     size_t position = 0;
+    if (lib::isAscii(bytes)) {
+        if (!readPosition(ChPos, 1, std::max<size_t>(bytes.size(), 1), position))
+            return badPosition(task, ChPos, bytes.size());
+        *result = offsetToPosition(bytes.find(Pattern->view(), position - 1), bytes.size());
+        return kOk;
+    }
+    const Characters text = lib::characters(bytes);
     if (!readPosition(ChPos, 1, std::max<size_t>(text.size(), 1), position))
         return badPosition(task, ChPos, text.size());
     for (; position <= text.size(); ++position) {

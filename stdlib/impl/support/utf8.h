@@ -13,6 +13,8 @@ namespace rt::lib {
 
 /// Bytes of the character that `text` begins with; 0 for an empty text.
 size_t characterSize(std::string_view text);
+/// True when every byte is a character of its own (no byte above 0x7F): positions are offsets then.
+bool isAscii(std::string_view text);
 /// Number of characters.
 size_t characterCount(std::string_view text);
 /// The characters one by one, views into `text`.
