@@ -90,7 +90,8 @@ ExitStatus Controller::run() {
     return finish(scheduler_.run([this] { return runOver(); }));
 }
 
-bool Controller::runOver() const {
+bool Controller::runOver() {
+    systemSignals_.update();
     for (const auto& task : tasks_) {
         if (!isNormal(task) || task->state() == TaskState::Finished) continue;
         const bool stoppedForGood = task->isStopped() && !task->isUnwinding() && !startToCome();
@@ -230,13 +231,19 @@ void Controller::scheduleStimulus() {
     std::size_t answers = 0;
     for (const StimulusItem& item : stimulus_) {
         answers += item.kind == StimulusKind::Answer ? 1 : 0;
-        startsToCome_ += item.kind == StimulusKind::Start ? 1 : 0;
+        startsToCome_ += isStart(item) ? 1 : 0;
         scheduler_.at(item.time, [this, &item] { perform(item); });
     }
     panel_.setAnswersToCome(answers);
 }
 
+bool Controller::isStart(const StimulusItem& item) const {
+    if (item.kind != StimulusKind::Signal) return item.kind == StimulusKind::Start;
+    return item.value != 0 && systemSignals_.isStart(io_.find(item.target));
+}
+
 void Controller::perform(const StimulusItem& item) {
+    if (isStart(item)) --startsToCome_;
     switch (item.kind) {
     case StimulusKind::Signal:
         if (io_.force(io_.find(item.target), item.value) != IoResult::Ok) {
@@ -246,10 +253,7 @@ void Controller::perform(const StimulusItem& item) {
         return;
     case StimulusKind::Answer: panel_.answerCame(item.text); return;
     case StimulusKind::Stop: actionStop(); return;
-    case StimulusKind::Start:
-        --startsToCome_;
-        actionStart();
-        return;
+    case StimulusKind::Start: actionStart(); return;
     case StimulusKind::PpToMain: actionPpToMain(); return;
     case StimulusKind::StepForward: actionStep(true); return;
     case StimulusKind::StepBackward: actionStep(false); return;

@@ -8,6 +8,7 @@
 #include "runtime/host/home_folder.h"
 #include "runtime/host/motion_driver.h"
 #include "runtime/host/run_options.h"
+#include "runtime/host/system_signals.h"
 #include "runtime/io/cfg_parser.h"
 #include "runtime/io/io_system.h"
 #include "runtime/log/event_log.h"
@@ -94,6 +95,9 @@ class Controller final : public TaskHost {
     void actionPpToMain();
     void actionStep(bool forward);
 
+    /// A NORMAL task was stopped by an error, or a background task brought the system down.
+    bool stoppedByError() const;
+
     // ---- TaskHost ----------------------------------------------------------------------------------------------
     bool cyclesLeft(const Task& task) const override;
     /// The stimulus has a `start` ahead.
@@ -115,8 +119,8 @@ class Controller final : public TaskHost {
     void makeTasks(const ProgramDesc& program);
     void scheduleStimulus();
     void perform(const StimulusItem& item);
-    bool runOver() const;
-    bool stoppedByError() const;
+    bool runOver();
+    bool isStart(const StimulusItem& item) const;
     ExitStatus finish(RunEnd end);
     std::string trustLevel(const Task& task) const;
     /// All instances of a type in the files of a domain, in order.
@@ -126,6 +130,7 @@ class Controller final : public TaskHost {
     EventLog log_;
     Scheduler scheduler_;
     IoSystem io_;
+    SystemSignals systemSignals_{*this};
     OperatorPanel panel_{*this};
     HomeFolder home_;
     std::unique_ptr<MotionDriver> motion_;

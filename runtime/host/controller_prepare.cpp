@@ -20,14 +20,15 @@ void print(const std::string& message) {
 }
 
 ExitStatus printProblems(const std::vector<CfgProblem>& problems) {
+    ExitStatus status = ExitStatus::Ended;
     for (const CfgProblem& problem : problems) {
-        if (problem.line == 0)
-            fmt::print(stderr, "{}: error: {}\n", problem.file, problem.message);
-        else
-            fmt::print(stderr, "{}:{}: error: {}\n", problem.file, problem.line, problem.message);
+        const std::string place = problem.line == 0 ? "" : fmt::format(":{}", problem.line);
+        fmt::print(stderr, "{}{}: {}: {}\n", problem.file, place, problem.warning ? "warning" : "error",
+                   problem.message);
+        if (problem.warning || status != ExitStatus::Ended) continue;
+        status = problem.line == 0 ? ExitStatus::BadUsage : ExitStatus::BadProgram;
     }
-    if (problems.empty()) return ExitStatus::Ended;
-    return problems.front().line == 0 ? ExitStatus::BadUsage : ExitStatus::BadProgram;
+    return status;
 }
 
 std::string textOf(const char* text) {
@@ -73,6 +74,8 @@ ExitStatus Controller::readConfiguration(const ProgramDesc& program) {
     for (const CfgFile& file : configuration_)
         io_.configure(file, problems);
     io_.finishConfiguration(problems);
+    for (const CfgFile& file : configuration_)
+        systemSignals_.configure(file, problems);
     applySystemParameters();
     return printProblems(problems);
 }

@@ -59,6 +59,7 @@ class MotionDriver {
     void setTrace(TraceWriter* trace) { trace_ = trace; }
     /// Nothing left to do: idle, or held by a stop and standing still.
     bool isSettled() const;
+    bool isMoving() const { return system_.isMoving(); }
     /// Samples up to the present are written.
     void finishTrace();
 

@@ -55,6 +55,7 @@ struct CfgProblem {
     std::string file;
     uint32_t line = 0; ///< from 1
     std::string message;
+    bool warning = false;     ///< what it concerns is left out, the rest works (a signal of an add-in, say)
     std::string text() const; ///< "EIO.cfg:12: ..."
 };
 

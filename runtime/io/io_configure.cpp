@@ -167,6 +167,7 @@ SignalId IoSystem::crossSignal(const PendingConnection& pending, const std::stri
         problem(name.empty()
                     ? fmt::format("cross connection without -{}", attribute)
                     : fmt::format("cross connection: signal {} is not defined; add it to EIO_SIGNAL", name));
+        problems.back().warning = !name.empty(); // signals of add-ins are not part of a backup
         return -1;
     }
     if (isAnalog(config(id).type)) {

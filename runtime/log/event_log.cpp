@@ -40,8 +40,8 @@ nlohmann::ordered_json jsonOf(const SourcePlace& place) {
 std::string placeText(const SourcePlace& place) {
     std::string text = place.module;
     if (place.line != 0) text += fmt::format(":{}", place.line);
-    if (!place.routine.empty()) text += fmt::format(" in {}", place.routine);
-    return text;
+    if (place.routine.empty()) return text;
+    return text.empty() ? place.routine : fmt::format("{} in {}", text, place.routine);
 }
 
 } // namespace

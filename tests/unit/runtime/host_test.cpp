@@ -381,3 +381,28 @@ TEST_CASE("clocks count virtual time while they run", "[host]") {
     clocks.at(other);
     CHECK(other != variable); // never given out again
 }
+
+TEST_CASE("system signals give orders and show states", "[host]") {
+    const TempFolder folder;
+    const std::string plus =
+        "      -Name \"diStop\" -SignalType \"DI\"\n\n      -Name \"diStart\" -SignalType \"DI\"\n\n"
+        "      -Name \"doRun\" -SignalType \"DO\"\n#\n\nSYSSIG_IN:\n\n"
+        "      -Signal \"diStop\" -Action \"Stop\"\n\n"
+        "      -Signal \"diStart\" -Action \"Start\" -Arg1 \"CONT\"\n\n"
+        "      -Signal \"diAddIn\" -Action \"Stop\"\n#\n\nSYSSIG_OUT:\n\n"
+        "      -Status \"CycleOn\" -Signal \"doRun\"\n";
+    Run run;
+    run.options.configFiles = {folder.write("EIO.cfg", kSignals + std::string("\n") + plus)};
+    run.options.stimulus = folder.write("s.csv", "1,diStop,1\n3,diStart,1\n");
+    run.options.signals = folder.file("signals.csv");
+    run.task("T", [](TaskCore* core, Frame*) -> Status {
+        if (const Status status = taskOf(core).sleepFor(2 * kSecond)) return status;
+        CHECK(taskOf(core).now() == 3 * kSecond);
+        return taskOf(core).stopHere(); // no start to come any more
+    });
+    CHECK(run.run() == ExitStatus::Ended);
+    run.controller.reset();
+    CHECK(folder.read("signals.csv") ==
+          "time_s,signal,value\n0.000000,doRun,1\n1.000000,diStop,1\n1.000000,doRun,0\n"
+          "3.000000,diStart,1\n3.000000,doRun,1\n3.000000,doRun,0\n");
+}

@@ -173,6 +173,7 @@ TEST_CASE("wrong cross connections are refused with place", "[io]") {
     CHECK(bench.problems[0].line == 19);
     CHECK_THAT(bench.problems[1].text(), Contains("analog"));
     CHECK_THAT(bench.problems[2].text(), Contains("nowhere"));
+    CHECK(bench.problems[2].warning); // may belong to an add-in
     CHECK_THAT(bench.problems[3].text(), Contains("XOR"));
 }
 

@@ -1,0 +1,115 @@
+#include "runtime/host/system_signals.h"
+
+#include "runtime/host/controller.h"
+#include "runtime/io/text_util.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace rt {
+namespace {
+
+/// Looks a word of the configuration up; the first entry of the enumeration when it is not in the table.
+template <class T, std::size_t N>
+T lookUp(const std::pair<const char*, T> (&table)[N], std::string_view word) {
+    for (const auto& [name, value] : table) {
+        if (sameName(name, word)) return value;
+    }
+    return T{};
+}
+
+} // namespace
+
+void SystemSignals::configure(const CfgFile& file, std::vector<CfgProblem>& problems) {
+    static constexpr std::pair<const char*, Order> kOrders[] = {
+        {"Start", Order::Start},       {"StartMain", Order::StartMain}, {"Stop", Order::Stop},
+        {"QuickStop", Order::Stop},    {"SoftStop", Order::Stop},       {"StopInstr", Order::Stop},
+        {"PPtoMain", Order::PpToMain},
+    };
+    static constexpr std::pair<const char*, State> kStates[] = {
+        {"CycleOn", State::CycleOn},
+        {"TaskExecuting", State::TaskExecuting},
+        {"MechUnitNotMoving", State::NotMoving},
+        {"Error", State::Error},
+        {"ExecutionError", State::Error},
+        {"AutoOn", State::On},
+        {"MotorOn", State::On},
+        {"MotOnState", State::On},
+        {"RunchOk", State::On},
+    };
+    const auto signalOf = [&](const CfgInstance& instance) {
+        const std::string name = instance.text("Signal");
+        const SignalId id = controller_.io().find(name);
+        if (id < 0) {
+            problems.push_back(
+                {file.name, instance.line,
+                 fmt::format("system signal: signal '{}' is not defined; add it to EIO_SIGNAL", name), true});
+        }
+        return id;
+    };
+    for (const CfgSection* section : file.find("SYSSIG_IN")) {
+        for (const CfgInstance& instance : section->instances) {
+            const Input input{signalOf(instance), lookUp(kOrders, instance.text("Action"))};
+            if (input.signal < 0 || input.order == Order::None) continue;
+            inputs_.push_back(input);
+            controller_.io().addListener(input.signal, [this, input](SignalId, double, double value) {
+                // From the scheduler, since a task may have caused the change by a cross connection.
+                if (value != 0) controller_.scheduler().after(0, [this, input] { carryOut(input.order); });
+            });
+        }
+    }
+    for (const CfgSection* section : file.find("SYSSIG_OUT")) {
+        for (const CfgInstance& instance : section->instances) {
+            Output output{signalOf(instance), lookUp(kStates, instance.text("Status")),
+                          instance.text("Arg2")};
+            if (output.signal >= 0 && output.state != State::None) outputs_.push_back(std::move(output));
+        }
+    }
+}
+
+bool SystemSignals::isStart(SignalId signal) const {
+    return std::any_of(inputs_.begin(), inputs_.end(), [signal](const Input& input) {
+        return input.signal == signal && (input.order == Order::Start || input.order == Order::StartMain);
+    });
+}
+
+void SystemSignals::carryOut(Order order) {
+    switch (order) {
+    case Order::None: return;
+    case Order::Stop: controller_.actionStop(); return;
+    case Order::Start: controller_.actionStart(); return;
+    case Order::PpToMain: controller_.actionPpToMain(); return;
+    case Order::StartMain:
+        controller_.actionPpToMain();
+        controller_.actionStart();
+        return;
+    }
+}
+
+double SystemSignals::stateValue(const Output& output) const {
+    const auto executing = [](const std::unique_ptr<Task>& task) {
+        return task->kind() == TaskKind::Normal && task->isExecuting();
+    };
+    const auto& tasks = controller_.tasks();
+    switch (output.state) {
+    case State::CycleOn: return std::any_of(tasks.begin(), tasks.end(), executing) ? 1 : 0;
+    case State::TaskExecuting: {
+        const Task* task = controller_.findTask(output.task);
+        return task != nullptr && task->isExecuting() ? 1 : 0;
+    }
+    case State::NotMoving: return controller_.motion().isMoving() ? 0 : 1;
+    case State::Error: return controller_.stoppedByError() ? 1 : 0;
+    case State::None:
+    case State::On: break;
+    }
+    return 1;
+}
+
+void SystemSignals::update() {
+    for (const Output& output : outputs_)
+        (void)controller_.io().force(output.signal, stateValue(output));
+}
+
+} // namespace rt
