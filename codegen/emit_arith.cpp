@@ -106,6 +106,9 @@ llvm::Value* RoutineEmitter::conversion(const ir::Inst& inst) {
     Value* a = operand(inst, 0);
     llvm::Type* to = m_.valueType(inst.type);
     switch (inst.op) {
+    case Op::F32ToIndex:
+    case Op::F64ToIndex: // out of range: arbitrary, but one and the same value
+        return b_.CreateFreeze(b_.CreateFPToSI(a, to));
     case Op::F32ToI32:
     case Op::F64ToI32:
     case Op::F32ToI64:

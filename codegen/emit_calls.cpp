@@ -130,7 +130,7 @@ void RoutineEmitter::safepoint(const ir::Inst& inst) {
         b_.CreateCall(m_.runtime().safepointSlow, {task_, frame_, caller_, desc_, stmtNumber(inst)});
     status->setCallingConv(llvm::CallingConv::PreserveAll);
     ErrorJoin& leave = leaveJoin();
-    BasicBlock* target = joinFrom(leave, inst, status);
+    BasicBlock* target = joinFrom(leave, status);
     b_.CreateCondBr(b_.CreateICmpEQ(status, b_.getInt32(rt::kOk)), go, target, m_.unlikely());
     b_.SetInsertPoint(go);
     storedStmt_.reset(); // the slow path stores its own

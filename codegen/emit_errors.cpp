@@ -1,5 +1,5 @@
-// Errors: cold blocks shared by all places of the routine. A place that fails jumps there with its statement and the
-// number; phi nodes carry both, so that a check costs one compare and one branch.
+// Errors: cold blocks shared by all places of the routine. Whoever jumps there has stored its statement in the frame
+// record; a phi node carries the number. A check costs one compare and one branch.
 
 #include "codegen/routine_emitter.h"
 #include "runtime/abi/rt_abi.h"
@@ -15,7 +15,6 @@ RoutineEmitter::ErrorJoin& RoutineEmitter::makeJoin(ErrorJoin& join, const char*
     if (join.block) return join;
     join.block = newBlock(name);
     llvm::IRBuilder<> b(join.block);
-    join.stmt = b.CreatePHI(b.getInt32Ty(), 4, "stmt");
     join.number = b.CreatePHI(b.getInt32Ty(), 4, "number");
     return join;
 }
@@ -36,8 +35,7 @@ RoutineEmitter::ErrorJoin& RoutineEmitter::leaveJoin() {
 }
 
 /// Adds the current block as a way into `join`; the caller branches to the block returned.
-llvm::BasicBlock* RoutineEmitter::joinFrom(ErrorJoin& join, const ir::Inst& inst, Value* number) {
-    join.stmt->addIncoming(stmtNumber(inst), b_.GetInsertBlock());
+llvm::BasicBlock* RoutineEmitter::joinFrom(ErrorJoin& join, Value* number) {
     join.number->addIncoming(number, b_.GetInsertBlock());
     return join.block;
 }
@@ -45,9 +43,14 @@ llvm::BasicBlock* RoutineEmitter::joinFrom(ErrorJoin& join, const ir::Inst& inst
 void RoutineEmitter::check(const ir::Inst& inst) {
     Value* condition = operand(inst, 0);
     BasicBlock* ok = newBlock("ok");
-    BasicBlock* fail =
-        joinFrom(raiseJoin(isHandled(inst)), inst, b_.getInt32(static_cast<uint32_t>(inst.extra)));
-    b_.CreateCondBr(condition, ok, fail, m_.unlikely());
+    BasicBlock*& fail = failedChecks_[{inst.stmt, inst.extra}];
+    BasicBlock* target = fail ? fail : fail = newBlock("fail");
+    b_.CreateCondBr(condition, ok, target, m_.unlikely());
+    if (target->empty()) {
+        b_.SetInsertPoint(target);
+        storeStatement(stmtNumber(inst));
+        b_.CreateBr(joinFrom(raiseJoin(isHandled(inst)), b_.getInt32(static_cast<uint32_t>(inst.extra))));
+    }
     b_.SetInsertPoint(ok);
 }
 
@@ -56,7 +59,8 @@ void RoutineEmitter::raise(const ir::Inst& inst) {
     if (number->getType()->isFloatTy())
         number =
             b_.CreateIntrinsic(llvm::Intrinsic::fptosi_sat, {b_.getInt32Ty(), number->getType()}, {number});
-    b_.CreateBr(joinFrom(raiseJoin(isHandled(inst)), inst, number));
+    storeStatement(stmtNumber(inst));
+    b_.CreateBr(joinFrom(raiseJoin(isHandled(inst)), number));
 }
 
 /// Goes on when `status` is 0. A routine that was called has raised its error itself; a native only reports it.
@@ -67,7 +71,7 @@ void RoutineEmitter::continueIfOk(const ir::Inst& inst, Value* status, bool call
         join = &nativeJoin(isHandled(inst));
     else
         join = isHandled(inst) && !inUndo() ? &dispatchJoin() : &leaveJoin();
-    BasicBlock* fail = joinFrom(*join, inst, status);
+    BasicBlock* fail = joinFrom(*join, status);
     b_.CreateCondBr(b_.CreateICmpEQ(status, b_.getInt32(rt::kOk)), ok, fail, m_.unlikely());
     b_.SetInsertPoint(ok);
 }
@@ -76,14 +80,14 @@ void RoutineEmitter::continueIfOk(const ir::Inst& inst, Value* status, bool call
 void RoutineEmitter::handlerCall(const ir::Inst& inst, llvm::FunctionCallee callee) {
     storeStatement(stmtNumber(inst));
     Value* status = b_.CreateCall(callee, {task_, frame_});
-    b_.CreateBr(joinFrom(leaveJoin(), inst, status));
+    b_.CreateBr(joinFrom(leaveJoin(), status));
 }
 
 void RoutineEmitter::retry(const ir::Inst& inst) {
     storeStatement(stmtNumber(inst));
     Value* status = b_.CreateCall(m_.runtime().retry, {task_, frame_});
     BasicBlock* again = newBlock("retry");
-    BasicBlock* fail = joinFrom(leaveJoin(), inst, status);
+    BasicBlock* fail = joinFrom(leaveJoin(), status);
     b_.CreateCondBr(b_.CreateICmpEQ(status, b_.getInt32(rt::kOk)), again, fail, m_.unlikely());
     b_.SetInsertPoint(again);
     resumeSwitch(&ir::Statement::start);
@@ -125,24 +129,20 @@ void RoutineEmitter::emitErrorBlocks() {
 
 void RoutineEmitter::emitNative(ErrorJoin& join, ErrorJoin& raising, ErrorJoin& leaving) {
     b_.SetInsertPoint(join.block);
-    for (ErrorJoin* next : {&raising, &leaving}) {
-        next->stmt->addIncoming(join.stmt, join.block);
+    for (ErrorJoin* next : {&raising, &leaving})
         next->number->addIncoming(join.number, join.block);
-    }
     b_.CreateCondBr(b_.CreateICmpSGT(join.number, b_.getInt32(0)), raising.block, leaving.block);
 }
 
 void RoutineEmitter::emitRaise(ErrorJoin& join, bool handled) {
     b_.SetInsertPoint(join.block);
     if (!frameInPrologue_) fillFrame(); // it may not have been filled on the way here
-    storeStatement(join.stmt);
     Value* status = b_.CreateCall(m_.runtime().raise, {task_, frame_, join.number});
     if (&join == &raiseUndo_) {
         returnFromUndo(status);
         return;
     }
     ErrorJoin& next = handled ? dispatchJoin() : leaveJoin();
-    next.stmt->addIncoming(join.stmt, join.block);
     next.number->addIncoming(status, join.block);
     b_.CreateBr(next.block);
 }
@@ -156,16 +156,15 @@ void RoutineEmitter::returnFromUndo(Value* status) {
 /// An error on its way meets this routine's handler: notes the statement, and takes the error if the filter lets it.
 void RoutineEmitter::emitDispatch() {
     b_.SetInsertPoint(dispatch_.block);
-    b_.CreateStore(dispatch_.stmt, failed_);
+    Value* stmt = b_.CreateStructGEP(m_.runtime().frame, frame_, 2);
+    b_.CreateStore(b_.CreateLoad(b_.getInt32Ty(), stmt), failed_);
     ErrorJoin& leaving = leaveJoin();
     BasicBlock* handler = blockOf(routine_.errorHandler);
     if (routine_.errorFilter.empty()) {
-        leaving.stmt->addIncoming(dispatch_.stmt, dispatch_.block);
         leaving.number->addIncoming(dispatch_.number, dispatch_.block);
         b_.CreateCondBr(b_.CreateICmpSGT(dispatch_.number, b_.getInt32(0)), handler, leaving.block);
         return;
     }
-    leaving.stmt->addIncoming(dispatch_.stmt, dispatch_.block);
     leaving.number->addIncoming(dispatch_.number, dispatch_.block);
     auto* filter = b_.CreateSwitch(dispatch_.number, leaving.block);
     for (int32_t number : routine_.errorFilter) {

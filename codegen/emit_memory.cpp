@@ -104,7 +104,7 @@ llvm::Value* RoutineEmitter::stackAlloc(const ir::Inst& inst) {
     fillFrame();
     storeStatement(stmtNumber(inst));
     Value* status = b_.CreateCall(m_.runtime().stackOverflow, {task_, frame_});
-    b_.CreateBr(joinFrom(leaveJoin(), inst, status));
+    b_.CreateBr(joinFrom(leaveJoin(), status));
     b_.SetInsertPoint(fits);
     auto* memory = b_.CreateAlloca(b_.getInt8Ty(), bytes);
     memory->setAlignment(llvm::Align(8));

@@ -17,6 +17,10 @@ std::string internalName(const std::string& name) {
     return name.find_first_of("/$") == std::string::npos ? name + "$" : name;
 }
 
+/// Instructions of the IR. LLVM inlines whatever is called only once, which makes one huge function of a typical program;
+/// a call costs next to nothing beside a body of this size.
+constexpr size_t kLargestInlined = 150;
+
 constexpr unsigned kErrorsAreCold = 2000; // usual : error, in branch weights
 
 void putBytes(std::string& image, size_t at, const void* source, size_t count) {
@@ -230,6 +234,7 @@ void ModuleEmitter::declareRoutines() {
         function->setCallingConv(llvm::CallingConv::Fast);
         function->setDoesNotThrow();
         function->addFnAttr(llvm::Attribute::MustProgress);
+        if (routine.insts.size() > kLargestInlined) function->addFnAttr(llvm::Attribute::NoInline);
         function->addParamAttr(0, llvm::Attribute::NoAlias);
         function->addParamAttr(0, llvm::Attribute::NonNull);
         function->addDereferenceableParamAttr(0, sizeof(rt::TaskCore));

@@ -3,6 +3,7 @@
 
 #include <llvm/IR/IRBuilder.h>
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -71,15 +72,15 @@ class RoutineEmitter {
     Value* stmtNumber(const ir::Inst& inst) const;
 
     // emit_errors.cpp
-    /// A cold block that several places jump to with their own statement and number.
+    /// A cold block that several places jump to, each with its own number.
     struct ErrorJoin {
         BasicBlock* block = nullptr;
-        llvm::PHINode *stmt = nullptr, *number = nullptr;
+        llvm::PHINode* number = nullptr;
     };
     bool isHandled(const ir::Inst& inst) const;
     bool inUndo() const { return inUndo_[current_]; }
     ErrorJoin& makeJoin(ErrorJoin& join, const char* name);
-    BasicBlock* joinFrom(ErrorJoin& join, const ir::Inst& inst, Value* number);
+    BasicBlock* joinFrom(ErrorJoin& join, Value* number);
     void check(const ir::Inst& inst);
     void raise(const ir::Inst& inst);
     void continueIfOk(const ir::Inst& inst, Value* status, bool calleeRaised);
@@ -118,6 +119,7 @@ class RoutineEmitter {
     bool frameInPrologue_ = false;
     ir::BlockId current_ = 0;
     std::optional<ir::StmtId> storedStmt_; ///< what the frame record is known to hold at this point
+    std::map<std::pair<ir::StmtId, int32_t>, BasicBlock*> failedChecks_;
     ErrorJoin raiseHandled_, raiseUnhandled_, nativeHandled_, nativeUnhandled_, dispatch_, leave_, raiseUndo_,
         nativeUndo_, leaveUndo_;
 };

@@ -87,6 +87,8 @@ bool convert(Op op, double value, double& out) {
     case Op::I32ToF32:
     case Op::F64ToF32: out = static_cast<float>(value); return true;
     case Op::I64ToF32: out = static_cast<float>(static_cast<int64_t>(value)); return true;
+    case Op::F32ToIndex:
+    case Op::F64ToIndex:
     case Op::F32ToI32:
     case Op::F64ToI32: out = saturate<int32_t>(value); return true;
     case Op::F32ToI64:

@@ -76,21 +76,30 @@ TEST_CASE("the end of a handler unwinds by way of undo", "[codegen]") {
 TEST_CASE("undo runs when the stack is unwound and returns the original status", "[codegen]") {
     for (bool optimise : {false, true}) {
         Handlers test(optimise);
-        fallibleStatuses = {-3};
-        CHECK(test.run("undoes", 5.0f) == -3);
+        fallibleStatuses = {rt::kUnwind};
+        CHECK(test.run("undoes", 5.0f) == rt::kUnwind);
         CHECK(events == Events{"note 1 < undoes", "note 2 < undoes"});
+    }
+}
+
+TEST_CASE("silent unwinding skips undo", "[codegen]") {
+    for (bool optimise : {false, true}) {
+        Handlers test(optimise);
+        fallibleStatuses = {rt::kUnwindSilent};
+        CHECK(test.run("undoes", 5.0f) == rt::kUnwindSilent);
+        CHECK(events.empty());
     }
 }
 
 TEST_CASE("an error inside undo ends it early", "[codegen]") {
     for (bool optimise : {false, true}) {
         Handlers test(optimise);
-        fallibleStatuses = {-3, 9};
-        CHECK(test.run("undoes", 5.0f) == -3);
+        fallibleStatuses = {rt::kUnwind, 9};
+        CHECK(test.run("undoes", 5.0f) == rt::kUnwind);
         CHECK(events == Events{"note 1 < undoes", "raise 9 at 1 in undoes"});
         events.clear();
-        fallibleStatuses = {-3, -1};
-        CHECK(test.run("undoes", 5.0f) == -3);
+        fallibleStatuses = {rt::kUnwind, rt::kUnwindSilent}; // the runtime aborts all undo
+        CHECK(test.run("undoes", 5.0f) == rt::kUnwindSilent);
         CHECK(events == Events{"note 1 < undoes"});
     }
 }
