@@ -72,7 +72,7 @@ ir::ValueId RoutineLowering::lowerIndex(const Expr& index, ValueId dim, int32_t 
     const bool isDnum = type->kind == sema::TypeKind::Dnum;
     const ValueId value =
         type->kind == sema::TypeKind::SemiValue ? readSignal(index, false) : lowerValue(index);
-    const ValueId number = b_.convert(isDnum ? Op::F64ToI32 : Op::F32ToI32, value);
+    const ValueId number = b_.convert(isDnum ? Op::F64ToIndex : Op::F32ToIndex, value);
     const ValueId back = b_.convert(isDnum ? Op::I32ToF64 : Op::I32ToF32, number);
     const ValueId zeroBased = b_.binary(Op::ISub, number, one);
     b_.check(b_.binary(Op::IULt, zeroBased, dim), outOfBounds);

@@ -53,6 +53,10 @@ void RoutineLowering::lowerFor(const ForStmt& stmt) {
     const bool isNum = variable.type.type->base()->kind == sema::TypeKind::Num;
     const auto from = isNum ? intRange(*stmt.from) : std::nullopt;
     std::optional<int32_t> step;
+    const auto stepRange = isNum && stmt.step ? intRange(*stmt.step) : std::nullopt;
+    if (from && stepRange && !info(*stmt.step).constant && (stepRange->lo > 0 || stepRange->hi < 0)) {
+        return lowerIntLoop(stmt, variable, stepRange->lo > 0 ? 1 : -1, lowerInt(*stmt.step), *from);
+    }
     if (stmt.step) {
         const sema::ConstValue* value = info(*stmt.step).constant;
         if (value && value->number == static_cast<int32_t>(value->number) && value->number != 0 &&
@@ -64,7 +68,7 @@ void RoutineLowering::lowerFor(const ForStmt& stmt) {
         if (to && from->lo > to->hi) step = -1;
         if (!step) return lowerUnknownDirection(stmt, variable, *from);
     }
-    if (from && step) return lowerIntLoop(stmt, variable, *step, *from);
+    if (from && step) return lowerIntLoop(stmt, variable, *step, ir::kNone, *from);
     lowerFloatLoop(stmt, variable);
 }
 
@@ -80,7 +84,7 @@ ir::ValueId RoutineLowering::boundAsInt(ValueId value, bool roundDown) {
 }
 
 void RoutineLowering::lowerIntLoop(const ForStmt& stmt, sema::DataSymbol& variable, int32_t step,
-                                   IntRange from) {
+                                   ValueId stepValue, IntRange from) {
     const auto to = intRange(*stmt.to);
     const ValueId first = lowerInt(*stmt.from);
     const ValueId last =
@@ -90,11 +94,11 @@ void RoutineLowering::lowerIntLoop(const ForStmt& stmt, sema::DataSymbol& variab
         range.hi = std::max(from.lo, to ? to->hi : kExact);
     else
         range.lo = std::min(from.hi, to ? to->lo : -kExact);
-    lowerCountedBody(stmt, variable, first, last, step, range);
+    lowerCountedBody(stmt, variable, first, last, step, range, stepValue);
 }
 
 void RoutineLowering::lowerCountedBody(const ForStmt& stmt, sema::DataSymbol& variable, ValueId first,
-                                       ValueId last, int32_t step, IntRange range) {
+                                       ValueId last, int32_t step, IntRange range, ValueId stepValue) {
     Slot slot;
     slot.kind = Slot::Kind::IntLoop;
     slot.local = b_.addLocal(variable.name, ir::kI32);
@@ -104,6 +108,8 @@ void RoutineLowering::lowerCountedBody(const ForStmt& stmt, sema::DataSymbol& va
     b_.store(ir::kI32, first, b_.localAddr(slot.local));
     b_.store(ir::kI32, last, b_.localAddr(bound));
     slots_[&variable] = slot;
+    const uint32_t stepLocal = stepValue == ir::kNone ? ir::kNone : b_.addLocal("", ir::kI32);
+    if (stepLocal != ir::kNone) b_.store(ir::kI32, stepValue, b_.localAddr(stepLocal));
     const ir::BlockId head = b_.addBlock("for");
     const ir::BlockId body = b_.addBlock("do");
     const ir::BlockId latch = b_.addBlock("step");
@@ -120,7 +126,9 @@ void RoutineLowering::lowerCountedBody(const ForStmt& stmt, sema::DataSymbol& va
     branchIfOpen(latch);
     b_.setBlock(latch);
     const ValueId old = b_.load(ir::kI32, b_.localAddr(slot.local));
-    b_.store(ir::kI32, b_.binary(Op::IAdd, old, b_.constI32(step)), b_.localAddr(slot.local));
+    const ValueId increment =
+        stepLocal == ir::kNone ? b_.constI32(step) : b_.load(ir::kI32, b_.localAddr(stepLocal));
+    b_.store(ir::kI32, b_.binary(Op::IAdd, old, increment), b_.localAddr(slot.local));
     b_.br(head);
     b_.setBlock(end);
 }

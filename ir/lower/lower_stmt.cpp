@@ -24,15 +24,6 @@ void RoutineLowering::startStatement(const Node& node, ir::StmtKind kind) {
     b_.setStatement(b_.addStatement(row));
 }
 
-void RoutineLowering::unfinished(const Node& node, const char* what) {
-    program_.sink().report(diag::Code::NotLoweredYet, module_->tree->source, module_->tree->range(node),
-                           {what});
-    startStatement(node, ir::StmtKind::Plain);
-    const uint32_t native =
-        program_.support("rt_notImplemented", ir::NativeClass::Plain, ir::kVoid, {ir::kPtr});
-    b_.callNative(native, {b_.globalAddr(program_.stringGlobal(what))});
-}
-
 void RoutineLowering::lowerList(StmtList list) {
     for (const Stmt* stmt : list) {
         const size_t mark = usedTemps_.size();
@@ -265,7 +256,15 @@ void RoutineLowering::lowerRaise(const RaiseStmt& stmt) {
 }
 
 void RoutineLowering::lowerConnect(const ConnectStmt& stmt) {
-    unfinished(stmt, "CONNECT (interrupts)");
+    startStatement(stmt, ir::StmtKind::Plain);
+    const auto& refs = facts().references;
+    auto found = refs.find(&stmt);
+    if (found == refs.end() || found->second->kind != sema::SymbolKind::Routine) return;
+    const uint32_t trap = program_.routineFor(*static_cast<const sema::RoutineSymbol*>(found->second), task_);
+    program_.module().routines[trap].exported = true;
+    const Place target = place(*stmt.target);
+    b_.callNative(program_.support("rt_connect", ir::NativeClass::Plain, ir::kVoid, {ir::kPtr, ir::kPtr}),
+                  {target.addr, b_.routineAddr(trap)});
 }
 
 void RoutineLowering::lowerExit() {

@@ -69,14 +69,16 @@ class RoutineLowering {
     void lowerExit();
     ir::BlockId labelBlock(const syntax::Node* label); ///< `label`: its LabelStmt
     void startStatement(const syntax::Node& node, ir::StmtKind kind);
-    void unfinished(const syntax::Node& node, const char* what);
 
     // lower_loops.cpp
     void lowerFor(const syntax::ForStmt& stmt);
-    void lowerIntLoop(const syntax::ForStmt& stmt, sema::DataSymbol& variable, int32_t step, IntRange from);
+    /// `stepValue`: the step when it is known at run time only; `step` then tells its sign.
+    void lowerIntLoop(const syntax::ForStmt& stmt, sema::DataSymbol& variable, int32_t step, ValueId stepValue,
+                      IntRange from);
     void lowerUnknownDirection(const syntax::ForStmt& stmt, sema::DataSymbol& variable, IntRange from);
     void lowerCountedBody(const syntax::ForStmt& stmt, sema::DataSymbol& variable, ValueId first,
-                          ValueId last, int32_t step, IntRange range);
+                          ValueId last, int32_t step, IntRange range,
+                          ValueId stepValue = ir::kNone);
     void lowerFloatLoop(const syntax::ForStmt& stmt, sema::DataSymbol& variable);
     ValueId boundAsInt(ValueId value, bool roundDown); ///< num to I32, toward minus or plus infinity
 

@@ -101,12 +101,23 @@ void drawPath(std::string& svg, const View& view, const Bounds& bounds, const st
                            view.top + kSize - (s.*view.v - bounds.lowV) / bounds.span * kSize);
     };
     constexpr int kShades = 16;
+    // The active tool may change: the TCP is then somewhere else at once, without having moved.
+    auto jumps = [&](size_t k) {
+        const Sample &a = samples[k], &b = samples[k + 1];
+        const double way = std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
+        return way > 1 && way > 2 * std::max(a.speed, b.speed) * (b.time - a.time);
+    };
     size_t i = 0;
     while (i + 1 < samples.size()) {
+        if (jumps(i)) {
+            ++i;
+            continue;
+        }
         const int shade = static_cast<int>(samples[i + 1].speed / top * kShades);
         std::string points = point(samples[i]);
         std::string last = points;
-        while (i + 1 < samples.size() && static_cast<int>(samples[i + 1].speed / top * kShades) == shade) {
+        while (i + 1 < samples.size() && !jumps(i) &&
+               static_cast<int>(samples[i + 1].speed / top * kShades) == shade) {
             const std::string next = point(samples[++i]);
             if (next != last) points += " " + next;
             last = next;

@@ -30,14 +30,7 @@ struct RunSettings {
 };
 
 std::vector<codegen::NativeSymbol> nativeSymbols() {
-    std::vector<codegen::NativeSymbol> symbols{
-        {"rt_safepoint", reinterpret_cast<const void*>(&rt_safepoint)},
-        {"rt_raise", reinterpret_cast<const void*>(&rt_raise)},
-        {"rt_propagate", reinterpret_cast<const void*>(&rt_propagate)},
-        {"rt_handlerEnd", reinterpret_cast<const void*>(&rt_handlerEnd)},
-        {"rt_retry", reinterpret_cast<const void*>(&rt_retry)},
-        {"rt_stackOverflow", reinterpret_cast<const void*>(&rt_stackOverflow)},
-    };
+    std::vector<codegen::NativeSymbol> symbols;
     for (const rt::NativeEntry& entry : rt::nativeTable())
         if (entry.address) symbols.push_back({entry.symbol, entry.address});
     for (const rt::SupportEntry& entry : rt::supportTable())
