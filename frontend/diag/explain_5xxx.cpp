@@ -52,10 +52,6 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "PROC main(VAR signaldo lamp)\n"
      "  SetDO lamp, 1;\n"
      "ENDPROC"},
-    {5006, Kind::Body,
-     "Only variables, persistents, parameters and parts of them can be assigned.",
-     "",
-     "reg1 := 5;"},
     {5010, Kind::Module,
      "Only functions return a value (manual 1.1.5). A procedure can give results through INOUT or VAR "
      "parameters.",

@@ -191,8 +191,6 @@ void Analyzer::assign(const AssignStmt& s) {
     if (!isPlaceExpr(*s.target)) {
         visitLoose(*s.target);
         visitLoose(*s.value);
-        if (s.target->kind == NodeKind::PlaceholderExpr || s.target->kind == NodeKind::ErrorExpr) return;
-        report(Code::AssignTarget, range(*s.target), {describeExpr(*s.target)});
         return;
     }
     const Place target = place(*s.target);
