@@ -24,6 +24,12 @@ std::string questionOf(const Dialog& dialog) {
     return text;
 }
 
+/// Something else than an answer can end the dialog.
+bool canEndByItself(const Dialog& dialog) {
+    const bool watched = !dialog.breakQueues.empty() || dialog.pollPeriod > 0;
+    return dialog.deadline != kNever || (dialog.broken && watched);
+}
+
 } // namespace
 
 void OperatorPanel::writeLine(std::string_view text) {
@@ -80,7 +86,7 @@ Status OperatorPanel::ask(Task& task, const Dialog& dialog, DialogEnd& end, std:
         const Status status = askTerminal(task, dialog, end, answer);
         if (status == kOk && end == DialogEnd::Answered) answer = std::string(trimmed(answer));
         return status;
-    } else if (answersToCome_ == 0 && dialog.deadline == kNever && !dialog.broken) {
+    } else if (answersToCome_ == 0 && !canEndByItself(dialog)) {
         controller_.log().write(EventId::NoOperator, &task, {questionOf(dialog)});
         end = DialogEnd::NoClient;
         return kOk;
@@ -105,7 +111,7 @@ Status OperatorPanel::ask(Task& task, const Dialog& dialog, DialogEnd& end, std:
 
 Status OperatorPanel::waitForAnswer(Task& task, const Dialog& dialog, Asking& asking, WaitResult& result,
                                     bool& broken) {
-    const bool endless = dialog.deadline == kNever && !dialog.broken;
+    const bool endless = !canEndByItself(dialog);
     WaitSpec spec;
     spec.queues = dialog.breakQueues;
     spec.queues.push_back(&answered_);
