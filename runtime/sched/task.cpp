@@ -237,7 +237,8 @@ Status Task::safepoint(Frame* at) {
 
 Status Task::requestExit() {
     if (unwinding_ != Unwind::None) {
-        if (unwinding_ != Unwind::Abandon) host_.log().write(EventId::UndoSkipped, this, {"EXIT was executed."});
+        if (unwinding_ != Unwind::Abandon)
+            host_.log().write(EventId::UndoSkipped, this, {"EXIT was executed."});
         undoAborted_ = true;
         return kUnwindSilent;
     }
