@@ -127,7 +127,7 @@ TEST_CASE("a loop that is paid ahead lets others run meanwhile, and its effects 
     CHECK(order == std::vector<std::string>{"TICK:0.25", "TICK:0.50", "TICK:0.75", "LOOP:1.00"});
 }
 
-TEST_CASE("--max-time ends a busy loop and a run that only waits", "[sched]") {
+TEST_CASE("The option max-time ends a busy loop and a run that only waits", "[sched]") {
     Run busy;
     busy.options.hasMaxTime = true;
     busy.options.maxTime = 2;
