@@ -103,6 +103,12 @@ class Loader {
     }
 
     void addModule(const fs::path& path, sema::TaskInput& task) {
+        std::error_code error;
+        for (const auto& known : task.files) {
+            if (!fs::equivalent(known->path(), path, error) || error) continue;
+            report(Code::SameFileTwice, {path.string()});
+            return;
+        }
         std::string bytes;
         if (read(path, bytes))
             task.files.push_back(std::make_shared<const SourceFile>(path.string(), std::move(bytes)));

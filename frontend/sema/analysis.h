@@ -71,6 +71,8 @@ class Analyzer {
     Analyzer(CheckedProgram& program, const CheckOptions& options, diag::Sink& sink);
     void loadLibrary();
     void checkTask(const TaskInput& input);
+    /// Before the first task: all of them, because each can name the others.
+    void setTaskNames(std::vector<std::string> names) { taskNames_ = std::move(names); }
     /// What concerns several tasks: persistents they share.
     void checkAcrossTasks();
 
@@ -114,6 +116,11 @@ class Analyzer {
     void gatherSignalUses(const RoutineSymbol& routine, std::span<syntax::Argument* const> args);
     void declareConfiguration();
     bool mayReportUnknown(NameId name);
+
+    // ---- tasks (checker.cpp)
+    void startTask(const TaskInput& input);
+    void readFiles(const TaskInput& input);
+    void declareModules();
 
     // ---- collecting declarations (collect.cpp)
     void enterModule(Module* module);
@@ -173,6 +180,7 @@ class Analyzer {
     Typed operatorError(const syntax::BinaryExpr& e, Typed left, Typed right);
     enum class Numeric : uint8_t { Ok, Mixed, NotNumeric };
     Numeric unify(const syntax::BinaryExpr& e, Typed& left, Typed& right, Flex& flex);
+    bool aggregateFits(const syntax::AggregateExpr& e, const DataType* want);
     Typed aggregate(const syntax::AggregateExpr& e, const DataType* want, ConstValue* slot);
     void visitLoose(const syntax::Expr& e);
     Typed result(const syntax::Expr& e, const Type* type, Flex flex = Flex::None);
@@ -280,14 +288,16 @@ class Analyzer {
     Type* switchType_ = nullptr;
     const Type* intnum_ = nullptr;
     NameId presentId_ = 0;
-    std::vector<Symbol*> predefined_;     ///< by NameId
-    std::vector<Symbol*> globals_;        ///< of the task, by NameId
+    std::vector<Symbol*> predefined_; ///< by NameId
+    std::vector<Symbol*> globals_;    ///< of the task, by NameId
+    std::vector<std::string> taskNames_;
     std::vector<DataSymbol*> configured_; ///< signals and mechanical units of the task, by NameId
     std::vector<std::unique_ptr<ModuleScope>> scopes_; ///< by Module::id
     NameMap<Module> moduleNames_;                      ///< of the task
     std::vector<Symbol*> routineNames_; ///< by NameId: parameters, data and loop variables of the routine
     std::vector<NameId> declaredInRoutine_;
     NameMap<const Type> signalUses_; ///< undeclared names that stand where a signal is expected
+    bool duplicateModule_ = false;   ///< its names collide with those of its twin, which is reported
     bool signalUsesKnown_ = false;
     bool incomplete_ = false; ///< modules of the task are missing: names may be unknown
     std::vector<const syntax::SyntaxTree*> brokenTrees_; ///< with syntax errors

@@ -148,7 +148,7 @@ void Analyzer::checkAccess(const RoutineSymbol& routine, const BoundArg& bound, 
                {bound.param->name, routine.name, "'" + root.name + "'"});
         return;
     }
-    root.assigned = true;
+    if (!routine.special) root.assigned = true; // IsVar and their like only look
 }
 
 bool Analyzer::checkClass(const RoutineSymbol& routine, const BoundArg& bound, const DataType& found) {

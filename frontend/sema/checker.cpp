@@ -89,7 +89,7 @@ void Analyzer::loadLibrary() {
     }
 }
 
-void Analyzer::checkTask(const TaskInput& input) {
+void Analyzer::startTask(const TaskInput& input) {
     program_.tasks.push_back(std::make_unique<Task>());
     task_ = program_.tasks.back().get();
     task_->name = input.name;
@@ -105,8 +105,11 @@ void Analyzer::checkTask(const TaskInput& input) {
     brokenTrees_.clear();
     maybeDeclared_.clear();
     declareConfiguration();
+}
 
+void Analyzer::readFiles(const TaskInput& input) {
     std::vector<std::string_view> paths;
+    size_t tokens = 0;
     for (const auto& file : input.files) {
         if (std::find(paths.begin(), paths.end(), file->path()) != paths.end()) {
             sink_.report(Code::SameFileTwice, nullptr, {}, {file->path()});
@@ -116,16 +119,24 @@ void Analyzer::checkTask(const TaskInput& input) {
         const size_t errorsBefore = sink_.errorCount();
         program_.trees.push_back(parse(file, sink_));
         const SyntaxTree& tree = *program_.trees.back();
+        tokens += tree.tokens.size();
         program_.exprStore.push_back(std::make_unique<std::vector<ExprInfo>>(
             tree.exprCount, ExprInfo{{program_.errorType, 0, {}}, nullptr, -1, nullptr}));
         if (sink_.errorCount() > errorsBefore) brokenTrees_.push_back(&tree);
         for (const ModuleDecl* decl : tree.modules)
             task_->modules.push_back(addModule(tree, *decl, false, program_.exprStore.back().get()));
     }
+    constexpr size_t kTokensPerCall = 24; // a guess that saves most of the growing
+    task_->calls.reserve(tokens / kTokensPerCall);
+}
+
+void Analyzer::declareModules() {
     for (Module* module : task_->modules) {
         enterModule(module);
         const NameId name = interner_.intern(module->name);
-        if (Module* other = moduleNames_.find(name)) {
+        Module* other = moduleNames_.find(name);
+        duplicateModule_ = other != nullptr;
+        if (other) {
             auto& d = report(Code::DuplicateModule, range(module->decl->name), {module->name});
             d.notes.push_back({other->tree->source, other->tree->range(other->decl->name),
                                "'" + other->name + "' is declared here"});
@@ -134,7 +145,14 @@ void Analyzer::checkTask(const TaskInput& input) {
         }
         collect(*module);
     }
+    duplicateModule_ = false;
     checkModuleNames();
+}
+
+void Analyzer::checkTask(const TaskInput& input) {
+    startTask(input);
+    readFiles(input);
+    declareModules();
     for (Module* module : task_->modules)
         for (TypeSymbol* type : module->types)
             ensureType(*type);
@@ -215,6 +233,10 @@ std::unique_ptr<CheckedProgram> check(const std::vector<TaskInput>& tasks, const
     auto program = std::make_unique<CheckedProgram>();
     Analyzer analyzer(*program, options, sink);
     analyzer.loadLibrary();
+    std::vector<std::string> names;
+    for (const TaskInput& task : tasks)
+        names.push_back(task.name);
+    analyzer.setTaskNames(std::move(names));
     for (const TaskInput& task : tasks)
         analyzer.checkTask(task);
     analyzer.checkAcrossTasks();

@@ -100,6 +100,7 @@ void Analyzer::declareInModule(Symbol& symbol, ModuleScope& scope) {
     if (symbol.isLocal) return;
     std::vector<Symbol*>& table = symbol.predefined ? predefined_ : globals_;
     if (const Symbol* other = at(table, symbol.nameId)) {
+        if (duplicateModule_) return;
         noteDeclared(
             report(Code::DuplicateGlobal, range(symbol.nameToken), {symbol.name, other->module->name}),
             *other);

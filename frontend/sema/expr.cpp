@@ -3,6 +3,7 @@
 
 #include "frontend/sema/analysis.h"
 
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
 
@@ -104,37 +105,36 @@ Typed Analyzer::paren(const ParenExpr& e, const DataType* want, ConstValue* slot
     return {&out, inner.flex};
 }
 
+// The type of the members of an aggregate, or an error: why it cannot be of type `want`.
+bool Analyzer::aggregateFits(const AggregateExpr& e, const DataType* want) {
+    const size_t count = e.elements.size();
+    if (!want || want->type->kind == TypeKind::AnyType)
+        report(Code::AggregateWithoutType, range(e));
+    else if (want->type->kind == TypeKind::Error)
+        return false;
+    else if (want->rank == 0 && want->type->kind != TypeKind::Record)
+        report(Code::AggregateForAtomic, range(e), {typeName(*want)});
+    else {
+        const size_t expected = want->rank == 0     ? want->type->base()->components.size()
+                                : want->dims[0] > 0 ? static_cast<size_t>(want->dims[0])
+                                                    : count;
+        if (count == expected) return true;
+        report(Code::AggregateCount, range(e),
+               {std::to_string(count), std::to_string(expected), typeName(*want)});
+    }
+    return false;
+}
+
 // Members get their constants in the place where the whole value keeps them.
 Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstValue* slot) {
-    if (!want || want->type->kind == TypeKind::Error) {
-        if (!want) report(Code::AggregateWithoutType, range(e));
+    if (!aggregateFits(e, want)) {
         for (const Expr* element : e.elements)
             visitLoose(*element);
         return errorExpr(e);
     }
     const bool array = want->rank > 0;
-    const Type& type = *want->type;
-    if (!array && type.kind != TypeKind::Record) {
-        if (type.kind == TypeKind::AnyType)
-            report(Code::AggregateWithoutType, range(e));
-        else
-            report(Code::AggregateForAtomic, range(e), {typeName(*want)});
-        for (const Expr* element : e.elements)
-            visitLoose(*element);
-        return errorExpr(e);
-    }
-    const std::vector<Type::Component>& components = type.base()->components;
+    const std::vector<Type::Component>& components = want->type->base()->components;
     const size_t count = e.elements.size();
-    const size_t expected = !array              ? components.size()
-                            : want->dims[0] > 0 ? static_cast<size_t>(want->dims[0])
-                                                : count;
-    if (count != expected) {
-        report(Code::AggregateCount, range(e),
-               {std::to_string(count), std::to_string(expected), typeName(*want)});
-        for (const Expr* element : e.elements)
-            visitLoose(*element);
-        return errorExpr(e);
-    }
     ConstValue* value = slot ? slot : newConst();
     value->members.resize(count);
     bool constant = true;
@@ -147,15 +147,12 @@ Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstVal
         const Expr& element = *e.elements[i];
         if (!array) member = {components[i].type, 0, {}};
         const Typed t = expr(element, &member, &value->members[i]);
-        if (!fits(element, t, member)) {
-            report(Code::AggregateMember, range(element), {typeName(*t.info), typeName(member)});
-            wrong = true;
-        } else if (t.isError())
-            wrong = true;
-        if (array && i == 0)
-            for (int d = 0; d < member.rank; ++d)
-                own.dims[d + 1] = t.info->type.dims[d];
-        if (array) member.dims[0] = own.dims[1], member.dims[1] = own.dims[2];
+        const bool fit = fits(element, t, member);
+        if (!fit) report(Code::AggregateMember, range(element), {typeName(*t.info), typeName(member)});
+        wrong |= !fit || t.isError();
+        // The first row of an array of unknown size tells the length of the others.
+        if (array && i == 0) std::copy_n(t.info->type.dims, member.rank, own.dims + 1);
+        if (array) std::copy_n(own.dims + 1, member.rank, member.dims);
         if (!t.info->constant)
             constant = false;
         else if (t.info->constant != &value->members[i])

@@ -67,6 +67,15 @@ void Analyzer::declareConfiguration() {
         const TypeSymbol* type = asType(at(predefined_, interner_.intern(signal.type)));
         if (type) configuredObject(interner_.intern(signal.name), signal.name, type->type);
     }
+    // Each task has an identity, and the robot of the first motion task is always there.
+    const auto declare = [&](const std::string& name, const char* typeName) {
+        const TypeSymbol* type = asType(at(predefined_, interner_.intern(typeName)));
+        const NameId id = interner_.intern(name);
+        if (type && !at(predefined_, id) && !at(configured_, id)) configuredObject(id, name, type->type);
+    };
+    for (const std::string& task : taskNames_)
+        declare(task + "Id", "taskid");
+    declare("ROB_1", "mecunit");
 }
 
 // An unknown name as data: a signal where one is expected or where it is used as one elsewhere, otherwise an error.

@@ -40,7 +40,11 @@ Place Analyzer::namePlace(const NameExpr& e, const Type* handle) {
     }
     if (!data->used) {
         data->used = true;
-        if (data->storage == Storage::Signal) task_->signals.push_back(data);
+        if (data->storage == Storage::Signal) {
+            task_->signals.push_back(data);
+            data->module = context_.module; // where it is named first
+            data->nameToken = e.name;
+        }
     }
     ensureData(*data);
     if (data->optional && !data->isSwitch && data->routine == context_.routine && !presenceOnly_) {

@@ -23,7 +23,7 @@ diag::Diagnostic& Analyzer::report(Code code, SourceRange where, std::initialize
 }
 
 void Analyzer::noteDeclared(diag::Diagnostic& diagnostic, const Symbol& symbol) {
-    if (symbol.predefined || !symbol.module || symbol.nameToken == kNoToken) return;
+    if (symbol.predefined || !symbol.decl || symbol.nameToken == kNoToken) return;
     const SyntaxTree& tree = *symbol.module->tree;
     diagnostic.notes.push_back(
         {tree.source, tree.range(symbol.nameToken), "'" + symbol.name + "' is declared here"});

@@ -35,7 +35,7 @@ struct Symbol {
     Progress progress = Progress::Pending; ///< types, and the data type of data
     std::string name;                      ///< as declared
     uint32_t nameId = 0;                   ///< equal for names that differ only in case
-    Module* module = nullptr;              ///< null for configured signals
+    Module* module = nullptr;              ///< configured objects: where they are named first
     const syntax::Node* decl = nullptr;    ///< null for configured signals
     syntax::TokenIndex nameToken = syntax::kNoToken;
     bool isLocal = false;    ///< LOCAL

@@ -88,6 +88,16 @@ TEST_CASE("files and folders make up the main task", "[project]") {
     CHECK(two->project.configFiles == Names{folder / "EIO.cfg"});
 }
 
+TEST_CASE("a file that is named twice is read once", "[project]") {
+    const Folder folder;
+    folder.write("main.modx", kModule);
+    const auto loaded =
+        load({folder.path(), folder / "../" + fs::path(folder.path()).filename().string() + "/main.modx"});
+    CHECK(loaded->ok);
+    CHECK(loaded->codes() == Names{"RAP6010"});
+    CHECK(loaded->files(0) == Names{"main.modx"});
+}
+
 TEST_CASE("a folder without modules of its own means those of its subfolders", "[project]") {
     const Folder folder;
     folder.write("PROGMOD/main.mod", kModule);
