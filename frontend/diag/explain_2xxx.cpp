@@ -277,6 +277,13 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "A constant has a value, which data of non-value and semi-value types has not (manual 1.2.1).",
      "CONST clock watch := 0;",
      "VAR clock watch;"},
+    {2047, Kind::Module,
+     "Records and aliases that refer to each other form a chain of hundreds of types. Nobody writes "
+     "this by hand: look at what generated the module.",
+     "",
+     "RECORD part\n"
+     "  pos place;\n"
+     "ENDRECORD"},
     {2104, Kind::Body,
      "The value must have the type of the data it is assigned to; an alias counts as the type it "
      "stands for, and arrays must have the same dimensions (manual 1.2.1, 1.3.2). Convert with "

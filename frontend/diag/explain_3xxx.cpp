@@ -187,6 +187,12 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "CONST string whole := half + half + \"!\";",
      "CONST string half := \"0123456789012345678901234567890123456789\";\n"
      "CONST string whole := half + half;"},
+    {3039, Kind::Module,
+     "Constants that refer to each other, each to one declared later, form a chain of hundreds. "
+     "Declare them in the order in which they are computed.",
+     "",
+     "CONST num a := 1;\n"
+     "CONST num b := a + 1;"},
     {3040, Kind::Module,
      "The initial value must have the type of the data it initialises (manual 1.2.2).",
      "VAR string name := 5;",

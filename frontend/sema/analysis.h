@@ -156,7 +156,7 @@ class Analyzer {
     // ---- data (resolve_data.cpp)
     void ensureData(DataSymbol& symbol);
     void ensureValue(DataSymbol& symbol);
-    void resolveDimensions(DataSymbol& symbol, const syntax::DataDecl& decl);
+    uint64_t resolveDimensions(DataSymbol& symbol, const syntax::DataDecl& decl);
     void initialise(DataSymbol& symbol, const syntax::DataDecl& decl);
     void checkDeclaration(DataSymbol& symbol);
     bool reportNonConstant(const syntax::Expr& expr);
@@ -306,7 +306,10 @@ class Analyzer {
     std::vector<const syntax::Expr*> bigLiterals_;
     std::vector<const syntax::BinaryExpr*> spine_;
     std::vector<const syntax::Argument*> judged_; ///< arguments judged already to choose an alternative
-    unsigned suggestionsLeft_ = 200;              ///< they cost time; nobody reads more
+    /// Declarations being resolved inside each other; more than this nobody writes, and the stack is finite.
+    static constexpr unsigned kMaxDepth = 500;
+    unsigned depth_ = 0;
+    unsigned suggestionsLeft_ = 200; ///< they cost time; nobody reads more
 
     // of the routine being checked
     Part part_ = Part::Body;

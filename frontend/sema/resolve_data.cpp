@@ -9,10 +9,6 @@ namespace rapid::sema {
 
 using namespace syntax;
 
-namespace {
-constexpr int64_t kMaxElements = 100'000'000; // far beyond the memory of a controller, still safe to multiply
-}
-
 void Analyzer::ensureData(DataSymbol& symbol) {
     if (symbol.progress != Progress::Pending) {
         if (!symbol.type.type) symbol.type.type = program_.errorType; // its dimensions ask for itself
@@ -23,8 +19,12 @@ void Analyzer::ensureData(DataSymbol& symbol) {
     if (!symbol.routine) enterModule(symbol.module);
     const auto& decl = as<DataDecl>(*symbol.decl);
     const Type* type = resolveType(decl.type);
-    resolveDimensions(symbol, decl);
+    const uint64_t elements = resolveDimensions(symbol, decl);
     symbol.type.type = type;
+    if (elements * type->leaves > kMaxLeaves) {
+        report(Code::ArrayTooLarge, range(symbol.nameToken), {symbol.name});
+        symbol.type.type = program_.errorType;
+    }
     symbol.progress = Progress::Done;
     if (symbol.predefined) applyDataAttributes(symbol);
     checkDeclaration(symbol);
@@ -45,19 +45,21 @@ void Analyzer::checkDeclaration(DataSymbol& symbol) {
                {symbol.name, decl.scope == ScopeWord::Local ? "LOCAL" : "TASK"});
 }
 
-void Analyzer::resolveDimensions(DataSymbol& symbol, const DataDecl& decl) {
-    if (decl.dims.empty()) return;
+// Gives the number of elements; it stops counting at kMaxLeaves.
+uint64_t Analyzer::resolveDimensions(DataSymbol& symbol, const DataDecl& decl) {
+    if (decl.dims.empty()) return 1;
     if (decl.dims.size() > 3) {
         report(Code::TooManyDimensions, range(*decl.dims[3]), {std::to_string(decl.dims.size())});
-        return;
+        symbol.type.rank = 3; // of any size
+        return 1;
     }
-    int64_t elements = 1;
+    uint64_t elements = 1;
     for (size_t i = 0; i < decl.dims.size(); ++i) {
         const Expr& e = *decl.dims[i];
         const bool wasConstant = std::exchange(context_.constant, true);
         const Typed t = expr(e);
         context_.constant = wasConstant;
-        int32_t size = 1; // after an error: something that can be indexed
+        int32_t size = 0; // after an error: any
         const ConstValue* value = t.info->constant;
         if (!value || value->kind != ConstValue::Kind::Number) {
             if (!t.isError() && e.kind != NodeKind::PlaceholderExpr)
@@ -67,31 +69,28 @@ void Analyzer::resolveDimensions(DataSymbol& symbol, const DataDecl& decl) {
             report(Code::DimensionValue, range(e), {text(e)});
         } else {
             size = static_cast<int32_t>(value->number);
-            elements = std::min(elements * size, kMaxElements + 1);
+            elements = std::min<uint64_t>(elements * static_cast<uint64_t>(size), kMaxLeaves + 1);
         }
         symbol.type.dims[i] = size;
     }
     symbol.type.rank = static_cast<uint8_t>(decl.dims.size());
-    if (elements > kMaxElements) {
-        report(Code::ArrayTooLarge, range(symbol.nameToken), {symbol.name});
-        for (int i = 0; i < symbol.type.rank; ++i)
-            symbol.type.dims[i] = 1;
-        symbol.type.type = program_.errorType;
-    }
+    return elements;
 }
 
 void Analyzer::ensureValue(DataSymbol& symbol) {
     if (symbol.valueProgress == Progress::Done) return;
     const auto& decl = as<DataDecl>(*symbol.decl);
-    if (symbol.valueProgress == Progress::Active) {
+    const bool cycle = symbol.valueProgress == Progress::Active;
+    if (cycle || depth_ >= kMaxDepth) {
         const Context saved = context_;
         if (!symbol.routine) enterModule(symbol.module);
-        report(Code::ConstantCycle, range(symbol.nameToken), {symbol.name});
+        report(cycle ? Code::ConstantCycle : Code::ConstantTooDeep, range(symbol.nameToken), {symbol.name});
         context_ = saved;
         symbol.valueProgress = Progress::Done;
         return;
     }
     symbol.valueProgress = Progress::Active;
+    ++depth_;
     ensureData(symbol);
     if (decl.init) {
         const Context saved = context_;
@@ -99,6 +98,7 @@ void Analyzer::ensureValue(DataSymbol& symbol) {
         initialise(symbol, decl);
         context_ = saved;
     }
+    --depth_;
     symbol.valueProgress = Progress::Done;
 }
 

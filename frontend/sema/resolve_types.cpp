@@ -2,6 +2,8 @@
 
 #include "frontend/sema/analysis.h"
 
+#include <algorithm>
+
 namespace rapid::sema {
 
 using namespace syntax;
@@ -55,15 +57,17 @@ const Type* Analyzer::ensureType(TypeSymbol& symbol) {
     if (symbol.progress == Progress::Done) return symbol.type;
     const Context saved = context_;
     enterModule(symbol.module);
-    if (symbol.progress == Progress::Active) {
-        report(Code::TypeCycle, range(symbol.nameToken), {symbol.name});
+    const bool cycle = symbol.progress == Progress::Active;
+    if (!symbol.type) symbol.type = &program_.typeStore.emplace_back();
+    if (cycle || depth_ >= kMaxDepth) {
+        report(cycle ? Code::TypeCycle : Code::TypeTooDeep, range(symbol.nameToken), {symbol.name});
         symbol.type->kind = TypeKind::Error;
         symbol.progress = Progress::Done;
         context_ = saved;
         return symbol.type;
     }
     symbol.progress = Progress::Active;
-    if (!symbol.type) symbol.type = &program_.typeStore.emplace_back();
+    ++depth_;
     Type& type = *symbol.type;
     if (type.kind == TypeKind::Error) { // not one of the atomic types, which exist beforehand
         type.kind = TypeKind::Record;
@@ -74,6 +78,7 @@ const Type* Analyzer::ensureType(TypeSymbol& symbol) {
             resolveAlias(type, as<AliasDecl>(*symbol.decl));
         if (symbol.predefined) applyTypeAttributes(symbol);
     }
+    --depth_;
     symbol.progress = Progress::Done;
     context_ = saved;
     return symbol.type;
@@ -81,6 +86,7 @@ const Type* Analyzer::ensureType(TypeSymbol& symbol) {
 
 void Analyzer::resolveRecord(Type& type, const RecordDecl& decl) {
     NameMap<const RecordComponent> names;
+    uint64_t leaves = 0;
     for (const RecordComponent* c : decl.components) {
         if (!isName(c->name)) continue;
         const NameId name = idOf(c->name);
@@ -89,7 +95,9 @@ void Analyzer::resolveRecord(Type& type, const RecordDecl& decl) {
         const Type* part = resolveType(c->type);
         type.components.push_back({text(c->name), part});
         if (!isValueType(*part)) type.containsNonValue = true;
+        leaves = std::min<uint64_t>(leaves + part->leaves, kMaxLeaves + 1);
     }
+    type.leaves = static_cast<uint32_t>(std::max<uint64_t>(leaves, 1));
 }
 
 void Analyzer::resolveAlias(Type& type, const AliasDecl& decl) {
@@ -99,6 +107,7 @@ void Analyzer::resolveAlias(Type& type, const AliasDecl& decl) {
     type.kind = target->kind;
     type.components = target->components;
     type.containsNonValue = target->containsNonValue;
+    type.leaves = target->leaves;
 }
 
 void Analyzer::resolveSignature(RoutineSymbol& symbol) {

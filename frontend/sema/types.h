@@ -21,6 +21,9 @@ enum class TypeKind : uint8_t {
     AnyType ///< pseudo-type of built-ins
 };
 
+/// More atomic parts than this are beyond the memory of a controller.
+inline constexpr uint32_t kMaxLeaves = 100'000'000;
+
 struct Type {
     struct Component {
         std::string name; ///< as written
@@ -31,6 +34,7 @@ struct Type {
     const Type* aliasOf =
         nullptr; ///< aliases: the type named in the ALIAS; kind and components are the base's
     std::vector<Component> components; ///< records
+    uint32_t leaves = 1;               ///< atomic parts of a value; stops counting beyond kMaxLeaves
     bool containsNonValue = false;     ///< records with a non-value component are non-value
 
     const Type* base() const {

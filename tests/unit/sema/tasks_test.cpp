@@ -140,13 +140,37 @@ TEST_CASE("long chains of operators and many names are no trouble", "[sema]") {
                                    ";\n    d := d + " + sum + ";\n  ENDPROC\nENDMODULE\n"});
     CHECK(chain->messages() == Messages{});
 
-    std::string text = "MODULE m\n";
-    for (int i = 0; i < 3000; ++i)
-        text += "  CONST num c" + std::to_string(i) + " := c" + std::to_string(i + 1) + " + 1;\n";
-    text += "  CONST num c3000 := 0;\nENDMODULE\n";
-    const auto constants = checkTexts({text});
-    REQUIRE(constants->messages().empty());
-    CHECK(static_cast<const DataSymbol*>(findSymbol(*constants->program, "c0"))->value.number == 3000);
+    const auto chainOf = [](int count) {
+        std::string text = "MODULE m\n";
+        for (int i = 0; i < count; ++i)
+            text += "  CONST num c" + std::to_string(i) + " := c" + std::to_string(i + 1) + " + 1;\n";
+        return text + "  CONST num c" + std::to_string(count) + " := 0;\nENDMODULE\n";
+    };
+    const auto constants = checkTexts({chainOf(400)});
+    REQUIRE(constants->messages() == Messages{});
+    CHECK(static_cast<const DataSymbol*>(findSymbol(*constants->program, "c0"))->value.number == 400);
+    const auto tooDeep = checkTexts({chainOf(20000)});
+    REQUIRE(!tooDeep->codes().empty());
+    CHECK(tooDeep->codes()[0] == "RAP3039");
+
+    std::string types = "MODULE m\n";
+    for (int i = 0; i < 20000; ++i)
+        types += "  ALIAS t" + std::to_string(i + 1) + " t" + std::to_string(i) + ";\n";
+    const auto aliases = checkTexts({types + "  ALIAS num t20000;\nENDMODULE\n"});
+    REQUIRE(!aliases->codes().empty());
+    CHECK(aliases->codes()[0] == "RAP2047");
+}
+
+TEST_CASE("records that grow beyond any memory are refused", "[sema]") {
+    std::string text = "MODULE m\n  RECORD t0\n    num a;\n    num b;\n  ENDRECORD\n";
+    for (int i = 0; i < 60; ++i) {
+        const std::string inner = "t" + std::to_string(i);
+        text += "  RECORD t" + std::to_string(i + 1) + "\n    " + inner + " a;\n    " + inner +
+                " b;\n  ENDRECORD\n";
+    }
+    const auto checked = checkTexts({text + "  VAR t60 huge;\n  VAR t10 fine{1000};\nENDMODULE\n"});
+    CHECK(checked->messages() ==
+          Messages{"RAP2045 at 246:11: 'huge' has too many elements for the memory of a controller"});
 }
 
 TEST_CASE("without a library the atomic types exist", "[sema]") {
