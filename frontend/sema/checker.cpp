@@ -102,6 +102,8 @@ void Analyzer::startTask(const TaskInput& input) {
     reportedNames_.clear();
     signalUsesKnown_ = false;
     incomplete_ = input.incomplete && !options_.requireMain;
+    for (const auto& file : input.files)
+        if (file->isBinary()) incomplete_ = true; // reported once; what it declares is not known
     brokenTrees_.clear();
     maybeDeclared_.clear();
     declareConfiguration();

@@ -118,6 +118,15 @@ std::vector<uint32_t> findLines(std::string_view text) {
     return starts;
 }
 
+/// Text has hardly any control characters; compressed, encrypted or compiled data are full of them.
+bool hasManyControls(std::string_view bytes) {
+    const auto count = std::count_if(bytes.begin(), bytes.end(), [](char c) {
+        const bool layout = c == '\t' || c == '\n' || c == '\r' || c == '\f';
+        return (static_cast<unsigned char>(c) < 0x20 && !layout) || c == 0x7F;
+    });
+    return count >= 4 && static_cast<size_t>(count) * 50 >= bytes.size();
+}
+
 } // namespace
 
 SourceFile::SourceFile(std::string path, std::string bytes) : path_(std::move(path)) {
@@ -134,6 +143,7 @@ SourceFile::SourceFile(std::string path, std::string bytes) : path_(std::move(pa
         encoding_ = Encoding::Utf8Bom;
     }
     const size_t bad = findBadUtf8(bytes);
+    if (bad < bytes.size() && hasManyControls(bytes)) binary_ = true;
     if (bad == bytes.size()) {
         text_ = std::move(bytes);
     } else if (binary_ || (isLegacyFileType(path_) && encoding_ != Encoding::Utf8Bom)) {

@@ -109,6 +109,7 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
         if (std::find(configFiles.begin(), configFiles.end(), found) == configFiles.end()) configFiles.push_back(found);
     sema::CheckOptions options;
     options.requireMain = inputs.requireMain;
+    options.configurationKnown = inputs.configurationComplete;
     readConfiguration(*compilation, configFiles, options);
     std::vector<sema::LibraryText> library;
     for (const rapid::stdlib::StdlibSource& source : rapid::stdlib::sources())

@@ -15,6 +15,7 @@ struct Inputs {
     std::vector<std::string> tasks;       ///< NAME[:TYPE]=INPUT
     std::vector<std::string> configFiles; ///< --config
     bool requireMain = false;
+    bool configurationComplete = false; ///< no further configuration can come: an unknown signal is an error
 };
 
 /// Result of the front end, with everything the later stages need.

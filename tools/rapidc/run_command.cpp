@@ -93,6 +93,7 @@ int run(RunSettings& settings) {
     inputs.tasks = settings.options.tasks;
     inputs.configFiles = settings.options.configFiles;
     inputs.requireMain = true;
+    inputs.configurationComplete = true;
     const auto compilation = checkInputs(inputs);
     if (!compilation->usageErrors.empty()) {
         for (const std::string& problem : compilation->usageErrors) fmt::print(stderr, "rapidc run: {}\n", problem);
