@@ -219,6 +219,7 @@ class Analyzer {
     size_t matchRequired(BoundCall& call, const syntax::Argument& arg, size_t slot);
     size_t matchOptional(BoundCall& call, const syntax::Argument& arg, syntax::TokenIndex name);
     size_t chooseAlternative(BoundCall& call, const syntax::Argument& arg, size_t first, size_t end);
+    bool endsWell(syntax::TokenIndex name, std::span<syntax::Argument* const> args) const;
     size_t alternativesEnd(const RoutineSymbol& routine, size_t first) const;
     size_t nextRequired(const RoutineSymbol& routine, size_t from) const;
     size_t requiredSlots(const RoutineSymbol& routine) const;
@@ -260,6 +261,7 @@ class Analyzer {
     bool whileStmt(const syntax::WhileStmt& s);
     void assign(const syntax::AssignStmt& s);
     bool assignable(const Place& place, const syntax::Expr& target);
+    bool predefinedCall(syntax::TokenIndex name, std::string_view folded);
     bool callStmt(const syntax::CallStmt& s);
     void reportNotCallable(const Symbol& symbol, syntax::TokenIndex name);
     void returnStmt(const syntax::ReturnStmt& s);

@@ -104,9 +104,10 @@ void Analyzer::reportAccess(const RoutineSymbol& routine, const BoundArg& bound,
     case ParamMode::Var: expected = "a variable"; break;
     case ParamMode::Pers: expected = "an entire persistent"; break;
     case ParamMode::Inout: expected = "a variable or an entire persistent"; break;
-    case ParamMode::In: expected = "a signal"; break;
+    case ParamMode::In:
     case ParamMode::Ref: break;
     }
+    if (bound.param->type.type->kind == TypeKind::SemiValue) expected = "a signal";
     auto& d = report(Code::ArgumentNotVariable, range(*bound.value),
                      {bound.param->name, routine.name, std::move(found), expected});
     if (symbol) noteDeclared(d, *symbol);

@@ -53,7 +53,7 @@ void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex nam
     }
     const size_t judgedBefore = judged_.size();
     const bool complete = matchArguments(call, name, args);
-    if (complete) reportMissing(call, name);
+    if (complete && endsWell(name, args)) reportMissing(call, name);
     checkExclusive(call);
     for (BoundArg& bound : call.args) {
         if (!bound.argument) continue;
@@ -61,6 +61,15 @@ void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex nam
         if (std::find(begin, judged_.end(), bound.argument) == judged_.end()) checkArgument(routine, bound);
     }
     judged_.resize(judgedBefore);
+}
+
+// Whether the arguments were read to their end: after a syntax error in a call nothing is said to be missing.
+bool Analyzer::endsWell(TokenIndex name, std::span<Argument* const> args) const {
+    const TokenIndex last = args.empty() ? name : args.back()->last;
+    const TokenKind next =
+        context_.tree->tokens[std::min<size_t>(last + 1, context_.tree->tokens.size() - 1)].kind;
+    return next == TokenKind::Semicolon || next == TokenKind::RightParen ||
+           (args.empty() && next == TokenKind::LeftParen);
 }
 
 size_t Analyzer::alternativesEnd(const RoutineSymbol& routine, size_t first) const {

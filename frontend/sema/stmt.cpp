@@ -260,9 +260,16 @@ bool Analyzer::callStmt(const CallStmt& s) {
     routine->used = true;
     bindCall(s, *routine, s.name, s.args);
     if (part_ == Part::Undo) callInUndo(*routine, s.name);
-    if (!routine->predefined) return true;
-    const std::string_view folded = interner_.folded(name);
-    return folded != "exitcycle" && folded != "raisetouser";
+    return !routine->predefined || predefinedCall(s.name, interner_.folded(name));
+}
+
+// Predefined procedures that belong to the flow of control: RETRY in disguise, and those that do not come back.
+bool Analyzer::predefinedCall(TokenIndex name, std::string_view folded) {
+    if (folded == "startmoveretry") {
+        if (part_ != Part::Error) report(Code::OutsideErrorHandler, range(name), {text(name)});
+        return false;
+    }
+    return folded != "exitcycle" && folded != "raisetouser" && folded != "errraise";
 }
 
 void Analyzer::reportNotCallable(const Symbol& symbol, TokenIndex name) {

@@ -19,8 +19,8 @@ struct RoutineSymbol;
 /// Value of a constant expression. Aggregates hold their members in order (arrays: nested by dimension).
 struct ConstValue {
     enum class Kind : uint8_t { None, Number, Bool, String, Aggregate } kind = Kind::None;
-    double number = 0; ///< num values are already rounded to binary32
     bool boolean = false;
+    double number = 0; ///< num values are already rounded to binary32
     std::string text;
     std::vector<ConstValue> members;
 };
