@@ -11,12 +11,56 @@ A test's name is its path: golden/strings/strlen. Formats: tests/README.md.
 import argparse
 import concurrent.futures
 import os
+import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import cases  # noqa: E402
+
+
+def bracket(text):
+    """A CMake argument that is taken literally."""
+    return f"[==[{text}]==]"
+
+
+def unit_cases(program):
+    """Names of the Catch2 cases in the unit test program; none when it is not built."""
+    if not os.access(program, os.X_OK):
+        return []
+    listing = subprocess.run([program, "--list-test-names-only"], capture_output=True, text=True, check=False)
+    return [line for line in listing.stdout.splitlines() if line.strip()]
+
+
+def case_filter(name):
+    """The name as a Catch2 test spec that matches it and nothing else."""
+    for character in '\\,[':
+        name = name.replace(character, "\\" + character)
+    return name
+
+
+def write_ctest(path, source, build):
+    lines = []
+
+    def add(name, command, timeout):
+        lines.append(f"add_test({bracket(name)} {' '.join(bracket(word) for word in command)})")
+        lines.append(f"set_tests_properties({bracket(name)} PROPERTIES TIMEOUT {timeout} "
+                     f"WORKING_DIRECTORY {bracket(build)})")
+
+    program = os.path.join(build, "rapidc_unit_tests")
+    for name in unit_cases(program):
+        add("unit/" + name, [program, "-w", "NoTests", case_filter(name)], 240)
+    runner = os.path.join(source, "tests", "harness", "run_tests.py")
+    for name in sorted(cases.discover(source)):
+        add(name, [sys.executable, runner, "--source", source, "--build", build, "--one", name], 120)
+    scripts = os.path.join(source, "scripts")
+    add("layering", [sys.executable, os.path.join(scripts, "check_layering.py"), "--source", source], 60)
+    if os.path.exists(os.path.join(scripts, "check_stdlib.py")):
+        lines.append(f"add_test(stdlib {bracket(sys.executable)} {bracket(os.path.join(scripts, 'check_stdlib.py'))})")
+        lines.append(f"set_tests_properties(stdlib PROPERTIES WORKING_DIRECTORY {bracket(source)})")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("\n".join(lines) + "\n")
 
 
 def main():
@@ -27,6 +71,7 @@ def main():
     parser.add_argument("--build", help="build folder, for scratch files (default: SOURCE/build)")
     parser.add_argument("--rapidc", help="the executable under test (default: BUILD/rapidc)")
     parser.add_argument("--list", action="store_true", help="print the names")
+    parser.add_argument("--write-ctest", metavar="FILE", help="write a ctest file that registers all tests")
     parser.add_argument("--one", help="run exactly this test")
     parser.add_argument("--update", action="store_true", help="rewrite expected output")
     parser.add_argument("--modes", default="jit aot", help="modes of running programs")
@@ -35,6 +80,9 @@ def main():
 
     source = os.path.abspath(options.source)
     build = os.path.abspath(options.build or os.path.join(source, "build"))
+    if options.write_ctest:
+        write_ctest(options.write_ctest, source, build)
+        return 0
     context = cases.Context(source=source, build=build,
                             rapidc=os.path.abspath(options.rapidc or os.path.join(build, "rapidc")),
                             update=options.update, modes=options.modes.split())
