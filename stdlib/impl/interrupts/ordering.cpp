@@ -136,7 +136,11 @@ Status rt_ITimer(TaskCore* task, bool Single, bool SingleSafe, float Time, float
 }
 
 Status rt_IDelete(TaskCore* task, float* Interrupt) {
-    return taskOf(task).interrupts().remove(numberOf(Interrupt)) ? kOk : unknown(task);
+    // Programs begin with IDelete, CONNECT: a variable that was never connected, or is deleted already, is no error.
+    if (*Interrupt == 0) return kOk;
+    if (!taskOf(task).interrupts().remove(numberOf(Interrupt))) return unknown(task);
+    *Interrupt = 0;
+    return kOk;
 }
 
 Status rt_ISleep(TaskCore* task, float* Interrupt) {
