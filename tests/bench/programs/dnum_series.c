@@ -1,4 +1,3 @@
-#include <math.h>
 #include <stdio.h>
 
 int main(void) {
@@ -18,7 +17,7 @@ int main(void) {
         sum = sum + e;
     }
     printf("e %.8f\n", sum / 300000);
-    for (int i = 1; i <= 5000000; i++) seed = fmod(seed * 16807, 2147483647);
+    for (int i = 1; i <= 5000000; i++) seed = (double)((long long)(seed * 16807) % 2147483647LL);
     printf("seed %.0f\n", seed);
     return 0;
 }
