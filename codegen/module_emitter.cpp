@@ -19,7 +19,7 @@ std::string internalName(const std::string& name) {
 
 /// Instructions of the IR. LLVM inlines whatever is called only once, which makes one huge function of a typical program;
 /// a call costs next to nothing beside a body of this size.
-constexpr size_t kLargestInlined = 150;
+constexpr size_t kLargestInlined = 400;
 
 constexpr unsigned kErrorsAreCold = 2000; // usual : error, in branch weights
 
