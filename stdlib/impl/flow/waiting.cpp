@@ -22,6 +22,17 @@ Status waitInPosition(TaskCore* task) {
     return owner.isMotionTask() ? owner.controller().motion().waitIdle(owner) : kOk;
 }
 
+/// A day of virtual time in which this task alone looked at its condition and nothing else was to happen: it can only
+/// depend on the time now, and no sensible condition waits that long. Without this a run would never end.
+bool isHopeless(const Task& task, Time since) {
+    const Scheduler& scheduler = task.scheduler();
+    const SchedulerOptions& options = scheduler.options();
+    if (task.now() - since < 24 * 3600 * kSecond || options.realtime || options.maxTime != kNever) return false;
+    if (scheduler.anythingPending()) return false;
+    return std::none_of(scheduler.tasks().begin(), scheduler.tasks().end(),
+                        [&](const Task* other) { return other != &task && other->isExecuting(); });
+}
+
 } // namespace
 
 extern "C" {
@@ -46,13 +57,17 @@ Status rt_waitInPos(TaskCore* task, bool inPos) {
     return inPos ? waitInPosition(task) : kOk;
 }
 
-/// `state` holds the deadline (kNever without \MaxTime) from the first call on; it is never 0 then.
+/// `state` holds the deadline from the first call on; without \MaxTime the negative time of that call less 1. It is never
+/// 0 then.
 Status rt_waitUntilPoll(TaskCore* task, bool* again, bool, const float* MaxTime, bool* TimeFlag,
                         const float* PollRate, int64_t* state) {
     Task& owner = taskOf(task);
     if (*state == 0)
-        *state = MaxTime ? std::max<Time>(1, addTime(owner.now(), fromSeconds(*MaxTime))) : kNever;
-    *again = owner.now() < *state;
+        *state = MaxTime ? std::max<Time>(1, addTime(owner.now(), fromSeconds(*MaxTime))) : -1 - owner.now();
+    const Time deadline = *state > 0 ? *state : kNever;
+    *again = owner.now() < deadline;
+    if (*state < 0 && isHopeless(owner, -1 - *state))
+        return owner.fatal(static_cast<int>(EventId::NothingPending), "WaitUntil has looked at its condition for a day of virtual time.");
     if (!*again) {
         if (!TimeFlag)
             return lib::fail(task, err::ERR_WAIT_MAXTIME,
@@ -62,6 +77,6 @@ Status rt_waitUntilPoll(TaskCore* task, bool* again, bool, const float* MaxTime,
     }
     const double poll = PollRate ? std::max<double>(*PollRate, kShortestPoll) : kPollSeconds;
     // The condition is looked at once more exactly when the time is over.
-    return owner.sleepUntil(std::min<Time>(addTime(owner.now(), fromSeconds(poll)), *state));
+    return owner.sleepUntil(std::min<Time>(addTime(owner.now(), fromSeconds(poll)), deadline));
 }
 }
