@@ -6,21 +6,13 @@
 #include "ir/passes/passes.h"
 #include "tests/unit/codegen/fake_runtime.h"
 #include "tests/unit/ir/ir_testing.h"
+#include "tests/unit/temporary_folder.h"
 
 using namespace codegen_testing;
 using ir_testing::corpusModule;
 using ir_testing::readText;
 
 namespace {
-
-struct TemporaryFolder {
-    std::filesystem::path path;
-    TemporaryFolder() : path(std::filesystem::temp_directory_path() / "rapidc_codegen_test") {
-        std::filesystem::remove_all(path);
-        std::filesystem::create_directories(path);
-    }
-    ~TemporaryFolder() { std::filesystem::remove_all(path); }
-};
 
 ir::Module prepared(const std::string& name) {
     ir::Module module = corpusModule(name);

@@ -3,6 +3,7 @@
 
 #include "runtime/robot/embedded_models.h"
 #include "runtime/robot/robot_model.h"
+#include "tests/unit/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 
@@ -32,14 +33,6 @@ std::string nameFor(const std::string& query) {
     const auto model = loadRobotModel(query);
     return model ? model->name : "error: " + model.error().message;
 }
-
-struct TemporaryFolder {
-    std::filesystem::path path =
-        std::filesystem::temp_directory_path() / ("rapidc_models_" + std::to_string(std::rand()));
-    TemporaryFolder() { std::filesystem::create_directories(path); }
-    ~TemporaryFolder() { std::filesystem::remove_all(path); }
-    void write(const std::string& file, const std::string& text) const { std::ofstream(path / file) << text; }
-};
 
 } // namespace
 
