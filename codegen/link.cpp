@@ -45,7 +45,7 @@ bool runDriver(const std::vector<std::string>& arguments, std::string& error) {
                                            0, &message);
     std::string said;
     if (auto buffer = llvm::MemoryBuffer::getFile(file)) said = (*buffer)->getBuffer().str();
-    llvm::sys::fs::remove(file);
+    (void)llvm::sys::fs::remove(file); // nothing to be done about a file that stays
     if (status == 0) return true;
     error = "linking failed (" + arguments[0] + ", status " + std::to_string(status) + ")";
     if (!message.empty()) error += ": " + message;

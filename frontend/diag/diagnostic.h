@@ -30,7 +30,8 @@ struct Diagnostic {
     };
     Code code{};
     Severity severity = Severity::Error;
-    std::shared_ptr<const SourceFile> file; ///< may be null: a message about the command line or a missing file
+    std::shared_ptr<const SourceFile>
+        file; ///< may be null: a message about the command line or a missing file
     SourceRange range;
     std::string message; ///< lower-case start, one sentence, no full stop
     std::vector<Note> notes;

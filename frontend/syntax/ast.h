@@ -113,9 +113,9 @@ struct AssignStmt : Stmt {
     Expr* target = nullptr;
     Expr* value = nullptr;
 };
-struct CallStmt : Stmt {          ///< procedure call, early or late bound
-    TokenIndex name = kNoToken;   ///< early binding
-    Expr* lateName = nullptr;     ///< %expression%
+struct CallStmt : Stmt {        ///< procedure call, early or late bound
+    TokenIndex name = kNoToken; ///< early binding
+    Expr* lateName = nullptr;   ///< %expression%
     std::span<Argument*> args;
 };
 struct IfBranch : Node {
@@ -211,15 +211,15 @@ struct ParamDecl : Node {
     ParamMode mode = ParamMode::In;
     bool isSwitch = false;
     bool optional = false;
-    bool placeholder = false;    ///< <PAR> or <ALT>
-    uint32_t group = 0;          ///< parameters joined by '|' share a number; numbers ascend
-    TokenIndex type = kNoToken;  ///< kNoToken for switch
+    bool placeholder = false;   ///< <PAR> or <ALT>
+    uint32_t group = 0;         ///< parameters joined by '|' share a number; numbers ascend
+    TokenIndex type = kNoToken; ///< kNoToken for switch
     TokenIndex name = kNoToken;
-    uint8_t rank = 0;            ///< number of '*'; 0 = no array; 255 = <DIM>
+    uint8_t rank = 0; ///< number of '*'; 0 = no array; 255 = <DIM>
 };
 enum class RoutineKind : uint8_t { Proc, Func, Trap };
 struct ErrorClause : Node {
-    bool hasList = false;          ///< ERROR (a, b)
+    bool hasList = false; ///< ERROR (a, b)
     std::span<Expr*> numbers;
     StmtList body;
 };
@@ -283,12 +283,9 @@ struct SyntaxTree {
     uint32_t exprCount = 0;
 
     std::string_view text(TokenIndex t) const {
-        return t == kNoToken ? std::string_view()
-                             : source->text().substr(tokens[t].offset, tokens[t].length);
+        return t == kNoToken ? std::string_view() : source->text().substr(tokens[t].offset, tokens[t].length);
     }
-    SourceRange range(TokenIndex t) const {
-        return {tokens[t].offset, tokens[t].offset + tokens[t].length};
-    }
+    SourceRange range(TokenIndex t) const { return {tokens[t].offset, tokens[t].offset + tokens[t].length}; }
     SourceRange range(const Node& n) const {
         if (n.first == kNoToken || n.first > n.last) return {};
         return {tokens[n.first].offset, tokens[n.last].offset + tokens[n.last].length};
@@ -299,7 +296,11 @@ struct SyntaxTree {
 /// raw byte. More than 80 bytes is the caller's to report.
 std::string decodeStringLiteral(std::string_view literal);
 
-template <class T> const T& as(const Node& n) { return static_cast<const T&>(n); }
-template <class T> T& as(Node& n) { return static_cast<T&>(n); }
+template <class T> const T& as(const Node& n) {
+    return static_cast<const T&>(n);
+}
+template <class T> T& as(Node& n) {
+    return static_cast<T&>(n);
+}
 
 } // namespace rapid::syntax

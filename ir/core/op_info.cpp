@@ -26,11 +26,11 @@ struct Conversion {
     TypeId from, to;
 };
 constexpr Conversion kConversions[] = {
-    {Op::I32ToF32, kI32, kF32}, {Op::I32ToF64, kI32, kF64}, {Op::F32ToI32, kF32, kI32},
-    {Op::F32ToIndex, kF32, kI32}, {Op::F64ToIndex, kF64, kI32},
-    {Op::F64ToI32, kF64, kI32}, {Op::F32ToI64, kF32, kI64}, {Op::F64ToI64, kF64, kI64},
-    {Op::I64ToF32, kI64, kF32}, {Op::I64ToF64, kI64, kF64}, {Op::F32ToF64, kF32, kF64},
-    {Op::F64ToF32, kF64, kF32}, {Op::I32ToI64, kI32, kI64}, {Op::I64ToI32, kI64, kI32},
+    {Op::I32ToF32, kI32, kF32},   {Op::I32ToF64, kI32, kF64},   {Op::F32ToI32, kF32, kI32},
+    {Op::F32ToIndex, kF32, kI32}, {Op::F64ToIndex, kF64, kI32}, {Op::F64ToI32, kF64, kI32},
+    {Op::F32ToI64, kF32, kI64},   {Op::F64ToI64, kF64, kI64},   {Op::I64ToF32, kI64, kF32},
+    {Op::I64ToF64, kI64, kF64},   {Op::F32ToF64, kF32, kF64},   {Op::F64ToF32, kF64, kF32},
+    {Op::I32ToI64, kI32, kI64},   {Op::I64ToI32, kI64, kI32},
 };
 
 } // namespace

@@ -42,7 +42,8 @@ RoutineLowering::Place RoutineLowering::placeOf(const DataSymbol& symbol) {
         break;
     case Slot::Kind::Pointer:
         checkPresent(*slot);
-        p.addr = slot->local == ir::kNone ? b_.param(slot->param) : b_.load(ir::kPtr, b_.localAddr(slot->local));
+        p.addr =
+            slot->local == ir::kNone ? b_.param(slot->param) : b_.load(ir::kPtr, b_.localAddr(slot->local));
         for (int k = 0; k < symbol.type.rank; ++k)
             p.dims[k] = b_.param(slot->param + 1 + static_cast<uint32_t>(k));
         break;
@@ -104,7 +105,8 @@ RoutineLowering::Place RoutineLowering::place(const Expr& outer) {
         Place p;
         p.type = type;
         p.addr = tempAddr(program_.irType(type));
-        b_.store(program_.irType(type), readSignal(expr, type.type->base()->kind == sema::TypeKind::Dnum), p.addr);
+        b_.store(program_.irType(type), readSignal(expr, type.type->base()->kind == sema::TypeKind::Dnum),
+                 p.addr);
         return p;
     }
     return reference(expr);

@@ -46,7 +46,8 @@ void RoutineLowering::pushPointerArgument(const BoundArg& arg, std::vector<Value
     }
     const Place p = place(*arg.value);
     args.push_back(p.addr);
-    for (int k = 0; k < arg.param->type.rank; ++k) args.push_back(dimValue(p, k));
+    for (int k = 0; k < arg.param->type.rank; ++k)
+        args.push_back(dimValue(p, k));
 }
 
 /// \x?y: what the caller got for y is passed on, absent or not.
@@ -64,7 +65,8 @@ void RoutineLowering::pushConditional(const BoundArg& arg, std::vector<ValueId>&
     } else {
         args.push_back(given);
     }
-    for (int k = 0; k < arg.param->type.rank; ++k) args.push_back(b_.param(slot->param + 1 + static_cast<uint32_t>(k)));
+    for (int k = 0; k < arg.param->type.rank; ++k)
+        args.push_back(b_.param(slot->param + 1 + static_cast<uint32_t>(k)));
 }
 
 void RoutineLowering::pushAny(const BoundArg& arg, std::vector<ValueId>& args) {
@@ -81,7 +83,8 @@ void RoutineLowering::pushAny(const BoundArg& arg, std::vector<ValueId>& args) {
                                                  {ir::kPtr, ir::kI32, ir::kI32, ir::kI32});
         const ValueId element = b_.typeDescAddr(program_.typeDesc(scalarType(p.type.type)));
         std::vector<ValueId> dims{element};
-        for (int k = 0; k < 3; ++k) dims.push_back(k < p.type.rank ? dimValue(p, k) : b_.constI32(0));
+        for (int k = 0; k < 3; ++k)
+            dims.push_back(k < p.type.rank ? dimValue(p, k) : b_.constI32(0));
         args.push_back(p.addr);
         args.push_back(b_.callNative(native, std::move(dims)));
         return;
@@ -99,7 +102,8 @@ void RoutineLowering::pushArgument(const BoundArg& arg, std::vector<ValueId>& ar
             args.push_back(b_.constBool(false));
         } else {
             args.push_back(b_.nullPtr());
-            for (int k = 0; k < arg.param->type.rank; ++k) args.push_back(b_.constI32(0));
+            for (int k = 0; k < arg.param->type.rank; ++k)
+                args.push_back(b_.constI32(0));
         }
         return;
     case BoundArg::Kind::Conditional: return pushConditional(arg, args);
@@ -141,7 +145,8 @@ ir::ValueId RoutineLowering::lowerCall(const Node& node, ValueId resultAddr) {
     const ir::TypeId result = isFunction ? program_.irType(callee.returnType) : ir::kVoid;
     const bool aggregate = isFunction && !program_.module().isScalar(result);
     if (aggregate) args.push_back(resultAddr == ir::kNone ? tempAddr(result) : resultAddr);
-    for (const BoundArg& arg : call.args) pushArgument(arg, args);
+    for (const BoundArg& arg : call.args)
+        pushArgument(arg, args);
     if (callee.native) return b_.callNative(program_.nativeFor(callee), std::move(args));
     return b_.call(program_.routineFor(callee, task_), std::move(args));
 }
@@ -195,9 +200,8 @@ void RoutineLowering::lowerWaitUntil(const BoundCall& call) {
         pushArgument(*arg, out);
         return out[0];
     };
-    const uint32_t native =
-        program_.support("rt_waitUntilPoll", ir::NativeClass::Plain, ir::kBool,
-                         {ir::kBool, ir::kPtr, ir::kPtr, ir::kPtr, ir::kPtr});
+    const uint32_t native = program_.support("rt_waitUntilPoll", ir::NativeClass::Plain, ir::kBool,
+                                             {ir::kBool, ir::kPtr, ir::kPtr, ir::kPtr, ir::kPtr});
     const BoundArg* inPosArg = findArg(call, "InPos");
     std::vector<ValueId> inPosValue;
     if (inPosArg) pushArgument(*inPosArg, inPosValue);
@@ -214,14 +218,15 @@ void RoutineLowering::lowerWaitUntil(const BoundCall& call) {
     const ir::BlockId end = b_.addBlock("waited");
     if (inPosArg && inPosArg->kind != BoundArg::Kind::Absent) {
         // \InPos: first the robot stands still, then the condition counts.
-        b_.callNative(program_.support("rt_waitInPos", ir::NativeClass::Plain, ir::kVoid, {ir::kBool}), {inPosValue[0]});
+        b_.callNative(program_.support("rt_waitInPos", ir::NativeClass::Plain, ir::kVoid, {ir::kBool}),
+                      {inPosValue[0]});
     }
     b_.br(head);
     b_.setBlock(head);
     lowerCond(*findArg(call, "Cond")->value, met, poll);
     b_.setBlock(poll);
-    const ValueId again = b_.callNative(native, {b_.load(ir::kBool, b_.localAddr(inPos)), maxTime, timeFlag, pollRate,
-                                                 b_.localAddr(state)});
+    const ValueId again = b_.callNative(
+        native, {b_.load(ir::kBool, b_.localAddr(inPos)), maxTime, timeFlag, pollRate, b_.localAddr(state)});
     b_.condBr(again, head, end);
     b_.setBlock(met);
     const BoundArg* flag = findArg(call, "TimeFlag");
@@ -241,13 +246,15 @@ bool isReference(const Expr& value, const sema::ExprInfo& facts) {
 /// Matches the written arguments to the parameters of one candidate: required ones in order, optional ones by name.
 bool bindLate(const CallStmt& stmt, const sema::RoutineSymbol& callee, const sema::Module& module,
               std::vector<BoundArg>& bound) {
-    for (DataSymbol* param : callee.params) bound.emplace_back().param = param;
+    for (DataSymbol* param : callee.params)
+        bound.emplace_back().param = param;
     size_t next = 0;
     for (const Argument* arg : stmt.args) {
         if (arg->argKind == ArgKind::Placeholder) return false;
         BoundArg* target = nullptr;
         if (arg->argKind == ArgKind::Required) {
-            while (next < bound.size() && bound[next].param->optional) ++next;
+            while (next < bound.size() && bound[next].param->optional)
+                ++next;
             if (next < bound.size()) target = &bound[next++];
         } else {
             const std::string name = foldCase(module.tree->text(arg->name));
@@ -255,8 +262,10 @@ bool bindLate(const CallStmt& stmt, const sema::RoutineSymbol& callee, const sem
                 if (candidate.param->optional && foldCase(candidate.param->name) == name) target = &candidate;
         }
         if (!target || target->kind != BoundArg::Kind::Absent) return false;
-        if (target->param->isSwitch != (arg->value == nullptr) && arg->argKind != ArgKind::Conditional) return false;
-        target->kind = arg->argKind == ArgKind::Conditional ? BoundArg::Kind::Conditional : BoundArg::Kind::Present;
+        if (target->param->isSwitch != (arg->value == nullptr) && arg->argKind != ArgKind::Conditional)
+            return false;
+        target->kind =
+            arg->argKind == ArgKind::Conditional ? BoundArg::Kind::Conditional : BoundArg::Kind::Present;
         target->value = arg->value;
         target->argument = arg;
     }
@@ -273,7 +282,8 @@ bool fits(const CallStmt& stmt, const sema::RoutineSymbol& callee, const sema::M
         if (!arg.value || arg.param->isSwitch) continue;
         const sema::ExprInfo& have = (*module.exprs)[arg.value->id];
         const sema::DataType& want = arg.param->type;
-        if (!have.type.type || have.type.rank != want.rank || have.type.type->base() != want.type->base()) return false;
+        if (!have.type.type || have.type.rank != want.rank || have.type.type->base() != want.type->base())
+            return false;
         if (arg.param->mode != ParamMode::In && !isReference(*arg.value, have)) return false;
     }
     return true;
@@ -296,8 +306,8 @@ void RoutineLowering::lowerLateCall(const CallStmt& stmt) {
         names.push_back(std::move(scalar));
     }
     const ValueId name = lowerAddr(*stmt.lateName);
-    const uint32_t lookup = program_.support("rt_lateLookup", ir::NativeClass::Plain, ir::kI32,
-                                             {ir::kPtr, ir::kPtr, ir::kI32});
+    const uint32_t lookup =
+        program_.support("rt_lateLookup", ir::NativeClass::Plain, ir::kI32, {ir::kPtr, ir::kPtr, ir::kI32});
     if (names.empty()) names.emplace_back().kind = ir::TypeKind::Str;
     const auto count = static_cast<int32_t>(candidates.size());
     const ir::TypeId tableType = program_.module().arrayOf(ir::kStr, {static_cast<int32_t>(names.size())});
@@ -317,7 +327,8 @@ void RoutineLowering::lowerLateCall(const CallStmt& stmt) {
         std::vector<BoundArg> bound;
         bindLate(stmt, callee, *module_, bound);
         std::vector<ValueId> args;
-        for (const BoundArg& arg : bound) pushArgument(arg, args);
+        for (const BoundArg& arg : bound)
+            pushArgument(arg, args);
         b_.call(program_.routineFor(callee, task_), std::move(args));
         b_.br(end);
     }

@@ -82,7 +82,8 @@ ir::ValueId RoutineLowering::lowerBinary(const BinaryExpr& expr) {
     case BinaryOp::And:
     case BinaryOp::Or:
         if (!isCheap(*expr.right)) return lowerShortCircuit(expr);
-        return b_.binary(expr.op == BinaryOp::And ? Op::And : Op::Or, lowerValue(*expr.left), lowerValue(*expr.right));
+        return b_.binary(expr.op == BinaryOp::And ? Op::And : Op::Or, lowerValue(*expr.left),
+                         lowerValue(*expr.right));
     case BinaryOp::Xor: return b_.binary(Op::Xor, lowerValue(*expr.left), lowerValue(*expr.right));
     case BinaryOp::Eq: return lowerEquality(*expr.left, *expr.right);
     case BinaryOp::Ne: return b_.unary(Op::Not, lowerEquality(*expr.left, *expr.right));
@@ -124,7 +125,8 @@ ir::ValueId RoutineLowering::lowerIntegerDivision(bool modulo, ValueId a, ValueI
     const int32_t notInteger = program_.errorNumber("ERR_INT_NOTVAL");
     b_.check(b_.binary(Op::FNe, b, zero), program_.errorNumber("ERR_DIVZERO"));
     b_.check(b_.binary(Op::FEq, b_.unary(Op::FTrunc, a), a), notInteger);
-    if (routine_.insts[b].op != Op::Const) b_.check(b_.binary(Op::FEq, b_.unary(Op::FTrunc, b), b), notInteger);
+    if (routine_.insts[b].op != Op::Const)
+        b_.check(b_.binary(Op::FEq, b_.unary(Op::FTrunc, b), b), notInteger);
     const ValueId quotient = b_.unary(Op::FTrunc, b_.binary(Op::FDiv, a, b));
     if (!modulo) return quotient;
     return b_.binary(Op::FSub, a, b_.binary(Op::FMul, quotient, b));
@@ -140,7 +142,8 @@ ir::ValueId RoutineLowering::lowerComparison(const BinaryExpr& expr) {
     }
     if (intRange(*expr.left) && intRange(*expr.right))
         return b_.binary(i, lowerInt(*expr.left), lowerInt(*expr.right));
-    const bool isDnum = baseType(*expr.left)->kind == TypeKind::Dnum || baseType(*expr.right)->kind == TypeKind::Dnum;
+    const bool isDnum =
+        baseType(*expr.left)->kind == TypeKind::Dnum || baseType(*expr.right)->kind == TypeKind::Dnum;
     const sema::Type* type = isDnum ? program_.program().dnum : program_.program().num;
     const ValueId a = lowerValueAs(*expr.left, type);
     return b_.binary(f, a, lowerValueAs(*expr.right, type));
@@ -160,7 +163,8 @@ ir::ValueId RoutineLowering::lowerEquality(const Expr& left, const Expr& right) 
         const ValueId a = lowerValueAs(left, wanted);
         return b_.binary(Op::FEq, a, lowerValueAs(right, wanted));
     }
-    if (kind == TypeKind::Bool && !type.isArray()) return b_.binary(Op::IEq, lowerValue(left), lowerValue(right));
+    if (kind == TypeKind::Bool && !type.isArray())
+        return b_.binary(Op::IEq, lowerValue(left), lowerValue(right));
     auto address = [&](const Expr& e) {
         if (unparen(e).kind != NodeKind::Aggregate) return lowerAddr(e);
         const ValueId buffer = tempAddr(program_.irType(type));
@@ -173,8 +177,8 @@ ir::ValueId RoutineLowering::lowerEquality(const Expr& left, const Expr& right) 
 
 ir::ValueId RoutineLowering::equalPlaces(ValueId a, ValueId b, const sema::DataType& type) {
     if (!type.isArray() && type.type->base()->kind == TypeKind::String)
-        return b_.callNative(program_.support("rt_strEqual", ir::NativeClass::Const, ir::kBool, {ir::kPtr, ir::kPtr}),
-                             {a, b});
+        return b_.callNative(
+            program_.support("rt_strEqual", ir::NativeClass::Const, ir::kBool, {ir::kPtr, ir::kPtr}), {a, b});
     return b_.callNative(
         program_.support("rt_anyEqual", ir::NativeClass::Const, ir::kBool, {ir::kPtr, ir::kPtr, ir::kPtr}),
         {a, b, b_.typeDescAddr(program_.typeDesc(type))});
@@ -197,7 +201,8 @@ bool RoutineLowering::isCheap(const Expr& outer) const {
     case NodeKind::Unary: return isCheap(*as<UnaryExpr>(expr).operand);
     case NodeKind::Binary: {
         const auto& binary = as<BinaryExpr>(expr);
-        if (binary.op == BinaryOp::Div || binary.op == BinaryOp::IntDiv || binary.op == BinaryOp::Mod) return false;
+        if (binary.op == BinaryOp::Div || binary.op == BinaryOp::IntDiv || binary.op == BinaryOp::Mod)
+            return false;
         const TypeKind kind = baseType(*binary.left)->kind;
         const bool scalar = kind == TypeKind::Num || kind == TypeKind::Dnum || kind == TypeKind::Bool;
         return scalar && isCheap(*binary.left) && isCheap(*binary.right);
@@ -267,11 +272,14 @@ void RoutineLowering::lowerInto(const Expr& outer, const sema::DataType& type, V
     case NodeKind::Aggregate: {
         const auto& elements = as<AggregateExpr>(expr).elements;
         if (type.isArray()) {
-            sema::DataType inner{type.type, static_cast<uint8_t>(type.rank - 1), {type.dims[1], type.dims[2], 0}};
+            sema::DataType inner{
+                type.type, static_cast<uint8_t>(type.rank - 1), {type.dims[1], type.dims[2], 0}};
             const ir::TypeId elementType = program_.irType(type.type);
-            const int32_t stride = (inner.rank > 0 ? inner.dims[0] : 1) * (inner.rank > 1 ? inner.dims[1] : 1);
+            const int32_t stride =
+                (inner.rank > 0 ? inner.dims[0] : 1) * (inner.rank > 1 ? inner.dims[1] : 1);
             for (size_t i = 0; i < elements.size(); ++i) {
-                const ValueId at = b_.elemAddr(elementType, dst, b_.constI32(static_cast<int32_t>(i) * stride));
+                const ValueId at =
+                    b_.elemAddr(elementType, dst, b_.constI32(static_cast<int32_t>(i) * stride));
                 storeExpr(*elements[i], inner, at);
             }
             return;
@@ -290,8 +298,9 @@ void RoutineLowering::lowerInto(const Expr& outer, const sema::DataType& type, V
             const auto& binary = as<BinaryExpr>(expr); // string +
             const ValueId a = lowerAddr(*binary.left);
             const ValueId b = lowerAddr(*binary.right);
-            b_.callNative(program_.support("rt_strConcat", ir::NativeClass::Plain, ir::kStr, {ir::kPtr, ir::kPtr}),
-                          {dst, a, b});
+            b_.callNative(
+                program_.support("rt_strConcat", ir::NativeClass::Plain, ir::kStr, {ir::kPtr, ir::kPtr}),
+                {dst, a, b});
         }
         return;
     default: b_.copy(irType, dst, place(expr).addr); return;

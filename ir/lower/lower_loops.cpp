@@ -137,7 +137,8 @@ void RoutineLowering::lowerUnknownDirection(const ForStmt& stmt, sema::DataSymbo
     const ValueId first = lowerInt(*stmt.from);
     const auto to = intRange(*stmt.to);
     const ValueId exact = to ? lowerInt(*stmt.to) : ir::kNone;
-    const ValueId to32 = to ? b_.convert(Op::I32ToF32, exact) : lowerValueAs(*stmt.to, program_.program().num);
+    const ValueId to32 =
+        to ? b_.convert(Op::I32ToF32, exact) : lowerValueAs(*stmt.to, program_.program().num);
     const ValueId up = to ? exact : boundAsInt(to32, true);
     const ValueId down = to ? exact : boundAsInt(to32, false);
     const ValueId forward = b_.binary(Op::FLe, b_.convert(Op::I32ToF32, first), to32);

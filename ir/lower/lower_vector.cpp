@@ -29,7 +29,8 @@ std::vector<ir::ValueId> RoutineLowering::lowerComponents(const Expr& outer) {
     if (expr.kind == NodeKind::Unary) {
         out = lowerComponents(*as<UnaryExpr>(expr).operand);
         if (as<UnaryExpr>(expr).op == UnaryOp::Minus)
-            for (ValueId& v : out) v = b_.unary(Op::FNeg, v);
+            for (ValueId& v : out)
+                v = b_.unary(Op::FNeg, v);
         return out;
     }
     const auto& binary = as<BinaryExpr>(expr);
@@ -43,14 +44,17 @@ std::vector<ir::ValueId> RoutineLowering::lowerComponents(const Expr& outer) {
         out = lowerComponents(leftScalar ? *binary.right : *binary.left);
         const ValueId scalar = leftScalar ? first : lowerValueAs(*binary.right, program_.program().num);
         const bool division = binary.op == BinaryOp::Div;
-        if (division) b_.check(b_.binary(Op::FNe, scalar, b_.constF32(0)), program_.errorNumber("ERR_DIVZERO"));
-        for (ValueId& v : out) v = b_.binary(division ? Op::FDiv : Op::FMul, v, scalar);
+        if (division)
+            b_.check(b_.binary(Op::FNe, scalar, b_.constF32(0)), program_.errorNumber("ERR_DIVZERO"));
+        for (ValueId& v : out)
+            v = b_.binary(division ? Op::FDiv : Op::FMul, v, scalar);
         return out;
     }
     const std::vector<ValueId> a = lowerComponents(*binary.left);
     const std::vector<ValueId> b = lowerComponents(*binary.right);
     if (binary.op != BinaryOp::Mul) {
-        for (size_t i = 0; i < a.size(); ++i) out.push_back(binary.op == BinaryOp::Add ? add(a[i], b[i]) : sub(a[i], b[i]));
+        for (size_t i = 0; i < a.size(); ++i)
+            out.push_back(binary.op == BinaryOp::Add ? add(a[i], b[i]) : sub(a[i], b[i]));
         return out;
     }
     if (a.size() == 3) { // vector product

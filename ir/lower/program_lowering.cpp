@@ -321,7 +321,8 @@ void ProgramLowering::drainPending() {
         pending_.pop_back();
         RoutineLowering lowering(*this, *next.symbol, next.task, module_.routines[next.index]);
         ir::Routine done = lowering.run();
-        done.exported = done.exported || module_.routines[next.index].exported; // a CONNECT names it meanwhile
+        done.exported =
+            done.exported || module_.routines[next.index].exported; // a CONNECT names it meanwhile
         module_.routines[next.index] = std::move(done);
     }
 }

@@ -73,12 +73,11 @@ class RoutineLowering {
     // lower_loops.cpp
     void lowerFor(const syntax::ForStmt& stmt);
     /// `stepValue`: the step when it is known at run time only; `step` then tells its sign.
-    void lowerIntLoop(const syntax::ForStmt& stmt, sema::DataSymbol& variable, int32_t step, ValueId stepValue,
-                      IntRange from);
+    void lowerIntLoop(const syntax::ForStmt& stmt, sema::DataSymbol& variable, int32_t step,
+                      ValueId stepValue, IntRange from);
     void lowerUnknownDirection(const syntax::ForStmt& stmt, sema::DataSymbol& variable, IntRange from);
     void lowerCountedBody(const syntax::ForStmt& stmt, sema::DataSymbol& variable, ValueId first,
-                          ValueId last, int32_t step, IntRange range,
-                          ValueId stepValue = ir::kNone);
+                          ValueId last, int32_t step, IntRange range, ValueId stepValue = ir::kNone);
     void lowerFloatLoop(const syntax::ForStmt& stmt, sema::DataSymbol& variable);
     ValueId boundAsInt(ValueId value, bool roundDown); ///< num to I32, toward minus or plus infinity
 

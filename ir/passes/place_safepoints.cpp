@@ -21,7 +21,8 @@ class Placer {
         cfg_ = buildCfg(module_, routine_, HandlerEdges::No);
         info_ = findLoops(cfg_);
         if (!info_.irreducible.empty()) {
-            for (const Edge& edge : info_.irreducible) payOnEdge(edge);
+            for (const Edge& edge : info_.irreducible)
+                payOnEdge(edge);
             cfg_ = buildCfg(module_, routine_, HandlerEdges::No);
             info_ = findLoops(cfg_);
         }

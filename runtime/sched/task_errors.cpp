@@ -35,8 +35,7 @@ std::vector<SourcePlace> Task::callChain() const {
 std::string Task::describeError(int number) const {
     const EventLog& log = host_.log();
     const std::string name = log.errorName(number);
-    std::string text =
-        name.empty() ? fmt::format("Error {}", number) : fmt::format("{} ({})", name, number);
+    std::string text = name.empty() ? fmt::format("Error {}", number) : fmt::format("{} ({})", name, number);
     const std::string& why = errorDetail_.empty() ? log.errorText(number) : errorDetail_;
     text += why.empty() ? "." : ": " + why;
     if (text.back() != '.' && text.back() != '!' && text.back() != '?') text += '.';

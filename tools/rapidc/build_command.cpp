@@ -60,14 +60,16 @@ int build(BuildSettings& settings) {
     settings.inputs.requireMain = true;
     const auto compilation = checkInputs(settings.inputs);
     if (!compilation->usageErrors.empty()) {
-        for (const std::string& problem : compilation->usageErrors) fmt::print(stderr, "rapidc build: {}\n", problem);
+        for (const std::string& problem : compilation->usageErrors)
+            fmt::print(stderr, "rapidc build: {}\n", problem);
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
     if (settings.output.empty()) settings.output = fs::path(settings.inputs.paths[0]).stem().string();
     if (settings.output.empty()) settings.output = "a.out";
     ir::Module module;
-    const bool lowered = !compilation->sink.hasErrors() &&
-                         lowerToIr(*compilation, fs::path(settings.output).filename().string(), false, module);
+    const bool lowered =
+        !compilation->sink.hasErrors() &&
+        lowerToIr(*compilation, fs::path(settings.output).filename().string(), false, module);
     printDiagnostics(*compilation);
     if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
     const TemporaryFile object{fmt::format("{}.{}.o", settings.output, getpid())};
@@ -90,7 +92,8 @@ void addBuildCommand(CLI::App& app, int& status) {
     CLI::App* command = app.add_subcommand("build", "Compile to a native executable");
     command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs")->required();
     command->add_option("-o,--output", settings->output, "The executable to write");
-    command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")->allow_extra_args(false);
+    command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")
+        ->allow_extra_args(false);
     command->add_option("--config", settings->inputs.configFiles, "Parameters (.cfg) kept in the executable")
         ->allow_extra_args(false);
     command->add_flag("--no-optimise", settings->noOptimise, "Leave out the optimiser");

@@ -36,20 +36,20 @@ std::string chapterOf(const rapid::sema::Module& module, const rapid::syntax::No
 std::vector<Row> collect() {
     std::vector<Row> rows;
     for (const rt::NativeEntry& entry : rt::nativeTable())
-        rows.push_back({entry.name, entry.kind == rt::NativeKind::Function ? "function" : "instruction", entry.chapter,
-                        entry.isImplemented() ? "implemented" : "declared only"});
+        rows.push_back({entry.name, entry.kind == rt::NativeKind::Function ? "function" : "instruction",
+                        entry.chapter, entry.isImplemented() ? "implemented" : "declared only"});
     const auto compilation = checkInputs({});
     for (const rapid::sema::Module* module : compilation->program->predefinedModules) {
         for (const auto* type : module->types)
             rows.push_back({type->name, "datatype", chapterOf(*module, type->decl), "implemented"});
         for (const auto* data : module->data) {
             const bool constant = data->dataKind == rapid::syntax::DataKind::Const;
-            rows.push_back({data->name, constant ? "constant" : "systemdata", chapterOf(*module, data->decl), "implemented"});
+            rows.push_back({data->name, constant ? "constant" : "systemdata", chapterOf(*module, data->decl),
+                            "implemented"});
         }
     }
-    std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
-        return std::tie(a.kind, a.name) < std::tie(b.kind, b.name);
-    });
+    std::sort(rows.begin(), rows.end(),
+              [](const Row& a, const Row& b) { return std::tie(a.kind, a.name) < std::tie(b.kind, b.name); });
     return rows;
 }
 
@@ -57,7 +57,8 @@ int list(const std::string& format) {
     const std::vector<Row> rows = collect();
     if (format == "tsv") {
         fmt::print("name\tkind\tchapter\tstatus\n");
-        for (const Row& row : rows) fmt::print("{}\t{}\t{}\t{}\n", row.name, row.kind, row.chapter, row.status);
+        for (const Row& row : rows)
+            fmt::print("{}\t{}\t{}\t{}\n", row.name, row.kind, row.chapter, row.status);
         return 0;
     }
     size_t done = 0;
@@ -73,7 +74,8 @@ int list(const std::string& format) {
 
 void addBuiltinsCommand(CLI::App& app, int& status) {
     auto format = std::make_shared<std::string>("human");
-    CLI::App* command = app.add_subcommand("builtins", "List everything predefined and what of it is implemented");
+    CLI::App* command =
+        app.add_subcommand("builtins", "List everything predefined and what of it is implemented");
     command->add_option("--format", *format, "human or tsv")->check(CLI::IsMember({"human", "tsv"}));
     command->callback([format, &status] { status = list(*format); });
 }

@@ -21,7 +21,8 @@ struct CheckSettings {
 int check(const CheckSettings& settings) {
     const auto compilation = checkInputs(settings.inputs);
     if (!compilation->usageErrors.empty()) {
-        for (const std::string& problem : compilation->usageErrors) fmt::print(stderr, "rapidc check: {}\n", problem);
+        for (const std::string& problem : compilation->usageErrors)
+            fmt::print(stderr, "rapidc check: {}\n", problem);
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
     const auto sorted = compilation->sink.sorted();
@@ -40,8 +41,10 @@ void addCheckCommand(CLI::App& app, int& status) {
     auto settings = std::make_shared<CheckSettings>();
     CLI::App* command = app.add_subcommand("check", "Check RAPID modules and report every mistake");
     command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs")->required();
-    command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")->allow_extra_args(false);
-    command->add_option("--config", settings->inputs.configFiles, "EIO, SYS, MOC, SIO or PROC parameters (.cfg)")
+    command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--config", settings->inputs.configFiles, "EIO, SYS, MOC, SIO or PROC parameters (.cfg)")
         ->allow_extra_args(false);
     command->add_option("--format", settings->format, "human, json or sarif")
         ->check(CLI::IsMember({"human", "json", "sarif"}));

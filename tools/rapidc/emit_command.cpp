@@ -33,15 +33,19 @@ std::string symbolsText(const rapid::sema::CheckedProgram& program) {
                 out += fmt::format("    type {}{}\n", type->name, type->isLocal ? " local" : "");
             for (const auto* data : module->data) {
                 static constexpr const char* kKinds[] = {"var", "pers", "const"};
-                out += fmt::format("    {} {} {}", kKinds[static_cast<int>(data->dataKind)], data->type.type->name, data->name);
+                out += fmt::format("    {} {} {}", kKinds[static_cast<int>(data->dataKind)],
+                                   data->type.type->name, data->name);
                 for (int k = 0; k < data->type.rank; ++k)
-                    out += fmt::format("{}{}{}", k == 0 ? "{" : ",", data->type.dims[k], k + 1 == data->type.rank ? "}" : "");
+                    out += fmt::format("{}{}{}", k == 0 ? "{" : ",", data->type.dims[k],
+                                       k + 1 == data->type.rank ? "}" : "");
                 out += data->isLocal ? " local\n" : "\n";
             }
             for (const auto* routine : module->routines) {
                 static constexpr const char* kKinds[] = {"proc", "func", "trap"};
-                out += fmt::format("    {} {}", kKinds[static_cast<int>(routine->routineKind)], routine->name);
-                for (const auto* param : routine->params) out += fmt::format(" {}:{}", param->name, param->type.type->name);
+                out +=
+                    fmt::format("    {} {}", kKinds[static_cast<int>(routine->routineKind)], routine->name);
+                for (const auto* param : routine->params)
+                    out += fmt::format(" {}:{}", param->name, param->type.type->name);
                 out += routine->isLocal ? " local\n" : "\n";
             }
         }
@@ -80,18 +84,22 @@ int emit(EmitSettings& settings) {
     const bool early = settings.as == "tokens" || settings.as == "tree";
     const auto compilation = checkInputs(settings.inputs);
     if (!compilation->usageErrors.empty()) {
-        for (const std::string& problem : compilation->usageErrors) fmt::print(stderr, "rapidc emit: {}\n", problem);
+        for (const std::string& problem : compilation->usageErrors)
+            fmt::print(stderr, "rapidc emit: {}\n", problem);
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
     std::string text;
     if (early) {
         for (const auto& tree : compilation->program->trees) {
-            if (compilation->program->library.modules.empty() && tree->source->path().starts_with("stdlib:")) continue;
+            if (compilation->program->library.modules.empty() && tree->source->path().starts_with("stdlib:"))
+                continue;
             bool user = false;
             for (const auto& task : compilation->program->tasks)
-                for (const auto* module : task->modules) user = user || module->tree == tree.get();
+                for (const auto* module : task->modules)
+                    user = user || module->tree == tree.get();
             if (!user) continue;
-            text += settings.as == "tree" ? rapid::syntax::printTree(*tree) : rapid::syntax::printTokens(*tree);
+            text +=
+                settings.as == "tree" ? rapid::syntax::printTree(*tree) : rapid::syntax::printTokens(*tree);
         }
         printDiagnostics(*compilation);
         write(settings, text);
@@ -121,8 +129,10 @@ void addEmitCommand(CLI::App& app, int& status) {
     command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs")->required();
     command->add_option("--as", settings->as, "tokens, tree, symbols, ir, llvm, asm or obj")
         ->check(CLI::IsMember({"tokens", "tree", "symbols", "ir", "llvm", "asm", "obj"}));
-    command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")->allow_extra_args(false);
-    command->add_option("--config", settings->inputs.configFiles, "Parameters (.cfg)")->allow_extra_args(false);
+    command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")
+        ->allow_extra_args(false);
+    command->add_option("--config", settings->inputs.configFiles, "Parameters (.cfg)")
+        ->allow_extra_args(false);
     command->add_option("-o,--output", settings->output, "File to write instead of the terminal");
     command->add_flag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
     command->callback([settings, &status] { status = emit(*settings); });

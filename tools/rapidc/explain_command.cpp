@@ -41,7 +41,8 @@ std::string indented(std::string_view example) {
 
 int explain(const std::string& code) {
     std::string digits;
-    std::copy_if(code.begin(), code.end(), std::back_inserter(digits), [](unsigned char c) { return std::isdigit(c); });
+    std::copy_if(code.begin(), code.end(), std::back_inserter(digits),
+                 [](unsigned char c) { return std::isdigit(c); });
     const rapid::diag::CatalogueEntry* entry =
         digits.size() == 4 ? rapid::diag::findEntry(static_cast<uint16_t>(std::stoi(digits))) : nullptr;
     if (!entry) {

@@ -25,7 +25,8 @@ bool readTrace(const std::string& path, std::vector<Sample>& samples, std::strin
         return false;
     }
     std::vector<std::string> names;
-    for (std::stringstream cells(line); std::getline(cells, line, ',');) names.push_back(line);
+    for (std::stringstream cells(line); std::getline(cells, line, ',');)
+        names.push_back(line);
     auto column = [&](const char* name) {
         return static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
     };
@@ -35,9 +36,11 @@ bool readTrace(const std::string& path, std::vector<Sample>& samples, std::strin
     while (std::getline(file, line)) {
         values.clear();
         std::string cell;
-        for (std::stringstream cells(line); std::getline(cells, cell, ',');) values.push_back(std::atof(cell.c_str()));
+        for (std::stringstream cells(line); std::getline(cells, cell, ',');)
+            values.push_back(std::atof(cell.c_str()));
         if (values.size() <= std::max({time, x, y, z, speed, move})) continue;
-        samples.push_back({values[time], values[x], values[y], values[z], values[speed], static_cast<int>(values[move])});
+        samples.push_back(
+            {values[time], values[x], values[y], values[z], values[speed], static_cast<int>(values[move])});
     }
     if (samples.empty()) error = fmt::format("the trace '{}' holds no sample", path);
     return !samples.empty();
@@ -47,8 +50,8 @@ bool readTrace(const std::string& path, std::vector<Sample>& samples, std::strin
 struct View {
     const char* title;
     const char *horizontal, *vertical;
-    double Sample::*u;
-    double Sample::*v;
+    double Sample::* u;
+    double Sample::* v;
     double left, top;
 };
 
@@ -59,12 +62,16 @@ struct Bounds {
 };
 
 Bounds boundsOf(const std::vector<Sample>& samples, const View& view) {
-    auto [minU, maxU] = std::minmax_element(samples.begin(), samples.end(),
-                                            [&](const Sample& a, const Sample& b) { return a.*view.u < b.*view.u; });
-    auto [minV, maxV] = std::minmax_element(samples.begin(), samples.end(),
-                                            [&](const Sample& a, const Sample& b) { return a.*view.v < b.*view.v; });
-    const double span = std::max({(*maxU).*view.u - (*minU).*view.u, (*maxV).*view.v - (*minV).*view.v, 10.0}) * 1.08;
-    return {((*maxU).*view.u + (*minU).*view.u - span) / 2, ((*maxV).*view.v + (*minV).*view.v - span) / 2, span};
+    auto [minU, maxU] =
+        std::minmax_element(samples.begin(), samples.end(),
+                            [&](const Sample& a, const Sample& b) { return a.*view.u < b.*view.u; });
+    auto [minV, maxV] =
+        std::minmax_element(samples.begin(), samples.end(),
+                            [&](const Sample& a, const Sample& b) { return a.*view.v < b.*view.v; });
+    const double span =
+        std::max({(*maxU).*view.u - (*minU).*view.u, (*maxV).*view.v - (*minV).*view.v, 10.0}) * 1.08;
+    return {((*maxU).*view.u + (*minU).*view.u - span) / 2, ((*maxV).*view.v + (*minV).*view.v - span) / 2,
+            span};
 }
 
 std::string colourOf(double share) {
@@ -75,8 +82,8 @@ std::string colourOf(double share) {
 void drawGrid(std::string& svg, const View& view, const Bounds& bounds) {
     double step = std::pow(10, std::floor(std::log10(bounds.span)));
     if (bounds.span / step < 3) step /= 2;
-    svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='#fafafa' stroke='#999'/>\n", view.left, view.top,
-                       kSize, kSize);
+    svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='#fafafa' stroke='#999'/>\n",
+                       view.left, view.top, kSize, kSize);
     svg += fmt::format("<text x='{}' y='{}' class='title'>{}</text>\n", view.left, view.top - 12, view.title);
     for (double at = std::ceil(bounds.lowU / step) * step; at < bounds.lowU + bounds.span; at += step) {
         const double x = view.left + (at - bounds.lowU) / bounds.span * kSize;
@@ -90,12 +97,13 @@ void drawGrid(std::string& svg, const View& view, const Bounds& bounds) {
                            "<text x='{3}' y='{4:.1f}' class='end'>{5:g}</text>\n",
                            view.left, y, view.left + kSize, view.left - 4, y + 3, at);
     }
-    svg += fmt::format("<text x='{}' y='{}' class='end'>{} (mm)</text>\n", view.left + kSize, view.top + kSize + 28,
-                       view.horizontal);
+    svg += fmt::format("<text x='{}' y='{}' class='end'>{} (mm)</text>\n", view.left + kSize,
+                       view.top + kSize + 28, view.horizontal);
     svg += fmt::format("<text x='{}' y='{}'>{} (mm)</text>\n", view.left + 4, view.top + 12, view.vertical);
 }
 
-void drawPath(std::string& svg, const View& view, const Bounds& bounds, const std::vector<Sample>& samples, double top) {
+void drawPath(std::string& svg, const View& view, const Bounds& bounds, const std::vector<Sample>& samples,
+              double top) {
     auto point = [&](const Sample& s) {
         return fmt::format("{:.1f},{:.1f}", view.left + (s.*view.u - bounds.lowU) / bounds.span * kSize,
                            view.top + kSize - (s.*view.v - bounds.lowV) / bounds.span * kSize);
@@ -139,21 +147,24 @@ bool writePathPicture(const std::string& traceFile, const std::string& svgFile, 
     std::vector<Sample> samples;
     if (!readTrace(traceFile, samples, error)) return false;
     double top = 1;
-    for (const Sample& s : samples) top = std::max(top, s.speed);
+    for (const Sample& s : samples)
+        top = std::max(top, s.speed);
     const View views[] = {
         {"Top view", "x", "y", &Sample::x, &Sample::y, kMargin, kMargin},
         {"Side view", "x", "z", &Sample::x, &Sample::z, 2 * kMargin + kSize + 10, kMargin},
     };
     std::string svg = fmt::format("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {} {}' width='{}'>\n",
                                   3 * kMargin + 2 * kSize, 2 * kMargin + kSize + 30, 3 * kMargin + 2 * kSize);
-    svg += "<style>text{font:11px sans-serif;fill:#333}.title{font:bold 14px sans-serif}.mid{text-anchor:middle}"
-           ".end{text-anchor:end}.grid{stroke:#ddd}</style>\n<rect width='100%' height='100%' fill='white'/>\n";
+    svg +=
+        "<style>text{font:11px sans-serif;fill:#333}.title{font:bold 14px sans-serif}.mid{text-anchor:middle}"
+        ".end{text-anchor:end}.grid{stroke:#ddd}</style>\n<rect width='100%' height='100%' fill='white'/>\n";
     for (const View& view : views) {
         const Bounds bounds = boundsOf(samples, view);
         drawGrid(svg, view, bounds);
         drawPath(svg, view, bounds, samples, top);
     }
-    svg += fmt::format("<text x='{}' y='{}'>TCP path, {:.3f} s; blue = standing, red = {:.0f} mm/s; dots: end of a move</text>\n",
+    svg += fmt::format("<text x='{}' y='{}'>TCP path, {:.3f} s; blue = standing, red = {:.0f} mm/s; dots: "
+                       "end of a move</text>\n",
                        kMargin, 2 * kMargin + kSize + 20, samples.back().time, top);
     svg += "</svg>\n";
     std::ofstream file(svgFile, std::ios::binary);

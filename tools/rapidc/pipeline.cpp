@@ -28,7 +28,8 @@ std::string upper(std::string text) {
 }
 
 /// The configured signals by name and RAPID type; the runtime reads the same files again when the program starts.
-void readConfiguration(Compilation& compilation, const std::vector<std::string>& files, sema::CheckOptions& options) {
+void readConfiguration(Compilation& compilation, const std::vector<std::string>& files,
+                       sema::CheckOptions& options) {
     for (const std::string& path : files) {
         std::ifstream in(path, std::ios::binary);
         if (!in) {
@@ -48,7 +49,8 @@ void readConfiguration(Compilation& compilation, const std::vector<std::string>&
         for (const rt::CfgSection* section : cfg.find("EIO_SIGNAL"))
             for (const rt::CfgInstance& signal : section->instances) {
                 std::string type = signal.text("SignalType");
-                std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
+                std::transform(type.begin(), type.end(), type.begin(),
+                               [](unsigned char c) { return std::tolower(c); });
                 options.signals.push_back({signal.text("Name"), "signal" + type});
             }
     }
@@ -76,7 +78,8 @@ void reportUnimplemented(Compilation& compilation) {
 
 } // namespace
 
-bool readTaskSpec(const std::string& text, std::string& name, std::string& type, std::string& input, std::string& error) {
+bool readTaskSpec(const std::string& text, std::string& name, std::string& type, std::string& input,
+                  std::string& error) {
     const size_t equals = text.find('=');
     const std::string head = text.substr(0, equals);
     const size_t colon = head.find(':');
@@ -85,7 +88,8 @@ bool readTaskSpec(const std::string& text, std::string& name, std::string& type,
     input = equals == std::string::npos ? "" : text.substr(equals + 1);
     const bool knownType = type == "NORMAL" || type == "STATIC" || type == "SEMISTATIC";
     if (name.empty() || input.empty() || !knownType) {
-        error = fmt::format("cannot read --task={}: expected NAME=INPUT, NAME:STATIC=INPUT or NAME:SEMISTATIC=INPUT", text);
+        error = fmt::format(
+            "cannot read --task={}: expected NAME=INPUT, NAME:STATIC=INPUT or NAME:SEMISTATIC=INPUT", text);
         return false;
     }
     return true;
@@ -106,7 +110,8 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     if (!inputs.paths.empty()) rapid::project::loadProject(inputs.paths, specs, project, compilation->sink);
     std::vector<std::string> configFiles = inputs.configFiles;
     for (const std::string& found : project.configFiles)
-        if (std::find(configFiles.begin(), configFiles.end(), found) == configFiles.end()) configFiles.push_back(found);
+        if (std::find(configFiles.begin(), configFiles.end(), found) == configFiles.end())
+            configFiles.push_back(found);
     sema::CheckOptions options;
     options.requireMain = inputs.requireMain;
     options.configurationKnown = inputs.configurationComplete;
@@ -125,7 +130,9 @@ bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping,
     options.programName = name;
     options.configNames = compilation.configNames;
     options.configTexts = compilation.configTexts;
-    options.nativeImplemented = [](std::string_view symbol) { return rt::findNativeAddress(symbol) != nullptr; };
+    options.nativeImplemented = [](std::string_view symbol) {
+        return rt::findNativeAddress(symbol) != nullptr;
+    };
     if (!rapid::lower::lowerProgram(*compilation.program, options, compilation.sink, out)) return false;
     ir::PassOptions passes;
     passes.profile = stepping ? ir::Profile::Stepping : ir::Profile::Release;
@@ -144,7 +151,9 @@ void printDiagnostics(const Compilation& compilation) {
         fmt::print(stderr, "{}", diag::renderText(diagnostic, colour));
     }
     const size_t errors = compilation.sink.errorCount();
-    auto plural = [](size_t n, const char* word) { return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s"); };
+    auto plural = [](size_t n, const char* word) {
+        return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s");
+    };
     if (errors > 0 && warnings > 0)
         fmt::print(stderr, "{} and {}\n", plural(errors, "error"), plural(warnings, "warning"));
     else if (errors > 0)

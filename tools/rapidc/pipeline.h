@@ -37,6 +37,7 @@ bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping,
 void printDiagnostics(const Compilation& compilation);
 
 /// Reads --task=NAME[:TYPE]=INPUT; false with a message when it has another form.
-bool readTaskSpec(const std::string& text, std::string& name, std::string& type, std::string& input, std::string& error);
+bool readTaskSpec(const std::string& text, std::string& name, std::string& type, std::string& input,
+                  std::string& error);
 
 } // namespace rapidc

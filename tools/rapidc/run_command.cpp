@@ -96,12 +96,13 @@ int run(RunSettings& settings) {
     inputs.configurationComplete = true;
     const auto compilation = checkInputs(inputs);
     if (!compilation->usageErrors.empty()) {
-        for (const std::string& problem : compilation->usageErrors) fmt::print(stderr, "rapidc run: {}\n", problem);
+        for (const std::string& problem : compilation->usageErrors)
+            fmt::print(stderr, "rapidc run: {}\n", problem);
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
     ir::Module module;
-    const bool lowered =
-        !compilation->sink.hasErrors() && lowerToIr(*compilation, fs::path(settings.paths[0]).stem().string(), false, module);
+    const bool lowered = !compilation->sink.hasErrors() &&
+                         lowerToIr(*compilation, fs::path(settings.paths[0]).stem().string(), false, module);
     printDiagnostics(*compilation);
     if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
     codegen::CodegenOptions options;

@@ -22,12 +22,13 @@ Status waitInPosition(TaskCore* task) {
     return owner.isMotionTask() ? owner.controller().motion().waitIdle(owner) : kOk;
 }
 
-/// A day of virtual time in which this task alone looked at its condition and nothing else was to happen: it can only
+/// Eight hours of virtual time in which this task alone looked at its condition and nothing else was to happen: it can only
 /// depend on the time now, and no sensible condition waits that long. Without this a run would never end.
 bool isHopeless(const Task& task, Time since) {
     const Scheduler& scheduler = task.scheduler();
     const SchedulerOptions& options = scheduler.options();
-    if (task.now() - since < 24 * 3600 * kSecond || options.realtime || options.maxTime != kNever) return false;
+    if (task.now() - since < 8 * 3600 * kSecond || options.realtime || options.maxTime != kNever)
+        return false;
     if (scheduler.anythingPending()) return false;
     return std::none_of(scheduler.tasks().begin(), scheduler.tasks().end(),
                         [&](const Task* other) { return other != &task && other->isExecuting(); });
@@ -67,7 +68,8 @@ Status rt_waitUntilPoll(TaskCore* task, bool* again, bool, const float* MaxTime,
     const Time deadline = *state > 0 ? *state : kNever;
     *again = owner.now() < deadline;
     if (*state < 0 && isHopeless(owner, -1 - *state))
-        return owner.fatal(static_cast<int>(EventId::NothingPending), "WaitUntil has looked at its condition for a day of virtual time.");
+        return owner.fatal(static_cast<int>(EventId::NothingPending),
+                           "WaitUntil has looked at its condition for eight hours of virtual time.");
     if (!*again) {
         if (!TimeFlag)
             return lib::fail(task, err::ERR_WAIT_MAXTIME,
