@@ -15,7 +15,9 @@ LAYERS = {
     "frontend/diag": ["frontend/source"],
     "frontend/syntax": ["frontend/source", "frontend/diag"],
     "frontend/sema": ["frontend/source", "frontend/diag", "frontend/syntax"],
-    "frontend/project": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema"],
+    # configuration text: needed by the front end and by the runtime, and knows neither
+    "config": [],
+    "frontend/project": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "config"],
     "ir/core": [],
     "ir/text": ["ir/core", "ir/verify"],
     "ir/verify": ["ir/core"],
@@ -29,15 +31,15 @@ LAYERS = {
     "runtime/motion": ["runtime/robot"],
     # the controller itself: tasks, time, errors, signals, events, simulated motion
     "runtime/log": ["runtime/"],
-    "runtime/io": ["runtime/"],
+    "runtime/io": ["runtime/", "config"],
     "runtime/sched": ["runtime/"],
     "runtime/sim": ["runtime/"],
     "runtime/host": ["runtime/", "stdlib"],
     "stdlib/gen": ["frontend/"],
     "stdlib/impl": ["runtime/", "stdlib"],
     "stdlib": ["runtime/abi"],
-    "tools": ["frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/"],
-    "tests": ["frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools"],
+    "tools": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/"],
+    "tests": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools"],
 }
 
 # What compiled code calls is implemented beside its header, and may know the controller.
@@ -53,7 +55,7 @@ RESTRICTED = [
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
-SOURCE_FOLDERS = ("frontend", "ir", "codegen", "runtime", "stdlib", "tools", "tests")
+SOURCE_FOLDERS = ("config", "frontend", "ir", "codegen", "runtime", "stdlib", "tools", "tests")
 OWN_FOLDERS = SOURCE_FOLDERS
 MAX_FILE_LINES = 600
 MAX_FUNCTION_LINES = 60

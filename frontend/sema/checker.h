@@ -3,6 +3,8 @@
 
 #include "frontend/sema/checked.h"
 
+#include <optional>
+
 namespace rapid::sema {
 
 /// One declaration file of the standard library, embedded text.
@@ -16,13 +18,18 @@ struct TaskInput {
     std::string type = "NORMAL"; ///< NORMAL, STATIC, SEMISTATIC
     std::string entry = "main";
     std::vector<std::shared_ptr<const SourceFile>> files;
-    bool incomplete = false; ///< modules are missing or encrypted: names that are not found are not reported
+    /// Modules that belong to the task but cannot be read: encrypted, not saved with the backup, missing. As named by
+    /// the backup, e.g. "secret.sys"; what they declare is not known.
+    std::vector<std::string> missingModules;
+    bool incomplete = false; ///< true when `missingModules` is not empty
 };
 
 struct CheckOptions {
     bool requireMain = false;        ///< build and run: a task without entry routine is an error
     bool configurationKnown = false; ///< some EIO configuration was given: an unknown signal name is an error
     std::vector<SignalInfo> signals; ///< from the configuration
+    /// RobotWare options of the controller, e.g. "623-1 Multitasking", when a backup tells them; else unknown.
+    std::optional<std::vector<std::string>> robotWareOptions;
     std::span<const LibraryText> library;
 };
 

@@ -1,24 +1,16 @@
 #pragma once
-// Small things that the readers of foreign text share.
+// Small things that the readers of foreign text share, under the names the runtime uses.
 
-#include <string>
-#include <string_view>
+#include "config/text_util.h"
 
 namespace rt {
 
-/// Without blanks, tabs and carriage returns at both ends.
-std::string_view trimmed(std::string_view text);
-/// ASCII letters in upper case.
-std::string upperCase(std::string_view text);
-/// Equal without regard to the case of ASCII letters.
-bool sameName(std::string_view a, std::string_view b);
-/// The whole text is one finite decimal number (sign, fraction, exponent); `value` is left alone otherwise.
-bool parseNumber(std::string_view text, double& value);
-/// UTF-8 stays (a byte order mark is dropped); anything else is read as ISO 8859-1.
-std::string toUtf8(std::string_view text);
-/// Shortest decimal form: of the binary32 value when nothing is lost by that, as RAPID's num shows it.
-std::string shortestNumber(double value);
-/// The whole file; false with a reason when it cannot be read.
-bool readTextFile(const std::string& path, std::string& text, std::string& error);
+using rapid::config::parseNumber;
+using rapid::config::readTextFile;
+using rapid::config::sameName;
+using rapid::config::shortestNumber;
+using rapid::config::toUtf8;
+using rapid::config::trimmed;
+using rapid::config::upperCase;
 
 } // namespace rt

@@ -34,7 +34,8 @@ fs::path ownFolder() {
 codegen::LinkOptions linkOptions(bool strip) {
     codegen::LinkOptions options;
     const fs::path lib = ownFolder() / "lib";
-    for (const char* name : {"rapidc_host_main", "rapidc_stdlib", "rapidc_runtime", "rapidc_motion"})
+    for (const char* name :
+         {"rapidc_host_main", "rapidc_stdlib", "rapidc_runtime", "rapidc_motion", "rapidc_config"})
         options.libraries.push_back((lib / fmt::format("lib{}.a", name)).string());
     options.libraries.emplace_back(RAPIDC_BOOST_CONTEXT);
     options.stripDebug = strip;

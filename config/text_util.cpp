@@ -1,4 +1,4 @@
-#include "runtime/io/text_util.h"
+#include "config/text_util.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <cstring>
 
-namespace rt {
+namespace rapid::config {
 namespace {
 
 /// Length of the UTF-8 sequence at text[i], 0 if it is none (overlong forms and surrogates included).
@@ -121,4 +121,4 @@ bool readTextFile(const std::string& path, std::string& text, std::string& error
     return !failed;
 }
 
-} // namespace rt
+} // namespace rapid::config

@@ -1,12 +1,12 @@
-#include "runtime/io/cfg_parser.h"
+#include "config/cfg_parser.h"
 
-#include "runtime/io/text_util.h"
+#include "config/text_util.h"
 
 #include <fmt/format.h>
 
 #include <cctype>
 
-namespace rt {
+namespace rapid::config {
 namespace {
 
 bool isLetter(char c) {
@@ -233,4 +233,4 @@ CfgFile readCfg(const std::string& path, std::vector<CfgProblem>& problems) {
     return parseCfg(text, path, problems);
 }
 
-} // namespace rt
+} // namespace rapid::config
