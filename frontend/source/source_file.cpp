@@ -9,17 +9,17 @@ namespace {
 
 constexpr size_t kMaxBytes = 0x7FFFFFF0;
 
+/// A byte of a UTF-8 sequence that is not its first.
+bool isContinuation(char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+}
+
 bool endsWithNoCase(std::string_view text, std::string_view suffix) {
     if (text.size() < suffix.size()) return false;
     text.remove_prefix(text.size() - suffix.size());
     return std::equal(text.begin(), text.end(), suffix.begin(), [](char a, char b) {
         return (a >= 'A' && a <= 'Z' ? static_cast<char>(a + 32) : a) == b;
     });
-}
-
-/// File types of RobotWare 6 and older, which were ISO 8859-1 (manual 1.1.3).
-bool isLegacyFileType(std::string_view path) {
-    return endsWithNoCase(path, ".mod") || endsWithNoCase(path, ".sys") || endsWithNoCase(path, ".prg");
 }
 
 /// Length of the valid UTF-8 sequence at `p`, 0 if there is none (overlong forms and surrogates are none).
@@ -79,15 +79,18 @@ std::string fromLatin1(std::string_view bytes) {
     return out;
 }
 
-/// Keeps what is UTF-8 and turns each other byte into its Latin-1 character.
-std::string repairUtf8(std::string_view bytes) {
+/// Keeps what is UTF-8 and turns each other byte into its Latin-1 character; `repaired` gets their places.
+std::string repairUtf8(std::string_view bytes, std::vector<uint32_t>& repaired) {
     std::string out;
     out.reserve(bytes.size() + 16);
     size_t from = 0;
     while (from < bytes.size()) {
         const size_t bad = findBadUtf8(bytes, from);
         out.append(bytes.substr(from, bad - from));
-        if (bad < bytes.size()) appendLatin1(out, static_cast<unsigned char>(bytes[bad]));
+        if (bad < bytes.size()) {
+            repaired.push_back(static_cast<uint32_t>(out.size()));
+            appendLatin1(out, static_cast<unsigned char>(bytes[bad]));
+        }
         from = bad + 1;
     }
     return out;
@@ -129,6 +132,14 @@ bool hasManyControls(std::string_view bytes) {
 
 } // namespace
 
+bool isValidUtf8(std::string_view bytes) {
+    return findBadUtf8(bytes) == bytes.size();
+}
+
+bool SourceFile::isLegacyFileType(std::string_view path) {
+    return endsWithNoCase(path, ".mod") || endsWithNoCase(path, ".sys") || endsWithNoCase(path, ".prg");
+}
+
 SourceFile::SourceFile(std::string path, std::string bytes) : path_(std::move(path)) {
     if (bytes.size() > kMaxBytes) { // offsets have 32 bits, and Latin-1 may double the size
         binary_ = true;
@@ -150,10 +161,39 @@ SourceFile::SourceFile(std::string path, std::string bytes) : path_(std::move(pa
         text_ = fromLatin1(bytes);
         encoding_ = Encoding::Latin1;
     } else {
-        text_ = repairUtf8(bytes);
+        text_ = repairUtf8(bytes, repaired_);
         badUtf8Offset_ = static_cast<int64_t>(bad);
     }
     lineStarts_ = findLines(text_);
+}
+
+std::string SourceFile::bytes(SourceRange range) const {
+    const auto inside = [&](uint32_t at) { return at < text_.size() && isContinuation(text_[at]); };
+    if (range.begin > range.end || range.end > text_.size() || inside(range.begin) || inside(range.end))
+        return {};
+    const std::string_view part = std::string_view(text_).substr(range.begin, range.end - range.begin);
+    if (encoding_ != Encoding::Latin1 && repaired_.empty()) return std::string(part);
+    std::string out;
+    out.reserve(part.size());
+    auto repaired = std::lower_bound(repaired_.begin(), repaired_.end(), range.begin);
+    for (uint32_t at = range.begin; at < range.end; ++at) {
+        const auto c = static_cast<unsigned char>(text_[at]);
+        const bool oneByte =
+            encoding_ == Encoding::Latin1 ? c >= 0x80 : repaired != repaired_.end() && *repaired == at;
+        if (!oneByte) {
+            out.push_back(text_[at]);
+            continue;
+        }
+        if (encoding_ != Encoding::Latin1) ++repaired;
+        ++at;
+        out.push_back(static_cast<char>((c & 0x03) << 6 | (static_cast<unsigned char>(text_[at]) & 0x3F)));
+    }
+    return out;
+}
+
+std::string SourceFile::bytes() const {
+    std::string all = bytes({0, static_cast<uint32_t>(text_.size())});
+    return encoding_ == Encoding::Utf8Bom ? "\xEF\xBB\xBF" + all : all;
 }
 
 LineColumn SourceFile::lineColumn(uint32_t offset) const {
@@ -161,8 +201,8 @@ LineColumn SourceFile::lineColumn(uint32_t offset) const {
     const auto next = std::upper_bound(lineStarts_.begin(), lineStarts_.end(), offset);
     const auto line = static_cast<uint32_t>(next - lineStarts_.begin());
     const uint32_t start = lineStarts_[line - 1];
-    const auto isCharacterStart = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
-    const auto before = std::count_if(text_.begin() + start, text_.begin() + offset, isCharacterStart);
+    const auto before = std::count_if(text_.begin() + start, text_.begin() + offset,
+                                      [](char c) { return !isContinuation(c); });
     return {line, static_cast<uint32_t>(before) + 1};
 }
 

@@ -25,6 +25,14 @@ struct SourceRange {
     bool operator==(const SourceRange&) const = default;
 };
 
+/// A change of a text: the range is replaced. An empty range inserts, an empty replacement deletes.
+struct TextEdit {
+    SourceRange range;
+    std::string replacement; ///< UTF-8
+};
+
+bool isValidUtf8(std::string_view bytes);
+
 /// Text of one file, converted to UTF-8, immutable after construction.
 class SourceFile {
   public:
@@ -40,6 +48,15 @@ class SourceFile {
     /// True for controller-encrypted modules (first byte 0xFC or 0xFE) and other binary junk (NUL bytes).
     bool isBinary() const { return binary_; }
 
+    /// The bytes on disk from which a range of text() was made; the byte order mark is never among them. Empty for a
+    /// range that is not in the text or does not begin and end between characters.
+    std::string bytes(SourceRange range) const;
+    /// All bytes of the file, the byte order mark included.
+    std::string bytes() const;
+
+    /// True for `.mod`, `.sys` and `.prg`: file types of RobotWare 6 and older, which were ISO 8859-1 (manual 1.1.3).
+    static bool isLegacyFileType(std::string_view path);
+
     LineColumn lineColumn(uint32_t offset) const;
     /// Text of a line (from 1) without its end-of-line characters.
     std::string_view lineText(uint32_t line) const;
@@ -50,6 +67,8 @@ class SourceFile {
     std::string path_;
     std::string text_;
     std::vector<uint32_t> lineStarts_;
+    std::vector<uint32_t>
+        repaired_; ///< offsets in text_ of characters that stand for one byte that was not UTF-8
     Encoding encoding_ = Encoding::Utf8;
     int64_t badUtf8Offset_ = -1;
     bool binary_ = false;

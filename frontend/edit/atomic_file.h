@@ -1,0 +1,17 @@
+#pragma once
+// Replacing a file so that whoever reads it, whenever the machine fails, finds the old content or the new one.
+
+#include <string>
+#include <string_view>
+
+namespace rapid::edit {
+
+/// Writes `bytes` to a temporary file in the same folder, flushes it to the disk, renames it to `path` and flushes the
+/// folder. Permissions (and, where allowed, the owner) of an existing file are kept; through a symbolic link the file
+/// it names is replaced. A file without write permission is not replaced. A writer that is killed may leave a file
+/// `.NAME.XXXXXX.tmp` behind, which no reader of projects takes for a module.
+///
+/// Returns what went wrong, for people ("cannot write 'x.mod': No space left on device"); empty: success.
+[[nodiscard]] std::string replaceFile(const std::string& path, std::string_view bytes);
+
+} // namespace rapid::edit
