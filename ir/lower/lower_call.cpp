@@ -9,7 +9,6 @@ using ir::Op;
 using sema::BoundArg;
 using sema::BoundCall;
 using sema::DataSymbol;
-using sema::TypeKind;
 
 const BoundArg* RoutineLowering::findArg(const BoundCall& call, std::string_view name) const {
     const std::string wanted = foldCase(name);
@@ -26,10 +25,7 @@ ir::ValueId RoutineLowering::argumentAddress(const BoundArg& arg) {
                                value.kind == NodeKind::Component;
         const bool sameShape = !info(value).constant || arg.param->mode != ParamMode::In ||
                                info(value).type.type->base() == wanted.type->base();
-        const TypeKind have = reference ? baseType(value)->kind : TypeKind::Error;
-        const TypeKind want = wanted.type->base()->kind;
-        const bool readsSignal = have == TypeKind::SemiValue && want != TypeKind::SemiValue;
-        if (reference && sameShape && !readsSignal) return place(value);
+        if (reference && sameShape) return place(value);
         Place temporary;
         temporary.type = wanted.isArray() ? info(value).type : wanted;
         temporary.addr = tempAddr(program_.irType(temporary.type));

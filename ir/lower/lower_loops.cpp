@@ -72,6 +72,26 @@ void RoutineLowering::lowerFor(const ForStmt& stmt) {
     lowerFloatLoop(stmt, variable);
 }
 
+void RoutineLowering::lowerRounds(const ForStmt& stmt, const std::function<ValueId()>& goesOn,
+                                  const std::function<void()>& increment) {
+    const ir::BlockId head = b_.addBlock("for");
+    const ir::BlockId body = b_.addBlock("do");
+    const ir::BlockId latch = b_.addBlock("step");
+    const ir::BlockId end = b_.addBlock("endfor");
+    b_.br(head);
+    b_.setBlock(head);
+    b_.condBr(goesOn(), body, end);
+    b_.setBlock(body);
+    loops_.push_back({end, latch});
+    lowerList(stmt.body);
+    loops_.pop_back();
+    branchIfOpen(latch);
+    b_.setBlock(latch);
+    increment();
+    b_.br(head);
+    b_.setBlock(end);
+}
+
 ir::ValueId RoutineLowering::boundAsInt(ValueId value, bool roundDown) {
     const ValueId whole = b_.unary(Op::FTrunc, value);
     const ValueId number = b_.convert(Op::F32ToI32, whole);
@@ -110,27 +130,18 @@ void RoutineLowering::lowerCountedBody(const ForStmt& stmt, sema::DataSymbol& va
     slots_[&variable] = slot;
     const uint32_t stepLocal = stepValue == ir::kNone ? ir::kNone : b_.addLocal("", ir::kI32);
     if (stepLocal != ir::kNone) b_.store(ir::kI32, stepValue, b_.localAddr(stepLocal));
-    const ir::BlockId head = b_.addBlock("for");
-    const ir::BlockId body = b_.addBlock("do");
-    const ir::BlockId latch = b_.addBlock("step");
-    const ir::BlockId end = b_.addBlock("endfor");
-    b_.br(head);
-    b_.setBlock(head);
-    const ValueId now = b_.load(ir::kI32, b_.localAddr(slot.local));
-    b_.condBr(b_.binary(step > 0 ? Op::ILe : Op::IGe, now, b_.load(ir::kI32, b_.localAddr(bound))), body,
-              end);
-    b_.setBlock(body);
-    loops_.push_back({end, latch});
-    lowerList(stmt.body);
-    loops_.pop_back();
-    branchIfOpen(latch);
-    b_.setBlock(latch);
-    const ValueId old = b_.load(ir::kI32, b_.localAddr(slot.local));
-    const ValueId increment =
-        stepLocal == ir::kNone ? b_.constI32(step) : b_.load(ir::kI32, b_.localAddr(stepLocal));
-    b_.store(ir::kI32, b_.binary(Op::IAdd, old, increment), b_.localAddr(slot.local));
-    b_.br(head);
-    b_.setBlock(end);
+    lowerRounds(
+        stmt,
+        [&] {
+            const ValueId now = b_.load(ir::kI32, b_.localAddr(slot.local));
+            return b_.binary(step > 0 ? Op::ILe : Op::IGe, now, b_.load(ir::kI32, b_.localAddr(bound)));
+        },
+        [&] {
+            const ValueId now = b_.load(ir::kI32, b_.localAddr(slot.local));
+            const ValueId increment =
+                stepLocal == ir::kNone ? b_.constI32(step) : b_.load(ir::kI32, b_.localAddr(stepLocal));
+            b_.store(ir::kI32, b_.binary(Op::IAdd, now, increment), b_.localAddr(slot.local));
+        });
 }
 
 void RoutineLowering::lowerUnknownDirection(const ForStmt& stmt, sema::DataSymbol& variable, IntRange from) {
@@ -175,28 +186,19 @@ void RoutineLowering::lowerUnknownDirection(const ForStmt& stmt, sema::DataSymbo
     b_.store(ir::kI32, span, b_.localAddr(rounds));
     b_.store(ir::kI32, first, b_.localAddr(start));
     b_.store(ir::kI32, direction, b_.localAddr(stepLocal));
-    const ir::BlockId head = b_.addBlock("for");
-    const ir::BlockId body = b_.addBlock("do");
-    const ir::BlockId latch = b_.addBlock("step");
-    const ir::BlockId end = b_.addBlock("endfor");
-    b_.br(head);
-    b_.setBlock(head);
-    const ValueId now = b_.load(ir::kI32, b_.localAddr(round));
-    b_.condBr(b_.binary(Op::ILe, now, b_.load(ir::kI32, b_.localAddr(rounds))), body, end);
-    b_.setBlock(body);
-    const ValueId offset = b_.binary(Op::IMul, b_.load(ir::kI32, b_.localAddr(round)),
-                                     b_.load(ir::kI32, b_.localAddr(stepLocal)));
-    b_.store(ir::kI32, b_.binary(Op::IAdd, b_.load(ir::kI32, b_.localAddr(start)), offset),
-             b_.localAddr(slot.local));
-    loops_.push_back({end, latch});
-    lowerList(stmt.body);
-    loops_.pop_back();
-    branchIfOpen(latch);
-    b_.setBlock(latch);
-    const ValueId old = b_.load(ir::kI32, b_.localAddr(round));
-    b_.store(ir::kI32, b_.binary(Op::IAdd, old, b_.constI32(1)), b_.localAddr(round));
-    b_.br(head);
-    b_.setBlock(end);
+    lowerRounds(
+        stmt,
+        [&] {
+            const ValueId now = b_.load(ir::kI32, b_.localAddr(round));
+            const ValueId offset = b_.binary(Op::IMul, now, b_.load(ir::kI32, b_.localAddr(stepLocal)));
+            b_.store(ir::kI32, b_.binary(Op::IAdd, b_.load(ir::kI32, b_.localAddr(start)), offset),
+                     b_.localAddr(slot.local));
+            return b_.binary(Op::ILe, now, b_.load(ir::kI32, b_.localAddr(rounds)));
+        },
+        [&] {
+            const ValueId now = b_.load(ir::kI32, b_.localAddr(round));
+            b_.store(ir::kI32, b_.binary(Op::IAdd, now, b_.constI32(1)), b_.localAddr(round));
+        });
 }
 
 void RoutineLowering::lowerFloatLoop(const ForStmt& stmt, sema::DataSymbol& variable) {
@@ -219,26 +221,18 @@ void RoutineLowering::lowerFloatLoop(const ForStmt& stmt, sema::DataSymbol& vari
         b_.store(t, b_.select(down, constant(-1), constant(1)), b_.localAddr(step));
     }
     slots_[&variable] = slot;
-    const ir::BlockId head = b_.addBlock("for");
-    const ir::BlockId body = b_.addBlock("do");
-    const ir::BlockId latch = b_.addBlock("step");
-    const ir::BlockId end = b_.addBlock("endfor");
-    b_.br(head);
-    b_.setBlock(head);
-    const ValueId now = b_.load(t, b_.localAddr(slot.local));
-    const ValueId bound = b_.load(t, b_.localAddr(to));
-    const ValueId upward = b_.binary(Op::FGe, b_.load(t, b_.localAddr(step)), constant(0));
-    b_.condBr(b_.select(upward, b_.binary(Op::FLe, now, bound), b_.binary(Op::FGe, now, bound)), body, end);
-    b_.setBlock(body);
-    loops_.push_back({end, latch});
-    lowerList(stmt.body);
-    loops_.pop_back();
-    branchIfOpen(latch);
-    b_.setBlock(latch);
-    const ValueId old = b_.load(t, b_.localAddr(slot.local));
-    b_.store(t, b_.binary(Op::FAdd, old, b_.load(t, b_.localAddr(step))), b_.localAddr(slot.local));
-    b_.br(head);
-    b_.setBlock(end);
+    lowerRounds(
+        stmt,
+        [&] {
+            const ValueId now = b_.load(t, b_.localAddr(slot.local));
+            const ValueId bound = b_.load(t, b_.localAddr(to));
+            const ValueId upward = b_.binary(Op::FGe, b_.load(t, b_.localAddr(step)), constant(0));
+            return b_.select(upward, b_.binary(Op::FLe, now, bound), b_.binary(Op::FGe, now, bound));
+        },
+        [&] {
+            const ValueId now = b_.load(t, b_.localAddr(slot.local));
+            b_.store(t, b_.binary(Op::FAdd, now, b_.load(t, b_.localAddr(step))), b_.localAddr(slot.local));
+        });
 }
 
 } // namespace rapid::lower

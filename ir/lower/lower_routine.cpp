@@ -203,8 +203,6 @@ void RoutineLowering::copyArrayParameter(const DataSymbol& param, Slot& slot) {
     const ir::TypeId element = program_.irType(param.type.type);
     const ValueId bytes = b_.binary(ir::Op::IMul, b_.convert(ir::Op::I32ToI64, count),
                                     b_.constI64(program_.module().size(element)));
-    b_.callNative(program_.support("rt_reserveStack", ir::NativeClass::Plain, ir::kVoid, {ir::kI64}),
-                  {bytes});
     const ValueId copy = b_.stackAlloc(bytes);
     b_.copyDynamic(copy, b_.param(slot.param), bytes);
     slot.local = b_.addLocal(param.name, ir::kPtr, true);

@@ -4,6 +4,7 @@
 #include "ir/lower/program_lowering.h"
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <unordered_map>
 
@@ -79,6 +80,9 @@ class RoutineLowering {
     void lowerCountedBody(const syntax::ForStmt& stmt, sema::DataSymbol& variable, ValueId first,
                           ValueId last, int32_t step, IntRange range, ValueId stepValue = ir::kNone);
     void lowerFloatLoop(const syntax::ForStmt& stmt, sema::DataSymbol& variable);
+    /// Head, body and latch, which all forms have: another round follows while `goesOn` gives TRUE.
+    void lowerRounds(const syntax::ForStmt& stmt, const std::function<ValueId()>& goesOn,
+                     const std::function<void()>& increment);
     ValueId boundAsInt(ValueId value, bool roundDown); ///< num to I32, toward minus or plus infinity
 
     // lower_expr.cpp

@@ -2,6 +2,7 @@
 
 #include "runtime/host/controller.h"
 
+#include "runtime/host/stop_signals.h"
 #include "runtime/io/text_util.h"
 #include "runtime/sim/csv_writers.h"
 
@@ -91,6 +92,7 @@ ExitStatus Controller::run() {
 }
 
 bool Controller::runOver() {
+    if (StopSignals::received() != 0) return true;
     systemSignals_.update();
     for (const auto& task : tasks_) {
         if (!isNormal(task) || task->state() == TaskState::Finished) continue;
@@ -107,17 +109,25 @@ bool Controller::stoppedByError() const {
     return systemFailed_ || std::any_of(tasks_.begin(), tasks_.end(), failed);
 }
 
+/// "T_ROB1 waits in Main:12, T_IO waits in Io:7." for the tasks that have not finished.
+std::string Controller::whereTasksAre(const char* verb) const {
+    std::string text;
+    for (const auto& task : tasks_) {
+        if (task->state() == TaskState::Finished) continue;
+        const SourcePlace place = task->place();
+        text += fmt::format("{}{} {} in {}:{}", text.empty() ? "" : ", ", task->name(), verb, place.module,
+                            place.line);
+    }
+    return text.empty() ? text : text + ".";
+}
+
 ExitStatus Controller::finish(RunEnd end) {
     ExitStatus status = stoppedByError() ? ExitStatus::StoppedByError : ExitStatus::Ended;
-    if (end == RunEnd::Deadlock) {
-        std::string waiting;
-        for (const auto& task : tasks_) {
-            if (task->state() == TaskState::Finished) continue;
-            const SourcePlace place = task->place();
-            waiting += fmt::format("{}{} waits in {}:{}", waiting.empty() ? "" : ", ", task->name(),
-                                   place.module, place.line);
-        }
-        log_.write(EventId::NothingPending, nullptr, {waiting.empty() ? waiting : waiting + "."});
+    if (const int signal = StopSignals::received(); signal != 0) {
+        log_.write(EventId::RunInterrupted, nullptr, {StopSignals::name(signal), whereTasksAre("is")});
+        status = ExitStatus::Interrupted;
+    } else if (end == RunEnd::Deadlock) {
+        log_.write(EventId::NothingPending, nullptr, {whereTasksAre("waits")});
         status = options_.hasMaxTime ? ExitStatus::MaxTimeReached : ExitStatus::StoppedByError;
     } else if (end == RunEnd::MaxTime) {
         log_.write(EventId::MaxTimeReached, nullptr);
@@ -261,10 +271,16 @@ void Controller::perform(const StimulusItem& item) {
 }
 
 int runProgram(const ProgramDesc& program, const RunOptions& options, ControllerSetup setup) {
-    Controller controller(options);
-    if (setup != nullptr) setup(controller);
-    const ExitStatus prepared = controller.prepare(program);
-    return static_cast<int>(prepared == ExitStatus::Ended ? controller.run() : prepared);
+    const StopSignals signals;
+    ExitStatus status = ExitStatus::Ended;
+    {
+        Controller controller(options);
+        if (setup != nullptr) setup(controller);
+        status = controller.prepare(program);
+        if (status == ExitStatus::Ended) status = controller.run();
+    }
+    StopSignals::endIfReceived();
+    return static_cast<int>(status);
 }
 
 } // namespace rt

@@ -42,8 +42,7 @@ class Controller final : public TaskHost {
     Controller(const Controller&) = delete;
     Controller& operator=(const Controller&) = delete;
 
-    // ---- Parts
-    // -------------------------------------------------------------------------------------------------
+    // ---- Parts --------------------------------------------------------------------------------------------
     Scheduler& scheduler() { return scheduler_; }
     IoSystem& io() { return io_; }
     EventLog& log() override { return log_; }
@@ -70,8 +69,7 @@ class Controller final : public TaskHost {
         return *static_cast<T*>(slot.get());
     }
 
-    // ---- Program
-    // -----------------------------------------------------------------------------------------------
+    // ---- Program ------------------------------------------------------------------------------------------
     const ProgramDesc& program() const { return *program_; }
     const std::vector<std::unique_ptr<Task>>& tasks() const { return tasks_; }
     /// Without regard to case; null when there is none.
@@ -87,8 +85,7 @@ class Controller final : public TaskHost {
     /// Runs to the end.
     ExitStatus run();
 
-    // ---- Controller actions (stimulus, clients): reach all NORMAL tasks
-    // ----------------------------------------------
+    // ---- Controller actions (stimulus, clients): reach all NORMAL tasks -----------------------------------
     void actionStop();
     void actionStart();
     /// Refused with an event unless the program is stopped.
@@ -122,6 +119,7 @@ class Controller final : public TaskHost {
     bool runOver();
     bool isStart(const StimulusItem& item) const;
     ExitStatus finish(RunEnd end);
+    std::string whereTasksAre(const char* verb) const;
     std::string trustLevel(const Task& task) const;
     /// All instances of a type in the files of a domain, in order.
     std::vector<const CfgInstance*> instances(std::string_view domain, std::string_view type) const;

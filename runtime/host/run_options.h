@@ -37,6 +37,7 @@ enum class ExitStatus : int {
     BadProgram = 2, ///< does not compile, or what it names is not configured
     BadUsage = 3,
     MaxTimeReached = 4,
+    Interrupted = 128, ///< plus the number of the signal (StopSignals)
 };
 
 /// Adds the options above to a command. `withTasks`: also --task (not for built executables).

@@ -87,8 +87,7 @@ class IoSystem {
     IoSystem(const IoSystem&) = delete;
     IoSystem& operator=(const IoSystem&) = delete;
 
-    // ---- Configuration
-    // -----------------------------------------------------------------------------------------
+    // ---- Configuration ------------------------------------------------------------------------------------
     /// Takes the signals, access levels and cross connections of files of domain EIO. A signal defined again
     /// replaces the earlier one of the same name and type. Cross connections are resolved by the call to
     /// finishConfiguration.
@@ -100,8 +99,7 @@ class IoSystem {
     /// Adds one connection between existing signals; false (and nothing added) when it would make a loop.
     bool addCrossConnection(CrossConnection connection);
 
-    // ---- Names and handles
-    // -------------------------------------------------------------------------------------
+    // ---- Names and handles --------------------------------------------------------------------------------
     /// Without regard to case; -1 when unknown.
     SignalId find(std::string_view name) const;
     std::size_t size() const { return signals_.size(); }
@@ -110,8 +108,7 @@ class IoSystem {
     /// -1 for a handle that is no signal.
     SignalId idOf(Handle handle) const;
 
-    // ---- Values
-    // ------------------------------------------------------------------------------------------------
+    // ---- Values -------------------------------------------------------------------------------------------
     /// The logical value; digital 0 or 1, group an integer. The id must be valid.
     double value(SignalId id) const;
     /// Value by handle; 0 and result NoSignal for a bad handle.
@@ -129,8 +126,7 @@ class IoSystem {
     /// does.
     IoResult force(SignalId id, double value);
 
-    // ---- Changes
-    // -----------------------------------------------------------------------------------------------
+    // ---- Changes ------------------------------------------------------------------------------------------
     /// Notified after each change of the signal's value.
     WaitQueue& changed(SignalId id);
     using Listener = std::function<void(SignalId, double oldValue, double newValue)>;

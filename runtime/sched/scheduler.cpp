@@ -16,6 +16,10 @@ namespace {
 constexpr int64_t kUnitsPerInstruction = 1'000'000;
 /// Longest slice: 1000 s of virtual time. Keeps units (span * rate) within 64 bits at every rate.
 constexpr Time kLongestSlice = 1000 * kSecond;
+/// And so much work, a few hundredths of a second: then somebody may want the run to end (Ctrl-C).
+constexpr int64_t kLongestWork = 20'000'000; // instructions
+/// A sleep is no longer than this, in case its end was asked for just before it began.
+constexpr Time kLongestSleep = 200 * kMillisecond;
 /// While the wall is watched a task runs this long before it is looked at again.
 constexpr Time kPacedSlice = 10 * kMillisecond;
 /// How often a task that will not end is reminded at the end of the run.
@@ -112,7 +116,8 @@ Task* Scheduler::takeRunnable() {
 }
 
 void Scheduler::runSlice(Task& task) {
-    horizon_ = std::min({nextEventTime(), options_.maxTime, addTime(now_, kLongestSlice)});
+    const Time longest = std::min(kLongestSlice, kLongestWork * kUnitsPerInstruction / options_.rate);
+    horizon_ = std::min({nextEventTime(), options_.maxTime, addTime(now_, longest)});
     if (anyRunnable()) horizon_ = std::min(horizon_, addTime(now_, kSlice));
     if (paced()) horizon_ = std::min(horizon_, addTime(now_, kPacedSlice));
     sliceUnits_ = (horizon_ - now_) * options_.rate;
@@ -216,8 +221,7 @@ void Scheduler::sleepOutside(Time until) {
     const Time ahead = until == kNever ? kNever : until - wallTime();
     if (ahead > 0 && beforeSleep_) beforeSleep_();
     timespec span{};
-    span.tv_sec = ahead > 0 ? static_cast<time_t>(std::min(ahead, 3600 * kSecond) / kSecond) : 0;
-    span.tv_nsec = ahead > 0 ? static_cast<long>(ahead % kSecond) : 0;
+    span.tv_nsec = static_cast<long>(std::clamp<Time>(ahead, 0, kLongestSleep));
     const int ready = ppoll(files.data(), files.size(), &span, nullptr);
     moveTo(std::min(until, std::max(now_, wallTime())));
     if (ready <= 0) return;

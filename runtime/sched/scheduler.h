@@ -48,8 +48,7 @@ class Scheduler {
     Time now() const;
     const SchedulerOptions& options() const { return options_; }
 
-    // ---- Timed events
-    // ------------------------------------------------------------------------------------------
+    // ---- Timed events -------------------------------------------------------------------------------------
     /// Calls `action` at virtual time `time` (at once when past), from the scheduler, never inside a task.
     /// Events of the same time happen in the order they were made.
     EventToken at(Time time, std::function<void()> action);
@@ -61,8 +60,7 @@ class Scheduler {
     bool anythingPending() const { return !events_.empty(); }
     Time nextEventTime() const { return events_.empty() ? kNever : events_.begin()->first.first; }
 
-    // ---- Tasks
-    // -------------------------------------------------------------------------------------------------
+    // ---- Tasks --------------------------------------------------------------------------------------------
     /// The task runs when run() is called; it must outlive the scheduler's last use of it.
     void add(Task& task);
     /// The task that is running now; null outside.
@@ -79,8 +77,7 @@ class Scheduler {
     /// Ends all tasks without UNDO; afterwards none is on a fibre. `run` must not be active.
     void abandonTasks();
 
-    // ---- Used by Task
-    // ------------------------------------------------------------------------------------------
+    // ---- Used by Task -------------------------------------------------------------------------------------
     void makeReady(Task& task);
     void switchOut(Task& task); ///< from the task's fibre back to the scheduler
     struct ExternalWait {

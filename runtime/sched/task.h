@@ -93,8 +93,7 @@ class Task : public TaskCore {
     Task(const Task&) = delete;
     Task& operator=(const Task&) = delete;
 
-    // ---- Identity
-    // ----------------------------------------------------------------------------------------------
+    // ---- Identity -----------------------------------------------------------------------------------------
     const std::string& name() const { return name_; }
     TaskKind kind() const { return kind_; }
     uint32_t index() const { return index_; } ///< in ProgramDesc::tasks
@@ -108,8 +107,7 @@ class Task : public TaskCore {
     bool isExecuting() const { return state_ != TaskState::Finished && !isStopped(); }
     uint64_t cyclesDone() const { return cyclesDone_; }
 
-    // ---- Time and waiting
-    // --------------------------------------------------------------------------------------
+    // ---- Time and waiting ---------------------------------------------------------------------------------
     /// Virtual time, instructions executed in this slice included.
     Time now() const;
     /// Interrupts are delivered while the task waits; times are absolute virtual times.
@@ -124,8 +122,7 @@ class Task : public TaskCore {
     /// Charges instructions to the budget, for natives whose cost depends on their arguments.
     void charge(int64_t instructions) { budget -= instructions; }
 
-    // ---- Ending and stopping
-    // -----------------------------------------------------------------------------------
+    // ---- Ending and stopping ------------------------------------------------------------------------------
     /// EXIT: UNDO handlers run, the task ends. To be returned by the native: `return task.requestExit();`
     Status requestExit();
     /// ExitCycle: ends this cycle; main begins again when cycles are left. Persistent and module data are
@@ -134,8 +131,7 @@ class Task : public TaskCore {
     /// Stop: the task stands still until a `start`; returns kOk then. `allNormal`: so do all NORMAL tasks.
     Status stopHere(bool allNormal = false);
 
-    // ---- Errors
-    // ------------------------------------------------------------------------------------------------
+    // ---- Errors -------------------------------------------------------------------------------------------
     /// Sets the text that the event shows if the error the native returns next is not handled. Any length.
     void setErrorDetail(std::string text) { errorDetail_ = std::move(text); }
     /// setErrorDetail and the number: `return task.raise(ERR_X, "why");`

@@ -7,6 +7,7 @@
 #include "codegen/codegen.h"
 #include "runtime/host/controller.h"
 #include "runtime/host/run_options.h"
+#include "runtime/host/stop_signals.h"
 #include "stdlib/native_table.h"
 
 #include <CLI/CLI.hpp>
@@ -66,6 +67,7 @@ void printSummary(const RunSettings& settings, rt::Controller& controller, doubl
 
 int execute(RunSettings& settings, const rt::ProgramDesc& program) {
     const auto start = std::chrono::steady_clock::now();
+    const rt::StopSignals signals;
     rt::ExitStatus status = rt::ExitStatus::Ended;
     {
         rt::Controller controller(settings.options);
@@ -84,6 +86,7 @@ int execute(RunSettings& settings, const rt::ProgramDesc& program) {
             return static_cast<int>(rt::ExitStatus::BadUsage);
         }
     }
+    rt::StopSignals::endIfReceived();
     return static_cast<int>(status);
 }
 

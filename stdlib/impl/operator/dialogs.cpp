@@ -112,11 +112,15 @@ Dialog dialogOf(const String* text) {
     return dialog;
 }
 
-Status readNumber(TaskCore* task, const String* text, const Breaks& breaks, double& value, bool& answered) {
-    Question question(task, breaks);
-    return question.ask(
-        dialogOf(text), [&value](const std::string& answer) { return lib::parseNumber(answer, value); },
-        answered);
+/// TPReadNum and TPReadDnum: asks until the answer is a number.
+template <class Number>
+Status readNumber(TaskCore* task, Number* answer, const String* text, const Breaks& breaks) {
+    double value = 0;
+    bool answered = false;
+    const auto accept = [&value](const std::string& typed) { return lib::parseNumber(typed, value); };
+    const Status status = Question(task, breaks).ask(dialogOf(text), accept, answered);
+    if (answered) *answer = static_cast<Number>(value);
+    return status;
 }
 
 } // namespace
@@ -147,24 +151,16 @@ Status rt_TPReadFK(TaskCore* task, float* TPAnswer, const String* TPText, const 
 Status rt_TPReadNum(TaskCore* task, float* TPAnswer, const String* TPText, const float* MaxTime,
                     Handle* DIBreak, bool DIPassive, Handle* DOBreak, bool DOPassive, bool* PersBoolBreak,
                     bool PersBoolPassive, float* BreakFlag) {
-    const Breaks breaks{MaxTime,   DIBreak,       DIPassive,       DOBreak,
-                        DOPassive, PersBoolBreak, PersBoolPassive, BreakFlag};
-    double value = 0;
-    bool answered = false;
-    const Status status = readNumber(task, TPText, breaks, value, answered);
-    if (answered) *TPAnswer = static_cast<float>(value);
-    return status;
+    return readNumber(task, TPAnswer, TPText,
+                      {MaxTime, DIBreak, DIPassive, DOBreak, DOPassive, PersBoolBreak, PersBoolPassive,
+                       BreakFlag});
 }
 
 Status rt_TPReadDnum(TaskCore* task, double* TPAnswer, const String* TPText, const float* MaxTime,
                      Handle* DIBreak, bool DIPassive, Handle* DOBreak, bool DOPassive, bool* PersBoolBreak,
                      bool PersBoolPassive, float* BreakFlag) {
-    const Breaks breaks{MaxTime,   DIBreak,       DIPassive,       DOBreak,
-                        DOPassive, PersBoolBreak, PersBoolPassive, BreakFlag};
-    double value = 0;
-    bool answered = false;
-    const Status status = readNumber(task, TPText, breaks, value, answered);
-    if (answered) *TPAnswer = value;
-    return status;
+    return readNumber(task, TPAnswer, TPText,
+                      {MaxTime, DIBreak, DIPassive, DOBreak, DOPassive, PersBoolBreak, PersBoolPassive,
+                       BreakFlag});
 }
 }

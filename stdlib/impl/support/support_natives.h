@@ -36,9 +36,6 @@ rt::Status rt_lateLookup(rt::TaskCore* task, int32_t* result, const rt::String* 
 rt::Status rt_arrayDesc(rt::TaskCore* task, const rt::TypeDesc** result, const rt::TypeDesc* element,
                         int32_t dim1, int32_t dim2, int32_t dim3);
 
-/// Before memory of a size known at run time is taken from the task's stack: stops the task when there is not as much.
-rt::Status rt_reserveStack(rt::TaskCore* task, int64_t bytes);
-
 /// CONNECT interrupt WITH trap: `trap` is the address of the compiled trap routine (rt::EntryFunction). Raises
 /// ERR_ALRDYCNT and ERR_INOMAX.
 rt::Status rt_connect(rt::TaskCore* task, float* interrupt, void* trap);
