@@ -86,8 +86,10 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
     if (!type && !mecunit) {
         if (mayReportUnknown(name)) {
             std::string hint = suggestion(name, Wanted::Data);
-            if (hint.empty() && looksLikeSignal(interner_.folded(name)) && !options_.configurationKnown)
-                hint = "; if it is a signal, pass the configuration with --config=EIO.cfg";
+            if (hint.empty() && looksLikeSignal(interner_.folded(name)))
+                hint = options_.configurationKnown
+                           ? "; if it is a signal, define it in EIO.cfg and pass that with --config"
+                           : "; if it is a signal, pass the configuration with --config=EIO.cfg";
             report(Code::UnknownName, range(token), {text(token), std::move(hint)});
         }
         if (context_.routine) declareUnknown(name);

@@ -29,7 +29,7 @@ extern "C" void noteSignal(int signal) {
 
 StopSignals::StopSignals() {
     noted = 0;
-    struct sigaction action {};
+    struct sigaction action{};
     action.sa_handler = noteSignal;
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);

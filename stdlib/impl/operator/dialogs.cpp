@@ -151,16 +151,16 @@ Status rt_TPReadFK(TaskCore* task, float* TPAnswer, const String* TPText, const 
 Status rt_TPReadNum(TaskCore* task, float* TPAnswer, const String* TPText, const float* MaxTime,
                     Handle* DIBreak, bool DIPassive, Handle* DOBreak, bool DOPassive, bool* PersBoolBreak,
                     bool PersBoolPassive, float* BreakFlag) {
-    return readNumber(task, TPAnswer, TPText,
-                      {MaxTime, DIBreak, DIPassive, DOBreak, DOPassive, PersBoolBreak, PersBoolPassive,
-                       BreakFlag});
+    return readNumber(
+        task, TPAnswer, TPText,
+        {MaxTime, DIBreak, DIPassive, DOBreak, DOPassive, PersBoolBreak, PersBoolPassive, BreakFlag});
 }
 
 Status rt_TPReadDnum(TaskCore* task, double* TPAnswer, const String* TPText, const float* MaxTime,
                      Handle* DIBreak, bool DIPassive, Handle* DOBreak, bool DOPassive, bool* PersBoolBreak,
                      bool PersBoolPassive, float* BreakFlag) {
-    return readNumber(task, TPAnswer, TPText,
-                      {MaxTime, DIBreak, DIPassive, DOBreak, DOPassive, PersBoolBreak, PersBoolPassive,
-                       BreakFlag});
+    return readNumber(
+        task, TPAnswer, TPText,
+        {MaxTime, DIBreak, DIPassive, DOBreak, DOPassive, PersBoolBreak, PersBoolPassive, BreakFlag});
 }
 }
