@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <set>
+#include <sys/stat.h>
 
 namespace rapid::project {
 
@@ -90,22 +91,36 @@ class Loader {
   private:
     bool read(const fs::path& path, std::string& bytes) {
         errno = 0;
-        std::ifstream file(path, std::ios::binary);
-        std::ostringstream text;
-        if (file) text << file.rdbuf();
-        const bool empty = file && file.peek() == std::ifstream::traits_type::eof();
-        if (!file || (text.fail() && !empty)) {
-            report(Code::FileUnreadable, {path.string(), errno ? std::strerror(errno) : "reading failed"});
-            return false;
+        std::FILE* file = std::fopen(path.c_str(), "rb");
+        bool good = file != nullptr;
+        if (file) {
+            std::error_code unknown;
+            const auto size = fs::file_size(path, unknown);
+            constexpr size_t kStep = size_t{1} << 16;
+            size_t length = 0;
+            do { // one byte more than expected shows the end; a growing file is read to its end all the same
+                bytes.resize(length + (length == 0 && !unknown ? static_cast<size_t>(size) + 1 : kStep));
+                length += std::fread(bytes.data() + length, 1, bytes.size() - length, file);
+            } while (length == bytes.size());
+            bytes.resize(length);
+            good = std::ferror(file) == 0;
+            std::fclose(file);
         }
-        bytes = std::move(text).str();
-        return true;
+        if (!good)
+            report(Code::FileUnreadable, {path.string(), errno ? std::strerror(errno) : "reading failed"});
+        return good;
+    }
+
+    /// Whether the file, under whatever name, belongs to the task already.
+    bool isKnown(const fs::path& path, const sema::TaskInput& task) {
+        if (task.files.empty()) identities_.clear(); // a new task
+        struct stat status{};
+        return ::stat(path.c_str(), &status) == 0 &&
+               !identities_.insert({status.st_dev, status.st_ino}).second;
     }
 
     void addModule(const fs::path& path, sema::TaskInput& task) {
-        std::error_code error;
-        for (const auto& known : task.files) {
-            if (!fs::equivalent(known->path(), path, error) || error) continue;
+        if (isKnown(path, task)) {
             report(Code::SameFileTwice, {path.string()});
             return;
         }
@@ -211,6 +226,7 @@ class Loader {
     ProjectInput& out_;
     diag::Sink& sink_;
     std::vector<sema::TaskInput> backupTasks_;
+    std::set<std::pair<dev_t, ino_t>> identities_; ///< files of the task that is being filled
 };
 
 } // namespace

@@ -2,6 +2,7 @@
 // The lossless syntax tree. Nodes are arena-allocated and point into the token vector; white space and comments are
 // the gaps between tokens in the source text, so text == concatenation of gaps and tokens, byte for byte.
 
+#include "frontend/source/arena.h"
 #include "frontend/source/source_file.h"
 
 #include <cstdint>
@@ -19,11 +20,15 @@ enum class TokenKind : uint8_t {
 #include "frontend/syntax/token_kinds.def"
 };
 
+/// Eight bytes, because files have millions of them.
 struct Token {
     uint32_t offset = 0;
-    uint32_t length = 0;
-    TokenKind kind = TokenKind::EndOfFile;
+    uint32_t length : 24 = 0; ///< at most kMaxTokenLength
+    TokenKind kind : 8 = TokenKind::EndOfFile;
 };
+static_assert(sizeof(Token) == 8);
+/// What is longer (it is a mistake anyhow) is cut; the rest counts as white space.
+inline constexpr size_t kMaxTokenLength = 0xFFFFFF;
 
 using TokenIndex = uint32_t;
 inline constexpr TokenIndex kNoToken = 0xFFFFFFFFu;
@@ -256,28 +261,10 @@ struct ModuleDecl : Node {
 
 // ---- The tree --------------------------------------------------------------------------------------------------
 
-/// Bump allocator for nodes; everything in it is trivially destructible.
-class Arena {
-  public:
-    void* allocate(size_t size, size_t align);
-    template <class T> T* make() { return new (allocate(sizeof(T), alignof(T))) T(); }
-    template <class T> std::span<T> copy(const std::vector<T>& items) {
-        if (items.empty()) return {};
-        T* data = static_cast<T*>(allocate(sizeof(T) * items.size(), alignof(T)));
-        std::uninitialized_copy(items.begin(), items.end(), data);
-        return {data, items.size()};
-    }
-
-  private:
-    std::vector<std::unique_ptr<char[]>> blocks_;
-    char* next_ = nullptr;
-    size_t left_ = 0;
-};
-
 /// One parsed file: source, tokens, nodes. Some files hold several modules.
 struct SyntaxTree {
     std::shared_ptr<const SourceFile> source;
-    std::vector<Token> tokens; ///< the last one is EndOfFile
+    std::span<Token> tokens; ///< in the arena; the last one is EndOfFile
     Arena arena;
     std::vector<ModuleDecl*> modules;
     uint32_t exprCount = 0;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -120,7 +121,7 @@ std::string showCharacter(std::string_view text) {
 class Lexer {
   public:
     explicit Lexer(std::string_view text) : begin_(text.data()), end_(begin_ + text.size()), p_(begin_) {
-        result_.tokens.reserve(text.size() / 5 + 16);
+        result_.tokens.reserve(text.size() / 3 + 16);
     }
 
     LexResult run() {
@@ -151,8 +152,11 @@ class Lexer {
     }
 
     void push(TokenKind kind, const char* start) {
-        result_.tokens.push_back(
-            {static_cast<uint32_t>(start - begin_), static_cast<uint32_t>(p_ - start), kind});
+        const auto length = std::min(static_cast<size_t>(p_ - start), kMaxTokenLength);
+        Token& token = result_.tokens.emplace_back();
+        token.offset = static_cast<uint32_t>(start - begin_);
+        token.length = static_cast<uint32_t>(length) & kMaxTokenLength;
+        token.kind = kind;
     }
 
     void error(diag::Code code, const char* from, const char* to, std::vector<std::string> args = {}) {

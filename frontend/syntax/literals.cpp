@@ -102,20 +102,4 @@ std::string decodeStringLiteral(std::string_view literal) {
     return out;
 }
 
-void* Arena::allocate(size_t size, size_t align) {
-    constexpr size_t kBlock = size_t{1} << 18;
-    const size_t gap = (align - reinterpret_cast<uintptr_t>(next_) % align) % align;
-    if (!next_ || size + gap > left_) {
-        const size_t bytes = std::max(kBlock, size + align);
-        blocks_.push_back(std::make_unique_for_overwrite<char[]>(bytes));
-        next_ = blocks_.back().get();
-        left_ = bytes;
-        return allocate(size, align);
-    }
-    char* result = next_ + gap;
-    next_ += gap + size;
-    left_ -= gap + size;
-    return result;
-}
-
 } // namespace rapid::syntax

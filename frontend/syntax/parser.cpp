@@ -263,9 +263,10 @@ std::unique_ptr<SyntaxTree> makeTree(std::shared_ptr<const SourceFile> source, d
     const std::string_view text = tree->source->text();
     if (checkEncoding(tree->source, sink)) {
         lexed = lex(text);
-        tree->tokens = std::move(lexed.tokens);
+        tree->tokens = tree->arena.copy(lexed.tokens);
     } else {
-        tree->tokens.push_back({static_cast<uint32_t>(text.size()), 0, TokenKind::EndOfFile});
+        tree->tokens = tree->arena.makeArray<Token>(1);
+        tree->tokens[0].offset = static_cast<uint32_t>(text.size());
     }
     return tree;
 }
