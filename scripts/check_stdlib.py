@@ -1,20 +1,24 @@
 #!/usr/bin/env python3
 """Checks the declarations of everything predefined (stdlib/data, stdlib/decl).
 
-Usage: check_stdlib.py [--stdlib DIR] [TABLE.tsv ...]
+Usage: check_stdlib.py [--stdlib DIR] [--names NAMES.tsv] [--rapidc PROGRAM]
 
 Always: names declared once (RAPID ignores case), types used are declared, order within a file (types, data,
 routines), reserved words, documentation and attributes of every routine, error numbers distinct and outside the
 user range, texts of at most 80 bytes, size of files.
-With tables (columns name, kind, category, option, signature, confidence, semantics, errno, typed_params): every
+With names (columns name, kind, option, confidence, result, errors, parameters; default tests/stdlib): every
 instruction, function, data type, constant and system datum named there is declared, as the right kind, with the
-same return type and with all the parameters.
+same option, return type and errors and with all the parameters, and marked uncertain where the list says so; a
+constant has the listed type (result) and value (parameters).
+With a program: `rapidc builtins --format=tsv` lists all these names, each with its kind and a status.
 Prints one line per offence; exit status 1 if there is any.
 """
 
 import argparse
+import csv
 import pathlib
 import re
+import subprocess
 import sys
 
 RESERVED = set("""ALIAS AND BACKWARD BREAK CASE CONNECT CONST CONTINUE DEFAULT DIV DO ELSE ELSEIF ENDFOR ENDFUNC ENDIF
@@ -45,6 +49,21 @@ EXEMPT = {
 }
 # Rows whose parameters or result the table itself marks as uncertain and that are declared otherwise on purpose.
 REDEFINED = {"EGMSetupAI", "EGMSetupAO", "EGMSetupGI", "WZLimSup", "WZDOSet", "SearchJ"}
+# Names that the list and the program call by different kinds, and why.
+OTHER_KIND = {
+    "load0": "a persistent that cannot be changed",
+    "tool0": "a persistent that cannot be changed",
+    "wobj0": "a persistent that cannot be changed",
+    "SYS_RESET": "a system routine",
+}
+STATUSES = {"implemented", "declared only"}
+# Summaries that say no more than the name: at least so many words for a routine or type.
+SHORTEST_SUMMARY = 3
+
+
+def plain(value):
+    """A value as text that does not depend on blanks or on how numbers are written."""
+    return re.sub(r"(?<![\w\"])[-+]?[\d.]+(?:E[-+]?\d+)?", lambda m: repr(float(m.group())), value.replace(" ", ""))
 
 
 class Checker:
@@ -57,6 +76,7 @@ class Checker:
         self.used_types = []
         self.errors_named = []
         self.error_numbers = {}
+        self.summaries = {}
 
     def offence(self, place, text):
         self.offences.append(f"{place}: {text}")
@@ -69,6 +89,15 @@ class Checker:
             self.offence(place, f"{name} is already declared at {self.places[key]}")
         self.places[key] = place
         table[key] = value
+
+    def summary(self, place, name, kind, doc):
+        """A summary of its own, in words: nothing empty, nothing copied from another name of the kind."""
+        text = doc[0].rstrip(".").lower() if doc else ""
+        if kind != "datum" and len(text.split()) < SHORTEST_SUMMARY:
+            self.offence(place, f"{name}: the summary says too little")
+        other = self.summaries.setdefault((kind, text), name)
+        if text and other != name:
+            self.offence(place, f"{name} has the summary of {other}")
 
     # ---- reading ---------------------------------------------------------------------------------------------
     def read(self, path):
@@ -105,6 +134,9 @@ class Checker:
                 if kind < 3 and not doc:
                     self.offence(place, "no documentation")
                 attributes = self.attributes(place, attrs)
+                if kind < 3:
+                    self.summary(place, re.split(r"[ ;]", code)[1 if word == "RECORD" else 2],
+                                 "type" if kind == 1 else "datum", doc)
                 if word == "RECORD":
                     number = self.record(place, lines, number, code, attributes)
                 elif word == "ALIAS":
@@ -172,7 +204,7 @@ class Checker:
             return
         kind, data_type, name, _, value = match.groups()
         self.used_types.append((place, data_type))
-        self.declare(place, name, self.data, data_type.lower())
+        self.declare(place, name, self.data, (data_type.lower(), value))
         if kind == "CONST" and value is None:
             self.offence(place, f"constant {name} has no value")
         if value and value.startswith('"') and len(re.sub(r"\\[0-9A-F]{2}", "x", value[1:-1]).encode()) > 80:
@@ -211,11 +243,15 @@ class Checker:
         if len(set(lowered)) != len(lowered):
             self.offence(place, f"{name}: a parameter is declared twice")
         self.document(place, name, names, result, doc, attributes)
-        self.declare(place, name, self.routines, (result.lower() if result else None, lowered))
+        self.declare(place, name, self.routines, (result.lower() if result else None, lowered, attributes))
 
     def document(self, place, name, names, result, doc, attributes):
         if not doc or doc[0].startswith("@"):
             self.offence(place, f"{name}: no summary")
+        self.summary(place, name, "routine", doc)
+        returned = [d[8:].strip().rstrip(".").lower() for d in doc if d.startswith("@return ")]
+        if doc and returned and returned[0] == doc[0].rstrip(".").lower():
+            self.offence(place, f"{name}: the description of the result repeats the summary")
         described = [d.split()[1] for d in doc if d.startswith("@param") and len(d.split()) > 2]
         for n in names:
             if n not in described:
@@ -263,15 +299,15 @@ class Checker:
             if name.lower() not in self.types:
                 self.offence(place, f"type {name} is not declared")
         for place, name in self.errors_named:
-            if self.data.get(name.lower()) != "errnum":
+            if self.data.get(name.lower(), ("",))[0] != "errnum":
                 self.offence(place, f"error {name} is not declared")
 
-    def table(self, path):
-        for line in path.read_text(encoding="utf-8").split("\n")[1:]:
-            if not line:
-                continue
-            name, kind, _, _, signature, _, _, errno, typed = line.split("\t")[:9]
-            if kind not in ("instruction", "function", "datatype", "constant", "systemdata") or name in EXEMPT:
+    def names(self, path):
+        with path.open(encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file, delimiter="\t", quoting=csv.QUOTE_NONE))
+        for row in rows:
+            name, kind = row["name"], row["kind"]
+            if name in EXEMPT:
                 continue
             key = name.lower()
             if kind == "datatype":
@@ -279,26 +315,43 @@ class Checker:
             elif kind in ("instruction", "function"):
                 found = key in self.routines
                 if found:
-                    self.compare(path.name, name, kind, signature, typed)
+                    self.compare(path.name, row)
             else:
                 found = key in self.data or key in self.routines
+                if kind == "constant" and key in self.data:
+                    self.compare_value(path.name, row)
             if not found:
                 self.offence(path.name, f"{kind} {name} is not declared")
-            for error in re.findall(r"\bERR_\w+", errno):
-                if error.lower() not in self.data:
-                    self.offence(path.name, f"error {error} of {name} is not declared")
+        return rows
 
-    def compare(self, table, name, kind, signature, typed):
-        result, declared = self.routines[name.lower()]
-        if (kind == "function") != (result is not None):
+    def compare_value(self, table, row):
+        """The parameters of a constant are its value; `-` when it is not known."""
+        data_type, value = self.data[row["name"].lower()]
+        if row["result"].lower() != data_type:
+            self.offence(table, f"{row['name']} is declared as {data_type}, the list says {row['result']}")
+        if row["parameters"] != "-" and plain(row["parameters"]) != plain(value or ""):
+            self.offence(table, f"{row['name']} is {value}, the list says {row['parameters']}")
+
+    def compare(self, table, row):
+        name = row["name"]
+        result, declared, attributes = self.routines[name.lower()]
+        if (row["kind"] == "function") != (result is not None):
             self.offence(table, f"{name} is declared as the other kind of routine")
-        match = re.search(r"-> (\w+)", signature)
-        if match and match.group(1).lower() != result:
-            self.offence(table, f"{name} returns {result}, the table says {match.group(1)}")
-        if name in REDEFINED or typed == "-":
+        if row["result"] not in ("-", "?") and row["result"].lower() != result:
+            self.offence(table, f"{name} returns {result}, the list says {row['result']}")
+        option = attributes.get("option", ["-"])[0]
+        if option != row["option"]:
+            self.offence(table, f"{name} has option {option}, the list says {row['option']}")
+        if row["confidence"] != "high" and attributes.get("confidence") == ["high"]:
+            self.offence(table, f"{name} is declared as certain, the list has {row['confidence']} confidence")
+        raises = re.findall(r"\w+", " ".join(attributes.get("raises", [])))
+        for error in re.findall(r"ERR_\w+", row["errors"]):
+            if error not in raises:
+                self.offence(table, f"{name}: error {error} is not declared")
+        if name in REDEFINED or row["parameters"] == "-":
             return
         listed = []
-        for token in re.findall(r"\[[^\]]*\]|[^\s\[\]]+", typed.replace("{*}", "")):
+        for token in re.findall(r"\[[^\]]*\]|[^\s\[\]]+", row["parameters"].replace("{*}", "")):
             word = token.strip("[]").split()[-1].lstrip("\\").split(":")[0]
             if word not in MODES and re.match(r"\w+$", word):
                 listed.append(word.lower())
@@ -309,12 +362,31 @@ class Checker:
         if order != [w for w in listed if w in declared]:
             self.offence(table, f"{name}: order of parameters differs")
 
+    def listing(self, program, rows):
+        """What `rapidc builtins` says of the names."""
+        run = subprocess.run([program, "builtins", "--format=tsv"], capture_output=True, text=True, check=False)
+        lines = [line.split("\t") for line in run.stdout.splitlines()]
+        if run.returncode != 0 or not lines or lines[0] != ["name", "kind", "chapter", "status"]:
+            self.offence("rapidc builtins", f"exit status {run.returncode}, or no header")
+            return
+        listed = {}
+        for line in lines[1:]:
+            if len(line) != 4 or line[3] not in STATUSES:
+                self.offence("rapidc builtins", f"not understood: {line}")
+                continue
+            listed.setdefault(line[0].lower(), set()).add(line[1])
+        for row in rows:
+            name, kinds = row["name"], listed.get(row["name"].lower(), set())
+            if name not in EXEMPT and row["kind"] not in kinds and not (kinds and name in OTHER_KIND):
+                self.offence("rapidc builtins", f"{row['kind']} {name} is not listed")
+
 
 def main():
     parser = argparse.ArgumentParser(description="Checks stdlib/data and stdlib/decl.")
     here = pathlib.Path(__file__).resolve().parent.parent
     parser.add_argument("--stdlib", type=pathlib.Path, default=here / "stdlib")
-    parser.add_argument("tables", nargs="*", type=pathlib.Path)
+    parser.add_argument("--names", type=pathlib.Path, default=here / "tests/stdlib/predefined_names.tsv")
+    parser.add_argument("--rapidc", type=pathlib.Path, help="the program whose list of names is checked")
     options = parser.parse_args()
     checker = Checker()
     files = sorted(options.stdlib.glob("data/*.sysx")) + sorted(options.stdlib.glob("decl/*.sysx"))
@@ -323,8 +395,9 @@ def main():
     for path in files:
         checker.read(path)
     checker.relations()
-    for table in options.tables:
-        checker.table(table)
+    rows = checker.names(options.names)
+    if options.rapidc:
+        checker.listing(options.rapidc, rows)
     for offence in checker.offences:
         print(offence)
     print(f"{len(checker.types)} types, {len(checker.data)} data, {len(checker.routines)} routines in "

@@ -24,6 +24,13 @@ std::string emitNativeTable(const Model& model);
 std::string emitErrorTable(const Model& model);
 std::string emitSources(const Model& model);
 std::string emitJson(const Model& model);
-std::string emitReference(const Model& model);
+
+/// A page of the reference in docs/reference.
+struct Page {
+    std::string file; ///< "math.md"
+    std::string text;
+};
+/// A page a declaration file, one of all types, one of all data, and README.md, the index.
+std::vector<Page> emitReference(const Model& model);
 
 } // namespace stdlibgen

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -36,32 +35,6 @@ std::string typeText(const TypeInfo& type) {
     return out;
 }
 
-/// Chapter numbers in natural order: 1.2 before 1.10.
-bool chapterLess(const std::string& a, const std::string& b) {
-    const char* p = a.c_str() + std::min(a.size(), a.find_first_of("0123456789"));
-    const char* q = b.c_str() + std::min(b.size(), b.find_first_of("0123456789"));
-    while (true) {
-        char* pe = nullptr;
-        char* qe = nullptr;
-        const long x = std::strtol(p, &pe, 10);
-        const long y = std::strtol(q, &qe, 10);
-        if (pe == p || qe == q) return (pe == p) != (qe == q) ? pe != p : a < b; // numbers come first
-        if (x != y) return x < y;
-        p = *pe == '.' ? pe + 1 : pe;
-        q = *qe == '.' ? qe + 1 : qe;
-    }
-}
-
-struct Section {
-    std::string title;
-    std::vector<std::string> blocks;
-};
-
-std::string chapterOf(const Doc& doc) {
-    const std::string manual = doc.get("manual");
-    return manual.empty() || manual == "-" ? "Not in the overview manual" : "Chapter " + manual;
-}
-
 /// The word after "@tag " and the rest of the line.
 std::pair<std::string, std::string> firstWord(const std::string& text) {
     const size_t space = text.find(' ');
@@ -69,34 +42,101 @@ std::pair<std::string, std::string> firstWord(const std::string& text) {
     return {text.substr(0, space), text.substr(text.find_first_not_of(' ', space))};
 }
 
-/// Documentation lines as Markdown: summary, arguments, result, examples. Errors stand in the attributes.
+/// Text that Markdown must not read as markup, inside a cell of a table too.
+std::string escaped(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (std::string_view("|<>*_[]\\").find(c) != std::string_view::npos) out += '\\';
+        out += c;
+    }
+    return out;
+}
+
+/// Documentation lines as Markdown: summary, arguments, result, errors, examples.
 std::string markdown(const std::string& doc) {
     std::istringstream lines(doc);
-    std::string text, params, examples;
+    std::string text, items, examples;
+    std::string* last = &text; // continuation lines go where the line before them went
     for (std::string line; std::getline(lines, line);) {
         const auto [tag, rest] = firstWord(line);
-        if (tag == "@param") {
+        if (tag == "@param" || tag == "@error") {
             const auto [name, meaning] = firstWord(rest);
-            params += fmt::format("- `{}`: {}\n", name, meaning);
+            items += fmt::format("- `{}`: {}\n", name, escaped(meaning));
+            last = &items;
         } else if (tag == "@return") {
-            params += fmt::format("- result: {}\n", rest);
+            items += fmt::format("- result: {}\n", escaped(rest));
+            last = &items;
         } else if (tag == "@example") {
             examples += rest + "\n";
-        } else if (!tag.starts_with('@')) {
-            text += line + "\n";
+            last = &examples;
+        } else if (!line.empty() && last == &items) {
+            items.insert(items.size() - 1, " " + escaped(line.substr(line.find_first_not_of(' '))));
+        } else {
+            *last += (last == &text ? escaped(line) : line) + "\n";
         }
     }
-    if (!params.empty()) text += "\n" + params;
-    if (!examples.empty()) text += "\nExample:\n\n```\n" + examples + "```\n";
+    if (!items.empty()) text += "\n" + items;
+    if (!examples.empty()) text += "\n```\n" + examples + "```\n";
     return text;
 }
 
+std::string remarks(const Doc& doc) {
+    std::string out;
+    const auto add = [&out](const std::string& text) { out += (out.empty() ? "" : " ") + text; };
+    if (const std::string m = doc.get("manual"); !m.empty() && m != "-") add("Chapter " + m + ".");
+    if (const std::string o = doc.get("option"); !o.empty() && o != "-") add("Option: " + o + ".");
+    const std::string confidence = doc.get("confidence");
+    if (confidence == "medium") add("The form of the call is not confirmed in every detail.");
+    if (confidence == "low") add("The form of the call is not confirmed.");
+    return out.empty() ? out : "\n" + out + "\n";
+}
+
 std::string routineBlock(const Routine& r) {
-    std::string out = fmt::format("### {}\n\n```\n{}\n```\n\n{}", r.name, r.signature, markdown(r.doc.text));
-    if (const std::string e = r.doc.get("raises"); !e.empty()) out += fmt::format("\nErrors: {}.\n", e);
-    if (const std::string o = r.doc.get("option"); !o.empty() && o != "-")
-        out += fmt::format("\nOption: {}.\n", o);
-    return out;
+    return fmt::format("\n## {}\n\n```\n{}\n```\n\n{}{}", r.name, r.signature, markdown(r.doc.text),
+                       remarks(r.doc));
+}
+
+constexpr const char* kGenerated =
+    "\nGenerated from the declarations in `stdlib` by `./dev reference`; do not edit.\n";
+
+/// "decl/math.sysx" -> "math".
+std::string stemOf(const std::string& source) {
+    const size_t slash = source.rfind('/');
+    return source.substr(slash + 1, source.rfind('.') - slash - 1);
+}
+
+/// The first comment inside the module names the subject of the file.
+std::string titleOf(const SourceText& source) {
+    std::istringstream lines(source.text);
+    for (std::string line; std::getline(lines, line);) {
+        const size_t start = line.find_first_not_of(' ');
+        if (start != std::string::npos && line[start] == '!' && line.compare(start, 2, "!!") != 0) {
+            std::string title = line.substr(line.find_first_not_of(' ', start + 1));
+            while (title.ends_with('.'))
+                title.pop_back();
+            return title;
+        }
+    }
+    return stemOf(source.name);
+}
+
+Page typePage(const Model& model) {
+    std::string text = fmt::format("# Data types\n{}\n| type | form | |\n|---|---|---|\n", kGenerated);
+    for (const TypeInfo& t : model.types)
+        text += fmt::format("| {} | {} | {} |\n", escaped(t.name), escaped(typeText(t)),
+                            escaped(t.doc.summary()));
+    return {"types.md", std::move(text)};
+}
+
+Page dataPage(const Model& model) {
+    std::string text =
+        fmt::format("# Predefined data\n{}\nNumbers of error constants are rapidc's own; use the names.\n\n"
+                    "| name | type | value | |\n|---|---|---|---|\n",
+                    kGenerated);
+    for (const Datum& d : model.data)
+        text += fmt::format("| {} | {} | {} | {} |\n", escaped(d.name), escaped(d.type), escaped(d.initText),
+                            escaped(d.doc.summary()));
+    return {"data.md", std::move(text)};
 }
 
 } // namespace
@@ -130,26 +170,32 @@ std::string emitJson(const Model& model) {
     return all.dump(1) + "\n";
 }
 
-std::string emitReference(const Model& model) {
-    std::map<std::string, Section, decltype(&chapterLess)> sections(&chapterLess);
-    for (const Routine& r : model.routines)
-        sections[chapterOf(r.doc)].blocks.push_back(routineBlock(r));
-    std::string out =
-        "# Predefined instructions, functions, data types and data\n\n"
-        "Generated from the declarations in `stdlib/decl` and `stdlib/data`; chapter numbers are those of "
-        "the manual.\n";
-    for (const auto& [chapter, section] : sections) {
-        out += fmt::format("\n## {}\n", chapter);
-        for (const std::string& block : section.blocks)
-            out += "\n" + block;
+std::vector<Page> emitReference(const Model& model) {
+    std::vector<Page> pages;
+    std::string index = fmt::format("# Everything predefined\n{}\nBy subject:\n\n", kGenerated);
+    std::map<std::string, std::string> byName;
+    for (const SourceText& source : model.sources) {
+        std::string blocks;
+        const std::string file = stemOf(source.name) + ".md";
+        for (const Routine& r : model.routines) {
+            if (r.place.file != source.path) continue;
+            blocks += routineBlock(r);
+            byName[lowered(r.name)] = fmt::format("| [{}]({}#{}) | {} |\n", r.name, file, lowered(r.name),
+                                                  escaped(r.doc.summary()));
+        }
+        if (blocks.empty()) continue;
+        const std::string title = titleOf(source);
+        index += fmt::format("- [{}]({})\n", title, file);
+        pages.push_back({file, fmt::format("# {}\n{}{}", title, kGenerated, blocks)});
     }
-    out += "\n## Data types\n\n| type | form | |\n|---|---|---|\n";
-    for (const TypeInfo& t : model.types)
-        out += fmt::format("| {} | {} | {} |\n", t.name, typeText(t), t.doc.summary());
-    out += "\n## Predefined data\n\n| name | type | value | |\n|---|---|---|---|\n";
-    for (const Datum& d : model.data)
-        out += fmt::format("| {} | {} | {} | {} |\n", d.name, d.type, d.initText, d.doc.summary());
-    return out;
+    index +=
+        "- [Data types](types.md)\n- [Predefined data](data.md)\n\n## By name\n\n| name | |\n|---|---|\n";
+    for (const auto& [name, row] : byName)
+        index += row;
+    pages.push_back(typePage(model));
+    pages.push_back(dataPage(model));
+    pages.push_back({"README.md", std::move(index)});
+    return pages;
 }
 
 } // namespace stdlibgen

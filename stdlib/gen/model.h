@@ -78,6 +78,7 @@ struct Datum {
 
 struct SourceText {
     std::string name; ///< "decl/math.sysx"
+    std::string path; ///< as given, and as in Place::file
     std::string text;
 };
 

@@ -68,7 +68,7 @@ class Reader {
         buffer << in.rdbuf();
         const std::filesystem::path p(path);
         model_.sources.push_back(
-            {p.parent_path().filename().string() + "/" + p.filename().string(), buffer.str()});
+            {p.parent_path().filename().string() + "/" + p.filename().string(), path, buffer.str()});
         path_ = path;
         rapid::diag::Sink sink;
         auto source = std::make_shared<rapid::SourceFile>(path, buffer.str());

@@ -56,9 +56,8 @@ def write_ctest(path, source, build):
         add(name, [sys.executable, runner, "--source", source, "--build", build, "--one", name], 120)
     scripts = os.path.join(source, "scripts")
     add("layering", [sys.executable, os.path.join(scripts, "check_layering.py"), "--source", source], 60)
-    if os.path.exists(os.path.join(scripts, "check_stdlib.py")):
-        lines.append(f"add_test(stdlib {bracket(sys.executable)} {bracket(os.path.join(scripts, 'check_stdlib.py'))})")
-        lines.append(f"set_tests_properties(stdlib PROPERTIES WORKING_DIRECTORY {bracket(source)})")
+    add("stdlib", [sys.executable, os.path.join(scripts, "check_stdlib.py"), "--rapidc", os.path.join(build, "rapidc")],
+        60)
     with open(path, "w", encoding="utf-8") as file:
         file.write("\n".join(lines) + "\n")
 

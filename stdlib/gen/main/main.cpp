@@ -25,7 +25,7 @@ bool writeIfChanged(const std::string& path, const std::string& text) {
 
 int usage() {
     std::fputs(
-        "usage: stdlib_gen --out FOLDER FILE.sysx...\n       stdlib_gen --reference FILE.md FILE.sysx...\n",
+        "usage: stdlib_gen --out FOLDER FILE.sysx...\n       stdlib_gen --reference FOLDER FILE.sysx...\n",
         stderr);
     return 3;
 }
@@ -41,6 +41,13 @@ bool writeAll(const stdlibgen::Model& model, const std::string& folder) {
     return ok;
 }
 
+bool writeReference(const stdlibgen::Model& model, const std::string& folder) {
+    bool ok = true;
+    for (const stdlibgen::Page& page : emitReference(model))
+        ok &= writeIfChanged(folder + "/" + page.file, page.text);
+    return ok;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -52,6 +59,6 @@ int main(int argc, char** argv) {
     for (const std::string& error : model.errors)
         std::fprintf(stderr, "%s\n", error.c_str());
     if (!model.errors.empty()) return 2;
-    const bool ok = mode == "--out" ? writeAll(model, target) : writeIfChanged(target, emitReference(model));
+    const bool ok = mode == "--out" ? writeAll(model, target) : writeReference(model, target);
     return ok ? 0 : 1;
 }

@@ -4,9 +4,12 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <sstream>
 #include <unistd.h>
 
 using namespace stdlibgen;
@@ -143,9 +146,36 @@ TEST_CASE("documentation and attributes, continued lines too", "[stdlib][gen]") 
     CHECK(send.doc.get("option") == "Big Option");
     CHECK(send.signature == "PROC Send(num N)");
     CHECK(send.native);
-    const std::string reference = emitReference(model);
-    CHECK(reference.find("## Chapter 1.10") != std::string::npos);
+    const std::string reference = emitReference(model).front().text;
+    CHECK(reference.find("## Send\n\n```\nPROC Send(num N)\n```") != std::string::npos);
     CHECK(reference.find("- `N`: number") != std::string::npos);
+    CHECK(reference.find("Chapter 1.10. Option: Big Option.") != std::string::npos);
+}
+
+TEST_CASE("the reference in docs/reference is what the declarations say", "[stdlib][gen]") {
+    namespace fs = std::filesystem;
+    std::vector<std::string> declarations;
+    for (const char* folder : {"decl", "data"})
+        for (const auto& entry : fs::directory_iterator(fs::path(RAPIDC_SOURCE_DIR) / "stdlib" / folder))
+            if (entry.path().extension() == ".sysx") declarations.push_back(entry.path().string());
+    std::sort(declarations.begin(), declarations.end());
+    const Model model = readDeclarations(declarations);
+    REQUIRE(model.errors.empty());
+    const fs::path reference = fs::path(RAPIDC_SOURCE_DIR) / "docs" / "reference";
+    std::set<std::string> pages;
+    for (const Page& page : emitReference(model)) {
+        INFO(page.file << ": write it again with ./dev reference");
+        pages.insert(page.file);
+        std::ifstream in(reference / page.file, std::ios::binary);
+        std::stringstream text;
+        text << in.rdbuf();
+        CHECK(text.str() == page.text);
+    }
+    CHECK(pages.size() > 30);
+    for (const auto& entry : fs::directory_iterator(reference)) {
+        INFO(entry.path() << " has no declarations any more");
+        CHECK(pages.count(entry.path().filename().string()) == 1);
+    }
 }
 
 TEST_CASE("a routine with a body is not native", "[stdlib][gen]") {
