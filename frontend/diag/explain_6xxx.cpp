@@ -94,8 +94,84 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "MODULE m\n"
      "ENDMODULE"},
     {6027, Kind::File,
-     "Modules of a backup may be encrypted, and only the controller can read them. The rest is "
-     "checked; names that are declared nowhere else are assumed to be in the encrypted modules.",
+     "A controller can encrypt modules, and only a controller can read them. The rest of the task "
+     "is checked; names that are declared nowhere else may be declared in the encrypted module, so "
+     "they are no errors.",
+     "",
+     "MODULE m\n"
+     "ENDMODULE"},
+    {6050, Kind::File,
+     "What a backup holds, in one line: system, RobotWare version, number of tasks and of signals "
+     "in EIO.cfg, robot (use_robot_type in MOC.cfg, else the option line in backinfo.txt), add- "
+     "ins.",
+     "",
+     "MODULE m\n"
+     "ENDMODULE"},
+    {6051, Kind::File,
+     "What a task of a backup is made of: type and entry routine (CAB_TASKS in SYS.cfg), modules "
+     "that are read, modules that are encrypted or were not saved. What those declare is not "
+     "known, so a name that no module declares may come from them.",
+     "",
+     "MODULE m\n"
+     "ENDMODULE"},
+    {6052, Kind::File,
+     "backinfo.txt lists a task that CAB_TASKS in SYS.cfg does not have. Options such as SafeMove "
+     "make tasks of their own (SC_CBC, PSC_CBC), whose parameters are not saved. The task is read; "
+     "without an entry routine it is left out of a run.",
+     "",
+     "MODULE m\n"
+     "ENDMODULE"},
+    {6053, Kind::File,
+     "CAB_TASKS in SYS.cfg has a task for which the backup has no folder RAPID/TASKn. Copy the "
+     "folder from a complete backup, or remove the task from SYS.cfg.",
+     "",
+     "MODULE m\n"
+     "ENDMODULE"},
+    {6054, Kind::File,
+     "CAB_TASK_MODULES in SYS.cfg names a module that the controller loads at start from an add-in "
+     "or from a folder that is not part of the backup. The program does not link without it: copy "
+     "the file from the add-in into RAPID/TASKn/SYSMOD, or into HOME if SYS.cfg loads it from "
+     "there.",
+     "",
+     "MODULE m\n"
+     "ENDMODULE"},
+    {6055, Kind::File,
+     "The list of modules in BACKINFO/backinfo.txt names a file that the task's folder does not "
+     "have, in any letter case. The backup is not complete: copy the file there.",
+     "",
+     "MODULE m\n"
+     "ENDMODULE"},
+    {6056, Kind::File,
+     "The task's folder holds a module that the list in BACKINFO/backinfo.txt does not name, so it "
+     "was added by hand. rapidc reads it; a controller that restores the backup does not. Add a "
+     "line for it to backinfo.txt.",
+     "",
+     "MODULE m\n"
+     "ENDMODULE"},
+    {6057, Kind::File,
+     "Nothing of the task can be run: all its modules are encrypted or missing, or none that can "
+     "be read declares its entry routine. The other tasks run without it.",
+     "",
+     "MODULE m\n"
+     "ENDMODULE"},
+    {6058, Kind::File,
+     "A backup should have BACKINFO/backinfo.txt, which names tasks and modules. Without it the "
+     "folder TASKn is taken for the n-th task of CAB_TASKS in SYS.cfg, and every module in it is "
+     "read.",
+     "",
+     "MODULE m\n"
+     "ENDMODULE"},
+    {6059, Kind::File,
+     "CAB_TASK_MODULES in SYS.cfg names a module of RobotWare itself (RELEASE:), for example "
+     "ScreenMaker. Backups never hold such modules. Names that no module declares may be declared "
+     "there.",
+     "",
+     "MODULE m\n"
+     "ENDMODULE"},
+    {6060, Kind::File,
+     "The configuration names a robot for which rapidc has no model. Checking is not affected. To "
+     "run the program name a model that is known with --robot, for example --robot=\"IRB "
+     "120-3/0.58\".",
      "",
      "MODULE m\n"
      "ENDMODULE"},

@@ -35,8 +35,14 @@ std::vector<Diagnostic> Sink::sorted() const {
     std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return key(a) < key(b); });
     std::vector<Diagnostic> result;
     result.reserve(all_.size());
-    for (const size_t i : order)
-        result.push_back(all_[i]);
+    for (const size_t i : order) {
+        // A module that several tasks share is checked in each of them; its mistakes are told once.
+        const Diagnostic& d = all_[i];
+        const bool again = !result.empty() && d.file && result.back().file && d.code == result.back().code &&
+                           d.range == result.back().range && d.message == result.back().message &&
+                           d.file->path() == result.back().file->path();
+        if (!again) result.push_back(d);
+    }
     return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include "frontend/sema/checker.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,11 @@ struct TaskSpec {
 struct ProjectInput {
     std::vector<sema::TaskInput> tasks;
     std::vector<std::string> configFiles; ///< *.cfg files named or found, in the order of reading
+    /// RobotWare options that a backup tells, e.g. "623-1 Multitasking"; not known without one.
+    std::optional<std::vector<std::string>> robotWareOptions;
+    std::string robot;      ///< model that a backup names only among its options; else empty
+    std::string homeFolder; ///< HOME of a backup; empty if there is none
+    bool isBackup = false;
 };
 
 /// Resolves `inputs` (they make up task T_ROB1, unless one of them is a backup, which brings its own tasks) and the

@@ -155,6 +155,7 @@ void Analyzer::checkTask(const TaskInput& input) {
     startTask(input);
     readFiles(input);
     declareModules();
+    if (leaveOut(input)) return;
     for (Module* module : task_->modules)
         for (TypeSymbol* type : module->types)
             ensureType(*type);
@@ -199,6 +200,17 @@ void Analyzer::checkEntry(Task& task) {
         return;
     }
     if (mayReportUnknown(name)) sink_.report(Code::NoEntry, nullptr, {}, {task.name, task.entry});
+}
+
+// A task that may lack its entry routine, and does, is no part of the program; nothing else in it is judged.
+bool Analyzer::leaveOut(const TaskInput& input) {
+    if (!options_.requireMain || !input.optional || at(globals_, interner_.intern(input.entry))) return false;
+    sink_.report(Code::TaskLeftOut, nullptr, {},
+                 {input.name,
+                  "none of its modules that can be read declares its entry routine '" + input.entry + "'"});
+    program_.tasks.pop_back();
+    task_ = nullptr;
+    return true;
 }
 
 // A global persistent is one object for all tasks that declare it (manual 1.20).

@@ -22,6 +22,9 @@ struct TaskInput {
     /// the backup, e.g. "secret.sys"; what they declare is not known.
     std::vector<std::string> missingModules;
     bool incomplete = false; ///< true when `missingModules` is not empty
+    /// Without an entry routine the task is left out of a program, with a warning, instead of being an error: tasks of
+    /// options and add-ins, whose modules a backup does not hold.
+    bool optional = false;
 };
 
 struct CheckOptions {

@@ -130,6 +130,24 @@ bool hasManyControls(std::string_view bytes) {
     return count >= 4 && static_cast<size_t>(count) * 50 >= bytes.size();
 }
 
+/// Encrypted modules begin with 0xFC or 0xFE and are no text. A Latin-1 text may begin with that letter, and UTF-16
+/// with FE FF.
+bool looksEncrypted(std::string_view bytes) {
+    if (bytes.empty() || bytes.starts_with("\xFE\xFF")) return false;
+    const auto first = static_cast<unsigned char>(bytes[0]);
+    if (first != 0xFC && first != 0xFE) return false;
+    static constexpr std::string_view kWord = "ENDMODULE";
+    const auto sameLetter = [](char a, char b) { return (a & ~0x20) == b; };
+    return std::search(bytes.begin(), bytes.end(), kWord.begin(), kWord.end(), sameLetter) == bytes.end() ||
+           hasManyControls(bytes);
+}
+
+/// Without the NUL bytes and Ctrl-Z that disks and old tools leave at the end of a text.
+std::string_view withoutPadding(std::string_view bytes) {
+    const size_t last = bytes.find_last_not_of(std::string_view("\0\x1A \t\r\n", 6));
+    return bytes.substr(0, last == std::string_view::npos ? 0 : last + 1);
+}
+
 } // namespace
 
 bool isValidUtf8(std::string_view bytes) {
@@ -145,16 +163,14 @@ SourceFile::SourceFile(std::string path, std::string bytes) : path_(std::move(pa
         binary_ = true;
         bytes.clear();
     }
-    if (!bytes.empty()) {
-        const auto first = static_cast<unsigned char>(bytes[0]);
-        binary_ = first == 0xFC || first == 0xFE || bytes.find('\0') != std::string::npos;
-    }
+    encrypted_ = looksEncrypted(bytes);
+    binary_ |= encrypted_ || withoutPadding(bytes).find('\0') != std::string_view::npos;
     if (bytes.starts_with("\xEF\xBB\xBF")) {
         bytes.erase(0, 3);
         encoding_ = Encoding::Utf8Bom;
     }
     const size_t bad = findBadUtf8(bytes);
-    if (bad < bytes.size() && hasManyControls(bytes)) binary_ = true;
+    if (bad < bytes.size() && hasManyControls(withoutPadding(bytes))) binary_ = true;
     if (bad == bytes.size()) {
         text_ = std::move(bytes);
     } else if (binary_ || (isLegacyFileType(path_) && encoding_ != Encoding::Utf8Bom)) {

@@ -45,8 +45,10 @@ class SourceFile {
     Encoding encoding() const { return encoding_; }
     /// Offset in text() of the first byte that was not UTF-8 although the file type demands it; -1 if none.
     int64_t badUtf8Offset() const { return badUtf8Offset_; }
-    /// True for controller-encrypted modules (first byte 0xFC or 0xFE) and other binary junk (NUL bytes).
+    /// True for encrypted modules and other binary junk (NUL bytes, unless they only fill up the end).
     bool isBinary() const { return binary_; }
+    /// True for a module that a controller encrypted: first byte 0xFC or 0xFE, and no text.
+    bool isEncrypted() const { return encrypted_; }
 
     /// The bytes on disk from which a range of text() was made; the byte order mark is never among them. Empty for a
     /// range that is not in the text or does not begin and end between characters.
@@ -72,6 +74,7 @@ class SourceFile {
     Encoding encoding_ = Encoding::Utf8;
     int64_t badUtf8Offset_ = -1;
     bool binary_ = false;
+    bool encrypted_ = false;
 };
 
 } // namespace rapid

@@ -120,7 +120,8 @@ std::string showCharacter(std::string_view text) {
 
 class Lexer {
   public:
-    explicit Lexer(std::string_view text) : begin_(text.data()), end_(begin_ + text.size()), p_(begin_) {
+    explicit Lexer(std::string_view text)
+        : begin_(text.data()), end_(begin_ + text.size()), padding_(findPadding(begin_, end_)), p_(begin_) {
         result_.tokens.reserve(text.size() / 3 + 16);
     }
 
@@ -147,8 +148,15 @@ class Lexer {
                 break;
             }
         }
-        if (p_ + 1 == end_ && *p_ == 0x1A) p_ = end_; // end mark of old DOS files
+        if (p_ >= padding_) p_ = end_;
         return p_ < end_;
+    }
+
+    /// The end mark of old DOS files and the NUL bytes that fill up a sector are the end of the text.
+    static const char* findPadding(const char* begin, const char* end) {
+        while (end > begin && (end[-1] == 0x1A || end[-1] == 0 || classAt(end - 1) == CharClass::Space))
+            --end;
+        return end;
     }
 
     void push(TokenKind kind, const char* start) {
@@ -376,6 +384,7 @@ class Lexer {
 
     const char* begin_;
     const char* end_;
+    const char* padding_; ///< white space and end marks from here on
     const char* p_;
     const char* lastJunk_ = nullptr;
     LexResult result_;

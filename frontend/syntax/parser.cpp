@@ -34,6 +34,10 @@ bool checkEncoding(const std::shared_ptr<const SourceFile>& source, diag::Sink& 
     if (source->isBinary()) {
         // FF FE and FE FF, the marks of UTF-16, were read as Latin-1.
         const bool utf16 = text.starts_with("\xC3\xBF\xC3\xBE") || text.starts_with("\xC3\xBE\xC3\xBF");
+        if (source->isEncrypted()) {
+            sink.report(Code::EncryptedModule, source, {0, 0}, {source->path()});
+            return false;
+        }
         sink.report(utf16 ? Code::Utf16File : Code::BinaryFile, source, {0, 0});
         return false;
     }

@@ -81,9 +81,8 @@ class Parser {
     template <class T> std::span<T> drain(std::vector<T>& stack, size_t mark) {
         const size_t count = stack.size() - mark;
         if (count == 0) return {};
-        const std::span<T> pushed(stack.data() + mark, count);
-        T* data = static_cast<T*>(tree_.arena.allocate(pushed.size_bytes(), alignof(T)));
-        std::uninitialized_copy(pushed.begin(), pushed.end(), data);
+        T* data = static_cast<T*>(tree_.arena.allocate(sizeof(T) * count, alignof(T)));
+        std::uninitialized_copy(stack.begin() + static_cast<std::ptrdiff_t>(mark), stack.end(), data);
         stack.resize(mark);
         return {data, count};
     }

@@ -31,7 +31,7 @@ int check(const CheckSettings& settings) {
     else if (settings.format == "sarif")
         fmt::print("{}\n", rapid::diag::renderSarif(sorted));
     else
-        printDiagnostics(*compilation);
+        printDiagnostics(*compilation, true);
     return compilation->sink.hasErrors() ? 1 : 0;
 }
 

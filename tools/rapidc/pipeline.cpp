@@ -4,6 +4,7 @@
 #include "ir/lower/lower.h"
 #include "ir/passes/passes.h"
 #include "runtime/io/cfg_parser.h"
+#include "runtime/robot/robot_model.h"
 #include "stdlib/native_table.h"
 #include "stdlib/stdlib_text.h"
 
@@ -54,6 +55,28 @@ void readConfiguration(Compilation& compilation, const std::vector<std::string>&
                 options.signals.push_back({signal.text("Name"), "signal" + type});
             }
     }
+}
+
+/// The robot of a backup: that of MOC.cfg, else the one among its options, which becomes part of the configuration.
+void checkRobot(Compilation& compilation, const std::string& option) {
+    std::string robot = option;
+    if (!option.empty()) {
+        compilation.configNames.emplace_back("backinfo.txt");
+        compilation.configTexts.push_back(fmt::format(
+            "MOC:CFG_1.0:7:0::\n#\nROBOT:\n\n      -name \"ROB_1\" -use_robot_type \"{}\"\n", option));
+    }
+    for (size_t i = 0; i < compilation.configTexts.size() && robot.empty(); ++i) {
+        std::vector<rt::CfgProblem> ignored;
+        const rt::CfgFile cfg = rt::parseCfg(compilation.configTexts[i], compilation.configNames[i], ignored);
+        if (cfg.domain != "MOC") continue;
+        for (const rt::CfgSection* section : cfg.find("ROBOT"))
+            for (const rt::CfgInstance& instance : section->instances)
+                if (robot.empty()) robot = instance.text("use_robot_type");
+    }
+    if (robot.empty()) return;
+    if (const auto model = robot::loadRobotModel(robot); !model)
+        compilation.sink.report(diag::Code::RobotUnknown, nullptr, {},
+                                {robot, "name one of the known models with --robot to run the program"});
 }
 
 void reportUnimplemented(Compilation& compilation) {
@@ -114,8 +137,11 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
             configFiles.push_back(found);
     sema::CheckOptions options;
     options.requireMain = inputs.requireMain;
+    options.robotWareOptions = project.robotWareOptions;
+    compilation->homeFolder = project.homeFolder;
     options.configurationKnown = inputs.configurationComplete;
     readConfiguration(*compilation, configFiles, options);
+    if (project.isBackup) checkRobot(*compilation, project.robot);
     std::vector<sema::LibraryText> library;
     for (const rapid::stdlib::StdlibSource& source : rapid::stdlib::sources())
         library.push_back({source.name, source.text});
@@ -142,11 +168,20 @@ bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping,
     return findings.empty();
 }
 
-void printDiagnostics(const Compilation& compilation) {
+namespace {
+/// A note about what a backup holds.
+bool isReport(const diag::Diagnostic& diagnostic) {
+    const auto code = static_cast<int>(diagnostic.code);
+    return diagnostic.severity == diag::Severity::Note && code >= 6050 && code < 6070;
+}
+} // namespace
+
+void printDiagnostics(const Compilation& compilation, bool withReport) {
     const bool colour = isatty(STDERR_FILENO) != 0;
     const auto sorted = compilation.sink.sorted();
     size_t warnings = 0;
     for (const diag::Diagnostic& diagnostic : sorted) {
+        if (!withReport && isReport(diagnostic)) continue;
         warnings += diagnostic.severity == diag::Severity::Warning ? 1u : 0u;
         fmt::print(stderr, "{}", diag::renderText(diagnostic, colour));
     }

@@ -25,6 +25,7 @@ struct Compilation {
     std::vector<std::string> configNames; ///< what --config and the folders gave
     std::vector<std::string> configTexts;
     std::vector<std::string> usageErrors; ///< e.g. a --task that cannot be read
+    std::string homeFolder;               ///< HOME of a backup; empty if there is none
 };
 
 /// Loads, parses and checks. Look at `sink` and `usageErrors` before going on.
@@ -33,8 +34,9 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs);
 /// Lowers and runs the IR passes. False with diagnostics in the sink when something stands against it.
 bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping, ir::Module& out);
 
-/// Writes all diagnostics to stderr in the form for people, and a closing line when there are errors.
-void printDiagnostics(const Compilation& compilation);
+/// Writes all diagnostics to stderr in the form for people, and a closing line when there are errors. What a backup
+/// holds (notes 605x) is told only by `check`.
+void printDiagnostics(const Compilation& compilation, bool withReport = false);
 
 /// Reads --task=NAME[:TYPE]=INPUT; false with a message when it has another form.
 bool readTaskSpec(const std::string& text, std::string& name, std::string& type, std::string& input,

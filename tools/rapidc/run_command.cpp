@@ -11,8 +11,11 @@
 #include "stdlib/native_table.h"
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -46,6 +49,35 @@ void findStimulus(RunSettings& settings) {
     std::error_code ignored;
     if (fs::is_regular_file(beside, ignored)) settings.options.stimulus = beside.string();
 }
+
+/// HOME of a backup for one run: a copy, so that the backup stays as it is.
+class HomeCopy {
+  public:
+    HomeCopy() = default;
+    ~HomeCopy() {
+        std::error_code ignored;
+        if (!path_.empty()) fs::remove_all(path_, ignored);
+    }
+    HomeCopy(const HomeCopy&) = delete;
+    HomeCopy& operator=(const HomeCopy&) = delete;
+
+    /// The folder of the copy; empty with a message when it cannot be made.
+    std::string make(const std::string& from, std::string& error) {
+        std::error_code code;
+        std::string pattern = (fs::temp_directory_path(code) / "rapidc_home_XXXXXX").string();
+        if (!::mkdtemp(pattern.data())) {
+            error = fmt::format("cannot make a folder for HOME: {}", std::strerror(errno));
+            return {};
+        }
+        path_ = pattern;
+        fs::copy(from, path_, fs::copy_options::recursive | fs::copy_options::skip_symlinks, code);
+        if (code) error = fmt::format("cannot copy '{}': {}", from, code.message());
+        return code ? std::string() : path_.string();
+    }
+
+  private:
+    fs::path path_;
+};
 
 void makeFolders(const RunSettings& settings) {
     for (const std::string* path :
@@ -122,6 +154,14 @@ int run(RunSettings& settings) {
     if (!settings.picture.empty() && settings.options.trace.empty()) {
         fmt::print(stderr, "rapidc run: --picture is drawn from the trace: give --trace=FILE.csv too\n");
         return static_cast<int>(rt::ExitStatus::BadUsage);
+    }
+    HomeCopy home;
+    if (settings.options.home.empty() && !compilation->homeFolder.empty()) {
+        settings.options.home = home.make(compilation->homeFolder, error);
+        if (settings.options.home.empty()) {
+            fmt::print(stderr, "rapidc run: {}\n", error);
+            return static_cast<int>(rt::ExitStatus::BadUsage);
+        }
     }
     makeFolders(settings);
     return execute(settings, *program->program());

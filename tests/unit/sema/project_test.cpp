@@ -158,29 +158,3 @@ TEST_CASE("what cannot be used is named with its remedy", "[project]") {
     const std::string nothing = folder.write("zero.modx", "");
     CHECK(load({nothing})->ok);
 }
-
-TEST_CASE("a backup brings its tasks", "[project]") {
-    const Folder folder;
-    folder.write("BACKINFO/backinfo.txt", ">>SYSTEM_ID:\nx\n>>TASK1: (T_ROB1,Prog,)\nPROGMOD/main.mod @ \n"
-                                          ">>TASK2: (T_BG,,)\n>>EOF:\n");
-    folder.write("SYSPAR/SYS.cfg",
-                 "SYS:CFG_1.0:6:0::\n#\nCAB_TASKS:\n\n      -Name \"T_ROB1\" -Type \"NORMAL\" \\\n"
-                 "      -MotionTask \n\n      -Name \"T_BG\" -Entry \"bgmain\"\n#\n");
-    folder.write("RAPID/TASK1/PROGMOD/main.mod", kModule);
-    folder.write("RAPID/TASK1/SYSMOD/user.sys", kModule);
-    folder.write("RAPID/TASK1/SYSMOD/secret.sys", std::string("\xFC\x01\x00\x02", 4));
-    folder.write("RAPID/TASK2/PROGMOD/bg.mod", kModule);
-    folder.write("RAPID/TASK0/SYSMOD/shared.sys", kModule);
-    const auto loaded = load({folder.path()});
-    CHECK(loaded->codes() == Names{"RAP6027"});
-    REQUIRE(loaded->project.tasks.size() == 2);
-    CHECK(loaded->project.tasks[0].name == "T_ROB1");
-    CHECK(loaded->project.tasks[0].type == "NORMAL");
-    CHECK(loaded->project.tasks[0].incomplete);
-    CHECK(loaded->files(0) == Names{"main.mod", "user.sys"});
-    CHECK(loaded->project.tasks[1].name == "T_BG");
-    CHECK(loaded->project.tasks[1].type == "SEMISTATIC");
-    CHECK(loaded->project.tasks[1].entry == "bgmain");
-    CHECK_FALSE(loaded->project.tasks[1].incomplete);
-    CHECK(loaded->project.configFiles == Names{folder / "SYSPAR/SYS.cfg"});
-}

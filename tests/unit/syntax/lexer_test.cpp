@@ -212,8 +212,9 @@ TEST_CASE("overlong forms and surrogates are not UTF-8", "[syntax][source]") {
 TEST_CASE("a binary file costs one diagnostic", "[syntax][source]") {
     using namespace std::string_literals;
     CHECK(test::parseText("MODULE m\0ENDMODULE\n"s).codes() == "RAP1002@1:1");
-    CHECK(test::parseText("\xFC\x01\x02\x80 abc"s, false, "a.mod").codes() == "RAP1002@1:1");
-    CHECK(test::parseText("\xFE\x10garbage\xFF"s, false, "a.sysx").codes() == "RAP1002@1:1");
+    CHECK(test::parseText("\xFC\x01\x02\x80 abc"s, false, "a.mod").codes() == "RAP6027@1:1"); // encrypted
+    CHECK(test::parseText("\xFE\x10garbage\xFF"s, false, "a.sysx").codes() == "RAP6027@1:1");
+    CHECK(test::parseText("\x80\x01\x02\x03\x04 abc"s, false, "a.mod").codes() == "RAP1002@1:1");
     CHECK(test::parseText("\xFF\xFEM\0O\0D\0"s).codes() == "RAP1003@1:1");
     CHECK(test::parseText("\xFE\xFF\0M\0O\0D"s).codes() == "RAP1003@1:1");
     std::string junk;

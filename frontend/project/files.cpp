@@ -1,0 +1,118 @@
+#include "frontend/project/files.h"
+
+#include "config/text_util.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <sys/stat.h>
+
+namespace rapid::project {
+
+namespace fs = std::filesystem;
+using config::sameName;
+using diag::Code;
+
+std::string extensionOf(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+bool isModule(const fs::path& path) {
+    const std::string e = extensionOf(path);
+    return e == ".mod" || e == ".modx" || e == ".sys" || e == ".sysx" || e == ".prg";
+}
+
+bool isFolder(const fs::path& path) {
+    std::error_code error;
+    return fs::is_directory(path, error);
+}
+
+std::vector<fs::path> entries(const fs::path& folder) {
+    std::vector<fs::path> found;
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+        found.push_back(it->path());
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+fs::path findEntry(const fs::path& folder, const std::string& name) {
+    if (folder.empty()) return {};
+    std::error_code error;
+    if (fs::exists(folder / name, error)) return folder / name;
+    for (const fs::path& path : entries(folder))
+        if (sameName(path.filename().string(), name)) return path;
+    return {};
+}
+
+fs::path findPath(const fs::path& folder, std::string_view relative) {
+    fs::path found = folder;
+    while (!relative.empty() && !found.empty()) {
+        const size_t slash = relative.find_first_of("/\\");
+        const std::string step(relative.substr(0, slash));
+        relative = slash == std::string_view::npos ? std::string_view() : relative.substr(slash + 1);
+        if (step == "..") return {}; // no way out of the folder
+        if (!step.empty() && step != ".") found = findEntry(found, step);
+    }
+    return found;
+}
+
+bool FileReader::read(const fs::path& path, std::string& bytes) {
+    errno = 0;
+    std::FILE* file = std::fopen(path.c_str(), "rb");
+    bool good = file != nullptr;
+    if (file) {
+        std::error_code unknown;
+        const auto size = fs::file_size(path, unknown);
+        constexpr size_t kStep = size_t{1} << 16;
+        size_t length = 0;
+        do { // one byte more than expected shows the end; a growing file is read to its end all the same
+            bytes.resize(length + (length == 0 && !unknown ? static_cast<size_t>(size) + 1 : kStep));
+            length += std::fread(bytes.data() + length, 1, bytes.size() - length, file);
+        } while (length == bytes.size());
+        bytes.resize(length);
+        good = std::ferror(file) == 0;
+        std::fclose(file);
+    }
+    if (!good) report(Code::FileUnreadable, {path.string(), errno ? std::strerror(errno) : "reading failed"});
+    return good;
+}
+
+/// Whether the file, under whatever name, belongs to the task already.
+bool FileReader::isKnown(const fs::path& path, const sema::TaskInput& task) {
+    auto& identities = identities_[&task];
+    if (task.files.empty() && task.missingModules.empty()) identities.clear(); // another task at this place
+    struct stat status{};
+    return ::stat(path.c_str(), &status) == 0 && !identities.insert({status.st_dev, status.st_ino}).second;
+}
+
+std::shared_ptr<const SourceFile> FileReader::load(const fs::path& path) {
+    auto& known = known_[path.string()];
+    std::string bytes;
+    if (known || !read(path, bytes)) return known;
+    known = std::make_shared<const SourceFile>(path.string(), std::move(bytes));
+    if (known->isEncrypted()) sink_.report(Code::EncryptedModule, known, {}, {path.filename().string()});
+    return known;
+}
+
+void FileReader::addModule(const fs::path& path, sema::TaskInput& task) {
+    if (isKnown(path, task)) {
+        report(Code::SameFileTwice, {path.string()});
+        return;
+    }
+    const auto file = load(path);
+    if (!file) return;
+    if (!file->isEncrypted()) {
+        task.files.push_back(file);
+        return;
+    }
+    task.missingModules.push_back(path.filename().string());
+    task.incomplete = true;
+}
+
+} // namespace rapid::project
