@@ -59,6 +59,16 @@ const CatalogueEntry* findEntry(uint16_t number) {
     return found != kCatalogue.end() && found->number == number ? &*found : nullptr;
 }
 
+std::string title(const CatalogueEntry& entry) {
+    std::string out;
+    for (const char c : entry.name) {
+        const bool upper = c >= 'A' && c <= 'Z';
+        if (upper && !out.empty()) out.push_back(' ');
+        out.push_back(upper && !out.empty() ? static_cast<char>(c + 32) : c);
+    }
+    return out;
+}
+
 std::string formatText(std::string_view text, std::span<const std::string> args) {
     std::string out;
     for (size_t i = 0; i < text.size(); ++i) {

@@ -20,6 +20,9 @@ std::span<const CatalogueEntry> catalogue();
 /// The entry of a code; null when there is none.
 const CatalogueEntry* findEntry(uint16_t number);
 
+/// The name as words: "Missing semicolon".
+std::string title(const CatalogueEntry& entry);
+
 /// The catalogue text with {0}, {1}, ... replaced. A missing argument leaves its placeholder.
 std::string formatText(std::string_view text, std::span<const std::string> args);
 

@@ -28,6 +28,12 @@ struct Diagnostic {
         SourceRange range;
         std::string message;
     };
+    /// A way to mend it: all edits together, in the file of the diagnostic.
+    struct Fix {
+        std::string message; ///< "write ':='"; lower-case start, no full stop
+        std::vector<TextEdit> edits;
+        bool certain = true; ///< nothing else can be meant: `rapidc check --fix` applies it
+    };
     Code code{};
     Severity severity = Severity::Error;
     std::shared_ptr<const SourceFile>
@@ -35,6 +41,10 @@ struct Diagnostic {
     SourceRange range;
     std::string message; ///< lower-case start, one sentence, no full stop
     std::vector<Note> notes;
+    std::vector<Fix> fixes;
+
+    /// Adds a fix that replaces `place` (empty: inserts) by `replacement` (empty: removes it) and words it.
+    Diagnostic& fix(SourceRange place, std::string replacement, bool certain = true);
 };
 
 /// Collects the diagnostics of one run; keeps the order of reporting until sorted.
@@ -62,11 +72,11 @@ class Sink {
 std::string codeName(Code code);
 std::string_view severityName(Severity severity);
 
-/// For people: `file:line:column: error[RAP2104]: text`, the source line, a caret line, notes. ANSI colours if asked.
+/// For people: `file:line:column: error[RAP2104]: text`, the source line, a caret line, help, notes. ANSI colours if asked.
 std::string renderText(const Diagnostic& diagnostic, bool colour);
 /// One JSON array of {file,line,column,endLine,endColumn,severity,code,message} (design chapter 8).
 std::string renderJson(std::span<const Diagnostic> diagnostics);
-/// SARIF 2.1.0.
-std::string renderSarif(std::span<const Diagnostic> diagnostics);
+/// SARIF 2.1.0, as code scanning services read it. `root`: absolute folder to which paths are relative.
+std::string renderSarif(std::span<const Diagnostic> diagnostics, std::string_view root = {});
 
 } // namespace rapid::diag

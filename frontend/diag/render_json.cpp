@@ -1,11 +1,8 @@
-// Diagnostics for programs: the JSON array of `check --format=json` and SARIF 2.1.0.
+// Diagnostics for programs: the JSON array of `check --format=json`.
 
-#include "frontend/diag/catalogue.h"
+#include "frontend/diag/diagnostic.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <set>
 
 namespace rapid::diag {
 
@@ -37,61 +34,18 @@ std::string dump(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// A path as a relative URI reference.
-std::string uriOf(std::string_view path) {
-    static constexpr std::string_view kPlain =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
-    std::string out;
-    for (const char c : path) {
-        if (kPlain.find(c) != std::string_view::npos) {
-            out.push_back(c);
-        } else {
-            out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+Json fixesJson(const Diagnostic& d) {
+    Json fixes = Json::array();
+    for (const Diagnostic::Fix& fix : d.fixes) {
+        Json edits = Json::array();
+        for (const TextEdit& edit : fix.edits) {
+            Json item = placeJson(placeOf(d.file, edit.range));
+            item["text"] = edit.replacement;
+            edits.push_back(std::move(item));
         }
+        fixes.push_back({{"message", fix.message}, {"certain", fix.certain}, {"edits", std::move(edits)}});
     }
-    return out;
-}
-
-Json sarifLocation(const Place& place) {
-    Json location = {{"physicalLocation",
-                      {{"artifactLocation", {{"uri", uriOf(place.file)}}},
-                       {"region",
-                        {{"startLine", place.begin.line},
-                         {"startColumn", place.begin.column},
-                         {"endLine", place.end.line},
-                         {"endColumn", place.end.column}}}}}};
-    return location;
-}
-
-Json sarifRules(std::span<const Diagnostic> diagnostics) {
-    std::set<Code> used;
-    for (const Diagnostic& d : diagnostics)
-        used.insert(d.code);
-    Json rules = Json::array();
-    for (const Code code : used) {
-        const CatalogueEntry* entry = findEntry(static_cast<uint16_t>(code));
-        if (!entry) continue;
-        rules.push_back({{"id", codeName(code)},
-                         {"name", std::string(entry->name)},
-                         {"shortDescription", {{"text", std::string(entry->text)}}}});
-    }
-    return rules;
-}
-
-Json sarifResult(const Diagnostic& d) {
-    Json result = {{"ruleId", codeName(d.code)},
-                   {"level", std::string(severityName(d.severity))},
-                   {"message", {{"text", d.message}}}};
-    if (d.file) result["locations"] = Json::array({sarifLocation(placeOf(d.file, d.range))});
-    Json related = Json::array();
-    for (const Diagnostic::Note& note : d.notes) {
-        if (!note.file) continue;
-        Json location = sarifLocation(placeOf(note.file, note.range));
-        location["message"] = {{"text", note.message}};
-        related.push_back(std::move(location));
-    }
-    if (!related.empty()) result["relatedLocations"] = std::move(related);
-    return result;
+    return fixes;
 }
 
 } // namespace
@@ -110,23 +64,10 @@ std::string renderJson(std::span<const Diagnostic> diagnostics) {
             notes.push_back(std::move(item));
         }
         if (!notes.empty()) object["notes"] = std::move(notes);
+        if (!d.fixes.empty()) object["fixes"] = fixesJson(d);
         array.push_back(std::move(object));
     }
     return dump(array);
-}
-
-std::string renderSarif(std::span<const Diagnostic> diagnostics) {
-    Json results = Json::array();
-    for (const Diagnostic& d : diagnostics)
-        results.push_back(sarifResult(d));
-    const Json run = {
-        {"tool",
-         {{"driver", {{"name", "rapidc"}, {"version", "0.1.0"}, {"rules", sarifRules(diagnostics)}}}}},
-        {"columnKind", "unicodeCodePoints"},
-        {"results", std::move(results)}};
-    return dump({{"version", "2.1.0"},
-                 {"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
-                 {"runs", Json::array({run})}});
 }
 
 } // namespace rapid::diag

@@ -1,4 +1,4 @@
-// Diagnostics for people: heading, source excerpt with the place underlined, notes.
+// Diagnostics for people: heading, source excerpt with the place underlined, help, notes.
 
 #include "frontend/diag/diagnostic.h"
 
@@ -15,10 +15,11 @@ constexpr size_t kBefore = 60; ///< columns shown left of the place in a line th
 constexpr size_t kWidth = 110; ///< columns shown at most
 
 struct Colours {
-    std::string_view reset, bold, error, warning, note, gutter;
+    std::string_view reset, bold, error, warning, note, help, gutter;
 };
-constexpr Colours kPlain{"", "", "", "", "", ""};
-constexpr Colours kAnsi{"\x1b[0m", "\x1b[1m", "\x1b[1;31m", "\x1b[1;35m", "\x1b[1;36m", "\x1b[34m"};
+constexpr Colours kPlain{"", "", "", "", "", "", ""};
+constexpr Colours kAnsi{"\x1b[0m",    "\x1b[1m",    "\x1b[1;31m", "\x1b[1;35m",
+                        "\x1b[1;36m", "\x1b[1;32m", "\x1b[34m"};
 
 std::string_view colourOf(const Colours& colours, Severity severity) {
     switch (severity) {
@@ -118,6 +119,8 @@ std::string renderText(const Diagnostic& diagnostic, bool colour) {
                     colours.reset, colours.bold, diagnostic.message, colours.reset);
     if (diagnostic.file && !diagnostic.file->isBinary())
         renderPlace(out, *diagnostic.file, diagnostic.range, severityColour, colours);
+    for (const Diagnostic::Fix& fix : diagnostic.fixes)
+        out += fmt::format("      {}= help:{} {}\n", colours.help, colours.reset, fix.message);
     for (const Diagnostic::Note& note : diagnostic.notes) {
         out += fmt::format("{}{}{}note:{} {}\n", colours.bold, placePrefix(note.file, note.range),
                            colours.note, colours.reset, note.message);

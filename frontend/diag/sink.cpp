@@ -8,6 +8,40 @@
 
 namespace rapid::diag {
 
+namespace {
+
+/// White space that stands in a message as it stands in the text would tell nothing.
+std::string quoted(std::string_view text) {
+    constexpr size_t kLongest = 40;
+    if (text.size() > kLongest || text.find_first_of("\r\n\t") != std::string_view::npos) return "this";
+    return fmt::format("'{}'", text);
+}
+
+std::string_view withoutSpaces(std::string_view text) {
+    while (!text.empty() && text.front() == ' ')
+        text.remove_prefix(1);
+    while (!text.empty() && text.back() == ' ')
+        text.remove_suffix(1);
+    return text;
+}
+
+} // namespace
+
+Diagnostic& Diagnostic::fix(SourceRange place, std::string replacement, bool certain) {
+    const std::string_view old =
+        file ? file->text().substr(place.begin, place.end - place.begin) : std::string_view();
+    const std::string_view fresh = withoutSpaces(replacement);
+    std::string words = old.empty()     ? "insert " + quoted(fresh)
+                        : fresh.empty() ? "remove " + quoted(withoutSpaces(old))
+                                        : fmt::format("replace {} by {}", quoted(old), quoted(fresh));
+    Fix one;
+    one.message = std::move(words);
+    one.certain = certain;
+    one.edits.push_back({place, std::move(replacement)});
+    fixes.push_back(std::move(one));
+    return *this;
+}
+
 Diagnostic& Sink::report(Code code, const std::shared_ptr<const SourceFile>& file, SourceRange range,
                          std::span<const std::string> args) {
     Diagnostic diagnostic;

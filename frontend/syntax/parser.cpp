@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace rapid::syntax {
 
@@ -83,11 +84,37 @@ void Parser::parseFile(const LexResult& lexed) {
 void Parser::reportLexErrors(const LexResult& lexed) {
     for (const LexError& error : lexed.errors) {
         if (++errors_ <= kMaxErrorsPerFile) {
-            sink_.report(error.code, tree_.source, error.range, error.args);
+            diag::Diagnostic& d = sink_.report(error.code, tree_.source, error.range, error.args);
+            if (error.code == Code::BadStringEscape) fixEscapes(d);
         } else if (errors_ == kMaxErrorsPerFile + 1) {
             sink_.report(Code::TooManyErrors, tree_.source, error.range);
         }
     }
+}
+
+/// Doubles each backslash of the string that stands for itself. Not certain beside character codes: a path may look
+/// like one (`"C:\temp\data"`).
+void Parser::fixEscapes(diag::Diagnostic& diagnostic) const {
+    const std::string_view text = tree_.source->text();
+    const auto isHex = [&](size_t at) {
+        return at < text.size() && std::isxdigit(static_cast<unsigned char>(text[at]));
+    };
+    diag::Diagnostic::Fix all{"write each '\\' twice", {}};
+    for (auto at = diagnostic.range.begin; at < text.size() && text[at] != '\n' && text[at] != '\r'; ++at) {
+        const bool last = at + 1 == text.size();
+        if (text[at] == '"') {
+            if (last || text[at + 1] != '"') break;
+            ++at;
+        } else if (text[at] == '\\') {
+            if (!last && text[at + 1] == '\\')
+                ++at;
+            else if (isHex(at + 1) && isHex(at + 2))
+                all.certain = false;
+            else
+                all.edits.push_back({{at, at}, "\\"});
+        }
+    }
+    diagnostic.fixes.push_back(std::move(all));
 }
 
 Expr* Parser::parseWholeExpression(const LexResult& lexed) {
@@ -130,6 +157,8 @@ void Parser::parseModule() {
 void Parser::parseModuleAttributes(ModuleDecl* module) {
     const TokenIndex opening = take();
     std::vector<TokenIndex> seen;
+    const TokenIndex first = pos_;
+    const size_t errorsBefore = errors_;
     do {
         if (attributeOf(kind())) {
             addAttribute(module, pos_, seen);
@@ -141,6 +170,8 @@ void Parser::parseModuleAttributes(ModuleDecl* module) {
             unexpected("a module attribute");
         }
     } while (!panic_ && accept(K::Comma));
+    if (errors_ == errorsBefore + 1 && lastOrder_ && !panic_) fixAttributeOrder(first, seen);
+    lastOrder_ = nullptr;
     expectClosing(K::RightParen, opening, true);
     module->attributeTokens = tree_.arena.copy(seen);
 }
@@ -151,16 +182,27 @@ void Parser::addAttribute(ModuleDecl* module, TokenIndex token, std::vector<Toke
     constexpr uint8_t kBesideNoview = kAttrSysmodule | kAttrNoview;
     const uint8_t all = module->attributes | attribute;
     if (module->attributes & attribute) {
-        report(Code::DuplicateModuleAttribute, token, {describe(token)});
+        fix(report(Code::DuplicateModuleAttribute, token, {describe(token)}),
+            {tree_.range(token - 2).end, tree_.range(token).end}, "");
     } else if ((all & kAttrNoview) && (all & ~kBesideNoview)) {
         const TokenIndex other = attribute == kAttrNoview ? seen.back() : token;
         if (!(module->attributes & kAttrNoview) || !(module->attributes & ~kBesideNoview))
             report(Code::ModuleAttributeConflict, token, {describe(other)});
     } else if (attribute < module->attributes) {
-        report(Code::ModuleAttributeOrder, token, {describe(token), describe(seen.back())});
+        lastOrder_ = report(Code::ModuleAttributeOrder, token, {describe(token), describe(seen.back())});
     }
     module->attributes = all;
     seen.push_back(token);
+}
+
+/// The same words in the order of the grammar.
+void Parser::fixAttributeOrder(TokenIndex first, std::vector<TokenIndex> words) {
+    std::sort(words.begin(), words.end(),
+              [&](TokenIndex a, TokenIndex b) { return attributeOf(kindAt(a)) < attributeOf(kindAt(b)); });
+    std::string sorted;
+    for (const TokenIndex word : words)
+        sorted += (sorted.empty() ? "" : ",") + std::string(textOf(word));
+    fix(lastOrder_, {tree_.range(first).begin, tree_.range(pos_ - 1).end}, sorted);
 }
 
 bool Parser::startsDecl(TokenIndex i) const {

@@ -51,7 +51,7 @@ DataDecl* Parser::parseData(ScopeWord scope, TokenIndex first) {
     }
     if (!panic_) {
         if (kind() == K::Equal) {
-            report(Code::EqualInAssignment, pos_);
+            reportEqual();
             take();
             node->init = parseExpr();
         } else if (accept(K::Assign)) {
@@ -161,14 +161,20 @@ void Parser::parseRoutineHeader(RoutineDecl* routine) {
     checkNameLength(routine->name);
     if (routine->routineKind == RoutineKind::Trap) {
         if (kind() == K::LeftParen && !panic_) {
-            report(Code::TrapParameters, pos_, {std::string(textOf(routine->name))});
+            const TokenIndex opening = pos_;
+            diag::Diagnostic* diagnostic =
+                report(Code::TrapParameters, pos_, {std::string(textOf(routine->name))});
+            if (peek() == K::RightParen)
+                fix(diagnostic, {tree_.range(opening).begin, tree_.range(opening + 1).end}, "");
             parseParameters(routine);
             routine->params = {};
         }
     } else if (panic_ || kind() == K::LeftParen) {
         parseParameters(routine);
     } else if (startsLine(pos_) || kind() == K::Semicolon) {
-        reportAt(Code::MissingParameterList, endOf(pos_ - 1), {std::string(textOf(routine->name))});
+        diag::Diagnostic* diagnostic =
+            reportAt(Code::MissingParameterList, endOf(pos_ - 1), {std::string(textOf(routine->name))});
+        fix(diagnostic, kind() == K::Semicolon ? tree_.range(pos_) : endOf(pos_ - 1), "()");
         accept(K::Semicolon);
     } else {
         unexpected("'('");
@@ -209,7 +215,8 @@ void Parser::parseParameterGroup(uint32_t group) {
         take();
         if (kind() == K::Backslash) {
             if (!options_.declarations)
-                report(Code::UnexpectedToken, pos_, {describe(pos_), "a parameter after '|'"});
+                fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "a parameter after '|'"}),
+                    tree_.range(pos_), "");
             optional = true;
             take();
         }
@@ -273,7 +280,7 @@ void Parser::parseDimensions(ParamDecl* param) {
         do {
             const bool isSize = kind() == K::NumLiteral || isName(kind());
             if (isSize && (peek() == K::Comma || peek() == K::RightBrace)) {
-                report(Code::DimensionWithoutStar, pos_);
+                fix(report(Code::DimensionWithoutStar, pos_), tree_.range(pos_), "*");
                 take();
             } else if (!accept(K::Star)) {
                 unexpected("'*'");
@@ -319,7 +326,7 @@ void Parser::parseRoutineData(RoutineDecl* routine) {
             take();
         } else if ((k == K::KwLocal && (peek() == K::KwVar || peek() == K::KwPers || peek() == K::KwConst)) ||
                    isTaskDirective(pos_)) {
-            report(Code::ScopeInsideRoutine, pos_, {k == K::KwLocal ? "LOCAL" : "TASK"});
+            reportScopeInside(k == K::KwLocal ? ScopeWord::Local : ScopeWord::Task);
             take();
             data_.push_back(parseData(k == K::KwLocal ? ScopeWord::Local : ScopeWord::Task, first));
         } else {
@@ -327,6 +334,12 @@ void Parser::parseRoutineData(RoutineDecl* routine) {
         }
     }
     routine->data = drain(data_, mark);
+}
+
+/// LOCAL or TASK in front of routine data.
+void Parser::reportScopeInside(ScopeWord scope) {
+    fix(report(Code::ScopeInsideRoutine, pos_, {scope == ScopeWord::Local ? "LOCAL" : "TASK"}),
+        {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");
 }
 
 void Parser::parseHandlers(RoutineDecl* routine) {

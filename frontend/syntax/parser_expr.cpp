@@ -102,26 +102,40 @@ Expr* Parser::parseBinary(int minPrecedence) {
 Expr* Parser::parseNot(int minPrecedence) {
     const Nest nest(*this);
     if (!nest) return tooDeepExpr();
-    if (minPrecedence > kRelationLevel) report(Code::NotInOperand, pos_);
+    diag::Diagnostic* misplaced = nullptr;
+    size_t reported = 0;
+    if (minPrecedence > kRelationLevel) {
+        misplaced = report(Code::NotInOperand, pos_);
+        reported = sink_.all().size();
+    }
     auto* node = makeExpr<UnaryExpr>(NodeKind::Unary);
     node->op = UnaryOp::Not;
     take();
     node->operand = parseBinary(std::max(minPrecedence, kTermLevel));
     ++height_;
-    return finish(node);
+    finish(node);
+    if (misplaced && sink_.all().size() == reported) fixParentheses(misplaced, *node);
+    return node;
 }
 
 /// A sign belongs to the whole first term and to nothing else (manual 1.3.6).
 Expr* Parser::parseSigned(int minPrecedence) {
     const Nest nest(*this);
     if (!nest) return tooDeepExpr();
-    if (minPrecedence > kSumLevel) report(Code::SignAfterOperator, pos_, {std::string(textOf(pos_))});
+    diag::Diagnostic* misplaced = nullptr;
+    size_t reported = 0;
+    if (minPrecedence > kSumLevel) {
+        misplaced = report(Code::SignAfterOperator, pos_, {std::string(textOf(pos_))});
+        reported = sink_.all().size();
+    }
     auto* node = makeExpr<UnaryExpr>(NodeKind::Unary);
     node->op = kind() == K::Minus ? UnaryOp::Minus : UnaryOp::Plus;
     take();
     node->operand = parseBinary(std::max(minPrecedence, kProductLevel));
     ++height_;
-    return finish(node);
+    finish(node);
+    if (misplaced && sink_.all().size() == reported) fixParentheses(misplaced, *node);
+    return node;
 }
 
 Expr* Parser::parsePrimary() {
@@ -314,7 +328,7 @@ Argument* Parser::parseOptionalArgument() {
     node->name = expectName(true);
     if (panic_) return finish(node);
     if (kind() == K::Equal) {
-        report(Code::EqualInAssignment, pos_);
+        reportEqual();
         take();
         node->value = parseExpr();
     } else if (accept(K::Assign)) {

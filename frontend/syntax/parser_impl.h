@@ -94,12 +94,21 @@ class Parser {
         return reportAt(code, tree_.range(at), args);
     }
     void note(diag::Diagnostic* diagnostic, TokenIndex at, std::string message);
+    /// The edit that mends what was reported; nothing when it was not shown.
+    static void fix(diag::Diagnostic* diagnostic, SourceRange place, std::string replacement,
+                    bool certain = true) {
+        if (diagnostic) diagnostic->fix(place, std::move(replacement), certain);
+    }
+    void fixParentheses(diag::Diagnostic* diagnostic, const Node& operand);
+    void reportEqual();
+    void reportScopeInside(ScopeWord scope);
     /// "found X, expected Y" at the current token, and panic.
     void unexpected(std::string_view expected);
     std::string describe(TokenIndex i) const;
     SourceRange endOf(TokenIndex i) const { return {tree_.range(i).end, tree_.range(i).end}; }
     void reportTooDeep();
     void reportLexErrors(const LexResult& lexed);
+    void fixEscapes(diag::Diagnostic& diagnostic) const;
     void checkNameLength(TokenIndex name);
 
     // ---- Recovery (parser_recovery.cpp)
@@ -167,6 +176,7 @@ class Parser {
     // ---- Declarations (parser_decl.cpp, parser_module.cpp)
     void parseModule();
     void parseModuleAttributes(ModuleDecl* module);
+    void fixAttributeOrder(TokenIndex first, std::vector<TokenIndex> words);
     void addAttribute(ModuleDecl* module, TokenIndex token, std::vector<TokenIndex>& seen);
     void parseModuleDecls(ModuleDecl* module);
     Decl* parseModuleDecl();
@@ -204,6 +214,8 @@ class Parser {
     bool abandoned_ = false; ///< the routine is nested too deep: blocks end without their words
     bool quietOutside_ = false;
     size_t errors_ = 0;
+    diag::Diagnostic* lastOrder_ =
+        nullptr;                         ///< module attributes out of order, while nothing else is reported
     TokenSet enclosing_;                 ///< words that end a list further out
     TokenIndex wrongEnd_ = kNoToken;     ///< an END word that closes a block of another kind
     TokenIndex headReported_ = kNoToken; ///< a THEN or DO whose IF, FOR or WHILE is broken

@@ -81,6 +81,20 @@ std::string Parser::describe(TokenIndex i) const {
     return fmt::format("'{}...'", text.substr(0, cut));
 }
 
+/// `(operand)`
+void Parser::fixParentheses(diag::Diagnostic* diagnostic, const Node& operand) {
+    if (!diagnostic || panic_) return;
+    const SourceRange whole = tree_.range(operand);
+    diag::Diagnostic::Fix both{"put the operand in parentheses",
+                               {{{whole.begin, whole.begin}, "("}, {{whole.end, whole.end}, ")"}}};
+    diagnostic->fixes.push_back(std::move(both));
+}
+
+/// `=` where `:=` belongs.
+void Parser::reportEqual() {
+    fix(report(Code::EqualInAssignment, pos_), tree_.range(pos_), ":=");
+}
+
 void Parser::unexpected(std::string_view expected) {
     if (kind() != K::Error) report(Code::UnexpectedToken, pos_, {describe(pos_), std::string(expected)});
     panic_ = true;
@@ -225,10 +239,11 @@ void Parser::endStatement(std::string_view expected) {
     }
     if (!panic_ && kind() != K::Error) {
         if (startsAfresh()) {
-            reportAt(Code::MissingSemicolon, endOf(pos_ - 1), {describe(pos_ - 1)});
+            fix(reportAt(Code::MissingSemicolon, endOf(pos_ - 1), {describe(pos_ - 1)}), endOf(pos_ - 1),
+                ";");
             if (kLineWords.has(kind()) || looksLikeStatement(pos_)) return;
         } else if (kind() == K::Equal) {
-            report(Code::EqualInAssignment, pos_);
+            reportEqual();
         } else {
             report(Code::UnexpectedToken, pos_, {describe(pos_), std::string(expected)});
         }
@@ -264,7 +279,8 @@ void Parser::expectWord(K word) {
     if (!silent) {
         const std::string expected(tokenText(word));
         if (!later && startsLine(pos_)) {
-            reportAt(Code::MissingBlockWord, endOf(pos_ - 1), {describe(pos_), expected});
+            fix(reportAt(Code::MissingBlockWord, endOf(pos_ - 1), {describe(pos_), expected}),
+                endOf(pos_ - 1), " " + expected);
         } else {
             report(Code::MissingBlockWord, pos_, {describe(pos_), expected});
         }
@@ -376,7 +392,8 @@ bool Parser::retagMisspelt(const TokenSet& own) {
         if (!fits || (!twoWords && distance(text, spelling) > 2)) continue;
         const SourceRange range{tree_.range(pos_).begin, tree_.range(last).end};
         const auto shown = tree_.source->text().substr(range.begin, range.end - range.begin);
-        reportAt(Code::MisspeltKeyword, range, {std::string(shown), std::string(spelling)});
+        fix(reportAt(Code::MisspeltKeyword, range, {std::string(shown), std::string(spelling)}), range,
+            std::string(spelling));
         pos_ = last;
         tokens_[pos_].kind = word;
         return true;

@@ -195,7 +195,7 @@ Stmt* Parser::parseAssignment(Expr* target, TokenIndex first) {
     node->first = first;
     node->target = target;
     if (kind() == K::Equal) {
-        report(Code::EqualInAssignment, pos_);
+        reportEqual();
         take();
     } else if (!accept(K::Assign) && !panic_) {
         unexpected("':='");
@@ -217,7 +217,8 @@ Stmt* Parser::parseCallStmt() {
     auto* node = make<CallStmt>(NodeKind::CallStmt);
     node->name = take();
     if (calleeEndsHere(node->name, node->name)) {
-        reportAt(Code::MissingSemicolon, endOf(node->name), {describe(node->name)});
+        fix(reportAt(Code::MissingSemicolon, endOf(node->name), {describe(node->name)}), endOf(node->name),
+            ";");
         return finish(node);
     }
     if (kind() == K::LeftParen && parseParenthesisedCall(node)) return finish(node);
@@ -237,13 +238,18 @@ bool Parser::parseParenthesisedCall(CallStmt* call) {
     TokenIndex i = pos_;
     for (; i < pos_ + kSearch; ++i) {
         const K k = kindAt(i);
-        if (k == K::Semicolon || k == K::EndOfFile || k == K::Assign) return false;
+        if (k == K::Semicolon || k == K::EndOfFile) return false;
         if (kOpen.has(k)) ++depth;
         if (kClose.has(k) && --depth == 0) break;
         if (depth == 1 && (k == K::Comma || k == K::Backslash)) several = true;
     }
     if (!several || kindAt(i + 1) != K::Semicolon) return false;
-    report(Code::CallParentheses, pos_, {std::string(textOf(call->name))});
+    diag::Diagnostic* diagnostic = report(Code::CallParentheses, pos_, {std::string(textOf(call->name))});
+    if (diagnostic) {
+        const bool spaced = tree_.range(pos_).begin > tree_.range(pos_ - 1).end || i == pos_ + 1;
+        diagnostic->fixes.push_back(
+            {"remove the parentheses", {{tree_.range(pos_), spaced ? "" : " "}, {tree_.range(i), ""}}});
+    }
     const TokenIndex opening = take();
     call->args = parseArguments(true);
     expectClosing(K::RightParen, opening, true);
@@ -337,7 +343,7 @@ Stmt* Parser::parseFor() {
         checkNameLength(node->variable);
     }
     if (!panic_ && (kind() == K::Assign || kind() == K::Equal)) { // FOR i := 1 TO 5 DO
-        report(Code::MissingBlockWord, pos_, {describe(pos_), "FROM"});
+        fix(report(Code::MissingBlockWord, pos_, {describe(pos_), "FROM"}), tree_.range(pos_), "FROM");
         take();
     } else {
         expectWord(K::KwFrom);
@@ -387,7 +393,8 @@ Stmt* Parser::parseTest() {
             continue;
         }
         take();
-        if (!accept(K::Colon)) report(Code::UnexpectedToken, pos_, {describe(pos_), "':'"});
+        if (!accept(K::Colon)) // where it is missing
+            fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "':'"}), endOf(pos_ - 1), ":");
         const StmtList body = parseList(kTestEnds);
         if (!node->hasDefault) node->defaultBody = body;
         node->hasDefault = true;
@@ -409,9 +416,11 @@ TestCase* Parser::parseCase() {
         if (!accept(K::Colon)) {
             const bool later = findOnLine(pos_, K::Colon, found) && !startsLine(found);
             if (startsLine(pos_) && pos_ > 0) {
-                reportAt(Code::UnexpectedToken, endOf(pos_ - 1), {describe(pos_), "':'"});
+                fix(reportAt(Code::UnexpectedToken, endOf(pos_ - 1), {describe(pos_), "':'"}),
+                    endOf(pos_ - 1), ":");
             } else if (kind() != K::Error) {
-                report(Code::UnexpectedToken, pos_, {describe(pos_), "',' or ':'"});
+                diag::Diagnostic* d = report(Code::UnexpectedToken, pos_, {describe(pos_), "',' or ':'"});
+                if (kind() == K::Semicolon) fix(d, tree_.range(pos_), ":");
             }
             if (later) {
                 pos_ = found + 1;
@@ -500,7 +509,7 @@ Stmt* Parser::parseLateDecl() {
     bool reported = false;
     if (kind() == K::KwLocal || isTaskDirective(pos_)) {
         scope = kind() == K::KwLocal ? ScopeWord::Local : ScopeWord::Task;
-        report(Code::ScopeInsideRoutine, pos_, {scope == ScopeWord::Local ? "LOCAL" : "TASK"});
+        reportScopeInside(scope);
         reported = true;
         take();
     }

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace rapidc {
@@ -27,9 +28,9 @@ int check(const CheckSettings& settings) {
     }
     const auto sorted = compilation->sink.sorted();
     if (settings.format == "json")
-        fmt::print("{}\n", rapid::diag::renderJson(sorted));
+        fmt::print("{}", rapid::diag::renderJson(sorted));
     else if (settings.format == "sarif")
-        fmt::print("{}\n", rapid::diag::renderSarif(sorted));
+        fmt::print("{}", rapid::diag::renderSarif(sorted, std::filesystem::current_path().string()));
     else
         printDiagnostics(*compilation, true);
     return compilation->sink.hasErrors() ? 1 : 0;

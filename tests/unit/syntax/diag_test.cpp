@@ -7,6 +7,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <set>
+
 using namespace rapid;
 using diag::Code;
 
@@ -136,6 +138,37 @@ TEST_CASE("JSON: bytes that are not UTF-8 in a path", "[diag]") {
     CHECK_FALSE(nlohmann::json::parse(renderSarif(sink.sorted())).empty());
 }
 
+TEST_CASE("a fix is worded by what it changes", "[diag]") {
+    diag::Sink sink;
+    const auto source = file("x = 1\n");
+    auto& d = sink.report(Code::EqualInAssignment, source, {2, 3});
+    d.fix({2, 3}, ":=").fix({5, 5}, ";", false).fix({1, 3}, "");
+    REQUIRE(d.fixes.size() == 3);
+    CHECK(d.fixes[0].message == "replace '=' by ':='");
+    CHECK(d.fixes[0].certain);
+    CHECK(d.fixes[1].message == "insert ';'");
+    CHECK_FALSE(d.fixes[1].certain);
+    CHECK(d.fixes[2].message == "remove '='");
+    CHECK(renderText(d, false).find("\n      = help: insert ';'\n") != std::string::npos);
+    const auto json = nlohmann::json::parse(renderJson(sink.sorted()));
+    CHECK(json[0]["fixes"][0] == nlohmann::json({{"message", "replace '=' by ':='"},
+                                                 {"certain", true},
+                                                 {"edits", nlohmann::json::array({{{"file", "a.modx"},
+                                                                                   {"line", 1},
+                                                                                   {"column", 3},
+                                                                                   {"endLine", 1},
+                                                                                   {"endColumn", 4},
+                                                                                   {"text", ":="}}})}}));
+    const auto sarif = nlohmann::json::parse(renderSarif(sink.sorted()));
+    const auto& change = sarif["runs"][0]["results"][0]["fixes"][1];
+    CHECK(change["description"]["text"] == "insert ';'");
+    CHECK(change["artifactChanges"][0]["artifactLocation"]["uri"] == "a.modx");
+    const auto& replacement = change["artifactChanges"][0]["replacements"][0];
+    CHECK(replacement["deletedRegion"] ==
+          nlohmann::json({{"startLine", 1}, {"startColumn", 6}, {"endLine", 1}, {"endColumn", 6}}));
+    CHECK(replacement["insertedContent"]["text"] == ";");
+}
+
 TEST_CASE("SARIF 2.1.0", "[diag]") {
     diag::Sink sink;
     const auto source = std::make_shared<const SourceFile>("my folder/a.modx", "x = 1;\n");
@@ -155,4 +188,57 @@ TEST_CASE("SARIF 2.1.0", "[diag]") {
     CHECK(place["region"]["startLine"] == 1);
     CHECK(place["region"]["startColumn"] == 3);
     CHECK(result["relatedLocations"][0]["message"]["text"] == "here");
+}
+
+TEST_CASE("SARIF: paths are relative to the root, outside of it file URIs", "[diag]") {
+    diag::Sink sink;
+    const auto uri = [](const std::string& path) {
+        diag::Sink one;
+        one.report(Code::EqualInAssignment, std::make_shared<const SourceFile>(path, "x = 1;\n"), {2, 3});
+        const auto sarif = nlohmann::json::parse(renderSarif(one.sorted(), "/work/cell 1"));
+        CHECK(sarif["runs"][0]["originalUriBaseIds"]["%SRCROOT%"]["uri"] == "file:///work/cell%201/");
+        const auto artifact =
+            sarif["runs"][0]["results"][0]["locations"][0]["physicalLocation"]["artifactLocation"];
+        return artifact["uri"].get<std::string>() + (artifact.contains("uriBaseId") ? "" : " absolute");
+    };
+    CHECK(uri("a.mod") == "a.mod");
+    CHECK(uri("./RAPID/../a.mod") == "a.mod");
+    CHECK(uri("/work/cell 1/RAPID/a.mod") == "RAPID/a.mod");
+    CHECK(uri("/work/other/a.mod") == "file:///work/other/a.mod absolute");
+    CHECK(uri("../a.mod") == "file:///work/a.mod absolute");
+}
+
+TEST_CASE("SARIF: what a code scanning service needs is there", "[diag]") {
+    diag::Sink sink;
+    const auto source = file("x = 1;\n\n  x  = 1;\nx = 2;\n");
+    for (const uint32_t at : {2u, 13u, 19u})
+        sink.report(Code::EqualInAssignment, source, {at, at + 1});
+    sink.report(Code::NoInput, nullptr, {0, 0});
+    const auto sarif = nlohmann::json::parse(renderSarif(sink.sorted(), "/work"));
+    CHECK(sarif["$schema"].get<std::string>().find("sarif-2.1.0") != std::string::npos);
+    REQUIRE(sarif["runs"].size() == 1);
+    const auto& run = sarif["runs"][0];
+    CHECK(run["columnKind"] == "unicodeCodePoints");
+    const auto& rules = run["tool"]["driver"]["rules"];
+    for (const auto& rule : rules) {
+        for (const char* text : {"shortDescription", "fullDescription", "help"}) {
+            INFO(rule["id"] << text);
+            CHECK_FALSE(rule[text]["text"].get<std::string>().empty());
+        }
+        CHECK(rule["defaultConfiguration"]["level"] == "error");
+    }
+    std::set<std::string> fingerprints;
+    for (const auto& result : run["results"]) {
+        CHECK(rules[result["ruleIndex"].get<size_t>()]["id"] == result["ruleId"]);
+        CHECK(result["locations"].size() == 1);
+        const std::string mark = result["partialFingerprints"]["primaryLocationLineHash"];
+        CHECK(fingerprints.insert(mark).second);
+    }
+    REQUIRE(run["results"].size() == 4);
+    // The same text again is the same finding, counted.
+    const std::string first = run["results"][1]["partialFingerprints"]["primaryLocationLineHash"];
+    const std::string second = run["results"][2]["partialFingerprints"]["primaryLocationLineHash"];
+    CHECK(first.substr(0, 17) == second.substr(0, 17));
+    CHECK(first.substr(17) == "1");
+    CHECK(second.substr(17) == "2");
 }
