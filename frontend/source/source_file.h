@@ -31,11 +31,8 @@ struct TextEdit {
     std::string replacement; ///< UTF-8
 };
 
-<<<<<<< HEAD
 bool isValidUtf8(std::string_view bytes);
 
-=======
->>>>>>> 20190cd (Diagnostics carry the edits that mend them; SARIF with rules, fixes and fingerprints)
 /// Text of one file, converted to UTF-8, immutable after construction.
 class SourceFile {
   public:

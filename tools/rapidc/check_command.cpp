@@ -1,5 +1,6 @@
-// rapidc check: diagnostics only.
+// rapidc check: diagnostics, and with --fix the edits that mend them.
 
+#include "tools/rapidc/apply_fixes.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/pipeline.h"
 
@@ -9,6 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <map>
 
 namespace rapidc {
 
@@ -17,9 +19,31 @@ namespace {
 struct CheckSettings {
     Inputs inputs;
     std::string format = "human";
+    bool fix = false;
 };
 
+/// Mends until nothing certain is left. Every round mends at least one place, so the bound is only for safety.
+void fixFiles(const Inputs& inputs) {
+    constexpr int kMaxRounds = 100;
+    std::map<std::string, size_t> fixed;
+    std::vector<std::string> problems;
+    for (int round = 0; round < kMaxRounds; ++round) {
+        const auto compilation = checkInputs(inputs);
+        if (!compilation->usageErrors.empty()) break;
+        const FixOutcome outcome = applyCertainFixes(compilation->sink.sorted());
+        for (const auto& [path, count] : outcome.fixed)
+            fixed[path] += count;
+        problems = outcome.problems;
+        if (outcome.fixed.empty()) break;
+    }
+    for (const auto& [path, count] : fixed)
+        fmt::print(stderr, "{}: {} {} fixed\n", path, count, count == 1 ? "mistake" : "mistakes");
+    for (const std::string& problem : problems)
+        fmt::print(stderr, "rapidc check: {}\n", problem);
+}
+
 int check(const CheckSettings& settings) {
+    if (settings.fix) fixFiles(settings.inputs);
     const auto compilation = checkInputs(settings.inputs);
     if (!compilation->usageErrors.empty()) {
         for (const std::string& problem : compilation->usageErrors)
@@ -49,6 +73,8 @@ void addCheckCommand(CLI::App& app, int& status) {
         ->allow_extra_args(false);
     command->add_option("--format", settings->format, "human, json or sarif")
         ->check(CLI::IsMember({"human", "json", "sarif"}));
+    command->add_flag("--fix", settings->fix,
+                      "Change the files: apply each fix that is certain, then report what is left");
     command->callback([settings, &status] { status = check(*settings); });
 }
 
