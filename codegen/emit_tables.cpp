@@ -198,8 +198,10 @@ void ModuleEmitter::emitProgram() {
          i32(globalCount), externals(), i32(static_cast<int64_t>(module_.externals.size())), routineRows,
          i32(routineCount), array(ptr_, names, "configNames"), array(ptr_, texts, "configTexts"),
          i32(static_cast<int64_t>(texts.size()))});
-    auto* program = new llvm::GlobalVariable(*target_, programDescType_, true,
-                                             llvm::GlobalValue::ExternalLinkage, value, kProgramSymbol);
+    auto* program =
+        llvm::cast<llvm::GlobalVariable>(target_->getOrInsertGlobal(kProgramSymbol, programDescType_));
+    program->setConstant(true);
+    program->setInitializer(value);
     program->setDSOLocal(true);
 }
 

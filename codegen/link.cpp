@@ -1,6 +1,7 @@
 // Linking an executable by way of an installed compiler driver.
 
 #include <llvm/Support/FileSystem.h>
+#include <llvm/Support/FileUtilities.h>
 #include <llvm/Support/MemoryBuffer.h>
 #include <llvm/Support/Program.h>
 
@@ -38,6 +39,7 @@ bool runDriver(const std::vector<std::string>& arguments, std::string& error) {
         error = "cannot create a temporary file";
         return false;
     }
+    const llvm::FileRemover remover(log);
     std::vector<llvm::StringRef> views(arguments.begin(), arguments.end());
     llvm::StringRef file = log.str();
     std::string message;
@@ -45,7 +47,6 @@ bool runDriver(const std::vector<std::string>& arguments, std::string& error) {
                                            0, &message);
     std::string said;
     if (auto buffer = llvm::MemoryBuffer::getFile(file)) said = (*buffer)->getBuffer().str();
-    (void)llvm::sys::fs::remove(file); // nothing to be done about a file that stays
     if (status == 0) return true;
     error = "linking failed (" + arguments[0] + ", status " + std::to_string(status) + ")";
     if (!message.empty()) error += ": " + message;

@@ -181,7 +181,7 @@ class Analyzer {
     Typed operatorError(const syntax::BinaryExpr& e, Typed left, Typed right);
     enum class Numeric : uint8_t { Ok, Mixed, NotNumeric };
     Numeric unify(const syntax::BinaryExpr& e, Typed& left, Typed& right, Flex& flex);
-    bool aggregateFits(const syntax::AggregateExpr& e, const DataType* want);
+    bool aggregateFits(const syntax::AggregateExpr& e, const DataType& want);
     Typed aggregate(const syntax::AggregateExpr& e, const DataType* want, ConstValue* slot);
     void visitLoose(const syntax::Expr& e);
     Typed result(const syntax::Expr& e, const Type* type, Flex flex = Flex::None);
@@ -239,6 +239,7 @@ class Analyzer {
     void checkAccess(const RoutineSymbol& routine, const BoundArg& bound, const Place& place);
     void reportAccess(const RoutineSymbol& routine, const BoundArg& bound, const Symbol* symbol,
                       std::string found);
+    static const char* missingClass(ParamClass accepts, const DataType& found);
     bool checkClass(const RoutineSymbol& routine, const BoundArg& bound, const DataType& type);
     void checkPresent(const BoundArg& bound);
     DataSymbol* ownOptional(const syntax::Expr& e);

@@ -152,44 +152,35 @@ void Analyzer::checkAccess(const RoutineSymbol& routine, const BoundArg& bound, 
     if (!routine.special) root.assigned = true; // IsVar and their like only look
 }
 
-bool Analyzer::checkClass(const RoutineSymbol& routine, const BoundArg& bound, const DataType& found) {
+// What an argument for such a parameter must be, or null when `found` is that.
+const char* Analyzer::missingClass(ParamClass accepts, const DataType& found) {
     const Type& type = *found.type;
-    if (type.kind == TypeKind::Error || type.kind == TypeKind::AnyType) return true;
     const bool scalar = found.rank == 0;
-    const bool atomic = type.isNumeric() || type.kind == TypeKind::Bool || type.kind == TypeKind::String;
-    bool ok = true;
-    const char* expected = "";
-    switch (bound.param->accepts) {
-    case ParamClass::Any: return true;
-    case ParamClass::Value:
-        ok = isValueType(type);
-        expected = "data of a value type";
-        break;
+    const bool string = type.kind == TypeKind::String;
+    const bool signal = type.kind == TypeKind::SemiValue;
+    const auto unless = [](bool ok, const char* expected) { return ok ? nullptr : expected; };
+    switch (accepts) {
+    case ParamClass::Any: break;
+    case ParamClass::Value: return unless(isValueType(type), "data of a value type");
     case ParamClass::Atomic:
-        ok = scalar && atomic;
-        expected = "data of type num, dnum, bool or string";
-        break;
-    case ParamClass::Numeric:
-        ok = scalar && type.isNumeric();
-        expected = "data of type num or dnum";
-        break;
-    case ParamClass::Signal:
-        ok = scalar && type.kind == TypeKind::SemiValue;
-        expected = "a signal";
-        break;
+        return unless(scalar && (type.isNumeric() || type.kind == TypeKind::Bool || string),
+                      "data of type num, dnum, bool or string");
+    case ParamClass::Numeric: return unless(scalar && type.isNumeric(), "data of type num or dnum");
+    case ParamClass::Signal: return unless(scalar && signal, "a signal");
     case ParamClass::SignalOrString:
-        ok = scalar && (type.kind == TypeKind::SemiValue || type.kind == TypeKind::String);
-        expected = "a signal or its name as string";
-        break;
-    case ParamClass::Array:
-        ok = found.rank > 0;
-        expected = "an array";
-        break;
+        return unless(scalar && (signal || string), "a signal or its name as string");
+    case ParamClass::Array: return unless(found.rank > 0, "an array");
     }
-    if (!ok)
-        report(Code::ArgumentClass, range(*bound.value),
-               {bound.param->name, routine.name, typeName(found), expected});
-    return ok;
+    return nullptr;
+}
+
+bool Analyzer::checkClass(const RoutineSymbol& routine, const BoundArg& bound, const DataType& found) {
+    if (found.type->kind == TypeKind::Error || found.type->kind == TypeKind::AnyType) return true;
+    const char* expected = missingClass(bound.param->accepts, found);
+    if (!expected) return true;
+    report(Code::ArgumentClass, range(*bound.value),
+           {bound.param->name, routine.name, typeName(found), expected});
+    return false;
 }
 
 // The optional parameter of the current routine that `e` names, or null.

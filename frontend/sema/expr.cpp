@@ -105,29 +105,30 @@ Typed Analyzer::paren(const ParenExpr& e, const DataType* want, ConstValue* slot
     return {&out, inner.flex};
 }
 
-// The type of the members of an aggregate, or an error: why it cannot be of type `want`.
-bool Analyzer::aggregateFits(const AggregateExpr& e, const DataType* want) {
+// Can it be of type `want`? Says why not.
+bool Analyzer::aggregateFits(const AggregateExpr& e, const DataType& want) {
     const size_t count = e.elements.size();
-    if (!want || want->type->kind == TypeKind::AnyType)
+    if (want.type->kind == TypeKind::AnyType)
         report(Code::AggregateWithoutType, range(e));
-    else if (want->type->kind == TypeKind::Error)
+    else if (want.type->kind == TypeKind::Error)
         return false;
-    else if (want->rank == 0 && want->type->kind != TypeKind::Record)
-        report(Code::AggregateForAtomic, range(e), {typeName(*want)});
+    else if (want.rank == 0 && want.type->kind != TypeKind::Record)
+        report(Code::AggregateForAtomic, range(e), {typeName(want)});
     else {
-        const size_t expected = want->rank == 0     ? want->type->base()->components.size()
-                                : want->dims[0] > 0 ? static_cast<size_t>(want->dims[0])
-                                                    : count;
+        const size_t expected = want.rank == 0     ? want.type->base()->components.size()
+                                : want.dims[0] > 0 ? static_cast<size_t>(want.dims[0])
+                                                   : count;
         if (count == expected) return true;
         report(Code::AggregateCount, range(e),
-               {std::to_string(count), std::to_string(expected), typeName(*want)});
+               {std::to_string(count), std::to_string(expected), typeName(want)});
     }
     return false;
 }
 
 // Members get their constants in the place where the whole value keeps them.
 Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstValue* slot) {
-    if (!aggregateFits(e, want)) {
+    if (!want) report(Code::AggregateWithoutType, range(e));
+    if (!want || !aggregateFits(e, *want)) {
         for (const Expr* element : e.elements)
             visitLoose(*element);
         return errorExpr(e);

@@ -141,11 +141,12 @@ bool Analyzer::forStmt(const ForStmt& s) {
 // Values of all cases first: a group signal as subject takes its numeric type from them.
 void Analyzer::testValues(const TestStmt& s, Typed subject) {
     std::vector<std::pair<const Expr*, Typed>> values;
-    const bool known = subject.info && !subject.isError();
+    const DataType& type = subject.info->type; // changes when a value decides between num and dnum
+    const bool known = !subject.isError();
     for (const TestCase* c : s.cases) {
         if (c->values.empty() && c->first != kNoToken) placeholder(*c);
         for (const Expr* value : c->values) {
-            const Typed t = expr(*value, known ? &subject.info->type : &info(*s.subject).type);
+            const Typed t = expr(*value, &type);
             if (t.isError() || !known) continue;
             const bool decides = subject.flex != Flex::None && t.flex == Flex::None &&
                                  t.info->type.rank == 0 && t.info->type.type->isNumeric();
@@ -158,7 +159,7 @@ void Analyzer::testValues(const TestStmt& s, Typed subject) {
     }
     std::unordered_set<double> seen;
     for (const auto& [value, t] : values) {
-        if (!fits(*value, t, subject.info->type)) {
+        if (!fits(*value, t, type)) {
             report(Code::TestValueType, range(*value), {typeName(*t.info), typeName(*subject.info)});
             continue;
         }

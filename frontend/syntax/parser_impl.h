@@ -81,8 +81,9 @@ class Parser {
     template <class T> std::span<T> drain(std::vector<T>& stack, size_t mark) {
         const size_t count = stack.size() - mark;
         if (count == 0) return {};
-        T* data = static_cast<T*>(tree_.arena.allocate(sizeof(T) * count, alignof(T)));
-        std::uninitialized_copy(stack.begin() + static_cast<std::ptrdiff_t>(mark), stack.end(), data);
+        const std::span<T> pushed(stack.data() + mark, count);
+        T* data = static_cast<T*>(tree_.arena.allocate(pushed.size_bytes(), alignof(T)));
+        std::uninitialized_copy(pushed.begin(), pushed.end(), data);
         stack.resize(mark);
         return {data, count};
     }

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kPollSeconds = 0.1;
 constexpr double kShortestPoll = 0.04; // manual 1.20 for the default; the limit as on a controller
+constexpr Time kHopeless = 8 * (3600 * kSecond);
 
 /// Until robot and additional axes stand in the last point; a task without a robot has nothing to wait for.
 Status waitInPosition(TaskCore* task) {
@@ -22,13 +23,12 @@ Status waitInPosition(TaskCore* task) {
     return owner.isMotionTask() ? owner.controller().motion().waitIdle(owner) : kOk;
 }
 
-/// Eight hours of virtual time in which this task alone looked at its condition and nothing else was to happen: it can only
+/// A shift of virtual time in which this task alone looked at its condition and nothing else was to happen: it can only
 /// depend on the time now, and no sensible condition waits that long. Without this a run would never end.
 bool isHopeless(const Task& task, Time since) {
     const Scheduler& scheduler = task.scheduler();
     const SchedulerOptions& options = scheduler.options();
-    if (task.now() - since < 8 * 3600 * kSecond || options.realtime || options.maxTime != kNever)
-        return false;
+    if (task.now() - since < kHopeless || options.realtime || options.maxTime != kNever) return false;
     if (scheduler.anythingPending()) return false;
     return std::none_of(scheduler.tasks().begin(), scheduler.tasks().end(),
                         [&](const Task* other) { return other != &task && other->isExecuting(); });
