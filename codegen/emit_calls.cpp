@@ -136,4 +136,16 @@ void RoutineEmitter::safepoint(const ir::Inst& inst) {
     storedStmt_.reset(); // the slow path stores its own
 }
 
+/// The controller is asked which statement to go on with; usually it is this one.
+void RoutineEmitter::step(const ir::Inst& inst) {
+    Value* here = b_.getInt32(inst.index);
+    storeStatement(here);
+    Value* wanted = b_.CreateCall(m_.runtime().step, {task_, frame_});
+    BasicBlock* go = newBlock("go");
+    BasicBlock* elsewhere = joinFrom(makeJoin(steps_, "step"), wanted);
+    b_.CreateCondBr(b_.CreateICmpEQ(wanted, here), go, elsewhere, m_.unlikely());
+    b_.SetInsertPoint(go);
+    storedStmt_ = inst.index;
+}
+
 } // namespace codegen

@@ -79,8 +79,22 @@ void RoutineEmitter::continueIfOk(const ir::Inst& inst, Value* status, bool call
 /// propagate, handlerend: the runtime decides, the routine is left.
 void RoutineEmitter::handlerCall(const ir::Inst& inst, llvm::FunctionCallee callee) {
     storeStatement(stmtNumber(inst));
-    Value* status = b_.CreateCall(callee, {task_, frame_});
-    b_.CreateBr(joinFrom(leaveJoin(), status));
+    leaveOrAgain(b_.CreateCall(callee, {task_, frame_}));
+}
+
+/// After the system handler: leaves the routine, or, started again in the stepping profile, goes on with the statement
+/// of the frame record.
+void RoutineEmitter::leaveOrAgain(Value* status) {
+    if (!routine_.stepping || inUndo()) {
+        b_.CreateBr(joinFrom(leaveJoin(), status));
+        return;
+    }
+    BasicBlock* again = newBlock("again");
+    BasicBlock* leave = joinFrom(leaveJoin(), status);
+    b_.CreateCondBr(b_.CreateICmpEQ(status, b_.getInt32(static_cast<uint32_t>(rt::kAgain))), again, leave);
+    b_.SetInsertPoint(again);
+    Value* stmt = b_.CreateLoad(b_.getInt32Ty(), b_.CreateStructGEP(m_.runtime().frame, frame_, 2));
+    b_.CreateBr(joinFrom(makeJoin(steps_, "step"), stmt));
 }
 
 void RoutineEmitter::retry(const ir::Inst& inst) {
@@ -120,6 +134,7 @@ void RoutineEmitter::emitErrorBlocks() {
     if (raiseHandled_.block) emitRaise(raiseHandled_, true);
     if (raiseUnhandled_.block) emitRaise(raiseUnhandled_, false);
     if (raiseUndo_.block) emitRaise(raiseUndo_, false);
+    if (steps_.block) emitSteps();
     if (dispatch_.block) emitDispatch();
     if (leave_.block) emitLeave();
     if (!leaveUndo_.block) return;
@@ -142,8 +157,17 @@ void RoutineEmitter::emitRaise(ErrorJoin& join, bool handled) {
         returnFromUndo(status);
         return;
     }
-    ErrorJoin& next = handled ? dispatchJoin() : leaveJoin();
-    next.number->addIncoming(status, join.block);
+    if (!handled) return leaveOrAgain(status);
+    ErrorJoin& next = dispatchJoin();
+    if (routine_.stepping) {
+        BasicBlock* taken = newBlock("taken");
+        BasicBlock* untaken = newBlock("untaken");
+        b_.CreateCondBr(b_.CreateICmpSGT(status, b_.getInt32(0)), taken, untaken);
+        b_.SetInsertPoint(untaken);
+        leaveOrAgain(status);
+        b_.SetInsertPoint(taken);
+    }
+    next.number->addIncoming(status, b_.GetInsertBlock());
     b_.CreateBr(next.block);
 }
 
@@ -172,6 +196,17 @@ void RoutineEmitter::emitDispatch() {
         if (number > 0 && filter->findCaseValue(value) == filter->case_default())
             filter->addCase(value, handler);
     }
+}
+
+/// Goes on with the statement whose number the controller gave; a negative number is a status.
+void RoutineEmitter::emitSteps() {
+    b_.SetInsertPoint(steps_.block);
+    ErrorJoin& leaving = leaveJoin();
+    leaving.number->addIncoming(steps_.number, steps_.block);
+    auto* branch = b_.CreateSwitch(steps_.number, leaving.block);
+    for (uint32_t s = 0; s < routine_.statements.size(); ++s)
+        if (routine_.statements[s].start != ir::kNone)
+            branch->addCase(b_.getInt32(s), blockOf(routine_.statements[s].start));
 }
 
 /// Leaves the routine with the status; when the stack is being unwound, by way of the undo handler.

@@ -10,10 +10,17 @@ namespace codegen {
 // Natural alignment makes LLVM's layout that of the C structures; these are the ones with gaps.
 static_assert(offsetof(rt::TypeDesc, size) == 20 && offsetof(rt::TypeDesc, fields) == 40 &&
               sizeof(rt::TypeDesc) == 64);
-static_assert(sizeof(rt::StmtDesc) == 20 && offsetof(rt::RoutineDesc, errorFilter) == 40);
+static_assert(sizeof(rt::StmtDesc) == 24 && offsetof(rt::RoutineDesc, errorFilter) == 40);
+static_assert(sizeof(rt::LocalDesc) == 24 && offsetof(rt::RoutineDesc, locals) == 56);
 static_assert(offsetof(rt::GlobalDesc, task) == 36 && offsetof(rt::RoutineEntry, address) == 24);
-static_assert(sizeof(rt::RoutineDesc) == 56 && sizeof(rt::TaskDesc) == 40 && sizeof(rt::GlobalDesc) == 56);
+static_assert(sizeof(rt::RoutineDesc) == 72 && sizeof(rt::TaskDesc) == 40 && sizeof(rt::GlobalDesc) == 56);
 static_assert(sizeof(rt::ExternalDesc) == 40 && sizeof(rt::ProgramDesc) == 96);
+
+static_assert(int{rt::kStmtCallsRoutine} == ir::kStmtCallsRoutine &&
+              int{rt::kStmtCallsBackward} == ir::kStmtCallsBackward &&
+              int{rt::kStmtForwardOnly} == ir::kStmtForwardOnly &&
+              int{rt::kStmtInBackward} == ir::kStmtInBackward &&
+              int{rt::kStmtMovement} == ir::kStmtMovement && int{rt::kStmtInHandler} == ir::kStmtInHandler);
 
 namespace {
 
@@ -65,8 +72,10 @@ void ModuleEmitter::declareTables() {
     };
     llvm::Type* dims = llvm::ArrayType::get(i32_, 3);
     typeDescType_ = make("rt.TypeDesc", {ptr_, ptr_, i8_, i32_, i32_, dims, ptr_, ptr_, ptr_});
-    stmtDescType_ = make("rt.StmtDesc", {i32_, i32_, i32_, i32_, i8_, i8_, i8_, i8_});
-    routineDescType_ = make("rt.RoutineDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i8_, i8_, i8_, i8_, ptr_, i32_});
+    stmtDescType_ = make("rt.StmtDesc", {i32_, i32_, i32_, i32_, i8_, i8_, i8_, i8_, i32_});
+    localDescType_ = make("rt.LocalDesc", {ptr_, ptr_, i8_, i8_, i8_, i8_});
+    routineDescType_ = make("rt.RoutineDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i8_, i8_, i8_, i8_, ptr_, i32_,
+                                               i32_, ptr_, i32_, i8_, i8_, i8_, i8_});
     taskDescType_ = make("rt.TaskDesc", {ptr_, ptr_, ptr_, ptr_, i8_});
     globalDescType_ = make("rt.GlobalDesc", {ptr_, ptr_, ptr_, ptr_, i8_, i32_, ptr_, i32_});
     externalDescType_ = make("rt.ExternalDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i32_});
@@ -108,8 +117,21 @@ llvm::Constant* ModuleEmitter::routineDescValue(const ir::Routine& routine) {
     std::vector<llvm::Constant*> statements, filter;
     for (const ir::Statement& s : routine.statements)
         statements.push_back(llvm::ConstantStruct::get(
-            stmtDescType_, {i32(s.line), i32(s.column), i32(s.endLine), i32(s.endColumn),
-                            i8(static_cast<int64_t>(s.kind)), i8(s.handled), i8(0), i8(0)}));
+            stmtDescType_,
+            {i32(s.line), i32(s.column), i32(s.endLine), i32(s.endColumn), i8(static_cast<int64_t>(s.kind)),
+             i8(s.handled), i8(s.flags), i8(routine.stepping && s.start != ir::kNone),
+             i32(s.previous == ir::kNone ? -1 : int64_t{s.previous})}));
+    std::vector<llvm::Constant*> locals;
+    for (uint32_t local : describedLocals(routine)) {
+        const ir::Local& l = routine.locals[local];
+        llvm::Constant* type = l.typeDesc == ir::kNone
+                                   ? static_cast<llvm::Constant*>(llvm::ConstantPointerNull::get(ptr_))
+                                   : typeDescs_[l.typeDesc];
+        locals.push_back(llvm::ConstantStruct::get(
+            localDescType_,
+            {text(l.name), type, i8(l.reference ? rt::LocalDesc::Reference : rt::LocalDesc::Value),
+             i8(l.isParam), i8(l.rank), i8(0)}));
+    }
     for (int32_t number : routine.errorFilter)
         filter.push_back(i32(number));
     return llvm::ConstantStruct::get(
@@ -117,7 +139,21 @@ llvm::Constant* ModuleEmitter::routineDescValue(const ir::Routine& routine) {
         {text(routine.displayName), text(routine.moduleName), fileName(routine.file),
          array(stmtDescType_, statements, "statements"), i32(static_cast<int64_t>(statements.size())),
          i8(routine.errorHandler != ir::kNone), i8(routine.undoHandler != ir::kNone), i8(routine.noStepIn),
-         i8(0), array(i32_, filter, "filter"), i32(static_cast<int64_t>(filter.size()))});
+         i8(routine.hasBackward), array(i32_, filter, "filter"), i32(static_cast<int64_t>(filter.size())),
+         i32(static_cast<int64_t>(locals.size())), array(localDescType_, locals, "locals"), i32(routine.line),
+         i8(routine.stepping), i8(routine.callable), i8(0), i8(0)});
+}
+
+std::vector<uint32_t> describedLocals(const ir::Routine& routine) {
+    std::vector<uint32_t> result;
+    if (!routine.stepping) return result;
+    for (uint32_t i = 0; i < routine.locals.size(); ++i) {
+        if (routine.locals[i].typeDesc == ir::kNone) continue;
+        result.push_back(i);
+        for (uint32_t k = 0; k < routine.locals[i].rank; ++k)
+            result.push_back(routine.locals[i].dims + k);
+    }
+    return result;
 }
 
 llvm::Constant* ModuleEmitter::tasks() {

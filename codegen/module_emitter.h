@@ -25,10 +25,14 @@ struct AccessTags {
 
 /// The runtime's functions and the structures of rt_abi.h.
 struct RuntimeParts {
-    llvm::StructType* frame = nullptr;
-    llvm::FunctionCallee raise, propagate, handlerEnd, retry, stackOverflow;
+    llvm::StructType *frame = nullptr, *steppingFrame = nullptr;
+    llvm::FunctionCallee raise, propagate, handlerEnd, retry, stackOverflow, step;
     llvm::Function* safepointSlow = nullptr; ///< own function that keeps all registers, calls rt_safepoint
 };
+
+/// The locals that a routine of the stepping profile describes, in the order of their table: numbers in
+/// Routine::locals.
+std::vector<uint32_t> describedLocals(const ir::Routine& routine);
 
 class ModuleEmitter {
   public:
@@ -101,7 +105,7 @@ class ModuleEmitter {
     // Layout of rt_abi.h
     llvm::StructType *typeDescType_ = nullptr, *stmtDescType_ = nullptr, *routineDescType_ = nullptr,
                      *taskDescType_ = nullptr, *globalDescType_ = nullptr, *externalDescType_ = nullptr,
-                     *routineEntryType_ = nullptr, *programDescType_ = nullptr;
+                     *routineEntryType_ = nullptr, *programDescType_ = nullptr, *localDescType_ = nullptr;
     llvm::PointerType* ptr_ = nullptr;
     llvm::IntegerType *i32_ = nullptr, *i64_ = nullptr, *i8_ = nullptr;
 };

@@ -69,7 +69,7 @@ void RoutineEmitter::analyse() {
 /// call pays nothing. Never inside a loop. Routines with handlers fill it at once, because handlers look at it.
 void RoutineEmitter::findFrameBlock() {
     bool handlers = routine_.errorHandler != ir::kNone || routine_.undoHandler != ir::kNone;
-    if (handlers) {
+    if (handlers || routine_.stepping) {
         frameInPrologue_ = true;
         return;
     }
@@ -98,7 +98,12 @@ void RoutineEmitter::allocate() {
     task_ = function_->getArg(0);
     caller_ = function_->getArg(1);
     if (!module_.isScalar(routine_.result)) result_ = function_->getArg(2);
-    frame_ = b_.CreateAlloca(m_.runtime().frame, nullptr, "frame");
+    const std::vector<uint32_t> described = describedLocals(routine_);
+    frame_ = b_.CreateAlloca(described.empty() ? m_.runtime().frame : m_.runtime().steppingFrame, nullptr,
+                             "frame");
+    if (!described.empty())
+        addresses_ =
+            b_.CreateAlloca(llvm::ArrayType::get(b_.getPtrTy(), described.size()), nullptr, "addresses");
     llvm::Type* i32 = b_.getInt32Ty();
     if (routine_.errorHandler != ir::kNone) failed_ = b_.CreateAlloca(i32, nullptr, "failed");
     if (routine_.undoHandler != ir::kNone) unwinding_ = b_.CreateAlloca(i32, nullptr, "unwinding");
@@ -112,7 +117,7 @@ void RoutineEmitter::allocate() {
         locals_.push_back(slot);
     }
     // A handler, retry and trynext make paths that LLVM's dominance would not allow for values used in other blocks.
-    if (!failed_ && !unwinding_) return;
+    if (!failed_ && !unwinding_ && !routine_.stepping) return;
     for (ir::BlockId b = 0; b < routine_.blocks.size(); ++b) {
         for (ir::ValueId id : routine_.blocks[b].insts) {
             for (ir::ValueId operand : routine_.insts[id].operands) {
@@ -139,6 +144,16 @@ void RoutineEmitter::prologue() {
         slot->setAlignment(llvm::Align(16));
         locals_[i] = slot;
     }
+    if (addresses_) fillAddresses();
+}
+
+/// Tells the debugger where the locals lie.
+void RoutineEmitter::fillAddresses() {
+    const std::vector<uint32_t> described = describedLocals(routine_);
+    for (uint32_t i = 0; i < described.size(); ++i)
+        b_.CreateStore(locals_[described[i]],
+                       b_.CreateConstInBoundsGEP2_32(addresses_->getAllocatedType(), addresses_, 0, i));
+    b_.CreateStore(addresses_, b_.CreateStructGEP(m_.runtime().steppingFrame, frame_, 1));
 }
 
 /// Checks that the stack suffices and fills the frame record.
@@ -169,7 +184,7 @@ void RoutineEmitter::fillFrame() {
     fill(0, caller_);
     fill(1, desc_);
     // The runtime counts retries here and finds out whether the routine is in its UNDO handler.
-    if (routine_.errorHandler != ir::kNone || unwinding_) fill(3, b_.getInt32(0));
+    if (routine_.errorHandler != ir::kNone || unwinding_ || routine_.stepping) fill(3, b_.getInt32(0));
 }
 
 void RoutineEmitter::markUndo() {
@@ -208,6 +223,7 @@ void RoutineEmitter::instruction(ir::ValueId id) {
     case ir::Op::Call: return call(inst, id);
     case ir::Op::CallNative: return nativeCall(inst, id);
     case ir::Op::Safepoint: return safepoint(inst);
+    case ir::Op::Step: return step(inst);
     default: return; // Stmt: its number travels with the instructions
     }
 }

@@ -29,6 +29,7 @@ class RoutineEmitter {
     void prologue();
     void enterFrame();
     void fillFrame();
+    void fillAddresses();
     void markUndo();
     void returnFromUndo(llvm::Value* status);
     void block(ir::BlockId id);
@@ -65,6 +66,7 @@ class RoutineEmitter {
     void nativeCall(const ir::Inst& inst, ir::ValueId id);
     void constNative(const ir::Inst& inst, ir::ValueId id);
     void safepoint(const ir::Inst& inst);
+    void step(const ir::Inst& inst);
     void storeStatement(Value* stmt);
     void noteStatement(const ir::Inst& inst);
     llvm::AllocaInst* resultSlot(ir::TypeId type);
@@ -97,6 +99,8 @@ class RoutineEmitter {
     void emitNative(ErrorJoin& join, ErrorJoin& raising, ErrorJoin& leaving);
     void emitDispatch();
     void emitLeave();
+    void emitSteps();
+    void leaveOrAgain(Value* status);
     void returnStatus(Value* status);
 
     ModuleEmitter& m_;
@@ -120,6 +124,8 @@ class RoutineEmitter {
     ir::BlockId current_ = 0;
     std::optional<ir::StmtId> storedStmt_; ///< what the frame record is known to hold at this point
     std::map<std::pair<ir::StmtId, int32_t>, BasicBlock*> failedChecks_;
+    ErrorJoin steps_;                       ///< stepping: `number` is the statement to go on with
+    llvm::AllocaInst* addresses_ = nullptr; ///< stepping: of the locals that are described
     ErrorJoin raiseHandled_, raiseUnhandled_, nativeHandled_, nativeUnhandled_, dispatch_, leave_, raiseUndo_,
         nativeUndo_, leaveUndo_;
 };

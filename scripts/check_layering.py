@@ -35,6 +35,8 @@ LAYERS = {
     "runtime/io": ["runtime/", "config"],
     "runtime/sched": ["runtime/"],
     "runtime/sim": ["runtime/"],
+    "runtime/value": ["runtime/abi"],
+    "runtime/debug": ["runtime/"],
     "runtime/host": ["runtime/", "stdlib"],
     "stdlib/gen": ["frontend/"],
     "stdlib/impl": ["runtime/", "stdlib"],

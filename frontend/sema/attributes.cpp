@@ -123,6 +123,8 @@ void Analyzer::applyRoutineAttributes(RoutineSymbol& symbol) {
             symbol.effects = effectsOf(value.substr(0, value.find(' ')));
         else if (key == "lower")
             symbol.special = value == "special";
+        else if (key == "manual")
+            symbol.manual = std::string(value.substr(0, value.find(' ')));
         else if (key == "option")
             symbol.option = std::string(value);
         else if (key == "deferred") {

@@ -97,6 +97,7 @@ struct RoutineSymbol : Symbol {
     bool noStepIn = false;         ///< its module is NOSTEPIN or NOVIEW
     Effects effects = Effects::None;
     std::string option; ///< RobotWare option it needs
+    std::string manual; ///< chapter of the manual, for built-ins
     std::string documentation;
 };
 

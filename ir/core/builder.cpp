@@ -49,8 +49,16 @@ void Builder::setStatement(StmtId stmt) {
 }
 
 uint32_t Builder::addLocal(std::string name, TypeId type, bool isParam) {
-    routine_.locals.push_back({std::move(name), type, isParam});
+    Local local;
+    local.name = std::move(name);
+    local.type = type;
+    local.isParam = isParam;
+    routine_.locals.push_back(std::move(local));
     return static_cast<uint32_t>(routine_.locals.size() - 1);
+}
+
+void Builder::step(StmtId stmt) {
+    emit(makeIndexed(Op::Step, kVoid, stmt));
 }
 
 ValueId Builder::emit(Inst inst) {

@@ -67,7 +67,10 @@ void findDominators(Cfg& cfg, const std::vector<BlockId>& roots) {
     cfg.idom.assign(count, kUnknown);
     for (BlockId root : roots)
         cfg.idom[root] = kNone;
-    auto isRoot = [&](BlockId b) { return std::find(roots.begin(), roots.end(), b) != roots.end(); };
+    std::vector<bool> rootSet(count, false);
+    for (BlockId root : roots)
+        rootSet[root] = true;
+    auto isRoot = [&](BlockId b) { return rootSet[b]; };
     auto meet = [&](BlockId a, BlockId b) {
         while (a != b) {
             if (a == kNone || b == kNone) return kNone;
@@ -118,7 +121,7 @@ std::vector<BlockId> successors(const Routine& routine, BlockId block) {
 bool mayRaise(const Module& module, const Inst& inst) {
     if (inst.op == Op::CallNative && inst.index < module.natives.size())
         return module.natives[inst.index].nativeClass == NativeClass::Plain;
-    return opInfo(inst.op).mayRaise && inst.op != Op::Safepoint;
+    return opInfo(inst.op).mayRaise && inst.op != Op::Safepoint && inst.op != Op::Step;
 }
 
 bool Cfg::dominates(BlockId a, BlockId b) const {
@@ -145,6 +148,10 @@ Cfg buildCfg(const Module& module, const Routine& routine, HandlerEdges handlerE
         bool reachedOtherwise = handlerEdges == HandlerEdges::Yes && root == routine.errorHandler;
         if (!reachedOtherwise) roots.push_back(root);
     }
+    // `step` may go on with any statement.
+    if (routine.stepping)
+        for (const Statement& s : routine.statements)
+            if (s.start < count) roots.insert(roots.end() - 1, s.start);
     for (BlockId root : roots)
         visit(cfg, root, seen, postorder);
     if (routine.errorHandler < count && !seen[routine.errorHandler]) { // nothing raises: an entry after all

@@ -93,8 +93,21 @@ struct Statement {
     uint32_t line = 0, column = 0, endLine = 0, endColumn = 0; ///< from 1
     StmtKind kind = StmtKind::Plain;
     bool handled = false;  ///< an error here goes to the routine's error handler
-    BlockId start = kNone; ///< where RETRY continues; kNone when no handler can ask for it
+    BlockId start = kNone; ///< where RETRY and `step` continue; kNone when nobody can ask for it
     BlockId next = kNone;  ///< where TRYNEXT continues
+    StmtId previous =
+        kNone;         ///< the statement before it in its list; kNone: the first. Stepping routines only
+    uint8_t flags = 0; ///< StatementFlag; stepping routines only
+};
+
+/// What executing a statement backwards means (stepping routines only).
+enum StatementFlag : uint8_t {
+    kStmtCallsRoutine = 1,  ///< calls a routine of the program
+    kStmtCallsBackward = 2, ///< that routine says how it is executed backwards
+    kStmtForwardOnly = 4,   ///< cannot be executed backwards, the attempt gives a warning
+    kStmtInBackward = 8,    ///< belongs to the backward part of its routine
+    kStmtMovement = 16,     ///< moves the robot
+    kStmtInHandler = 32     ///< belongs to the error handler
 };
 
 // ---- Routines --------------------------------------------------------------------------------------------
@@ -106,7 +119,12 @@ struct Param {
 struct Local {
     std::string name; ///< empty for temporaries
     TypeId type = kVoid;
-    bool isParam = false; ///< for the debugger: shown as a parameter
+    bool isParam = false;      ///< for the debugger: shown as a parameter
+    uint32_t typeDesc = kNone; ///< of the object, for the debugger; stepping routines only
+    /// The local (of type Ptr) holds the address of the object; null = not given.
+    bool reference = false;
+    uint32_t rank = 0;     ///< array whose dimensions are known at run time only; typeDesc is its element's
+    uint32_t dims = kNone; ///< then: the first of `rank` I32 locals that hold the dimensions
 };
 struct Block {
     std::string name;
@@ -120,7 +138,11 @@ struct Routine {
     uint32_t file = kNone; ///< index into Module::files
     uint32_t line = 0;
     bool noStepIn = false;
-    bool exported = false; ///< reachable from outside (entry, late binding)
+    bool stepping =
+        false; ///< made for the stepping profile: every statement has a start that `step` may choose
+    bool hasBackward = false; ///< stepping: has a backward part
+    bool callable = false;    ///< a procedure without required parameters
+    bool exported = false;    ///< reachable from outside (entry, late binding)
     TypeId result = kVoid; ///< scalar: returned beside the status; Str/Record/Array: through a hidden pointer
     std::vector<Param> params;
     std::vector<Local> locals;
@@ -280,6 +302,7 @@ class Builder {
     void handlerEnd(); ///< end of an error handler reached: system handler
     void unreachable();
     void safepoint(int32_t cost);
+    void step(StmtId stmt);
     ValueId emit(Inst inst);
 
   private:

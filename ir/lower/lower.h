@@ -18,6 +18,9 @@ struct Options {
     /// Tells whether a native symbol ("rt_MoveL") has an implementation; empty: all have. A call of one
     /// without is reported as a warning and stops the program with an event when it is reached.
     std::function<bool(std::string_view)> nativeImplemented;
+    /// For the stepping profile (design chapter 4): every statement can be chosen to go on with, data of routines
+    /// lie in memory and are described, BACKWARD handlers are compiled.
+    bool stepping = false;
 };
 
 /// Lowers every task of a program without errors. Constructs that are not lowered yet are reported to `sink`,

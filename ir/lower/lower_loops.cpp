@@ -50,6 +50,8 @@ void RoutineLowering::lowerFor(const ForStmt& stmt) {
     sema::DataSymbol& variable = *found->second;
     // The row stands for the head only: the place of an error in a bound.
     startStatement(*stmt.from, ir::StmtKind::Control);
+    // The debugger may change the variable: no conclusion from its bounds holds then.
+    if (program_.stepping()) return lowerFloatLoop(stmt, variable);
     const bool isNum = variable.type.type->base()->kind == sema::TypeKind::Num;
     const auto from = isNum ? intRange(*stmt.from) : std::nullopt;
     std::optional<int32_t> step;
@@ -208,6 +210,7 @@ void RoutineLowering::lowerFloatLoop(const ForStmt& stmt, sema::DataSymbol& vari
     auto constant = [&](double v) { return isDnum ? b_.constF64(v) : b_.constF32(v); };
     Slot slot;
     slot.local = b_.addLocal(variable.name, t);
+    describeLocal(slot.local, variable.type);
     const uint32_t to = b_.addLocal("", t);
     const uint32_t step = b_.addLocal("", t);
     const ValueId fromValue = lowerValueAs(*stmt.from, type);

@@ -3,6 +3,7 @@
 #include "frontend/syntax/token_set.h"
 #include "ir/lower/routine_lowering.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace rapid::lower {
@@ -17,6 +18,11 @@ ir::Routine declareRoutine(ProgramLowering& program, const RoutineSymbol& symbol
     routine.moduleName = symbol.module->name;
     routine.name = fmt::format("{}/{}/{}", program.task(task).name, symbol.module->name, symbol.name);
     routine.noStepIn = symbol.noStepIn;
+    routine.stepping = program.stepping();
+    routine.callable = symbol.routineKind == syntax::RoutineKind::Proc &&
+                       std::all_of(symbol.params.begin(), symbol.params.end(),
+                                   [](const DataSymbol* param) { return param->optional; });
+    routine.hasBackward = program.stepping() && symbol.routineDecl && symbol.routineDecl->hasBackward;
     const auto& tree = *symbol.module->tree;
     routine.file = program.fileIndex(tree.source->path());
     routine.line = tree.source->lineColumn(tree.range(symbol.nameToken).begin).line;
@@ -160,11 +166,17 @@ void RoutineLowering::lowerParameters() {
         const ir::TypeId type = program_.irType(param->type.type);
         number += 1 + (passing == Passing::Pointer ? param->type.rank : 0u);
         if (passing == Passing::Switch) {
+            if (program_.stepping()) {
+                const uint32_t shown = b_.addLocal(param->name, ir::kBool, true);
+                b_.store(ir::kBool, b_.param(slot.param), b_.localAddr(shown));
+                describeLocal(shown, scalarType(program_.program().boolean));
+            }
             slots_[param] = slot;
             continue;
         }
         if (passing == Passing::Value) {
             slot.local = b_.addLocal(param->name, type, true);
+            describeLocal(slot.local, param->type);
             b_.store(type, b_.param(slot.param), b_.localAddr(slot.local));
             slots_[param] = slot;
             continue;
@@ -190,7 +202,35 @@ void RoutineLowering::lowerParameters() {
                 b_.copy(type, b_.localAddr(slot.local), b_.param(slot.param));
             }
         }
+        if (program_.stepping() && passing == Passing::Pointer) {
+            if (slot.kind == Slot::Kind::Local)
+                describeLocal(slot.local, param->type);
+            else
+                describeReference(*param, slot);
+        }
         slots_[param] = slot;
+    }
+}
+
+void RoutineLowering::describeLocal(uint32_t local, const sema::DataType& type) {
+    if (program_.stepping()) routine_.locals[local].typeDesc = program_.typeDesc(type);
+}
+
+/// The debugger finds the object by a local that holds its address, and arrays by locals with their dimensions.
+void RoutineLowering::describeReference(const DataSymbol& param, Slot& slot) {
+    uint32_t shown = slot.local;
+    if (shown == ir::kNone) {
+        shown = b_.addLocal(param.name, ir::kPtr, true);
+        b_.store(ir::kPtr, b_.param(slot.param), b_.localAddr(shown));
+    }
+    routine_.locals[shown].reference = true;
+    routine_.locals[shown].typeDesc = program_.typeDesc(scalarType(param.type.type));
+    if (!param.type.isArray()) return;
+    routine_.locals[shown].rank = param.type.rank;
+    for (uint32_t k = 0; k < param.type.rank; ++k) {
+        const uint32_t dim = b_.addLocal("", ir::kI32, true);
+        if (k == 0) routine_.locals[shown].dims = dim;
+        b_.store(ir::kI32, b_.param(slot.param + 1 + k), b_.localAddr(dim));
     }
 }
 
@@ -216,6 +256,7 @@ void RoutineLowering::lowerData() {
         const ir::TypeId type = program_.irType(data->type);
         Slot slot;
         slot.local = b_.addLocal(data->name, type);
+        describeLocal(slot.local, data->type);
         slots_[data] = slot;
     }
     for (const DataSymbol* data : symbol_.data) {
@@ -237,6 +278,7 @@ ir::Routine RoutineLowering::run() {
     lowerParameters();
     lowerData();
     inInstructions_ = true;
+    if (routine_.hasBackward) lowerBackwardHandler();
     lowerList(symbol_.routineDecl->body);
     if (!b_.terminated()) {
         inInstructions_ = false; // the end is no instruction that RETRY or TRYNEXT could name
@@ -252,11 +294,6 @@ ir::Routine RoutineLowering::run() {
 }
 
 void RoutineLowering::lowerHandlers() {
-    if (symbol_.routineDecl->hasBackward) {
-        // Only stepping backward runs it; it is checked but not compiled into the release profile.
-        program_.sink().report(diag::Code::BackwardNotCompiled, module_->tree->source,
-                               module_->tree->range(symbol_.nameToken), {symbol_.name});
-    }
     if (hasErrorHandler_) lowerErrorHandler();
     if (symbol_.routineDecl->hasUndo) {
         region_ = Region::Undo;
@@ -265,6 +302,22 @@ void RoutineLowering::lowerHandlers() {
         lowerList(symbol_.routineDecl->undo);
         if (!b_.terminated()) b_.ret();
     }
+}
+
+/// A call that is executed backwards runs this part instead of the body (manual 1.21).
+void RoutineLowering::lowerBackwardHandler() {
+    const ir::BlockId backward = b_.addBlock("backward");
+    const ir::BlockId body = b_.addBlock("body");
+    startStatement(*symbol_.routineDecl, ir::StmtKind::Handler);
+    const ValueId asked =
+        b_.callNative(program_.support("rt_takeBackward", ir::NativeClass::Plain, ir::kBool, {}), {});
+    b_.condBr(asked, backward, body);
+    b_.setBlock(backward);
+    region_ = Region::Backward;
+    lowerList(symbol_.routineDecl->backward);
+    if (!b_.terminated()) b_.ret();
+    region_ = Region::Body;
+    b_.setBlock(body);
 }
 
 void RoutineLowering::lowerErrorHandler() {

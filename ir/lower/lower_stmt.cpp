@@ -25,10 +25,12 @@ void RoutineLowering::startStatement(const Node& node, ir::StmtKind kind) {
 }
 
 void RoutineLowering::lowerList(StmtList list) {
+    ir::StmtId previous = ir::kNone;
     for (const Stmt* stmt : list) {
         const size_t mark = usedTemps_.size();
         // RETRY enters at the beginning of a statement, TRYNEXT behind it: both must be block borders.
-        const bool resumable = hasRetry() && region_ == Region::Body && stmt->kind != NodeKind::Label;
+        const bool resumable =
+            ((hasRetry() && region_ == Region::Body) || program_.stepping()) && stmt->kind != NodeKind::Label;
         if (resumable) {
             const ir::BlockId start = b_.addBlock("stmt");
             const ir::BlockId next = b_.addBlock("next");
@@ -43,6 +45,11 @@ void RoutineLowering::lowerList(StmtList list) {
                 if (row.start != ir::kNone) continue;
                 row.start = start;
                 row.next = next;
+                row.previous = previous;
+            }
+            if (program_.stepping() && firstRow < routine_.statements.size()) {
+                routine_.statements[firstRow].flags |= statementFlags(*stmt);
+                previous = static_cast<ir::StmtId>(firstRow);
             }
             b_.setBlock(next);
         } else {
@@ -52,6 +59,26 @@ void RoutineLowering::lowerList(StmtList list) {
             freeTemps_.emplace(usedTemps_[i]);
         usedTemps_.resize(mark);
     }
+}
+
+/// What executing the instruction backwards means (manual 1.21).
+uint8_t RoutineLowering::statementFlags(const Stmt& stmt) const {
+    uint8_t flags = 0;
+    if (region_ == Region::Backward) flags |= ir::kStmtInBackward;
+    if (region_ == Region::Error || region_ == Region::Undo) flags |= ir::kStmtInHandler;
+    if (stmt.kind != NodeKind::CallStmt) return flags;
+    if (as<CallStmt>(stmt).lateName) return flags | ir::kStmtCallsRoutine;
+    const auto found = facts().calls.find(&stmt);
+    if (found == facts().calls.end() || !found->second.routine) return flags;
+    const sema::RoutineSymbol& callee = *found->second.routine;
+    if (!callee.predefined) {
+        flags |= ir::kStmtCallsRoutine;
+        if (callee.routineDecl && callee.routineDecl->hasBackward) flags |= ir::kStmtCallsBackward;
+    }
+    if (callee.effects == sema::Effects::Motion) flags |= ir::kStmtMovement;
+    if (callee.predefined && callee.manual == "1.7" && callee.effects == sema::Effects::Writes)
+        flags |= ir::kStmtForwardOnly;
+    return flags;
 }
 
 /// Does the instruction itself, not one nested in it, hold a placeholder?
@@ -77,7 +104,10 @@ void RoutineLowering::lowerStmt(const Stmt& stmt) {
     case NodeKind::Assign: return lowerAssign(as<AssignStmt>(stmt));
     case NodeKind::CallStmt: {
         const auto& call = as<CallStmt>(stmt);
-        startStatement(stmt, ir::StmtKind::Call);
+        const auto found = facts().calls.find(&stmt);
+        const bool motion = found != facts().calls.end() && found->second.routine &&
+                            found->second.routine->effects == sema::Effects::Motion;
+        startStatement(stmt, motion ? ir::StmtKind::Motion : ir::StmtKind::Call);
         if (call.lateName) return lowerLateCall(call);
         lowerCall(stmt, ir::kNone);
         return;

@@ -323,6 +323,8 @@ void ProgramLowering::drainPending() {
         ir::Routine done = lowering.run();
         done.exported =
             done.exported || module_.routines[next.index].exported; // a CONNECT names it meanwhile
+        // Breakpoints and the program pointer reach every routine of the program.
+        done.exported = done.exported || (options_.stepping && !next.symbol->predefined);
         module_.routines[next.index] = std::move(done);
     }
 }

@@ -25,6 +25,8 @@ class ProgramLowering {
 
     bool run();
 
+    bool stepping() const { return options_.stepping; }
+
     ir::Module& module() { return module_; }
     const sema::CheckedProgram& program() const { return program_; }
     diag::Sink& sink() { return sink_; }

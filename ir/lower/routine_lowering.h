@@ -51,6 +51,10 @@ class RoutineLowering {
     void copyArrayParameter(const sema::DataSymbol& param, Slot& slot);
     void lowerData();
     void lowerHandlers();
+    void lowerBackwardHandler();
+    /// Tells the debugger about a local (stepping profile only).
+    void describeLocal(uint32_t local, const sema::DataType& type);
+    void describeReference(const sema::DataSymbol& param, Slot& slot);
     void lowerErrorHandler();
     bool hasRetry() const { return hasErrorHandler_; }
     bool mayChangeArguments() const;
@@ -59,6 +63,7 @@ class RoutineLowering {
     void lowerList(syntax::StmtList list);
     void lowerStmt(const syntax::Stmt& stmt);
     bool hasPlaceholder(const syntax::Node& node) const;
+    uint8_t statementFlags(const syntax::Stmt& stmt) const;
     void lowerAssign(const syntax::AssignStmt& stmt);
     void lowerIf(const syntax::IfStmt& stmt);
     void lowerCompactIf(const syntax::CompactIfStmt& stmt);
@@ -169,7 +174,7 @@ class RoutineLowering {
     bool hasErrorHandler_ = false;
     bool routineHasPlaceholders_ = false;
     bool inInstructions_ = false; ///< past the data: from here on the error handler is responsible
-    enum class Region : uint8_t { Body, Error, Undo } region_ = Region::Body;
+    enum class Region : uint8_t { Body, Error, Undo, Backward } region_ = Region::Body;
 };
 
 } // namespace rapid::lower

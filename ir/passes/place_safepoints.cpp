@@ -120,15 +120,34 @@ class Placer {
         insts.insert(insts.begin(), add(makeSafepoint(std::max(cost, 1u)), first));
     }
 
+    /// A statement that `step` may come back to asks the controller; one in an undo handler, which is always
+    /// executed continuously (manual 1.13), and what belongs to no statement list only pay.
     void step() {
-        for (Block& block : routine_.blocks) {
+        std::vector<bool> inUndo(routine_.blocks.size(), false);
+        std::vector<BlockId> work;
+        if (routine_.undoHandler != kNone) work.push_back(routine_.undoHandler);
+        while (!work.empty()) {
+            BlockId b = work.back();
+            work.pop_back();
+            if (inUndo[b]) continue;
+            inUndo[b] = true;
+            for (BlockId succ : successors(routine_, b))
+                work.push_back(succ);
+        }
+        for (BlockId b = 0; b < routine_.blocks.size(); ++b) {
             std::vector<ValueId> insts;
-            for (ValueId id : block.insts) {
+            for (ValueId id : routine_.blocks[b].insts) {
                 insts.push_back(id);
-                if (routine_.insts[id].op == Op::Stmt)
-                    insts.push_back(add(makeSafepoint(1), routine_.insts[id].index));
+                if (routine_.insts[id].op != Op::Stmt) continue;
+                const StmtId stmt = routine_.insts[id].index;
+                Inst inst = makeSafepoint(1);
+                if (routine_.stepping && !inUndo[b] && routine_.statements[stmt].start != kNone) {
+                    inst = make(Op::Step, kVoid);
+                    inst.index = stmt;
+                }
+                insts.push_back(add(std::move(inst), stmt));
             }
-            block.insts = std::move(insts);
+            routine_.blocks[b].insts = std::move(insts);
         }
     }
 

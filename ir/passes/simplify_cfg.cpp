@@ -35,7 +35,7 @@ class Simplifier {
             triesNext = triesNext || terminator(b).op == Op::TryNext;
         }
         for (Statement& s : routine_.statements) {
-            if (!retries || !s.handled) s.start = kNone;
+            if (!routine_.stepping && (!retries || !s.handled)) s.start = kNone;
             if (!triesNext || !s.handled) s.next = kNone;
         }
     }

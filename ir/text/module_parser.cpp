@@ -178,6 +178,9 @@ class ModuleParser {
             return false;
         routine.exported = in_.takeWord("exported");
         routine.noStepIn = in_.takeWord("nostepin");
+        routine.stepping = in_.takeWord("stepping");
+        routine.hasBackward = in_.takeWord("backward");
+        routine.callable = in_.takeWord("callable");
         if (!in_.type(module_, routine.result) || !in_.punct('(')) return false;
         while (!in_.isPunct(')')) {
             Param param;

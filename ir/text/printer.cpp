@@ -135,6 +135,9 @@ class RoutinePrinter {
         printPlace(out_, routine_.file, routine_.line);
         if (routine_.exported) put(out_, " exported");
         if (routine_.noStepIn) put(out_, " nostepin");
+        if (routine_.stepping) put(out_, " stepping");
+        if (routine_.hasBackward) put(out_, " backward");
+        if (routine_.callable) put(out_, " callable");
         put(out_, " {} (", typeName(routine_.result));
         for (size_t i = 0; i < routine_.params.size(); ++i)
             put(out_, "{}{} {}", i ? ", " : "", typeName(routine_.params[i].type),
@@ -145,8 +148,12 @@ class RoutinePrinter {
     void tables() {
         for (size_t i = 0; i < routine_.locals.size(); ++i) {
             const Local& local = routine_.locals[i];
-            put(out_, "  local {} {} {}{}\n", i, typeName(local.type), quoted(local.name),
+            put(out_, "  local {} {} {}{}", i, typeName(local.type), quoted(local.name),
                 local.isParam ? " param" : "");
+            if (local.typeDesc != kNone) put(out_, " desc {}", local.typeDesc);
+            if (local.reference) put(out_, " ref");
+            if (local.rank > 0) put(out_, " dims {} {}", local.rank, local.dims);
+            put(out_, "\n");
         }
         for (size_t i = 0; i < routine_.statements.size(); ++i) {
             const Statement& s = routine_.statements[i];
@@ -154,6 +161,8 @@ class RoutinePrinter {
                 s.column, s.endLine, s.endColumn, s.handled ? " handled" : "");
             if (s.start != kNone) put(out_, " start b{}", s.start);
             if (s.next != kNone) put(out_, " next b{}", s.next);
+            if (s.previous != kNone) put(out_, " after {}", s.previous);
+            if (s.flags != 0) put(out_, " flags {}", s.flags);
             put(out_, "\n");
         }
         if (routine_.errorHandler != kNone) {
@@ -179,7 +188,7 @@ class RoutinePrinter {
             put(out_, "    ");
             if (numbers_[id] != kNone) put(out_, "%{} = ", numbers_[id]);
             instruction(inst);
-            StmtId implied = inst.op == Op::Stmt ? inst.index : current;
+            StmtId implied = inst.op == Op::Stmt || inst.op == Op::Step ? inst.index : current;
             if (inst.stmt != implied) {
                 if (inst.stmt == kNone)
                     put(out_, " !none");
@@ -214,7 +223,8 @@ class RoutinePrinter {
         case Op::ParamVal:
         case Op::LocalAddr:
         case Op::TypeDescAddr:
-        case Op::Stmt: put(out_, " {}", inst.index); return;
+        case Op::Stmt:
+        case Op::Step: put(out_, " {}", inst.index); return;
         case Op::GlobalAddr: put(out_, " @{}", nameIn(module_.globals, inst.index)); return;
         case Op::RoutineAddr: put(out_, " @{}", nameIn(module_.routines, inst.index)); return;
         case Op::Sysvar: put(out_, " {}", inst.extra == 0 ? "errno" : "intno"); return;

@@ -37,6 +37,9 @@ bool RoutineParser::local() {
     if (position != routine_.locals.size())
         return in_.failAt(where, fmt::format("local {} is expected here", routine_.locals.size()));
     entry.isParam = in_.takeWord("param");
+    if (in_.takeWord("desc") && !in_.unsignedInt(entry.typeDesc)) return false;
+    entry.reference = in_.takeWord("ref");
+    if (in_.takeWord("dims") && (!in_.unsignedInt(entry.rank) || !in_.unsignedInt(entry.dims))) return false;
     routine_.locals.push_back(std::move(entry));
     return in_.endOfLine();
 }
@@ -55,6 +58,10 @@ bool RoutineParser::statement() {
     s.handled = in_.takeWord("handled");
     if (in_.takeWord("start") && !in_.block(s.start)) return false;
     if (in_.takeWord("next") && !in_.block(s.next)) return false;
+    if (in_.takeWord("after") && !in_.unsignedInt(s.previous)) return false;
+    uint32_t flags = 0;
+    if (in_.takeWord("flags") && !in_.unsignedInt(flags)) return false;
+    s.flags = static_cast<uint8_t>(flags);
     routine_.statements.push_back(s);
     return in_.endOfLine();
 }
@@ -138,6 +145,7 @@ bool RoutineParser::bodyWithIndex(Inst& inst, bool& known) {
     case Op::LocalAddr:
     case Op::TypeDescAddr: return in_.unsignedInt(inst.index);
     case Op::Stmt:
+    case Op::Step:
         if (!in_.unsignedInt(inst.index)) return false;
         stmt_ = inst.index;
         return true;

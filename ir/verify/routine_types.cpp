@@ -51,6 +51,7 @@ void RoutineVerifier::types(const Inst& inst) {
     case Op::CallNative:
     case Op::Safepoint:
     case Op::Stmt:
+    case Op::Step:
     case Op::Br:
     case Op::CondBr:
     case Op::Switch:

@@ -28,8 +28,7 @@ bool RoutineVerifier::header() {
         if (param.type == kVoid || param.type >= module_.types.size() || !module_.isScalar(param.type))
             add(fmt::format("parameter {} is neither scalar nor ptr", param.name));
     for (const Local& local : routine_.locals)
-        if (local.type == kVoid || local.type >= module_.types.size())
-            add(fmt::format("local {} has no type", local.name));
+        localEntry(local);
     if (routine_.file != kNone) inRange(routine_.file, module_.files.size(), "file");
     if (routine_.errorHandler != kNone)
         inRange(routine_.errorHandler, routine_.blocks.size(), "error handler block");
@@ -38,6 +37,20 @@ bool RoutineVerifier::header() {
     if (routine_.errorHandler == kNone && !routine_.errorFilter.empty())
         add("error filter without error handler");
     return out_.size() == before;
+}
+
+void RoutineVerifier::localEntry(const Local& local) {
+    if (local.type == kVoid || local.type >= module_.types.size())
+        add(fmt::format("local {} has no type", local.name));
+    if (local.typeDesc != kNone) inRange(local.typeDesc, module_.typeDescs.size(), "type description");
+    if (local.reference && local.type != kPtr)
+        add(fmt::format("local {} is a reference, but no ptr", local.name));
+    if (local.rank == 0) return;
+    bool dims = local.rank <= 3 && local.dims < routine_.locals.size() &&
+                local.dims + local.rank <= routine_.locals.size();
+    for (uint32_t k = 0; dims && k < local.rank; ++k)
+        dims = routine_.locals[local.dims + k].type == kI32;
+    if (!dims) add(fmt::format("local {} has no locals for its dimensions", local.name));
 }
 
 /// Every block ends in its one terminator, every instruction stands once, targets and operands exist.
@@ -84,6 +97,7 @@ void RoutineVerifier::statements() {
         for (BlockId block : {s.start, s.next})
             if (block != kNone && block >= routine_.blocks.size())
                 add(fmt::format("stmt {}: block does not exist", i));
+        if (s.previous != kNone) inRange(s.previous, routine_.statements.size(), "previous statement");
     }
 }
 
@@ -197,6 +211,10 @@ void RoutineVerifier::indices(const Inst& inst) {
     case Op::Call: inRange(inst.index, module_.routines.size(), "routine"); return;
     case Op::CallNative: inRange(inst.index, module_.natives.size(), "native"); return;
     case Op::Stmt: inRange(inst.index, routine_.statements.size(), "statement"); return;
+    case Op::Step:
+        inRange(inst.index, routine_.statements.size(), "statement");
+        if (!routine_.stepping) add("the routine is not made for stepping");
+        return;
     case Op::FieldAddr:
         if (module_.types[inst.type].kind != TypeKind::Record)
             add("type is not a record");

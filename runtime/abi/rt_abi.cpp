@@ -10,6 +10,10 @@ rt::Status rt_safepoint(rt::TaskCore* task, rt::Frame* frame) {
     return rt::taskOf(task).safepoint(frame);
 }
 
+int32_t rt_step(rt::TaskCore* task, rt::Frame* frame) {
+    return rt::taskOf(task).step(frame);
+}
+
 rt::Status rt_raise(rt::TaskCore* task, rt::Frame* frame, rt::Status errorNumber) {
     return rt::taskOf(task).raiseAt(frame, errorNumber);
 }

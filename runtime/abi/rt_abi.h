@@ -29,6 +29,9 @@ inline constexpr Status kOk = 0;
 inline constexpr Status kUnwind = -1;
 /// As kUnwind, but UNDO handlers are not run (the run ends, UNDO was aborted). Passed up unchanged.
 inline constexpr Status kUnwindSilent = -2;
+/// Stepping profile, from rt_raise, rt_propagate and rt_handlerEnd only: the program was started again after an error
+/// that nobody handled; the statement of the frame record is executed once more.
+inline constexpr Status kAgain = -3;
 
 enum class DescKind : uint8_t { Num, Dnum, Bool, String, Record, Array, Handle, Other };
 
@@ -58,7 +61,34 @@ struct StmtDesc {
     uint32_t line, column, endLine, endColumn; ///< from 1
     uint8_t kind;                              ///< ir::StmtKind
     uint8_t handled;                           ///< 1: an error here goes to the routine's error handler
-    uint8_t pad[2];
+    uint8_t flags;                             ///< ir::StatementFlag; stepping profile
+    uint8_t canStart;                          ///< 1: rt_step may name it. 0 always in the release profile
+    int32_t previous;                          ///< the statement before it in its list, -1: it is the first
+};
+
+/// StmtDesc::flags: what executing the statement backwards means. Equal to ir::StatementFlag.
+enum StmtFlag : uint8_t {
+    kStmtCallsRoutine = 1,
+    kStmtCallsBackward = 2,
+    kStmtForwardOnly = 4,
+    kStmtInBackward = 8,
+    kStmtMovement = 16,
+    kStmtInHandler = 32
+};
+
+/// A local variable or parameter that the debugger shows (stepping profile).
+struct LocalDesc {
+    enum Kind : uint8_t {
+        Value,    ///< its address is the object's
+        Reference ///< at its address stands the object's; null = parameter not given
+    };
+    const char* name;
+    const TypeDesc* type; ///< of the object; when rank > 0: of its elements
+    Kind kind;
+    uint8_t isParam;
+    uint8_t
+        rank; ///< array with dimensions known at run time: they are the `rank` entries (int32_t) that follow
+    uint8_t pad;
 };
 
 struct RoutineDesc {
@@ -70,9 +100,15 @@ struct RoutineDesc {
     uint8_t hasErrorHandler;
     uint8_t hasUndo;
     uint8_t noStepIn;
-    uint8_t pad;
+    uint8_t hasBackward;        ///< stepping profile: has a BACKWARD part
     const int32_t* errorFilter; ///< error numbers the handler takes; null = all
     uint32_t errorFilterCount;
+    uint32_t localCount;     ///< > 0: the frame record is a SteppingFrame
+    const LocalDesc* locals; ///< in their order; dimensions of arrays have rows without a name
+    uint32_t line;           ///< of its declaration
+    uint8_t stepping;        ///< made for the stepping profile
+    uint8_t callable; ///< a procedure without required parameters: the program pointer can be moved to it
+    uint8_t tail[2];
 };
 
 /// Frame record: lies in the stack frame of each routine in progress; the chain is the call stack. The caller's record
@@ -84,6 +120,11 @@ struct Frame {
     int32_t reserved; ///< 0 at first; kept by the runtime (retries), kFrameInUndo once the UNDO handler runs
 };
 inline constexpr int32_t kFrameInUndo = -1;
+
+/// Frame record of a routine with described locals (RoutineDesc::localCount > 0).
+struct SteppingFrame : Frame {
+    void* const* addresses; ///< one per LocalDesc
+};
 
 /// The part of a task that compiled code touches directly. rt::Task begins with it.
 struct TaskCore {
@@ -161,6 +202,9 @@ rt::Status rt_propagate(rt::TaskCore* task, rt::Frame* frame);
 rt::Status rt_handlerEnd(rt::TaskCore* task, rt::Frame* frame);
 /// RETRY in the handler of `frame`: counts; 0, or kUnwind when No Of Retry is exceeded.
 rt::Status rt_retry(rt::TaskCore* task, rt::Frame* frame);
+/// Stepping profile, ahead of every statement: the task may stop here, be told to go on elsewhere, pay for what it has
+/// executed. Returns the number of the statement to go on with (>= 0), or a negative status (unwind).
+int32_t rt_step(rt::TaskCore* task, rt::Frame* frame);
 /// The stack of the task is used up. Returns kUnwind.
 rt::Status rt_stackOverflow(rt::TaskCore* task, rt::Frame* frame);
 }

@@ -93,6 +93,7 @@ ExitStatus Controller::run() {
 
 bool Controller::runOver() {
     if (StopSignals::received() != 0) return true;
+    if (debugger_.poll()) return true;
     systemSignals_.update();
     for (const auto& task : tasks_) {
         if (!isNormal(task) || task->state() == TaskState::Finished) continue;
@@ -165,6 +166,7 @@ void Controller::taskFailed(Task& task) {
         log_.write(EventId::SystemFailure, &task, {task.name(), type, level});
         systemFailed_ = true;
     }
+    debugger_.noteStop(task, StopReason::Error);
     stopNormalTasks(StopCause::Order);
     motion_->programStop();
 }
@@ -184,6 +186,7 @@ void Controller::actionStop() {
         any = true;
         log_.write(EventId::ProgramStopped, task.get(), {task->name(), "stop order"});
         task->stop(StopCause::Order);
+        debugger_.noteStop(*task, StopReason::Order);
     }
     if (!any) log_.write(EventId::NothingStopped, nullptr, {"stop", "executing"});
     motion_->programStop();
@@ -194,7 +197,7 @@ void Controller::actionStart() {
     for (const auto& task : tasks_) {
         if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished) continue;
         any = true;
-        if (task->stopCause() != StopCause::Error && !systemFailed_) continue;
+        if (task->canResume() && !systemFailed_) continue;
         log_.write(EventId::StartRefused, task.get(), {task->name()});
         return;
     }
@@ -207,6 +210,7 @@ void Controller::actionStart() {
         if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished) continue;
         const bool atMain = task->stopCause() == StopCause::AtMain;
         log_.write(atMain ? EventId::ProgramStarted : EventId::ProgramRestarted, task.get(), {task->name()});
+        debugger_.continuous(*task);
         task->resume();
     }
 }
@@ -232,7 +236,20 @@ void Controller::actionStep(bool forward) {
                    {forward ? "step_forward" : "step_backward", task->name()});
         return;
     }
-    log_.write(EventId::StepUnavailable, nullptr);
+    if (!debugger_.available()) {
+        log_.write(EventId::StepUnavailable, nullptr);
+        return;
+    }
+    bool any = false;
+    for (const auto& task : tasks_) {
+        if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished) continue;
+        any = true;
+        const std::string problem = debugger_.stepTogether(*task, forward);
+        if (!problem.empty() && forward)
+            log_.write(EventId::StepRefused, task.get(), {"Stepping forward", problem});
+    }
+    if (!any)
+        log_.write(EventId::NothingStopped, nullptr, {forward ? "step_forward" : "step_backward", "stopped"});
 }
 
 // ---- Stimulus ------------------------------------------------------------------------------------------------------
@@ -248,7 +265,9 @@ void Controller::scheduleStimulus() {
 }
 
 bool Controller::isStart(const StimulusItem& item) const {
-    if (item.kind != StimulusKind::Signal) return item.kind == StimulusKind::Start;
+    if (item.kind != StimulusKind::Signal)
+        return item.kind == StimulusKind::Start || item.kind == StimulusKind::StepForward ||
+               item.kind == StimulusKind::StepBackward;
     return item.value != 0 && systemSignals_.isStart(io_.find(item.target));
 }
 

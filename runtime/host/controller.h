@@ -3,6 +3,7 @@
 // No singletons; a native reaches it by taskOf(core).controller().
 
 #include "runtime/abi/rt_abi.h"
+#include "runtime/debug/debugger.h"
 #include "runtime/host/clock_object.h"
 #include "runtime/host/handle_table.h"
 #include "runtime/host/home_folder.h"
@@ -51,6 +52,7 @@ class Controller final : public TaskHost {
     /// Present as soon as prepare() succeeded.
     MotionDriver& motion() { return *motion_; }
     HandleTable<ClockObject>& clocks() { return clocks_; }
+    Debugger& debugger() { return debugger_; }
     const RunOptions& options() const { return options_; }
     const SystemSettings& settings() const { return settings_; }
     /// All configuration files read, in order (every domain).
@@ -98,7 +100,8 @@ class Controller final : public TaskHost {
     // ---- TaskHost ----------------------------------------------------------------------------------------------
     bool cyclesLeft(const Task& task) const override;
     /// The stimulus has a `start` ahead.
-    bool startToCome() const override { return startsToCome_ > 0; }
+    bool startToCome() const override { return startsToCome_ > 0 || debugger_.hasClient(); }
+    void taskStopped(Task& task) override { debugger_.noteStop(task, StopReason::Stop); }
     int retryLimit() const override { return settings_.noOfRetry; }
     /// NORMAL tasks stop; when a STATIC or SEMISTATIC task failed, its TrustLevel decides (manual 1.20).
     void taskFailed(Task& task) override;
@@ -143,7 +146,8 @@ class Controller final : public TaskHost {
     std::map<const void*, std::shared_ptr<void>> services_;
     const ProgramDesc* program_ = nullptr;
     std::vector<std::unique_ptr<Task>> tasks_;
-    std::size_t startsToCome_ = 0;
+    std::size_t startsToCome_ = 0; // `start` and steps that the stimulus has ahead
+    Debugger debugger_{*this};
     bool systemFailed_ = false; // a background task with TrustLevel SysFail or SysHalt has stopped
 };
 

@@ -204,6 +204,7 @@ ExitStatus Controller::readStimulusFile() {
 void Controller::makeTasks(const ProgramDesc& program) {
     for (uint32_t i = 0; i < program.taskCount; ++i) {
         tasks_.push_back(std::make_unique<Task>(*this, this, scheduler_, program.tasks[i], i));
+        tasks_.back()->setStepHook(&debugger_);
     }
 }
 

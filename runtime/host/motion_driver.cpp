@@ -9,6 +9,41 @@
 
 namespace rt {
 
+namespace {
+
+/// The instruction in the user's program, not one inside a library routine.
+MotionPointer pointerOf(const Task& task, const motion::MoveCommand& command) {
+    const Frame* frame = task.frame;
+    while (frame != nullptr && frame->routine != nullptr && frame->routine->noStepIn != 0 &&
+           frame->caller != nullptr)
+        frame = frame->caller;
+    MotionPointer pointer;
+    pointer.valid = frame != nullptr;
+    pointer.frame = frame;
+    pointer.routine = frame != nullptr ? frame->routine : nullptr;
+    pointer.statement = frame != nullptr ? frame->statement : -1;
+    pointer.command = command;
+    return pointer;
+}
+
+/// To the target of `target`, as the movement `as` was made (manual 1.21).
+motion::MoveCommand reversed(const motion::MoveCommand& target, const motion::MoveCommand& as) {
+    motion::MoveCommand result = target;
+    // A target in axis angles has no pose to draw a line to, and none in axis angles can be made of a pose.
+    if (target.kind != motion::MoveKind::AbsJoint)
+        result.kind = as.kind == motion::MoveKind::AbsJoint ? motion::MoveKind::Joint : as.kind;
+    result.circlePoint = as.circlePoint;
+    result.speed = as.speed;
+    result.duration = as.duration;
+    result.settings = as.settings;
+    result.zone = {};
+    result.concurrent = false;
+    result.triggers.clear(); // triggers belong to the way forward
+    return result;
+}
+
+} // namespace
+
 MotionDriver::MotionDriver(Scheduler& scheduler, robot::RobotModel model)
     : scheduler_(scheduler), system_(std::move(model)) {}
 
@@ -71,6 +106,8 @@ void MotionDriver::schedule() {
 Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::MoveId& id,
                            std::optional<motion::MotionError>& error) {
     error.reset();
+    MotionPointer pointer = pointerOf(task, command);
+    if (backward_ && pointer_.valid) command = reversed(command, pointer_.command);
     command.tag = instructions_ + 1;
     WaitResult result{};
     for (;;) {
@@ -90,7 +127,10 @@ Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::Move
         if (status < 0) return status;
     }
     ++instructions_;
+    pointer_ = std::move(pointer);
     refresh();
+    // In steps every movement is finished before the next instruction.
+    if (task.isStepwise()) return waitDone(task, id);
     return task.waitFor({{&changed_}, [&] { return system().isReleased(id); }}, result);
 }
 

@@ -16,6 +16,15 @@ namespace rt {
 class Task;
 class TraceWriter;
 
+/// The movement instruction executed last: where it stands and what it ordered (manual 1.21).
+struct MotionPointer {
+    bool valid = false;
+    const Frame* frame = nullptr;
+    const RoutineDesc* routine = nullptr;
+    int32_t statement = -1;
+    motion::MoveCommand command;
+};
+
 class MotionDriver {
   public:
     MotionDriver(Scheduler& scheduler, robot::RobotModel model);
@@ -56,6 +65,10 @@ class MotionDriver {
     /// ClearPath, program pointer moved.
     void clearPath();
 
+    const MotionPointer& pointer() const { return pointer_; }
+    /// Movements are executed backwards from now on: to their target, with type and speed of the motion pointer's.
+    void setBackward(bool backward) { backward_ = backward; }
+
     void setTrace(TraceWriter* trace) { trace_ = trace; }
     /// Nothing left to do: idle, or held by a stop and standing still.
     bool isSettled() const;
@@ -81,6 +94,8 @@ class MotionDriver {
     TraceWriter* trace_ = nullptr;
     Time nextSample_ = 0;
     bool stopMove_ = false, programStop_ = false;
+    MotionPointer pointer_;
+    bool backward_ = false;
     bool advancing_ = false;
 };
 

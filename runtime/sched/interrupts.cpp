@@ -8,7 +8,12 @@
 
 namespace rt {
 
-const RoutineDesc kTrapBoundary = {"(interrupt)", "", "", nullptr, 0, 0, 0, 0, 0, nullptr, 0};
+const RoutineDesc kTrapBoundary = {"(interrupt)", "", "", nullptr, 0, 0, 0, 0, 0,
+                                   nullptr,       0,  0,  nullptr, 0, 0, 0, {}};
+
+bool InterruptTable::deliverable() const {
+    return enabled_ && !running_ && !queue_.empty() && !task_.isStepwise();
+}
 
 int InterruptTable::connect(const Trap& trap) {
     if (defined_.size() >= kMaxDefined) return 0;
@@ -58,7 +63,9 @@ void InterruptTable::post(int number) {
     const auto found = defined_.find(number);
     if (found == defined_.end() || !found->second.ordered || found->second.asleep) return;
     Definition& definition = found->second;
-    if (task_.state() == TaskState::Finished || (task_.isStopped() && !definition.safe)) return;
+    if (task_.state() == TaskState::Finished ||
+        ((task_.isStopped() || task_.isStepwise()) && !definition.safe))
+        return;
     queue_.push_back(number);
     if (definition.single) {
         definition.ordered = false;

@@ -57,7 +57,7 @@ class InterruptTable {
     bool enabled() const { return enabled_; }
 
     /// Something is to be delivered now.
-    bool deliverable() const { return enabled_ && !running_ && !queue_.empty(); }
+    bool deliverable() const;
     /// Runs the traps of all queued interrupts on the current fibre; negative when a trap unwinds the task.
     Status deliver();
     /// The task has been stopped: queued interrupts are thrown away, safe ones stay.

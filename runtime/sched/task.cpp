@@ -6,6 +6,7 @@
 #include "runtime/sched/error_search.h"
 #include "runtime/sched/fibre.h"
 #include "runtime/sched/scheduler.h"
+#include "runtime/sched/step_hook.h"
 #include "runtime/sched/wait_queue.h"
 
 #include <poll.h>
@@ -65,7 +66,10 @@ bool Task::runCycle() {
         needsReset_ = false;
         if (desc_.reset != nullptr) status = desc_.reset(this, nullptr);
     }
-    if (status == kOk && desc_.entry != nullptr) status = desc_.entry(this, nullptr);
+    const EntryFunction entry = entryOverride_ != nullptr ? entryOverride_ : desc_.entry;
+    entryOverride_ = nullptr;
+    backwardCall_ = false;
+    if (status == kOk && entry != nullptr) status = entry(this, nullptr);
     if (status > 0) status = raiseAt(nullptr, status); // no routine took it, and none reported it
     frame = nullptr;
     retries_.clear();
@@ -80,7 +84,7 @@ bool Task::runCycle() {
         if (kind_ != TaskKind::Normal || !host_.startToCome()) return false;
         stopCause_ = StopCause::AtMain;
         return true;
-    case Unwind::ToMain: needsReset_ = true; return true;
+    case Unwind::ToMain: return true;
     case Unwind::None:
     case Unwind::ExitCycle: break;
     }
@@ -233,6 +237,23 @@ Status Task::safepoint(Frame* at) {
     return yield();
 }
 
+int32_t Task::step(Frame* at) {
+    frame = at;
+    if (--budget < 0) {
+        if (const Status status = safepoint(at); status < 0) return status;
+    }
+    if (isUnwinding()) {
+        if (const Status status = enterWait(); status < 0) return status;
+    }
+    return stepHook_ != nullptr ? stepHook_->beforeStatement(*this, at) : at->statement;
+}
+
+void Task::setStepwise(bool stepwise) {
+    if (stepwise && !stepwise_) interrupts_.taskStopped();
+    stepwise_ = stepwise;
+    if (!stepwise && interrupts_.deliverable()) interruptPosted();
+}
+
 // ---- Ending and stopping -------------------------------------------------------------------------------------------
 
 Status Task::requestExit() {
@@ -260,6 +281,7 @@ Status Task::stopHere(bool allNormal) {
     }
     host_.log().write(EventId::ProgramStopped, this, {name_, "Stop"});
     stop(StopCause::Instruction);
+    host_.taskStopped(*this);
     if (allNormal) host_.stopNormalTasks(StopCause::Order);
     return suspendStopped();
 }
@@ -286,15 +308,31 @@ void Task::stop(StopCause cause) {
     if (scheduler_.running() == this) forceSafepoint();
 }
 
+/// Code of the stepping profile can execute the faulty statement again.
+bool Task::canExecuteAgain() const {
+    const StmtDesc* statement = frame != nullptr ? statementOf(*frame) : nullptr;
+    return statement != nullptr && statement->canStart != 0;
+}
+
+bool Task::canResume() const {
+    return stopCause_ != StopCause::Error || restartable_;
+}
+
 bool Task::resume() {
-    if (stopCause_ == StopCause::Error) return false;
+    if (!canResume()) return false;
     stopCause_ = StopCause::None;
     return true;
+}
+
+void Task::moveToRoutine(EntryFunction entry) {
+    moveToMain();
+    entryOverride_ = entry;
 }
 
 void Task::moveToMain() {
     if (state_ == TaskState::Finished) return;
     needsReset_ = true;
+    entryOverride_ = nullptr;
     stopCause_ = StopCause::AtMain;
     if (!fibre_->started()) return;
     pendingUnwind_ = Unwind::ToMain;

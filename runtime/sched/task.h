@@ -30,6 +30,7 @@ class Controller;
 class EventLog;
 class Fibre; // sched/fibre.h
 class Scheduler;
+class StepHook;
 class WaitQueue;
 
 enum class TaskKind : uint8_t { Normal, Static, SemiStatic };
@@ -51,7 +52,8 @@ enum class StopCause : uint8_t {
     None,
     Instruction, ///< Stop
     Order,       ///< controller action `stop`
-    Error,       ///< system handler; can go on only from main
+    Error,       ///< system handler; goes on from main, in the stepping profile also from where it stands
+    Step,        ///< stands ahead of a statement (stepping profile)
     AtMain,      ///< program pointer at main after pp_to_main or EXIT, not started yet
 };
 
@@ -79,6 +81,8 @@ class TaskHost {
     virtual int retryLimit() const = 0;
     /// The system handler has stopped this task.
     virtual void taskFailed(Task& task) = 0;
+    /// The task executed Stop and stands still now.
+    virtual void taskStopped(Task&) {}
     virtual void stopNormalTasks(StopCause cause) = 0;
 
   protected:
@@ -163,6 +167,7 @@ class Task : public TaskCore {
 
     // ---- Entry points of compiled code (rt_abi.h) --------------------------------------------------------------
     Status safepoint(Frame* at);
+    int32_t step(Frame* at);
     Status raiseAt(Frame* at, int number);
     Status propagateFrom(Frame* handler);
     Status handlerEndAt(Frame* handler);
@@ -178,11 +183,29 @@ class Task : public TaskCore {
     /// Lets the next safepoint of a running task go to the scheduler although budget is left.
     void forceSafepoint();
     /// Stops the task where it is / lets it go on. resume() is false when it cannot go on from here (stopped by
-    /// an error).
+    /// an error in code that cannot execute the statement again).
     void stop(StopCause cause);
     bool resume();
+    bool canResume() const;
     /// Program pointer to main: the chain is unwound with its UNDO handlers at once; afterwards AtMain.
     void moveToMain();
+    /// Program pointer to a procedure without parameters: as moveToMain, but the next start begins there and data
+    /// keep their values, as `reset` tells.
+    void moveToRoutine(EntryFunction entry);
+    /// Stepping profile: who is asked ahead of every statement; null: nobody.
+    void setStepHook(StepHook* hook) { stepHook_ = hook; }
+    /// Interrupts are not handled while the task is stepped (manual 1.11).
+    void setStepwise(bool stepwise);
+    bool isStepwise() const { return stepwise_; }
+    /// The next procedure with a BACKWARD part that is called runs that part (manual 1.21).
+    void orderBackward(bool order) { backwardCall_ = order; }
+    bool takeBackward() {
+        const bool order = backwardCall_;
+        backwardCall_ = false;
+        return order;
+    }
+    /// Stands still until started again or unwound.
+    Status suspendStopped();
     /// Can be given the processor: not waiting and not stopped, or being unwound.
     bool runnable() const;
     bool isUnwinding() const { return pendingUnwind_ != Unwind::None || unwinding_ != Unwind::None; }
@@ -212,11 +235,12 @@ class Task : public TaskCore {
     void fibreMain();
     bool runCycle();
     Status block();
-    Status suspendStopped();
     Status enterWait();
     Status afterSwitch();
     Status beginUnwind(Unwind cause);
-    Status systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where);
+    /// `again`: compiled code asked, and can execute the statement once more (stepping profile).
+    Status systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where, bool again);
+    bool canExecuteAgain() const;
     Status dispatchError(Frame* first, int number);
     std::string describeError(int number) const;
     RetryCount* retryCountOf(Frame* handler);
@@ -248,7 +272,12 @@ class Task : public TaskCore {
     Unwind pendingUnwind_ = Unwind::None; // to be returned by the call the task is suspended in
     Unwind unwinding_ = Unwind::None;     // a negative status is travelling up
     bool undoAborted_ = false;
-    bool needsReset_ = true; // variables get their initial values before main is entered
+    StepHook* stepHook_ = nullptr;
+    bool stepwise_ = false;
+    bool restartable_ = false; // stopped by an error, and the faulty statement can be executed again
+    bool backwardCall_ = false;
+    EntryFunction entryOverride_ = nullptr; // program pointer moved to a routine: run instead of main once
+    bool needsReset_ = true;                // variables get their initial values before main is entered
     uint64_t cyclesDone_ = 0;
 
     std::string errorDetail_, errorText_;

@@ -3,6 +3,7 @@
 #include "runtime/log/event_log.h"
 #include "runtime/sched/error_search.h"
 #include "runtime/sched/scheduler.h"
+#include "runtime/sched/step_hook.h"
 #include "runtime/sched/task.h"
 
 #include <fmt/format.h>
@@ -59,12 +60,13 @@ Status Task::propagateFrom(Frame* handler) {
 Status Task::dispatchError(Frame* first, int number) {
     errorNumber = static_cast<float>(number);
     if (unwinding_ == Unwind::Abandon || undoAborted_) return kUnwindSilent;
-    if (Frame* handler = findErrorHandler(first, number)) {
+    const bool backward = stepHook_ != nullptr && stepHook_->isBackward(*this);
+    if (Frame* handler = backward ? nullptr : findErrorHandler(first, number)) {
         noteHandled(handler, number);
         return number;
     }
     handled_.frame = nullptr; // reported as unhandled instead
-    return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText_, errorPlace_);
+    return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText_, errorPlace_, true);
 }
 
 Status Task::handlerEndAt(Frame* handler) {
@@ -72,7 +74,7 @@ Status Task::handlerEndAt(Frame* handler) {
     handled_.frame = nullptr;
     const int number = static_cast<int>(errorNumber);
     const std::string text = formatEventText(EventId::HandlerEnd, {errorText_, place().routine});
-    return systemHandler(static_cast<int>(EventId::HandlerEnd), number, text, errorPlace_);
+    return systemHandler(static_cast<int>(EventId::HandlerEnd), number, text, errorPlace_, true);
 }
 
 Status Task::stackOverflowAt(Frame* at) {
@@ -82,10 +84,12 @@ Status Task::stackOverflowAt(Frame* at) {
 
 Status Task::fatal(int eventNumber, std::string argument) {
     return systemHandler(eventNumber, 0,
-                         formatEventText(static_cast<EventId>(eventNumber), {std::move(argument)}), place());
+                         formatEventText(static_cast<EventId>(eventNumber), {std::move(argument)}), place(),
+                         false);
 }
 
-Status Task::systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where) {
+Status Task::systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where,
+                           bool again) {
     if (unwinding_ == Unwind::Abandon || undoAborted_) return kUnwindSilent;
     EventLog& log = host_.log();
     if (unwinding_ != Unwind::None) {
@@ -110,7 +114,9 @@ Status Task::systemHandler(int eventNumber, int number, std::string text, const 
     log.write(std::move(event));
     stop(StopCause::Error);
     host_.taskFailed(*this);
-    return suspendStopped();
+    restartable_ = again && canExecuteAgain();
+    const Status status = suspendStopped();
+    return status == kOk ? kAgain : status;
 }
 
 // ---- Handled errors ------------------------------------------------------------------------------------------------
@@ -145,7 +151,7 @@ Status Task::retryAt(Frame* handler) {
         const int number = static_cast<int>(errorNumber);
         const std::string text =
             formatEventText(EventId::RetryExceeded, {errorText_, std::to_string(entry->count)});
-        return systemHandler(static_cast<int>(EventId::RetryExceeded), number, text, errorPlace_);
+        return systemHandler(static_cast<int>(EventId::RetryExceeded), number, text, errorPlace_, false);
     }
     ++entry->count;
     // The frame record carries the id: a later invocation at the same address starts counting anew.

@@ -259,7 +259,7 @@ END_OF_LINE = re.compile(r"\S.*!\s*(error|warning|note)\[(RAP\d{4})\](?::\s*(.*?
 
 
 # Warnings that something is not implemented yet: they come and go with the work and are no part of a rule.
-STATE_OF_WORK = {"RAP7002", "RAP7003", "RAP7004"}
+STATE_OF_WORK = {"RAP7003", "RAP7004"}
 
 
 @dataclasses.dataclass

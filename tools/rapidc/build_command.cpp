@@ -23,6 +23,7 @@ struct BuildSettings {
     std::string output;
     bool noOptimise = false;
     bool strip = false;
+    bool stepping = false;
 };
 
 fs::path ownFolder() {
@@ -70,7 +71,7 @@ int build(BuildSettings& settings) {
     ir::Module module;
     const bool lowered =
         !compilation->sink.hasErrors() &&
-        lowerToIr(*compilation, fs::path(settings.output).filename().string(), false, module);
+        lowerToIr(*compilation, fs::path(settings.output).filename().string(), settings.stepping, module);
     printDiagnostics(*compilation);
     if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
     const TemporaryFile object{fmt::format("{}.{}.o", settings.output, getpid())};
@@ -98,6 +99,8 @@ void addBuildCommand(CLI::App& app, int& status) {
     command->add_option("--config", settings->inputs.configFiles, "Parameters (.cfg) kept in the executable")
         ->allow_extra_args(false);
     command->add_flag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
+    command->add_flag("--stepping", settings->stepping,
+                      "Compile for the stepping profile: the program can be stepped forward and backward");
     command->add_flag("--strip", settings->strip, "Leave out debug information");
     command->callback([settings, &status] { status = build(*settings); });
 }

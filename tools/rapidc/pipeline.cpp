@@ -154,6 +154,7 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
 bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping, ir::Module& out) {
     rapid::lower::Options options;
     options.programName = name;
+    options.stepping = stepping;
     options.configNames = compilation.configNames;
     options.configTexts = compilation.configTexts;
     options.nativeImplemented = [](std::string_view symbol) {

@@ -1,6 +1,7 @@
 // rapidc run: compiles in memory and runs on the virtual controller.
 
 #include "tools/rapidc/commands.h"
+#include "tools/rapidc/line_debugger.h"
 #include "tools/rapidc/path_picture.h"
 #include "tools/rapidc/pipeline.h"
 
@@ -8,6 +9,7 @@
 #include "runtime/host/controller.h"
 #include "runtime/host/run_options.h"
 #include "runtime/host/stop_signals.h"
+#include "runtime/sim/stimulus.h"
 #include "stdlib/native_table.h"
 
 #include <CLI/CLI.hpp>
@@ -31,6 +33,8 @@ struct RunSettings {
     std::string picture;
     bool summary = false;
     bool noOptimise = false;
+    bool stepping = false;    ///< compile for the stepping profile
+    bool interactive = false; ///< --step
 };
 
 std::vector<codegen::NativeSymbol> nativeSymbols() {
@@ -79,6 +83,16 @@ class HomeCopy {
     fs::path path_;
 };
 
+/// Only programs made for the stepping profile can be stepped.
+bool stimulusSteps(const std::string& path) {
+    if (path.empty()) return false;
+    std::vector<rt::StimulusProblem> problems; // reported when the controller reads the file
+    for (const rt::StimulusItem& item : rt::readStimulus(path, problems))
+        if (item.kind == rt::StimulusKind::StepForward || item.kind == rt::StimulusKind::StepBackward)
+            return true;
+    return false;
+}
+
 void makeFolders(const RunSettings& settings) {
     for (const std::string* path :
          {&settings.options.trace, &settings.options.signals, &settings.options.events, &settings.picture}) {
@@ -106,6 +120,8 @@ int execute(RunSettings& settings, const rt::ProgramDesc& program) {
         rt::setUpStandardLibrary(controller);
         status = controller.prepare(program);
         if (status != rt::ExitStatus::Ended) return static_cast<int>(status);
+        LineDebugger debugger(controller);
+        if (settings.interactive) debugger.attach();
         status = controller.run();
         std::fflush(stdout);
         const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
@@ -135,9 +151,12 @@ int run(RunSettings& settings) {
             fmt::print(stderr, "rapidc run: {}\n", problem);
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
+    findStimulus(settings);
+    settings.stepping = settings.stepping || settings.interactive || stimulusSteps(settings.options.stimulus);
     ir::Module module;
-    const bool lowered = !compilation->sink.hasErrors() &&
-                         lowerToIr(*compilation, fs::path(settings.paths[0]).stem().string(), false, module);
+    const bool lowered =
+        !compilation->sink.hasErrors() &&
+        lowerToIr(*compilation, fs::path(settings.paths[0]).stem().string(), settings.stepping, module);
     printDiagnostics(*compilation);
     if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
     codegen::CodegenOptions options;
@@ -150,7 +169,6 @@ int run(RunSettings& settings) {
     }
     // The configuration is in the program already; reading it twice would define every signal twice.
     settings.options.configFiles.clear();
-    findStimulus(settings);
     if (!settings.picture.empty() && settings.options.trace.empty()) {
         fmt::print(stderr, "rapidc run: --picture is drawn from the trace: give --trace=FILE.csv too\n");
         return static_cast<int>(rt::ExitStatus::BadUsage);
@@ -176,6 +194,9 @@ void addRunCommand(CLI::App& app, int& status) {
     rt::addRunOptions(*command, settings->options, true);
     command->add_option("--picture", settings->picture, "Draw the path of the TCP from the trace (SVG)");
     command->add_flag("--summary", settings->summary, "Show cycle time and where the files lie");
+    command->add_flag("--step", settings->interactive,
+                      "Debug in the terminal: stop ahead of the first instruction and take commands (help)");
+    command->add_flag("--stepping", settings->stepping, "Compile for the stepping profile");
     command->add_flag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
     command->callback([settings, &status] { status = run(*settings); });
 }

@@ -34,6 +34,11 @@ Status rt_ExitCycle(TaskCore* task) {
     return taskOf(task).requestExitCycle();
 }
 
+Status rt_takeBackward(TaskCore* task, uint8_t* result) {
+    *result = taskOf(task).takeBackward() ? 1 : 0;
+    return kOk;
+}
+
 Status rt_exitProgram(TaskCore* task) {
     return taskOf(task).requestExit();
 }

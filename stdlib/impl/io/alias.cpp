@@ -2,7 +2,7 @@
 
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/support/fail.h"
-#include "stdlib/impl/support/format.h"
+#include "runtime/value/value_text.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"

@@ -2,7 +2,7 @@
 
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/support/fail.h"
-#include "stdlib/impl/support/format.h"
+#include "runtime/value/value_text.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
@@ -117,7 +117,7 @@ template <class Number>
 Status readNumber(TaskCore* task, Number* answer, const String* text, const Breaks& breaks) {
     double value = 0;
     bool answered = false;
-    const auto accept = [&value](const std::string& typed) { return lib::parseNumber(typed, value); };
+    const auto accept = [&value](const std::string& typed) { return parseRapidNumber(typed, value); };
     const Status status = Question(task, breaks).ask(dialogOf(text), accept, answered);
     if (answered) *answer = static_cast<Number>(value);
     return status;
@@ -139,7 +139,7 @@ Status rt_TPReadFK(TaskCore* task, float* TPAnswer, const String* TPText, const 
     const std::vector<std::string> keys = dialog.choices;
     double value = 0;
     const auto accept = [&](const std::string& answer) {
-        return lib::parseNumber(answer, value) && value >= 1 && value <= 5 && std::trunc(value) == value &&
+        return parseRapidNumber(answer, value) && value >= 1 && value <= 5 && std::trunc(value) == value &&
                !keys[static_cast<size_t>(value) - 1].empty();
     };
     bool answered = false;

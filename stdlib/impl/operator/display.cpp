@@ -2,7 +2,7 @@
 
 #include "runtime/host/controller.h"
 #include "stdlib/impl/support/fail.h"
-#include "stdlib/impl/support/format.h"
+#include "runtime/value/value_text.h"
 #include "stdlib/impl/support/utf8.h"
 
 #include "stdlib_natives.h"
@@ -14,7 +14,7 @@ namespace {
 std::string bracketed(std::initializer_list<float> values) {
     std::string out;
     for (const float value : values)
-        out += (out.empty() ? "[" : ",") + lib::formatDisplayNum(value);
+        out += (out.empty() ? "[" : ",") + formatDisplayNum(value);
     return out + "]";
 }
 
@@ -22,11 +22,11 @@ std::string bracketed(std::initializer_list<float> values) {
 std::string withValue(const String& text, const float* num, const bool* boolean, const data::Pos* pos,
                       const data::Orient* orient, const double* dnum) {
     std::string out(text.view());
-    if (num) out += lib::formatDisplayNum(*num);
+    if (num) out += formatDisplayNum(*num);
     if (boolean) out += *boolean ? "TRUE" : "FALSE";
     if (pos) out += bracketed({pos->x, pos->y, pos->z});
     if (orient) out += bracketed({orient->q1, orient->q2, orient->q3, orient->q4});
-    if (dnum) out += lib::formatDisplayDnum(*dnum);
+    if (dnum) out += formatDisplayDnum(*dnum);
     return out;
 }
 

@@ -1,7 +1,7 @@
 // Manual 1.19 and 1.6: conversions between strings and values.
 
 #include "stdlib/impl/support/fail.h"
-#include "stdlib/impl/support/format.h"
+#include "runtime/value/value_text.h"
 #include "stdlib/impl/support/utf8.h"
 
 #include "stdlib_constants.h"
@@ -26,7 +26,7 @@ Status decimalsText(TaskCore* task, String* result, double value, float dec, boo
     if (!(dec >= 0 && dec <= 80) || std::trunc(dec) != dec)
         return lib::fail(task, err::ERR_ARGVALERR,
                          "the number of decimals must be a whole number, not negative");
-    return store(task, result, lib::formatDecimals(value, static_cast<int>(dec), exponent));
+    return store(task, result, formatDecimals(value, static_cast<int>(dec), exponent));
 }
 
 /// All of `text` as an unsigned integer of this base, at most `limit`.
@@ -65,11 +65,11 @@ Status rt_DnumToStr(TaskCore* task, String* result, double Val, float Dec, bool 
 }
 
 Status rt_ValToStr(TaskCore* task, String* result, const void* Val, const TypeDesc* ValType) {
-    return store(task, result, lib::valueToText(Val, *ValType));
+    return store(task, result, valueToText(Val, *ValType));
 }
 
 Status rt_StrToVal(TaskCore*, bool* result, const String* Str, void* Val, const TypeDesc* ValType) {
-    *result = lib::textToValue(Str->view(), Val, *ValType);
+    *result = textToValue(Str->view(), Val, *ValType);
     return kOk;
 }
 

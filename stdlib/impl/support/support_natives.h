@@ -44,4 +44,8 @@ rt::Status rt_connect(rt::TaskCore* task, float* interrupt, void* trap);
 rt::Status rt_exitProgram(rt::TaskCore* task);
 /// A predefined routine was called that is declared only: the task stops with an event, never a silent no-op.
 rt::Status rt_notImplemented(rt::TaskCore* task, const rt::String* name);
+
+/// First thing a procedure with a BACKWARD part asks (manual 1.21): is this call executed backwards? Takes the order,
+/// so that calls inside are executed forwards.
+rt::Status rt_takeBackward(rt::TaskCore* task, uint8_t* result);
 }

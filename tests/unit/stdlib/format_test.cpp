@@ -1,6 +1,6 @@
 // Numbers and values as text: manual 1.10, 1.19.
 
-#include "stdlib/impl/support/format.h"
+#include "runtime/value/value_text.h"
 
 #include <catch2/catch.hpp>
 

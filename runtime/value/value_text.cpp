@@ -1,4 +1,4 @@
-#include "stdlib/impl/support/format.h"
+#include "runtime/value/value_text.h"
 
 #include <charconv>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <system_error>
 #include <vector>
 
-namespace rt::lib {
+namespace rt {
 
 namespace {
 
@@ -69,7 +69,7 @@ class ValueReader {
         size_t end = text_.find_first_of(",] \t", at_);
         if (end == std::string_view::npos) end = text_.size();
         double parsed = 0;
-        if (!parseNumber(text_.substr(at_, end - at_), parsed)) return false;
+        if (!parseRapidNumber(text_.substr(at_, end - at_), parsed)) return false;
         const T stored = static_cast<T>(parsed);
         if (!std::isfinite(stored)) return false;
         std::memcpy(out, &stored, sizeof stored);
@@ -242,7 +242,7 @@ bool textToValue(std::string_view text, void* data, const TypeDesc& type) {
     return true;
 }
 
-bool parseNumber(std::string_view text, double& value) {
+bool parseRapidNumber(std::string_view text, double& value) {
     while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
         text.remove_prefix(1);
     while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
@@ -263,4 +263,4 @@ bool parseNumber(std::string_view text, double& value) {
     return true;
 }
 
-} // namespace rt::lib
+} // namespace rt

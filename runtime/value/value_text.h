@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace rt::lib {
+namespace rt {
 
 /// A num as the controller writes it: integers within +-8388608 in full, otherwise 6 significant digits,
 /// "1.5E-07" when the exponent is below -4 or at least 6.
@@ -28,6 +28,6 @@ std::string valueToText(const void* data, const TypeDesc& type);
 bool textToValue(std::string_view text, void* data, const TypeDesc& type);
 
 /// Reads a RAPID number (sign, decimals, exponent, 0x 0o 0b), the whole text, blanks around it allowed.
-bool parseNumber(std::string_view text, double& value);
+bool parseRapidNumber(std::string_view text, double& value);
 
-} // namespace rt::lib
+} // namespace rt

@@ -1,0 +1,342 @@
+// Orders, stops and breakpoints. Looking at data: debugger_data.cpp; stepping backward: debugger_backward.cpp.
+
+#include "runtime/debug/debugger.h"
+
+#include "runtime/host/controller.h"
+#include "runtime/io/text_util.h"
+#include "runtime/sched/error_search.h"
+#include "runtime/sched/interrupts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rt {
+namespace {
+
+std::size_t depthOf(const Frame* frame) {
+    std::size_t depth = 0;
+    for (; frame != nullptr; frame = frame->caller)
+        ++depth;
+    return depth;
+}
+
+std::string_view fileName(std::string_view path) {
+    return path.substr(path.find_last_of('/') + 1);
+}
+
+/// `where`: module, file name or path, without regard to case.
+bool isPlace(const RoutineDesc& routine, std::string_view where) {
+    const std::string_view file = routine.file != nullptr ? routine.file : "";
+    if (sameName(routine.module, where) || sameName(file, where) || sameName(fileName(file), where))
+        return true;
+    const std::string_view name = fileName(file);
+    return sameName(name.substr(0, name.find_last_of('.')), where);
+}
+
+} // namespace
+
+bool Debugger::available() const {
+    const ProgramDesc& program = controller_.program();
+    for (uint32_t i = 0; i < program.routineCount; ++i)
+        if (program.routines[i].desc->stepping != 0) return true;
+    return false;
+}
+
+void Debugger::stopAtEntry() {
+    for (const auto& task : controller_.tasks()) {
+        if (task->kind() != TaskKind::Normal) continue;
+        stateOf(*task).mode = Mode::In;
+        stateOf(*task).entry = true;
+    }
+}
+
+bool Debugger::poll() {
+    // UNDO handlers run first.
+    for (const auto& task : controller_.tasks())
+        if (task->isUnwinding()) return quit_;
+    while (client_ != nullptr && stoppedTask_ != nullptr && !quit_) {
+        Task& task = *stoppedTask_;
+        stoppedTask_ = nullptr;
+        client_->stopped(*this, task, stopReason_);
+    }
+    return quit_;
+}
+
+void Debugger::noteStop(Task& task, StopReason reason) {
+    if (stoppedTask_ != nullptr) return;
+    stoppedTask_ = &task;
+    stopReason_ = reason;
+}
+
+// ---- Breakpoints ---------------------------------------------------------------------------------------------------
+
+Breakpoint Debugger::addBreakpoint(std::string_view where, uint32_t line) {
+    Breakpoint breakpoint{++lastBreakpoint_, std::string(where), line, 0};
+    const ProgramDesc& program = controller_.program();
+    // The nearest statement at or below the line that can be stopped at.
+    for (uint32_t i = 0; i < program.routineCount; ++i) {
+        const RoutineDesc& routine = *program.routines[i].desc;
+        if (!isPlace(routine, where)) continue;
+        for (uint32_t s = 0; s < routine.statementCount; ++s) {
+            const StmtDesc& statement = routine.statements[s];
+            if (statement.canStart == 0 || statement.line < line) continue;
+            if (breakpoint.actualLine == 0 || statement.line < breakpoint.actualLine)
+                breakpoint.actualLine = statement.line;
+        }
+    }
+    breakpoints_.push_back(breakpoint);
+    stops_.clear();
+    return breakpoint;
+}
+
+bool Debugger::removeBreakpoint(int id) {
+    stops_.clear();
+    return std::erase_if(breakpoints_, [id](const Breakpoint& b) { return b.id == id; }) > 0;
+}
+
+bool Debugger::isBreakpoint(const Frame& at) {
+    if (breakpoints_.empty()) return false;
+    auto [found, isNew] = stops_.try_emplace(at.routine);
+    std::vector<bool>& marks = found->second;
+    if (isNew) {
+        marks.assign(at.routine->statementCount, false);
+        for (const Breakpoint& breakpoint : breakpoints_) {
+            if (breakpoint.actualLine == 0 || !isPlace(*at.routine, breakpoint.file)) continue;
+            // Several statements in a line: the first one stops.
+            for (uint32_t s = 0; s < at.routine->statementCount; ++s) {
+                const StmtDesc& statement = at.routine->statements[s];
+                if (statement.canStart == 0 || statement.line != breakpoint.actualLine) continue;
+                marks[s] = true;
+                break;
+            }
+        }
+    }
+    return marks[static_cast<std::size_t>(at.statement)];
+}
+
+// ---- Ahead of every statement --------------------------------------------------------------------------------------
+
+int32_t Debugger::beforeStatement(Task& task, Frame* at) {
+    State& state = stateOf(task);
+    const int32_t here = at->statement;
+    if (state.jumped) { // the statement chosen begins with a question of its own
+        state.jumped = false;
+        return here;
+    }
+    StopReason reason = StopReason::Step;
+    if (state.backwardFrame == at) {
+        finishBackward(task, state, at);
+    } else if (state.pendingBackward) {
+        state.pendingBackward = false;
+        if (const std::string problem = startBackward(task, state, at); !problem.empty())
+            controller_.log().write(EventId::StepRefused, &task, {"Stepping backward", problem});
+        if (state.backwardFrame != nullptr) return goOn(state, at, here);
+    } else if (!shouldStop(state, at, reason)) {
+        return here;
+    }
+    return stopHere(task, state, at, here, reason);
+}
+
+bool Debugger::shouldStop(State& state, Frame* at, StopReason& reason) {
+    if (state.mode != Mode::Backward && isBreakpoint(*at)) {
+        reason = StopReason::Breakpoint;
+        return true;
+    }
+    if (state.mode == Mode::Run || at->routine->noStepIn != 0) return false;
+    if (state.passFirst) {
+        state.passFirst = false;
+        return false;
+    }
+    const StmtDesc& statement = at->routine->statements[at->statement];
+    reason = state.entry ? StopReason::Entry : StopReason::Step;
+    switch (state.mode) {
+    case Mode::Run: return false;
+    case Mode::Backward: return (statement.flags & kStmtInBackward) != 0;
+    case Mode::In: return true;
+    case Mode::Over: return depthOf(at) <= state.depth;
+    case Mode::Out: return depthOf(at) < state.depth;
+    case Mode::Move: return (statement.flags & kStmtMovement) != 0;
+    case Mode::Cursor:
+        reason = StopReason::Cursor;
+        return isPlace(*at->routine, state.cursorPlace) && statement.line == state.cursorLine;
+    }
+    return false;
+}
+
+/// `here` is the statement that the compiled code stands at.
+int32_t Debugger::goOn(State& state, const Frame* at, int32_t here) {
+    state.jumped = at->statement != here;
+    return at->statement;
+}
+
+/// Stands still ahead of at->statement; the program pointer may be moved meanwhile.
+int32_t Debugger::stopHere(Task& task, State& state, Frame* at, int32_t here, StopReason reason) {
+    state.entry = false;
+    state.mode = Mode::Run;
+    state.standing = at;
+    noteStop(task, reason);
+    task.setStepwise(true);
+    task.stop(StopCause::Step);
+    controller_.stopNormalTasks(StopCause::Order);
+    controller_.motion().programStop();
+    const Status status = task.suspendStopped();
+    state.standing = nullptr;
+    if (status < 0) {
+        state.backwardFrame = nullptr;
+        state.backwardLast = false;
+        return status;
+    }
+    return goOn(state, at, here);
+}
+
+bool Debugger::isBackward(const Task& task) const {
+    const auto found = states_.find(&task);
+    return found != states_.end() && found->second.backwardFrame != nullptr;
+}
+
+// ---- Orders --------------------------------------------------------------------------------------------------------
+
+std::string Debugger::refusal(const Task& task) const {
+    if (task.state() == TaskState::Finished) return fmt::format("task {} has ended", task.name());
+    if (!task.isStopped()) return fmt::format("task {} is executing: stop it first", task.name());
+    if (!available()) return "the program was not compiled for stepping";
+    if (!task.canResume())
+        return fmt::format(
+            "task {} was stopped by an error and cannot go on from there: move its program pointer",
+            task.name());
+    return "";
+}
+
+/// One task is stepped, the others execute until it stands still again.
+std::string Debugger::begin(Task& task, Mode mode, bool alone) {
+    if (std::string problem = refusal(task); !problem.empty()) return problem;
+    State& state = stateOf(task);
+    const bool forward = mode != Mode::Backward;
+    if (forward && state.backwardLast && state.standing != nullptr && mode != Mode::Run) {
+        if (turnForward(task, state)) {
+            noteStop(task, StopReason::Step);
+            return "";
+        }
+    }
+    state.mode = mode;
+    state.passFirst = task.stopCause() == StopCause::AtMain && mode != Mode::Cursor;
+    state.depth = depthOf(state.standing != nullptr ? state.standing : task.frame);
+    task.setStepwise(mode != Mode::Run && mode != Mode::Cursor);
+    for (const auto& other : controller_.tasks()) {
+        if (alone || other.get() == &task || other->kind() != TaskKind::Normal || !other->isStopped())
+            continue;
+        other->setStepwise(false);
+        if (other->canResume()) other->resume();
+    }
+    controller_.motion().programStart();
+    task.resume();
+    return "";
+}
+
+void Debugger::continuous(Task& task) {
+    State& state = stateOf(task);
+    if (state.backwardLast && state.standing != nullptr) turnForward(task, state);
+    state.mode = Mode::Run;
+    task.setStepwise(false);
+}
+
+std::string Debugger::run() {
+    for (const auto& task : controller_.tasks()) {
+        if (task->kind() != TaskKind::Normal || !task->isStopped() || task->state() == TaskState::Finished)
+            continue;
+        continuous(*task);
+        if (std::string problem = begin(*task, Mode::Run, true); !problem.empty()) return problem;
+    }
+    return "";
+}
+
+std::string Debugger::stepTogether(Task& task, bool forward) {
+    return forward ? begin(task, Mode::In, true) : stepBackward(task);
+}
+
+std::string Debugger::stepIn(Task& task) {
+    return begin(task, Mode::In);
+}
+std::string Debugger::stepOver(Task& task) {
+    return begin(task, Mode::Over);
+}
+std::string Debugger::stepOut(Task& task) {
+    return begin(task, Mode::Out);
+}
+std::string Debugger::stepMove(Task& task) {
+    return begin(task, Mode::Move);
+}
+
+std::string Debugger::runToLine(Task& task, std::string_view where, uint32_t line) {
+    bool exists = false;
+    const ProgramDesc& program = controller_.program();
+    for (uint32_t i = 0; i < program.routineCount && !exists; ++i) {
+        const RoutineDesc& routine = *program.routines[i].desc;
+        if (!isPlace(routine, where)) continue;
+        for (uint32_t s = 0; s < routine.statementCount; ++s)
+            exists = exists || (routine.statements[s].canStart != 0 && routine.statements[s].line == line);
+    }
+    if (!exists) return fmt::format("no instruction begins in line {} of {}", line, where);
+    State& state = stateOf(task);
+    state.cursorPlace = std::string(where);
+    state.cursorLine = line;
+    return begin(task, Mode::Cursor);
+}
+
+// ---- Program pointer -----------------------------------------------------------------------------------------------
+
+std::string Debugger::pointerToLine(Task& task, uint32_t line) {
+    if (std::string problem = refusal(task); !problem.empty()) return problem;
+    State& state = stateOf(task);
+    if (state.standing == nullptr) return "the task does not stand ahead of an instruction: step it first";
+    const RoutineDesc& routine = *state.standing->routine;
+    for (uint32_t s = 0; s < routine.statementCount; ++s) {
+        const StmtDesc& statement = routine.statements[s];
+        if (statement.canStart == 0 || statement.line != line) continue;
+        if ((statement.flags & (kStmtInBackward | kStmtInHandler)) != 0)
+            return "the program pointer cannot be moved into a handler";
+        state.standing->statement = static_cast<int32_t>(s);
+        state.backwardLast = false;
+        state.backwardFrame = nullptr;
+        controller_.motion().clearPath();
+        return "";
+    }
+    return fmt::format("no instruction of routine {} begins in line {}", routine.name, line);
+}
+
+std::string Debugger::pointerToRoutine(Task& task, std::string_view name) {
+    if (task.state() == TaskState::Finished) return fmt::format("task {} has ended", task.name());
+    if (!task.isStopped()) return fmt::format("task {} is executing: stop it first", task.name());
+    const std::size_t colon = name.find(':');
+    const std::string_view module = colon == std::string_view::npos ? "" : name.substr(0, colon);
+    const RoutineEntry* routine = controller_.findRoutine(
+        colon == std::string_view::npos ? name : name.substr(colon + 1), module, task);
+    if (routine == nullptr) return fmt::format("there is no routine '{}' in task {}", name, task.name());
+    if (routine->desc->callable == 0)
+        return fmt::format("'{}' is no procedure without parameters", routine->name);
+    controller_.motion().clearPath();
+    task.moveToRoutine(reinterpret_cast<EntryFunction>(routine->address));
+    forget(task);
+    noteStop(task, StopReason::Pointer);
+    return "";
+}
+
+std::string Debugger::pointerToMain() {
+    for (const auto& task : controller_.tasks())
+        if (task->kind() == TaskKind::Normal && task->isExecuting())
+            return fmt::format("task {} is executing: stop it first", task->name());
+    controller_.actionPpToMain();
+    for (const auto& task : controller_.tasks())
+        forget(*task);
+    return "";
+}
+
+void Debugger::forget(const Task& task) {
+    State& state = stateOf(task);
+    state.backwardFrame = nullptr;
+    state.backwardLast = state.backwardTop = state.pendingBackward = false;
+    state.mode = Mode::Run;
+}
+
+} // namespace rt

@@ -1,0 +1,22 @@
+#pragma once
+// What decides, ahead of every statement of the stepping profile, whether a task goes on (runtime/debug).
+
+#include "runtime/abi/rt_abi.h"
+
+namespace rt {
+
+class Task;
+
+class StepHook {
+  public:
+    /// Called on the task's fibre with at->statement about to be executed. May stop the task. Returns the number of
+    /// the statement of `at` to go on with, or a negative status.
+    virtual int32_t beforeStatement(Task& task, Frame* at) = 0;
+    /// An error in a statement that is executed backwards cannot be handled (manual 1.21).
+    virtual bool isBackward(const Task& task) const = 0;
+
+  protected:
+    ~StepHook() = default;
+};
+
+} // namespace rt
