@@ -52,10 +52,10 @@ void Debugger::stopAtEntry() {
 }
 
 bool Debugger::poll() {
-    // UNDO handlers run first.
-    for (const auto& task : controller_.tasks())
-        if (task->isUnwinding()) return quit_;
+    const auto isUnwinding = [](const auto& task) { return task->isUnwinding(); };
     while (client_ != nullptr && stoppedTask_ != nullptr && !quit_) {
+        // UNDO handlers run first.
+        if (std::any_of(controller_.tasks().begin(), controller_.tasks().end(), isUnwinding)) return false;
         Task& task = *stoppedTask_;
         stoppedTask_ = nullptr;
         client_->stopped(*this, task, stopReason_);
@@ -188,6 +188,18 @@ int32_t Debugger::stopHere(Task& task, State& state, Frame* at, int32_t here, St
         return status;
     }
     return goOn(state, at, here);
+}
+
+Status Debugger::stopInside(Task& task) {
+    State& state = stateOf(task);
+    if (state.mode == Mode::Run || state.mode == Mode::Cursor) return kOk;
+    state.insideCircle = true;
+    noteStop(task, StopReason::CirclePoint);
+    task.stop(StopCause::Step);
+    controller_.stopNormalTasks(StopCause::Order);
+    const Status status = task.suspendStopped();
+    state.insideCircle = false;
+    return status;
 }
 
 bool Debugger::isBackward(const Task& task) const {

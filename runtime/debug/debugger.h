@@ -20,12 +20,13 @@ class Debugger;
 enum class StopReason : uint8_t {
     Entry, ///< ahead of the first statement
     Breakpoint,
-    Step,    ///< a step is done
-    Cursor,  ///< run to cursor
-    Order,   ///< stop order
-    Stop,    ///< Stop or DebugBreak was executed
-    Error,   ///< system handler
-    Pointer, ///< the program pointer was moved
+    Step,        ///< a step is done
+    CirclePoint, ///< a step forward ended at the circle point of a MoveC
+    Cursor,      ///< run to cursor
+    Order,       ///< stop order
+    Stop,        ///< Stop or DebugBreak was executed
+    Error,       ///< system handler
+    Pointer,     ///< the program pointer was moved
 };
 
 /// Called by the scheduler's thread, outside all tasks, when the program stands still. Gives orders to the debugger and
@@ -109,6 +110,8 @@ class Debugger final : public StepHook {
     void noteStop(Task& task, StopReason reason);
     /// `start` after steps: continuous execution.
     void continuous(Task& task);
+    /// Stands still inside an instruction (at the circle point of a MoveC).
+    Status stopInside(Task& task);
 
     // ---- StepHook
     int32_t beforeStatement(Task& task, Frame* at) override;
@@ -124,6 +127,7 @@ class Debugger final : public StepHook {
         std::string cursorPlace; ///< run to cursor
         uint32_t cursorLine = 0;
         Frame* standing = nullptr; ///< the task stands ahead of a statement of this frame
+        bool insideCircle = false; ///< at a circle point
         bool jumped = false;       ///< another statement was chosen; its own question is passed over
         // Backward execution
         bool pendingBackward = false;   ///< ordered while the task stood inside a statement

@@ -42,6 +42,11 @@ std::string Debugger::stepBackward(Task& task) {
     if (std::string problem = refusal(task); !problem.empty()) return problem;
     State& state = stateOf(task);
     Frame* at = state.standing;
+    if (state.insideCircle) {
+        const std::string problem = "the direction cannot be changed while the robot executes MoveC";
+        controller_.log().write(EventId::StepRefused, &task, {"Stepping backward", problem});
+        return problem;
+    }
     if (at == nullptr) { // inside an instruction: it is finished first
         state.pendingBackward = true;
         return begin(task, Mode::Backward, true);

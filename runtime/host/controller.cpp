@@ -85,6 +85,7 @@ const RoutineEntry* Controller::findRoutine(std::string_view name, std::string_v
 // ---- Run -----------------------------------------------------------------------------------------------------------
 
 ExitStatus Controller::run() {
+    motion_->setCirclePointStop([this](Task& task) { return debugger_.stopInside(task); });
     scheduleStimulus();
     for (const auto& task : tasks_)
         scheduler_.add(*task);

@@ -105,9 +105,26 @@ void MotionDriver::schedule() {
 
 Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::MoveId& id,
                            std::optional<motion::MotionError>& error) {
-    error.reset();
     MotionPointer pointer = pointerOf(task, command);
     if (backward_ && pointer_.valid) command = reversed(command, pointer_.command);
+    std::vector<motion::MoveCommand> parts;
+    if (command.kind == motion::MoveKind::Circular && task.isStepwise() && !backward_ && circlePointStop_)
+        parts = motion::splitAtCirclePoint(command, system().currentTarget(command.frames).pose);
+    if (parts.empty()) parts.push_back(std::move(command));
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (i > 0) {
+            if (const Status status = circlePointStop_(task); status < 0) return status;
+        }
+        if (const Status status = submit(task, std::move(parts[i]), id, error); status < 0 || error)
+            return status;
+    }
+    pointer_ = std::move(pointer);
+    return kOk;
+}
+
+Status MotionDriver::submit(Task& task, motion::MoveCommand command, motion::MoveId& id,
+                            std::optional<motion::MotionError>& error) {
+    error.reset();
     command.tag = instructions_ + 1;
     WaitResult result{};
     for (;;) {
@@ -127,7 +144,6 @@ Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::Move
         if (status < 0) return status;
     }
     ++instructions_;
-    pointer_ = std::move(pointer);
     refresh();
     // In steps every movement is finished before the next instruction.
     if (task.isStepwise()) return waitDone(task, id);

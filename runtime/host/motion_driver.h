@@ -46,6 +46,8 @@ class MotionDriver {
     /// counted from 1.
     Status order(Task& task, motion::MoveCommand command, motion::MoveId& id,
                  std::optional<motion::MotionError>& error);
+    /// Called between the two parts of a circle that is stepped forward: stops the task there.
+    void setCirclePointStop(std::function<Status(Task&)> stop) { circlePointStop_ = std::move(stop); }
     Status waitDone(Task& task, motion::MoveId id);
     /// Until no move is unfinished (WaitRob \InPos) or no axis moves (\ZeroSpeed).
     Status waitIdle(Task& task);
@@ -77,6 +79,8 @@ class MotionDriver {
     void finishTrace();
 
   private:
+    Status submit(Task& task, motion::MoveCommand command, motion::MoveId& id,
+                  std::optional<motion::MotionError>& error);
     void advance(Time time);
     void handle(const motion::MotionEvent& event);
     void schedule();
@@ -96,6 +100,7 @@ class MotionDriver {
     bool stopMove_ = false, programStop_ = false;
     MotionPointer pointer_;
     bool backward_ = false;
+    std::function<Status(Task&)> circlePointStop_;
     bool advancing_ = false;
 };
 

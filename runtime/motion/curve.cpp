@@ -107,4 +107,25 @@ Pose CartesianCurve::at(double s) const {
     return {centre_ + rotate(carry, spoke_), turn(carry * start_.rot, twist_, s)};
 }
 
+std::vector<MoveCommand> splitAtCirclePoint(const MoveCommand& command, const Pose& start) {
+    const auto arc = CartesianCurve::arc(start, command.circlePoint, command.target.pose);
+    if (!arc) return {};
+    const Vec3 from = start.pos - arc->centre(), via = command.circlePoint.pos - arc->centre();
+    constexpr double kDegrees = 57.29577951308232;
+    double angle = std::atan2(dot(arc->axis(), cross(from, via)), dot(from, via)) * kDegrees;
+    if (angle <= 0) angle += 360;
+    const double part = angle / arc->sweepDeg();
+    if (!(part > 0 && part < 1)) return {};
+    std::vector<MoveCommand> halves{command, command};
+    halves[0].target.pose = arc->at(part);
+    halves[0].circlePoint = arc->at(part / 2);
+    halves[0].zone = {};
+    halves[0].confL = false; // the configuration is programmed for the target
+    halves[0].triggers.clear();
+    halves[0].duration = command.duration * part;
+    halves[1].circlePoint = arc->at((1 + part) / 2);
+    halves[1].duration = command.duration * (1 - part);
+    return halves;
+}
+
 } // namespace motion

@@ -48,6 +48,10 @@ struct PathNode {
 };
 
 /// One move with its start state, resolved to a path in joint space.
+/// A circular move in two: start to circle point, circle point to target, on the same circle (stepwise execution stops
+/// at the circle point, manual 1.21). `start`: TCP in the object frame. Empty when there is no such circle.
+std::vector<MoveCommand> splitAtCirclePoint(const MoveCommand& command, const Pose& start);
+
 class MotionPath {
   public:
     MotionPath() = default; ///< stands still with all axes at 0

@@ -107,7 +107,8 @@ def matches_json(expected, actual):
 
 
 class ProgramTest:
-    """A program (one file, or a folder) and beside it what it prints; run in memory and as a built executable."""
+    """A program (one file, or a folder) and beside it what it prints; run in memory, as a built executable, and in the
+    stepping profile."""
 
     def __init__(self, path, stem, defaults=None):
         self.path = path    # file or folder given to rapidc
@@ -152,7 +153,7 @@ class ProgramTest:
         expected_status = int(directives.get("exit", "0"))
         timeout = float(directives.get("timeout", "30"))
         problems = []
-        for mode in directives.get("modes", "jit aot").split():
+        for mode in directives.get("modes", "jit aot step").split():
             if mode not in context.modes:
                 continue
             outputs = {".signals": os.path.join(scratch, mode + ".signals.csv"),
@@ -162,8 +163,9 @@ class ProgramTest:
                 extra.append("--signals=" + outputs[".signals"])
             if self.expectation(".events"):
                 extra.append("--events=" + outputs[".events"])
-            if mode == "jit":
-                command = [context.rapidc, "run", *inputs, *compile_options, *run_options, *extra]
+            if mode in ("jit", "step"):
+                profile = ["--stepping"] if mode == "step" else []
+                command = [context.rapidc, "run", *profile, *inputs, *compile_options, *run_options, *extra]
             elif mode == "aot":
                 program = os.path.join(scratch, "program")
                 build = [context.rapidc, "build", *inputs, *compile_options, "-o", program]

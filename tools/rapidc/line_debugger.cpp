@@ -3,6 +3,7 @@
 #include "runtime/io/text_util.h"
 
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
 #include <fstream>
@@ -18,6 +19,7 @@ const char* reasonText(rt::StopReason reason) {
     case rt::StopReason::Entry: return "ready";
     case rt::StopReason::Breakpoint: return "breakpoint";
     case rt::StopReason::Step: return "step";
+    case rt::StopReason::CirclePoint: return "circle point";
     case rt::StopReason::Cursor: return "cursor";
     case rt::StopReason::Order: return "stop order";
     case rt::StopReason::Stop: return "Stop";
@@ -72,6 +74,8 @@ const std::vector<LineDebugger::Command>& LineDebugger::commands() {
         {"tasks", "", "list the tasks", &D::tasks},
         {"task", "NAME", "look at another task", &D::selectTask},
         {"list l", "", "show the program around the place", &D::list},
+        {"robot r", "", "show the time and where the TCP is (tool and work object of the last movement)",
+         &D::robot},
         {"help h", "", "show this list", &D::help},
         {"quit q", "", "end the run", &D::quit},
     };
@@ -339,6 +343,20 @@ bool LineDebugger::list(std::string_view) {
     const std::size_t here = at->place.line;
     for (std::size_t n = here > 5 ? here - 5 : 1; n <= std::min(here + 5, lines.size()); ++n)
         fmt::print("{} {:4}  {}\n", n == here ? "->" : "  ", n, lines[n - 1]);
+    return false;
+}
+
+bool LineDebugger::robot(std::string_view) {
+    rt::MotionDriver& motion = controller_.motion();
+    const auto target = motion.system().currentTarget(motion.pointer().command.frames);
+    const auto joints = motion.system().currentJoints();
+    // Adding 0 turns -0 into 0.
+    const auto rounded = [](double value) { return std::round(value * 100) / 100 + 0.0; };
+    fmt::print("{:.3f} s  [{:.2f},{:.2f},{:.2f}]  axes", rt::toSeconds(controller_.scheduler().now()),
+               rounded(target.pose.pos.x), rounded(target.pose.pos.y), rounded(target.pose.pos.z));
+    for (const double axis : joints.robax)
+        fmt::print(" {:.2f}", rounded(axis));
+    fmt::print("\n");
     return false;
 }
 

@@ -52,6 +52,7 @@ class LineDebugger final : public rt::DebugClient {
     bool tasks(std::string_view);
     bool selectTask(std::string_view);
     bool list(std::string_view);
+    bool robot(std::string_view);
     bool quit(std::string_view);
 
     /// Shows what stood in the way of an order; true when nothing did.

@@ -14,7 +14,7 @@
 
 namespace testing {
 
-inline constexpr rt::StmtDesc kHandled{1, 1, 1, 2, 0, 1, {0, 0}};
+inline constexpr rt::StmtDesc kHandled{1, 1, 1, 2, 0, 1, 0, 0, -1};
 
 /// A routine of `lines` statements on lines 1, 2, 3 ...; `handled` of them, from the first, are covered by a handler.
 struct Routine {
@@ -25,7 +25,7 @@ struct Routine {
     Routine(const char* name, uint32_t lines, uint32_t handled = 0, std::vector<int32_t> errors = {})
         : filter(std::move(errors)) {
         for (uint32_t line = 1; line <= lines; ++line) {
-            statements.push_back({line, 3, line, 20, 0, static_cast<uint8_t>(line <= handled), {0, 0}});
+            statements.push_back({line, 3, line, 20, 0, static_cast<uint8_t>(line <= handled), 0, 0, -1});
         }
         desc.name = name;
         desc.module = "TestModule";

@@ -7,7 +7,7 @@
 #include <cstring>
 
 using namespace rt;
-using namespace rt::lib;
+using namespace rt;
 
 namespace {
 
@@ -75,15 +75,15 @@ TEST_CASE("NumToStr writes the decimals asked for", "[stdlib][format]") {
 
 TEST_CASE("numbers are read by the rules of num literals, with a sign", "[stdlib][format]") {
     double v = -1;
-    CHECK((parseNumber("3.85", v) && v == 3.85));
-    CHECK((parseNumber(" -2.5E1 ", v) && v == -25));
-    CHECK((parseNumber(".5", v) && v == 0.5));
-    CHECK((parseNumber("5.", v) && v == 5));
-    CHECK((parseNumber("0x1F", v) && v == 31));
-    CHECK((parseNumber("0b101", v) && v == 5));
-    CHECK((parseNumber("0o17", v) && v == 15));
+    CHECK((parseRapidNumber("3.85", v) && v == 3.85));
+    CHECK((parseRapidNumber(" -2.5E1 ", v) && v == -25));
+    CHECK((parseRapidNumber(".5", v) && v == 0.5));
+    CHECK((parseRapidNumber("5.", v) && v == 5));
+    CHECK((parseRapidNumber("0x1F", v) && v == 31));
+    CHECK((parseRapidNumber("0b101", v) && v == 5));
+    CHECK((parseRapidNumber("0o17", v) && v == 15));
     for (const char* bad : {"", "robot", "1 2", "--1", "inf", "nan", "1e", "0x", "0b2", "1,5"})
-        CHECK_FALSE(parseNumber(bad, v));
+        CHECK_FALSE(parseRapidNumber(bad, v));
 }
 
 TEST_CASE("records, strings and arrays as text and back", "[stdlib][format]") {
