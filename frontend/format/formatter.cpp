@@ -87,9 +87,19 @@ class Formatter {
   private:
     bool inRange(uint32_t line) const { return line >= request_.firstLine && line <= request_.lastLine; }
 
+    /// Adds an edit for the part of `range` that differs.
     void replace(SourceRange range, std::string text) {
-        if (text_.substr(range.begin, range.end - range.begin) != text)
-            edits_.push_back({range, std::move(text)});
+        const std::string_view old = text_.substr(range.begin, range.end - range.begin);
+        const size_t shorter = std::min(old.size(), text.size());
+        size_t head = 0, tail = 0;
+        while (head < shorter && old[head] == text[head])
+            ++head;
+        while (tail < shorter - head && old[old.size() - 1 - tail] == text[text.size() - 1 - tail])
+            ++tail;
+        if (head + tail == old.size() && old.size() == text.size()) return;
+        edits_.push_back(
+            {{range.begin + static_cast<uint32_t>(head), range.end - static_cast<uint32_t>(tail)},
+             text.substr(head, text.size() - head - tail)});
     }
 
     std::string indentation(const Gap& gap) const {

@@ -144,6 +144,7 @@ class Leveller {
             blocks_.resize(1);
             return begin(plan, 0);
         }
+        if (kind == K::FileHeader) return begin(plan, 0);
         if (kEnds.has(kind)) return close(plan);
         if (kMiddles.has(kind)) return middle(plan);
         if (plan.has(kCompactBody) && plan.has(kBeginsLine)) {

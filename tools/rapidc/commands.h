@@ -13,5 +13,6 @@ void addRunCommand(CLI::App& app, int& status);
 void addEmitCommand(CLI::App& app, int& status);
 void addExplainCommand(CLI::App& app, int& status);
 void addBuiltinsCommand(CLI::App& app, int& status);
+void addFmtCommand(CLI::App& app, int& status);
 
 } // namespace rapidc

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
     rapidc::addEmitCommand(app, status);
     rapidc::addExplainCommand(app, status);
     rapidc::addBuiltinsCommand(app, status);
+    rapidc::addFmtCommand(app, status);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {
