@@ -78,6 +78,17 @@ void Interner::grow() {
     }
 }
 
+std::string foldName(std::string_view name) {
+    std::string out(name);
+    unsigned char previous = 0;
+    for (char& ch : out) {
+        const auto c = static_cast<unsigned char>(ch);
+        ch = static_cast<char>(foldByte(c, previous));
+        previous = c;
+    }
+    return out;
+}
+
 unsigned editDistance(std::string_view a, std::string_view b, unsigned limit) {
     constexpr size_t kLongest = 64;
     if (a.size() > b.size()) std::swap(a, b);

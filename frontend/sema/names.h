@@ -78,6 +78,9 @@ template <class T> class NameMap {
     size_t count_ = 0;
 };
 
+/// The folded spelling of a name that is not interned.
+std::string foldName(std::string_view name);
+
 /// How many edits may lie between a name and what was probably meant by it.
 inline unsigned suggestionLimit(size_t length) {
     return length < 6 ? 1 : length < 9 ? 2 : 3;

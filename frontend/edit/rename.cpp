@@ -1,0 +1,264 @@
+#include "frontend/edit/rename.h"
+
+#include "frontend/edit/apply_edits.h"
+#include "frontend/sema/names.h"
+#include "frontend/sema/references.h"
+#include "frontend/syntax/lexer.h"
+#include "frontend/syntax/token_set.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+namespace rapid::edit {
+
+using namespace syntax;
+using sema::Reference;
+using sema::Symbol;
+using sema::SymbolKind;
+
+namespace {
+
+constexpr size_t kMaxNameLength = 32; // manual 1.1.2
+
+/// A declaration as a place, equal in the checks before and after: files keep their number of tokens.
+struct Site {
+    std::string path;
+    TokenIndex token = kNoToken;
+    auto operator<=>(const Site&) const = default;
+};
+
+bool isConfigured(const Symbol& symbol) {
+    return symbol.kind == SymbolKind::Data &&
+           static_cast<const sema::DataSymbol&>(symbol).storage == sema::Storage::Signal;
+}
+
+/// Predefined names and configured objects have no place in the files of the program: their name stands for it.
+Site siteOf(const Symbol& symbol) {
+    if (symbol.predefined || isConfigured(symbol) || !symbol.module)
+        return {sema::foldName(symbol.name), kNoToken};
+    return {symbol.module->tree->source->path(), symbol.nameToken};
+}
+
+std::string placeOf(const SyntaxTree& tree, TokenIndex token) {
+    const LineColumn at = tree.source->lineColumn(tree.tokens[token].offset);
+    return fmt::format("{}:{}:{}", tree.source->path(), at.line, at.column);
+}
+
+/// "MODULE.NAME" or "MODULE.ROUTINE.NAME"
+std::string pathOf(const Symbol& symbol) {
+    const sema::RoutineSymbol* routine = nullptr;
+    if (symbol.kind == SymbolKind::Data) routine = static_cast<const sema::DataSymbol&>(symbol).routine;
+    if (symbol.kind == SymbolKind::Label) routine = static_cast<const sema::LabelSymbol&>(symbol).routine;
+    const std::string module = symbol.module ? symbol.module->name + "." : "";
+    return routine ? module + routine->name + "." + symbol.name : module + symbol.name;
+}
+
+bool isSharedPersistent(const Symbol& symbol) {
+    if (symbol.kind != SymbolKind::Data || symbol.isLocal) return false;
+    const auto& data = static_cast<const sema::DataSymbol&>(symbol);
+    return data.storage == sema::Storage::ModuleData && data.dataKind == DataKind::Pers &&
+           data.scope == ScopeWord::None;
+}
+
+size_t characters(std::string_view name) {
+    return static_cast<size_t>(std::count_if(
+        name.begin(), name.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+std::string checkNewName(std::string_view name, const sema::CheckedProgram& program) {
+    const std::string text(name);
+    const LexResult lexed = lex(text);
+    const bool word =
+        lexed.tokens.size() == 2 && lexed.errors.empty() && lexed.tokens[0].length == name.size();
+    if (word && isKeyword(lexed.tokens[0].kind))
+        return fmt::format("'{}' is a word of the language: choose another name", name);
+    if (!word || lexed.tokens[0].kind != TokenKind::Identifier)
+        return fmt::format("'{}' is no name: expected letters, digits and '_', a letter first", name);
+    if (characters(name) > kMaxNameLength)
+        return fmt::format("'{}' has more than {} characters", name, kMaxNameLength);
+    const std::string folded = sema::foldName(name);
+    for (const sema::Module* module : program.predefinedModules) {
+        const auto has = [&](const auto& symbols) {
+            return std::any_of(symbols.begin(), symbols.end(),
+                               [&](const auto* symbol) { return sema::foldName(symbol->name) == folded; });
+        };
+        if (has(module->types) || has(module->data) || has(module->routines))
+            return fmt::format("'{}' is predefined: choose another name, so that it is not hidden", name);
+    }
+    return {};
+}
+
+class Renamer {
+  public:
+    Renamer(const std::vector<sema::TaskInput>& tasks, const sema::CheckOptions& options,
+            std::string_view path, std::string_view newName)
+        : tasks_(tasks), options_(options), path_(path), newName_(newName) {}
+
+    EditSet run() {
+        diag::Sink sink;
+        const auto before = sema::check(tasks_, options_, sink);
+        if (sink.hasErrors()) return refuse("the program has mistakes: mend them before renaming");
+        if (std::string bad = checkNewName(newName_, *before); !bad.empty()) return refuse(std::move(bad));
+        const auto references = sema::collectReferences(*before);
+        if (std::string bad = choose(*before, references); !bad.empty()) return refuse(std::move(bad));
+        collectEdits(references);
+        if (std::string bad = verify(references); !bad.empty()) return refuse(std::move(bad));
+        noteStrings(*before);
+        return std::move(set_);
+    }
+
+  private:
+    static EditSet refuse(std::string problem) {
+        EditSet set;
+        set.problem = std::move(problem);
+        return set;
+    }
+
+    bool matches(const Symbol& symbol) const {
+        const std::string full = sema::foldName(pathOf(symbol)), wanted = sema::foldName(path_);
+        if (full == wanted) return true;
+        return wanted.find('.') == std::string::npos && sema::foldName(symbol.name) == wanted;
+    }
+
+    /// Finds the declarations that `path_` means; a problem if it means none or several.
+    std::string choose(const sema::CheckedProgram& program, const std::vector<Reference>& references) {
+        std::map<Site, const Symbol*> found;
+        const Symbol* outside = nullptr;
+        for (const Reference& reference : references) {
+            if (!matches(*reference.symbol)) continue;
+            const Site site = siteOf(*reference.symbol);
+            if (site.token == kNoToken)
+                outside = reference.symbol;
+            else
+                found.emplace(site, reference.symbol);
+        }
+        if (found.empty() && outside)
+            return fmt::format("'{}' is {}: it cannot be renamed here", outside->name,
+                               outside->predefined ? "predefined" : "a name of the configuration");
+        if (found.empty()) return fmt::format("no declaration is named '{}'", path_);
+        const Symbol& first = *found.begin()->second;
+        const bool shared = std::all_of(found.begin(), found.end(),
+                                        [](const auto& entry) { return isSharedPersistent(*entry.second); });
+        if (found.size() > 1 && !shared) {
+            std::string all;
+            for (const auto& [site, symbol] : found)
+                all += (all.empty() ? "" : ", ") + pathOf(*symbol);
+            return fmt::format("'{}' names several things: choose one of {}", path_, all);
+        }
+        for (const auto& task : program.tasks)
+            for (const auto& [site, symbol] : found)
+                if (task->entryRoutine && siteOf(*task->entryRoutine) == site)
+                    return fmt::format("task {} starts with '{}': it cannot be renamed", task->name,
+                                       symbol->name);
+        addTargets(first, references);
+        return {};
+    }
+
+    /// The chosen declaration and, for a shared persistent, those of the same name in the other tasks.
+    void addTargets(const Symbol& chosen, const std::vector<Reference>& references) {
+        oldName_ = sema::foldName(chosen.name);
+        targets_.insert(siteOf(chosen));
+        if (!isSharedPersistent(chosen)) return;
+        for (const Reference& reference : references)
+            if (reference.isDeclaration && isSharedPersistent(*reference.symbol) &&
+                sema::foldName(reference.symbol->name) == oldName_)
+                targets_.insert(siteOf(*reference.symbol));
+    }
+
+    void collectEdits(const std::vector<Reference>& references) {
+        std::map<std::string, std::map<uint32_t, TextEdit>> byFile;
+        std::map<std::string, std::shared_ptr<const SourceFile>> files;
+        for (const Reference& reference : references) {
+            if (!targets_.contains(siteOf(*reference.symbol))) continue;
+            const SyntaxTree& tree = *reference.module->tree;
+            if (tree.text(reference.token) == newName_) continue;
+            const SourceRange range = tree.range(reference.token);
+            byFile[tree.source->path()][range.begin] = {range, newName_};
+            files[tree.source->path()] = tree.source;
+        }
+        for (auto& [path, edits] : byFile) {
+            FileEdits& file = set_.files.emplace_back();
+            file.file = files[path];
+            for (auto& [at, edit] : edits)
+                file.edits.push_back(std::move(edit));
+        }
+    }
+
+    /// Checks the changed program and compares what every name means.
+    std::string verify(const std::vector<Reference>& before) {
+        std::vector<sema::TaskInput> changed = tasks_;
+        for (const FileEdits& file : set_.files) {
+            auto result = applyEdits(*file.file, file.edits);
+            if (!result.ok()) return file.file->path() + ": " + result.problem;
+            const auto source =
+                std::make_shared<const SourceFile>(file.file->path(), std::move(result.bytes));
+            for (sema::TaskInput& task : changed)
+                for (auto& old : task.files)
+                    if (old->path() == source->path()) old = source;
+        }
+        diag::Sink sink;
+        const auto after = sema::check(changed, options_, sink);
+        for (const diag::Diagnostic& diagnostic : sink.sorted())
+            if (diagnostic.severity == diag::Severity::Error) return clash(diagnostic);
+        return compare(before, sema::collectReferences(*after));
+    }
+
+    std::string clash(const diag::Diagnostic& diagnostic) const {
+        const std::string where = diagnostic.file
+                                      ? fmt::format("{}:{}: ", diagnostic.file->path(),
+                                                    diagnostic.file->lineColumn(diagnostic.range.begin).line)
+                                      : "";
+        return fmt::format("'{}' clashes: {}{}", newName_, where, diagnostic.message);
+    }
+
+    std::string compare(const std::vector<Reference>& before, const std::vector<Reference>& after) const {
+        for (size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
+            const Reference &a = before[i], &b = after[i];
+            const bool sameName = a.token == b.token && siteOf(*a.symbol) == siteOf(*b.symbol);
+            if (sameName) continue;
+            const std::string_view name = b.module->tree->text(b.token);
+            return fmt::format("at {} the name '{}' would mean '{}' instead of '{}': choose another name",
+                               placeOf(*b.module->tree, b.token), name, pathOf(*b.symbol), pathOf(*a.symbol));
+        }
+        return before.size() == after.size() ? "" : "a name would lose its meaning: choose another name";
+    }
+
+    /// Strings may name routines and data (late binding, GetDataVal ...).
+    void noteStrings(const sema::CheckedProgram& program) {
+        for (const auto& tree : program.trees)
+            for (TokenIndex t = 0; t < tree->tokens.size(); ++t) {
+                if (tree->tokens[t].kind != TokenKind::StringLiteral || !isUserTree(program, *tree)) continue;
+                if (sema::foldName(decodeStringLiteral(tree->text(t))) != oldName_) continue;
+                std::string note =
+                    fmt::format("{}: the string {} stays as it is", placeOf(*tree, t), tree->text(t));
+                if (std::find(set_.notes.begin(), set_.notes.end(), note) == set_.notes.end())
+                    set_.notes.push_back(std::move(note));
+            }
+    }
+
+    static bool isUserTree(const sema::CheckedProgram& program, const SyntaxTree& tree) {
+        return std::any_of(program.tasks.begin(), program.tasks.end(), [&](const auto& task) {
+            return std::any_of(task->modules.begin(), task->modules.end(),
+                               [&](const sema::Module* module) { return module->tree == &tree; });
+        });
+    }
+
+    const std::vector<sema::TaskInput>& tasks_;
+    const sema::CheckOptions& options_;
+    std::string path_;
+    std::string newName_;
+    std::string oldName_; ///< folded
+    std::set<Site> targets_;
+    EditSet set_;
+};
+
+} // namespace
+
+EditSet rename(const std::vector<sema::TaskInput>& tasks, const sema::CheckOptions& options,
+               std::string_view path, std::string_view newName) {
+    return Renamer(tasks, options, path, newName).run();
+}
+
+} // namespace rapid::edit
