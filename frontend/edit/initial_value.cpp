@@ -47,34 +47,35 @@ struct Found {
     const DataDecl* data = nullptr;
 };
 
-std::vector<Found> findData(const SyntaxTree& tree, std::string_view moduleName, std::string_view dataName) {
-    const std::string wantedModule = sema::foldName(moduleName), wanted = sema::foldName(dataName);
+/// Data with the path DATA or MODULE.DATA.
+std::vector<Found> findData(const SyntaxTree& tree, std::string_view path) {
+    const std::string wanted = sema::foldName(path);
     std::vector<Found> found;
-    for (const ModuleDecl* module : tree.modules) {
-        if (!wantedModule.empty() && sema::foldName(tree.text(module->name)) != wantedModule) continue;
+    for (const ModuleDecl* module : tree.modules)
         for (const Decl* decl : module->decls) {
             if (decl->kind != NodeKind::Data) continue;
             const auto& data = as<DataDecl>(*decl);
-            if (sema::foldName(tree.text(data.name)) == wanted) found.push_back({module, &data});
+            const std::string name = sema::foldName(tree.text(data.name));
+            if (name == wanted || sema::foldName(tree.text(module->name)) + "." + name == wanted)
+                found.push_back({module, &data});
         }
-    }
     return found;
 }
 
 } // namespace
 
+bool declaresData(const SyntaxTree& tree, std::string_view path) {
+    return !findData(tree, path).empty();
+}
+
 EditSet setInitialValue(const SyntaxTree& tree, std::string_view path, std::string_view value) {
     value = trimmed(value);
     if (std::string mistake = findMistake(value); !mistake.empty()) return refuse(std::move(mistake));
-    const size_t dot = path.find('.');
-    const std::string_view moduleName = dot == std::string_view::npos ? "" : path.substr(0, dot);
-    const std::string_view dataName = dot == std::string_view::npos ? path : path.substr(dot + 1);
-    const std::vector<Found> found = findData(tree, moduleName, dataName);
+    const std::vector<Found> found = findData(tree, path);
     if (found.empty()) return refuse(fmt::format("'{}' declares no data '{}'", tree.source->path(), path));
     if (found.size() > 1)
         return refuse(fmt::format("'{}' declares '{}' more than once: name the module too, as in {}.{}",
-                                  tree.source->path(), path, tree.text(found.front().module->name),
-                                  dataName));
+                                  tree.source->path(), path, tree.text(found.front().module->name), path));
 
     const DataDecl& data = *found.front().data;
     TextEdit edit;

@@ -14,4 +14,7 @@ namespace rapid::edit {
 /// fits the type is for the checker to say.
 EditSet setInitialValue(const syntax::SyntaxTree& tree, std::string_view path, std::string_view value);
 
+/// True when a module of the file declares data of that path outside of its routines.
+bool declaresData(const syntax::SyntaxTree& tree, std::string_view path);
+
 } // namespace rapid::edit

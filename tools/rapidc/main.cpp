@@ -19,6 +19,8 @@ int main(int argc, char** argv) {
     rapidc::addExplainCommand(app, status);
     rapidc::addBuiltinsCommand(app, status);
     rapidc::addFmtCommand(app, status);
+    rapidc::addRenameCommand(app, status);
+    rapidc::addSetValueCommand(app, status);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {

@@ -135,18 +135,18 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     for (const std::string& found : project.configFiles)
         if (std::find(configFiles.begin(), configFiles.end(), found) == configFiles.end())
             configFiles.push_back(found);
-    sema::CheckOptions options;
+    sema::CheckOptions& options = compilation->options;
     options.requireMain = inputs.requireMain;
     options.robotWareOptions = project.robotWareOptions;
     compilation->homeFolder = project.homeFolder;
     options.configurationKnown = inputs.configurationComplete;
     readConfiguration(*compilation, configFiles, options);
     if (project.isBackup) checkRobot(*compilation, project.robot);
-    std::vector<sema::LibraryText> library;
     for (const rapid::stdlib::StdlibSource& source : rapid::stdlib::sources())
-        library.push_back({source.name, source.text});
-    options.library = library;
-    compilation->program = sema::check(project.tasks, options, compilation->sink);
+        compilation->library.push_back({source.name, source.text});
+    options.library = compilation->library;
+    compilation->tasks = std::move(project.tasks);
+    compilation->program = sema::check(compilation->tasks, options, compilation->sink);
     reportUnimplemented(*compilation);
     return compilation;
 }

@@ -22,6 +22,9 @@ struct Inputs {
 struct Compilation {
     rapid::diag::Sink sink;
     std::unique_ptr<rapid::sema::CheckedProgram> program;
+    std::vector<rapid::sema::TaskInput> tasks; ///< what was checked,
+    rapid::sema::CheckOptions options;         ///< and how; commands that change files check again
+    std::vector<rapid::sema::LibraryText> library;
     std::vector<std::string> configNames; ///< what --config and the folders gave
     std::vector<std::string> configTexts;
     std::vector<std::string> usageErrors; ///< e.g. a --task that cannot be read

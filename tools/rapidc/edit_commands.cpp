@@ -1,0 +1,182 @@
+// rapidc rename, rapidc set-value: small changes of modules that leave every other byte alone.
+
+#include "tools/rapidc/commands.h"
+#include "tools/rapidc/pipeline.h"
+#include "tools/rapidc/text_diff.h"
+
+#include "frontend/edit/apply_edits.h"
+#include "frontend/edit/atomic_file.h"
+#include "frontend/edit/initial_value.h"
+#include "frontend/edit/rename.h"
+#include "frontend/syntax/parser.h"
+#include "runtime/host/run_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <fmt/format.h>
+
+namespace rapidc {
+
+namespace {
+
+namespace diag = rapid::diag;
+namespace edit = rapid::edit;
+namespace sema = rapid::sema;
+
+constexpr int kUsage = static_cast<int>(rt::ExitStatus::BadUsage);
+
+struct EditSettings {
+    std::string change; ///< set-value: NAME=VALUE
+    std::string oldName;
+    std::string newName;
+    Inputs inputs;
+    bool diff = false;
+};
+
+int fail(const char* command, const std::string& problem, int status = 1) {
+    fmt::print(stderr, "rapidc {}: {}\n", command, problem);
+    return status;
+}
+
+/// Writes the changed files, or shows the changes; all files are made in memory before the first one is written.
+int writeFiles(const char* command, const edit::EditSet& set, bool diffOnly) {
+    std::vector<std::pair<std::string, std::string>> files;
+    for (const edit::FileEdits& file : set.files) {
+        if (diffOnly) {
+            fmt::print("{}", unifiedDiff(*file.file, file.edits));
+            continue;
+        }
+        auto result = edit::applyEdits(*file.file, file.edits);
+        if (!result.ok()) return fail(command, file.file->path() + ": " + result.problem);
+        files.emplace_back(file.file->path(), std::move(result.bytes));
+    }
+    for (const auto& [path, bytes] : files) {
+        const std::string problem = edit::replaceFile(path, bytes);
+        if (!problem.empty()) return fail(command, problem);
+    }
+    for (const std::string& note : set.notes)
+        fmt::print(stderr, "note: {}\n", note);
+    return 0;
+}
+
+/// Loads what the inputs name; null with the status when that is not possible.
+std::unique_ptr<Compilation> load(const char* command, const Inputs& inputs, int& status) {
+    auto compilation = checkInputs(inputs);
+    for (const std::string& problem : compilation->usageErrors)
+        status = fail(command, problem, kUsage);
+    if (compilation->usageErrors.empty()) return compilation;
+    return nullptr;
+}
+
+int renameName(const EditSettings& settings) {
+    int status = 0;
+    const auto compilation = load("rename", settings.inputs, status);
+    if (!compilation) return status;
+    if (compilation->sink.hasErrors()) {
+        printDiagnostics(*compilation);
+        return fail("rename", "the program has mistakes: mend them before renaming");
+    }
+    const auto set =
+        edit::rename(compilation->tasks, compilation->options, settings.oldName, settings.newName);
+    return set.ok() ? writeFiles("rename", set, settings.diff) : fail("rename", set.problem);
+}
+
+/// The files of all tasks, each once.
+std::vector<std::shared_ptr<const rapid::SourceFile>> filesOf(const Compilation& compilation) {
+    std::vector<std::shared_ptr<const rapid::SourceFile>> files;
+    for (const sema::TaskInput& task : compilation.tasks)
+        for (const auto& file : task.files) {
+            const auto same = [&](const auto& other) { return other->path() == file->path(); };
+            if (std::none_of(files.begin(), files.end(), same)) files.push_back(file);
+        }
+    return files;
+}
+
+/// Whether the checker accepts the value; what it says about it is shown.
+bool checkValue(const Compilation& compilation, const edit::FileEdits& change) {
+    const auto result = edit::applyEdits(*change.file, change.edits);
+    if (!result.ok()) return true; // said when it is written
+    const auto changed = std::make_shared<const rapid::SourceFile>(change.file->path(), result.bytes);
+    std::vector<sema::TaskInput> tasks = compilation.tasks;
+    for (sema::TaskInput& task : tasks)
+        for (auto& file : task.files)
+            if (file->path() == changed->path()) file = changed;
+    diag::Sink sink;
+    const auto program = sema::check(tasks, compilation.options, sink);
+    const rapid::TextEdit& value = change.edits.front();
+    const rapid::SourceRange range{value.range.begin,
+                                   value.range.begin + static_cast<uint32_t>(value.replacement.size())};
+    bool good = true;
+    for (const diag::Diagnostic& diagnostic : sink.sorted()) {
+        const bool here = diagnostic.file == changed && diagnostic.severity == diag::Severity::Error &&
+                          diagnostic.range.begin <= range.end && diagnostic.range.end >= range.begin;
+        if (here) fmt::print(stderr, "{}", diag::renderText(diagnostic, false));
+        good = good && !here;
+    }
+    return good;
+}
+
+int setValue(const EditSettings& settings) {
+    const size_t equals = settings.change.find('=');
+    if (equals == std::string::npos || equals == 0)
+        return fail("set-value", fmt::format("cannot read '{}': expected MODULE.DATA=VALUE", settings.change),
+                    kUsage);
+    const std::string path = settings.change.substr(0, equals), value = settings.change.substr(equals + 1);
+    int status = 0;
+    const auto compilation = load("set-value", settings.inputs, status);
+    if (!compilation) return status;
+    const auto files = filesOf(*compilation);
+    if (files.empty()) { // nothing could be read, which was reported
+        printDiagnostics(*compilation);
+        return 1;
+    }
+    edit::EditSet found;
+    bool declared = false;
+    for (const auto& file : files) {
+        diag::Sink ignored;
+        const auto tree = rapid::syntax::parse(file, ignored);
+        if (!edit::declaresData(*tree, path)) continue;
+        if (declared)
+            return fail("set-value", fmt::format("several modules declare '{}': name the module too", path));
+        declared = true;
+        found = edit::setInitialValue(*tree, path, value);
+        if (!found.ok()) return fail("set-value", found.problem);
+    }
+    if (!declared) return fail("set-value", fmt::format("no module declares data '{}'", path));
+    if (found.files.empty()) return 0; // the value is there already
+    if (!checkValue(*compilation, found.files.front()))
+        return fail("set-value", "the value does not fit; the file is left as it is");
+    return writeFiles("set-value", found, settings.diff);
+}
+
+void addInputs(CLI::App* command, EditSettings& settings) {
+    command->add_option("input", settings.inputs.paths, "Modules, folders, .pgf programs, backups")
+        ->required();
+    command->add_option("--task", settings.inputs.tasks, "NAME[:TYPE]=INPUT: a further task")
+        ->allow_extra_args(false);
+    command->add_flag("--diff", settings.diff, "Change nothing; show what would change");
+}
+
+} // namespace
+
+void addRenameCommand(CLI::App& app, int& status) {
+    auto settings = std::make_shared<EditSettings>();
+    CLI::App* command =
+        app.add_subcommand("rename", "Rename data, a routine, a type or a label wherever it stands");
+    command->add_option("old", settings->oldName, "NAME, MODULE.NAME or MODULE.ROUTINE.NAME")->required();
+    command->add_option("new", settings->newName, "The new name")->required();
+    addInputs(command, *settings);
+    command->callback([settings, &status] { status = renameName(*settings); });
+}
+
+void addSetValueCommand(CLI::App& app, int& status) {
+    auto settings = std::make_shared<EditSettings>();
+    CLI::App* command =
+        app.add_subcommand("set-value", "Write an initial value into the declaration of data");
+    command->add_option("change", settings->change, "MODULE.DATA=VALUE")->required();
+    addInputs(command, *settings);
+    command->callback([settings, &status] { status = setValue(*settings); });
+}
+
+} // namespace rapidc
