@@ -209,7 +209,7 @@ FormatResult format(const SyntaxTree& tree, const std::vector<SourceRange>& erro
         options.declarations = request.declarations;
         const auto again =
             parse(std::make_shared<const SourceFile>("new.modx", changed.bytes), ignored, options);
-        difference = findDifference(tree, *again);
+        difference = findDifference(tree, *again, errors.empty()); // mistakes may be read in another way
     }
     if (difference.empty()) return result;
     return {{}, fmt::format("formatting is refused, since {}; please report this file", difference)};
