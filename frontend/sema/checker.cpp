@@ -199,7 +199,14 @@ void Analyzer::checkEntry(Task& task) {
         report(Code::EntryLocal, range(local->nameToken), {task.name, local->name});
         return;
     }
-    if (mayReportUnknown(name)) sink_.report(Code::NoEntry, nullptr, {}, {task.name, task.entry});
+    if (!mayReportUnknown(name)) return;
+    if (task.modules.empty()) { // why there is none has been told as a rule
+        if (!sink_.hasErrors()) sink_.report(Code::NoEntry, nullptr, {}, {task.name, task.entry});
+        return;
+    }
+    const ModuleDecl& first = *task.modules.front()->decl;
+    enterModule(task.modules.front());
+    report(Code::NoEntry, range(first.name == kNoToken ? first.first : first.name), {task.name, task.entry});
 }
 
 // A task that may lack its entry routine, and does, is no part of the program; nothing else in it is judged.

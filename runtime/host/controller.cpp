@@ -117,8 +117,8 @@ std::string Controller::whereTasksAre(const char* verb) const {
     for (const auto& task : tasks_) {
         if (task->state() == TaskState::Finished) continue;
         const SourcePlace place = task->place();
-        text += fmt::format("{}{} {} in {}:{}", text.empty() ? "" : ", ", task->name(), verb, place.module,
-                            place.line);
+        text += fmt::format("{}{} {} ", text.empty() ? "" : ", ", task->name(), verb);
+        text += place.module.empty() ? "at main" : fmt::format("in {}:{}", place.module, place.line);
     }
     return text.empty() ? text : text + ".";
 }

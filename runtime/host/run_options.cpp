@@ -35,10 +35,25 @@ void addRate(CLI::App& app, RunOptions& options) {
         ->type_name("N|unlimited");
 }
 
+/// An option that takes a whole number from 0 to `most`.
+template <class Integer>
+CLI::Option* addWhole(CLI::App& app, const char* option, Integer& value, double most,
+                      const std::string& text) {
+    const auto take = [&value, option, most](const std::string& given) {
+        double number = 0;
+        if (!parseNumber(given, number) || number < 0 || number > most || number != std::floor(number))
+            throw CLI::ValidationError(
+                option, fmt::format("'{}' is not a whole number from 0 to {:.0f}", given, most));
+        value = static_cast<Integer>(number);
+    };
+    return app.add_option_function<std::string>(option, take, text)->type_name("N");
+}
+
 void addMaxTime(CLI::App& app, RunOptions& options) {
     const auto take = [&options](const std::string& text) {
         if (!parseNumber(text, options.maxTime) || options.maxTime < 0) {
-            throw CLI::ValidationError("--max-time", fmt::format("'{}' is not a number of seconds", text));
+            throw CLI::ValidationError("--max-time",
+                                       fmt::format("'{}' is not a number of seconds, 0 or more", text));
         }
         options.hasMaxTime = true;
     };
@@ -50,9 +65,7 @@ void addMaxTime(CLI::App& app, RunOptions& options) {
 } // namespace
 
 void addRunOptions(CLI::App& app, RunOptions& options, bool withTasks) {
-    app.add_option("--cycles", options.cycles, "how often main is run; 0 = for ever; default 1")
-        ->check(CLI::NonNegativeNumber)
-        ->type_name("N");
+    addWhole(app, "--cycles", options.cycles, 1e12, "how often main is run; 0 = for ever; default 1");
     if (withTasks) {
         app.add_option(
                "--task", options.tasks,
@@ -78,7 +91,7 @@ void addRunOptions(CLI::App& app, RunOptions& options, bool withTasks) {
         ->type_name("FILE.jsonl");
     app.add_flag("--realtime", options.realtime, "pace virtual time to the wall clock");
     addMaxTime(app, options);
-    app.add_option("--seed", options.seed, "start value of Rand; default 1")->type_name("N");
+    addWhole(app, "--seed", options.seed, UINT32_MAX, "start value of Rand; default 1");
     addRate(app, options);
 }
 

@@ -7,7 +7,9 @@
 #include "runtime/host/run_options.h"
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -58,6 +60,15 @@ struct TemporaryFile {
     }
 };
 
+/// Why the executable cannot be written there; "" when it can. Better known before the compiler has worked.
+std::string outputProblem(const std::string& output) {
+    std::error_code ignored;
+    if (fs::is_directory(output, ignored)) return fmt::format("{} is a folder", output);
+    const fs::path folder = fs::path(output).parent_path();
+    if (access(folder.empty() ? "." : folder.c_str(), W_OK) == 0) return {};
+    return fmt::format("cannot write {}: {}", output, std::strerror(errno));
+}
+
 int build(BuildSettings& settings) {
     settings.inputs.requireMain = true;
     const auto compilation = checkInputs(settings.inputs);
@@ -68,6 +79,10 @@ int build(BuildSettings& settings) {
     }
     if (settings.output.empty()) settings.output = fs::path(settings.inputs.paths[0]).stem().string();
     if (settings.output.empty()) settings.output = "a.out";
+    if (const std::string problem = outputProblem(settings.output); !problem.empty()) {
+        fmt::print(stderr, "rapidc build: {}; name the executable with -o FILE\n", problem);
+        return static_cast<int>(rt::ExitStatus::BadUsage);
+    }
     ir::Module module;
     const bool lowered =
         !compilation->sink.hasErrors() &&

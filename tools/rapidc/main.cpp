@@ -1,6 +1,6 @@
 // rapidc: one executable, its commands (design chapter 8).
 
-#include "runtime/host/run_options.h"
+#include "runtime/host/usage.h"
 #include "tools/rapidc/commands.h"
 
 #include <CLI/CLI.hpp>
@@ -10,7 +10,6 @@ int main(int argc, char** argv) {
     app.name("rapidc");
     app.set_version_flag("--version", "rapidc " RAPIDC_VERSION);
     app.require_subcommand(1);
-    app.failure_message(CLI::FailureMessage::simple);
     int status = 0;
     rapidc::addCheckCommand(app, status);
     rapidc::addBuildCommand(app, status);
@@ -24,9 +23,7 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {
-        const bool asked = problem.get_exit_code() == 0; // --help, --version
-        app.exit(problem);
-        return asked ? 0 : static_cast<int>(rt::ExitStatus::BadUsage);
+        return rt::reportUsage(app, problem, "rapidc");
     }
     return status;
 }

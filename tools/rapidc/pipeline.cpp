@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fmt/format.h>
 #include <fstream>
 #include <sstream>
@@ -34,7 +36,8 @@ void readConfiguration(Compilation& compilation, const std::vector<std::string>&
     for (const std::string& path : files) {
         std::ifstream in(path, std::ios::binary);
         if (!in) {
-            compilation.usageErrors.push_back(fmt::format("cannot read the configuration file '{}'", path));
+            compilation.usageErrors.push_back(
+                fmt::format("cannot read the configuration file '{}': {}", path, std::strerror(errno)));
             continue;
         }
         std::stringstream bytes;

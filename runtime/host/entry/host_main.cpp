@@ -1,6 +1,7 @@
 // main() of an executable made by `rapidc build`: the compiled program is linked in under a fixed name.
 
 #include "runtime/host/controller.h"
+#include "runtime/host/usage.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -17,7 +18,7 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : static_cast<int>(rt::ExitStatus::BadUsage);
+        return rt::reportUsage(app, error, rapidc_program.name);
     }
     return rt::runProgram(rapidc_program, options, rt::setUpStandardLibrary);
 }
