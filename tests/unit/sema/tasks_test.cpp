@@ -21,9 +21,8 @@ std::unique_ptr<Checked> checkMain(const std::vector<std::string>& texts) {
 
 TEST_CASE("a program that is to run needs one global procedure main", "[sema]") {
     const auto missing = checkMain({"MODULE m\nENDMODULE\n"});
-    REQUIRE(
-        missing->messages() ==
-        Messages{"RAP6001: task 'T_ROB1' has no routine 'main': declare PROC main() in one of its modules"});
+    REQUIRE(missing->messages() == Messages{"RAP6001 at 1:8: task 'T_ROB1' has no routine 'main': declare "
+                                            "PROC main() in one of its modules"});
     CHECK(checkTexts({"MODULE m\nENDMODULE\n"})->messages().empty());
 
     const auto function = checkMain({"MODULE m\n  FUNC num Main()\n    RETURN 1;\n  ENDFUNC\nENDMODULE\n"});
