@@ -33,7 +33,20 @@ class CfgReader {
 
   private:
     void problem(uint32_t line, std::string message) {
+        if (++count_ > kMaxCfgProblems + 1) return;
+        if (count_ > kMaxCfgProblems)
+            message = "there are more mistakes in this file; mend those above first";
         problems_.push_back({file_.name, line, std::move(message)});
+    }
+
+    /// What a message shows of a line.
+    static std::string_view shown(std::string_view text) {
+        constexpr std::size_t kShown = 60;
+        if (text.size() <= kShown) return text;
+        std::size_t cut = kShown;
+        while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0u) == 0x80u)
+            --cut;
+        return text.substr(0, cut);
     }
 
     /// LF, CRLF and lone CR end a line: all three occur, mixed, in real files.
@@ -76,7 +89,8 @@ class CfgReader {
         }
         if (text.front() == '-') return readInstance(line);
         if (text.back() == ':') return openSection(text.substr(0, text.size() - 1));
-        problem(line_, fmt::format("cannot read '{}'; expected '#', 'TYPE:' or '-Attribute value'", text));
+        problem(line_,
+                fmt::format("cannot read '{}'; expected '#', 'TYPE:' or '-Attribute value'", shown(text)));
     }
 
     void openSection(std::string_view text) {
@@ -88,8 +102,8 @@ class CfgReader {
             section.baseType = std::string(trimmed(text.substr(equals + 1)));
         for (const char c : section.type) {
             if (!isWordChar(c)) {
-                return problem(line_,
-                               fmt::format("'{}' is not the name of a configuration type", section.type));
+                return problem(
+                    line_, fmt::format("'{}' is not the name of a configuration type", shown(section.type)));
             }
         }
         file_.sections.push_back(std::move(section));
@@ -131,7 +145,7 @@ class CfgReader {
                     ++i;
                 instance.attributes.push_back({std::string(text.substr(begin, i - begin)), {}, false, line_});
             } else if (instance.attributes.empty()) {
-                problem(line_, fmt::format("expected '-Attribute' before '{}'", text.substr(i)));
+                problem(line_, fmt::format("expected '-Attribute' before '{}'", shown(text.substr(i))));
                 return;
             } else if (!readValue(text, i, instance.attributes.back())) {
                 return;
@@ -165,6 +179,7 @@ class CfgReader {
     CfgFile& file_;
     std::vector<CfgProblem>& problems_;
     std::size_t at_ = 0;
+    std::size_t count_ = 0; ///< of problems
     uint32_t line_ = 0;
     CfgSection* section_ = nullptr;
     CfgSection ignored_;

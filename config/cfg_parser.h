@@ -3,6 +3,7 @@
 // types, instances of attributes. Generic and tolerant: every domain is kept as read; what a domain means is
 // decided elsewhere.
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -59,8 +60,11 @@ struct CfgProblem {
     std::string text() const; ///< "EIO.cfg:12: ..."
 };
 
+/// After so many problems in a file one more says that the rest is not told.
+inline constexpr std::size_t kMaxCfgProblems = 50;
+
 /// Reads the text of one file. ISO 8859-1 is turned into UTF-8 when the text is not UTF-8 already. Problems
-/// (all of them) are appended; what could be read is returned all the same.
+/// (all of them, up to kMaxCfgProblems) are appended; what could be read is returned all the same.
 CfgFile parseCfg(std::string_view text, std::string name, std::vector<CfgProblem>& problems);
 /// The same from disk; an unreadable file is a problem with line 0.
 CfgFile readCfg(const std::string& path, std::vector<CfgProblem>& problems);

@@ -122,8 +122,12 @@ class Parser {
     bool calleeEndsHere(TokenIndex callee, TokenIndex calleeEnd) const;
     bool findOnLine(TokenIndex from, K wanted, TokenIndex& found) const;
     void expectWord(K word);
+    bool expectHeadWord(K word, bool whole);
+    Expr* parseHeadExpr(bool& whole);
+    bool beginsInstruction() const;
+    TokenIndex missingName();
     void expectClosing(K closing, TokenIndex opening, bool inList);
-    void closeBlock(K end, TokenIndex opening);
+    void closeBlock(K end, TokenIndex opening, bool whole = true);
     bool handleStray(const TokenSet& own);
     bool retagMisspelt(const TokenSet& own);
     void abandonRoutine();

@@ -294,6 +294,52 @@ void Parser::expectWord(K word) {
     }
 }
 
+/// FROM, TO, DO, THEN in the head of a block that may be broken already: then nothing more is missed in it. Returns
+/// false when the head ends without the word; an unfinished word at the end of the line is skipped.
+bool Parser::expectHeadWord(K word, bool whole) {
+    TokenIndex found = 0;
+    if (whole) {
+        whole = kind() == word || findOnLine(pos_, word, found);
+        expectWord(word);
+    } else if (findOnLine(pos_, word, found)) {
+        pos_ = found + 1;
+        panic_ = false;
+        return true;
+    }
+    if (!whole && isName(kind()) && !startsLine(pos_) && (startsLine(pos_ + 1) || pos_ + 1 == last_)) take();
+    panic_ = false;
+    return whole;
+}
+
+/// An instruction on a line of its own, where something else should go on.
+bool Parser::beginsInstruction() const {
+    constexpr TokenSet kNoOperator = {K::Identifier, K::NumLiteral, K::StringLiteral, K::Assign, K::Colon};
+    if (!startsLine(pos_) || !isName(kind())) return false;
+    if (peek() == K::Dot || peek() == K::LeftBrace) return looksLikeStatement(pos_);
+    return kNoOperator.has(peek()) && !(peek() == K::Identifier && startsLine(pos_ + 1));
+}
+
+TokenIndex Parser::missingName() {
+    reportAt(Code::UnexpectedToken, endOf(pos_ - 1), {describe(pos_), "a name"});
+    return kNoToken;
+}
+
+/// An expression in the head of a block. It may go over lines, but the next instruction is none.
+Expr* Parser::parseHeadExpr(bool& whole) {
+    if (!whole) return errorExpr();
+    if (beginsInstruction()) {
+        reportAt(Code::UnexpectedToken, endOf(pos_ - 1), {describe(pos_), "an expression"});
+        whole = false;
+        return errorExpr();
+    }
+    Expr* expr = parseExpr();
+    if (panic_ && (startsLine(pos_) || kind() == K::EndOfFile)) {
+        whole = false;
+        panic_ = false;
+    }
+    return expr;
+}
+
 void Parser::expectClosing(K closing, TokenIndex opening, bool inList) {
     if (accept(closing)) return;
     if (panic_) return;
@@ -313,16 +359,18 @@ void Parser::expectClosing(K closing, TokenIndex opening, bool inList) {
     panic_ = true;
 }
 
-/// The END word of a block. A missing one is reported where the text can no longer belong to the block.
-void Parser::closeBlock(K end, TokenIndex opening) {
+/// The END word of a block. A missing one is reported where the text can no longer belong to the block; when its head is
+/// broken, that has been reported.
+void Parser::closeBlock(K end, TokenIndex opening, bool whole) {
     if (accept(end)) {
         panic_ = false;
         return;
     }
     if (abandoned_) return;
     const std::string opened = describe(opening);
-    note(report(Code::MissingBlockEnd, pos_, {describe(pos_), std::string(tokenText(end))}), opening,
-         fmt::format("{} begins here", opened));
+    if (whole)
+        note(report(Code::MissingBlockEnd, pos_, {describe(pos_), std::string(tokenText(end))}), opening,
+             fmt::format("{} begins here", opened));
     if (wrongEnd_ == pos_) take();
 }
 

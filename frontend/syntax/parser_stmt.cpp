@@ -29,6 +29,7 @@ template <class T> class Restore {
   public:
     explicit Restore(T& place) : place_(place), saved_(place) {}
     ~Restore() { place_ = saved_; }
+    const T& saved() const { return saved_; }
     Restore(const Restore&) = delete;
     Restore& operator=(const Restore&) = delete;
 
@@ -311,7 +312,13 @@ Stmt* Parser::parseIfBlocks(TokenIndex opening, Expr* condition) {
     expectWord(K::KwThen);
     branch->body = parseList(kIfEnds);
     branches_.push_back(finish(branch));
+    bool allWhole = true;
+    const TokenIndex outer = restore.saved();
     while (kind() != K::KwEndif && kIfEnds.has(kind())) {
+        // A second ELSE that stands below the IF around this one belongs to that: the ENDIF is missing.
+        if (node->hasElse && outer != kNoToken && kindAt(outer) == K::KwIf && startsLine(pos_) &&
+            columnOf(pos_) == columnOf(outer) && columnOf(pos_) != columnOf(opening))
+            break;
         if (node->hasElse) report(Code::InstructionAfterElse, pos_, {describe(pos_)});
         if (accept(K::KwElse)) {
             const StmtList body = parseList(kIfEnds);
@@ -321,13 +328,14 @@ Stmt* Parser::parseIfBlocks(TokenIndex opening, Expr* condition) {
         }
         branch = make<IfBranch>(NodeKind::IfBranch);
         if (take(), tokens_[pos_ - 1].kind == K::KwElseif) {
-            branch->condition = parseExpr();
-            expectWord(K::KwThen);
+            bool whole = true;
+            branch->condition = parseHeadExpr(whole);
+            allWhole = expectHeadWord(K::KwThen, whole) && allWhole;
         }
         branch->body = parseList(kIfEnds);
         branches_.push_back(finish(branch));
     }
-    closeBlock(K::KwEndif, opening);
+    closeBlock(K::KwEndif, opening, allWhole);
     node->branches = drain(branches_, mark);
     return finish(node);
 }
@@ -336,8 +344,12 @@ Stmt* Parser::parseFor() {
     const Restore restore(blockOpening_);
     auto* node = make<ForStmt>(NodeKind::For);
     const TokenIndex opening = blockOpening_ = take();
+    bool whole = true; // once the head is broken, the rest of it is not missed
     if (kind() == K::KwFrom && peek() != K::KwFrom) {
         report(Code::UnexpectedToken, pos_, {describe(pos_), "a name"});
+    } else if (beginsInstruction()) {
+        node->variable = missingName();
+        whole = false;
     } else {
         node->variable = expectName();
         checkNameLength(node->variable);
@@ -346,15 +358,15 @@ Stmt* Parser::parseFor() {
         fix(report(Code::MissingBlockWord, pos_, {describe(pos_), "FROM"}), tree_.range(pos_), "FROM");
         take();
     } else {
-        expectWord(K::KwFrom);
+        whole = expectHeadWord(K::KwFrom, whole);
     }
-    node->from = parseExpr();
-    expectWord(K::KwTo);
-    node->to = parseExpr();
-    if (!panic_ && accept(K::KwStep)) node->step = parseExpr();
-    expectWord(K::KwDo);
+    node->from = parseHeadExpr(whole);
+    whole = expectHeadWord(K::KwTo, whole);
+    node->to = parseHeadExpr(whole);
+    if (!panic_ && whole && accept(K::KwStep)) node->step = parseHeadExpr(whole);
+    whole = expectHeadWord(K::KwDo, whole);
     node->body = parseList({K::KwEndfor});
-    closeBlock(K::KwEndfor, opening);
+    closeBlock(K::KwEndfor, opening, whole);
     return finish(node);
 }
 
@@ -362,10 +374,11 @@ Stmt* Parser::parseWhile() {
     const Restore restore(blockOpening_);
     auto* node = make<WhileStmt>(NodeKind::While);
     const TokenIndex opening = blockOpening_ = take();
-    node->condition = parseExpr();
-    expectWord(K::KwDo);
+    bool whole = true;
+    node->condition = parseHeadExpr(whole);
+    whole = expectHeadWord(K::KwDo, whole);
     node->body = parseList({K::KwEndwhile});
-    closeBlock(K::KwEndwhile, opening);
+    closeBlock(K::KwEndwhile, opening, whole);
     return finish(node);
 }
 
@@ -408,12 +421,13 @@ TestCase* Parser::parseCase() {
     auto* node = make<TestCase>(NodeKind::TestCase);
     if (take(), tokens_[pos_ - 1].kind == K::KwCase) {
         const size_t mark = exprs_.size();
+        bool whole = true;
         do
-            exprs_.push_back(parseExpr());
-        while (!panic_ && accept(K::Comma));
+            exprs_.push_back(parseHeadExpr(whole));
+        while (whole && !panic_ && accept(K::Comma));
         node->values = drain(exprs_, mark);
         TokenIndex found = 0;
-        if (!accept(K::Colon)) {
+        if (whole && !accept(K::Colon)) {
             const bool later = findOnLine(pos_, K::Colon, found) && !startsLine(found);
             if (startsLine(pos_) && pos_ > 0) {
                 fix(reportAt(Code::UnexpectedToken, endOf(pos_ - 1), {describe(pos_), "':'"}),
