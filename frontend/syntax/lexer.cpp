@@ -182,7 +182,11 @@ class Lexer {
         case CharClass::Letter: return readWord();
         case CharClass::Digit: return readNumber();
         case CharClass::Quote: return readString();
-        case CharClass::Punctuation: return readPunctuation();
+        case CharClass::Punctuation:
+            if (*p_ == '%' && slice(p_, end_).starts_with("%%%") &&
+                result_.tokens.back().kind == TokenKind::KwEndmodule)
+                return readFileHeader(); // files of several modules, put together from others
+            return readPunctuation();
         case CharClass::Dot:
             if (isDigit(p_[1])) return readNumber();
             return readSingle(TokenKind::Dot);
@@ -365,7 +369,7 @@ class Lexer {
         return c == CharClass::Junk || (c == CharClass::NonAscii && !isLatin1Letter(p_));
     }
 
-    /// `%%% VERSION:1 LANGUAGE:ENGLISH %%%` before everything else.
+    /// `%%% VERSION:1 LANGUAGE:ENGLISH %%%` before a module.
     void readFileHeader() {
         if (!skipGap() || !slice(p_, end_).starts_with("%%%")) return;
         const char* start = p_;

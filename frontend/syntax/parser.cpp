@@ -71,10 +71,12 @@ void Parser::parseFile(const LexResult& lexed) {
         return;
     }
     reportLexErrors(lexed);
-    accept(K::FileHeader);
     while (kind() != K::EndOfFile) {
+        if (accept(K::FileHeader)) continue;
         if (kind() == K::KwModule) {
             parseModule();
+        } else if (kind() == K::Semicolon && pos_ > 0 && kindAt(pos_ - 1) == K::KwEndmodule) {
+            skipStraySemicolons();
         } else {
             skipOutsideModule();
         }
@@ -130,6 +132,15 @@ void Parser::skipOutsideModule() {
     do
         take();
     while (kind() != K::EndOfFile && !(kind() == K::KwModule && startsLine(pos_)));
+}
+
+/// `ENDPROC;` and the like: harmless, but no declaration.
+void Parser::skipStraySemicolons() {
+    diag::Diagnostic* diagnostic = report(Code::StraySemicolon, pos_, {describe(pos_ - 1)});
+    const uint32_t from = tree_.range(pos_).begin;
+    while (accept(K::Semicolon)) {
+    }
+    if (diagnostic) diagnostic->fix({from, tree_.range(pos_ - 1).end}, "");
 }
 
 void Parser::parseModule() {
@@ -213,6 +224,10 @@ void Parser::parseModuleDecls(ModuleDecl* module) {
     const size_t mark = decls_.size();
     while (kind() != K::KwEndmodule && kind() != K::KwModule && kind() != K::EndOfFile) {
         const TokenIndex before = pos_;
+        if (kind() == K::Semicolon && !quietOutside_) {
+            skipStraySemicolons();
+            continue;
+        }
         if (Decl* decl = parseModuleDecl()) decls_.push_back(decl);
         panic_ = false;
         if (pos_ == before) take();

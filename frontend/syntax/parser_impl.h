@@ -189,6 +189,7 @@ class Parser {
     Decl* parseUnknownDecl();
     void skipToDecl();
     void skipOutsideModule();
+    void skipStraySemicolons();
     DataDecl* parseData(ScopeWord scope, TokenIndex first);
     Decl* parseRecord(bool local, TokenIndex first);
     RecordComponent* parseComponent();

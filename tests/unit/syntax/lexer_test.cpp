@@ -172,6 +172,9 @@ TEST_CASE("strings", "[syntax][lexer]") {
 
 TEST_CASE("the file header is one token", "[syntax][lexer]") {
     CHECK(kinds("%%%\nVERSION:1\nLANGUAGE:ENGLISH\n%%%\nMODULE m") == "FileHeader KwModule Identifier");
+    CHECK(kinds("MODULE m ENDMODULE\n%%%\n  VERSION:1\n%%%\nMODULE n") ==
+          "KwModule Identifier KwEndmodule FileHeader KwModule Identifier");
+    CHECK(kinds(std::string("MODULE m ENDMODULE \x1A\n\0\0\0", 24)) == "KwModule Identifier KwEndmodule");
     CHECK(kinds("! c\n\n%%%\r\n  VERSION:1\r\n%%%\r\nMODULE m") == "FileHeader KwModule Identifier");
     CHECK(kinds("MODULE %%%") == "KwModule Percent Percent Percent");
 }
