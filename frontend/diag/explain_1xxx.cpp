@@ -189,7 +189,7 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "PROC p(num list{10})\nENDPROC", "PROC p(num list{*})\nENDPROC"},
     {1315, Kind::Module, "Alternatives are optional parameters: they begin with '\\' (manual 1.1.5).",
      "PROC p(num a | num b)\nENDPROC", "PROC p(\\num a | num b)\nENDPROC"},
-    {1316, Kind::Module,
+    {1324, Kind::Module,
      "Instructions and declarations of data end with ';'. ENDPROC, ENDFUNC, ENDTRAP, ENDRECORD and ENDMODULE "
      "end what "
      "they name by themselves (manual 1.1.3, 1.1.5).",

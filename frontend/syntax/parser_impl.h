@@ -123,8 +123,9 @@ class Parser {
     bool findOnLine(TokenIndex from, K wanted, TokenIndex& found) const;
     void expectWord(K word);
     bool expectHeadWord(K word, bool whole);
-    Expr* parseHeadExpr(bool& whole);
-    bool beginsInstruction() const;
+    Expr* parseHeadExpr(bool& whole, bool inCase = false);
+    /// `inCase`: a name and a colon are a value of CASE, no label.
+    bool beginsInstruction(bool inCase = false) const;
     TokenIndex missingName();
     void expectClosing(K closing, TokenIndex opening, bool inList);
     void closeBlock(K end, TokenIndex opening, bool whole = true);

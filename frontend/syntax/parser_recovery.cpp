@@ -312,9 +312,10 @@ bool Parser::expectHeadWord(K word, bool whole) {
 }
 
 /// An instruction on a line of its own, where something else should go on.
-bool Parser::beginsInstruction() const {
+bool Parser::beginsInstruction(bool inCase) const {
     constexpr TokenSet kNoOperator = {K::Identifier, K::NumLiteral, K::StringLiteral, K::Assign, K::Colon};
     if (!startsLine(pos_) || !isName(kind())) return false;
+    if (inCase && peek() == K::Colon) return false; // the last value of CASE, no label
     if (peek() == K::Dot || peek() == K::LeftBrace) return looksLikeStatement(pos_);
     return kNoOperator.has(peek()) && !(peek() == K::Identifier && startsLine(pos_ + 1));
 }
@@ -325,9 +326,9 @@ TokenIndex Parser::missingName() {
 }
 
 /// An expression in the head of a block. It may go over lines, but the next instruction is none.
-Expr* Parser::parseHeadExpr(bool& whole) {
+Expr* Parser::parseHeadExpr(bool& whole, bool inCase) {
     if (!whole) return errorExpr();
-    if (beginsInstruction()) {
+    if (beginsInstruction(inCase)) {
         reportAt(Code::UnexpectedToken, endOf(pos_ - 1), {describe(pos_), "an expression"});
         whole = false;
         return errorExpr();

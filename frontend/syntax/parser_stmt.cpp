@@ -423,7 +423,7 @@ TestCase* Parser::parseCase() {
         const size_t mark = exprs_.size();
         bool whole = true;
         do
-            exprs_.push_back(parseHeadExpr(whole));
+            exprs_.push_back(parseHeadExpr(whole, true));
         while (whole && !panic_ && accept(K::Comma));
         node->values = drain(exprs_, mark);
         TokenIndex found = 0;
