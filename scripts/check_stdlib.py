@@ -26,7 +26,7 @@ ENDMODULE ENDPROC ENDRECORD ENDTEST ENDTRAP ENDWHILE ERROR EXIT FALSE FOR FROM F
 NOSTEPIN NOT NOVIEW OR PERS PROC RAISE READONLY RECORD RETRY RETURN STEP SYSMODULE TEST THEN TO TRAP TRUE TRYNEXT
 UNDO VAR VIEWONLY WHILE WITH XOR""".split())
 MODES = {"VAR", "PERS", "INOUT", "REF"}
-EFFECTS = {"const", "pure", "reads", "writes", "waits", "motion"}
+EFFECTS = {"const", "pure", "reads", "writes", "watches", "waits", "motion"}
 CONFIDENCE = {"high", "medium", "low"}
 CLASSES = {"atomic", "nonvalue", "semivalue", "pseudo", "sysvar"}
 RESTRICTIONS = {"value", "numeric", "atomic", "array", "signal", "string"}

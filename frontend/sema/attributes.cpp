@@ -70,6 +70,7 @@ Effects effectsOf(std::string_view word) {
     if (word == "pure") return Effects::Pure;
     if (word == "reads") return Effects::Reads;
     if (word == "writes") return Effects::Writes;
+    if (word == "watches") return Effects::Watches;
     if (word == "waits") return Effects::Waits;
     if (word == "motion") return Effects::Motion;
     return Effects::None;

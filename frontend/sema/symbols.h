@@ -83,7 +83,7 @@ struct DataSymbol : Symbol {
 };
 
 /// How a native may be called; from `effects:` in the declaration.
-enum class Effects : uint8_t { None, Const, Pure, Reads, Writes, Waits, Motion };
+enum class Effects : uint8_t { None, Const, Pure, Reads, Writes, Watches, Waits, Motion };
 
 struct RoutineSymbol : Symbol {
     syntax::RoutineKind routineKind = syntax::RoutineKind::Proc;

@@ -165,6 +165,7 @@ struct Native {
     NativeClass nativeClass = NativeClass::Plain;
     TypeId result = kVoid;
     std::vector<TypeId> params;
+    bool watches = false; ///< goes on looking at persistents it was given: stores to them become safepoints
 };
 
 // ---- Module ----------------------------------------------------------------------------------------------

@@ -299,6 +299,7 @@ uint32_t ProgramLowering::nativeFor(const RoutineSymbol& symbol) {
     native.nativeClass = symbol.effects == sema::Effects::Const && allValues && scalarResult
                              ? ir::NativeClass::Const
                              : ir::NativeClass::Plain;
+    native.watches = symbol.effects == sema::Effects::Watches;
     const auto index = static_cast<uint32_t>(module_.natives.size());
     module_.natives.push_back(std::move(native));
     natives_[name] = index;

@@ -1,6 +1,7 @@
 // Inserts the safepoints (design chapter 4). The budget counts statements: the routine pays at its entry for those
 // outside loops, each loop pays per round for those of its own. An innermost counted loop without calls pays for all
-// its rounds ahead of the loop, so that its body stays free of control flow and can be vectorised.
+// its rounds ahead of the loop, so that its body stays free of control flow and can be vectorised. What may have caused an
+// interrupt is followed by a safepoint without cost: traps run when the next statement is entered.
 
 #include <algorithm>
 
@@ -14,7 +15,8 @@ namespace {
 
 class Placer {
   public:
-    Placer(const Module& module, Routine& routine) : module_(module), routine_(routine) {}
+    Placer(const Module& module, Routine& routine, bool dataWatched)
+        : module_(module), routine_(routine), dataWatched_(dataWatched) {}
 
     void run(Profile profile) {
         keepEntryFree();
@@ -32,6 +34,7 @@ class Placer {
             payAtEntry();
         for (uint32_t l = 0; l < info_.loops.size(); ++l)
             placeInLoop(l, profile);
+        if (profile != Profile::Stepping) lookAfterCauses();
     }
 
   private:
@@ -151,6 +154,45 @@ class Placer {
         }
     }
 
+    void lookAfterCauses() {
+        for (Block& block : routine_.blocks) {
+            std::vector<ValueId> insts;
+            for (ValueId id : block.insts) {
+                insts.push_back(id);
+                if (mayCauseInterrupt(routine_.insts[id]))
+                    insts.push_back(add(makeSafepoint(0), routine_.insts[id].stmt));
+            }
+            block.insts = std::move(insts);
+        }
+    }
+
+    bool mayCauseInterrupt(const Inst& inst) const {
+        switch (inst.op) {
+        case Op::CallNative: {
+            const Native& native = module_.natives[inst.index];
+            return native.nativeClass == NativeClass::Plain && native.result == kVoid;
+        }
+        case Op::Store: return dataWatched_ && mayBePersistent(inst.operands[1]);
+        case Op::Copy:
+        case Op::CopyDynamic:
+        case Op::Zero: return dataWatched_ && mayBePersistent(inst.operands[0]);
+        default: return false;
+        }
+    }
+
+    bool mayBePersistent(ValueId address) const {
+        const Inst& inst = routine_.insts[address];
+        switch (inst.op) {
+        case Op::FieldAddr:
+        case Op::ElemAddr: return mayBePersistent(inst.operands[0]);
+        case Op::GlobalAddr: return module_.globals[inst.index].kind == GlobalKind::Persistent;
+        case Op::LocalAddr:
+        case Op::ResultAddr:
+        case Op::StackAlloc: return false;
+        default: return true; // a parameter: the caller may have passed a persistent
+        }
+    }
+
     void placeInLoop(uint32_t l, Profile profile) {
         const Loop& loop = info_.loops[l];
         uint32_t own = 0, all = 0;
@@ -248,6 +290,7 @@ class Placer {
 
     const Module& module_;
     Routine& routine_;
+    bool dataWatched_;
     Cfg cfg_;
     LoopInfo info_;
 };
@@ -255,8 +298,10 @@ class Placer {
 } // namespace
 
 void placeSafepoints(Module& module, Profile profile) {
+    const bool dataWatched = std::any_of(module.natives.begin(), module.natives.end(),
+                                         [](const Native& native) { return native.watches; });
     for (Routine& routine : module.routines)
-        Placer(module, routine).run(profile);
+        Placer(module, routine, dataWatched).run(profile);
 }
 
 } // namespace ir

@@ -167,6 +167,7 @@ class ModuleParser {
             if (!in_.takePunct(',')) break;
         }
         if (!in_.punct(')')) return false;
+        native.watches = in_.takeWord("watches");
         module_.natives.push_back(std::move(native));
         return in_.endOfLine();
     }

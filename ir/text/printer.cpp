@@ -111,7 +111,7 @@ void printNative(Out& out, const Native& native) {
         native.nativeClass == NativeClass::Const ? "const" : "plain", typeName(native.result));
     for (size_t i = 0; i < native.params.size(); ++i)
         put(out, "{}{}", i ? ", " : "", typeName(native.params[i]));
-    put(out, ")\n");
+    put(out, "){}\n", native.watches ? " watches" : "");
 }
 
 class RoutinePrinter {

@@ -57,6 +57,8 @@ class Controller final : public TaskHost {
     const SystemSettings& settings() const { return settings_; }
     /// All configuration files read, in order (every domain).
     const std::vector<CfgFile>& configuration() const { return configuration_; }
+    /// All instances of a type in the files of a domain, in order.
+    std::vector<const CfgInstance*> instances(std::string_view domain, std::string_view type) const;
     /// Random numbers for Rand, started with --seed; the same sequence on every machine.
     std::mt19937& random() { return random_; }
     /// Date and time of the controller: the wall's at the start plus virtual time. Seconds since 1970, UTC.
@@ -124,8 +126,6 @@ class Controller final : public TaskHost {
     ExitStatus finish(RunEnd end);
     std::string whereTasksAre(const char* verb) const;
     std::string trustLevel(const Task& task) const;
-    /// All instances of a type in the files of a domain, in order.
-    std::vector<const CfgInstance*> instances(std::string_view domain, std::string_view type) const;
 
     RunOptions options_;
     EventLog log_;

@@ -115,22 +115,41 @@ uint64_t EventLog::write(Event event) {
     show(event);
     events_.push_back(std::move(event));
     if (events_.size() > kKept) events_.pop_front();
-    if (observer_) observer_(events_.back());
-    return sequence_;
+    const uint64_t sequence = sequence_;
+    if (!listeners_.empty()) {
+        const Event written = events_.back(); // a listener may write events, and remove itself
+        const auto listeners = listeners_;
+        for (const auto& [id, listener] : listeners)
+            if (listeners_.count(id) != 0) listener(written);
+    }
+    return sequence;
+}
+
+uint64_t EventLog::addListener(std::function<void(const Event&)> listener) {
+    listeners_[++lastListener_] = std::move(listener);
+    return lastListener_;
+}
+
+const Event* EventLog::find(uint64_t sequence) const {
+    if (events_.empty() || sequence < events_.front().sequence || sequence > events_.back().sequence)
+        return nullptr;
+    return &events_[static_cast<std::size_t>(sequence - events_.front().sequence)];
 }
 
 uint64_t EventLog::write(EventId id, const Task* task, std::initializer_list<std::string> arguments) {
     const EventText row = eventText(id);
-    return write(row.type, static_cast<int>(id), row.title, fill(row.text, arguments), task);
+    return write(row.type, static_cast<int>(id), row.title, fill(row.text, arguments), task, arguments);
 }
 
-uint64_t EventLog::write(EventType type, int number, std::string title, std::string text, const Task* task) {
+uint64_t EventLog::write(EventType type, int number, std::string title, std::string text, const Task* task,
+                         std::vector<std::string> arguments) {
     Event event;
     event.number = number;
     event.type = type;
     event.title = std::move(title);
     event.text = std::move(text);
     event.time = -1;
+    event.arguments = std::move(arguments);
     if (task != nullptr) {
         event.task = task->name();
         event.place = task->place();

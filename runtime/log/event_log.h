@@ -34,12 +34,13 @@ struct Event {
     int number = 0;
     EventType type = EventType::Information;
     std::string title, text;
-    Time time = 0;                  ///< virtual
-    std::string task;               ///< empty: the controller
-    SourcePlace place;              ///< module, routine, line; empty when there is none
-    std::vector<SourcePlace> calls; ///< callers of place.routine, innermost first
-    int errorNumber = 0;            ///< ERRNO, 0 = none
-    std::string errorName;          ///< "ERR_DIVZERO"
+    Time time = 0;                      ///< virtual
+    std::string task;                   ///< empty: the controller
+    SourcePlace place;                  ///< module, routine, line; empty when there is none
+    std::vector<SourcePlace> calls;     ///< callers of place.routine, innermost first
+    int errorNumber = 0;                ///< ERRNO, 0 = none
+    std::string errorName;              ///< "ERR_DIVZERO"
+    std::vector<std::string> arguments; ///< what was filled into the text, for ReadErrData
 };
 
 class EventLog {
@@ -54,8 +55,9 @@ class EventLog {
     /// Where people read events; null: nowhere. Default stderr.
     void setHumanOutput(std::FILE* file) { human_ = file; }
     void setClock(std::function<Time()> now) { now_ = std::move(now); }
-    /// Called with every event after it is kept.
-    void setObserver(std::function<void(const Event&)> observer) { observer_ = std::move(observer); }
+    /// Called with every event after it is kept, until removed; a listener may remove itself and write events.
+    uint64_t addListener(std::function<void(const Event&)> listener);
+    void removeListener(uint64_t listener) { listeners_.erase(listener); }
 
     /// The standard library tells the name ("ERR_DIVZERO") and the meaning (one sentence, may be "") of every
     /// ERRNO constant. The texts must outlive the log.
@@ -70,10 +72,13 @@ class EventLog {
     /// and place.
     uint64_t write(EventId id, const Task* task, std::initializer_list<std::string> arguments = {});
     /// ErrWrite, ErrLog: number in full (domain * 10000 + number), texts as given.
-    uint64_t write(EventType type, int number, std::string title, std::string text, const Task* task);
+    uint64_t write(EventType type, int number, std::string title, std::string text, const Task* task,
+                   std::vector<std::string> arguments = {});
 
     /// The newest 1000, oldest first.
     const std::deque<Event>& events() const { return events_; }
+    /// The event with this sequence number, while it is kept.
+    const Event* find(uint64_t sequence) const;
     uint64_t count() const { return sequence_; }
     /// Everything to disk.
     void flush();
@@ -83,7 +88,8 @@ class EventLog {
     std::deque<Event> events_;
     std::map<int, std::pair<const char*, const char*>> names_;
     std::function<Time()> now_;
-    std::function<void(const Event&)> observer_;
+    std::map<uint64_t, std::function<void(const Event&)>> listeners_;
+    uint64_t lastListener_ = 0;
     std::FILE* human_ = stderr;
     std::FILE* json_ = nullptr;
     uint64_t sequence_ = 0;

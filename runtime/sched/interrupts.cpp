@@ -4,7 +4,7 @@
 #include "runtime/sched/task.h"
 
 #include <algorithm>
-#include <vector>
+#include <utility>
 
 namespace rt {
 
@@ -19,6 +19,13 @@ int InterruptTable::connect(const Trap& trap) {
     if (defined_.size() >= kMaxDefined) return 0;
     defined_[++lastNumber_].trap = trap;
     return lastNumber_;
+}
+
+bool InterruptTable::attach(int number, const Trap& trap) {
+    const auto found = defined_.find(number);
+    if (found == defined_.end() || found->second.trap.function != nullptr) return false;
+    found->second.trap = trap;
+    return true;
 }
 
 bool InterruptTable::isOrdered(int number) const {
@@ -44,9 +51,14 @@ bool InterruptTable::remove(int number) {
     if (found == defined_.end()) return false;
     const std::function<void()> disarm = std::move(found->second.disarm);
     defined_.erase(found);
-    queue_.erase(std::remove(queue_.begin(), queue_.end(), number), queue_.end());
+    dropQueued([number](int queued) { return queued == number; });
     if (disarm) disarm();
     return true;
+}
+
+template <class Condition> void InterruptTable::dropQueued(Condition drop) {
+    const auto gone = [&drop](const Occurrence& occurrence) { return drop(occurrence.number); };
+    queue_.erase(std::remove_if(queue_.begin(), queue_.end(), gone), queue_.end());
 }
 
 void InterruptTable::clear() {
@@ -59,14 +71,19 @@ void InterruptTable::clear() {
     }
 }
 
-void InterruptTable::post(int number) {
+void InterruptTable::post(int number, Cause cause) {
     const auto found = defined_.find(number);
     if (found == defined_.end() || !found->second.ordered || found->second.asleep) return;
     Definition& definition = found->second;
     if (task_.state() == TaskState::Finished ||
         ((task_.isStopped() || task_.isStepwise()) && !definition.safe))
         return;
-    queue_.push_back(number);
+    if (queue_.size() >= kMaxQueued) {
+        if (!overflowReported_) task_.report(EventId::InterruptsLost, {std::to_string(number)});
+        overflowReported_ = true;
+        return;
+    }
+    queue_.push_back({number, std::move(cause)});
     if (definition.single) {
         definition.ordered = false;
         const std::function<void()> disarm = std::move(definition.disarm);
@@ -102,34 +119,42 @@ void InterruptTable::enable() {
 
 Status InterruptTable::deliver() {
     while (deliverable()) {
-        const int number = queue_.front();
-        queue_.pop_front();
-        const auto found = defined_.find(number);
-        if (found == defined_.end()) continue;
-        const Trap trap = found->second.trap;
-        if (trap.function == nullptr) {
-            return task_.fatal(static_cast<int>(EventId::TrapMissing), std::to_string(number));
-        }
-        // The interrupted code must not see that a trap ran in between: ERRNO and INTNO are its own.
-        Frame* const interrupted = task_.frame;
-        const float errorNumber = task_.errorNumber;
-        const float interruptNumber = task_.interruptNumber;
-        Frame boundary{interrupted, &kTrapBoundary, -1, 0};
-        task_.interruptNumber = static_cast<float>(number);
-        running_ = true;
-        const Status status = trap.function(&task_, &boundary);
-        running_ = false;
-        task_.frame = interrupted;
-        task_.errorNumber = errorNumber;
-        task_.interruptNumber = interruptNumber;
-        if (status != kOk) return status < 0 ? status : task_.raiseAt(&boundary, status);
+        if (const Status status = deliverFirst(); status != kOk) return status;
+        // Traps that cause each other's interrupts must not hold up time.
+        if (!deliverable() || !task_.outOfBudget()) continue;
+        if (const Status status = task_.letTimePass(); status != kOk) return status;
     }
     return kOk;
 }
 
+Status InterruptTable::deliverFirst() {
+    const Occurrence occurrence = std::move(queue_.front());
+    queue_.pop_front();
+    if (queue_.empty()) overflowReported_ = false;
+    const auto found = defined_.find(occurrence.number);
+    if (found == defined_.end()) return kOk;
+    const Trap trap = found->second.trap;
+    if (trap.function == nullptr)
+        return task_.fatal(static_cast<int>(EventId::TrapMissing), std::to_string(occurrence.number));
+    // The interrupted code must not see that a trap ran in between: ERRNO and INTNO are its own.
+    Frame* const interrupted = task_.frame;
+    const float errorNumber = task_.errorNumber;
+    const float interruptNumber = task_.interruptNumber;
+    Frame boundary{interrupted, &kTrapBoundary, -1, 0};
+    task_.interruptNumber = static_cast<float>(occurrence.number);
+    task_.charge(1); // an empty trap costs an instruction as well
+    cause_ = occurrence.cause;
+    running_ = true;
+    const Status status = trap.function(&task_, &boundary);
+    unwound();
+    task_.frame = interrupted;
+    task_.errorNumber = errorNumber;
+    task_.interruptNumber = interruptNumber;
+    return status > 0 ? task_.raiseAt(&boundary, status) : status;
+}
+
 void InterruptTable::taskStopped() {
-    const auto unsafe = [this](int number) { return !isSafe(number); };
-    queue_.erase(std::remove_if(queue_.begin(), queue_.end(), unsafe), queue_.end());
+    dropQueued([this](int queued) { return !isSafe(queued); });
 }
 
 } // namespace rt

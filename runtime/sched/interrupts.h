@@ -9,6 +9,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 
 namespace rt {
 
@@ -24,6 +25,11 @@ class InterruptTable {
   public:
     /// At most this many may be defined at a time in a task (manual 1.11).
     static constexpr std::size_t kMaxDefined = 100;
+    /// At most this many occurrences wait in the queue; a further one is lost, with an event. The manual names no
+    /// limit; without one a program that never enables its interrupts would use up all memory.
+    static constexpr std::size_t kMaxQueued = 1000;
+    /// What made an interrupt occur, for those who ask in the trap (GetTrapData).
+    using Cause = std::shared_ptr<const void>;
 
     explicit InterruptTable(Task& task) : task_(task) {}
     ~InterruptTable() { clear(); }
@@ -32,12 +38,16 @@ class InterruptTable {
 
     /// CONNECT: a new interrupt number (from 1) for this trap; 0 when 100 are defined already (ERR_INOMAX).
     int connect(const Trap& trap);
+    /// A new interrupt number without a trap routine: it may be ordered, but its occurrence is fatal (manual 1.11).
+    int define() { return connect({}); }
+    /// Gives a number made by define() its trap routine. False when the number is not defined or has one.
+    bool attach(int number, const Trap& trap);
     bool isDefined(int number) const { return defined_.count(number) != 0; }
     /// True when the interrupt has been ordered (ISignalDI, ITimer ...).
     bool isOrdered(int number) const;
     /// Orders a connected interrupt: `disarm` is called when the order ends (IDelete, program reset, \Single
-    /// after the first delivery, end of the task). The source calls post(number) whenever its condition
-    /// becomes true. False when the number is not connected (ERR_UNKINO) .
+    /// after the first occurrence, end of the task). The source calls post(number) whenever its condition
+    /// becomes true. An order that is still in force is replaced. False when the number is not defined.
     bool order(int number, std::function<void()> disarm, bool single = false, bool safe = false);
     /// IDelete. False when the number is not defined.
     bool remove(int number);
@@ -46,7 +56,7 @@ class InterruptTable {
 
     /// The condition of an interrupt became true. Queued while interrupts are disabled or a trap runs;
     /// ignored while the interrupt sleeps, and while the task is stopped unless the interrupt is safe.
-    void post(int number);
+    void post(int number, Cause cause = nullptr);
     /// ISleep / IWatch. False when the number is not defined.
     bool sleep(int number);
     bool watch(int number);
@@ -64,8 +74,13 @@ class InterruptTable {
     void taskStopped();
     /// True while a trap routine executes.
     bool inTrap() const { return running_; }
+    /// Cause of the interrupt whose trap routine executes; null when its source gave none.
+    const Cause& cause() const { return cause_; }
     /// The unwinding of the task ended: whatever trap ran is gone.
-    void unwound() { running_ = false; }
+    void unwound() {
+        running_ = false;
+        cause_ = nullptr;
+    }
 
   private:
     struct Definition {
@@ -76,12 +91,21 @@ class InterruptTable {
         bool asleep = false;
         bool ordered = false;
     };
+    struct Occurrence {
+        int number = 0;
+        Cause cause;
+    };
+    Status deliverFirst();
+    template <class Condition> void dropQueued(Condition drop);
+
     Task& task_;
     std::map<int, Definition> defined_;
-    std::deque<int> queue_;
+    std::deque<Occurrence> queue_;
+    Cause cause_;
     int lastNumber_ = 0;
     bool enabled_ = true;
     bool running_ = false;
+    bool overflowReported_ = false;
 };
 
 /// Frame records with this routine mark where a trap was called by the system: no handler beyond it takes an

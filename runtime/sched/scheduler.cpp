@@ -74,6 +74,34 @@ void Scheduler::cancel(EventToken token) {
     eventTimes_.erase(found);
 }
 
+EventToken Scheduler::watchData(std::function<void()> look) {
+    watches_.push_back(std::make_unique<Watch>(Watch{++lastToken_, std::move(look)}));
+    if (running_ != nullptr) running_->forceLook();
+    return lastToken_;
+}
+
+void Scheduler::unwatchData(EventToken token) {
+    const auto same = [token](const std::unique_ptr<Watch>& watch) { return watch->token == token; };
+    const auto found = std::find_if(watches_.begin(), watches_.end(), same);
+    if (found == watches_.end()) return;
+    if (looking_)
+        (*found)->token = 0; // it may be the one that looks now
+    else
+        watches_.erase(found);
+}
+
+void Scheduler::lookAtAll() {
+    if (looking_) return;
+    looking_ = true;
+    for (std::size_t i = 0; i < watches_.size(); ++i) { // a look may add others
+        const Watch& watch = *watches_[i];
+        if (watch.token != 0) watch.look();
+    }
+    looking_ = false;
+    const auto gone = [](const std::unique_ptr<Watch>& watch) { return watch->token == 0; };
+    watches_.erase(std::remove_if(watches_.begin(), watches_.end(), gone), watches_.end());
+}
+
 void Scheduler::fireDueEvents() {
     while (!events_.empty() && events_.begin()->first.first <= now_) {
         const auto first = events_.begin();
@@ -131,8 +159,11 @@ void Scheduler::runSlice(Task& task) {
     granted_ = (sliceUnits_ - task.debt_) / kUnitsPerInstruction;
     task.budget = granted_;
     task.stash_ = 0;
+    task.yieldWanted_ = false;
+    if (dataWatched()) task.forceLook();
     running_ = &task;
     task.fibre_->resume();
+    lookAtData();
     settle(task);
 }
 

@@ -9,6 +9,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,16 @@ class Scheduler {
     /// Ends all tasks without UNDO; afterwards none is on a fibre. `run` must not be active.
     void abandonTasks();
 
+    // ---- Data that is watched -----------------------------------------------------------------------------
+    /// `look` compares data of the program with what it saw last (IPers). Called at every safepoint and wait of every
+    /// task as long as it is there; it may post interrupts and remove itself.
+    EventToken watchData(std::function<void()> look);
+    void unwatchData(EventToken token);
+    bool dataWatched() const { return !watches_.empty(); }
+    void lookAtData() {
+        if (!watches_.empty()) lookAtAll();
+    }
+
     // ---- Used by Task -------------------------------------------------------------------------------------
     void makeReady(Task& task);
     void switchOut(Task& task); ///< from the task's fibre back to the scheduler
@@ -91,7 +102,12 @@ class Scheduler {
 
   private:
     using EventKey = std::pair<Time, EventToken>;
+    struct Watch {
+        EventToken token = 0;
+        std::function<void()> look;
+    };
 
+    void lookAtAll();
     void fireDueEvents();
     Task* takeRunnable();
     bool anyRunnable() const;
@@ -110,6 +126,8 @@ class Scheduler {
     std::map<EventKey, std::function<void()>> events_;
     std::map<EventToken, Time> eventTimes_;
     EventToken lastToken_ = 0;
+    std::vector<std::unique_ptr<Watch>> watches_;
+    bool looking_ = false;
     std::vector<Task*> tasks_;
     std::deque<Task*> ready_; // round robin order
     Task* running_ = nullptr;

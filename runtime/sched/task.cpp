@@ -117,7 +117,8 @@ Status Task::beginUnwind(Unwind cause) {
 Status Task::enterWait() {
     if (unwinding_ == Unwind::Abandon || undoAborted_) return kUnwindSilent;
     if (pendingUnwind_ != Unwind::None) return beginUnwind(pendingUnwind_);
-    if (unwinding_ == Unwind::None && interrupts_.deliverable()) return interrupts_.deliver();
+    scheduler_.lookAtData();
+    if (unwinding_ == Unwind::None && !isStopped() && interrupts_.deliverable()) return interrupts_.deliver();
     return kOk;
 }
 
@@ -133,12 +134,16 @@ Status Task::block() {
     return afterSwitch();
 }
 
-Status Task::yield() {
-    if (const Status status = enterWait(); status < 0) return status;
+Status Task::letTimePass() {
     state_ = TaskState::Ready;
     scheduler_.makeReady(*this);
     scheduler_.switchOut(*this);
-    if (const Status status = afterSwitch(); status < 0) return status;
+    return afterSwitch();
+}
+
+Status Task::yield() {
+    if (const Status status = enterWait(); status < 0) return status;
+    if (const Status status = letTimePass(); status < 0) return status;
     return enterWait();
 }
 
@@ -208,14 +213,21 @@ Status Task::waitExternal(int fd, short pollEvents, Time deadline, WaitResult& r
 
 void Task::notify() {
     notified_ = true;
-    interruptPosted();
+    if (state_ == TaskState::Waiting)
+        scheduler_.makeReady(*this);
+    else if (scheduler_.running() == this)
+        forceSafepoint();
 }
 
 void Task::interruptPosted() {
     if (state_ == TaskState::Waiting)
         scheduler_.makeReady(*this);
     else if (scheduler_.running() == this)
-        forceSafepoint();
+        forceLook();
+}
+
+void Task::report(EventId id, std::initializer_list<std::string> arguments) {
+    host_.log().write(id, this, arguments);
 }
 
 void Task::forget(WaitQueue& queue) {
@@ -226,15 +238,41 @@ void Task::forget(WaitQueue& queue) {
 // ---- Safepoints ----------------------------------------------------------------------------------------------------
 
 void Task::forceSafepoint() {
+    yieldWanted_ = true;
     if (budget <= 0) return;
     stash_ += budget;
     budget = 0;
 }
 
+void Task::forceLook() {
+    if (budget < 0) return;
+    stash_ += budget + 1;
+    budget = -1;
+}
+
 Status Task::safepoint(Frame* at) {
     frame = at;
     flushHandledWarning();
-    return yield();
+    budget += stash_;
+    stash_ = 0;
+    const bool leaving = pendingUnwind_ != Unwind::None || unwinding_ != Unwind::None || isStopped();
+    Status status = kOk;
+    if (budget < 0 || leaving) {
+        yieldWanted_ = false;
+        status = yield();
+    } else {
+        // The slice is not over: somebody asked to look for interrupts, or for the end of the slice.
+        scheduler_.lookAtData();
+        if (interrupts_.deliverable()) {
+            status = interrupts_.deliver();
+            if (yieldWanted_) forceSafepoint();
+        } else if (yieldWanted_) {
+            yieldWanted_ = false;
+            status = yield();
+        }
+    }
+    if (scheduler_.dataWatched()) forceLook();
+    return status;
 }
 
 int32_t Task::step(Frame* at) {

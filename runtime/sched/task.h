@@ -33,6 +33,8 @@ class Scheduler;
 class StepHook;
 class WaitQueue;
 
+enum class EventId : int; // log/event_log.h
+
 enum class TaskKind : uint8_t { Normal, Static, SemiStatic };
 
 /// Where a task is, was, or was called from.
@@ -125,6 +127,10 @@ class Task : public TaskCore {
     Status yield();
     /// Charges instructions to the budget, for natives whose cost depends on their arguments.
     void charge(int64_t instructions) { budget -= instructions; }
+    /// What was granted for this slice is used up.
+    bool outOfBudget() const { return budget + stash_ < 0; }
+    /// Lets other tasks run and time pass, without delivering interrupts.
+    Status letTimePass();
 
     // ---- Ending and stopping ------------------------------------------------------------------------------
     /// EXIT: UNDO handlers run, the task ends. To be returned by the native: `return task.requestExit();`
@@ -180,8 +186,12 @@ class Task : public TaskCore {
     void forget(WaitQueue& queue);
     /// An interrupt can be delivered: does not end what the task waits for.
     void interruptPosted();
-    /// Lets the next safepoint of a running task go to the scheduler although budget is left.
+    /// Lets the next safepoint that costs something go to the scheduler although budget is left.
     void forceSafepoint();
+    /// Lets the very next safepoint look for interrupts, also one that costs nothing (after a native call).
+    void forceLook();
+    /// Writes an event with the place of this task.
+    void report(EventId id, std::initializer_list<std::string> arguments);
     /// Stops the task where it is / lets it go on. resume() is false when it cannot go on from here (stopped by
     /// an error in code that cannot execute the statement again).
     void stop(StopCause cause);
@@ -265,6 +275,7 @@ class Task : public TaskCore {
     // kept by the scheduler: charged but not yet paid with time (in 1/rate ns); budget set aside by forceSafepoint
     int64_t debt_ = 0;
     int64_t stash_ = 0;
+    bool yieldWanted_ = false; // forceSafepoint: the next safepoint is to end the slice
 
     std::vector<WaitQueue*> waitingOn_;
     bool notified_ = false;

@@ -54,7 +54,10 @@ Status rt_ErrLog(TaskCore* task, float ErrorId, bool W, bool I, const String* Ar
     const int number =
         ErrorId < 5000 ? 40000 + static_cast<int>(ErrorId) : 110000 + static_cast<int>(ErrorId);
     Task& owner = taskOf(task);
-    owner.controller().log().write(type, number, std::string(Argument1->view()), text, &owner);
+    owner.controller().log().write(type, number, std::string(Argument1->view()), text, &owner,
+                                   {std::string(Argument1->view()), std::string(Argument2->view()),
+                                    std::string(Argument3->view()), std::string(Argument4->view()),
+                                    std::string(Argument5->view())});
     return kOk;
 }
 }

@@ -1,5 +1,6 @@
 // Manual 1.11: connecting, ordering and switching interrupts.
 
+#include "stdlib/impl/interrupts/ordering.h"
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/support_natives.h"
@@ -7,8 +8,8 @@
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
 
-#include <algorithm>
 #include <memory>
+#include <utility>
 
 using namespace rt;
 
@@ -21,16 +22,15 @@ int numberOf(const float* interrupt) {
     return static_cast<int>(*interrupt);
 }
 
-Status unknown(TaskCore* task) {
-    return lib::fail(task, err::ERR_UNKINO,
-                     "the interrupt is not connected with a trap routine; use CONNECT first");
+Status tooMany(TaskCore* task) {
+    return lib::fail(task, err::ERR_INOMAX, "100 interrupts are defined in this task, which is the most");
 }
 
 struct SignalOrder {
     Handle signal;
-    bool single, safe;
-    const float* interrupt;
-    bool (*wanted)(double oldValue, double newValue);
+    lib::OrderKind kind;
+    float* interrupt;
+    bool (*wanted)(double newValue);
 };
 
 /// Posts the interrupt at every change of the signal that `wanted` accepts.
@@ -40,31 +40,30 @@ Status orderSignal(TaskCore* core, const SignalOrder& what) {
     Status status = kOk;
     const SignalId id = lib::signalOf(core, what.signal, status);
     if (status != kOk) return status;
-    const int number = numberOf(what.interrupt);
-    if (!task.interrupts().isDefined(number)) return unknown(core);
+    const int number = lib::numberToOrder(core, what.interrupt, status);
+    if (status != kOk) return status;
     const auto wanted = what.wanted;
-    const uint64_t listener =
-        io.addListener(id, [&task, number, wanted](SignalId, double before, double now) {
-            if (wanted(before, now)) task.interrupts().post(number);
-        });
-    const auto disarm = [&io, listener] { io.removeListener(listener); };
-    if (task.interrupts().order(number, disarm, what.single || what.safe, what.safe)) return kOk;
-    disarm();
-    return unknown(core);
+    const uint64_t listener = io.addListener(id, [&task, number, wanted](SignalId, double, double now) {
+        if (wanted(now)) task.interrupts().post(number);
+    });
+    return lib::orderInterrupt(core, number, what.kind, [&io, listener] { io.removeListener(listener); });
 }
 
-Status orderDigital(TaskCore* task, Handle signal, float value, bool single, bool safe,
-                    const float* interrupt) {
-    const auto rises = [](double, double now) { return now == 1; };
-    const auto falls = [](double, double now) { return now == 0; };
-    const auto either = [](double, double) { return true; };
+Status orderDigital(TaskCore* task, Handle signal, float value, lib::OrderKind kind, float* interrupt) {
+    const auto rises = [](double now) { return now == 1; };
+    const auto falls = [](double now) { return now == 0; };
+    const auto either = [](double) { return true; };
     if (value != k::low && value != k::high && value != k::edge)
         return lib::fail(task, err::ERR_ARGVALERR,
                          "the value that raises the interrupt must be low, high or edge");
-    return orderSignal(task, {signal, single, safe, interrupt,
+    return orderSignal(task, {signal, kind, interrupt,
                               value == k::high  ? +rises
                               : value == k::low ? +falls
                                                 : +either});
+}
+
+Status orderGroup(TaskCore* task, Handle signal, lib::OrderKind kind, float* interrupt) {
+    return orderSignal(task, {signal, kind, interrupt, [](double) { return true; }});
 }
 
 /// A timer that orders itself again until it is disarmed.
@@ -92,33 +91,59 @@ struct Timer {
 
 } // namespace
 
+namespace rt::lib {
+
+int numberToOrder(TaskCore* task, float* interrupt, Status& status) {
+    InterruptTable& table = taskOf(task).interrupts();
+    if (table.isDefined(numberOf(interrupt))) return numberOf(interrupt);
+    const int number = table.define();
+    if (number == 0)
+        status = tooMany(task);
+    else
+        *interrupt = static_cast<float>(number);
+    return number;
+}
+
+Status orderInterrupt(TaskCore* task, int number, OrderKind kind, std::function<void()> disarm) {
+    taskOf(task).interrupts().order(number, std::move(disarm), kind.single || kind.safe, kind.safe);
+    return kOk;
+}
+
+Status unknownInterrupt(TaskCore* task) {
+    return fail(task, err::ERR_UNKINO,
+                "the interrupt is not connected with a trap routine; use CONNECT first");
+}
+
+} // namespace rt::lib
+
 extern "C" {
 
 Status rt_connect(TaskCore* task, float* interrupt, void* trap) {
     InterruptTable& table = taskOf(task).interrupts();
-    if (*interrupt != 0 && table.isDefined(numberOf(interrupt)))
+    const Trap routine{reinterpret_cast<EntryFunction>(trap), nullptr};
+    if (table.attach(numberOf(interrupt), routine)) return kOk; // ordered before it was connected
+    if (table.isDefined(numberOf(interrupt)))
         return lib::fail(task, err::ERR_ALRDYCNT,
                          "the interrupt variable is connected already; use IDelete first");
-    const int number = table.connect({reinterpret_cast<EntryFunction>(trap), nullptr});
-    if (number == 0)
-        return lib::fail(task, err::ERR_INOMAX, "100 interrupts are defined in this task, which is the most");
+    const int number = table.connect(routine);
+    if (number == 0) return tooMany(task);
     *interrupt = static_cast<float>(number);
     return kOk;
 }
 
 Status rt_ISignalDI(TaskCore* task, bool Single, bool SingleSafe, Handle* Signal, float TriggValue,
                     float* Interrupt) {
-    return orderDigital(task, *Signal, TriggValue, Single, SingleSafe, Interrupt);
+    return orderDigital(task, *Signal, TriggValue, {Single, SingleSafe}, Interrupt);
 }
 Status rt_ISignalDO(TaskCore* task, bool Single, bool SingleSafe, Handle* Signal, float TriggValue,
                     float* Interrupt) {
-    return orderDigital(task, *Signal, TriggValue, Single, SingleSafe, Interrupt);
+    return orderDigital(task, *Signal, TriggValue, {Single, SingleSafe}, Interrupt);
 }
 Status rt_ISignalGI(TaskCore* task, bool Single, bool SingleSafe, Handle* Signal, float* Interrupt) {
-    return orderSignal(task, {*Signal, Single, SingleSafe, Interrupt, [](double, double) { return true; }});
+    return orderGroup(task, *Signal, {Single, SingleSafe}, Interrupt);
 }
 Status rt_ISignalGO(TaskCore* task, bool Single, bool SingleSafe, Handle* Signal, float* Interrupt) {
-    return orderSignal(task, {*Signal, Single, SingleSafe, Interrupt, [](double, double) { return true; }});
+    return orderGroup(task, *Signal, {Single, SingleSafe}, Interrupt);
 }
 
 Status rt_ITimer(TaskCore* task, bool Single, bool SingleSafe, float Time, float* Interrupt) {
@@ -126,26 +151,25 @@ Status rt_ITimer(TaskCore* task, bool Single, bool SingleSafe, float Time, float
     const bool single = Single || SingleSafe;
     if (!(Time >= (single ? kShortestSingle : kShortestCycle)))
         return lib::fail(task, err::ERR_ARGVALERR, "ITimer: at least 0.1 s, with \\Single 0.01 s");
-    const int number = numberOf(Interrupt);
-    if (!owner.interrupts().isDefined(number)) return unknown(task);
+    Status status = kOk;
+    const int number = lib::numberToOrder(task, Interrupt, status);
+    if (status != kOk) return status;
     const auto timer = std::make_shared<Timer>(Timer{owner, number, fromSeconds(Time), single});
-    if (!owner.interrupts().order(number, [timer] { timer->disarm(); }, single, SingleSafe))
-        return unknown(task);
     Timer::arm(timer);
-    return kOk;
+    return lib::orderInterrupt(task, number, {Single, SingleSafe}, [timer] { timer->disarm(); });
 }
 
 Status rt_IDelete(TaskCore* task, float* Interrupt) {
     // Programs begin with IDelete, CONNECT: a variable that was never connected, or is deleted already, is no error.
     if (*Interrupt == 0) return kOk;
-    if (!taskOf(task).interrupts().remove(numberOf(Interrupt))) return unknown(task);
+    if (!taskOf(task).interrupts().remove(numberOf(Interrupt))) return lib::unknownInterrupt(task);
     *Interrupt = 0;
     return kOk;
 }
 
 Status rt_ISleep(TaskCore* task, float* Interrupt) {
     InterruptTable& table = taskOf(task).interrupts();
-    if (!table.isDefined(numberOf(Interrupt))) return unknown(task);
+    if (!table.isDefined(numberOf(Interrupt))) return lib::unknownInterrupt(task);
     if (table.isSafe(numberOf(Interrupt)))
         return lib::fail(task, err::ERR_INOISSAFE, "a safe interrupt cannot be put to sleep");
     table.sleep(numberOf(Interrupt));
@@ -153,7 +177,7 @@ Status rt_ISleep(TaskCore* task, float* Interrupt) {
 }
 
 Status rt_IWatch(TaskCore* task, float* Interrupt) {
-    return taskOf(task).interrupts().watch(numberOf(Interrupt)) ? kOk : unknown(task);
+    return taskOf(task).interrupts().watch(numberOf(Interrupt)) ? kOk : lib::unknownInterrupt(task);
 }
 
 Status rt_IDisable(TaskCore* task) {

@@ -51,13 +51,17 @@ Status rt_TPWrite(TaskCore* task, const String* String, const float* Num, const 
 
 Status rt_ErrWrite(TaskCore* task, bool W, bool I, const String* Header, const String* Reason,
                    const String* RL2, const String* RL3, const String* RL4) {
-    std::string text(Reason->view());
-    for (const String* line : {RL2, RL3, RL4})
-        if (line) text += "\n" + std::string(line->view());
+    std::string text;
+    std::vector<std::string> lines;
+    for (const String* line : {Reason, RL2, RL3, RL4}) {
+        if (line == nullptr) continue;
+        lines.emplace_back(line->view());
+        text += (lines.size() > 1 ? "\n" : "") + lines.back();
+    }
     const EventType type = W ? EventType::Warning : I ? EventType::Information : EventType::Error;
     const int number = W ? kWarnWriteEvent : I ? kInfoWriteEvent : kErrWriteEvent;
     Controller& controller = taskOf(task).controller();
-    controller.log().write(type, number, std::string(Header->view()), text, &taskOf(task));
+    controller.log().write(type, number, std::string(Header->view()), text, &taskOf(task), lines);
     return kOk;
 }
 

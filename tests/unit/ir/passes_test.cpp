@@ -92,11 +92,13 @@ TEST_CASE("a counted loop without calls pays ahead, for all its rounds", "[ir]")
 TEST_CASE("other loops pay at the back edge", "[ir]") {
     ir::Module module = run(corpusModule("loops.rir"), {"place-safepoints"});
     auto calling = safepoints(routine(module, "calling"));
-    REQUIRE(calling.size() == 2);
+    REQUIRE(calling.size() == 3);
     CHECK(calling[0].cost == 1);
     CHECK(calling[1].block == 2);
-    CHECK(calling[1].cost == 1);
-    CHECK_FALSE(calling[1].computed);
+    CHECK(calling[1].cost == 0); // the native may have caused an interrupt
+    CHECK(calling[2].block == 2);
+    CHECK(calling[2].cost == 1);
+    CHECK_FALSE(calling[2].computed);
 
     // The entry was the header of the loop: it gets a block of its own in front, otherwise it would pay each round.
     const ir::Routine& loop = routine(module, "while");
@@ -130,6 +132,43 @@ TEST_CASE("a loop that is entered in the middle pays on the edge back", "[ir]") 
     };
     visit(0);
     CHECK_FALSE(cycle);
+}
+
+namespace {
+
+/// A native without result, then a store to a persistent and one to a variable; `native` ends the line of the native.
+ir::Module causes(const std::string& native) {
+    return parse(
+        "file 0 \"m.modx\"\ndesc 0 \"num\" base \"num\" num f32\n"
+        "global @\"p\" \"p\" in \"M\" f32 persistent desc 0 at 0:1\n"
+        "global @\"v\" \"v\" in \"M\" f32 var desc 0 at 0:2\n"
+        "native @\"rt_do\" plain void ()" +
+        native +
+        "\nroutine @\"r\" \"r\" in \"M\" at 0:3 void () {\n  stmt 0 plain 1:1 1:2\n  stmt 1 plain 2:1 2:2\n"
+        "  stmt 2 plain 3:1 3:2\n  b0 \"entry\":\n    stmt 0\n    native @\"rt_do\" ()\n    stmt 1\n"
+        "    %0 = const f32 1\n    %1 = global @\"p\"\n    store f32 %0, %1\n    stmt 2\n"
+        "    %2 = global @\"v\"\n    store f32 %0, %2\n    ret\n}\n");
+}
+
+} // namespace
+
+TEST_CASE("what may cause an interrupt is followed by a safepoint without cost", "[ir]") {
+    const ir::Module plain = run(causes(""), {"place-safepoints"});
+    auto found = safepoints(plain.routines[0]);
+    REQUIRE(found.size() == 2);
+    CHECK(found[0].cost == 3);
+    CHECK(found[1].cost == 0);
+    CHECK(plain.routines[0].insts[plain.routines[0].blocks[0].insts[found[1].place - 1]].op ==
+          Op::CallNative);
+
+    // Stores to persistents count only when a native of the program watches them.
+    const ir::Module watching = run(causes(" watches"), {"place-safepoints"});
+    found = safepoints(watching.routines[0]);
+    REQUIRE(found.size() == 3);
+    CHECK(found[2].cost == 0);
+    const ir::Routine& r = watching.routines[0];
+    CHECK(r.insts[r.blocks[0].insts[found[2].place - 1]].op == Op::Store);
+    CHECK(r.insts[r.blocks[0].insts[found[2].place]].stmt == 1);
 }
 
 TEST_CASE("the stepping profile has a safepoint before every statement", "[ir]") {

@@ -1,0 +1,23 @@
+#pragma once
+// What the instructions that order interrupts share (manual 1.11).
+
+#include "runtime/host/controller.h"
+
+#include <functional>
+
+namespace rt::lib {
+
+struct OrderKind {
+    bool single = false; ///< only the first occurrence
+    bool safe = false;   ///< kept while the task is stopped; single as well
+};
+
+/// The number an interrupt variable is ordered by. A variable that is not connected with a trap routine gets a
+/// number too: it may be ordered, but its occurrence is fatal. 0 and ERR_INOMAX (in `status`) when 100 are defined.
+int numberToOrder(TaskCore* task, float* interrupt, Status& status);
+/// Orders `number` (from numberToOrder); `disarm` ends what was armed.
+Status orderInterrupt(TaskCore* task, int number, OrderKind kind, std::function<void()> disarm);
+/// ERR_UNKINO: the variable is not connected.
+Status unknownInterrupt(TaskCore* task);
+
+} // namespace rt::lib

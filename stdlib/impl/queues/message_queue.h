@@ -1,0 +1,85 @@
+#pragma once
+// RAPID message queues (manual 1.10): a queue for each task, messages that carry a value of any type, interrupts on
+// reception. What is decided where the manual is silent: README.md.
+
+#include "runtime/host/controller.h"
+#include "runtime/sched/wait_queue.h"
+
+#include <array>
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rt::lib {
+
+/// Which way a task reads its queue (parameter RmqMode). Open: not configured, either way.
+enum class QueueMode : uint8_t { Open, Interrupt, Synchronous };
+
+struct Message {
+    const TypeDesc* element = nullptr;      ///< of the value, or of the elements of an array
+    std::array<int32_t, 3> dimensions = {}; ///< all 0: no array
+    std::vector<char> bytes;
+    Handle sender = 0; ///< queue identity
+    float userDefined = 0;
+
+    const char* typeName() const { return element->baseName; }
+    /// Length of "type;value" as text, which is how messages travel.
+    std::size_t size() const;
+};
+
+struct MessageQueue {
+    std::string name; ///< "RMQ_T_ROB1"
+    Task* task = nullptr;
+    QueueMode mode = QueueMode::Open;
+    bool exists = true; ///< false: RmqType None
+    std::size_t maxMessages = 5, maxSize = 400;
+    std::deque<Message> messages;
+    WaitQueue arrived;
+    std::map<std::string, int> orders; ///< interrupt numbers by type name (IRMQMessage)
+    /// RMQSendWait in progress: what it waits for, and the answer when it has come.
+    Handle answerFrom = 0;
+    std::string answerType;
+    std::unique_ptr<Message> answer;
+};
+
+/// The queues of a controller, and the messages that variables of its programs hold.
+class MessageQueues {
+  public:
+    /// The service of this controller, with a queue for each of its tasks.
+    static MessageQueues& of(Controller& controller);
+
+    /// Queue identity of a task; queues count from 1.
+    Handle slotOf(const Task& task) const;
+    /// Null for 0 and what is no identity.
+    MessageQueue* find(Handle slot);
+    /// Without regard to case; 0 when there is no such queue.
+    Handle findByName(std::string_view name) const;
+
+    enum class Sent : uint8_t { Ok, TooLarge, Full };
+    /// Delivers to the waiting RMQSendWait, to the queue (posting the interrupt ordered for the type), or, when a task
+    /// in interrupt mode has ordered none, to nobody: an event tells.
+    Sent send(MessageQueue& target, Message message);
+
+    /// Keeps a message for a variable of type rmqmessage; the newest kKept of a controller.
+    Handle keep(Message message);
+    /// Null when the variable holds none.
+    const Message* kept(Handle handle) const;
+
+  private:
+    static constexpr std::size_t kKept = 1000;
+    void makeQueues(Controller& controller);
+
+    std::vector<std::unique_ptr<MessageQueue>> queues_;
+    std::map<Handle, Message> kept_;
+    Handle lastKept_ = 0;
+};
+
+/// The type of the elements of an array, the type itself otherwise.
+const TypeDesc& elementType(const TypeDesc& type);
+std::array<int32_t, 3> dimensionsOf(const TypeDesc& type);
+Message makeMessage(const void* data, const TypeDesc& type, Handle sender, float userDefined);
+
+} // namespace rt::lib
