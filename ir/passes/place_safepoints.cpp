@@ -34,7 +34,7 @@ class Placer {
             payAtEntry();
         for (uint32_t l = 0; l < info_.loops.size(); ++l)
             placeInLoop(l, profile);
-        if (profile != Profile::Stepping) lookAfterCauses();
+        lookAfterCauses();
     }
 
   private:

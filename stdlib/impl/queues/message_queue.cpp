@@ -1,6 +1,6 @@
 #include "stdlib/impl/queues/message_queue.h"
 
-#include "stdlib/impl/support/format.h"
+#include "runtime/value/value_text.h"
 
 #include <algorithm>
 #include <cctype>
