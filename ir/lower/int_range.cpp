@@ -9,8 +9,9 @@ using namespace syntax;
 using ir::Op;
 
 namespace {
-constexpr int64_t kExactLimit = 1 << 24; ///< every integer up to here has an exact binary32
-}
+constexpr int64_t kExactLimit = 1 << 24;   ///< every integer up to here has an exact binary32
+constexpr double kConstantLimit = 1 << 23; ///< a constant leaves room for a sum
+} // namespace
 
 std::optional<RoutineLowering::IntRange> RoutineLowering::intRange(const Expr& outer) const {
     const Expr& expr = unparen(outer);
@@ -19,7 +20,7 @@ std::optional<RoutineLowering::IntRange> RoutineLowering::intRange(const Expr& o
         return std::nullopt;
     if (facts.constant && facts.constant->kind == sema::ConstValue::Kind::Number) {
         const double v = facts.constant->number;
-        if (std::abs(v) > kExactLimit / 2 || v != static_cast<double>(static_cast<int64_t>(v)))
+        if (std::abs(v) > kConstantLimit || v != static_cast<double>(static_cast<int64_t>(v)))
             return std::nullopt;
         return IntRange{static_cast<int64_t>(v), static_cast<int64_t>(v)};
     }

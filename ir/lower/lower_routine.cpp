@@ -10,7 +10,6 @@ namespace rapid::lower {
 
 using sema::DataSymbol;
 using sema::RoutineSymbol;
-using sema::TypeKind;
 
 ir::Routine declareRoutine(ProgramLowering& program, const RoutineSymbol& symbol, uint32_t task) {
     ir::Routine routine;
