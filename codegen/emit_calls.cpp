@@ -58,7 +58,7 @@ void RoutineEmitter::call(const ir::Inst& inst, ir::ValueId id) {
     result->setCallingConv(llvm::CallingConv::Fast);
     result->setDoesNotThrow();
     bool byValue = callee.result != ir::kVoid && module_.isScalar(callee.result);
-    continueIfOk(inst, byValue ? b_.CreateExtractValue(result, 0) : result, true);
+    continueIfOk(inst, byValue ? b_.CreateExtractValue(result, 0) : result);
     if (byValue) define(id, b_.CreateExtractValue(result, 1));
 }
 
@@ -77,10 +77,13 @@ void RoutineEmitter::nativeCall(const ir::Inst& inst, ir::ValueId id) {
         args.push_back(argument);
     }
     noteStatement(inst);
+    BasicBlock* again = newBlock("native");
+    b_.CreateBr(again);
+    b_.SetInsertPoint(again);
     b_.CreateStore(frame_, taskField(offsetof(rt::TaskCore, frame), "taskFrame"))
         ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
     llvm::CallInst* status = b_.CreateCall(m_.nativeFunction(inst.index), args);
-    continueIfOk(inst, status, false);
+    continueIfNativeOk(inst, status, again);
     if (byValue) define(id, load(native.result, slot));
 }
 

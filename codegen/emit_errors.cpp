@@ -1,6 +1,8 @@
 // Errors: cold blocks shared by all places of the routine. Whoever jumps there has stored its statement in the frame
 // record; a phi node carries the number. A check costs one compare and one branch.
 
+#include <algorithm>
+
 #include "codegen/routine_emitter.h"
 #include "runtime/abi/rt_abi.h"
 
@@ -22,10 +24,6 @@ RoutineEmitter::ErrorJoin& RoutineEmitter::makeJoin(ErrorJoin& join, const char*
 RoutineEmitter::ErrorJoin& RoutineEmitter::raiseJoin(bool handled) {
     if (inUndo()) return makeJoin(raiseUndo_, "raise.undo");
     return handled ? makeJoin(raiseHandled_, "raise.handled") : makeJoin(raiseUnhandled_, "raise");
-}
-RoutineEmitter::ErrorJoin& RoutineEmitter::nativeJoin(bool handled) {
-    if (inUndo()) return makeJoin(nativeUndo_, "native.undo");
-    return handled ? makeJoin(nativeHandled_, "native.handled") : makeJoin(nativeUnhandled_, "native");
 }
 RoutineEmitter::ErrorJoin& RoutineEmitter::dispatchJoin() {
     return makeJoin(dispatch_, "dispatch");
@@ -63,16 +61,31 @@ void RoutineEmitter::raise(const ir::Inst& inst) {
     b_.CreateBr(joinFrom(raiseJoin(isHandled(inst)), number));
 }
 
-/// Goes on when `status` is 0. A routine that was called has raised its error itself; a native only reports it.
-void RoutineEmitter::continueIfOk(const ir::Inst& inst, Value* status, bool calleeRaised) {
+/// Goes on when the status of a routine is 0. Its errors have been raised already.
+void RoutineEmitter::continueIfOk(const ir::Inst& inst, Value* status) {
     BasicBlock* ok = newBlock("ok");
-    ErrorJoin* join = nullptr;
-    if (!calleeRaised)
-        join = &nativeJoin(isHandled(inst));
-    else
-        join = isHandled(inst) && !inUndo() ? &dispatchJoin() : &leaveJoin();
-    BasicBlock* fail = joinFrom(*join, status);
+    BasicBlock* fail = joinFrom(isHandled(inst) && !inUndo() ? dispatchJoin() : leaveJoin(), status);
     b_.CreateCondBr(b_.CreateICmpEQ(status, b_.getInt32(rt::kOk)), ok, fail, m_.unlikely());
+    b_.SetInsertPoint(ok);
+}
+
+/// The same for a native, which reports its error only. When the task is started again after the system handler, the
+/// native is called once more (`call`: the block that does so).
+void RoutineEmitter::continueIfNativeOk(const ir::Inst& inst, Value* status, BasicBlock* call) {
+    BasicBlock *ok = newBlock("ok"), *failed = newBlock("native.failed");
+    b_.CreateCondBr(b_.CreateICmpEQ(status, b_.getInt32(rt::kOk)), ok, failed, m_.unlikely());
+    b_.SetInsertPoint(failed);
+    Value* outcome = b_.CreateCall(m_.runtime().nativeFailed, {task_, frame_, status});
+    if (routine_.stepping && !inUndo() && inst.stmt < routine_.statements.size() &&
+        routine_.statements[inst.stmt].start != ir::kNone) {
+        call = newBlock("again"); // the whole statement: what its arguments are made of may have been mended
+        llvm::IRBuilder<>::InsertPointGuard guard(b_);
+        b_.SetInsertPoint(call);
+        Value* stmt = b_.CreateLoad(b_.getInt32Ty(), b_.CreateStructGEP(m_.runtime().frame, frame_, 2));
+        b_.CreateBr(joinFrom(makeJoin(steps_, "step"), stmt));
+    }
+    BasicBlock* fail = joinFrom(isHandled(inst) && !inUndo() ? dispatchJoin() : leaveJoin(), outcome);
+    b_.CreateCondBr(b_.CreateICmpEQ(outcome, b_.getInt32(static_cast<uint32_t>(rt::kAgain))), call, fail);
     b_.SetInsertPoint(ok);
 }
 
@@ -127,10 +140,6 @@ void RoutineEmitter::resumeSwitch(ir::BlockId ir::Statement::* where) {
 void RoutineEmitter::emitErrorBlocks() {
     if (m_.debug()) b_.SetCurrentDebugLocation(m_.debug()->location(routine_, ir::kNone));
     current_ = 0; // outside the undo handler
-    if (nativeHandled_.block) emitNative(nativeHandled_, raiseJoin(true), leaveJoin());
-    if (nativeUnhandled_.block) emitNative(nativeUnhandled_, raiseJoin(false), leaveJoin());
-    if (nativeUndo_.block)
-        emitNative(nativeUndo_, makeJoin(raiseUndo_, "raise.undo"), makeJoin(leaveUndo_, "leave.undo"));
     if (raiseHandled_.block) emitRaise(raiseHandled_, true);
     if (raiseUnhandled_.block) emitRaise(raiseUnhandled_, false);
     if (raiseUndo_.block) emitRaise(raiseUndo_, false);
@@ -140,13 +149,6 @@ void RoutineEmitter::emitErrorBlocks() {
     if (!leaveUndo_.block) return;
     b_.SetInsertPoint(leaveUndo_.block);
     returnFromUndo(leaveUndo_.number);
-}
-
-void RoutineEmitter::emitNative(ErrorJoin& join, ErrorJoin& raising, ErrorJoin& leaving) {
-    b_.SetInsertPoint(join.block);
-    for (ErrorJoin* next : {&raising, &leaving})
-        next->number->addIncoming(join.number, join.block);
-    b_.CreateCondBr(b_.CreateICmpSGT(join.number, b_.getInt32(0)), raising.block, leaving.block);
 }
 
 void RoutineEmitter::emitRaise(ErrorJoin& join, bool handled) {
@@ -177,21 +179,29 @@ void RoutineEmitter::returnFromUndo(Value* status) {
     returnStatus(b_.CreateSelect(b_.CreateICmpSLT(status, b_.getInt32(0)), status, unwinding));
 }
 
-/// An error on its way meets this routine's handler: notes the statement, and takes the error if the filter lets it.
+/// An error on its way meets this routine's handler: notes the statement, and takes the error if the list lets it.
 void RoutineEmitter::emitDispatch() {
     b_.SetInsertPoint(dispatch_.block);
-    Value* stmt = b_.CreateStructGEP(m_.runtime().frame, frame_, 2);
-    b_.CreateStore(b_.CreateLoad(b_.getInt32Ty(), stmt), failed_);
     ErrorJoin& leaving = leaveJoin();
-    BasicBlock* handler = blockOf(routine_.errorHandler);
-    if (routine_.errorFilter.empty()) {
-        leaving.number->addIncoming(dispatch_.number, dispatch_.block);
+    BasicBlock* handler = enterHandler();
+    leaving.number->addIncoming(dispatch_.number, dispatch_.block);
+    const std::vector<int32_t>& list = routine_.errorFilter;
+    auto lists = [&](int32_t number) { return std::find(list.begin(), list.end(), number) != list.end(); };
+    if (!routine_.errorFilterGlobals.empty()) {
+        BasicBlock* ask = newBlock("listed");
+        b_.CreateCondBr(b_.CreateICmpSGT(dispatch_.number, b_.getInt32(0)), ask, leaving.block);
+        b_.SetInsertPoint(ask);
+        Value* takes = b_.CreateCall(m_.runtime().takesError, {task_, frame_, dispatch_.number});
+        leaving.number->addIncoming(dispatch_.number, ask);
+        b_.CreateCondBr(b_.CreateICmpNE(takes, b_.getInt32(0)), handler, leaving.block);
+        return;
+    }
+    if (list.empty() || lists(rt::kAllErrors) || lists(rt::kOtherErrors)) {
         b_.CreateCondBr(b_.CreateICmpSGT(dispatch_.number, b_.getInt32(0)), handler, leaving.block);
         return;
     }
-    leaving.number->addIncoming(dispatch_.number, dispatch_.block);
     auto* filter = b_.CreateSwitch(dispatch_.number, leaving.block);
-    for (int32_t number : routine_.errorFilter) {
+    for (int32_t number : list) {
         auto* value = b_.getInt32(static_cast<uint32_t>(number));
         if (number > 0 && filter->findCaseValue(value) == filter->case_default())
             filter->addCase(value, handler);
@@ -209,23 +219,53 @@ void RoutineEmitter::emitSteps() {
             branch->addCase(b_.getInt32(s), blockOf(routine_.statements[s].start));
 }
 
-/// Leaves the routine with the status; when the stack is being unwound, by way of the undo handler.
+/// A block that notes the failing statement and goes to the error handler.
+llvm::BasicBlock* RoutineEmitter::enterHandler() {
+    if (enterHandler_) return enterHandler_;
+    llvm::IRBuilder<>::InsertPointGuard guard(b_);
+    b_.SetInsertPoint(enterHandler_ = newBlock("enter.handler"));
+    Value* stmt = b_.CreateStructGEP(m_.runtime().frame, frame_, 2);
+    b_.CreateStore(b_.CreateLoad(b_.getInt32Ty(), stmt), failed_);
+    b_.CreateBr(blockOf(routine_.errorHandler));
+    return enterHandler_;
+}
+
+/// Leaves the routine with the status; a long jump may end here, and when the stack is being unwound the undo handler
+/// runs.
 void RoutineEmitter::emitLeave() {
     b_.SetInsertPoint(leave_.block);
+    Value* status = leave_.number;
+    auto number = [&](rt::Status code) { return b_.getInt32(static_cast<uint32_t>(code)); };
+    if (routine_.errorHandler != ir::kNone) {
+        BasicBlock *jump = newBlock("jump"), *land = newBlock("land"), *out = newBlock("out");
+        // Statuses from kJump downward are the long jumps.
+        b_.CreateCondBr(b_.CreateICmpSLE(status, number(rt::kJump)), jump, out);
+        b_.SetInsertPoint(jump);
+        Value* landed = b_.CreateCall(m_.runtime().land, {task_, frame_, status});
+        b_.CreateCondBr(b_.CreateICmpSGT(landed, b_.getInt32(0)), land, out);
+        b_.SetInsertPoint(land);
+        b_.CreateBr(enterHandler());
+        b_.SetInsertPoint(out);
+        auto* way = b_.CreatePHI(b_.getInt32Ty(), 2, "status");
+        way->addIncoming(status, leave_.block);
+        way->addIncoming(landed, jump);
+        status = way;
+    }
     if (!unwinding_) {
-        returnStatus(leave_.number);
+        returnStatus(status);
         return;
     }
     BasicBlock *unwind = newBlock("unwind"), *pass = newBlock("pass");
-    b_.CreateCondBr(b_.CreateICmpEQ(leave_.number, b_.getInt32(static_cast<uint32_t>(rt::kUnwind))), unwind,
-                    pass);
+    Value* undo =
+        b_.CreateOr(b_.CreateICmpEQ(status, number(rt::kUnwind)), b_.CreateICmpEQ(status, number(rt::kJump)));
+    b_.CreateCondBr(undo, unwind, pass);
     b_.SetInsertPoint(unwind);
-    b_.CreateStore(leave_.number, unwinding_);
+    b_.CreateStore(status, unwinding_);
     if (!frameInPrologue_) fillFrame();
     markUndo();
     b_.CreateBr(blockOf(routine_.undoHandler));
     b_.SetInsertPoint(pass);
-    returnStatus(leave_.number);
+    returnStatus(b_.CreateSelect(b_.CreateICmpEQ(status, number(rt::kJumpPast)), number(rt::kJump), status));
 }
 
 } // namespace codegen

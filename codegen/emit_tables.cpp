@@ -10,10 +10,11 @@ namespace codegen {
 // Natural alignment makes LLVM's layout that of the C structures; these are the ones with gaps.
 static_assert(offsetof(rt::TypeDesc, size) == 20 && offsetof(rt::TypeDesc, fields) == 40 &&
               sizeof(rt::TypeDesc) == 64);
-static_assert(sizeof(rt::StmtDesc) == 24 && offsetof(rt::RoutineDesc, errorFilter) == 40);
-static_assert(sizeof(rt::LocalDesc) == 24 && offsetof(rt::RoutineDesc, locals) == 56);
+static_assert(sizeof(rt::StmtDesc) == 24 && offsetof(rt::RoutineDesc, errorFilter) == 40 &&
+              offsetof(rt::RoutineDesc, errorVariables) == 56);
+static_assert(sizeof(rt::LocalDesc) == 24 && offsetof(rt::RoutineDesc, locals) == 72);
 static_assert(offsetof(rt::GlobalDesc, task) == 36 && offsetof(rt::RoutineEntry, address) == 24);
-static_assert(sizeof(rt::RoutineDesc) == 72 && sizeof(rt::TaskDesc) == 40 && sizeof(rt::GlobalDesc) == 56);
+static_assert(sizeof(rt::RoutineDesc) == 88 && sizeof(rt::TaskDesc) == 40 && sizeof(rt::GlobalDesc) == 56);
 static_assert(sizeof(rt::ExternalDesc) == 40 && sizeof(rt::ProgramDesc) == 96);
 
 static_assert(int{rt::kStmtCallsRoutine} == ir::kStmtCallsRoutine &&
@@ -75,7 +76,7 @@ void ModuleEmitter::declareTables() {
     stmtDescType_ = make("rt.StmtDesc", {i32_, i32_, i32_, i32_, i8_, i8_, i8_, i8_, i32_});
     localDescType_ = make("rt.LocalDesc", {ptr_, ptr_, i8_, i8_, i8_, i8_});
     routineDescType_ = make("rt.RoutineDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i8_, i8_, i8_, i8_, ptr_, i32_,
-                                               i32_, ptr_, i32_, i8_, i8_, i8_, i8_});
+                                               ptr_, i32_, i32_, ptr_, i32_, i8_, i8_, i8_, i8_});
     taskDescType_ = make("rt.TaskDesc", {ptr_, ptr_, ptr_, ptr_, i8_});
     globalDescType_ = make("rt.GlobalDesc", {ptr_, ptr_, ptr_, ptr_, i8_, i32_, ptr_, i32_});
     externalDescType_ = make("rt.ExternalDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i32_});
@@ -114,7 +115,7 @@ llvm::Constant* ModuleEmitter::typeDescValue(const ir::TypeDesc& desc) {
 }
 
 llvm::Constant* ModuleEmitter::routineDescValue(const ir::Routine& routine) {
-    std::vector<llvm::Constant*> statements, filter;
+    std::vector<llvm::Constant*> statements, filter, variables;
     for (const ir::Statement& s : routine.statements)
         statements.push_back(llvm::ConstantStruct::get(
             stmtDescType_,
@@ -134,12 +135,15 @@ llvm::Constant* ModuleEmitter::routineDescValue(const ir::Routine& routine) {
     }
     for (int32_t number : routine.errorFilter)
         filter.push_back(i32(number));
+    for (uint32_t global : routine.errorFilterGlobals)
+        variables.push_back(globals_[global]);
     return llvm::ConstantStruct::get(
         routineDescType_,
         {text(routine.displayName), text(routine.moduleName), fileName(routine.file),
          array(stmtDescType_, statements, "statements"), i32(static_cast<int64_t>(statements.size())),
          i8(routine.errorHandler != ir::kNone), i8(routine.undoHandler != ir::kNone), i8(routine.noStepIn),
          i8(routine.hasBackward), array(i32_, filter, "filter"), i32(static_cast<int64_t>(filter.size())),
+         array(ptr_, variables, "filterVariables"), i32(static_cast<int64_t>(variables.size())),
          i32(static_cast<int64_t>(locals.size())), array(localDescType_, locals, "locals"), i32(routine.line),
          i8(routine.stepping), i8(routine.callable), i8(0), i8(0)});
 }

@@ -154,6 +154,9 @@ void ModuleEmitter::declareRuntime() {
         return llvm::FunctionCallee(type, function);
     };
     runtime_.raise = declare("rt_raise", {ptr_, ptr_, i32_});
+    runtime_.nativeFailed = declare("rt_nativeFailed", {ptr_, ptr_, i32_});
+    runtime_.land = declare("rt_land", {ptr_, ptr_, i32_});
+    runtime_.takesError = declare("rt_takesError", {ptr_, ptr_, i32_});
     runtime_.propagate = declare("rt_propagate", {ptr_, ptr_});
     runtime_.handlerEnd = declare("rt_handlerEnd", {ptr_, ptr_});
     runtime_.retry = declare("rt_retry", {ptr_, ptr_});

@@ -85,19 +85,19 @@ class RoutineEmitter {
     BasicBlock* joinFrom(ErrorJoin& join, Value* number);
     void check(const ir::Inst& inst);
     void raise(const ir::Inst& inst);
-    void continueIfOk(const ir::Inst& inst, Value* status, bool calleeRaised);
+    void continueIfOk(const ir::Inst& inst, Value* status);
+    void continueIfNativeOk(const ir::Inst& inst, Value* status, BasicBlock* call);
     void handlerCall(const ir::Inst& inst, llvm::FunctionCallee callee);
     void retry(const ir::Inst& inst);
     void tryNext(const ir::Inst& inst);
     void resumeSwitch(ir::BlockId ir::Statement::* where);
     ErrorJoin& raiseJoin(bool handled);
-    ErrorJoin& nativeJoin(bool handled);
     ErrorJoin& dispatchJoin();
     ErrorJoin& leaveJoin();
     void emitErrorBlocks();
     void emitRaise(ErrorJoin& join, bool handled);
-    void emitNative(ErrorJoin& join, ErrorJoin& raising, ErrorJoin& leaving);
     void emitDispatch();
+    BasicBlock* enterHandler();
     void emitLeave();
     void emitSteps();
     void leaveOrAgain(Value* status);
@@ -126,8 +126,8 @@ class RoutineEmitter {
     std::map<std::pair<ir::StmtId, int32_t>, BasicBlock*> failedChecks_;
     ErrorJoin steps_;                       ///< stepping: `number` is the statement to go on with
     llvm::AllocaInst* addresses_ = nullptr; ///< stepping: of the locals that are described
-    ErrorJoin raiseHandled_, raiseUnhandled_, nativeHandled_, nativeUnhandled_, dispatch_, leave_, raiseUndo_,
-        nativeUndo_, leaveUndo_;
+    BasicBlock* enterHandler_ = nullptr;
+    ErrorJoin raiseHandled_, raiseUnhandled_, dispatch_, leave_, raiseUndo_, leaveUndo_;
 };
 
 } // namespace codegen

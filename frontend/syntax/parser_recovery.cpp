@@ -452,7 +452,10 @@ bool Parser::retagMisspelt(const TokenSet& own) {
 
 TokenIndex Parser::expectName(bool newerKeywords) {
     if (isName(kind())) return take();
-    if (newerKeywords && (kind() == K::KwBreak || kind() == K::KwContinue)) return take();
+    if (newerKeywords && (kind() == K::KwBreak || kind() == K::KwContinue)) {
+        tokens_[pos_].kind = K::Identifier; // RaiseToUser \Continue is older than the keyword
+        return take();
+    }
     if (isKeyword(kind()) && !kEndWords.has(kind()) && !startsLine(pos_)) {
         report(Code::ReservedWordAsName, pos_, {std::string(tokenText(kind()))});
         return take();

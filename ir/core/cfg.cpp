@@ -23,16 +23,19 @@ bool contains(const Routine& routine, Op op) {
 }
 
 void addHandlerEdges(Cfg& cfg, const Module& module, const Routine& routine) {
+    if (routine.errorHandler == kNone) return;
     bool retries = contains(routine, Op::Retry), triesNext = contains(routine, Op::TryNext);
+    // A handler with a list takes errors of interrupt routines, too, which run at safepoints anywhere.
+    bool anywhere = !routine.errorFilter.empty() || !routine.errorFilterGlobals.empty();
     for (BlockId b = 0; b < routine.blocks.size(); ++b) {
         for (ValueId id : routine.blocks[b].insts) {
             const Inst& inst = routine.insts[id];
-            if (inst.stmt >= routine.statements.size() || !mayRaise(module, inst)) continue;
+            if (inst.stmt >= routine.statements.size() || !(anywhere || mayRaise(module, inst))) continue;
             const Statement& s = routine.statements[inst.stmt];
-            if (!s.handled || routine.errorHandler == kNone) continue;
+            if (!s.handled) continue;
             addEdge(cfg, b, routine.errorHandler);
-            if (retries) addEdge(cfg, b, s.start);
-            if (triesNext) addEdge(cfg, b, s.next);
+            if (retries && s.start != kNone) addEdge(cfg, b, s.start);
+            if (triesNext && s.next != kNone) addEdge(cfg, b, s.next);
         }
     }
 }

@@ -150,8 +150,11 @@ struct Routine {
     std::vector<Block> blocks; ///< block 0 is the entry
     std::vector<Statement> statements;
     BlockId errorHandler = kNone;
-    std::vector<int32_t> errorFilter; ///< when not empty: the handler takes only these error numbers
-    BlockId undoHandler = kNone;      ///< the UNDO part; a `ret` without value in it goes on unwinding
+    /// When one of them is not empty: numbers the handler takes, from any depth of calls and from interrupt routines; as
+    /// numbers and as global F32 variables. In errorFilter 999 means all, 0 those of the routine and its calls.
+    std::vector<int32_t> errorFilter;
+    std::vector<uint32_t> errorFilterGlobals;
+    BlockId undoHandler = kNone; ///< the UNDO part; a `ret` without value in it goes on unwinding
 };
 
 /// What a native routine may do; decides how it is called (see codegen/README.md).

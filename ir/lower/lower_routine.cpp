@@ -322,36 +322,55 @@ void RoutineLowering::lowerBackwardHandler() {
 void RoutineLowering::lowerErrorHandler() {
     region_ = Region::Error;
     b_.setBlock(routine_.errorHandler);
-    const auto& clauses = symbol_.routineDecl->errors;
-    bool takesAll = false;
-    std::vector<int32_t> filter;
-    for (const syntax::ErrorClause* clause : clauses) {
+    bool lists = false, others = false;
+    for (const syntax::ErrorClause* clause : symbol_.routineDecl->errors) {
         const ir::BlockId next = b_.addBlock("clause");
-        if (!clause->hasList) {
-            takesAll = true;
-        } else {
+        if (clause->hasList) {
+            lists = true;
             const ir::BlockId body = b_.addBlock("handler");
-            bool all = false;
-            for (const Expr* number : clause->numbers) {
-                const sema::ConstValue* value = info(*number).constant;
-                const auto numeric = value ? static_cast<int32_t>(value->number) : 0;
-                all = all || numeric == program_.errorNumber("LONG_JMP_ALL_ERR");
-                filter.push_back(numeric);
-                const ir::BlockId other = b_.addBlock("other");
-                b_.condBr(b_.binary(ir::Op::FEq, b_.sysvar(ir::SysvarKind::Errno), b_.constF32(numeric)),
-                          body, other);
-                b_.setBlock(other);
-            }
-            takesAll = takesAll || all;
-            b_.br(all ? body : next);
+            for (const Expr* number : clause->numbers)
+                others = lowerListedNumber(*number, body) || others;
+            b_.br(next);
             b_.setBlock(body);
+        } else {
+            others = true;
         }
         lowerList(clause->body);
         if (!b_.terminated()) b_.handlerEnd();
         b_.setBlock(next);
     }
     if (!b_.terminated()) b_.propagate();
-    if (!takesAll) routine_.errorFilter = std::move(filter);
+    if (lists && others) routine_.errorFilter.push_back(0); // takes the others, too, from its own calls
+}
+
+/// One number in the list of an ERROR clause: goes to `body` when it is the error. True when it is known only here (a
+/// variable of the routine), so that the handler must be asked for every error.
+bool RoutineLowering::lowerListedNumber(const Expr& number, ir::BlockId body) {
+    startStatement(number, ir::StmtKind::Control);
+    const sema::ConstValue* value = info(number).constant;
+    const ir::BlockId other = b_.addBlock("other");
+    bool unknown = false;
+    if (value != nullptr) {
+        const auto numeric = static_cast<int32_t>(value->number);
+        routine_.errorFilter.push_back(numeric);
+        if (numeric == program_.errorNumber("LONG_JMP_ALL_ERR"))
+            b_.condBr(b_.constBool(true), body, other);
+        else
+            b_.condBr(b_.binary(ir::Op::FEq, b_.sysvar(ir::SysvarKind::Errno), b_.constF32(numeric)), body,
+                      other);
+    } else {
+        const ValueId wanted = lowerValueAs(number, program_.program().num);
+        const auto* symbol = rootSymbol(number);
+        const bool ofModule = symbol && unparen(number).kind == syntax::NodeKind::Name &&
+                              (symbol->storage == sema::Storage::ModuleData);
+        if (ofModule)
+            routine_.errorFilterGlobals.push_back(program_.globalFor(*symbol, task_));
+        else
+            unknown = true;
+        b_.condBr(b_.binary(ir::Op::FEq, b_.sysvar(ir::SysvarKind::Errno), wanted), body, other);
+    }
+    b_.setBlock(other);
+    return unknown;
 }
 
 const RoutineLowering::Slot* RoutineLowering::findSlot(const DataSymbol& symbol) const {

@@ -271,6 +271,7 @@ void RoutineLowering::lowerTest(const TestStmt& stmt) {
 
 void RoutineLowering::lowerReturn(const ReturnStmt& stmt) {
     startStatement(stmt, ir::StmtKind::Return);
+    if (region_ == Region::Undo) return lowerIgnoredInUndo("RETURN");
     if (!stmt.value || symbol_.routineKind != RoutineKind::Func) return b_.ret();
     const ir::TypeId type = program_.irType(symbol_.returnType);
     if (program_.module().isScalar(type)) return b_.ret(lowerValueAs(*stmt.value, symbol_.returnType.type));
@@ -280,9 +281,26 @@ void RoutineLowering::lowerReturn(const ReturnStmt& stmt) {
 
 void RoutineLowering::lowerRaise(const RaiseStmt& stmt) {
     startStatement(stmt, ir::StmtKind::Control);
-    if (stmt.value) return b_.raise(lowerValueAs(*stmt.value, program_.program().num));
-    if (region_ == Region::Error) return b_.propagate();
-    b_.raise(b_.sysvar(ir::SysvarKind::Errno));
+    if (region_ == Region::Undo) return lowerIgnoredInUndo("RAISE");
+    if (!stmt.value)
+        return region_ == Region::Error ? b_.propagate() : b_.raise(b_.sysvar(ir::SysvarKind::Errno));
+    const ValueId given = lowerValueAs(*stmt.value, program_.program().num);
+    ValueId number = ir::kNone;
+    if (const sema::ConstValue* value = info(*stmt.value).constant)
+        number = b_.constI32(static_cast<int32_t>(value->number)); // the checker knows that it may be raised
+    else
+        number = b_.callNative(
+            program_.support("rt_raiseNumber", ir::NativeClass::Plain, ir::kI32, {ir::kF32}), {given});
+    if (region_ == Region::Body) return b_.raise(number);
+    b_.callNative(program_.support("rt_raiseToCaller", ir::NativeClass::Plain, ir::kVoid, {ir::kI32}),
+                  {number});
+    b_.unreachable();
+}
+
+/// Manual 1.13: a warning, and execution goes on behind the instruction.
+void RoutineLowering::lowerIgnoredInUndo(const char* instruction) {
+    b_.callNative(program_.support("rt_ignoredInUndo", ir::NativeClass::Plain, ir::kVoid, {ir::kPtr}),
+                  {b_.globalAddr(program_.stringGlobal(instruction))});
 }
 
 void RoutineLowering::lowerConnect(const ConnectStmt& stmt) {

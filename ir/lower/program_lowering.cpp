@@ -57,7 +57,7 @@ ProgramLowering::ProgramLowering(const sema::CheckedProgram& program, const Opti
     : program_(program), options_(options), sink_(sink), module_(out) {
     for (const sema::Module* lib : program.predefinedModules)
         for (const DataSymbol* data : lib->data)
-            if (data->name.starts_with("ERR_"))
+            if (data->name.starts_with("ERR_") || data->name == "LONG_JMP_ALL_ERR")
                 errorNumbers_[data->name] = static_cast<int32_t>(data->value.number);
 }
 

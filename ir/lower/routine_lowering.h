@@ -56,6 +56,7 @@ class RoutineLowering {
     void describeLocal(uint32_t local, const sema::DataType& type);
     void describeReference(const sema::DataSymbol& param, Slot& slot);
     void lowerErrorHandler();
+    bool lowerListedNumber(const Expr& number, ir::BlockId body);
     bool hasRetry() const { return hasErrorHandler_; }
     bool mayChangeArguments() const;
 
@@ -71,6 +72,7 @@ class RoutineLowering {
     void lowerTest(const syntax::TestStmt& stmt);
     void lowerReturn(const syntax::ReturnStmt& stmt);
     void lowerRaise(const syntax::RaiseStmt& stmt);
+    void lowerIgnoredInUndo(const char* instruction);
     void lowerConnect(const syntax::ConnectStmt& stmt);
     void lowerExit();
     ir::BlockId labelBlock(const syntax::Node* label); ///< `label`: its LabelStmt

@@ -256,6 +256,9 @@ class ModuleParser {
         case Fixup::Slot::External: module_.externals[fixup.index].global = target; break;
         case Fixup::Slot::TaskEntry: module_.tasks[fixup.index].entry = target; break;
         case Fixup::Slot::TaskReset: module_.tasks[fixup.index].reset = target; break;
+        case Fixup::Slot::ErrorFilter:
+            module_.routines[fixup.routine].errorFilterGlobals[fixup.index] = target;
+            break;
         }
     }
 

@@ -167,7 +167,12 @@ class RoutinePrinter {
         }
         if (routine_.errorHandler != kNone) {
             put(out_, "  errorhandler b{}", routine_.errorHandler);
-            if (!routine_.errorFilter.empty()) put(out_, " [{}]", fmt::join(routine_.errorFilter, ", "));
+            std::vector<std::string> filter;
+            for (int32_t number : routine_.errorFilter)
+                filter.push_back(std::to_string(number));
+            for (uint32_t global : routine_.errorFilterGlobals)
+                filter.push_back("@" + nameIn(module_.globals, global));
+            if (!filter.empty()) put(out_, " [{}]", fmt::join(filter, ", "));
             put(out_, "\n");
         }
         if (routine_.undoHandler != kNone) put(out_, "  undohandler b{}\n", routine_.undoHandler);

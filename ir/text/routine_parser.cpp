@@ -72,6 +72,15 @@ bool RoutineParser::handler() {
     if (!in_.block(error ? routine_.errorHandler : routine_.undoHandler)) return false;
     if (error && in_.takePunct('[')) {
         do {
+            if (in_.peek().kind == TokenKind::Name) {
+                const auto place = static_cast<uint32_t>(routine_.errorFilterGlobals.size());
+                Fixup fixup{Fixup::Kind::Global,      {},   in_.peek(), index_, kNone,
+                            Fixup::Slot::ErrorFilter, place};
+                if (!in_.name(fixup.name)) return false;
+                fixups_.push_back(std::move(fixup));
+                routine_.errorFilterGlobals.push_back(kNone);
+                continue;
+            }
             int32_t number = 0;
             if (!in_.signedInt(number)) return false;
             routine_.errorFilter.push_back(number);

@@ -34,8 +34,14 @@ bool RoutineVerifier::header() {
         inRange(routine_.errorHandler, routine_.blocks.size(), "error handler block");
     if (routine_.undoHandler != kNone)
         inRange(routine_.undoHandler, routine_.blocks.size(), "undo handler block");
-    if (routine_.errorHandler == kNone && !routine_.errorFilter.empty())
+    if (routine_.errorHandler == kNone &&
+        !(routine_.errorFilter.empty() && routine_.errorFilterGlobals.empty()))
         add("error filter without error handler");
+    for (uint32_t global : routine_.errorFilterGlobals) {
+        inRange(global, module_.globals.size(), "global in the error filter");
+        if (global < module_.globals.size() && module_.globals[global].type != kF32)
+            add("global in the error filter is not F32");
+    }
     return out_.size() == before;
 }
 

@@ -2,6 +2,7 @@
 
 #include "runtime/abi/rt_abi.h"
 
+#include "runtime/sched/error_search.h"
 #include "runtime/sched/task.h"
 
 extern "C" {
@@ -16,6 +17,18 @@ int32_t rt_step(rt::TaskCore* task, rt::Frame* frame) {
 
 rt::Status rt_raise(rt::TaskCore* task, rt::Frame* frame, rt::Status errorNumber) {
     return rt::taskOf(task).raiseAt(frame, errorNumber);
+}
+
+rt::Status rt_nativeFailed(rt::TaskCore* task, rt::Frame* frame, rt::Status status) {
+    return rt::taskOf(task).nativeFailedAt(frame, status);
+}
+
+rt::Status rt_land(rt::TaskCore* task, rt::Frame* frame, rt::Status status) {
+    return rt::taskOf(task).landAt(frame, status);
+}
+
+rt::Status rt_takesError(rt::TaskCore*, rt::Frame* frame, rt::Status errorNumber) {
+    return rt::takesError(*frame->routine, errorNumber) ? 1 : 0;
 }
 
 rt::Status rt_propagate(rt::TaskCore* task, rt::Frame* frame) {

@@ -29,9 +29,14 @@ inline constexpr Status kOk = 0;
 inline constexpr Status kUnwind = -1;
 /// As kUnwind, but UNDO handlers are not run (the run ends, UNDO was aborted). Passed up unchanged.
 inline constexpr Status kUnwindSilent = -2;
-/// Stepping profile, from rt_raise, rt_propagate and rt_handlerEnd only: the program was started again after an error
-/// that nobody handled; the statement of the frame record is executed once more.
-inline constexpr Status kAgain = -3;
+/// An error is on its way to the handler of one certain routine further out (long jump): UNDO handlers run, error
+/// handlers ask rt_land. kJumpSilent: without UNDO. kJumpPast: without the UNDO of this routine, with those further out.
+inline constexpr Status kJump = -3;
+inline constexpr Status kJumpSilent = -4;
+inline constexpr Status kJumpPast = -5;
+/// The task stopped at an error and has been started again: the native is called once more, or, in the stepping profile,
+/// the statement of the frame record is executed again. Never leaves a routine.
+inline constexpr Status kAgain = -6;
 
 enum class DescKind : uint8_t { Num, Dnum, Bool, String, Record, Array, Handle, Other };
 
@@ -59,7 +64,7 @@ struct AnyRef {
 
 struct StmtDesc {
     uint32_t line, column, endLine, endColumn; ///< from 1
-    uint8_t kind;                              ///< ir::StmtKind
+    uint8_t kind;                              ///< ir::StmtKind; kStmtHandler: in an error or UNDO handler
     uint8_t handled;                           ///< 1: an error here goes to the routine's error handler
     uint8_t flags;                             ///< ir::StatementFlag; stepping profile
     uint8_t canStart;                          ///< 1: rt_step may name it. 0 always in the release profile
@@ -91,6 +96,12 @@ struct LocalDesc {
     uint8_t pad;
 };
 
+inline constexpr uint8_t kStmtHandler = 5;
+
+/// Numbers with a meaning of their own in RoutineDesc::errorFilter.
+inline constexpr int32_t kAllErrors = 999; ///< every error, wherever it is raised (LONG_JMP_ALL_ERR)
+inline constexpr int32_t kOtherErrors = 0; ///< the others, too, but only when they come to the routine itself
+
 struct RoutineDesc {
     const char* name; ///< as people see it
     const char* module;
@@ -100,9 +111,13 @@ struct RoutineDesc {
     uint8_t hasErrorHandler;
     uint8_t hasUndo;
     uint8_t noStepIn;
-    uint8_t hasBackward;        ///< stepping profile: has a BACKWARD part
-    const int32_t* errorFilter; ///< error numbers the handler takes; null = all
+    uint8_t hasBackward; ///< stepping profile: has a BACKWARD part
+    /// Numbers the handler lists: it takes them from any depth and from traps. None listed: it takes every error that
+    /// comes to the routine itself.
+    const int32_t* errorFilter;
     uint32_t errorFilterCount;
+    const float* const* errorVariables; ///< further listed numbers, in variables of the program
+    uint32_t errorVariableCount;
     uint32_t localCount;     ///< > 0: the frame record is a SteppingFrame
     const LocalDesc* locals; ///< in their order; dimensions of arrays have rows without a name
     uint32_t line;           ///< of its declaration
@@ -193,14 +208,22 @@ extern "C" {
 /// Budget used up: yields, delivers interrupts. Returns 0 or a negative status (unwind).
 rt::Status rt_safepoint(rt::TaskCore* task, rt::Frame* frame);
 /// An error is raised at frame->statement. Finds out whether a handler in the chain takes it; if so sets ERRNO and
-/// returns `errorNumber`; otherwise the system handler stops the task with the stack intact and, when the task is to
-/// end, returns kUnwind.
+/// returns `errorNumber`, or kJump for a handler that is not the next one. Otherwise the system handler stops the task
+/// with the stack intact; started again, the instruction fails again, so that only an unwinding status comes back.
 rt::Status rt_raise(rt::TaskCore* task, rt::Frame* frame, rt::Status errorNumber);
+/// A native called at frame->statement returned `status`, not 0: as rt_raise, but kAgain when the task was started again.
+rt::Status rt_nativeFailed(rt::TaskCore* task, rt::Frame* frame, rt::Status status);
+/// kJump or kJumpSilent has come to a routine with an error handler: the error number when that handler is meant,
+/// otherwise `status`.
+rt::Status rt_land(rt::TaskCore* task, rt::Frame* frame, rt::Status status);
+/// 1 when the routine's own handler takes the error (for lists with variables).
+rt::Status rt_takesError(rt::TaskCore* task, rt::Frame* frame, rt::Status errorNumber);
 /// RAISE without number in a handler, or a handler that passes the error on: raises it again at the caller's statement.
 rt::Status rt_propagate(rt::TaskCore* task, rt::Frame* frame);
 /// The end of an error handler was reached (manual 1.12): system handler. Returns kUnwind.
 rt::Status rt_handlerEnd(rt::TaskCore* task, rt::Frame* frame);
-/// RETRY in the handler of `frame`: counts; 0, or kUnwind when No Of Retry is exceeded.
+/// RETRY in the handler of `frame`: counts; 0, or an unwinding status when the task stopped because No Of Retry is
+/// exceeded. Started again, it counts anew.
 rt::Status rt_retry(rt::TaskCore* task, rt::Frame* frame);
 /// Stepping profile, ahead of every statement: the task may stop here, be told to go on elsewhere, pay for what it has
 /// executed. Returns the number of the statement to go on with (>= 0), or a negative status (unwind).

@@ -198,8 +198,16 @@ void Controller::actionStart() {
     for (const auto& task : tasks_) {
         if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished) continue;
         any = true;
-        if (task->canResume() && !systemFailed_) continue;
-        log_.write(EventId::StartRefused, task.get(), {task->name()});
+        if (systemFailed_) {
+            log_.write(EventId::StartRefused, task.get(),
+                       {task->name(), "a background task has failed; end the run and repair it"});
+            return;
+        }
+        if (task->stopCause() != StopCause::Blocked) continue;
+        log_.write(EventId::StartRefused, task.get(),
+                   {task->name(),
+                    "SystemStopAction \\StopBlock was executed; move the program pointer to main "
+                    "first (pp_to_main)"});
         return;
     }
     if (!any) {

@@ -2,15 +2,40 @@
 
 #include "runtime/sched/interrupts.h"
 
+#include <algorithm>
+
 namespace rt {
+namespace {
+
+bool inFilter(const RoutineDesc& routine, int number) {
+    const int32_t* const end = routine.errorFilter + routine.errorFilterCount;
+    return std::find(routine.errorFilter, end, number) != end;
+}
+
+/// A statement that the handler does not cover is part of a handler: no recovery from there.
+bool coversStatement(const Frame& frame) {
+    const StmtDesc* statement = statementOf(frame);
+    return statement != nullptr && statement->handled != 0;
+}
+
+bool inUndoHandler(const Frame& frame) {
+    return frame.routine->hasUndo && frame.reserved == kFrameInUndo;
+}
+
+} // namespace
+
+bool listsError(const RoutineDesc& routine, int errorNumber) {
+    if (!routine.hasErrorHandler) return false;
+    const float* const* const end = routine.errorVariables + routine.errorVariableCount;
+    return inFilter(routine, errorNumber) || inFilter(routine, kAllErrors) ||
+           std::any_of(routine.errorVariables, end,
+                       [errorNumber](const float* variable) { return *variable == errorNumber; });
+}
 
 bool takesError(const RoutineDesc& routine, int errorNumber) {
     if (!routine.hasErrorHandler) return false;
-    if (routine.errorFilter == nullptr || routine.errorFilterCount == 0) return true;
-    for (uint32_t i = 0; i < routine.errorFilterCount; ++i) {
-        if (routine.errorFilter[i] == errorNumber || routine.errorFilter[i] == kAllErrors) return true;
-    }
-    return false;
+    const bool withoutList = routine.errorFilterCount == 0 && routine.errorVariableCount == 0;
+    return withoutList || inFilter(routine, kOtherErrors) || listsError(routine, errorNumber);
 }
 
 const StmtDesc* statementOf(const Frame& frame) {
@@ -20,16 +45,46 @@ const StmtDesc* statementOf(const Frame& frame) {
     return &routine->statements[frame.statement];
 }
 
-Frame* findErrorHandler(Frame* first, int errorNumber) {
-    for (Frame* frame = first; frame != nullptr && frame->routine != &kTrapBoundary; frame = frame->caller) {
-        if (frame->routine == nullptr) continue;
+bool inErrorHandler(const Frame& frame) {
+    const StmtDesc* statement = statementOf(frame);
+    return statement != nullptr && statement->kind == kStmtHandler && !inUndoHandler(frame);
+}
+
+ErrorRoute routeOfError(Frame* at, int errorNumber) {
+    if (at == nullptr) return {};
+    if (at->routine == nullptr || at->routine == &kTrapBoundary)
+        return routeFromCall(at->caller, errorNumber);
+    if (inUndoHandler(*at)) return {};
+    if (at->routine->hasErrorHandler) {
+        if (!coversStatement(*at)) return {};
+        if (takesError(*at->routine, errorNumber)) return {at, false};
+    }
+    return routeFromCall(at->caller, errorNumber);
+}
+
+ErrorRoute routeFromCall(Frame* at, int errorNumber) {
+    Frame* nearest = nullptr;
+    bool trap = false; // past a trap routine only lists are asked
+    for (Frame* frame = at; frame != nullptr; frame = frame->caller) {
+        trap = trap || frame->routine == &kTrapBoundary;
+        if (frame->routine == nullptr || frame->routine == &kTrapBoundary) continue;
         // Errors in an UNDO handler end it; they do not reach routines that are being left.
-        if (frame->routine->hasUndo && frame->reserved == kFrameInUndo) return nullptr;
+        if (inUndoHandler(*frame)) break;
         if (!frame->routine->hasErrorHandler) continue;
-        const StmtDesc* statement = statementOf(*frame);
-        // A statement that the handler does not cover is part of the handler itself: no recovery from there.
-        if (statement == nullptr || !statement->handled) return nullptr;
-        if (takesError(*frame->routine, errorNumber)) return frame;
+        if (!coversStatement(*frame)) break;
+        if (listsError(*frame->routine, errorNumber)) return {frame, true};
+        if (nearest == nullptr && !trap && takesError(*frame->routine, errorNumber)) nearest = frame;
+    }
+    return {nearest, false};
+}
+
+Frame* userLevelHandler(Frame* at, int errorNumber) {
+    for (Frame* frame = at; frame != nullptr; frame = frame->caller) {
+        if (frame->routine == nullptr || frame->routine == &kTrapBoundary) return nullptr;
+        if (frame->routine->noStepIn) continue;
+        const bool takes = !inUndoHandler(*frame) && frame->routine->hasErrorHandler &&
+                           coversStatement(*frame) && takesError(*frame->routine, errorNumber);
+        return takes ? frame : nullptr;
     }
     return nullptr;
 }

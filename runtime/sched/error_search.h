@@ -6,16 +6,29 @@
 
 namespace rt {
 
-/// In the list of an ERROR clause: every error (LONG_JMP_ALL_ERR).
-inline constexpr int kAllErrors = 999;
-
-/// True when the routine's handler takes this error (its list is empty, names it, or names all).
+/// True when the routine's handler takes this error if it comes to the routine itself.
 bool takesError(const RoutineDesc& routine, int errorNumber);
+/// True when the routine's handler lists this error (or all), so that it takes it from any depth and from traps.
+bool listsError(const RoutineDesc& routine, int errorNumber);
 /// The statement in progress of a frame; null when the record names none.
 const StmtDesc* statementOf(const Frame& frame);
-/// The frame whose error handler takes an error raised at first->statement; null: the system handler. The search goes
-/// outward and ends at a statement of an error or UNDO handler and where the system called a trap routine.
-Frame* findErrorHandler(Frame* first, int errorNumber);
+/// The statement in progress belongs to the routine's error handler.
+bool inErrorHandler(const Frame& frame);
+
+/// Where an error goes.
+struct ErrorRoute {
+    Frame* handler = nullptr; ///< null: to the system handler
+    bool longJump =
+        false; ///< past the routines between, error handlers among them, even out of a trap routine
+};
+/// Raised by the statement in progress of `at`: that routine's own handler first, then as raisedAtCall.
+ErrorRoute routeOfError(Frame* at, int errorNumber);
+/// Raised at the call in progress of `at`: the nearest handler further out that lists the number takes it; when there is
+/// none, the nearest handler without list. The search ends at a statement of an error or UNDO handler, and for handlers
+/// without list where the system called a trap routine.
+ErrorRoute routeFromCall(Frame* at, int errorNumber);
+/// RaiseToUser: the innermost routine in progress that is not NOSTEPIN, when its handler takes errors there.
+Frame* userLevelHandler(Frame* at, int errorNumber);
 SourcePlace placeOf(const Frame* frame);
 
 } // namespace rt

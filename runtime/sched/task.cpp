@@ -73,6 +73,8 @@ bool Task::runCycle() {
     if (status > 0) status = raiseAt(nullptr, status); // no routine took it, and none reported it
     frame = nullptr;
     retries_.clear();
+    jumps_.clear();
+    raiseToCaller_ = false;
     flushHandledWarning();
     interrupts_.unwound();
     const Unwind how = unwinding_;
@@ -86,6 +88,7 @@ bool Task::runCycle() {
         return true;
     case Unwind::ToMain: return true;
     case Unwind::None:
+    case Unwind::Jump:
     case Unwind::ExitCycle: break;
     }
     ++cyclesDone_;
@@ -109,13 +112,14 @@ bool Task::runnable() const {
 Status Task::beginUnwind(Unwind cause) {
     pendingUnwind_ = Unwind::None;
     const bool silent = cause == Unwind::Abandon || unwinding_ != Unwind::None;
-    if (unwinding_ == Unwind::None || cause == Unwind::Abandon) unwinding_ = cause;
+    if (unwinding_ == Unwind::None || unwinding_ == Unwind::Jump || cause == Unwind::Abandon)
+        unwinding_ = cause;
     return silent ? kUnwindSilent : kUnwind;
 }
 
 /// What a call that may suspend looks at first: the task may be on its way out.
 Status Task::enterWait() {
-    if (unwinding_ == Unwind::Abandon || undoAborted_) return kUnwindSilent;
+    if (unwinding_ == Unwind::Abandon || undoAborted_) return silentStatus();
     if (pendingUnwind_ != Unwind::None) return beginUnwind(pendingUnwind_);
     scheduler_.lookAtData();
     if (unwinding_ == Unwind::None && !isStopped() && interrupts_.deliverable()) return interrupts_.deliver();
@@ -123,7 +127,7 @@ Status Task::enterWait() {
 }
 
 Status Task::afterSwitch() {
-    if (undoAborted_) return kUnwindSilent;
+    if (undoAborted_) return silentStatus();
     if (pendingUnwind_ != Unwind::None) return beginUnwind(pendingUnwind_);
     return kOk;
 }
@@ -251,6 +255,13 @@ void Task::forceLook() {
 }
 
 Status Task::safepoint(Frame* at) {
+    Status status = kAgain;
+    while (status == kAgain) // an interrupt without trap routine stopped the task, and it was started again
+        status = safepointOnce(at);
+    return status;
+}
+
+Status Task::safepointOnce(Frame* at) {
     frame = at;
     flushHandledWarning();
     budget += stash_;
@@ -296,9 +307,8 @@ void Task::setStepwise(bool stepwise) {
 
 Status Task::requestExit() {
     if (unwinding_ != Unwind::None) {
-        if (unwinding_ != Unwind::Abandon)
-            host_.log().write(EventId::UndoSkipped, this, {"EXIT was executed."});
-        undoAborted_ = true;
+        if (unwinding_ != Unwind::Abandon) abortUndo("EXIT was executed.");
+        if (unwinding_ == Unwind::Jump) unwinding_ = Unwind::Exit;
         return kUnwindSilent;
     }
     unwinding_ = Unwind::Exit;
@@ -311,14 +321,17 @@ Status Task::requestExitCycle() {
     return kUnwind;
 }
 
-Status Task::stopHere(bool allNormal) {
+bool Task::ignoredInUndo(const char* instruction) {
+    if (unwinding_ == Unwind::None || unwinding_ == Unwind::Abandon) return false;
+    host_.log().write(EventId::UndoIgnored, this, {instruction});
+    return true;
+}
+
+Status Task::stopHere(const char* instruction, bool allNormal, StopCause cause) {
     if (const Status status = enterWait(); status < 0) return status;
-    if (unwinding_ != Unwind::None) {
-        host_.log().write(EventId::UndoIgnored, this, {"Stop"});
-        return kOk;
-    }
-    host_.log().write(EventId::ProgramStopped, this, {name_, "Stop"});
-    stop(StopCause::Instruction);
+    if (ignoredInUndo(instruction)) return kOk;
+    host_.log().write(EventId::ProgramStopped, this, {name_, instruction});
+    stop(cause);
     host_.taskStopped(*this);
     if (allNormal) host_.stopNormalTasks(StopCause::Order);
     return suspendStopped();
@@ -338,8 +351,8 @@ Status Task::suspendStopped() {
 void Task::stop(StopCause cause) {
     if (state_ == TaskState::Finished || isStopped()) return;
     if (unwinding_ != Unwind::None && unwinding_ != Unwind::Abandon) {
-        host_.log().write(EventId::UndoSkipped, this, {"The program was stopped."});
-        undoAborted_ = true;
+        abortUndo("The program was stopped.");
+        if (state_ == TaskState::Waiting) scheduler_.makeReady(*this); // in an UNDO handler: the wait is over
     }
     stopCause_ = cause;
     interrupts_.taskStopped();
@@ -353,7 +366,7 @@ bool Task::canExecuteAgain() const {
 }
 
 bool Task::canResume() const {
-    return stopCause_ != StopCause::Error || restartable_;
+    return stopCause_ != StopCause::Blocked;
 }
 
 bool Task::resume() {

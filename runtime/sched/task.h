@@ -32,6 +32,7 @@ class Fibre; // sched/fibre.h
 class Scheduler;
 class StepHook;
 class WaitQueue;
+struct ErrorRoute; // sched/error_search.h
 
 enum class EventId : int; // log/event_log.h
 
@@ -54,7 +55,8 @@ enum class StopCause : uint8_t {
     None,
     Instruction, ///< Stop
     Order,       ///< controller action `stop`
-    Error,       ///< system handler; goes on from main, in the stepping profile also from where it stands
+    Error,       ///< system handler; the failing instruction is executed again when the task goes on
+    Blocked,     ///< SystemStopAction \StopBlock: can go on only from main
     Step,        ///< stands ahead of a statement (stepping profile)
     AtMain,      ///< program pointer at main after pp_to_main or EXIT, not started yet
 };
@@ -138,8 +140,12 @@ class Task : public TaskCore {
     /// ExitCycle: ends this cycle; main begins again when cycles are left. Persistent and module data are
     /// unchanged.
     Status requestExitCycle();
-    /// Stop: the task stands still until a `start`; returns kOk then. `allNormal`: so do all NORMAL tasks.
-    Status stopHere(bool allNormal = false);
+    /// Stop and its like (`instruction` is the name for the event): the task stands still until a `start`; returns kOk
+    /// then. `allNormal`: so do all NORMAL tasks. In an UNDO handler it is ignored with a warning.
+    Status stopHere(const char* instruction, bool allNormal = false,
+                    StopCause cause = StopCause::Instruction);
+    /// True when a warning was written that the instruction is ignored, because an UNDO handler is at work.
+    bool ignoredInUndo(const char* instruction);
 
     // ---- Errors -------------------------------------------------------------------------------------------
     /// Sets the text that the event shows if the error the native returns next is not handled. Any length.
@@ -149,6 +155,11 @@ class Task : public TaskCore {
         setErrorDetail(std::move(detail));
         return number;
     }
+    /// The same, from an error handler to the routine's caller (RAISE with a number, ErrRaise in a handler).
+    Status raiseToCaller(int number);
+    /// RaiseToUser \BreakOff: to the innermost routine outside NOSTEPIN. Only for the error handler of a NOSTEPIN routine;
+    /// elsewhere, and when nothing takes it there, the system handler. Negative.
+    Status raiseToUserLevel(int number);
     /// SkipWarn: the error handled last leaves no warning in the event log.
     void skipWarn() { handled_.frame = nullptr; }
     /// RETRYs that remain for the error being handled (RemainingRetries); ResetRetryCount.
@@ -175,6 +186,8 @@ class Task : public TaskCore {
     Status safepoint(Frame* at);
     int32_t step(Frame* at);
     Status raiseAt(Frame* at, int number);
+    Status nativeFailedAt(Frame* at, Status status);
+    Status landAt(Frame* at, Status status);
     Status propagateFrom(Frame* handler);
     Status handlerEndAt(Frame* handler);
     Status retryAt(Frame* handler);
@@ -192,8 +205,7 @@ class Task : public TaskCore {
     void forceLook();
     /// Writes an event with the place of this task.
     void report(EventId id, std::initializer_list<std::string> arguments);
-    /// Stops the task where it is / lets it go on. resume() is false when it cannot go on from here (stopped by
-    /// an error in code that cannot execute the statement again).
+    /// Stops the task where it is / lets it go on. resume() is false when it can go on from main only.
     void stop(StopCause cause);
     bool resume();
     bool canResume() const;
@@ -219,19 +231,28 @@ class Task : public TaskCore {
     /// Can be given the processor: not waiting and not stopped, or being unwound.
     bool runnable() const;
     bool isUnwinding() const { return pendingUnwind_ != Unwind::None || unwinding_ != Unwind::None; }
-    /// An interrupt without a trap routine or another fatal condition: the system handler. Negative.
+    /// An interrupt without a trap routine or another fatal condition: the system handler. Negative; kAgain when the task
+    /// was started again.
     Status fatal(int eventNumber, std::string text);
 
   private:
     friend class Scheduler;
 
-    enum class Unwind : uint8_t { None, Exit, ExitCycle, ToMain, Abandon };
-    /// RETRYs of one statement; belongs to a frame record as long as that one carries its id.
+    enum class Unwind : uint8_t { None, Exit, ExitCycle, ToMain, Abandon, Jump };
+    /// RETRYs of one statement, for each error number; belongs to a frame record as long as that one carries its id.
     struct RetryCount {
         Frame* frame = nullptr;
         int32_t statement = -1;
         int32_t id = 0;
-        int count = 0;
+        int number = 0; ///< of the error being handled
+        std::map<int, int> counts;
+    };
+    /// An error on its way to the handler of `target`. More than one only when an UNDO handler on the way makes another.
+    struct Jump {
+        Frame* target = nullptr;
+        int number = 0;
+        std::string text;
+        SourcePlace place;
     };
     struct HandledError {
         Frame* frame = nullptr; ///< of the routine whose handler took it; null: nothing to report
@@ -245,13 +266,19 @@ class Task : public TaskCore {
     void fibreMain();
     bool runCycle();
     Status block();
+    Status safepointOnce(Frame* at);
     Status enterWait();
     Status afterSwitch();
     Status beginUnwind(Unwind cause);
-    /// `again`: compiled code asked, and can execute the statement once more (stepping profile).
-    Status systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where, bool again);
+    Status systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where);
+    Status raiseOnce(Frame* at, int number);
+    Status dispatchError(const ErrorRoute& route, int number);
+    Status startJump(Frame* target, int number);
+    /// What travels up when UNDO handlers are not to run any more.
+    Status silentStatus() const { return unwinding_ == Unwind::Jump ? kJumpSilent : kUnwindSilent; }
+    void abortUndo(std::string why);
+    /// Code of the stepping profile can execute the faulty statement again.
     bool canExecuteAgain() const;
-    Status dispatchError(Frame* first, int number);
     std::string describeError(int number) const;
     RetryCount* retryCountOf(Frame* handler);
     void noteHandled(Frame* handler, int number);
@@ -285,11 +312,13 @@ class Task : public TaskCore {
     bool undoAborted_ = false;
     StepHook* stepHook_ = nullptr;
     bool stepwise_ = false;
-    bool restartable_ = false; // stopped by an error, and the faulty statement can be executed again
     bool backwardCall_ = false;
     EntryFunction entryOverride_ = nullptr; // program pointer moved to a routine: run instead of main once
     bool needsReset_ = true;                // variables get their initial values before main is entered
     uint64_t cyclesDone_ = 0;
+
+    std::vector<Jump> jumps_;
+    bool raiseToCaller_ = false; // the error that comes next leaves the routine although it is its handler's
 
     std::string errorDetail_, errorText_;
     SourcePlace errorPlace_;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace rt {
 namespace {
@@ -43,59 +44,97 @@ std::string Task::describeError(int number) const {
     return text;
 }
 
+/// What codegen calls for a check or RAISE: started again after the system handler, the instruction fails again.
 Status Task::raiseAt(Frame* at, int number) {
+    const std::string detail = errorDetail_;
+    Status status = kAgain;
+    while (status == kAgain) {
+        errorDetail_ = detail;
+        status = raiseOnce(at, number);
+        if (canExecuteAgain()) break;
+    }
+    return status;
+}
+
+Status Task::nativeFailedAt(Frame* at, Status status) {
     frame = at;
-    flushHandledWarning();
-    errorPlace_ = place();
-    errorText_ = describeError(number);
+    return status > 0 ? raiseOnce(at, status) : status;
+}
+
+Status Task::raiseOnce(Frame* at, int number) {
+    frame = at;
+    const bool toCaller = std::exchange(raiseToCaller_, false) && at != nullptr;
+    if (!toCaller || errorNumber != static_cast<float>(number)) {
+        if (!toCaller) flushHandledWarning();
+        errorPlace_ = place();
+        errorText_ = describeError(number);
+    }
     errorDetail_.clear(); // the next error has a reason of its own
-    return dispatchError(at, number);
+    return dispatchError(toCaller ? routeFromCall(at->caller, number) : routeOfError(at, number), number);
+}
+
+Status Task::raiseToCaller(int number) {
+    raiseToCaller_ = true;
+    return number;
 }
 
 Status Task::propagateFrom(Frame* handler) {
-    frame = handler;
-    return dispatchError(handler != nullptr ? handler->caller : nullptr, static_cast<int>(errorNumber));
+    const auto number = static_cast<int>(errorNumber);
+    Status status = kAgain;
+    while (status == kAgain) {
+        frame = handler;
+        status = dispatchError(routeFromCall(handler != nullptr ? handler->caller : nullptr, number), number);
+        if (canExecuteAgain()) break;
+    }
+    return status;
 }
 
-Status Task::dispatchError(Frame* first, int number) {
+Status Task::dispatchError(const ErrorRoute& route, int number) {
     errorNumber = static_cast<float>(number);
-    if (unwinding_ == Unwind::Abandon || undoAborted_) return kUnwindSilent;
-    const bool backward = stepHook_ != nullptr && stepHook_->isBackward(*this);
-    if (Frame* handler = backward ? nullptr : findErrorHandler(first, number)) {
-        noteHandled(handler, number);
+    if (unwinding_ == Unwind::Abandon || undoAborted_) return silentStatus();
+    const bool backward = stepHook_ != nullptr && stepHook_->isBackward(*this); // no handler then (manual 1.21)
+    if (route.longJump && !backward) return startJump(route.handler, number);
+    if (route.handler != nullptr && !backward) {
+        noteHandled(route.handler, number);
         return number;
     }
     handled_.frame = nullptr; // reported as unhandled instead
-    return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText_, errorPlace_, true);
+    return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText_, errorPlace_);
 }
 
 Status Task::handlerEndAt(Frame* handler) {
-    frame = handler;
-    handled_.frame = nullptr;
     const int number = static_cast<int>(errorNumber);
-    const std::string text = formatEventText(EventId::HandlerEnd, {errorText_, place().routine});
-    return systemHandler(static_cast<int>(EventId::HandlerEnd), number, text, errorPlace_, true);
+    Status status = kAgain;
+    while (status == kAgain) {
+        frame = handler;
+        handled_.frame = nullptr;
+        const std::string text = formatEventText(EventId::HandlerEnd, {errorText_, place().routine});
+        status = systemHandler(static_cast<int>(EventId::HandlerEnd), number, text, errorPlace_);
+        if (canExecuteAgain()) break;
+    }
+    return status;
 }
 
 Status Task::stackOverflowAt(Frame* at) {
-    frame = at;
-    return fatal(static_cast<int>(EventId::StackOverflow), name_);
+    Status status = kAgain;
+    while (status == kAgain) {
+        frame = at;
+        status = fatal(static_cast<int>(EventId::StackOverflow), name_);
+    }
+    return status;
 }
 
 Status Task::fatal(int eventNumber, std::string argument) {
     return systemHandler(eventNumber, 0,
-                         formatEventText(static_cast<EventId>(eventNumber), {std::move(argument)}), place(),
-                         false);
+                         formatEventText(static_cast<EventId>(eventNumber), {std::move(argument)}), place());
 }
 
-Status Task::systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where,
-                           bool again) {
-    if (unwinding_ == Unwind::Abandon || undoAborted_) return kUnwindSilent;
+Status Task::systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where) {
+    if (unwinding_ == Unwind::Abandon || undoAborted_) return silentStatus();
     EventLog& log = host_.log();
     if (unwinding_ != Unwind::None) {
-        log.write(EventId::UndoSkipped, this, {std::move(text)});
-        undoAborted_ = true;
-        return kUnwindSilent;
+        abortUndo(std::move(text));
+        return silentStatus();
     }
     Event event;
     event.number = eventNumber;
@@ -114,9 +153,58 @@ Status Task::systemHandler(int eventNumber, int number, std::string text, const 
     log.write(std::move(event));
     stop(StopCause::Error);
     host_.taskFailed(*this);
-    restartable_ = again && canExecuteAgain();
     const Status status = suspendStopped();
     return status == kOk ? kAgain : status;
+}
+
+// ---- Long jumps ----------------------------------------------------------------------------------------------------
+
+/// The stack is unwound with UNDO to the routine of `target`, which asks landAt.
+Status Task::startJump(Frame* target, int number) {
+    flushHandledWarning();
+    handled_.frame = nullptr; // the handler at work passed it on
+    if (unwinding_ == Unwind::None) unwinding_ = Unwind::Jump;
+    jumps_.push_back({target, number, errorText_, errorPlace_});
+    return kJump;
+}
+
+Status Task::landAt(Frame* at, Status status) {
+    if (jumps_.empty() || jumps_.back().target != at)
+        return status == kJumpPast && at->routine->hasUndo == 0 ? kJump : status;
+    const Jump jump = std::move(jumps_.back());
+    jumps_.pop_back();
+    if (jumps_.empty() && unwinding_ == Unwind::Jump) {
+        unwinding_ = Unwind::None;
+        undoAborted_ = false;
+    }
+    frame = at;
+    errorNumber = static_cast<float>(jump.number);
+    errorText_ = jump.text;
+    errorPlace_ = jump.place;
+    noteHandled(at, jump.number);
+    const Status stopped = suspendStopped(); // by an order that came while UNDO handlers ran
+    return stopped < 0 ? stopped : jump.number;
+}
+
+Status Task::raiseToUserLevel(int number) {
+    Frame* const from = frame;
+    const bool allowed = from != nullptr && from->routine->noStepIn != 0 && inErrorHandler(*from);
+    Frame* const user = allowed ? userLevelHandler(from, number) : nullptr;
+    if (static_cast<float>(number) != errorNumber) errorText_ = describeError(number);
+    errorNumber = static_cast<float>(number);
+    if (user == nullptr) {
+        handled_.frame = nullptr;
+        return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText_, errorPlace_);
+    }
+    (void)startJump(user, number);
+    return kJumpPast;
+}
+
+/// The rest of the UNDO handlers is skipped.
+void Task::abortUndo(std::string why) {
+    host_.log().write(EventId::UndoSkipped, this, {std::move(why)});
+    undoAborted_ = true;
+    if (unwinding_ == Unwind::Jump) jumps_.resize(1);
 }
 
 // ---- Handled errors ------------------------------------------------------------------------------------------------
@@ -126,12 +214,11 @@ void Task::noteHandled(Frame* handler, int number) {
     handled_ = {handler, handler->routine, number, errorText_, errorPlace_, now()};
     // Counts of frames deeper than the handler's belong to routines that are gone: the stack grows downward.
     std::erase_if(retries_, [handler](const RetryCount& entry) { return entry.frame < handler; });
-    if (RetryCount* entry = retryCountOf(handler)) {
-        if (entry->statement == handler->statement && entry->id == handler->reserved) return;
-        *entry = {handler, handler->statement, 0, 0};
-    } else {
-        retries_.push_back({handler, handler->statement, 0, 0});
-    }
+    RetryCount* entry = retryCountOf(handler);
+    if (entry == nullptr) entry = &retries_.emplace_back();
+    if (entry->frame != handler || entry->statement != handler->statement || entry->id != handler->reserved)
+        *entry = {handler, handler->statement, 0, number, {}};
+    entry->number = number;
 }
 
 Task::RetryCount* Task::retryCountOf(Frame* handler) {
@@ -144,16 +231,18 @@ Task::RetryCount* Task::retryCountOf(Frame* handler) {
 Status Task::retryAt(Frame* handler) {
     frame = handler;
     writeHandledWarning();
-    if (undoAborted_ || unwinding_ == Unwind::Abandon) return kUnwindSilent;
+    if (undoAborted_ || unwinding_ == Unwind::Abandon) return silentStatus();
     RetryCount* entry = retryCountOf(handler);
     if (entry == nullptr) return kOk;
-    if (entry->count >= host_.retryLimit()) {
-        const int number = static_cast<int>(errorNumber);
-        const std::string text =
-            formatEventText(EventId::RetryExceeded, {errorText_, std::to_string(entry->count)});
-        return systemHandler(static_cast<int>(EventId::RetryExceeded), number, text, errorPlace_, false);
+    int& count = entry->counts[entry->number];
+    if (count >= host_.retryLimit()) {
+        const std::string text = formatEventText(EventId::RetryExceeded, {errorText_, std::to_string(count)});
+        const Status status =
+            systemHandler(static_cast<int>(EventId::RetryExceeded), entry->number, text, errorPlace_);
+        if (status != kAgain) return status;
+        count = 0; // started again
     }
-    ++entry->count;
+    ++count;
     // The frame record carries the id: a later invocation at the same address starts counting anew.
     entry->id = handler->reserved = ++lastRetryId_;
     return kOk;
@@ -161,11 +250,14 @@ Status Task::retryAt(Frame* handler) {
 
 int Task::remainingRetries() const {
     const int limit = host_.retryLimit();
-    return retries_.empty() ? limit : std::max(0, limit - retries_.back().count);
+    if (retries_.empty()) return limit;
+    const RetryCount& entry = retries_.back();
+    const auto found = entry.counts.find(entry.number);
+    return found == entry.counts.end() ? limit : std::max(0, limit - found->second);
 }
 
 void Task::resetRetryCount() {
-    if (!retries_.empty()) retries_.back().count = 0;
+    if (!retries_.empty()) retries_.back().counts.clear();
 }
 
 /// The warning waits until the handler is left, because SkipWarn in it may take it back.

@@ -1,7 +1,15 @@
 // Manual 1.12: what programs ask about errors.
 
 #include "runtime/host/controller.h"
+#include "runtime/sched/error_search.h"
 #include "stdlib/impl/support/fail.h"
+
+#include "stdlib/impl/support/support_natives.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
@@ -12,12 +20,78 @@ namespace {
 
 /// Numbers given to BookErrNo: after all predefined ones.
 struct BookedNumbers {
-    int next = 10000;
+    static constexpr int kFirst = 10000;
+    int next = kFirst;
 };
+
+/// 1 to 90 are the program's, the others must be predefined or booked.
+bool mayBeRaised(Controller& controller, float number) {
+    const auto whole = static_cast<int>(number);
+    if (static_cast<float>(whole) != number) return false;
+    if (whole >= 1 && whole <= 90) return true;
+    if (whole >= BookedNumbers::kFirst) return whole < controller.service<BookedNumbers>().next;
+    return !controller.log().errorName(whole).empty() && whole != kAllErrors;
+}
+
+constexpr const char* kEventNumbers = "the number must be 4800 to 4814 or 5000 to 9999";
+
+bool isEventNumber(float id) {
+    return (id >= 4800 && id <= 4814) || (id >= 5000 && id <= 9999);
+}
+
+/// ERRSTR_TASK and ERRSTR_CONTEXT are filled in.
+std::string argumentText(const Task& owner, std::string_view text) {
+    if (text == "\\task") return owner.name();
+    const SourcePlace place = owner.place();
+    return text == "\\context" ? fmt::format("{}/{}:{}", place.module, place.routine, place.line)
+                               : std::string(text);
+}
+
+/// The first argument is the title, the others are lines of the text.
+void writeEvent(Task& owner, EventType type, float id, std::array<const String*, 5> arguments) {
+    std::string text;
+    for (std::size_t i = 1; i < arguments.size(); ++i)
+        if (arguments[i]->length > 0)
+            text += (text.empty() ? "" : "\n") + argumentText(owner, arguments[i]->view());
+    const int number = (id < 5000 ? 40000 : 110000) + static_cast<int>(id);
+    owner.controller().log().write(type, number, argumentText(owner, arguments[0]->view()), text, &owner);
+}
+
+/// Value of the num in module data with this name, that of the module at work first; 0 when there is none.
+float numberOf(const Task& owner, std::string_view name) {
+    Controller& controller = owner.controller();
+    const GlobalDesc* global = controller.findGlobal(name, owner.place().module, owner);
+    if (global == nullptr) global = controller.findGlobal(name, "", owner);
+    if (global == nullptr || global->type->kind != DescKind::Num) return 0;
+    float number = 0;
+    std::memcpy(&number, global->address, sizeof number);
+    return number;
+}
 
 } // namespace
 
 extern "C" {
+
+Status rt_raiseNumber(TaskCore* task, int32_t* result, float number) {
+    const bool fits = number > -1e6F && number < 1e6F;
+    if (!fits || !mayBeRaised(taskOf(task).controller(), number))
+        return lib::fail(
+            task, err::ERR_ILLRAISE,
+            fmt::format("RAISE {}: the number must be 1 to 90, an error constant, or a number booked "
+                        "by BookErrNo",
+                        number));
+    *result = static_cast<int32_t>(number);
+    return kOk;
+}
+
+Status rt_raiseToCaller(TaskCore* task, int32_t number) {
+    return taskOf(task).raiseToCaller(number);
+}
+
+Status rt_ignoredInUndo(TaskCore* task, const String* instruction) {
+    (void)taskOf(task).ignoredInUndo(std::string(instruction->view()).c_str());
+    return kOk;
+}
 
 Status rt_SkipWarn(TaskCore* task) {
     taskOf(task).skipWarn();
@@ -44,20 +118,44 @@ Status rt_BookErrNo(TaskCore* task, float* ErrorName) {
 Status rt_ErrLog(TaskCore* task, float ErrorId, bool W, bool I, const String* Argument1,
                  const String* Argument2, const String* Argument3, const String* Argument4,
                  const String* Argument5) {
-    if (!(ErrorId >= 4800 && ErrorId <= 4814) && !(ErrorId >= 5000 && ErrorId <= 9999))
-        return lib::fail(task, err::ERR_ARGVALERR,
-                         "ErrLog: the number must be 4800 (title in Argument1) or 5000 to 9999");
-    std::string text;
-    for (const String* line : {Argument2, Argument3, Argument4, Argument5})
-        if (line->length > 0) text += (text.empty() ? "" : "\n") + std::string(line->view());
+    if (!isEventNumber(ErrorId))
+        return lib::fail(task, err::ERR_ARGVALERR, std::string("ErrLog: ") + kEventNumbers);
     const EventType type = W ? EventType::Warning : I ? EventType::Information : EventType::Error;
-    const int number =
-        ErrorId < 5000 ? 40000 + static_cast<int>(ErrorId) : 110000 + static_cast<int>(ErrorId);
-    Task& owner = taskOf(task);
-    owner.controller().log().write(type, number, std::string(Argument1->view()), text, &owner,
-                                   {std::string(Argument1->view()), std::string(Argument2->view()),
-                                    std::string(Argument3->view()), std::string(Argument4->view()),
-                                    std::string(Argument5->view())});
+    writeEvent(taskOf(task), type, ErrorId, {Argument1, Argument2, Argument3, Argument4, Argument5});
     return kOk;
+}
+
+/// A warning in the log; then as RAISE with the number that the variable named ErrorName holds.
+Status rt_ErrRaise(TaskCore* task, const String* ErrorName, float ErrorId, const String* Argument1,
+                   const String* Argument2, const String* Argument3, const String* Argument4,
+                   const String* Argument5) {
+    Task& owner = taskOf(task);
+    if (!isEventNumber(ErrorId))
+        return lib::fail(task, err::ERR_ARGVALERR, std::string("ErrRaise: ") + kEventNumbers);
+    const float number = numberOf(owner, ErrorName->view());
+    if (!mayBeRaised(owner.controller(), number))
+        return lib::fail(
+            task, err::ERR_ILLRAISE,
+            fmt::format("ErrRaise: \"{}\" is not the name of module data with an error number; declare it "
+                        "(VAR errnum {} := -1;) and book it with BookErrNo",
+                        ErrorName->view(), ErrorName->view()));
+    writeEvent(owner, EventType::Warning, ErrorId, {Argument1, Argument2, Argument3, Argument4, Argument5});
+    owner.setErrorDetail(std::string(Argument1->view()));
+    const auto raised = static_cast<int>(number);
+    return owner.frame != nullptr && inErrorHandler(*owner.frame) ? owner.raiseToCaller(raised) : raised;
+}
+
+Status rt_RaiseToUser(TaskCore* task, bool Continue, bool BreakOff, const float* ErrorNumber) {
+    Task& owner = taskOf(task);
+    const float number = ErrorNumber ? *ErrorNumber : owner.errorNumber;
+    (void)Continue;
+    (void)BreakOff;
+    if (!mayBeRaised(owner.controller(), number))
+        return lib::fail(
+            task, err::ERR_ILLRAISE,
+            fmt::format("RaiseToUser: {} is not an error number; use 1 to 90 or a number booked by "
+                        "BookErrNo",
+                        number));
+    return owner.raiseToUserLevel(static_cast<int>(number));
 }
 }

@@ -11,23 +11,33 @@ using namespace rt;
 
 extern "C" {
 
-/// Movement that has been ordered is finished first.
-Status rt_Stop(TaskCore* task) {
+/// Movement that has been ordered is finished first. \NoRegain changes nothing: the robot of a virtual controller is
+/// where it stopped.
+Status rt_Stop(TaskCore* task, bool, bool AllMoveTasks) {
     Task& owner = taskOf(task);
+    if (owner.ignoredInUndo("Stop")) return kOk;
     if (owner.isMotionTask())
         if (const Status status = owner.controller().motion().waitIdle(owner)) return status;
-    return owner.stopHere();
+    return owner.stopHere("Stop", AllMoveTasks);
 }
 
+/// The arm is stopped at once, not at the end of the movement.
 Status rt_DebugBreak(TaskCore* task) {
-    return taskOf(task).stopHere();
+    Task& owner = taskOf(task);
+    if (owner.ignoredInUndo("DebugBreak")) return kOk;
+    if (owner.isMotionTask()) owner.controller().motion().programStop();
+    return owner.stopHere("DebugBreak");
 }
 
+/// \StopBlock: a start needs the program pointer moved first. \Halt: the motors go off; a start switches them on again.
 Status rt_SystemStopAction(TaskCore* task, bool Stop, bool StopBlock, bool Halt) {
     if (Stop + StopBlock + Halt != 1)
         return lib::fail(task, err::ERR_ARGVALERR,
                          "SystemStopAction needs one of \\Stop, \\StopBlock and \\Halt");
-    return taskOf(task).stopHere(true);
+    Task& owner = taskOf(task);
+    if (owner.ignoredInUndo("SystemStopAction")) return kOk;
+    owner.controller().motion().programStop();
+    return owner.stopHere("SystemStopAction", true, StopBlock ? StopCause::Blocked : StopCause::Instruction);
 }
 
 Status rt_ExitCycle(TaskCore* task) {

@@ -42,6 +42,12 @@ rt::Status rt_connect(rt::TaskCore* task, float* interrupt, void* trap);
 
 /// EXIT: UNDO handlers run, the program ends. Returns the status of unwinding.
 rt::Status rt_exitProgram(rt::TaskCore* task);
+/// RAISE number: the number as an integer. Raises ERR_ILLRAISE for one that is neither 1 to 90 nor predefined nor booked.
+rt::Status rt_raiseNumber(rt::TaskCore* task, int32_t* result, float number);
+/// RAISE number in an error handler: raises it at the call of the routine. Never returns 0.
+rt::Status rt_raiseToCaller(rt::TaskCore* task, int32_t number);
+/// An instruction that is not allowed in an UNDO handler: a warning.
+rt::Status rt_ignoredInUndo(rt::TaskCore* task, const rt::String* instruction);
 /// A predefined routine was called that is declared only: the task stops with an event, never a silent no-op.
 rt::Status rt_notImplemented(rt::TaskCore* task, const rt::String* name);
 

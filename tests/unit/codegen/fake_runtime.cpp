@@ -32,6 +32,21 @@ rt::Status raise(rt::TaskCore* task, rt::Frame* frame, rt::Status number) {
     return number;
 }
 
+rt::Status nativeFailed(rt::TaskCore* task, rt::Frame* frame, rt::Status status) {
+    return status > 0 ? raise(task, frame, status) : status;
+}
+
+/// A long jump ends in the first routine with an error handler that is called "target".
+rt::Status land(rt::TaskCore* task, rt::Frame* frame, rt::Status status) {
+    note("land" + place(frame));
+    if (std::string(frame->routine->name) == "target") return static_cast<rt::Status>(task->errorNumber);
+    return status == rt::kJumpPast && !frame->routine->hasUndo ? rt::kJump : status;
+}
+
+rt::Status takesError(rt::TaskCore*, rt::Frame* frame, rt::Status number) {
+    return **frame->routine->errorVariables == static_cast<float>(number) ? 1 : 0;
+}
+
 rt::Status propagate(rt::TaskCore* task, rt::Frame* frame) {
     note("propagate" + place(frame));
     return static_cast<rt::Status>(task->errorNumber);
@@ -104,13 +119,23 @@ Task::Task() {
 }
 
 std::vector<codegen::NativeSymbol> symbols() {
-    return {symbol("rt_safepoint", safepoint),   symbol("rt_raise", raise),
-            symbol("rt_propagate", propagate),   symbol("rt_handlerEnd", handlerEnd),
-            symbol("rt_retry", retry),           symbol("rt_stackOverflow", stackOverflow),
-            symbol("rt_note", noteNumber),       symbol("rt_fallible", fallible),
-            symbol("rt_pure", hypotenuse),       symbol("rt_truth", both),
-            symbol("rt_everything", everything), symbol("rt_text", text),
-            symbol("rt_void", nothing),          symbol("rt_plain", nothing)};
+    return {symbol("rt_safepoint", safepoint),
+            symbol("rt_raise", raise),
+            symbol("rt_propagate", propagate),
+            symbol("rt_handlerEnd", handlerEnd),
+            symbol("rt_nativeFailed", nativeFailed),
+            symbol("rt_land", land),
+            symbol("rt_takesError", takesError),
+            symbol("rt_retry", retry),
+            symbol("rt_stackOverflow", stackOverflow),
+            symbol("rt_note", noteNumber),
+            symbol("rt_fallible", fallible),
+            symbol("rt_pure", hypotenuse),
+            symbol("rt_truth", both),
+            symbol("rt_everything", everything),
+            symbol("rt_text", text),
+            symbol("rt_void", nothing),
+            symbol("rt_plain", nothing)};
 }
 
 std::unique_ptr<codegen::JitProgram> compile(ir::Module module, bool optimise) {

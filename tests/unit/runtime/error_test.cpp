@@ -32,21 +32,58 @@ TEST_CASE("the search for a handler follows manual 1.12", "[errors]") {
         any("any", 2, 1, {kAllErrors});
     Frame outer{nullptr, &main.desc, 0, 0};
     Frame inner{&outer, &middle.desc, 1, 0};
-    CHECK(findErrorHandler(&inner, 3) == &outer); // a routine without handler passes the error on
+    CHECK(routeOfError(&inner, 3).handler == &outer); // a routine without handler passes the error on
+    CHECK_FALSE(routeOfError(&inner, 3).longJump);
     Frame selective{&outer, &picky.desc, 1, 0};
-    CHECK(findErrorHandler(&selective, 7) == &selective);
-    CHECK(findErrorHandler(&selective, 8) == &outer);
+    CHECK(routeOfError(&selective, 7).handler == &selective);
+    CHECK(routeOfError(&selective, 8).handler == &outer);
+    CHECK(routeFromCall(&selective, 7).longJump);
     Frame all{&outer, &any.desc, 0, 0};
-    CHECK(findErrorHandler(&all, 1234) == &all);
+    CHECK(routeOfError(&all, 1234).handler == &all);
+    CHECK(routeFromCall(&all, 1234).longJump);
     selective.statement = 2; // within its own handler: no recovery, not even by the caller
-    CHECK(findErrorHandler(&selective, 7) == nullptr);
+    CHECK(routeOfError(&selective, 7).handler == nullptr);
     outer.statement = 3;
-    CHECK(findErrorHandler(&inner, 3) == nullptr);
+    CHECK(routeOfError(&inner, 3).handler == nullptr);
     outer.statement = 0;
     Frame boundary{&outer, &kTrapBoundary, -1, 0};
     Frame trap{&boundary, &middle.desc, 0, 0};
-    CHECK(findErrorHandler(&trap, 3) == nullptr); // the system called it
-    CHECK(findErrorHandler(nullptr, 3) == nullptr);
+    CHECK(routeOfError(&trap, 3).handler == nullptr); // the system called it
+    CHECK(routeOfError(nullptr, 3).handler == nullptr);
+}
+
+TEST_CASE("a handler with a list takes its numbers past others and out of traps", "[errors]") {
+    const float booked = 10003;
+    const float* const variables[] = {&booked};
+    Routine listing("listing", 3, 2, {5, kOtherErrors});
+    const Routine plain("plain", 3, 2);
+    listing.desc.errorVariables = variables;
+    listing.desc.errorVariableCount = 1;
+    Frame outer{nullptr, &listing.desc, 0, 0};
+    Frame between{&outer, &plain.desc, 1, 0};
+    CHECK(routeFromCall(&between, 5).handler == &outer);
+    CHECK(routeFromCall(&between, 10003).handler == &outer);
+    CHECK(routeFromCall(&between, 6).handler == &between);
+    CHECK(routeFromCall(&outer, 6).handler == &outer); // the clause without list, for its own calls only
+    CHECK_FALSE(routeFromCall(&outer, 6).longJump);
+    Frame boundary{&outer, &kTrapBoundary, -1, 0};
+    Frame trap{&boundary, &plain.desc, 1, 0};
+    CHECK(routeOfError(&trap, 5).handler == &trap);
+    CHECK(routeFromCall(trap.caller, 5).handler == &outer);
+    CHECK(routeFromCall(trap.caller, 6).handler == nullptr);
+}
+
+TEST_CASE("RaiseToUser finds the innermost routine that is not NOSTEPIN", "[errors]") {
+    Routine hidden("hidden", 3, 2), nested("nested", 3, 2);
+    hidden.desc.noStepIn = nested.desc.noStepIn = 1;
+    const Routine user("user", 3, 2), bare("bare", 3);
+    Frame outer{nullptr, &user.desc, 0, 0};
+    Frame middle{&outer, &hidden.desc, 0, 0};
+    Frame inner{&middle, &nested.desc, 0, 0};
+    CHECK(userLevelHandler(&inner, 12) == &outer);
+    Frame without{&outer, &bare.desc, 0, 0};
+    middle.caller = &without; // the user's routine without handler: the system handler, not the caller's
+    CHECK(userLevelHandler(&inner, 12) == nullptr);
 }
 
 TEST_CASE("an error without handler stops the program with an event that tells place and chain", "[errors]") {

@@ -244,7 +244,7 @@ TEST_CASE("Stop waits for a start that is to come", "[host]") {
     Run run;
     run.options.stimulus = folder.write("s.csv", "5,start,\n");
     run.task("T", [](TaskCore* core, Frame*) -> Status {
-        if (const Status status = taskOf(core).stopHere()) return status;
+        if (const Status status = taskOf(core).stopHere("Stop")) return status;
         after = true;
         return kOk;
     });
@@ -277,7 +277,8 @@ TEST_CASE("pp_to_main runs the UNDO handlers and gives variables their initial v
     CHECK(run.count(EventId::ProgramPointerReset) == 1);
 }
 
-TEST_CASE("after an error only pp_to_main makes a start possible", "[host]") {
+TEST_CASE("after an error a start executes the instruction again, after pp_to_main it begins at main",
+          "[host]") {
     const TempFolder folder;
     static int mains = 0;
     const auto body = [](TaskCore* core, Frame*) -> Status {
@@ -285,11 +286,12 @@ TEST_CASE("after an error only pp_to_main makes a start possible", "[host]") {
         return kOk;
     };
     mains = 0;
-    Run refused;
-    refused.options.stimulus = folder.write("s.csv", "2,start,\n");
-    refused.task("T", body);
-    CHECK(refused.run() == ExitStatus::StoppedByError);
-    CHECK(refused.count(EventId::StartRefused) == 1);
+    Run repeated;
+    repeated.options.stimulus = folder.write("s.csv", "2,start,\n");
+    repeated.task("T", body);
+    CHECK(repeated.run() == ExitStatus::StoppedByError);
+    CHECK(repeated.count(EventId::UnhandledError) == 2);
+    CHECK(mains == 1);
     mains = 0;
     Run again;
     again.options.stimulus = folder.write("s.csv", "1,pp_to_main,\n2,start,\n");
@@ -399,7 +401,7 @@ TEST_CASE("system signals give orders and show states", "[host]") {
     run.task("T", [](TaskCore* core, Frame*) -> Status {
         if (const Status status = taskOf(core).sleepFor(2 * kSecond)) return status;
         CHECK(taskOf(core).now() == 3 * kSecond);
-        return taskOf(core).stopHere(); // no start to come any more
+        return taskOf(core).stopHere("Stop"); // no start to come any more
     });
     CHECK(run.run() == ExitStatus::Ended);
     run.controller.reset();

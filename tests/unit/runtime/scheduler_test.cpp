@@ -238,7 +238,7 @@ TEST_CASE("Stop without a start to come ends the run; other NORMAL tasks go on",
     Run run;
     run.task("T",
              [](TaskCore* core, Frame*) -> Status {
-                 const Status status = taskOf(core).stopHere();
+                 const Status status = taskOf(core).stopHere("Stop");
                  after = status == kOk;
                  return status;
              })
