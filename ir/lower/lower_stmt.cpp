@@ -110,6 +110,7 @@ void RoutineLowering::lowerStmt(const Stmt& stmt) {
         startStatement(stmt, motion ? ir::StmtKind::Motion : ir::StmtKind::Call);
         if (call.lateName) return lowerLateCall(call);
         lowerCall(stmt, ir::kNone);
+        if (region_ == Region::Error && isStartMoveRetry(stmt)) b_.retry();
         return;
     }
     case NodeKind::If: return lowerIf(as<IfStmt>(stmt));
@@ -145,6 +146,13 @@ void RoutineLowering::lowerStmt(const Stmt& stmt) {
     }
     default: return; // empty instructions; errors do not get here
     }
+}
+
+/// The instruction replaces two: StartMove and RETRY (manual 1.12).
+bool RoutineLowering::isStartMoveRetry(const Stmt& stmt) const {
+    const auto found = facts().calls.find(&stmt);
+    const sema::RoutineSymbol* routine = found == facts().calls.end() ? nullptr : found->second.routine;
+    return routine != nullptr && routine->predefined && routine->name == "StartMoveRetry";
 }
 
 void RoutineLowering::lowerAssign(const AssignStmt& stmt) {

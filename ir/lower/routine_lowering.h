@@ -72,6 +72,7 @@ class RoutineLowering {
     void lowerTest(const syntax::TestStmt& stmt);
     void lowerReturn(const syntax::ReturnStmt& stmt);
     void lowerRaise(const syntax::RaiseStmt& stmt);
+    bool isStartMoveRetry(const syntax::Stmt& stmt) const;
     void lowerIgnoredInUndo(const char* instruction);
     void lowerConnect(const syntax::ConnectStmt& stmt);
     void lowerExit();

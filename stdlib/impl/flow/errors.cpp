@@ -50,11 +50,13 @@ std::string argumentText(const Task& owner, std::string_view text) {
 /// The first argument is the title, the others are lines of the text.
 void writeEvent(Task& owner, EventType type, float id, std::array<const String*, 5> arguments) {
     std::string text;
-    for (std::size_t i = 1; i < arguments.size(); ++i)
-        if (arguments[i]->length > 0)
-            text += (text.empty() ? "" : "\n") + argumentText(owner, arguments[i]->view());
+    std::vector<std::string> texts; // what ReadErrData gives
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        texts.push_back(argumentText(owner, arguments[i]->view()));
+        if (i > 0 && !texts.back().empty()) text += (text.empty() ? "" : "\n") + texts.back();
+    }
     const int number = (id < 5000 ? 40000 : 110000) + static_cast<int>(id);
-    owner.controller().log().write(type, number, argumentText(owner, arguments[0]->view()), text, &owner);
+    owner.controller().log().write(type, number, std::string(texts[0]), text, &owner, texts);
 }
 
 /// Value of the num in module data with this name, that of the module at work first; 0 when there is none.
@@ -145,11 +147,14 @@ Status rt_ErrRaise(TaskCore* task, const String* ErrorName, float ErrorId, const
     return owner.frame != nullptr && inErrorHandler(*owner.frame) ? owner.raiseToCaller(raised) : raised;
 }
 
+/// \Continue would need the user's handler to run on top of the routine that failed: refused with an event. Without a
+/// switch the system handler takes over.
 Status rt_RaiseToUser(TaskCore* task, bool Continue, bool BreakOff, const float* ErrorNumber) {
     Task& owner = taskOf(task);
+    if (Continue) return owner.fatal(static_cast<int>(EventId::NotImplemented), "RaiseToUser \\Continue");
+    if (!BreakOff)
+        return lib::fail(task, err::ERR_ARGVALERR, "RaiseToUser needs \\BreakOff or \\Continue");
     const float number = ErrorNumber ? *ErrorNumber : owner.errorNumber;
-    (void)Continue;
-    (void)BreakOff;
     if (!mayBeRaised(owner.controller(), number))
         return lib::fail(
             task, err::ERR_ILLRAISE,

@@ -33,6 +33,11 @@ Status rt_StartMove(TaskCore* task, bool) {
     return kOk;
 }
 
+/// Compiled as this call followed by RETRY.
+Status rt_StartMoveRetry(TaskCore* task) {
+    return rt_StartMove(task, false);
+}
+
 /// The stop is forgotten: the next movement ordered starts at once.
 Status rt_StopMoveReset(TaskCore* task, bool) {
     MotionDriver& driver = driverOf(task);

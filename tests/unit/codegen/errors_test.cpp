@@ -111,6 +111,74 @@ TEST_CASE("undo does not run when an error leaves the routine", "[codegen]") {
     CHECK(events == Events{"raise 8 at 0 in undoes"});
 }
 
+TEST_CASE("a long jump runs undo on its way", "[codegen]") {
+    for (bool optimise : {false, true}) {
+        Handlers test(optimise);
+        fallibleStatuses = {rt::kJump};
+        CHECK(test.run("undoes", 5.0f) == rt::kJump);
+        CHECK(events == Events{"note 1 < undoes", "note 2 < undoes"});
+        events.clear();
+        fallibleStatuses = {rt::kJumpPast}; // past this one only
+        CHECK(test.run("undoes", 5.0f) == rt::kJump);
+        fallibleStatuses = {rt::kJumpSilent};
+        CHECK(test.run("undoes", 5.0f) == rt::kJumpSilent);
+        CHECK(events.empty());
+    }
+}
+
+TEST_CASE("a native that failed is called once more when the task has been started again", "[codegen]") {
+    for (bool optimise : {false, true}) {
+        Handlers test(optimise);
+        fallibleStatuses = {500, 500};
+        CHECK(test.run("undoes", 5.0f) == rt::kOk);
+        CHECK(events == Events{"note 5 < undoes"});
+    }
+}
+
+TEST_CASE("a long jump lands in the handler that it is meant for; a list may hold variables", "[codegen]") {
+    for (bool optimise : {false, true}) {
+        auto program = compile(ir_testing::parse(R"(
+native @"rt_note" plain void (f32)
+native @"rt_fallible" plain f32 (f32)
+global @"booked" "booked" in "M" f32 var = { f32 10003 }
+routine @"target" "target" in "M" exported void () {
+  stmt 0 plain 1:1 1:2 handled next b2
+  stmt 1 plain 2:1 2:2
+  errorhandler b1 [5, @"booked"]
+  b0:
+    stmt 0
+    %0 = const f32 1
+    %1 = native @"rt_fallible" (%0)
+    native @"rt_note" (%1)
+    br b2
+  b1:
+    stmt 1
+    %2 = sysvar errno
+    native @"rt_note" (%2)
+    trynext
+  b2:
+    ret !0
+}
+)"),
+                               optimise);
+        Task task;
+        const auto run = [&] {
+            using Function = rt::Status (*)(rt::TaskCore*, rt::Frame*);
+            return reinterpret_cast<Function>(entry(*program, "target"))(&task.core, nullptr);
+        };
+        task.core.errorNumber = 5;
+        fallibleStatuses = {rt::kJump};
+        CHECK(run() == rt::kOk);
+        CHECK(events == Events{"land at 0 in target", "note 5 < target"});
+        events.clear();
+        fallibleStatuses = {10003};
+        CHECK(run() == rt::kOk);
+        fallibleStatuses = {6};
+        CHECK(run() == 6);
+        CHECK(events == Events{"raise 10003 at 0 in target", "note 10003 < target", "raise 6 at 0 in target"});
+    }
+}
+
 TEST_CASE("frames form the chain of callers", "[codegen]") {
     auto program = compile(ir_testing::parse(R"(
 native @"rt_note" plain void (f32)
