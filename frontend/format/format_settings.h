@@ -9,6 +9,8 @@ namespace rapid::format {
 enum class Spacing : uint8_t { Tight, Spaced, Keep };
 /// After a comma. Arguments: spaced in lists of arguments, parameters and values, tight in [ ] and { }.
 enum class CommaSpacing : uint8_t { Tight, Arguments, Spaced, Keep };
+/// Where the label of a GOTO stands.
+enum class LabelPlace : uint8_t { FirstColumn, Code };
 enum class KeywordCase : uint8_t { Upper, Lower, Keep };
 /// Canonical: predefined names are spelt as their declarations.
 enum class NameCase : uint8_t { Keep, Canonical };
@@ -25,8 +27,9 @@ struct FormatSettings {
     Spacing operators = Spacing::Tight;         ///< around + - * / < = ... and |
     CommaSpacing commas = CommaSpacing::Tight;  ///< after ','
     Spacing optionalArguments = Spacing::Tight; ///< before '\'
-    bool indentModule = true;                   ///< declarations stand one level inside of MODULE
-    bool indentCase = false;                    ///< CASE and DEFAULT stand one level inside of TEST
+    LabelPlace labels = LabelPlace::FirstColumn;
+    bool indentModule = true;    ///< declarations stand one level inside of MODULE
+    bool indentCase = false;     ///< CASE and DEFAULT stand one level inside of TEST
     bool indentHandlers = false; ///< ERROR, UNDO and BACKWARD stand one level inside of the routine
     bool keepCommentsInFirstColumn = false; ///< comments in column 1 are not moved
 };

@@ -135,7 +135,7 @@ class Layout {
             state_.base = indent;
         }
         beginLine(keptNewlines(), indent);
-        if (!plan.hasLevel || plan.has(kCompactBody)) return;
+        if (!plan.hasLevel || plan.has(kCompactBody) || plan.has(kLabel)) return;
         lastLevel_ = plan.level;
         lastLineAtom_ = at_;
     }
@@ -217,8 +217,8 @@ class Layout {
 
     Indent commentIndent(const TokenPlan& next) const {
         if (settings_.keepCommentsInFirstColumn && atom().column == 0) return {};
-        if (next.endsBlock) return {belongsToEnd() ? next.level : next.blockLevel, 0};
-        return next.hasLevel ? Indent{next.level, 0} : continuation(false);
+        if (!next.hasLevel) return continuation(false);
+        return {next.endsBlock && belongsToEnd() ? next.level : next.commentLevel, 0};
     }
 
     /// A comment before ELSE, CASE, ENDIF ...: does it stand under the word that ends the block, while the block
@@ -228,7 +228,7 @@ class Layout {
         size_t word = at_;
         while (atoms_[word].isComment)
             ++word;
-        if (atom().column > atoms_[word].column || lastLevel_ != plan_[t].blockLevel) return false;
+        if (atom().column > atoms_[word].column || lastLevel_ != plan_[t].commentLevel) return false;
         const Atom& inside = atoms_[lastLineAtom_];
         const bool beginsOldLine = inside.newlines > 0;
         return beginsOldLine && inside.column > atoms_[word].column;

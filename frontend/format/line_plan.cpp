@@ -62,6 +62,7 @@ class Marker {
     void markStatement(const Node& node) {
         if (node.kind == NodeKind::Empty) return set(node.first, kEmptyStatement);
         set(node.first, kBeginsLine);
+        if (node.kind == NodeKind::Label) set(node.first, kLabel);
         if (node.kind == NodeKind::CompactIf) {
             const auto* body = as<CompactIfStmt>(node).body;
             if (body) set(body->first, kCompactBody);
@@ -149,14 +150,15 @@ class Leveller {
         if (kMiddles.has(kind)) return middle(plan);
         if (plan.has(kCompactBody) && plan.has(kBeginsLine)) {
             plan.hasLevel = true;
-            plan.level = deeper(lineLevel_, true);
+            plan.level = plan.commentLevel = deeper(lineLevel_, true);
             if (startsLine(t)) lineLevel_ = plan.level;
         } else if (plan.has(kBeginsLine) || kAlone.has(kind)) {
             begin(plan, blocks_.back().body);
+            if (plan.has(kLabel) && settings_.labels == LabelPlace::FirstColumn) plan.level = 0;
         } else if (kind == K::Semicolon) {
             plan.lineBreak = LineBreak::Never;
             plan.hasLevel = plan.has(kEmptyStatement) && !plan.has(kCompactBody);
-            plan.level = blocks_.back().body;
+            plan.level = plan.commentLevel = blocks_.back().body;
         }
         if (plan.has(kOpensBlock)) open(kind);
     }
@@ -164,7 +166,7 @@ class Leveller {
     void begin(TokenPlan& plan, uint16_t level) {
         plan.lineBreak = LineBreak::Must;
         plan.hasLevel = true;
-        plan.level = level;
+        plan.level = plan.commentLevel = level;
         lineLevel_ = level;
         brackets_.clear();
     }
@@ -186,15 +188,17 @@ class Leveller {
     void middle(TokenPlan& plan) {
         Block& block = blocks_.back();
         plan.endsBlock = true;
-        plan.blockLevel = block.body;
+        const uint16_t inside = block.body;
         begin(plan, block.middle);
+        plan.commentLevel = inside;
         block.body = deeper(block.middle, true);
     }
 
     void close(TokenPlan& plan) {
         plan.endsBlock = true;
-        plan.blockLevel = blocks_.back().body;
+        const uint16_t inside = blocks_.back().body;
         begin(plan, blocks_.back().level);
+        plan.commentLevel = inside;
         if (blocks_.size() > 1) blocks_.pop_back();
     }
 

@@ -16,21 +16,22 @@ enum class LineBreak : uint8_t {
 
 /// Facts about one token, as bits.
 enum TokenFlag : uint16_t {
-    kBeginsLine = 1,        ///< first token of an instruction or declaration
-    kOpensBlock = 2,        ///< MODULE, RECORD, PROC, IF ... THEN, FOR, WHILE, TEST
-    kCompactBody = 4,       ///< first token of the instruction of a compact IF
-    kCallName = 8,          ///< name of a called procedure: arguments follow without parenthesis
-    kSign = 16,             ///< + or - before an operand
-    kLateOpen = 32,         ///< the first % of a late-bound call
-    kLateClose = 64,        ///< the second one
-    kTightAssign = 128,     ///< := of an argument
-    kNoKeyword = 256,       ///< a keyword that is used as a name (\Continue)
-    kUpperWord = 512,       ///< TASK
-    kLowerWord = 1024,      ///< switch
-    kNameUse = 2048,        ///< a name that may be predefined
-    kListComma = 4096,      ///< a comma in [ ] or { }
-    kVerbatim = 8192,       ///< stands in a part with mistakes: left as it is
-    kEmptyStatement = 16384 ///< a semicolon too many
+    kBeginsLine = 1,         ///< first token of an instruction or declaration
+    kOpensBlock = 2,         ///< MODULE, RECORD, PROC, IF ... THEN, FOR, WHILE, TEST
+    kCompactBody = 4,        ///< first token of the instruction of a compact IF
+    kCallName = 8,           ///< name of a called procedure: arguments follow without parenthesis
+    kSign = 16,              ///< + or - before an operand
+    kLateOpen = 32,          ///< the first % of a late-bound call
+    kLateClose = 64,         ///< the second one
+    kTightAssign = 128,      ///< := of an argument
+    kNoKeyword = 256,        ///< a keyword that is used as a name (\Continue)
+    kUpperWord = 512,        ///< TASK
+    kLowerWord = 1024,       ///< switch
+    kNameUse = 2048,         ///< a name that may be predefined
+    kListComma = 4096,       ///< a comma in [ ] or { }
+    kVerbatim = 8192,        ///< stands in a part with mistakes: left as it is
+    kEmptyStatement = 16384, ///< a semicolon too many
+    kLabel = 32768           ///< first token of a label
 };
 
 struct TokenPlan {
@@ -39,7 +40,7 @@ struct TokenPlan {
     bool endsBlock = false; ///< END word, ELSE, CASE, ERROR ...: comments before it may belong to the block
     uint16_t flags = 0;
     uint16_t level = 0;
-    uint16_t blockLevel = 0; ///< endsBlock: level of the lines of the block that ends
+    uint16_t commentLevel = 0; ///< of comment lines before it; endsBlock: level of the block that ends
     bool has(uint16_t flag) const { return (flags & flag) != 0; }
 };
 

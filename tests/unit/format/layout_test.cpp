@@ -93,8 +93,15 @@ TEST_CASE("each instruction stands on a line of its own", "[format]") {
                                                               "      IF x THEN\n"
                                                               "         c;\n"
                                                               "      ENDIF\n"
-                                                              "      here:\n"
+                                                              "here:\n"
                                                               "      GOTO here;");
+}
+
+TEST_CASE("labels stand in the first column, or with the code", "[format]") {
+    const std::string text = "a;\n  ! again\nagain: b;\nGOTO again;";
+    CHECK(body(text) == "      a;\n      ! again\nagain:\n      b;\n      GOTO again;");
+    CHECK(body(text, with([](auto& s) { s.labels = format::LabelPlace::Code; })) ==
+          "      a;\n      ! again\n      again:\n      b;\n      GOTO again;");
 }
 
 TEST_CASE("a compact IF stays on its line, and its instruction one level in on the next", "[format]") {

@@ -38,6 +38,7 @@ FormatRequest someSettings(uint32_t number) {
     s.operators = static_cast<Spacing>(number / 5 % 3);
     s.commas = static_cast<CommaSpacing>(number / 7 % 4);
     s.optionalArguments = static_cast<Spacing>(number / 2 % 3);
+    s.labels = static_cast<format::LabelPlace>(number % 2);
     s.indentModule = number % 5 != 0;
     s.indentCase = number % 4 == 1;
     s.indentHandlers = number % 4 == 2;
