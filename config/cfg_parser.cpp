@@ -100,6 +100,8 @@ class CfgReader {
         section.type = std::string(trimmed(text.substr(0, equals)));
         if (equals != std::string_view::npos)
             section.baseType = std::string(trimmed(text.substr(equals + 1)));
+        if (section.type.empty())
+            return problem(line_, "':' without the name of a configuration type before it");
         for (const char c : section.type) {
             if (!isWordChar(c)) {
                 return problem(

@@ -131,3 +131,25 @@ TEST_CASE("numbers are shown in their shortest form", "[cfg]") {
     CHECK(parseNumber(" +2.5e3 ", value));
     CHECK(value == 2500);
 }
+
+TEST_CASE("a section without a type is a mistake", "[cfg]") {
+    std::vector<CfgProblem> problems;
+    const CfgFile file = parseCfg("SYS:CFG_1.0:6:0::\n#\n:\n = BASE:\n", "X.cfg", problems);
+    CHECK(file.sections.empty());
+    REQUIRE(problems.size() == 2);
+    CHECK(problems[0].line == 3);
+    CHECK(problems[1].line == 4);
+}
+
+TEST_CASE("problems of a file stay within bounds", "[cfg]") {
+    std::string text = "SYS:CFG_1.0:6:0::\n";
+    for (int i = 0; i < 100000; ++i)
+        text += "nonsense without end\n";
+    text += std::string(100000, 'x');
+    std::vector<CfgProblem> problems;
+    parseCfg(text, "X.cfg", problems);
+    REQUIRE(problems.size() == rapid::config::kMaxCfgProblems + 1);
+    CHECK_THAT(problems.back().message, Contains("more mistakes"));
+    for (const CfgProblem& problem : problems)
+        CHECK(problem.message.size() < 200);
+}
