@@ -20,6 +20,7 @@ LAYERS = {
     # configuration text: needed by the front end and by the runtime, and knows neither
     "config": [],
     "frontend/project": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "config"],
+    "frontend/lint": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/project"],
     "ir/core": [],
     "ir/text": ["ir/core", "ir/verify"],
     "ir/verify": ["ir/core"],

@@ -69,6 +69,16 @@ std::string title(const CatalogueEntry& entry) {
     return out;
 }
 
+std::string kebabName(const CatalogueEntry& entry) {
+    std::string out;
+    for (const char c : entry.name) {
+        const bool upper = c >= 'A' && c <= 'Z';
+        if (upper && !out.empty()) out.push_back('-');
+        out.push_back(upper ? static_cast<char>(c - 'A' + 'a') : c);
+    }
+    return out;
+}
+
 std::string formatText(std::string_view text, std::span<const std::string> args) {
     std::string out;
     for (size_t i = 0; i < text.size(); ++i) {

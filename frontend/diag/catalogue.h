@@ -23,6 +23,14 @@ const CatalogueEntry* findEntry(uint16_t number);
 /// The name as words: "Missing semicolon".
 std::string title(const CatalogueEntry& entry);
 
+/// The name in words, as it stands in comments, project files and on the command line: "unused-variable".
+std::string kebabName(const CatalogueEntry& entry);
+
+/// Warnings can be switched off or made errors by their names; errors and notes cannot.
+inline bool isSwitchable(const CatalogueEntry& entry) {
+    return entry.severity == Severity::Warning;
+}
+
 /// The catalogue text with {0}, {1}, ... replaced. A missing argument leaves its placeholder.
 std::string formatText(std::string_view text, std::span<const std::string> args);
 

@@ -4,6 +4,7 @@
 #include "frontend/source/source_file.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -57,6 +58,8 @@ class Sink {
                        std::initializer_list<std::string> args = {}) {
         return report(code, file, range, std::span<const std::string>(args.begin(), args.size()));
     }
+    /// Calls `keep` for each diagnostic, which may change its severity; removes those for which it returns false.
+    void revise(const std::function<bool(Diagnostic&)>& keep);
     bool hasErrors() const { return errorCount_ > 0; }
     size_t errorCount() const { return errorCount_; }
     /// Sorted by file, position, code.
@@ -72,9 +75,10 @@ class Sink {
 std::string codeName(Code code);
 std::string_view severityName(Severity severity);
 
-/// For people: `file:line:column: error[RAP2104]: text`, the source line, a caret line, help, notes. ANSI colours if asked.
+/// For people: `file:line:column: error[RAP2104]: text` (warnings: and their names), the source line, a caret line, help,
+/// notes. ANSI colours if asked.
 std::string renderText(const Diagnostic& diagnostic, bool colour);
-/// One JSON array of {file,line,column,endLine,endColumn,severity,code,message} (design chapter 8).
+/// One JSON array of {file,line,column,endLine,endColumn,severity,code,name,message} (design chapter 8).
 std::string renderJson(std::span<const Diagnostic> diagnostics);
 /// SARIF 2.1.0, as code scanning services read it. `root`: absolute folder to which paths are relative.
 std::string renderSarif(std::span<const Diagnostic> diagnostics, std::string_view root = {});

@@ -1,6 +1,6 @@
 // Diagnostics for people: heading, source excerpt with the place underlined, help, notes.
 
-#include "frontend/diag/diagnostic.h"
+#include "frontend/diag/catalogue.h"
 
 #include <fmt/format.h>
 
@@ -113,10 +113,12 @@ std::string placePrefix(const std::shared_ptr<const SourceFile>& file, SourceRan
 std::string renderText(const Diagnostic& diagnostic, bool colour) {
     const Colours& colours = colour ? kAnsi : kPlain;
     const std::string_view severityColour = colourOf(colours, diagnostic.severity);
+    const CatalogueEntry* entry = findEntry(static_cast<uint16_t>(diagnostic.code));
+    const std::string name = entry && isSwitchable(*entry) ? fmt::format(" ({})", kebabName(*entry)) : "";
     std::string out =
-        fmt::format("{}{}{}{}[{}]:{} {}{}{}\n", colours.bold, placePrefix(diagnostic.file, diagnostic.range),
+        fmt::format("{}{}{}{}[{}]:{} {}{}{}{}\n", colours.bold, placePrefix(diagnostic.file, diagnostic.range),
                     severityColour, severityName(diagnostic.severity), codeName(diagnostic.code),
-                    colours.reset, colours.bold, diagnostic.message, colours.reset);
+                    colours.reset, colours.bold, diagnostic.message, colours.reset, name);
     if (diagnostic.file && !diagnostic.file->isBinary())
         renderPlace(out, *diagnostic.file, diagnostic.range, severityColour, colours);
     for (const Diagnostic::Fix& fix : diagnostic.fixes)

@@ -56,6 +56,12 @@ Diagnostic& Sink::report(Code code, const std::shared_ptr<const SourceFile>& fil
     return all_.emplace_back(std::move(diagnostic));
 }
 
+void Sink::revise(const std::function<bool(Diagnostic&)>& keep) {
+    std::erase_if(all_, [&](Diagnostic& d) { return !keep(d); });
+    errorCount_ = static_cast<size_t>(std::count_if(
+        all_.begin(), all_.end(), [](const Diagnostic& d) { return d.severity == Severity::Error; }));
+}
+
 std::vector<Diagnostic> Sink::sorted() const {
     // A "too many errors" note is about the whole file and stays behind its last error.
     const auto key = [this](size_t i) {

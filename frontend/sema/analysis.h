@@ -263,7 +263,7 @@ class Analyzer {
     bool whileStmt(const syntax::WhileStmt& s);
     void assign(const syntax::AssignStmt& s);
     bool assignable(const Place& place, const syntax::Expr& target);
-    bool predefinedCall(syntax::TokenIndex name, std::string_view folded);
+    bool predefinedCall(const RoutineSymbol& routine, syntax::TokenIndex name);
     bool callStmt(const syntax::CallStmt& s);
     void reportNotCallable(const Symbol& symbol, syntax::TokenIndex name);
     void returnStmt(const syntax::ReturnStmt& s);

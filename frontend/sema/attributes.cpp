@@ -76,6 +76,22 @@ Effects effectsOf(std::string_view word) {
     return Effects::None;
 }
 
+Flow flowOf(std::string_view word) {
+    if (word == "leaves") return Flow::Leaves;
+    if (word == "raises") return Flow::Raises;
+    if (word == "retries") return Flow::Retries;
+    if (word == "stops") return Flow::Stops;
+    return Flow::GoesOn;
+}
+
+uint8_t lintTraitOf(std::string_view word) {
+    if (word == "stoppoint") return kLintStopPoint;
+    if (word == "names") return kLintNames;
+    if (word == "calls") return kLintCalls;
+    if (word == "unconnected") return kLintUnconnected;
+    return 0;
+}
+
 ParamClass classOf(std::string_view words) {
     if (words == "value") return ParamClass::Value;
     if (words == "atomic") return ParamClass::Atomic;
@@ -128,6 +144,18 @@ void Analyzer::applyRoutineAttributes(RoutineSymbol& symbol) {
             symbol.manual = std::string(value.substr(0, value.find(' ')));
         else if (key == "option")
             symbol.option = std::string(value);
+        else if (key == "raises")
+            symbol.raises = true;
+        else if (key == "flow")
+            symbol.flow = flowOf(value);
+        else if (key == "lint")
+            symbol.lintTraits = lintTraitOf(value);
+        else if (key == "length") {
+            symbol.textLengthParam = findParam(value);
+            for (const char c : value)
+                if (c >= '0' && c <= '9')
+                    symbol.textLength = static_cast<uint8_t>(symbol.textLength * 10 + (c - '0'));
+        }
         else if (key == "deferred") {
             if (DataSymbol* param = findParam(value)) param->deferred = true;
         } else if (key == "where") { // "Signal is signal, Data is value"

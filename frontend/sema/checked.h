@@ -69,6 +69,7 @@ struct Task {
     std::string type = "NORMAL";
     std::string entry = "main";
     std::vector<Module*> modules;          ///< user modules
+    bool incomplete = false;               ///< modules are missing: they may use what seems unused
     RoutineSymbol* entryRoutine = nullptr; ///< null when there is none (reported)
     /// Resolved statement-level facts, keyed by node.
     std::unordered_map<const syntax::Node*, BoundCall> calls; ///< CallStmt and CallExpr

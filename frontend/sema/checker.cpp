@@ -104,6 +104,7 @@ void Analyzer::startTask(const TaskInput& input) {
     incomplete_ = input.incomplete && !options_.requireMain;
     for (const auto& file : input.files)
         if (file->isBinary()) incomplete_ = true; // reported once; what it declares is not known
+    task_->incomplete = incomplete_;
     brokenTrees_.clear();
     maybeDeclared_.clear();
     declareConfiguration();

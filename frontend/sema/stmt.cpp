@@ -261,16 +261,14 @@ bool Analyzer::callStmt(const CallStmt& s) {
     routine->used = true;
     bindCall(s, *routine, s.name, s.args);
     if (part_ == Part::Undo) callInUndo(*routine, s.name);
-    return !routine->predefined || predefinedCall(s.name, interner_.folded(name));
+    return !routine->predefined || predefinedCall(*routine, s.name);
 }
 
 // Predefined procedures that belong to the flow of control: RETRY in disguise, and those that do not come back.
-bool Analyzer::predefinedCall(TokenIndex name, std::string_view folded) {
-    if (folded == "startmoveretry") {
-        if (part_ != Part::Error) report(Code::OutsideErrorHandler, range(name), {text(name)});
-        return false;
-    }
-    return folded != "exitcycle" && folded != "raisetouser" && folded != "errraise";
+bool Analyzer::predefinedCall(const RoutineSymbol& routine, TokenIndex name) {
+    if (routine.flow == Flow::Retries && part_ != Part::Error)
+        report(Code::OutsideErrorHandler, range(name), {text(name)});
+    return routine.flow == Flow::GoesOn || routine.flow == Flow::Stops;
 }
 
 void Analyzer::reportNotCallable(const Symbol& symbol, TokenIndex name) {

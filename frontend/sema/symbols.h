@@ -85,6 +85,23 @@ struct DataSymbol : Symbol {
 /// How a native may be called; from `effects:` in the declaration.
 enum class Effects : uint8_t { None, Const, Pure, Reads, Writes, Watches, Waits, Motion };
 
+/// Where a predefined procedure goes on; from `flow:` in the declaration.
+enum class Flow : uint8_t {
+    GoesOn,
+    Leaves,  ///< the program cycle
+    Raises,  ///< an error
+    Retries, ///< in an error handler, as RETRY
+    Stops    ///< the program; a restart goes on behind it
+};
+
+/// What the warnings want to know of a native; from `lint:` in the declaration.
+enum LintTrait : uint8_t {
+    kLintStopPoint = 1,   ///< waits for something while the robot should stand still
+    kLintNames = 2,       ///< reaches data by name
+    kLintCalls = 4,       ///< calls procedures by name
+    kLintUnconnected = 8, ///< takes interrupts that are not connected
+};
+
 struct RoutineSymbol : Symbol {
     syntax::RoutineKind routineKind = syntax::RoutineKind::Proc;
     const syntax::RoutineDecl* routineDecl = nullptr;
@@ -96,6 +113,11 @@ struct RoutineSymbol : Symbol {
     bool special = false;          ///< `lower: special`
     bool noStepIn = false;         ///< its module is NOSTEPIN or NOVIEW
     Effects effects = Effects::None;
+    Flow flow = Flow::GoesOn;
+    uint8_t lintTraits = 0;            ///< of LintTrait
+    bool raises = false;               ///< natives: it may raise an error
+    uint8_t textLength = 0;            ///< bytes of the text a native returns at least
+    const DataSymbol* textLengthParam = nullptr; ///< parameter that tells how many
     std::string option; ///< RobotWare option it needs
     std::string manual; ///< chapter of the manual, for built-ins
     std::string documentation;

@@ -9,8 +9,9 @@ namespace stdlibgen {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> kKeys = {"manual",     "effects", "raises", "option", "deferred",
-                                                   "confidence", "lower",   "class",  "where"};
+constexpr std::array<std::string_view, 12> kKeys = {"manual", "effects", "raises", "option",
+                                                    "deferred", "confidence", "lower", "class",
+                                                    "where", "flow", "lint", "length"};
 
 bool isKey(std::string_view word) {
     return std::find(kKeys.begin(), kKeys.end(), word) != kKeys.end();
@@ -39,7 +40,7 @@ void readAttributes(const std::string& text, Doc& doc, std::string& problem) {
         if (key.empty()) {
             problem = "unknown attribute '" + word +
                       "'; known are manual, effects, raises, option, confidence, " +
-                      "lower, class, where, deferred";
+                      "lower, class, where, deferred, flow, lint, length";
             return;
         }
         std::string& value = doc.attr[key];

@@ -1,0 +1,169 @@
+// Expressions: what is read, comparisons that cannot be meant, texts that become too long.
+
+#include "frontend/lint/walker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace rapid::lint {
+
+using namespace syntax;
+using sema::ConstValue;
+using sema::DataSymbol;
+using sema::TypeKind;
+
+namespace {
+
+constexpr unsigned kLongestText = 80;
+
+bool isIdentifier(TokenKind kind) {
+    return kind == TokenKind::Identifier;
+}
+
+char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+bool equalNames(std::string_view a, std::string_view b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](char x, char y) { return lower(x) == lower(y); });
+}
+
+const Expr& bare(const Expr& e) {
+    const Expr* inner = &e;
+    while (inner->kind == NodeKind::Paren)
+        inner = as<ParenExpr>(*inner).inner;
+    return *inner;
+}
+
+} // namespace
+
+const double* Walker::number(const Expr& e) const {
+    const ConstValue* value = constant(e);
+    return value && value->kind == ConstValue::Kind::Number ? &value->number : nullptr;
+}
+
+void Walker::expr(const Expr& e, bool partOfText) {
+    switch (e.kind) {
+    case NodeKind::Name: read(e); return;
+    case NodeKind::Index:
+    case NodeKind::Component:
+        subscripts(e);
+        read(e);
+        return;
+    case NodeKind::Call: call(e, as<CallExpr>(e).args); return;
+    case NodeKind::Aggregate:
+        for (const Expr* element : as<AggregateExpr>(e).elements)
+            expr(*element);
+        return;
+    case NodeKind::Paren: expr(*as<ParenExpr>(e).inner, partOfText); return;
+    case NodeKind::Unary: expr(*as<UnaryExpr>(e).operand); return;
+    case NodeKind::Binary: binary(as<BinaryExpr>(e), partOfText); return;
+    default: return;
+    }
+}
+
+void Walker::binary(const BinaryExpr& e, bool partOfText) {
+    bool text = false;
+    switch (e.op) {
+    case BinaryOp::Add:
+        text = info(e).type.type == program_.string;
+        if (text && !partOfText) textLength(e);
+        break;
+    case BinaryOp::Eq:
+    case BinaryOp::Ne:
+    case BinaryOp::Lt:
+    case BinaryOp::Le:
+    case BinaryOp::Gt:
+    case BinaryOp::Ge: comparison(e); break;
+    case BinaryOp::And:
+    case BinaryOp::Or:
+    case BinaryOp::Xor:
+        if (e.left->kind == e.right->kind && sameText(*e.left, *e.right))
+            report(Code::IdenticalOperands, range(e), {std::string(tree_->text(e.opToken))});
+        break;
+    default: break;
+    }
+    expr(*e.left, text);
+    expr(*e.right, text);
+}
+
+void Walker::comparison(const BinaryExpr& e) {
+    const bool equality = e.op == BinaryOp::Eq || e.op == BinaryOp::Ne;
+    const double* left = number(*e.left);
+    const double* right = number(*e.right);
+    if (left && right) return;
+    if (!left && !right) {
+        if (e.left->kind == e.right->kind && sameText(*e.left, *e.right))
+            report(Code::IdenticalOperands, range(e), {std::string(tree_->text(e.opToken))});
+        return;
+    }
+    if (!equality) return;
+    const Expr& value = left ? *e.left : *e.right;
+    const Expr& other = left ? *e.right : *e.left;
+    const double fraction = left ? *left : *right;
+    if (fraction != std::floor(fraction))
+        report(Code::FractionEquality, range(e), {std::string(tree_->text(e.opToken)), text(value)});
+    else
+        judgeSignal(other, value);
+}
+
+/// A digital signal against a constant (also of a CASE).
+void Walker::judgeSignal(const Expr& signal, const Expr& value) {
+    const Expr& place = bare(signal);
+    const DataSymbol* root = place.kind == NodeKind::Name ? rootOf(place) : nullptr;
+    if (!root || root->type.type->kind != TypeKind::SemiValue) return;
+    const std::string& type = root->type.type->base()->name;
+    if (type != "signaldi" && type != "signaldo") return;
+    const double* constantValue = number(value);
+    if (constantValue && *constantValue != 0 && *constantValue != 1)
+        report(Code::ImpossibleSignalValue, range(value), {root->name, text(value)});
+}
+
+/// Whether two parts of the tree are written alike and mean the same each time: calls may not.
+bool Walker::sameText(const Node& a, const Node& b) const {
+    if (a.kind != b.kind || a.last - a.first != b.last - b.first) return false;
+    for (TokenIndex i = 0; a.first + i <= a.last; ++i) {
+        const Token& x = tree_->tokens[a.first + i];
+        const Token& y = tree_->tokens[b.first + i];
+        if (x.kind != y.kind) return false;
+        if (x.kind == TokenKind::LeftParen && i > 0 && isIdentifier(tree_->tokens[a.first + i - 1].kind))
+            return false; // a call
+        const std::string_view textX = tree_->text(a.first + i), textY = tree_->text(b.first + i);
+        if (x.kind == TokenKind::StringLiteral ? textX != textY : !equalNames(textX, textY)) return false;
+    }
+    return true;
+}
+
+// The parts whose length is known; what is not known counts as empty.
+void Walker::textLength(const BinaryExpr& e) {
+    if (info(e).constant) return; // judged with the constant
+    unsigned length = 0;
+    const Expr* rest = &e;
+    while (rest->kind == NodeKind::Binary && as<BinaryExpr>(*rest).op == BinaryOp::Add) {
+        length += leastLength(*as<BinaryExpr>(*rest).right);
+        rest = as<BinaryExpr>(*rest).left;
+    }
+    length += leastLength(*rest);
+    if (length > kLongestText) report(Code::StringMayOverflow, range(e), {fmt::format("{} or more", length)});
+}
+
+unsigned Walker::leastLength(const Expr& e) const {
+    const Expr& part = bare(e);
+    if (const ConstValue* value = constant(part))
+        return value->kind == ConstValue::Kind::String ? static_cast<unsigned>(value->text.size()) : 0;
+    if (part.kind == NodeKind::Binary && as<BinaryExpr>(part).op == BinaryOp::Add)
+        return leastLength(*as<BinaryExpr>(part).left) + leastLength(*as<BinaryExpr>(part).right);
+    const sema::BoundCall* called = part.kind == NodeKind::Call ? find(part) : nullptr;
+    if (!called || !called->routine) return 0;
+    if (const DataSymbol* param = called->routine->textLengthParam) {
+        for (const sema::BoundArg& arg : called->args) {
+            const double* length = arg.param == param && arg.value ? number(*arg.value) : nullptr;
+            if (length && *length > 0 && *length <= kLongestText) return static_cast<unsigned>(*length);
+        }
+    }
+    return called->routine->textLength;
+}
+
+} // namespace rapid::lint

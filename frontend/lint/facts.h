@@ -1,0 +1,85 @@
+#pragma once
+// What the walks over routines find out for the judgements about the whole task. Internal to frontend/lint.
+
+#include "frontend/lint/warnings.h"
+#include "frontend/sema/checked.h"
+
+#include <set>
+#include <tuple>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace rapid::lint {
+
+using diag::Code;
+
+/// Reports what is switched on.
+class Reporter {
+  public:
+    Reporter(const WarningLevels& levels, diag::Sink& sink, bool severalTasks)
+        : levels_(levels), sink_(sink), severalTasks_(severalTasks) {}
+    bool isOn(Code code) const { return levels_.isOn(code); }
+    /// Null when the warning is switched off.
+    diag::Diagnostic* report(Code code, const syntax::SyntaxTree& tree, SourceRange where,
+                             std::initializer_list<std::string> args = {});
+
+  private:
+    const WarningLevels& levels_;
+    diag::Sink& sink_;
+    bool severalTasks_;
+    std::set<std::tuple<Code, std::string, uint32_t>> reported_;
+};
+
+/// What a call of a routine can bring about, seen through all calls in it.
+enum Conduct : uint8_t {
+    kWaits = 1, ///< it can wait: for a time, a signal, a movement, somebody
+    kEnds = 2   ///< it can end what calls it: EXIT, RAISE, Stop ...
+};
+
+struct RoutineFacts {
+    uint8_t conduct = 0; ///< of Conduct; its own, later also that of what it calls
+    size_t firstCall = 0, endCall = 0; ///< in TaskFacts::calls
+};
+
+/// A finding that holds unless one of the routines called there has a certain conduct.
+struct Suspicion {
+    Code code{};
+    const syntax::SyntaxTree* tree = nullptr;
+    SourceRange where;
+    std::string arg; ///< of the message; empty if it takes none
+    size_t firstCall = 0, endCall = 0;
+    uint8_t refutedBy = 0; ///< of Conduct
+};
+
+/// An interrupt passed to an instruction that needs it connected.
+struct InterruptUse {
+    const sema::DataSymbol* interrupt = nullptr;
+    const sema::RoutineSymbol* native = nullptr;
+    const syntax::SyntaxTree* tree = nullptr;
+    SourceRange where;
+};
+
+struct TaskFacts {
+    std::unordered_map<const sema::RoutineSymbol*, RoutineFacts> routines;
+    std::vector<const sema::RoutineSymbol*> calls; ///< of routines of the user, those of one routine together
+    std::vector<Suspicion> suspicions;
+    std::vector<InterruptUse> interrupts;
+    std::unordered_set<const sema::Symbol*> connected; ///< interrupts that stand in CONNECT or are passed on
+    bool callsByName = false; ///< late binding: any procedure may be called
+    bool dataByName = false;  ///< GetDataVal and the like: any data may be used
+};
+
+/// Types of the standard library that warnings are about; null when it does not declare them.
+struct KnownTypes {
+    const sema::Type *intnum = nullptr, *zone = nullptr, *speed = nullptr, *tool = nullptr, *workObject = nullptr,
+                     *load = nullptr;
+};
+
+/// Predefined things by name, for what hides them, and the types above.
+struct Predefined {
+    std::vector<const sema::Symbol*> byName; ///< by Symbol::nameId
+    KnownTypes types;
+    explicit Predefined(const sema::CheckedProgram& program);
+};
+
+} // namespace rapid::lint

@@ -1,0 +1,289 @@
+// The warnings of a task: walks over its routines, then what only the whole task can tell.
+
+#include "frontend/lint/lint.h"
+
+#include "frontend/lint/walker.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace rapid::lint {
+
+using namespace syntax;
+using sema::DataSymbol;
+using sema::Module;
+using sema::RoutineSymbol;
+using sema::Symbol;
+using sema::SymbolKind;
+using sema::Task;
+using sema::TypeSymbol;
+
+diag::Diagnostic* Reporter::report(Code code, const SyntaxTree& tree, SourceRange where,
+                                   std::initializer_list<std::string> args) {
+    if (!levels_.isOn(code)) return nullptr;
+    // A file that several tasks load is walked over for each of them.
+    if (severalTasks_ && !reported_.insert({code, tree.source->path(), where.begin}).second) return nullptr;
+    return &sink_.report(code, tree.source, where, args);
+}
+
+Predefined::Predefined(const sema::CheckedProgram& program) {
+    const auto add = [&](const Symbol* symbol) {
+        if (symbol->nameId >= byName.size()) byName.resize(symbol->nameId + 1, nullptr);
+        byName[symbol->nameId] = symbol;
+    };
+    for (const Module* module : program.predefinedModules) {
+        for (const TypeSymbol* type : module->types) {
+            add(type);
+            const std::string& name = type->name;
+            if (name == "intnum") types.intnum = type->type;
+            if (name == "zonedata") types.zone = type->type;
+            if (name == "speeddata") types.speed = type->type;
+            if (name == "tooldata") types.tool = type->type;
+            if (name == "wobjdata") types.workObject = type->type;
+            if (name == "loaddata") types.load = type->type;
+        }
+        for (const DataSymbol* data : module->data)
+            add(data);
+        for (const RoutineSymbol* routine : module->routines)
+            add(routine);
+    }
+}
+
+namespace {
+
+/// Places of errors by file: what contains one is not judged.
+class Errors {
+  public:
+    explicit Errors(const diag::Sink& sink) {
+        for (const diag::Diagnostic& d : sink.all())
+            if (d.severity == diag::Severity::Error && d.file) places_[d.file.get()].insert(d.range.begin);
+        any_ = sink.hasErrors();
+    }
+    bool any() const { return any_; }
+    bool in(const SyntaxTree& tree) const { return places_.count(tree.source.get()) > 0; }
+    bool in(const SyntaxTree& tree, SourceRange range) const {
+        const auto file = places_.find(tree.source.get());
+        if (file == places_.end()) return false;
+        const auto first = file->second.lower_bound(range.begin);
+        return first != file->second.end() && *first < range.end;
+    }
+
+  private:
+    std::map<const SourceFile*, std::set<uint32_t>> places_;
+    bool any_ = false;
+};
+
+/// Files that several tasks load: what one task does not use, another one may.
+class SharedFiles {
+  public:
+    explicit SharedFiles(const sema::CheckedProgram& program) {
+        if (program.tasks.size() < 2) return;
+        std::map<std::string, const Task*> owners;
+        for (const auto& task : program.tasks)
+            for (const Module* module : task->modules)
+                if (owners.try_emplace(module->tree->source->path(), task.get()).first->second != task.get())
+                    shared_.insert(module->tree->source->path());
+    }
+    bool has(const SyntaxTree& tree) const { return !shared_.empty() && shared_.count(tree.source->path()) > 0; }
+
+  private:
+    std::set<std::string> shared_;
+};
+
+class TaskLint {
+  public:
+    TaskLint(const sema::CheckedProgram& program, const Task& task, const Predefined& predefined,
+             const Errors& errors, const SharedFiles& shared, Reporter& reporter)
+        : program_(program), task_(task), predefined_(predefined), errors_(errors), shared_(shared),
+          reporter_(reporter), complete_(task.entryRoutine && !task.incomplete && !errors.any()) {}
+
+    void run() {
+        Walker walker(program_, task_, predefined_, reporter_, facts_);
+        for (const Module* module : task_.modules)
+            for (const RoutineSymbol* routine : module->routines)
+                if (!errors_.in(*module->tree, module->tree->range(*routine->routineDecl)))
+                    walker.routine(*routine);
+        suspicions();
+        interrupts();
+        for (const Module* module : task_.modules)
+            declarations(*module);
+    }
+
+  private:
+    void suspicions();
+    std::unordered_map<const RoutineSymbol*, uint8_t> wholeConduct() const;
+    void interrupts();
+    void declarations(const Module& module);
+    bool mayBeUsedElsewhere(const Symbol& symbol) const;
+    void data(const DataSymbol& data);
+    void routine(const RoutineSymbol& routine);
+    void type(const TypeSymbol& type);
+    void hiding(const Symbol& symbol, const char* kind);
+    void report(Code code, const Symbol& symbol, std::initializer_list<std::string> args) {
+        reporter_.report(code, *symbol.module->tree, symbol.module->tree->range(symbol.nameToken), args);
+    }
+
+    const sema::CheckedProgram& program_;
+    const Task& task_;
+    const Predefined& predefined_;
+    const Errors& errors_;
+    const SharedFiles& shared_;
+    Reporter& reporter_;
+    TaskFacts facts_;
+    bool complete_; ///< all modules are there and free of errors
+};
+
+/// What the routines do, together with all that they call: from the callees to the callers.
+std::unordered_map<const RoutineSymbol*, uint8_t> TaskLint::wholeConduct() const {
+    std::unordered_map<const RoutineSymbol*, uint8_t> conduct;
+    std::unordered_map<const RoutineSymbol*, std::vector<const RoutineSymbol*>> callers;
+    std::vector<const RoutineSymbol*> work;
+    for (const auto& [routine, own] : facts_.routines) {
+        conduct[routine] = own.conduct;
+        if (own.conduct != 0) work.push_back(routine);
+        for (size_t i = own.firstCall; i < own.endCall; ++i) {
+            const RoutineSymbol* callee = facts_.calls[i];
+            callers[callee].push_back(routine);
+            if (facts_.routines.count(callee) > 0 || conduct.count(callee) > 0) continue;
+            conduct[callee] = kWaits | kEnds; // not looked at: anything
+            work.push_back(callee);
+        }
+    }
+    while (!work.empty()) {
+        const RoutineSymbol* callee = work.back();
+        work.pop_back();
+        const uint8_t found = conduct[callee];
+        for (const RoutineSymbol* caller : callers[callee]) {
+            uint8_t& known = conduct[caller];
+            if ((known | found) == known) continue;
+            known |= found;
+            work.push_back(caller);
+        }
+    }
+    return conduct;
+}
+
+void TaskLint::suspicions() {
+    if (facts_.suspicions.empty() || facts_.callsByName) return;
+    const auto conduct = wholeConduct();
+    for (const Suspicion& s : facts_.suspicions) {
+        bool refuted = false;
+        for (size_t i = s.firstCall; i < s.endCall && !refuted; ++i)
+            refuted = (conduct.at(facts_.calls[i]) & s.refutedBy) != 0;
+        if (refuted) continue;
+        if (s.arg.empty())
+            reporter_.report(s.code, *s.tree, s.where);
+        else
+            reporter_.report(s.code, *s.tree, s.where, {s.arg});
+    }
+}
+
+void TaskLint::interrupts() {
+    std::unordered_set<const Symbol*> reported;
+    for (const InterruptUse& use : facts_.interrupts) {
+        const DataSymbol& interrupt = *use.interrupt;
+        if (interrupt.predefined || interrupt.storage == sema::Storage::Parameter ||
+            facts_.connected.count(&interrupt) > 0 || mayBeUsedElsewhere(interrupt) ||
+            !reported.insert(&interrupt).second)
+            continue;
+        reporter_.report(Code::InterruptNotConnected, *use.tree, use.where, {use.native->name, interrupt.name});
+    }
+}
+
+/// Whether something that is not known here may use it: another module, an operator, an event.
+bool TaskLint::mayBeUsedElsewhere(const Symbol& symbol) const {
+    if (errors_.in(*symbol.module->tree) || shared_.has(*symbol.module->tree)) return true;
+    if (symbol.isLocal) return false;
+    const bool ownData =
+        symbol.kind == SymbolKind::Data && static_cast<const DataSymbol&>(symbol).routine != nullptr;
+    if (ownData) return false;
+    // System modules hold what many programs share.
+    return !complete_ || (symbol.module->decl->attributes & kAttrSysmodule) != 0;
+}
+
+void TaskLint::declarations(const Module& module) {
+    for (const TypeSymbol* t : module.types)
+        type(*t);
+    for (const DataSymbol* d : module.data)
+        data(*d);
+    for (const RoutineSymbol* r : module.routines)
+        routine(*r);
+}
+
+void TaskLint::type(const TypeSymbol& type) {
+    hiding(type, "data type");
+    if (!type.used && !mayBeUsedElsewhere(type)) report(Code::UnusedType, type, {type.name});
+}
+
+void TaskLint::data(const DataSymbol& data) {
+    const bool pers = data.dataKind == DataKind::Pers;
+    const bool constant = data.dataKind == DataKind::Const;
+    const char* kind = constant ? "constant" : pers ? "persistent" : "variable";
+    hiding(data, kind);
+    if (data.used || facts_.dataByName || mayBeUsedElsewhere(data)) return;
+    // Persistents are the door to the outside: displays, other computers, jogging.
+    const sema::Type* t = data.type.type;
+    if (pers && (!data.isLocal || t == predefined_.types.tool || t == predefined_.types.workObject ||
+                 t == predefined_.types.load))
+        return;
+    report(Code::UnusedVariable, data, {kind, data.name});
+}
+
+void TaskLint::routine(const RoutineSymbol& routine) {
+    const bool proc = routine.routineKind == RoutineKind::Proc;
+    const bool trap = routine.routineKind == RoutineKind::Trap;
+    hiding(routine, proc ? "procedure" : trap ? "trap routine" : "function");
+    if (!routine.used && !mayBeUsedElsewhere(routine) && &routine != task_.entryRoutine) {
+        const bool takesArguments =
+            std::any_of(routine.params.begin(), routine.params.end(), [](const DataSymbol* p) { return !p->optional; });
+        if (trap)
+            report(Code::TrapNotConnected, routine, {routine.name});
+        else if (!facts_.callsByName && (!proc || routine.isLocal || takesArguments)) // operators and events call PROCs
+            report(Code::UnusedRoutine, routine, {proc ? "procedure" : "function", routine.name});
+    }
+    if (errors_.in(*routine.module->tree, routine.module->tree->range(*routine.routineDecl))) return;
+    for (const DataSymbol* param : routine.params) {
+        hiding(*param, "parameter");
+        if (!param->used && !facts_.callsByName && !routine.routineDecl->body.empty())
+            report(Code::UnusedParameter, *param, {param->name, routine.name});
+    }
+    for (const DataSymbol* data : routine.data) {
+        const bool loop = data->storage == sema::Storage::LoopVariable;
+        const bool constant = data->dataKind == DataKind::Const;
+        hiding(*data, loop ? "loop variable" : constant ? "constant" : "variable");
+        if (!loop && !data->used) report(Code::UnusedVariable, *data, {constant ? "constant" : "variable", data->name});
+    }
+}
+
+void TaskLint::hiding(const Symbol& symbol, const char* kind) {
+    const Symbol* hidden = symbol.nameId < predefined_.byName.size() ? predefined_.byName[symbol.nameId] : nullptr;
+    if (!hidden || symbol.nameToken == kNoToken) return;
+    const char* what = "the predefined data";
+    if (hidden->kind == SymbolKind::Type) what = "the predefined data type";
+    if (hidden->kind == SymbolKind::Routine) {
+        const auto& routine = static_cast<const RoutineSymbol&>(*hidden);
+        if (!routine.option.empty()) return; // not there on every controller
+        what = routine.routineKind == RoutineKind::Func ? "the predefined function" : "the predefined instruction";
+    }
+    // Controllers keep predefined data such as tool0 and reg1 in modules of their own, and backups hold these.
+    if (hidden->kind == SymbolKind::Data && symbol.kind == SymbolKind::Data &&
+        static_cast<const DataSymbol&>(symbol).routine == nullptr &&
+        static_cast<const DataSymbol&>(symbol).type.type == static_cast<const DataSymbol&>(*hidden).type.type)
+        return;
+    report(Code::HiddenPredefinedName, symbol, {kind, symbol.name, what});
+}
+
+} // namespace
+
+void lint(const sema::CheckedProgram& program, const WarningLevels& levels, diag::Sink& sink) {
+    if (!levels.anyLint()) return;
+    const Errors errors(sink);
+    const Predefined predefined(program);
+    Reporter reporter(levels, sink, program.tasks.size() > 1);
+    const SharedFiles shared(program);
+    for (const auto& task : program.tasks)
+        TaskLint(program, *task, predefined, errors, shared, reporter).run();
+}
+
+} // namespace rapid::lint

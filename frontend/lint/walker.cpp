@@ -1,0 +1,311 @@
+// Routines and instructions: what is reached, what has been assigned on the way.
+
+#include "frontend/lint/walker.h"
+
+#include <algorithm>
+
+namespace rapid::lint {
+
+using namespace syntax;
+using sema::DataSymbol;
+using sema::RoutineSymbol;
+using sema::Storage;
+
+namespace {
+
+bool containsToken(const SyntaxTree& tree, const Node& node, TokenKind kind) {
+    for (TokenIndex t = node.first; t != kNoToken && t <= node.last; ++t)
+        if (tree.tokens[t].kind == kind) return true;
+    return false;
+}
+
+/// Variables whose value is that of a zeroed memory until something is assigned.
+bool isTracked(const DataSymbol& data) {
+    return data.storage == Storage::RoutineData && data.dataKind == DataKind::Var && !data.init &&
+           !data.type.type->containsNonValue && data.type.type->kind != sema::TypeKind::NonValue &&
+           data.type.type->kind != sema::TypeKind::SemiValue && data.type.type->kind != sema::TypeKind::Error;
+}
+
+} // namespace
+
+void Walker::routine(const RoutineSymbol& routine) {
+    begin(routine);
+    const RoutineDecl& decl = *routine.routineDecl;
+    RoutineFacts& own = facts_.routines[&routine];
+    own.firstCall = facts_.calls.size();
+    list(decl.body);
+    const Slots body = written_;
+    const unsigned leavesOfBody = leaves_;
+    handlers(decl, body);
+    own.endCall = facts_.calls.size();
+    own.conduct = static_cast<uint8_t>((waits_ > 0 ? kWaits : 0) | (leavesOfBody > 0 ? kEnds : 0));
+    finish();
+}
+
+void Walker::begin(const RoutineSymbol& routine) {
+    routine_ = &routine;
+    module_ = routine.module;
+    tree_ = module_->tree;
+    const size_t count = routine.params.size() + routine.data.size();
+    access_.assign(count, 0);
+    slots_.assign(count, -1);
+    firstAssignment_.assign(routine.params.size(), nullptr);
+    tracked_ = 0;
+    for (const DataSymbol* data : routine.data)
+        if (isTracked(*data) && tracked_ < kMaxTracked && data->index < count)
+            slots_[data->index] = static_cast<int16_t>(tracked_++);
+    handlerGoesOn_ = inHandler_ = false;
+    for (const ErrorClause* clause : routine.routineDecl->errors)
+        handlerGoesOn_ |= containsToken(*tree_, *clause, TokenKind::KwTrynext);
+    assigned_.reset();
+    written_.reset();
+    pending_.clear();
+    writes_.clear();
+    labels_.clear();
+    jumps_.clear();
+    waits_ = leaves_ = 0;
+    breakSeen_ = false;
+    flyBy_ = nullptr;
+    list_ = nullptr;
+}
+
+// An error can happen anywhere in the body, and RETRY and TRYNEXT go back there: what one of them assigns may be
+// assigned in the other.
+void Walker::handlers(const RoutineDecl& decl, const Slots& body) {
+    const auto startWith = [&](const Slots& state) {
+        assigned_ = state;
+        written_.reset();
+        flyBy_ = nullptr;
+    };
+    if (!decl.backward.empty()) {
+        startWith(Slots().set());
+        list(decl.backward);
+    }
+    Slots assignedInHandlers;
+    for (const ErrorClause* clause : decl.errors) {
+        startWith(body);
+        errorClause(*clause);
+        assignedInHandlers |= written_;
+    }
+    if (!decl.undo.empty()) {
+        startWith(body | assignedInHandlers);
+        list(decl.undo);
+    }
+    std::erase_if(pending_, [&](const Pending& p) {
+        const int16_t slot = slots_[p.data->index];
+        return slot >= 0 && assignedInHandlers[static_cast<size_t>(slot)];
+    });
+}
+
+void Walker::errorClause(const ErrorClause& clause) {
+    for (const Expr* number : clause.numbers)
+        expr(*number);
+    const unsigned leaves = leaves_;
+    const size_t calls = facts_.calls.size();
+    inHandler_ = true;
+    const bool goesOn = list(clause.body);
+    inHandler_ = false;
+    if (!goesOn || leaves_ != leaves || facts_.callsByName || !reporter_.isOn(Code::UnhandledError)) return;
+    facts_.suspicions.push_back({Code::UnhandledError, tree_, tree_->range(clause.first), routine_->name, calls,
+                                 facts_.calls.size(), kEnds});
+}
+
+void Walker::finish() {
+    for (const Pending& p : pending_)
+        usedTooEarly(*p.data, *p.place);
+    for (const Label& label : labels_)
+        if (std::find(jumps_.begin(), jumps_.end(), label.node) == jumps_.end())
+            report(Code::UnusedLabel, tree_->range(as<LabelStmt>(*label.node).name),
+                   {std::string(tree_->text(as<LabelStmt>(*label.node).name))});
+    for (const DataSymbol* data : routine_->data) {
+        if (data->storage != Storage::RoutineData || data->index >= access_.size()) continue;
+        if (access_[data->index] == kAssigned)
+            report(Code::UnreadVariable, tree_->range(data->nameToken), {data->name});
+    }
+}
+
+bool Walker::list(StmtList stmts) {
+    const void* outer = std::exchange(list_, stmts.data());
+    bool reachable = true;
+    bool reported = false;
+    for (size_t i = 0; i < stmts.size(); ++i) {
+        const Stmt& s = *stmts[i];
+        if (s.kind == NodeKind::Label) {
+            reachable = true;
+        } else if (!reachable && !reported && s.kind != NodeKind::Empty) {
+            reported = true;
+            unreachable(stmts, i);
+        }
+        const bool goesOn = statement(s);
+        reachable = reachable && goesOn;
+    }
+    flyBy_ = nullptr;
+    list_ = outer;
+    return reachable;
+}
+
+void Walker::unreachable(StmtList stmts, size_t at) {
+    assigned_.set(); // nothing is said of variables here
+    // A closing RETURN is a habit, and functions seem to need one.
+    if (at + 1 == stmts.size() && stmts[at]->kind == NodeKind::Return) return;
+    const NodeKind kind = stmts[at]->kind;
+    if (kind == NodeKind::ErrorStmt || kind == NodeKind::DeclStmt || kind == NodeKind::PlaceholderStmt) return;
+    report(Code::UnreachableCode, range(*stmts[at]));
+}
+
+bool Walker::statement(const Stmt& s) {
+    switch (s.kind) {
+    case NodeKind::Assign: assign(as<AssignStmt>(s)); return true;
+    case NodeKind::CallStmt: {
+        const auto& callStmt = as<CallStmt>(s);
+        if (!callStmt.lateName) return call(s, callStmt.args);
+        lateCall(callStmt);
+        return true;
+    }
+    default: break;
+    }
+    flyBy_ = nullptr;
+    switch (s.kind) {
+    case NodeKind::If: return ifStmt(as<IfStmt>(s));
+    case NodeKind::CompactIf: {
+        const auto& compact = as<CompactIfStmt>(s);
+        if (compact.condition) expr(*compact.condition);
+        const Slots before = assigned_;
+        Stmt* body = compact.body;
+        const bool goesOn = !body || list(StmtList(&body, 1));
+        assigned_ = goesOn ? assigned_ | before : before;
+        return true;
+    }
+    case NodeKind::For: forStmt(as<ForStmt>(s)); return true;
+    case NodeKind::While: return whileStmt(as<WhileStmt>(s));
+    case NodeKind::Test: return testStmt(as<TestStmt>(s));
+    case NodeKind::Label: labelStmt(as<LabelStmt>(s)); return true;
+    case NodeKind::Goto: gotoStmt(as<GotoStmt>(s)); return false;
+    case NodeKind::Connect: connect(as<ConnectStmt>(s)); return true;
+    case NodeKind::Return:
+        if (const Expr* value = as<ReturnStmt>(s).value) expr(*value);
+        ++leaves_;
+        return false;
+    case NodeKind::Raise:
+        if (const Expr* value = as<RaiseStmt>(s).value) expr(*value);
+        return raises();
+    case NodeKind::Retry:
+    case NodeKind::TryNext:
+    case NodeKind::Exit: ++leaves_; return false;
+    case NodeKind::Break: breakSeen_ = true; return false;
+    case NodeKind::Continue: return false;
+    default: return true;
+    }
+}
+
+// TRYNEXT in the handler of the routine goes on behind the RAISE.
+bool Walker::raises() {
+    ++leaves_;
+    return handlerGoesOn_ && !inHandler_;
+}
+
+void Walker::assign(const AssignStmt& s) {
+    if (!s.target || !s.value) return;
+    expr(*s.value);
+    subscripts(*s.target);
+    const bool fromCall = s.value->kind == NodeKind::Call;
+    write(*s.target, fromCall ? kFromCall : kAssigned);
+    const bool place = s.value->kind == NodeKind::Name || s.value->kind == NodeKind::Index ||
+                       s.value->kind == NodeKind::Component;
+    if (place && sameText(*s.target, *s.value)) report(Code::SelfAssignment, range(s), {text(*s.target)});
+}
+
+bool Walker::ifStmt(const IfStmt& s) {
+    Slots merged;
+    Slots otherwise; // the way on which no condition so far was TRUE
+    bool completes = !s.hasElse;
+    for (const IfBranch* branch : s.branches) {
+        if (branch->condition) expr(*branch->condition);
+        otherwise = assigned_;
+        if (list(branch->body)) {
+            merged |= assigned_;
+            completes = true;
+        }
+        assigned_ = otherwise;
+    }
+    if (s.hasElse && list(s.elseBody)) {
+        merged |= assigned_;
+        completes = true;
+    }
+    assigned_ = s.hasElse ? merged : merged | otherwise;
+    if (s.branches.size() > 1) duplicateConditions(s);
+    return completes;
+}
+
+void Walker::duplicateConditions(const IfStmt& s) {
+    constexpr size_t kMost = 64; // branches compared with each other
+    const size_t count = std::min(s.branches.size(), kMost);
+    for (size_t i = 1; i < count; ++i) {
+        const Expr* condition = s.branches[i]->condition;
+        for (size_t k = 0; condition && k < i; ++k) {
+            if (!s.branches[k]->condition || !sameText(*s.branches[k]->condition, *condition)) continue;
+            if (diag::Diagnostic* d = report(Code::DuplicateCondition, range(*condition)))
+                d->notes.push_back({tree_->source, range(*s.branches[k]->condition), "it stands here first"});
+            break;
+        }
+    }
+}
+
+bool Walker::testStmt(const TestStmt& s) {
+    if (s.subject) expr(*s.subject);
+    for (const TestCase* c : s.cases)
+        for (const Expr* value : c->values) {
+            expr(*value);
+            if (s.subject) judgeSignal(*s.subject, *value);
+        }
+    const Slots before = assigned_;
+    Slots merged;
+    bool completes = !s.hasDefault;
+    const auto branch = [&](StmtList body) {
+        assigned_ = before;
+        if (!list(body)) return;
+        merged |= assigned_;
+        completes = true;
+    };
+    for (const TestCase* c : s.cases)
+        branch(c->body);
+    if (s.hasDefault) branch(s.defaultBody);
+    assigned_ = s.hasDefault ? merged : merged | before;
+    if (!s.hasDefault) missingDefault(s);
+    return completes;
+}
+
+// Only for values from outside the program text, of which nobody can promise that the list is complete.
+void Walker::missingDefault(const TestStmt& s) {
+    constexpr size_t kFewest = 2; // one CASE alone is an IF
+    if (s.cases.size() < kFewest || !s.subject || !isOpenSubject(*s.subject)) return;
+    if (info(*s.subject).type.type->kind == sema::TypeKind::Bool) return;
+    report(Code::MissingDefault, {range(s).begin, range(*s.subject).end}, {text(*s.subject)});
+}
+
+bool Walker::isOpenSubject(const Expr& subject) const {
+    if (subject.kind == NodeKind::Paren) return isOpenSubject(*as<ParenExpr>(subject).inner);
+    if (subject.kind == NodeKind::Call) return true;
+    const DataSymbol* root = subject.kind == NodeKind::Name ? rootOf(subject) : nullptr;
+    if (!root) return false;
+    if (root->type.type->kind == sema::TypeKind::SemiValue) {
+        const std::string& name = root->type.type->base()->name;
+        return name != "signaldi" && name != "signaldo";
+    }
+    return root->storage == Storage::SystemVariable ||
+           (root->storage == Storage::Parameter && root->mode == ParamMode::In);
+}
+
+std::string Walker::text(const Node& node) const {
+    constexpr uint32_t kLongest = 40;
+    const SourceRange r = range(node);
+    const std::string_view all = tree_->source->text();
+    uint32_t end = std::min(r.end, r.begin + kLongest);
+    while (end < r.end && end > r.begin && (static_cast<unsigned char>(all[end]) & 0xC0) == 0x80)
+        --end; // not inside a character
+    std::string out(all.substr(r.begin, end - r.begin));
+    std::replace_if(out.begin(), out.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+    return end < r.end ? out + "..." : out;
+}
+
+} // namespace rapid::lint

@@ -1,0 +1,129 @@
+#include "frontend/project/settings.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace rapid::project {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using diag::Code;
+
+namespace {
+
+constexpr std::array<std::string_view, 2> kSections = {"format", "warnings"};
+
+/// Where `"name"` stands as a key at or behind `from`; an empty range at `from` if it is written in another way.
+SourceRange placeOf(std::string_view text, const std::string& name, size_t from) {
+    const std::string key = '"' + name + '"';
+    for (size_t at = text.find(key, from); at != std::string_view::npos; at = text.find(key, at + 1)) {
+        const size_t next = text.find_first_not_of(" \t\r\n", at + key.size());
+        if (next != std::string_view::npos && text[next] == ':')
+            return {static_cast<uint32_t>(at), static_cast<uint32_t>(at + key.size())};
+    }
+    return {static_cast<uint32_t>(from), static_cast<uint32_t>(from)};
+}
+
+class Reader {
+  public:
+    Reader(Settings& out, diag::Sink& sink) : out_(out), sink_(sink) {}
+
+    void read() {
+        const std::string_view text = out_.file->text();
+        Json json;
+        try {
+            json = Json::parse(text, nullptr, true, true);
+        } catch (const Json::parse_error& problem) {
+            reportSyntax(text, problem.byte);
+            return;
+        }
+        if (!json.is_object()) {
+            report(Code::BadProjectFile, {0, 0}, {"expected an object '{ ... }'"});
+            return;
+        }
+        for (const auto& [name, section] : json.items())
+            readSection(name, section);
+    }
+
+  private:
+    // A whole line is named, so that a missing comma or quote is in sight.
+    void reportSyntax(std::string_view text, size_t byte) {
+        const auto at = static_cast<uint32_t>(std::min(byte > 0 ? byte - 1 : 0, text.size()));
+        report(Code::BadProjectFile, {at, at},
+               {fmt::format("the text is not JSON at line {}", out_.file->lineColumn(at).line)});
+    }
+
+    void readSection(const std::string& name, const Json& section) {
+        const SourceRange place = placeOf(out_.file->text(), name, 0);
+        if (std::find(kSections.begin(), kSections.end(), name) == kSections.end()) {
+            report(Code::UnknownSetting, place, {name, "'format' or 'warnings'"});
+            return;
+        }
+        if (!section.is_object()) {
+            report(Code::BadSetting, place, {name, "an object '{ ... }'"});
+            return;
+        }
+        for (const auto& [key, value] : section.items()) {
+            Setting setting{name, key, false, placeOf(out_.file->text(), key, place.end)};
+            if (value.is_boolean())
+                setting.value = value.get<bool>();
+            else if (value.is_number())
+                setting.value = value.get<double>();
+            else if (value.is_string())
+                setting.value = value.get<std::string>();
+            else {
+                report(Code::BadSetting, setting.range, {key, "text, a number, true or false"});
+                continue;
+            }
+            out_.entries.push_back(std::move(setting));
+        }
+    }
+
+    void report(Code code, SourceRange where, std::initializer_list<std::string> args) {
+        sink_.report(code, out_.file, where, args);
+    }
+
+    Settings& out_;
+    diag::Sink& sink_;
+};
+
+} // namespace
+
+std::string findSettings(const std::string& input) {
+    std::error_code error;
+    fs::path folder = fs::absolute(input, error);
+    if (error) return {};
+    if (!fs::is_directory(folder, error)) folder = folder.parent_path();
+    for (;; folder = folder.parent_path()) {
+        const fs::path candidate = folder / kSettingsFile;
+        if (fs::is_regular_file(candidate, error)) return candidate.string();
+        if (folder == folder.parent_path()) return {};
+    }
+}
+
+Settings readSettings(std::shared_ptr<const SourceFile> file, diag::Sink& sink) {
+    Settings settings;
+    settings.file = std::move(file);
+    Reader(settings, sink).read();
+    return settings;
+}
+
+Settings loadSettings(const std::string& input, diag::Sink& sink) {
+    const std::string path = findSettings(input);
+    if (path.empty()) return {};
+    std::ifstream in(path, std::ios::binary);
+    if (!in) {
+        sink.report(Code::BadProjectFile, nullptr, {}, {fmt::format("'{}' cannot be opened", path)});
+        return {};
+    }
+    std::stringstream bytes;
+    bytes << in.rdbuf();
+    return readSettings(std::make_shared<const SourceFile>(fs::proximate(path).string(), bytes.str()), sink);
+}
+
+} // namespace rapid::project
