@@ -29,6 +29,7 @@ std::span<const Explanation> explanations3xxx();
 std::span<const Explanation> explanations4xxx();
 std::span<const Explanation> explanations5xxx();
 std::span<const Explanation> explanations6xxx();
+std::span<const Explanation> explanations8xxx();
 
 /// Null when there is none for the code.
 const Explanation* findExplanation(uint16_t number);

@@ -175,6 +175,23 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "",
      "MODULE m\n"
      "ENDMODULE"},
+    {6030, Kind::File,
+     "rapidc.json holds the settings of a project: an object with the sections \"warnings\" and "
+     "\"format\". It is looked for beside the first input and in the folders above it.",
+     "",
+     "MODULE m\n"
+     "ENDMODULE"},
+    {6031, Kind::File,
+     "rapidc.json has a section or a name that rapidc does not know; it has no effect.",
+     "",
+     "MODULE m\n"
+     "ENDMODULE"},
+    {6032, Kind::File,
+     "The value of a setting in rapidc.json is not of the kind that the setting takes. A warning is "
+     "\"off\", \"warning\" or \"error\".",
+     "",
+     "MODULE m\n"
+     "ENDMODULE"},
 });
 // clang-format on
 

@@ -56,8 +56,8 @@ std::string renderJson(std::span<const Diagnostic> diagnostics) {
         Json object = placeJson(placeOf(d.file, d.range));
         object["severity"] = std::string(severityName(d.severity));
         object["code"] = codeName(d.code);
-        if (const CatalogueEntry* entry = findEntry(static_cast<uint16_t>(d.code)))
-            object["name"] = kebabName(*entry);
+        const CatalogueEntry* entry = findEntry(static_cast<uint16_t>(d.code));
+        if (entry && isSwitchable(*entry)) object["name"] = kebabName(*entry);
         object["message"] = d.message;
         Json notes = Json::array();
         for (const Diagnostic::Note& note : d.notes) {

@@ -115,10 +115,10 @@ std::string renderText(const Diagnostic& diagnostic, bool colour) {
     const std::string_view severityColour = colourOf(colours, diagnostic.severity);
     const CatalogueEntry* entry = findEntry(static_cast<uint16_t>(diagnostic.code));
     const std::string name = entry && isSwitchable(*entry) ? fmt::format(" ({})", kebabName(*entry)) : "";
-    std::string out =
-        fmt::format("{}{}{}{}[{}]:{} {}{}{}{}\n", colours.bold, placePrefix(diagnostic.file, diagnostic.range),
-                    severityColour, severityName(diagnostic.severity), codeName(diagnostic.code),
-                    colours.reset, colours.bold, diagnostic.message, colours.reset, name);
+    std::string out = fmt::format("{}{}{}{}[{}]:{} {}{}{}{}\n", colours.bold,
+                                  placePrefix(diagnostic.file, diagnostic.range), severityColour,
+                                  severityName(diagnostic.severity), codeName(diagnostic.code), colours.reset,
+                                  colours.bold, diagnostic.message, colours.reset, name);
     if (diagnostic.file && !diagnostic.file->isBinary())
         renderPlace(out, *diagnostic.file, diagnostic.range, severityColour, colours);
     for (const Diagnostic::Fix& fix : diagnostic.fixes)

@@ -92,7 +92,8 @@ void Walker::argument(const BoundCall& call, const BoundArg& arg) {
 /// ... then what the routine may write.
 void Walker::reference(const BoundCall& call, const BoundArg& arg) {
     const DataSymbol* param = arg.param;
-    if (!param || param->mode == ParamMode::In || param->mode == ParamMode::Ref || !isPlace(*arg.value)) return;
+    if (!param || param->mode == ParamMode::In || param->mode == ParamMode::Ref || !isPlace(*arg.value))
+        return;
     if (arg.kind == BoundArg::Kind::Conditional || param->type.type->kind == TypeKind::SemiValue) {
         const DataSymbol* data = rootOf(*arg.value);
         if (data && isOwn(*data)) access_[data->index] |= kRead;
@@ -129,15 +130,16 @@ bool Walker::conduct(const BoundCall& call) {
     }
     if (routine.effects == Effects::Waits || routine.effects == Effects::Motion) ++waits_;
     // An error may be the way out of a loop; one of a signal is not, unless somebody waits for it.
-    if (routine.raises && routine.effects != Effects::Const && routine.effects != Effects::Pure &&
-        (!routine_->routineDecl->errors.empty() || !handlesSignal(routine)))
-        ++leaves_;
+    const bool acts = routine.effects != Effects::Const && routine.effects != Effects::Pure &&
+                      routine.effects != Effects::Reads;
+    if (acts && routine.raises && (!routine_->routineDecl->errors.empty() || !handlesSignal(routine)))
+        ++errors_;
     switch (routine.flow) {
     case sema::Flow::GoesOn: return true;
-    case sema::Flow::Stops: ++leaves_; return true;
+    case sema::Flow::Stops: ++ends_; return true;
     case sema::Flow::Raises: return raises();
     case sema::Flow::Leaves:
-    case sema::Flow::Retries: ++leaves_; return false;
+    case sema::Flow::Retries: ++ends_; return false;
     }
     return true;
 }
@@ -146,7 +148,7 @@ void Walker::lateCall(const CallStmt& s) {
     facts_.callsByName = true;
     flyBy_ = nullptr;
     ++waits_;
-    ++leaves_;
+    ++ends_;
     expr(*s.lateName);
     for (const Argument* arg : s.args) {
         if (!arg->value) continue;
@@ -181,7 +183,7 @@ const MoveParams& Walker::moveParams(const RoutineSymbol& routine) {
 // Manual 2.3 (logic behind a fly-by point) and 5 (no zone 0 above 70 mm/s). Speeds and zones that the program changes
 // are not known here.
 void Walker::movement(const BoundCall& call) {
-    constexpr double kSmallestZone = 0.3; // mm, that of z0
+    constexpr double kSmallestZone = 0.5; // mm: z0 has 0.3, z1 has 1
     constexpr double kFastest = 70;       // mm/s
     flyBy_ = nullptr;
     const MoveParams& params = moveParams(*call.routine);

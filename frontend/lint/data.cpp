@@ -28,7 +28,8 @@ const DataSymbol* Walker::rootOf(const Expr& place) const {
         e = e->kind == NodeKind::Index ? as<IndexExpr>(*e).base : as<ComponentExpr>(*e).base;
     if (e->kind != NodeKind::Name) return nullptr;
     const sema::Symbol* symbol = info(*e).symbol;
-    return symbol && symbol->kind == sema::SymbolKind::Data ? static_cast<const DataSymbol*>(symbol) : nullptr;
+    return symbol && symbol->kind == sema::SymbolKind::Data ? static_cast<const DataSymbol*>(symbol)
+                                                            : nullptr;
 }
 
 void Walker::read(const Expr& name) {
@@ -81,7 +82,8 @@ void Walker::usedTooEarly(const DataSymbol& data, const Expr& e) {
     access_[data.index] |= kReported;
     if (diag::Diagnostic* d =
             report(Code::UsedBeforeAssignment, range(e), {data.name, initialValue(data.type)}))
-        d->notes.push_back({tree_->source, tree_->range(data.nameToken), "'" + data.name + "' is declared here"});
+        d->notes.push_back(
+            {tree_->source, tree_->range(data.nameToken), "'" + data.name + "' is declared here"});
 }
 
 } // namespace rapid::lint

@@ -32,12 +32,13 @@ class Reporter {
 
 /// What a call of a routine can bring about, seen through all calls in it.
 enum Conduct : uint8_t {
-    kWaits = 1, ///< it can wait: for a time, a signal, a movement, somebody
-    kEnds = 2   ///< it can end what calls it: EXIT, RAISE, Stop ...
+    kWaits = 1,  ///< it can wait: for a time, a signal, a movement, somebody
+    kEnds = 2,   ///< it can end what calls it: EXIT, RAISE, Stop ...
+    kRaises = 4, ///< something in it can fail, which may be meant to end what calls it
 };
 
 struct RoutineFacts {
-    uint8_t conduct = 0; ///< of Conduct; its own, later also that of what it calls
+    uint8_t conduct = 0;               ///< of Conduct; its own, later also that of what it calls
     size_t firstCall = 0, endCall = 0; ///< in TaskFacts::calls
 };
 
@@ -65,14 +66,14 @@ struct TaskFacts {
     std::vector<Suspicion> suspicions;
     std::vector<InterruptUse> interrupts;
     std::unordered_set<const sema::Symbol*> connected; ///< interrupts that stand in CONNECT or are passed on
-    bool callsByName = false; ///< late binding: any procedure may be called
-    bool dataByName = false;  ///< GetDataVal and the like: any data may be used
+    bool callsByName = false;                          ///< late binding: any procedure may be called
+    bool dataByName = false;                           ///< GetDataVal and the like: any data may be used
 };
 
 /// Types of the standard library that warnings are about; null when it does not declare them.
 struct KnownTypes {
-    const sema::Type *intnum = nullptr, *zone = nullptr, *speed = nullptr, *tool = nullptr, *workObject = nullptr,
-                     *load = nullptr;
+    const sema::Type *intnum = nullptr, *zone = nullptr, *speed = nullptr, *tool = nullptr,
+                     *workObject = nullptr, *load = nullptr;
 };
 
 /// Predefined things by name, for what hides them, and the types above.

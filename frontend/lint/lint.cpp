@@ -85,7 +85,9 @@ class SharedFiles {
                 if (owners.try_emplace(module->tree->source->path(), task.get()).first->second != task.get())
                     shared_.insert(module->tree->source->path());
     }
-    bool has(const SyntaxTree& tree) const { return !shared_.empty() && shared_.count(tree.source->path()) > 0; }
+    bool has(const SyntaxTree& tree) const {
+        return !shared_.empty() && shared_.count(tree.source->path()) > 0;
+    }
 
   private:
     std::set<std::string> shared_;
@@ -146,7 +148,7 @@ std::unordered_map<const RoutineSymbol*, uint8_t> TaskLint::wholeConduct() const
             const RoutineSymbol* callee = facts_.calls[i];
             callers[callee].push_back(routine);
             if (facts_.routines.count(callee) > 0 || conduct.count(callee) > 0) continue;
-            conduct[callee] = kWaits | kEnds; // not looked at: anything
+            conduct[callee] = kWaits | kEnds | kRaises; // not looked at: anything
             work.push_back(callee);
         }
     }
@@ -187,7 +189,8 @@ void TaskLint::interrupts() {
             facts_.connected.count(&interrupt) > 0 || mayBeUsedElsewhere(interrupt) ||
             !reported.insert(&interrupt).second)
             continue;
-        reporter_.report(Code::InterruptNotConnected, *use.tree, use.where, {use.native->name, interrupt.name});
+        reporter_.report(Code::InterruptNotConnected, *use.tree, use.where,
+                         {use.native->name, interrupt.name});
     }
 }
 
@@ -235,11 +238,12 @@ void TaskLint::routine(const RoutineSymbol& routine) {
     const bool trap = routine.routineKind == RoutineKind::Trap;
     hiding(routine, proc ? "procedure" : trap ? "trap routine" : "function");
     if (!routine.used && !mayBeUsedElsewhere(routine) && &routine != task_.entryRoutine) {
-        const bool takesArguments =
-            std::any_of(routine.params.begin(), routine.params.end(), [](const DataSymbol* p) { return !p->optional; });
+        const bool takesArguments = std::any_of(routine.params.begin(), routine.params.end(),
+                                                [](const DataSymbol* p) { return !p->optional; });
         if (trap)
             report(Code::TrapNotConnected, routine, {routine.name});
-        else if (!facts_.callsByName && (!proc || routine.isLocal || takesArguments)) // operators and events call PROCs
+        else if (!facts_.callsByName &&
+                 (!proc || routine.isLocal || takesArguments)) // operators and events call PROCs
             report(Code::UnusedRoutine, routine, {proc ? "procedure" : "function", routine.name});
     }
     if (errors_.in(*routine.module->tree, routine.module->tree->range(*routine.routineDecl))) return;
@@ -252,19 +256,22 @@ void TaskLint::routine(const RoutineSymbol& routine) {
         const bool loop = data->storage == sema::Storage::LoopVariable;
         const bool constant = data->dataKind == DataKind::Const;
         hiding(*data, loop ? "loop variable" : constant ? "constant" : "variable");
-        if (!loop && !data->used) report(Code::UnusedVariable, *data, {constant ? "constant" : "variable", data->name});
+        if (!loop && !data->used)
+            report(Code::UnusedVariable, *data, {constant ? "constant" : "variable", data->name});
     }
 }
 
 void TaskLint::hiding(const Symbol& symbol, const char* kind) {
-    const Symbol* hidden = symbol.nameId < predefined_.byName.size() ? predefined_.byName[symbol.nameId] : nullptr;
+    const Symbol* hidden =
+        symbol.nameId < predefined_.byName.size() ? predefined_.byName[symbol.nameId] : nullptr;
     if (!hidden || symbol.nameToken == kNoToken) return;
     const char* what = "the predefined data";
     if (hidden->kind == SymbolKind::Type) what = "the predefined data type";
     if (hidden->kind == SymbolKind::Routine) {
         const auto& routine = static_cast<const RoutineSymbol&>(*hidden);
         if (!routine.option.empty()) return; // not there on every controller
-        what = routine.routineKind == RoutineKind::Func ? "the predefined function" : "the predefined instruction";
+        what = routine.routineKind == RoutineKind::Func ? "the predefined function"
+                                                        : "the predefined instruction";
     }
     // Controllers keep predefined data such as tool0 and reg1 in modules of their own, and backups hold these.
     if (hidden->kind == SymbolKind::Data && symbol.kind == SymbolKind::Data &&

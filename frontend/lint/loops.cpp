@@ -22,7 +22,7 @@ bool isTrue(const sema::ConstValue* value) {
 Walker::LoopMark Walker::enterLoop() {
     LoopMark mark;
     mark.waits = waits_;
-    mark.leaves = leaves_;
+    mark.exits = exits();
     mark.calls = facts_.calls.size();
     mark.writes = writes_.size();
     mark.pending = pending_.size();
@@ -37,8 +37,8 @@ bool Walker::leaveLoop(const LoopMark& mark) {
         const int16_t slot = slots_[p.data->index];
         return slot >= 0 && written_[static_cast<size_t>(slot)];
     };
-    pending_.erase(std::remove_if(pending_.begin() + static_cast<std::ptrdiff_t>(mark.pending), pending_.end(),
-                                  assignedInside),
+    pending_.erase(std::remove_if(pending_.begin() + static_cast<std::ptrdiff_t>(mark.pending),
+                                  pending_.end(), assignedInside),
                    pending_.end());
     assigned_ |= written_;
     written_ |= mark.outerWritten;
@@ -47,8 +47,9 @@ bool Walker::leaveLoop(const LoopMark& mark) {
 
 bool Walker::whileStmt(const WhileStmt& s) {
     if (!s.condition) return true;
-    const LoopMark mark = enterLoop();
+    LoopMark mark = enterLoop();
     expr(*s.condition);
+    mark.writes = writes_.size(); // what the condition looks at may be passed by reference
     const Slots before = assigned_;
     const bool forever = isTrue(constant(*s.condition));
     list(s.body);
@@ -67,8 +68,13 @@ void Walker::suspectLoop(Code code, const Node& loop, const LoopMark& mark) {
     if (facts_.callsByName || !reporter_.isOn(code)) return;
     SourceRange where = tree_->range(loop.first);
     if (loop.kind == NodeKind::While) where.end = range(*as<WhileStmt>(loop).condition).end;
-    facts_.suspicions.push_back(
-        {code, tree_, where, {}, mark.calls, facts_.calls.size(), static_cast<uint8_t>(kWaits | kEnds)});
+    facts_.suspicions.push_back({code,
+                                 tree_,
+                                 where,
+                                 {},
+                                 mark.calls,
+                                 facts_.calls.size(),
+                                 static_cast<uint8_t>(kWaits | kEnds | kRaises)});
 }
 
 /// Whether something in the loop may change what its condition reads, or the condition changes by itself.
@@ -139,7 +145,7 @@ void Walker::labelStmt(const LabelStmt& s) {
     label.node = &s;
     label.list = list_;
     label.mark.waits = waits_;
-    label.mark.leaves = leaves_;
+    label.mark.exits = exits();
     label.mark.calls = facts_.calls.size();
     labels_.push_back(std::move(label));
     assigned_.set(); // a jump may come from anywhere
@@ -153,8 +159,8 @@ void Walker::gotoStmt(const GotoStmt& s) {
         // A jump back from the end of the same list of instructions: nothing else leads on from here.
         if (label.list == list_ && isTight(label.mark)) suspectLoop(Code::EndlessLoop, s, label.mark);
     }
-    if (target) jumps_.push_back(target->decl);
-    ++leaves_;
+    if (target) targets_.push_back(target->decl);
+    ++jumps_;
 }
 
 } // namespace rapid::lint

@@ -35,10 +35,10 @@ void Walker::routine(const RoutineSymbol& routine) {
     own.firstCall = facts_.calls.size();
     list(decl.body);
     const Slots body = written_;
-    const unsigned leavesOfBody = leaves_;
+    own.conduct = static_cast<uint8_t>((ends_ > 0 ? kEnds : 0) | (errors_ > 0 ? kRaises : 0));
     handlers(decl, body);
     own.endCall = facts_.calls.size();
-    own.conduct = static_cast<uint8_t>((waits_ > 0 ? kWaits : 0) | (leavesOfBody > 0 ? kEnds : 0));
+    if (waits_ > 0) own.conduct |= kWaits;
     finish();
 }
 
@@ -62,8 +62,8 @@ void Walker::begin(const RoutineSymbol& routine) {
     pending_.clear();
     writes_.clear();
     labels_.clear();
-    jumps_.clear();
-    waits_ = leaves_ = 0;
+    targets_.clear();
+    waits_ = jumps_ = ends_ = errors_ = 0;
     breakSeen_ = false;
     flyBy_ = nullptr;
     list_ = nullptr;
@@ -100,21 +100,22 @@ void Walker::handlers(const RoutineDecl& decl, const Slots& body) {
 void Walker::errorClause(const ErrorClause& clause) {
     for (const Expr* number : clause.numbers)
         expr(*number);
-    const unsigned leaves = leaves_;
+    const unsigned left = jumps_ + ends_;
     const size_t calls = facts_.calls.size();
     inHandler_ = true;
     const bool goesOn = list(clause.body);
     inHandler_ = false;
-    if (!goesOn || leaves_ != leaves || facts_.callsByName || !reporter_.isOn(Code::UnhandledError)) return;
-    facts_.suspicions.push_back({Code::UnhandledError, tree_, tree_->range(clause.first), routine_->name, calls,
-                                 facts_.calls.size(), kEnds});
+    if (!goesOn || jumps_ + ends_ != left || facts_.callsByName || !reporter_.isOn(Code::UnhandledError))
+        return;
+    facts_.suspicions.push_back({Code::UnhandledError, tree_, tree_->range(clause.first), routine_->name,
+                                 calls, facts_.calls.size(), kEnds});
 }
 
 void Walker::finish() {
     for (const Pending& p : pending_)
         usedTooEarly(*p.data, *p.place);
     for (const Label& label : labels_)
-        if (std::find(jumps_.begin(), jumps_.end(), label.node) == jumps_.end())
+        if (std::find(targets_.begin(), targets_.end(), label.node) == targets_.end())
             report(Code::UnusedLabel, tree_->range(as<LabelStmt>(*label.node).name),
                    {std::string(tree_->text(as<LabelStmt>(*label.node).name))});
     for (const DataSymbol* data : routine_->data) {
@@ -149,7 +150,8 @@ void Walker::unreachable(StmtList stmts, size_t at) {
     // A closing RETURN is a habit, and functions seem to need one.
     if (at + 1 == stmts.size() && stmts[at]->kind == NodeKind::Return) return;
     const NodeKind kind = stmts[at]->kind;
-    if (kind == NodeKind::ErrorStmt || kind == NodeKind::DeclStmt || kind == NodeKind::PlaceholderStmt) return;
+    if (kind == NodeKind::ErrorStmt || kind == NodeKind::DeclStmt || kind == NodeKind::PlaceholderStmt)
+        return;
     report(Code::UnreachableCode, range(*stmts[at]));
 }
 
@@ -184,14 +186,14 @@ bool Walker::statement(const Stmt& s) {
     case NodeKind::Connect: connect(as<ConnectStmt>(s)); return true;
     case NodeKind::Return:
         if (const Expr* value = as<ReturnStmt>(s).value) expr(*value);
-        ++leaves_;
+        ++jumps_;
         return false;
     case NodeKind::Raise:
         if (const Expr* value = as<RaiseStmt>(s).value) expr(*value);
         return raises();
     case NodeKind::Retry:
     case NodeKind::TryNext:
-    case NodeKind::Exit: ++leaves_; return false;
+    case NodeKind::Exit: ++ends_; return false;
     case NodeKind::Break: breakSeen_ = true; return false;
     case NodeKind::Continue: return false;
     default: return true;
@@ -200,7 +202,7 @@ bool Walker::statement(const Stmt& s) {
 
 // TRYNEXT in the handler of the routine goes on behind the RAISE.
 bool Walker::raises() {
-    ++leaves_;
+    ++ends_;
     return handlerGoesOn_ && !inHandler_;
 }
 
@@ -242,7 +244,8 @@ void Walker::duplicateConditions(const IfStmt& s) {
     const size_t count = std::min(s.branches.size(), kMost);
     for (size_t i = 1; i < count; ++i) {
         const Expr* condition = s.branches[i]->condition;
-        for (size_t k = 0; condition && k < i; ++k) {
+        if (!condition || constant(*condition)) continue;
+        for (size_t k = 0; k < i; ++k) {
             if (!s.branches[k]->condition || !sameText(*s.branches[k]->condition, *condition)) continue;
             if (diag::Diagnostic* d = report(Code::DuplicateCondition, range(*condition)))
                 d->notes.push_back({tree_->source, range(*s.branches[k]->condition), "it stands here first"});

@@ -13,10 +13,10 @@ using Slots = std::bitset<kMaxTracked>;
 
 /// What a routine does with one of its parameters or variables.
 enum Access : uint8_t {
-    kRead = 1,       ///< its value is used, or it is passed on
-    kAssigned = 2,   ///< by an assignment
-    kFromCall = 4,   ///< assigned the result of a function: RAPID needs a place for it
-    kMentioned = 8,  ///< by Present and the like
+    kRead = 1,      ///< its value is used, or it is passed on
+    kAssigned = 2,  ///< by an assignment
+    kFromCall = 4,  ///< assigned the result of a function: RAPID needs a place for it
+    kMentioned = 8, ///< by Present and the like
     kReported = 16
 };
 
@@ -55,7 +55,7 @@ class Walker {
 
     // ---- loops.cpp
     struct LoopMark {
-        unsigned waits = 0, leaves = 0;
+        unsigned waits = 0, exits = 0;
         size_t calls = 0, writes = 0, pending = 0;
         bool outerBreak = false;
         Slots outerWritten;
@@ -65,7 +65,8 @@ class Walker {
     void judgeFor(const syntax::ForStmt& s);
     LoopMark enterLoop();
     bool leaveLoop(const LoopMark& mark); ///< whether there was a BREAK
-    bool isTight(const LoopMark& mark) const { return waits_ == mark.waits && leaves_ == mark.leaves; }
+    unsigned exits() const { return jumps_ + ends_ + errors_; }
+    bool isTight(const LoopMark& mark) const { return waits_ == mark.waits && exits() == mark.exits; }
     void suspectLoop(Code code, const syntax::Node& loop, const LoopMark& mark);
     bool changesIn(const Expr& condition, const LoopMark& mark) const;
     void labelStmt(const syntax::LabelStmt& s);
@@ -141,11 +142,13 @@ class Walker {
     std::vector<Pending> pending_; ///< used before assignment, unless the rest of a loop or a handler assigns
     std::vector<const sema::DataSymbol*> writes_; ///< everything written so far, in this order
     unsigned waits_ = 0;                          ///< instructions seen that wait
-    unsigned leaves_ = 0;                         ///< and that leave the routine or jump
+    unsigned jumps_ = 0;                          ///< and RETURN and GOTO
+    unsigned ends_ = 0;                           ///< and what ends the callers too: RAISE, EXIT ...
+    unsigned errors_ = 0;                         ///< and what may raise an error, as a way out
     bool breakSeen_ = false;
     /// The last movement, when it went to a fly-by point and nothing but short instructions came after it.
     const syntax::Node* flyBy_ = nullptr;
-    std::vector<const syntax::Node*> jumps_; ///< the labels that GOTO names
+    std::vector<const syntax::Node*> targets_; ///< the labels that GOTO names
     struct Label {
         const syntax::Node* node = nullptr;
         const void* list = nullptr;

@@ -228,7 +228,8 @@ bool applyOption(std::string_view option, WarningLevels& levels, std::string& pr
         name.remove_prefix(3);
     }
     if (levels.set(name, level)) return true;
-    problem = fmt::format("-W {}: '{}' is not the name of a warning{}", option, name, warningSuggestion(name));
+    problem =
+        fmt::format("-W {}: '{}' is not the name of a warning{}", option, name, warningSuggestion(name));
     return false;
 }
 
@@ -239,9 +240,10 @@ void checkDirectives(const std::shared_ptr<const SourceFile>& file, diag::Sink& 
                         directive.written.empty()
                             ? SourceRange{file->lineStart(directive.line), file->lineStart(directive.line)}
                             : rangeOf(*file, directive.written),
-                        {directive.written.empty()           ? "nothing"
-                         : directive.word == Word::Unknown ? fmt::format("'{}'", directive.written)
-                                                           : fmt::format("'{}' without a name", directive.written)});
+                        {directive.written.empty() ? "nothing"
+                         : directive.word == Word::Unknown
+                             ? fmt::format("'{}'", directive.written)
+                             : fmt::format("'{}' without a name", directive.written)});
         for (const std::string_view name : directive.names)
             if (directive.word != Word::Unknown && !isWarningName(name))
                 sink.report(Code::UnknownWarning, file, rangeOf(*file, name),

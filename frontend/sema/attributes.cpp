@@ -155,8 +155,7 @@ void Analyzer::applyRoutineAttributes(RoutineSymbol& symbol) {
             for (const char c : value)
                 if (c >= '0' && c <= '9')
                     symbol.textLength = static_cast<uint8_t>(symbol.textLength * 10 + (c - '0'));
-        }
-        else if (key == "deferred") {
+        } else if (key == "deferred") {
             if (DataSymbol* param = findParam(value)) param->deferred = true;
         } else if (key == "where") { // "Signal is signal, Data is value"
             while (!value.empty()) {

@@ -114,12 +114,12 @@ struct RoutineSymbol : Symbol {
     bool noStepIn = false;         ///< its module is NOSTEPIN or NOVIEW
     Effects effects = Effects::None;
     Flow flow = Flow::GoesOn;
-    uint8_t lintTraits = 0;            ///< of LintTrait
-    bool raises = false;               ///< natives: it may raise an error
-    uint8_t textLength = 0;            ///< bytes of the text a native returns at least
+    uint8_t lintTraits = 0;                      ///< of LintTrait
+    bool raises = false;                         ///< natives: it may raise an error
+    uint8_t textLength = 0;                      ///< bytes of the text a native returns at least
     const DataSymbol* textLengthParam = nullptr; ///< parameter that tells how many
-    std::string option; ///< RobotWare option it needs
-    std::string manual; ///< chapter of the manual, for built-ins
+    std::string option;                          ///< RobotWare option it needs
+    std::string manual;                          ///< chapter of the manual, for built-ins
     std::string documentation;
 };
 

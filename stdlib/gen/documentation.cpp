@@ -9,9 +9,9 @@ namespace stdlibgen {
 
 namespace {
 
-constexpr std::array<std::string_view, 12> kKeys = {"manual", "effects", "raises", "option",
-                                                    "deferred", "confidence", "lower", "class",
-                                                    "where", "flow", "lint", "length"};
+constexpr std::array<std::string_view, 12> kKeys = {"manual",   "effects",    "raises", "option",
+                                                    "deferred", "confidence", "lower",  "class",
+                                                    "where",    "flow",       "lint",   "length"};
 
 bool isKey(std::string_view word) {
     return std::find(kKeys.begin(), kKeys.end(), word) != kKeys.end();

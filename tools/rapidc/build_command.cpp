@@ -109,6 +109,7 @@ void addBuildCommand(CLI::App& app, int& status) {
     CLI::App* command = app.add_subcommand("build", "Compile to a native executable");
     command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs")->required();
     command->add_option("-o,--output", settings->output, "The executable to write");
+    addWarningOption(*command, settings->inputs);
     command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")
         ->allow_extra_args(false);
     command->add_option("--config", settings->inputs.configFiles, "Parameters (.cfg) kept in the executable")

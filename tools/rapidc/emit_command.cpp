@@ -129,6 +129,7 @@ void addEmitCommand(CLI::App& app, int& status) {
     command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs")->required();
     command->add_option("--as", settings->as, "tokens, tree, symbols, ir, llvm, asm or obj")
         ->check(CLI::IsMember({"tokens", "tree", "symbols", "ir", "llvm", "asm", "obj"}));
+    addWarningOption(*command, settings->inputs);
     command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")
         ->allow_extra_args(false);
     command->add_option("--config", settings->inputs.configFiles, "Parameters (.cfg)")

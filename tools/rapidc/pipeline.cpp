@@ -1,5 +1,6 @@
 #include "tools/rapidc/pipeline.h"
 
+#include "frontend/lint/lint.h"
 #include "frontend/project/project.h"
 #include "ir/lower/lower.h"
 #include "ir/passes/passes.h"
@@ -8,6 +9,7 @@
 #include "stdlib/native_table.h"
 #include "stdlib/stdlib_text.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
@@ -102,7 +104,38 @@ void reportUnimplemented(Compilation& compilation) {
     }
 }
 
+/// The warnings that are wanted: by the project file beside or above the first input, then by the command line.
+void readWarningLevels(const Inputs& inputs, Compilation& compilation) {
+    rapid::lint::WarningLevels& levels = compilation.warningLevels;
+    if (!inputs.paths.empty())
+        rapid::lint::applySettings(rapid::project::loadSettings(inputs.paths.front(), compilation.sink),
+                                   levels, compilation.sink);
+    if (!inputs.lint) levels.set("lint", rapid::lint::Level::Off);
+    for (const std::string& option : inputs.warnings) {
+        std::string problem;
+        if (!rapid::lint::applyOption(option, levels, problem))
+            compilation.usageErrors.push_back(std::move(problem));
+    }
+}
+
+void judge(const rapid::project::ProjectInput& project, Compilation& compilation) {
+    const rapid::lint::WarningLevels& levels = compilation.warningLevels;
+    for (const sema::TaskInput& task : project.tasks)
+        for (const auto& file : task.files)
+            rapid::lint::checkDirectives(file, compilation.sink);
+    rapid::lint::lint(*compilation.program, levels, compilation.sink);
+    rapid::lint::applyLevels(levels, compilation.sink);
+}
+
 } // namespace
+
+void addWarningOption(CLI::App& command, Inputs& inputs) {
+    command
+        .add_option("-W", inputs.warnings,
+                    "NAME or no-NAME: switch a warning on or off; error=NAME: make it an error. "
+                    "'lint' stands for all of 8xxx, 'all' for every warning")
+        ->allow_extra_args(false);
+}
 
 bool readTaskSpec(const std::string& text, std::string& name, std::string& type, std::string& input,
                   std::string& error) {
@@ -132,6 +165,7 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
         else
             compilation->usageErrors.push_back(error);
     }
+    readWarningLevels(inputs, *compilation);
     rapid::project::ProjectInput project;
     if (!inputs.paths.empty()) rapid::project::loadProject(inputs.paths, specs, project, compilation->sink);
     std::vector<std::string> configFiles = inputs.configFiles;
@@ -151,6 +185,7 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     compilation->tasks = std::move(project.tasks);
     compilation->program = sema::check(compilation->tasks, options, compilation->sink);
     reportUnimplemented(*compilation);
+    judge(project, *compilation);
     return compilation;
 }
 
@@ -163,7 +198,9 @@ bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping,
     options.nativeImplemented = [](std::string_view symbol) {
         return rt::findNativeAddress(symbol) != nullptr;
     };
-    if (!rapid::lower::lowerProgram(*compilation.program, options, compilation.sink, out)) return false;
+    const bool lowered = rapid::lower::lowerProgram(*compilation.program, options, compilation.sink, out);
+    rapid::lint::applyLevels(compilation.warningLevels, compilation.sink);
+    if (!lowered || compilation.sink.hasErrors()) return false;
     ir::PassOptions passes;
     passes.profile = stepping ? ir::Profile::Stepping : ir::Profile::Release;
     const std::vector<std::string> findings = ir::runPasses(out, passes);

@@ -1,12 +1,17 @@
 #pragma once
 // Inputs of a command -> checked program -> IR. Shared by check, build, run and emit.
 
+#include "frontend/lint/warnings.h"
 #include "frontend/sema/checker.h"
 #include "ir/core/ir.h"
 
 #include <memory>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace rapidc {
 
@@ -15,6 +20,8 @@ struct Inputs {
     std::vector<std::string> tasks;       ///< NAME[:TYPE]=INPUT
     std::vector<std::string> configFiles; ///< --config
     bool requireMain = false;
+    std::vector<std::string> warnings;  ///< -W
+    bool lint = false;                  ///< with the warnings of 8xxx, also where -W does not name them
     bool configurationComplete = false; ///< no further configuration can come: an unknown signal is an error
 };
 
@@ -25,11 +32,15 @@ struct Compilation {
     std::vector<rapid::sema::TaskInput> tasks; ///< what was checked,
     rapid::sema::CheckOptions options;         ///< and how; commands that change files check again
     std::vector<rapid::sema::LibraryText> library;
+    rapid::lint::WarningLevels warningLevels;
     std::vector<std::string> configNames; ///< what --config and the folders gave
     std::vector<std::string> configTexts;
     std::vector<std::string> usageErrors; ///< e.g. a --task that cannot be read
     std::string homeFolder;               ///< HOME of a backup; empty if there is none
 };
+
+/// Adds the option -W to a command.
+void addWarningOption(CLI::App& command, Inputs& inputs);
 
 /// Loads, parses and checks. Look at `sink` and `usageErrors` before going on.
 std::unique_ptr<Compilation> checkInputs(const Inputs& inputs);

@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RunSettings {
-    std::vector<std::string> paths;
+    Inputs inputs;
     rt::RunOptions options;
     std::string picture;
     bool summary = false;
@@ -48,8 +48,8 @@ std::vector<codegen::NativeSymbol> nativeSymbols() {
 
 /// A folder may hold the stimulus its program is meant to be run with.
 void findStimulus(RunSettings& settings) {
-    if (!settings.options.stimulus.empty() || settings.paths.size() != 1) return;
-    const fs::path beside = fs::path(settings.paths[0]) / "stimulus.csv";
+    if (!settings.options.stimulus.empty() || settings.inputs.paths.size() != 1) return;
+    const fs::path beside = fs::path(settings.inputs.paths[0]) / "stimulus.csv";
     std::error_code ignored;
     if (fs::is_regular_file(beside, ignored)) settings.options.stimulus = beside.string();
 }
@@ -139,8 +139,7 @@ int execute(RunSettings& settings, const rt::ProgramDesc& program) {
 }
 
 int run(RunSettings& settings) {
-    Inputs inputs;
-    inputs.paths = settings.paths;
+    Inputs& inputs = settings.inputs;
     inputs.tasks = settings.options.tasks;
     inputs.configFiles = settings.options.configFiles;
     inputs.requireMain = true;
@@ -156,7 +155,7 @@ int run(RunSettings& settings) {
     ir::Module module;
     const bool lowered =
         !compilation->sink.hasErrors() &&
-        lowerToIr(*compilation, fs::path(settings.paths[0]).stem().string(), settings.stepping, module);
+        lowerToIr(*compilation, fs::path(settings.inputs.paths[0]).stem().string(), settings.stepping, module);
     printDiagnostics(*compilation);
     if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
     codegen::CodegenOptions options;
@@ -190,8 +189,9 @@ int run(RunSettings& settings) {
 void addRunCommand(CLI::App& app, int& status) {
     auto settings = std::make_shared<RunSettings>();
     CLI::App* command = app.add_subcommand("run", "Compile in memory and run on the virtual controller");
-    command->add_option("input", settings->paths, "Modules, folders, .pgf programs")->required();
+    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs")->required();
     rt::addRunOptions(*command, settings->options, true);
+    addWarningOption(*command, settings->inputs);
     command->add_option("--picture", settings->picture, "Draw the path of the TCP from the trace (SVG)");
     command->add_flag("--summary", settings->summary, "Show cycle time and where the files lie");
     command->add_flag("--step", settings->interactive,

@@ -3,6 +3,8 @@
 
 #include "sema_testing.h"
 
+#include "frontend/lint/lint.h"
+
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -45,6 +47,8 @@ std::vector<std::string> linesOf(const std::string& text) {
 std::vector<Expected> annotations(const std::vector<std::string>& lines) {
     static const std::regex carets(R"(^(\s*!\s*)(\^+)\s*(error|warning)\[(RAP\d{4})\](?::\s*(.*?))?\s*$)");
     static const std::regex atEnd(R"(^.*\S.*!\s*(error|warning)\[(RAP\d{4})\](?::\s*(.*?))?\s*$)");
+    static const std::regex elsewhere(
+        R"(^.*!@\s*expect\s+@?([+-]?\d+):(\d+)-(\d+)\s+(error|warning)\[(RAP\d{4})\](?::\s*(.*?))?\s*$)");
     std::vector<Expected> found;
     uint32_t codeLine = 0;
     for (uint32_t number = 1; number <= lines.size(); ++number) {
@@ -54,6 +58,12 @@ std::vector<Expected> annotations(const std::vector<std::string>& lines) {
             const auto begin = static_cast<uint32_t>(m[1].length()) + 1;
             found.push_back(
                 {codeLine, begin, begin + static_cast<uint32_t>(m[2].length()), m[3], m[4], m[5]});
+            continue;
+        }
+        if (line.find("!@ expect") != std::string::npos && std::regex_match(line, m, elsewhere)) {
+            found.push_back({number + static_cast<uint32_t>(std::stoi(m[1])),
+                             static_cast<uint32_t>(std::stoi(m[2])), static_cast<uint32_t>(std::stoi(m[3])),
+                             m[4], m[5], m[6]});
             continue;
         }
         codeLine = number;
@@ -83,7 +93,7 @@ sema::CheckOptions optionsOf(const std::vector<std::string>& lines, const fs::pa
     options.library = sema::testing::library();
     for (const std::string& line : lines) {
         std::smatch m;
-        if (line.rfind("!@ args:", 0) != 0 || !std::regex_match(line, m, config)) continue;
+        if (line.find("!@ args:") == std::string::npos || !std::regex_match(line, m, config)) continue;
         options.configurationKnown = true;
         options.signals = signalsOf(sema::testing::readFile((folder / m[1].str()).string()));
     }
@@ -117,7 +127,13 @@ std::string compare(const fs::path& path) {
     sema::TaskInput task;
     task.files.push_back(std::make_shared<const SourceFile>(path.filename().string(), text));
     diag::Sink sink;
-    sema::check({task}, optionsOf(lines, path.parent_path()), sink);
+    const auto program = sema::check({task}, optionsOf(lines, path.parent_path()), sink);
+    lint::WarningLevels levels;
+    // A program for one rule need not be tidy otherwise; those of 8xxx are about nothing else.
+    if (path.parent_path().filename() != "8xxx") levels.set("lint", lint::Level::Off);
+    lint::checkDirectives(task.files[0], sink);
+    lint::lint(*program, levels, sink);
+    lint::applyLevels(levels, sink);
     std::string problems;
     for (const diag::Diagnostic& d : sink.sorted()) {
         if (d.severity == diag::Severity::Note) continue;
