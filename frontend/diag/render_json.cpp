@@ -1,6 +1,6 @@
 // Diagnostics for programs: the JSON array of `check --format=json`.
 
-#include "frontend/diag/diagnostic.h"
+#include "frontend/diag/catalogue.h"
 
 #include <nlohmann/json.hpp>
 

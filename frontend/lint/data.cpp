@@ -36,6 +36,7 @@ void Walker::read(const Expr& name) {
     const DataSymbol* data = rootOf(name);
     if (!data || !isOwn(*data)) return;
     access_[data->index] |= kRead;
+    access_[data->index] &= static_cast<uint8_t>(~kUpdated);
     const int16_t slot = slots_[data->index];
     if (slot < 0 || assigned_[static_cast<size_t>(slot)]) return;
     assigned_.set(static_cast<size_t>(slot)); // said once
@@ -59,18 +60,32 @@ void Walker::subscripts(const Expr& place) {
         expr(*i);
 }
 
-void Walker::write(const Expr& place, uint8_t access) {
+// `n := n + 1` whose result is used later is a copy to work with; without that it was meant for the caller.
+void Walker::inParameter(const DataSymbol& param, const Expr& place, bool fromItself) {
+    uint8_t& access = access_[param.index];
+    if ((access & kReported) != 0) return;
+    if (fromItself) {
+        if (loopDepth_ > 0) return; // the next round reads it
+        access |= kUpdated;
+        updates_[param.index] = &place;
+        return;
+    }
+    access |= kReported;
+    access &= static_cast<uint8_t>(~kUpdated);
+    report(Code::ParameterAssigned, range(place), {param.name});
+}
+
+void Walker::write(const Expr& place, uint8_t access, bool fromItself) {
     const DataSymbol* data = rootOf(place);
     if (!data) return;
     writes_.push_back(data);
     if (!isOwn(*data)) return;
     access_[data->index] |= access;
     const bool assignment = (access & (kAssigned | kFromCall)) != 0;
-    if (assignment && data->storage == sema::Storage::Parameter && data->mode == ParamMode::In &&
-        (access_[data->index] & kReported) == 0) {
-        access_[data->index] |= kReported;
-        report(Code::ParameterAssigned, range(place), {data->name});
-    }
+    if (assignment && data->storage == sema::Storage::Parameter && data->mode == ParamMode::In)
+        inParameter(*data, place, fromItself);
+    else
+        access_[data->index] &= static_cast<uint8_t>(~kUpdated); // passed on
     const int16_t slot = slots_[data->index];
     if (slot < 0) return;
     assigned_.set(static_cast<size_t>(slot));

@@ -122,8 +122,9 @@ class TaskLint {
     void routine(const RoutineSymbol& routine);
     void type(const TypeSymbol& type);
     void hiding(const Symbol& symbol, const char* kind);
-    void report(Code code, const Symbol& symbol, std::initializer_list<std::string> args) {
-        reporter_.report(code, *symbol.module->tree, symbol.module->tree->range(symbol.nameToken), args);
+    diag::Diagnostic* report(Code code, const Symbol& symbol, std::initializer_list<std::string> args) {
+        return reporter_.report(code, *symbol.module->tree, symbol.module->tree->range(symbol.nameToken),
+                                args);
     }
 
     const sema::CheckedProgram& program_;
@@ -256,8 +257,17 @@ void TaskLint::routine(const RoutineSymbol& routine) {
         const bool loop = data->storage == sema::Storage::LoopVariable;
         const bool constant = data->dataKind == DataKind::Const;
         hiding(*data, loop ? "loop variable" : constant ? "constant" : "variable");
-        if (!loop && !data->used)
+        if (loop || data->used) continue;
+        diag::Diagnostic* d =
             report(Code::UnusedVariable, *data, {constant ? "constant" : "variable", data->name});
+        // Many declare the variable of a FOR.
+        const auto same =
+            std::find_if(routine.data.begin(), routine.data.end(), [&](const DataSymbol* other) {
+                return other->storage == sema::Storage::LoopVariable && other->nameId == data->nameId;
+            });
+        if (d && same != routine.data.end())
+            d->notes.push_back({routine.module->tree->source, routine.module->tree->range((*same)->nameToken),
+                                "FOR declares its own '" + data->name + "' here"});
     }
 }
 

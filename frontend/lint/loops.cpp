@@ -20,6 +20,7 @@ bool isTrue(const sema::ConstValue* value) {
 } // namespace
 
 Walker::LoopMark Walker::enterLoop() {
+    ++loopDepth_;
     LoopMark mark;
     mark.waits = waits_;
     mark.exits = exits();
@@ -33,6 +34,7 @@ Walker::LoopMark Walker::enterLoop() {
 
 // In its second round a loop sees what its first one assigned.
 bool Walker::leaveLoop(const LoopMark& mark) {
+    --loopDepth_;
     const auto assignedInside = [&](const Pending& p) {
         const int16_t slot = slots_[p.data->index];
         return slot >= 0 && written_[static_cast<size_t>(slot)];
@@ -147,6 +149,7 @@ void Walker::labelStmt(const LabelStmt& s) {
     label.mark.waits = waits_;
     label.mark.exits = exits();
     label.mark.calls = facts_.calls.size();
+    labelIndex_[&s] = labels_.size();
     labels_.push_back(std::move(label));
     assigned_.set(); // a jump may come from anywhere
 }
@@ -154,12 +157,14 @@ void Walker::labelStmt(const LabelStmt& s) {
 void Walker::gotoStmt(const GotoStmt& s) {
     const auto found = task_.references.find(&s);
     const sema::Symbol* target = found == task_.references.end() ? nullptr : found->second;
-    for (Label& label : labels_) {
-        if (!target || label.node != target->decl) continue;
+    if (target) {
+        targets_.insert(target->decl);
         // A jump back from the end of the same list of instructions: nothing else leads on from here.
-        if (label.list == list_ && isTight(label.mark)) suspectLoop(Code::EndlessLoop, s, label.mark);
+        const auto known = labelIndex_.find(target->decl);
+        const Label* label = known == labelIndex_.end() ? nullptr : &labels_[known->second];
+        if (label && label->list == list_ && isTight(label->mark))
+            suspectLoop(Code::EndlessLoop, s, label->mark);
     }
-    if (target) targets_.push_back(target->decl);
     ++jumps_;
 }
 

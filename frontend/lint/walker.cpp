@@ -49,7 +49,7 @@ void Walker::begin(const RoutineSymbol& routine) {
     const size_t count = routine.params.size() + routine.data.size();
     access_.assign(count, 0);
     slots_.assign(count, -1);
-    firstAssignment_.assign(routine.params.size(), nullptr);
+    updates_.assign(routine.params.size(), nullptr);
     tracked_ = 0;
     for (const DataSymbol* data : routine.data)
         if (isTracked(*data) && tracked_ < kMaxTracked && data->index < count)
@@ -63,8 +63,10 @@ void Walker::begin(const RoutineSymbol& routine) {
     writes_.clear();
     labels_.clear();
     targets_.clear();
+    labelIndex_.clear();
     waits_ = jumps_ = ends_ = errors_ = 0;
     breakSeen_ = false;
+    loopDepth_ = 0;
     flyBy_ = nullptr;
     list_ = nullptr;
 }
@@ -115,14 +117,31 @@ void Walker::finish() {
     for (const Pending& p : pending_)
         usedTooEarly(*p.data, *p.place);
     for (const Label& label : labels_)
-        if (std::find(targets_.begin(), targets_.end(), label.node) == targets_.end())
-            report(Code::UnusedLabel, tree_->range(as<LabelStmt>(*label.node).name),
-                   {std::string(tree_->text(as<LabelStmt>(*label.node).name))});
+        if (targets_.count(label.node) == 0) unusedLabel(as<LabelStmt>(*label.node));
+    for (const DataSymbol* param : routine_->params)
+        if ((access_[param->index] & kUpdated) != 0)
+            report(Code::ParameterAssigned, range(*updates_[param->index]), {param->name});
     for (const DataSymbol* data : routine_->data) {
         if (data->storage != Storage::RoutineData || data->index >= access_.size()) continue;
         if (access_[data->index] == kAssigned)
             report(Code::UnreadVariable, tree_->range(data->nameToken), {data->name});
     }
+}
+
+void Walker::unusedLabel(const LabelStmt& label) {
+    diag::Diagnostic* d =
+        report(Code::UnusedLabel, tree_->range(label.name), {std::string(tree_->text(label.name))});
+    if (!d) return;
+    // With its line, if there is nothing else on it.
+    const SourceFile& file = *tree_->source;
+    SourceRange where = range(label);
+    const uint32_t line = file.lineColumn(where.begin).line;
+    const std::string_view text = file.lineText(line);
+    const size_t used = text.find_last_not_of(" \t") + 1, first = text.find_first_not_of(" \t");
+    const bool alone =
+        file.lineStart(line) + first == where.begin && file.lineStart(line) + used == where.end;
+    if (alone && line < file.lineCount()) where = {file.lineStart(line), file.lineStart(line + 1)};
+    d->fix(where, "");
 }
 
 bool Walker::list(StmtList stmts) {
@@ -208,10 +227,16 @@ bool Walker::raises() {
 
 void Walker::assign(const AssignStmt& s) {
     if (!s.target || !s.value) return;
+    const DataSymbol* root = rootOf(*s.target);
+    const bool own = root && isOwn(*root);
+    const uint8_t before = own ? access_[root->index] : uint8_t{0};
+    if (own) access_[root->index] &= static_cast<uint8_t>(~kRead);
     expr(*s.value);
+    const bool fromItself = own && (access_[root->index] & kRead) != 0;
+    if (own) access_[root->index] |= before & kRead;
     subscripts(*s.target);
     const bool fromCall = s.value->kind == NodeKind::Call;
-    write(*s.target, fromCall ? kFromCall : kAssigned);
+    write(*s.target, fromCall ? kFromCall : kAssigned, fromItself);
     const bool place = s.value->kind == NodeKind::Name || s.value->kind == NodeKind::Index ||
                        s.value->kind == NodeKind::Component;
     if (place && sameText(*s.target, *s.value)) report(Code::SelfAssignment, range(s), {text(*s.target)});

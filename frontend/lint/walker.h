@@ -17,7 +17,8 @@ enum Access : uint8_t {
     kAssigned = 2,  ///< by an assignment
     kFromCall = 4,  ///< assigned the result of a function: RAPID needs a place for it
     kMentioned = 8, ///< by Present and the like
-    kReported = 16
+    kReported = 16,
+    kUpdated = 32 ///< an IN parameter got a new value made from its old one, nobody has read that yet
 };
 
 /// Which parameters of a movement instruction mean what; -1: it has none such.
@@ -41,7 +42,7 @@ class Walker {
     void handlers(const syntax::RoutineDecl& decl, const Slots& body);
     void errorClause(const syntax::ErrorClause& clause);
     void finish();
-    void judgeOwnData();
+    void unusedLabel(const syntax::LabelStmt& label);
     bool list(syntax::StmtList stmts); ///< whether its end can be reached
     bool statement(const syntax::Stmt& s);
     void unreachable(syntax::StmtList stmts, size_t at);
@@ -75,8 +76,9 @@ class Walker {
     // ---- data.cpp: reading and writing
     void read(const Expr& name);
     void mention(const Expr& e);
-    void write(const Expr& place, uint8_t access);
+    void write(const Expr& place, uint8_t access, bool fromItself = false);
     void subscripts(const Expr& place);
+    void inParameter(const sema::DataSymbol& param, const Expr& place, bool fromItself);
     const sema::DataSymbol* rootOf(const Expr& place) const;
     bool isOwn(const sema::DataSymbol& data) const {
         return data.routine == routine_ && data.index < access_.size();
@@ -125,9 +127,10 @@ class Walker {
     const sema::RoutineSymbol* routine_ = nullptr;
     const sema::Module* module_ = nullptr;
     const syntax::SyntaxTree* tree_ = nullptr;
-    std::vector<uint8_t> access_;                      ///< of Access, by DataSymbol::index
-    std::vector<int16_t> slots_;                       ///< by DataSymbol::index; -1: not followed
-    std::vector<const syntax::Expr*> firstAssignment_; ///< of parameters, by DataSymbol::index
+    std::vector<uint8_t> access_; ///< of Access, by DataSymbol::index
+    std::vector<int16_t> slots_;  ///< by DataSymbol::index; -1: not followed
+    std::vector<const syntax::Expr*>
+        updates_; ///< of IN parameters, by DataSymbol::index: where kUpdated came from
     size_t tracked_ = 0;
     bool handlerGoesOn_ = false; ///< an ERROR handler has TRYNEXT: instructions behind RAISE are reached
     bool inHandler_ = false;
@@ -146,15 +149,17 @@ class Walker {
     unsigned ends_ = 0;                           ///< and what ends the callers too: RAISE, EXIT ...
     unsigned errors_ = 0;                         ///< and what may raise an error, as a way out
     bool breakSeen_ = false;
+    unsigned loopDepth_ = 0;
     /// The last movement, when it went to a fly-by point and nothing but short instructions came after it.
     const syntax::Node* flyBy_ = nullptr;
-    std::vector<const syntax::Node*> targets_; ///< the labels that GOTO names
+    std::unordered_set<const syntax::Node*> targets_; ///< the labels that GOTO names
     struct Label {
         const syntax::Node* node = nullptr;
         const void* list = nullptr;
         LoopMark mark;
     };
     std::vector<Label> labels_;
+    std::unordered_map<const syntax::Node*, size_t> labelIndex_;
     const void* list_ = nullptr; ///< the list of instructions being walked
 };
 

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 #include <unordered_map>
+#include <utility>
 
 namespace rapid::lint {
 
@@ -84,18 +86,22 @@ std::string_view takeWord(std::string_view& text) {
     return word;
 }
 
-/// The next line with code at or below `line`, for a comment that stands alone.
-uint32_t nextCodeLine(const SourceFile& file, uint32_t line) {
-    while (line < file.lineCount()) {
-        const std::string_view text = trimmed(file.lineText(line));
-        if (!text.empty() && text.front() != '!') break;
-        ++line;
+/// The next line with code at or below `line`, for a comment that stands alone. Remembers the last answer, so
+/// that long comments are read once.
+struct CodeLines {
+    uint32_t from = 0, to = 0;
+    uint32_t next(const SourceFile& file, uint32_t line) {
+        if (line >= from && line <= to) return to;
+        for (from = to = line; to < file.lineCount(); ++to) {
+            const std::string_view text = trimmed(file.lineText(to));
+            if (!text.empty() && text.front() != '!') break;
+        }
+        return to;
     }
-    return line;
-}
+};
 
 /// Reads the directive at `offset`, where "rapidc:" stands; false if that is no comment of its own.
-bool readDirective(const SourceFile& file, size_t offset, Directive& out) {
+bool readDirective(const SourceFile& file, size_t offset, CodeLines& code, Directive& out) {
     out.line = file.lineColumn(static_cast<uint32_t>(offset)).line;
     const std::string_view line = file.lineText(out.line);
     const size_t column = offset - file.lineStart(out.line);
@@ -111,16 +117,17 @@ bool readDirective(const SourceFile& file, size_t offset, Directive& out) {
     for (std::string_view name = takeWord(rest); !name.empty(); name = takeWord(rest))
         out.names.push_back(name);
     const bool alone = trimmed(line.substr(0, comment)).empty();
-    out.lastLine = alone ? nextCodeLine(file, out.line + 1) : out.line;
+    out.lastLine = alone ? code.next(file, out.line + 1) : out.line;
     return true;
 }
 
 std::vector<Directive> readDirectives(const SourceFile& file) {
     std::vector<Directive> found;
     const std::string_view text = file.text();
+    CodeLines code;
     for (size_t at = text.find(kMark); at != std::string_view::npos; at = text.find(kMark, at + 1)) {
         Directive directive;
-        if (readDirective(file, at, directive)) found.push_back(std::move(directive));
+        if (readDirective(file, at, code, directive)) found.push_back(std::move(directive));
     }
     return found;
 }
@@ -130,17 +137,50 @@ bool covers(const Directive& directive, const CatalogueEntry& entry) {
                        [&](std::string_view name) { return names(name, entry); });
 }
 
-bool isSwitchedOff(const std::vector<Directive>& directives, const CatalogueEntry& entry, uint32_t line) {
-    bool off = false;
-    for (const Directive& d : directives) {
-        if (d.line > line) break;
-        if (!covers(d, entry)) continue;
-        if (d.word == Word::Ignore && line <= d.lastLine) return true;
-        if (d.word == Word::Off) off = true;
-        if (d.word == Word::On) off = false;
+/// The lines of a file in which one warning is switched off.
+class OffLines {
+  public:
+    OffLines(const std::vector<Directive>& directives, const CatalogueEntry& entry) {
+        constexpr uint32_t kEnd = 0xFFFFFFFFu;
+        uint32_t offSince = 0;
+        for (const Directive& d : directives) {
+            if (!covers(d, entry)) continue;
+            if (d.word == Word::Ignore) add(d.line, d.lastLine);
+            if (d.word == Word::Off && offSince == 0) offSince = d.line;
+            if (d.word == Word::On && offSince != 0) add(std::exchange(offSince, 0), d.line);
+        }
+        if (offSince != 0) add(offSince, kEnd);
+        std::sort(ranges_.begin(), ranges_.end());
+        for (size_t i = 1; i < ranges_.size(); ++i)
+            ranges_[i].second = std::max(ranges_[i].second, ranges_[i - 1].second);
     }
-    return off;
-}
+    bool has(uint32_t line) const {
+        const auto behind =
+            std::upper_bound(ranges_.begin(), ranges_.end(), std::make_pair(line, 0xFFFFFFFFu));
+        return behind != ranges_.begin() && std::prev(behind)->second >= line;
+    }
+
+  private:
+    void add(uint32_t first, uint32_t last) { ranges_.emplace_back(first, last); }
+    std::vector<std::pair<uint32_t, uint32_t>> ranges_; ///< by first line; the second: the last line so far
+};
+
+/// Comments in the files of diagnostics, each read once.
+class Directives {
+  public:
+    bool switchOff(const SourceFile& file, const CatalogueEntry& entry, uint32_t line) {
+        const auto [read, isNewFile] = files_.try_emplace(&file);
+        if (isNewFile) read->second = readDirectives(file);
+        if (read->second.empty()) return false;
+        const auto lines = lines_.find({&file, entry.number});
+        if (lines != lines_.end()) return lines->second.has(line);
+        return lines_.try_emplace({&file, entry.number}, read->second, entry).first->second.has(line);
+    }
+
+  private:
+    std::unordered_map<const SourceFile*, std::vector<Directive>> files_;
+    std::map<std::pair<const SourceFile*, uint16_t>, OffLines> lines_;
+};
 
 SourceRange rangeOf(const SourceFile& file, std::string_view part) {
     const auto begin = static_cast<uint32_t>(part.data() - file.text().data());
@@ -252,18 +292,14 @@ void checkDirectives(const std::shared_ptr<const SourceFile>& file, diag::Sink& 
 }
 
 void applyLevels(const WarningLevels& levels, diag::Sink& sink) {
-    std::unordered_map<const SourceFile*, std::vector<Directive>> directives; // of files with warnings
+    Directives directives;
     sink.revise([&](diag::Diagnostic& d) {
         const CatalogueEntry* entry = diag::findEntry(static_cast<uint16_t>(d.code));
         if (!entry || !isSwitchable(*entry)) return true;
         const Level level = levels.of(d.code);
         if (level == Level::Off) return false;
         d.severity = level == Level::Error ? diag::Severity::Error : diag::Severity::Warning;
-        if (!d.file) return true;
-        const auto [place, isNew] = directives.try_emplace(d.file.get());
-        if (isNew) place->second = readDirectives(*d.file);
-        return place->second.empty() ||
-               !isSwitchedOff(place->second, *entry, d.file->lineColumn(d.range.begin).line);
+        return !d.file || !directives.switchOff(*d.file, *entry, d.file->lineColumn(d.range.begin).line);
     });
 }
 

@@ -17,6 +17,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <unistd.h>
 
@@ -120,9 +121,10 @@ void readWarningLevels(const Inputs& inputs, Compilation& compilation) {
 
 void judge(const rapid::project::ProjectInput& project, Compilation& compilation) {
     const rapid::lint::WarningLevels& levels = compilation.warningLevels;
+    std::set<std::string> seen; // several tasks may load a file
     for (const sema::TaskInput& task : project.tasks)
         for (const auto& file : task.files)
-            rapid::lint::checkDirectives(file, compilation.sink);
+            if (seen.insert(file->path()).second) rapid::lint::checkDirectives(file, compilation.sink);
     rapid::lint::lint(*compilation.program, levels, compilation.sink);
     rapid::lint::applyLevels(levels, compilation.sink);
 }
