@@ -119,10 +119,10 @@ void readWarningLevels(const Inputs& inputs, Compilation& compilation) {
     }
 }
 
-void judge(const rapid::project::ProjectInput& project, Compilation& compilation) {
+void judge(Compilation& compilation) {
     const rapid::lint::WarningLevels& levels = compilation.warningLevels;
     std::set<std::string> seen; // several tasks may load a file
-    for (const sema::TaskInput& task : project.tasks)
+    for (const sema::TaskInput& task : compilation.tasks)
         for (const auto& file : task.files)
             if (seen.insert(file->path()).second) rapid::lint::checkDirectives(file, compilation.sink);
     rapid::lint::lint(*compilation.program, levels, compilation.sink);
@@ -187,7 +187,7 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     compilation->tasks = std::move(project.tasks);
     compilation->program = sema::check(compilation->tasks, options, compilation->sink);
     reportUnimplemented(*compilation);
-    judge(project, *compilation);
+    judge(*compilation);
     return compilation;
 }
 
