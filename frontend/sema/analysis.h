@@ -61,7 +61,7 @@ struct JumpPoint {
 struct Context {
     Module* module = nullptr;
     const syntax::SyntaxTree* tree = nullptr;
-    ExprInfo* exprs = nullptr;
+    ExprTable* exprs = nullptr;
     RoutineSymbol* routine = nullptr; ///< null at module level
     bool constant = false;            ///< inside a constant expression
 };
@@ -126,7 +126,7 @@ class Analyzer {
     // ---- collecting declarations (collect.cpp)
     void enterModule(Module* module);
     Module* addModule(const syntax::SyntaxTree& tree, const syntax::ModuleDecl& decl, bool predefined,
-                      std::vector<ExprInfo>* exprs);
+                      FileFacts& facts);
     void collect(Module& module);
     void declareInModule(Symbol& symbol, ModuleScope& scope);
     void checkModuleNames();
@@ -159,13 +159,15 @@ class Analyzer {
     void ensureValue(DataSymbol& symbol);
     uint64_t resolveDimensions(DataSymbol& symbol, const syntax::DataDecl& decl);
     void initialise(DataSymbol& symbol, const syntax::DataDecl& decl);
+    bool foldLiterals(const syntax::Expr& e, const DataType& want, ConstValue& value);
     void checkDeclaration(DataSymbol& symbol);
     bool reportNonConstant(const syntax::Expr& expr);
     const syntax::Expr* findNonLiteral(const syntax::Expr& expr) const;
 
     // ---- expressions (expr*.cpp)
     Typed expr(const syntax::Expr& e, const DataType* want = nullptr, ConstValue* slot = nullptr);
-    ExprInfo& info(const syntax::Expr& e) { return context_.exprs[e.id]; }
+    ExprInfo& info(const syntax::Expr& e) { return context_.exprs->at(e.id); }
+    FileFacts& facts() { return *context_.module->facts; }
     Typed errorExpr(const syntax::Expr& e);
     Typed literal(const syntax::NumLiteralExpr& e, const DataType* want, ConstValue* slot);
     Typed placeValue(const syntax::Expr& e);
@@ -204,7 +206,7 @@ class Analyzer {
     void checkIndex(const syntax::Expr& index, int32_t dimension, int64_t& value);
 
     // ---- folding (fold.cpp)
-    ConstValue* newConst() { return &program_.constStore.emplace_back(); }
+    ConstValue* newConst() { return facts().arena.make<ConstValue>(); }
     void warnDivision(const syntax::BinaryExpr& e);
     void foldBinary(const syntax::BinaryExpr& e);
     bool foldArithmetic(const syntax::BinaryExpr& e, double a, double b, bool isDnum, double& out);

@@ -87,6 +87,7 @@ void Analyzer::judgeReference(const RoutineSymbol& routine, const BoundArg& boun
     if (!place.root) return;
     const DataSymbol& param = *bound.param;
     const DataType& found = info(*bound.value).type;
+    if (found.type->kind == TypeKind::Error) return;
     if (param.type.type->kind == TypeKind::AnyType) {
         if (!checkClass(routine, bound, found)) return;
     } else if (!equivalent(found, param.type)) {

@@ -41,10 +41,10 @@ void Analyzer::visitArguments(std::span<Argument* const> args) {
 
 void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex name,
                         std::span<Argument* const> args) {
-    BoundCall& call = task_->calls[&node];
+    BoundCall& call = task_->calls.get(&node, facts().arena);
     call.routine = &routine;
     call.module = context_.module;
-    call.args.resize(routine.params.size());
+    call.args = facts().arena.makeArray<BoundArg>(routine.params.size());
     for (size_t i = 0; i < routine.params.size(); ++i)
         call.args[i].param = routine.params[i];
     if (routine.incomplete) {
@@ -276,19 +276,20 @@ void Analyzer::lateCall(const CallStmt& stmt) {
     const Typed name = expr(*stmt.lateName);
     if (!name.isError() && !name.isScalar(TypeKind::String))
         report(Code::LateBindingName, range(*stmt.lateName), {typeName(*name.info)});
-    BoundCall& call = task_->calls[&stmt];
+    BoundCall& call = task_->calls.get(&stmt, facts().arena);
     call.module = context_.module;
+    call.args = facts().arena.makeArray<BoundArg>(stmt.args.size());
+    size_t count = 0;
     for (const Argument* arg : stmt.args) {
         if (arg->argKind == ArgKind::Placeholder) {
             placeholder(*arg);
             continue;
         }
-        BoundArg bound;
+        BoundArg& bound = call.args[count++];
         bound.kind =
             arg->argKind == ArgKind::Conditional ? BoundArg::Kind::Conditional : BoundArg::Kind::Present;
         bound.value = arg->value;
         bound.argument = arg;
-        call.args.push_back(bound);
         if (!arg->value) continue;
         if (arg->argKind == ArgKind::Conditional) {
             const bool outer = std::exchange(presenceOnly_, true);
@@ -303,6 +304,7 @@ void Analyzer::lateCall(const CallStmt& stmt) {
             expr(*arg->value);
         }
     }
+    call.args = call.args.first(count);
 }
 
 } // namespace rapid::sema

@@ -3,11 +3,8 @@
 // Output of sema, input of ir/lower.
 
 #include "frontend/diag/diagnostic.h"
+#include "frontend/sema/node_map.h"
 #include "frontend/sema/symbols.h"
-
-#include <deque>
-#include <map>
-#include <unordered_map>
 
 namespace rapid::sema {
 
@@ -21,6 +18,33 @@ struct ExprInfo {
     Symbol* symbol = nullptr;             ///< NameExpr: what it names; CallExpr: the function
     int component = -1;                   ///< ComponentExpr: index of the component
     const ConstValue* constant = nullptr; ///< value when it is a constant expression (folded), else null
+};
+
+/// The ExprInfo of all expressions of a tree, by Expr::id, made where they are first asked for. An aggregate of
+/// literals that is the initial value of module data never has any: the symbol has its type and value.
+class ExprTable {
+  public:
+    ExprTable(uint32_t count, const Type* unknown, Arena& arena)
+        : arena_(arena), chunks_(arena.makeArray<ExprInfo*>((count + kPerChunk - 1) / kPerChunk)) {
+        none_.type.type = unknown;
+    }
+    const ExprInfo& operator[](uint32_t id) const {
+        const ExprInfo* chunk = chunks_[id / kPerChunk];
+        return chunk ? chunk[id % kPerChunk] : none_;
+    }
+    ExprInfo& at(uint32_t id) {
+        ExprInfo*& chunk = chunks_[id / kPerChunk];
+        if (!chunk) chunk = makeChunk();
+        return chunk[id % kPerChunk];
+    }
+
+  private:
+    static constexpr uint32_t kPerChunk = 64;
+    ExprInfo* makeChunk();
+
+    Arena& arena_;
+    std::span<ExprInfo*> chunks_;
+    ExprInfo none_; ///< not checked: the type that fits everything
 };
 
 struct Module;
@@ -41,9 +65,21 @@ struct BoundArg {
 /// A resolved call: one entry per formal parameter, in their order.
 struct BoundCall {
     const Module* module = nullptr; ///< where the call stands
-    RoutineSymbol* routine =
-        nullptr; ///< null: late binding; then `args` hold what was written, param == nullptr
-    std::vector<BoundArg> args;
+    /// Null: late binding; then `args` hold what was written, param == nullptr.
+    RoutineSymbol* routine = nullptr;
+    std::span<BoundArg> args;
+};
+
+/// Everything sema makes for one file, except what belongs to the whole task.
+struct FileFacts {
+    FileFacts(const syntax::SyntaxTree& tree, const Type* unknown) : exprs(tree.exprCount, unknown, arena) {}
+    Arena arena; ///< constants and arguments, too
+    ExprTable exprs;
+    Store<Type> types{arena};
+    Store<TypeSymbol> typeSymbols{arena};
+    Store<DataSymbol> dataSymbols{arena};
+    Store<RoutineSymbol> routineSymbols{arena};
+    Store<LabelSymbol> labelSymbols{arena};
 };
 
 struct Module {
@@ -51,8 +87,9 @@ struct Module {
     uint32_t id = 0; ///< position in CheckedProgram::moduleStore
     const syntax::SyntaxTree* tree = nullptr;
     const syntax::ModuleDecl* decl = nullptr;
-    bool predefined = false;                ///< part of stdlib
-    std::vector<ExprInfo>* exprs = nullptr; ///< shared by the modules of one tree
+    bool predefined = false;    ///< part of stdlib
+    FileFacts* facts = nullptr; ///< shared by the modules of one tree
+    ExprTable* exprs = nullptr; ///< those of `facts`
     std::vector<TypeSymbol*> types;
     std::vector<DataSymbol*> data;        ///< module level, in source order
     std::vector<RoutineSymbol*> routines; ///< in source order
@@ -72,10 +109,10 @@ struct Task {
     bool incomplete = false;               ///< modules are missing: they may use what seems unused
     RoutineSymbol* entryRoutine = nullptr; ///< null when there is none (reported)
     /// Resolved statement-level facts, keyed by node.
-    std::unordered_map<const syntax::Node*, BoundCall> calls; ///< CallStmt and CallExpr
-    std::unordered_map<const syntax::ForStmt*, DataSymbol*> loopVariables;
-    std::unordered_map<const syntax::Node*, Symbol*> references; ///< ConnectStmt -> trap; GotoStmt -> label
-    std::vector<DataSymbol*> signals;                            ///< configured signals this task names
+    NodeMap<syntax::Node, BoundCall> calls; ///< CallStmt and CallExpr
+    NodeMap<syntax::ForStmt, DataSymbol*> loopVariables;
+    NodeMap<syntax::Node, Symbol*> references; ///< ConnectStmt -> trap; GotoStmt -> label
+    std::vector<DataSymbol*> signals;          ///< configured signals this task names
 };
 
 /// Everything owned here; see the accessors. Lower it only when the sink has no errors.
@@ -85,15 +122,12 @@ struct CheckedProgram {
     /// Statement-level facts of library routines that are written in RAPID; shared by all tasks.
     Task library;
     std::vector<Module*> predefinedModules; ///< stdlib declarations
-    std::deque<Type> typeStore;
-    std::deque<TypeSymbol> typeSymbols;
-    std::deque<DataSymbol> dataSymbols;
-    std::deque<RoutineSymbol> routineSymbols;
-    std::deque<ModuleSymbol> moduleSymbols;
-    std::deque<LabelSymbol> labelSymbols;
     std::vector<std::unique_ptr<Module>> moduleStore;
-    std::vector<std::unique_ptr<std::vector<ExprInfo>>> exprStore;
-    std::deque<ConstValue> constStore;
+    std::vector<std::unique_ptr<FileFacts>> facts; ///< of `trees`, in their order
+    Arena arena;
+    Store<Type> types{arena};             ///< those that no file declares
+    Store<TypeSymbol> typeSymbols{arena}; ///< of these
+    Store<DataSymbol> dataSymbols{arena}; ///< configured objects
 
     // Types that the language itself needs.
     const Type *num = nullptr, *dnum = nullptr, *boolean = nullptr, *string = nullptr, *pos = nullptr,

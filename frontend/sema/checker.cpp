@@ -13,7 +13,7 @@ using namespace syntax;
 Analyzer::Analyzer(CheckedProgram& program, const CheckOptions& options, diag::Sink& sink)
     : program_(program), options_(options), sink_(sink) {
     const auto make = [&](TypeKind kind, const char* name) {
-        Type& type = program_.typeStore.emplace_back();
+        Type& type = program_.types.emplace_back();
         type.kind = kind;
         type.name = name;
         return &type;
@@ -52,11 +52,10 @@ void Analyzer::loadLibrary() {
         parseOptions.declarations = true;
         program_.trees.push_back(parse(std::move(file), sink_, parseOptions));
         const SyntaxTree& tree = *program_.trees.back();
-        program_.exprStore.push_back(std::make_unique<std::vector<ExprInfo>>(
-            tree.exprCount, ExprInfo{{program_.errorType, 0, {}}, nullptr, -1, nullptr}));
+        FileFacts& facts =
+            *program_.facts.emplace_back(std::make_unique<FileFacts>(tree, program_.errorType));
         for (const ModuleDecl* decl : tree.modules)
-            program_.predefinedModules.push_back(
-                addModule(tree, *decl, true, program_.exprStore.back().get()));
+            program_.predefinedModules.push_back(addModule(tree, *decl, true, facts));
     }
     for (Module* module : program_.predefinedModules)
         collect(*module);
@@ -123,11 +122,11 @@ void Analyzer::readFiles(const TaskInput& input) {
         program_.trees.push_back(parse(file, sink_));
         const SyntaxTree& tree = *program_.trees.back();
         tokens += tree.tokens.size();
-        program_.exprStore.push_back(std::make_unique<std::vector<ExprInfo>>(
-            tree.exprCount, ExprInfo{{program_.errorType, 0, {}}, nullptr, -1, nullptr}));
+        FileFacts& facts =
+            *program_.facts.emplace_back(std::make_unique<FileFacts>(tree, program_.errorType));
         if (sink_.errorCount() > errorsBefore) brokenTrees_.push_back(&tree);
         for (const ModuleDecl* decl : tree.modules)
-            task_->modules.push_back(addModule(tree, *decl, false, program_.exprStore.back().get()));
+            task_->modules.push_back(addModule(tree, *decl, false, facts));
     }
     constexpr size_t kTokensPerCall = 24; // a guess that saves most of the growing
     task_->calls.reserve(tokens / kTokensPerCall);

@@ -7,11 +7,11 @@ namespace rapid::sema {
 using namespace syntax;
 
 void Analyzer::enterModule(Module* module) {
-    context_ = {module, module->tree, module->exprs->data(), nullptr, false};
+    context_ = {module, module->tree, module->exprs, nullptr, false};
 }
 
 Module* Analyzer::addModule(const SyntaxTree& tree, const ModuleDecl& decl, bool predefined,
-                            std::vector<ExprInfo>* exprs) {
+                            FileFacts& facts) {
     auto owned = std::make_unique<Module>();
     Module* module = owned.get();
     module->name = std::string(tree.text(decl.name));
@@ -19,14 +19,15 @@ Module* Analyzer::addModule(const SyntaxTree& tree, const ModuleDecl& decl, bool
     module->tree = &tree;
     module->decl = &decl;
     module->predefined = predefined;
-    module->exprs = exprs;
+    module->facts = &facts;
+    module->exprs = &facts.exprs;
     program_.moduleStore.push_back(std::move(owned));
     scopes_.push_back(std::make_unique<ModuleScope>());
     return module;
 }
 
 DataSymbol& Analyzer::newData(const DataDecl& decl) {
-    DataSymbol& symbol = fill(program_.dataSymbols.emplace_back(), SymbolKind::Data, decl, decl.name,
+    DataSymbol& symbol = fill(facts().dataSymbols.emplace_back(), SymbolKind::Data, decl, decl.name,
                               decl.scope == ScopeWord::Local);
     symbol.dataKind = decl.dataKind;
     symbol.scope = decl.scope;
@@ -38,7 +39,7 @@ DataSymbol& Analyzer::newData(const DataDecl& decl) {
 
 RoutineSymbol& Analyzer::newRoutine(const RoutineDecl& decl) {
     RoutineSymbol& symbol =
-        fill(program_.routineSymbols.emplace_back(), SymbolKind::Routine, decl, decl.name, decl.local);
+        fill(facts().routineSymbols.emplace_back(), SymbolKind::Routine, decl, decl.name, decl.local);
     symbol.routineKind = decl.routineKind;
     symbol.routineDecl = &decl;
     symbol.native = !decl.hasBody;
@@ -47,7 +48,7 @@ RoutineSymbol& Analyzer::newRoutine(const RoutineDecl& decl) {
 }
 
 TypeSymbol& Analyzer::newType(const Decl& decl, TokenIndex name, bool local) {
-    return fill(program_.typeSymbols.emplace_back(), SymbolKind::Type, decl, name, local);
+    return fill(facts().typeSymbols.emplace_back(), SymbolKind::Type, decl, name, local);
 }
 
 void Analyzer::collect(Module& module) {

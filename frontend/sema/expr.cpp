@@ -27,8 +27,7 @@ Typed Analyzer::expr(const Expr& e, const DataType* want, ConstValue* slot) {
     case NodeKind::StringLiteral: {
         const Typed t = result(e, program_.string);
         ConstValue* value = slot ? slot : newConst();
-        value->kind = ConstValue::Kind::String;
-        value->text = decodeStringLiteral(context_.tree->text(e.first));
+        value->setText(decodeStringLiteral(context_.tree->text(e.first)), facts().arena);
         t.info->constant = value;
         return t;
     }
@@ -137,7 +136,7 @@ Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstVal
     const std::vector<Type::Component>& components = want->type->base()->components;
     const size_t count = e.elements.size();
     ConstValue* value = slot ? slot : newConst();
-    value->members.resize(count);
+    const std::span<ConstValue> members = facts().arena.makeArray<ConstValue>(count);
     bool constant = true;
     bool wrong = false;
     DataType member = {
@@ -147,7 +146,7 @@ Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstVal
     for (size_t i = 0; i < count; ++i) {
         const Expr& element = *e.elements[i];
         if (!array) member = {components[i].type, 0, {}};
-        const Typed t = expr(element, &member, &value->members[i]);
+        const Typed t = expr(element, &member, &members[i]);
         const bool fit = fits(element, t, member);
         if (!fit) report(Code::AggregateMember, range(element), {typeName(*t.info), typeName(member)});
         wrong |= !fit || t.isError();
@@ -156,14 +155,14 @@ Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstVal
         if (array) std::copy_n(own.dims + 1, member.rank, member.dims);
         if (!t.info->constant)
             constant = false;
-        else if (t.info->constant != &value->members[i])
-            value->members[i] = *t.info->constant;
+        else if (t.info->constant != &members[i])
+            members[i] = *t.info->constant;
     }
     ExprInfo& out = info(e);
     out.type = own;
     if (wrong) out.type.type = program_.errorType;
     if (constant && !wrong) {
-        value->kind = ConstValue::Kind::Aggregate;
+        value->setMembers(members);
         out.constant = value;
     }
     return {&out};

@@ -17,16 +17,16 @@ double roundTo(bool isDnum, double value) {
 }
 
 bool equalValues(const ConstValue& a, const ConstValue& b) {
-    if (a.kind != b.kind || a.members.size() != b.members.size()) return false;
+    if (a.kind != b.kind || a.members().size() != b.members().size()) return false;
     switch (a.kind) {
     case ConstValue::Kind::None: return false;
     case ConstValue::Kind::Number: return a.number == b.number;
     case ConstValue::Kind::Bool: return a.boolean == b.boolean;
-    case ConstValue::Kind::String: return a.text == b.text;
+    case ConstValue::Kind::String: return a.text() == b.text();
     case ConstValue::Kind::Aggregate: break;
     }
-    for (size_t i = 0; i < a.members.size(); ++i)
-        if (!equalValues(a.members[i], b.members[i])) return false;
+    for (size_t i = 0; i < a.members().size(); ++i)
+        if (!equalValues(a.members()[i], b.members()[i])) return false;
     return true;
 }
 
@@ -124,14 +124,13 @@ void Analyzer::foldBinary(const BinaryExpr& e) {
     default: break;
     }
     if (a->kind == ConstValue::Kind::String) {
-        const size_t size = a->text.size() + b->text.size();
+        const size_t size = a->text().size() + b->text().size();
         if (size > kMaxStringBytes) {
             if (context_.constant) report(Code::ConstantStringTooLong, range(e), {std::to_string(size)});
             return;
         }
         ConstValue* value = newConst();
-        value->kind = ConstValue::Kind::String;
-        value->text = a->text + b->text;
+        value->setText(std::string(a->text()) += b->text(), facts().arena);
         out.constant = value;
         return;
     }

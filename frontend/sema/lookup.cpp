@@ -107,7 +107,7 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
 
 // From now on the routine has data of this name and of the type that fits everything: one mistake, one diagnostic.
 void Analyzer::declareUnknown(NameId name) {
-    DataSymbol& symbol = program_.dataSymbols.emplace_back();
+    DataSymbol& symbol = facts().dataSymbols.emplace_back();
     symbol.kind = SymbolKind::Data;
     symbol.progress = symbol.valueProgress = Progress::Done;
     symbol.nameId = name;

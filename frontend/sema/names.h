@@ -31,7 +31,8 @@ class Interner {
     NameId add(std::string_view name, uint32_t hash, size_t slot);
     void grow();
 
-    std::vector<char> text_;
+    std::vector<char> text_;     ///< folded
+    std::vector<char> spelling_; ///< of the first appearance; most others are the same
     std::vector<Entry> entries_;
     std::vector<uint32_t> slots_; ///< entry + 1, 0 = free; size is a power of two
 };

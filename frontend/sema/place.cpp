@@ -103,8 +103,9 @@ Place Analyzer::indexPlace(const IndexExpr& e, const Type* handle) {
     for (size_t i = 0; i < e.indices.size(); ++i) {
         int64_t value = 0;
         checkIndex(*e.indices[i], countOk && !error ? type.dims[i] : 0, value);
-        const bool inside = constant && value >= 1 && static_cast<size_t>(value) <= constant->members.size();
-        constant = inside ? &constant->members[static_cast<size_t>(value - 1)] : nullptr;
+        const bool inside =
+            constant && value >= 1 && static_cast<size_t>(value) <= constant->members().size();
+        constant = inside ? &constant->members()[static_cast<size_t>(value - 1)] : nullptr;
     }
     if (error) return {};
     if (type.rank == 0)
@@ -150,8 +151,8 @@ Place Analyzer::componentPlace(const ComponentExpr& e, const Type*) {
     const auto index = static_cast<size_t>(component);
     result.component = component;
     result.type = {base.type.type->base()->components[index].type, 0, {}};
-    if (base.constant && index < base.constant->members.size())
-        result.constant = &base.constant->members[index];
+    if (base.constant && index < base.constant->members().size())
+        result.constant = &base.constant->members()[index];
     return place;
 }
 

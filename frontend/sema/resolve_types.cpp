@@ -58,7 +58,7 @@ const Type* Analyzer::ensureType(TypeSymbol& symbol) {
     const Context saved = context_;
     enterModule(symbol.module);
     const bool cycle = symbol.progress == Progress::Active;
-    if (!symbol.type) symbol.type = &program_.typeStore.emplace_back();
+    if (!symbol.type) symbol.type = &facts().types.emplace_back();
     if (cycle || depth_ >= kMaxDepth) {
         report(cycle ? Code::TypeCycle : Code::TypeTooDeep, range(symbol.nameToken), {symbol.name});
         symbol.type->kind = TypeKind::Error;
@@ -139,7 +139,7 @@ void Analyzer::resolveParameter(RoutineSymbol& routine, const ParamDecl& decl) {
         routine.incomplete = true;
         return;
     }
-    DataSymbol& symbol = program_.dataSymbols.emplace_back();
+    DataSymbol& symbol = facts().dataSymbols.emplace_back();
     symbol.kind = SymbolKind::Data;
     symbol.progress = symbol.valueProgress = Progress::Done;
     symbol.name = text(decl.name);

@@ -106,7 +106,7 @@ void Analyzer::labelStmt(const LabelStmt& s) {
     }
     if (const Symbol* data = at(routineNames_, name))
         noteDeclared(report(Code::LabelNamedAsData, range(s.name), {text(s.name)}), *data);
-    LabelSymbol& symbol = fill(program_.labelSymbols.emplace_back(), SymbolKind::Label, s, s.name, false);
+    LabelSymbol& symbol = fill(facts().labelSymbols.emplace_back(), SymbolKind::Label, s, s.name, false);
     symbol.routine = context_.routine;
     labels_.push_back({name, block_, part_, &s, &symbol});
 }
@@ -130,7 +130,7 @@ void Analyzer::resolveJumps() {
             continue;
         }
         target->label->used = true;
-        task_->references[jump.node] = target->label;
+        task_->references.get(jump.node, facts().arena) = target->label;
         if (target->part != jump.part)
             noteDeclared(report(Code::GotoOtherPart, range(token), {text(token)}), *target->label);
         else if (!isInside(jump.block, target->block))

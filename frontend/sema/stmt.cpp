@@ -118,14 +118,14 @@ bool Analyzer::forStmt(const ForStmt& s) {
     DataSymbol* variable = nullptr;
     Symbol* hidden = nullptr;
     if (isName(s.variable)) {
-        variable = &fill(program_.dataSymbols.emplace_back(), SymbolKind::Data, s, s.variable, false);
+        variable = &fill(facts().dataSymbols.emplace_back(), SymbolKind::Data, s, s.variable, false);
         variable->storage = Storage::LoopVariable;
         variable->type = {program_.num, 0, {}};
         variable->progress = variable->valueProgress = Progress::Done;
         variable->routine = &routine;
         variable->index = static_cast<uint32_t>(routine.params.size() + routine.data.size());
         routine.data.push_back(variable);
-        task_->loopVariables[&s] = variable;
+        task_->loopVariables.get(&s, facts().arena) = variable;
         hidden = at(routineNames_, variable->nameId);
         put<Symbol>(routineNames_, variable->nameId, variable);
     }

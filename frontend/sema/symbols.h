@@ -16,14 +16,36 @@ namespace rapid::sema {
 struct Module;
 struct RoutineSymbol;
 
-/// Value of a constant expression. Aggregates hold their members in order (arrays: nested by dimension).
+/// Value of a constant expression. Aggregates hold their members in order (arrays: nested by dimension). Texts and
+/// members lie in an arena, and values that are equal may share them.
 struct ConstValue {
     enum class Kind : uint8_t { None, Number, Bool, String, Aggregate } kind = Kind::None;
     bool boolean = false;
-    double number = 0; ///< num values are already rounded to binary32
-    std::string text;
-    std::vector<ConstValue> members;
+    uint32_t count = 0; ///< of the bytes of the text or of the members
+    union {
+        double number = 0;      ///< num values are already rounded to binary32
+        const char* characters; ///< see text()
+        ConstValue* elements;   ///< see members()
+    };
+
+    std::string_view text() const {
+        return kind == Kind::String ? std::string_view(characters, count) : std::string_view();
+    }
+    std::span<ConstValue> members() const {
+        return kind == Kind::Aggregate ? std::span<ConstValue>(elements, count) : std::span<ConstValue>();
+    }
+    void setText(std::string_view text, Arena& arena) {
+        kind = Kind::String;
+        count = static_cast<uint32_t>(text.size());
+        characters = arena.copy(std::span<const char>(text)).data();
+    }
+    void setMembers(std::span<ConstValue> members) {
+        kind = Kind::Aggregate;
+        count = static_cast<uint32_t>(members.size());
+        elements = members.data();
+    }
 };
+static_assert(sizeof(ConstValue) == 16);
 
 enum class SymbolKind : uint8_t { Type, Data, Routine, Module, Label };
 

@@ -22,7 +22,7 @@ namespace rapid {
 
 namespace {
 
-constexpr size_t kBlock = size_t{1} << 15; ///< sizes of blocks are multiples of this
+constexpr size_t kBlock = size_t{1} << 14; ///< sizes of blocks are multiples of this
 [[maybe_unused]] constexpr size_t kHugePage =
     size_t{1} << 21; ///< alignment and granule of what is taken from the system
 [[maybe_unused]] constexpr size_t kChunk = size_t{1} << 25;

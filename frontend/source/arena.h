@@ -58,10 +58,10 @@ class Arena {
     uintptr_t end_ = 0;
 };
 
-/// Objects of one type that keep their address, in the order of their making.
+/// Objects of one type in an arena, which keep their address; their destructors are run.
 template <class T> class Store {
   public:
-    Store() = default;
+    explicit Store(Arena& arena) : arena_(arena) {}
     ~Store() {
         for (size_t i = 0; i < size_; ++i)
             (*this)[i].~T();
@@ -81,8 +81,8 @@ template <class T> class Store {
     const T& operator[](size_t i) const { return chunks_[i / kPerChunk][i % kPerChunk]; }
 
   private:
-    static constexpr size_t kPerChunk = 32;
-    Arena arena_;
+    static constexpr size_t kPerChunk = 16;
+    Arena& arena_;
     std::vector<T*> chunks_;
     size_t size_ = 0;
 };

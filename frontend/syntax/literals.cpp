@@ -65,6 +65,13 @@ NumberValue numberValue(std::string_view text) {
         result.value = static_cast<double>(mantissa) / kPowersOfTen[decimals];
         return result;
     }
+    // 9E9 stands in every taught point.
+    const bool shortExponent =
+        i + 2 == text.size() && (text[i] | 0x20) == 'e' && text[i + 1] >= '0' && text[i + 1] <= '9';
+    if (shortExponent && digits > 0 && digits <= 15 && decimals == 0) {
+        result.value = static_cast<double>(mantissa) * kPowersOfTen[text[i + 1] - '0'];
+        return result;
+    }
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), result.value);
     result.valid = status != std::errc::invalid_argument && end == text.data() + text.size();
     if (status == std::errc::result_out_of_range) {

@@ -115,13 +115,19 @@ uint32_t ProgramLowering::typeDesc(const DataType& type) {
     return index;
 }
 
+namespace {
+/// What a value does not say is zero.
+sema::ConstValue member(const sema::ConstValue& value, size_t i) {
+    return i < value.members().size() ? value.members()[i] : sema::ConstValue();
+}
+} // namespace
+
 void ProgramLowering::flatten(const sema::ConstValue& value, const DataType& type, ir::ConstData& out) {
     using Kind = sema::ConstValue::Kind;
     if (type.isArray()) {
         DataType inner{type.type, static_cast<uint8_t>(type.rank - 1), {type.dims[1], type.dims[2], 0}};
         for (int32_t i = 0; i < type.dims[0]; ++i)
-            flatten(static_cast<size_t>(i) < value.members.size() ? value.members[i] : sema::ConstValue(),
-                    inner, out);
+            flatten(member(value, static_cast<size_t>(i)), inner, out);
         return;
     }
     const sema::Type* base = type.type->base();
@@ -129,8 +135,7 @@ void ProgramLowering::flatten(const sema::ConstValue& value, const DataType& typ
     switch (base->kind) {
     case TypeKind::Record:
         for (size_t i = 0; i < base->components.size(); ++i)
-            flatten(i < value.members.size() ? value.members[i] : sema::ConstValue(),
-                    {base->components[i].type, 0, {0, 0, 0}}, out);
+            flatten(member(value, i), {base->components[i].type, 0, {0, 0, 0}}, out);
         return;
     case TypeKind::Num: scalar.kind = ir::TypeKind::F32; break;
     case TypeKind::Dnum: scalar.kind = ir::TypeKind::F64; break;
@@ -144,7 +149,7 @@ void ProgramLowering::flatten(const sema::ConstValue& value, const DataType& typ
     }
     if (value.kind == Kind::Number) scalar.number = value.number;
     if (value.kind == Kind::Bool) scalar.number = value.boolean ? 1 : 0;
-    if (value.kind == Kind::String) scalar.text = value.text;
+    if (value.kind == Kind::String) scalar.text = value.text();
     out.push_back(std::move(scalar));
 }
 

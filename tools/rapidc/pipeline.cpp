@@ -90,11 +90,18 @@ void reportUnimplemented(Compilation& compilation) {
     for (const rt::NativeEntry& entry : rt::nativeTable())
         if (!entry.isImplemented()) missing.push_back(entry.name);
     std::sort(missing.begin(), missing.end());
+    const auto isMissing = [&](const sema::RoutineSymbol& routine) {
+        return routine.native &&
+               std::binary_search(missing.begin(), missing.end(), std::string_view(routine.name));
+    };
+    bool anyUsed = false;
+    for (const sema::Module* module : compilation.program->predefinedModules)
+        for (const sema::RoutineSymbol* routine : module->routines)
+            anyUsed = anyUsed || (routine->used && isMissing(*routine));
+    if (!anyUsed) return;
     for (const auto& task : compilation.program->tasks) {
         for (const auto& [node, call] : task->calls) {
-            if (!call.routine || !call.routine->native ||
-                !std::binary_search(missing.begin(), missing.end(), std::string_view(call.routine->name)))
-                continue;
+            if (!call.routine || !isMissing(*call.routine)) continue;
             const rapid::syntax::SyntaxTree* tree = nullptr;
             for (const sema::Module* module : task->modules)
                 if (call.module == module) tree = module->tree;

@@ -58,14 +58,14 @@ TEST_CASE("initial values are folded and rounded to their type", "[sema]") {
     CHECK(data(p, "exact").value.number == 0.1);
     CHECK(data(p, "third").value.number == third);
     CHECK(data(p, "sum").value.number == static_cast<double>(static_cast<float>(2 * third) + 1.0f));
-    CHECK(data(p, "text").value.text == "aA\\");
+    CHECK(data(p, "text").value.text() == "aA\\");
     const ConstValue& place = data(p, "place").value;
-    REQUIRE(place.members.size() == 3);
-    CHECK(place.members[2].number == -third);
+    REQUIRE(place.members().size() == 3);
+    CHECK(place.members()[2].number == -third);
     const ConstValue& grid = data(p, "grid").value;
-    REQUIRE(grid.members.size() == 2);
-    REQUIRE(grid.members[1].members.size() == 3);
-    CHECK(grid.members[1].members[0].number == 4);
+    REQUIRE(grid.members().size() == 2);
+    REQUIRE(grid.members()[1].members().size() == 3);
+    CHECK(grid.members()[1].members()[0].number == 4);
     CHECK(data(p, "plain").value.kind == ConstValue::Kind::None);
     CHECK(data(p, "part").value.number == 5);
     CHECK(data(p, "yes").value.boolean);
@@ -135,7 +135,7 @@ TEST_CASE("a call has one entry for each parameter, in order", "[sema]") {
     REQUIRE(call != p.tasks[0]->calls.end());
     CHECK(call->second.routine == &work);
     CHECK(call->second.module == p.tasks[0]->modules[0]);
-    const std::vector<BoundArg>& args = call->second.args;
+    const std::span<BoundArg> args = call->second.args;
     REQUIRE(args.size() == 5);
     CHECK(args[0].kind == BoundArg::Kind::Present);
     CHECK(args[1].kind == BoundArg::Kind::Conditional);
@@ -266,7 +266,7 @@ TEST_CASE("aggregates have the type that their context gives", "[sema]") {
     CHECK(list.type.dims[0] == 4);
     CHECK(list.type.type == p.num);
     REQUIRE(list.constant);
-    CHECK(list.constant->members[3].number == 4);
+    CHECK(list.constant->members()[3].number == 4);
 }
 
 TEST_CASE("the library gives effects, documentation and alternatives", "[sema]") {

@@ -1,0 +1,12 @@
+#include "frontend/sema/checked.h"
+
+namespace rapid::sema {
+
+ExprInfo* ExprTable::makeChunk() {
+    const std::span<ExprInfo> chunk = arena_.makeArray<ExprInfo>(kPerChunk);
+    for (ExprInfo& info : chunk)
+        info.type.type = none_.type.type;
+    return chunk.data();
+}
+
+} // namespace rapid::sema
