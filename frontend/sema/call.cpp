@@ -41,7 +41,7 @@ void Analyzer::visitArguments(std::span<Argument* const> args) {
 
 void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex name,
                         std::span<Argument* const> args) {
-    BoundCall& call = task_->calls.get(&node, facts().arena);
+    BoundCall& call = facts().calls[&node];
     call.routine = &routine;
     call.module = context_.module;
     call.args = facts().arena.makeArray<BoundArg>(routine.params.size());
@@ -276,7 +276,7 @@ void Analyzer::lateCall(const CallStmt& stmt) {
     const Typed name = expr(*stmt.lateName);
     if (!name.isError() && !name.isScalar(TypeKind::String))
         report(Code::LateBindingName, range(*stmt.lateName), {typeName(*name.info)});
-    BoundCall& call = task_->calls.get(&stmt, facts().arena);
+    BoundCall& call = facts().calls[&stmt];
     call.module = context_.module;
     call.args = facts().arena.makeArray<BoundArg>(stmt.args.size());
     size_t count = 0;

@@ -75,6 +75,9 @@ struct FileFacts {
     FileFacts(const syntax::SyntaxTree& tree, const Type* unknown) : exprs(tree.exprCount, unknown, arena) {}
     Arena arena; ///< constants and arguments, too
     ExprTable exprs;
+    NodeMap<syntax::Node, BoundCall> calls{arena}; ///< CallStmt and CallExpr
+    NodeMap<syntax::ForStmt, DataSymbol*> loopVariables{arena};
+    NodeMap<syntax::Node, Symbol*> references{arena}; ///< ConnectStmt -> trap; GotoStmt -> label
     Store<Type> types{arena};
     Store<TypeSymbol> typeSymbols{arena};
     Store<DataSymbol> dataSymbols{arena};
@@ -108,19 +111,13 @@ struct Task {
     std::vector<Module*> modules;          ///< user modules
     bool incomplete = false;               ///< modules are missing: they may use what seems unused
     RoutineSymbol* entryRoutine = nullptr; ///< null when there is none (reported)
-    /// Resolved statement-level facts, keyed by node.
-    NodeMap<syntax::Node, BoundCall> calls; ///< CallStmt and CallExpr
-    NodeMap<syntax::ForStmt, DataSymbol*> loopVariables;
-    NodeMap<syntax::Node, Symbol*> references; ///< ConnectStmt -> trap; GotoStmt -> label
-    std::vector<DataSymbol*> signals;          ///< configured signals this task names
+    std::vector<DataSymbol*> signals;      ///< configured signals this task names
 };
 
 /// Everything owned here; see the accessors. Lower it only when the sink has no errors.
 struct CheckedProgram {
     std::vector<std::unique_ptr<syntax::SyntaxTree>> trees; ///< user files, then those of the library
     std::vector<std::unique_ptr<Task>> tasks;
-    /// Statement-level facts of library routines that are written in RAPID; shared by all tasks.
-    Task library;
     std::vector<Module*> predefinedModules; ///< stdlib declarations
     std::vector<std::unique_ptr<Module>> moduleStore;
     std::vector<std::unique_ptr<FileFacts>> facts; ///< of `trees`, in their order

@@ -41,8 +41,8 @@ Analyzer::Analyzer(CheckedProgram& program, const CheckOptions& options, diag::S
 }
 
 void Analyzer::loadLibrary() {
-    task_ = &program_.library;
-    task_->name = "library";
+    Task library;
+    task_ = &library;
     std::vector<std::pair<NameId, Symbol*>> atomics;
     for (NameId id = 0; id < predefined_.size(); ++id)
         if (predefined_[id]) atomics.emplace_back(id, std::exchange(predefined_[id], nullptr));
@@ -111,7 +111,6 @@ void Analyzer::startTask(const TaskInput& input) {
 
 void Analyzer::readFiles(const TaskInput& input) {
     std::vector<std::string_view> paths;
-    size_t tokens = 0;
     for (const auto& file : input.files) {
         if (std::find(paths.begin(), paths.end(), file->path()) != paths.end()) {
             sink_.report(Code::SameFileTwice, nullptr, {}, {file->path()});
@@ -121,15 +120,12 @@ void Analyzer::readFiles(const TaskInput& input) {
         const size_t errorsBefore = sink_.errorCount();
         program_.trees.push_back(parse(file, sink_));
         const SyntaxTree& tree = *program_.trees.back();
-        tokens += tree.tokens.size();
         FileFacts& facts =
             *program_.facts.emplace_back(std::make_unique<FileFacts>(tree, program_.errorType));
         if (sink_.errorCount() > errorsBefore) brokenTrees_.push_back(&tree);
         for (const ModuleDecl* decl : tree.modules)
             task_->modules.push_back(addModule(tree, *decl, false, facts));
     }
-    constexpr size_t kTokensPerCall = 24; // a guess that saves most of the growing
-    task_->calls.reserve(tokens / kTokensPerCall);
 }
 
 void Analyzer::declareModules() {

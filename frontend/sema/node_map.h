@@ -5,10 +5,10 @@
 
 namespace rapid::sema {
 
-/// Map from nodes to values. Values keep their address and lie in an arena that the caller names; they must not need a
-/// destructor.
+/// Map from the nodes of a tree to values that need no destructor. Values keep their address.
 template <class N, class T> class NodeMap {
   public:
+    explicit NodeMap(Arena& arena) : arena_(arena) {}
     using Entry = std::pair<const N* const, T>;
 
     class Iterator {
@@ -44,34 +44,22 @@ template <class N, class T> class NodeMap {
     /// The value of a node that is there.
     T& at(const N* node) const { return slots_[slotOf(node)]->second; }
 
-    /// The value of a node, made in `arena` if there is none yet.
-    T& get(const N* node, Arena& arena) {
+    /// The value of a node, made if there is none yet.
+    T& operator[](const N* node) {
         if (slots_.empty() || (count_ + 1) * 2 > slots_.size()) grow(slots_.size() * 2);
         Entry*& entry = slots_[slotOf(node)];
         if (!entry) {
-            entry = new (arena.allocate(sizeof(Entry), alignof(Entry))) Entry(node, T());
+            entry = new (arena_.allocate(sizeof(Entry), alignof(Entry))) Entry(node, T());
             ++count_;
         }
         return entry->second;
     }
 
-    void reserve(size_t count) {
-        size_t size = 16;
-        while (size < count * 2)
-            size *= 2;
-        if (size > slots_.size()) grow(size);
-    }
-
   private:
     /// Where the node is or would be.
     size_t slotOf(const N* node) const {
-        // Neighbours in a tree, which are asked for one after the other, are neighbours here.
         const size_t mask = slots_.size() - 1;
-        const auto address = reinterpret_cast<uintptr_t>(node);
-        constexpr size_t kGroupBits = 6;
-        constexpr size_t kNodeBits = 5;
-        const uint64_t group = (address >> (kGroupBits + kNodeBits)) * uint64_t{0x9E3779B97F4A7C15u} >> 32;
-        size_t slot = (group << kGroupBits | (address >> kNodeBits & ((1u << kGroupBits) - 1))) & mask;
+        size_t slot = (reinterpret_cast<uintptr_t>(node) * uint64_t{0x9E3779B97F4A7C15u} >> 32) & mask;
         while (slots_[slot] && slots_[slot]->first != node)
             slot = (slot + 1) & mask;
         return slot;
@@ -83,6 +71,7 @@ template <class N, class T> class NodeMap {
             if (entry) slots_[slotOf(entry->first)] = entry;
     }
 
+    Arena& arena_;
     std::vector<Entry*> slots_; ///< a power of two, at most half full
     size_t count_ = 0;
 };

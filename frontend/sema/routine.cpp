@@ -130,7 +130,7 @@ void Analyzer::resolveJumps() {
             continue;
         }
         target->label->used = true;
-        task_->references.get(jump.node, facts().arena) = target->label;
+        facts().references[jump.node] = target->label;
         if (target->part != jump.part)
             noteDeclared(report(Code::GotoOtherPart, range(token), {text(token)}), *target->label);
         else if (!isInside(jump.block, target->block))

@@ -125,7 +125,7 @@ bool Analyzer::forStmt(const ForStmt& s) {
         variable->routine = &routine;
         variable->index = static_cast<uint32_t>(routine.params.size() + routine.data.size());
         routine.data.push_back(variable);
-        task_->loopVariables.get(&s, facts().arena) = variable;
+        facts().loopVariables[&s] = variable;
         hidden = at(routineNames_, variable->nameId);
         put<Symbol>(routineNames_, variable->nameId, variable);
     }

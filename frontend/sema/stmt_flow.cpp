@@ -71,7 +71,7 @@ void Analyzer::connectStmt(const ConnectStmt& s) {
     RoutineSymbol* trap = asRoutine(symbol);
     if (trap && trap->routineKind == RoutineKind::Trap) {
         trap->used = true;
-        task_->references.get(&s, facts().arena) = trap;
+        facts().references[&s] = trap;
         return;
     }
     if (symbol) {

@@ -53,8 +53,7 @@ struct Expr : Node {
 };
 
 struct NumLiteralExpr : Expr {
-    double value = 0;       ///< value rounded to binary64
-    bool isInteger = false; ///< written without '.' (an exponent is allowed) or as hex, octal, binary
+    double value = 0; ///< rounded to binary64
 };
 struct StringLiteralExpr : Expr {}; ///< decode with decodeStringLiteral()
 struct BoolLiteralExpr : Expr {

@@ -181,7 +181,6 @@ Expr* Parser::parseNumber() {
     if (number.valid && !number.inRange)
         report(Code::NumberTooLarge, token, {std::string(textOf(token).substr(0, 40))});
     node->value = number.value;
-    node->isInteger = number.isInteger;
     return finish(node);
 }
 

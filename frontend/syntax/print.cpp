@@ -1,5 +1,6 @@
 // Text forms of tokens and trees, for `rapidc emit` and the tests.
 
+#include "frontend/syntax/lexer.h"
 #include "frontend/syntax/parser.h"
 #include "frontend/syntax/token_set.h"
 #include "frontend/syntax/tree_walk.h"
@@ -117,8 +118,8 @@ class TreePrinter {
     std::string detail(const Node& node) const {
         switch (node.kind) {
         case NodeKind::NumLiteral: {
-            const auto& n = as<NumLiteralExpr>(node);
-            return fmt::format(" {}{}", n.value, n.isInteger ? "" : " decimal");
+            const bool isInteger = numberValue(tree_.text(node.first)).isInteger;
+            return fmt::format(" {}{}", as<NumLiteralExpr>(node).value, isInteger ? "" : " decimal");
         }
         case NodeKind::StringLiteral: return name(node.first);
         case NodeKind::BoolLiteral: return as<BoolLiteralExpr>(node).value ? " TRUE" : " FALSE";

@@ -54,36 +54,36 @@ RoutineLowering::RoutineLowering(ProgramLowering& program, const RoutineSymbol& 
 namespace {
 
 /// True when executing `list` may write memory that an argument passed by address could lie in.
-bool writesMemory(syntax::StmtList list, const sema::Module& module, const sema::Task& task);
+bool writesMemory(syntax::StmtList list, const sema::Module& module, const sema::FileFacts& facts);
 
-bool exprWrites(const syntax::Expr* expr, const sema::Task& task) {
+bool exprWrites(const syntax::Expr* expr, const sema::FileFacts& facts) {
     if (!expr) return false;
     using syntax::NodeKind;
     switch (expr->kind) {
-    case NodeKind::Paren: return exprWrites(syntax::as<syntax::ParenExpr>(*expr).inner, task);
-    case NodeKind::Unary: return exprWrites(syntax::as<syntax::UnaryExpr>(*expr).operand, task);
+    case NodeKind::Paren: return exprWrites(syntax::as<syntax::ParenExpr>(*expr).inner, facts);
+    case NodeKind::Unary: return exprWrites(syntax::as<syntax::UnaryExpr>(*expr).operand, facts);
     case NodeKind::Binary: {
         const auto& binary = syntax::as<syntax::BinaryExpr>(*expr);
-        return exprWrites(binary.left, task) || exprWrites(binary.right, task);
+        return exprWrites(binary.left, facts) || exprWrites(binary.right, facts);
     }
     case NodeKind::Index: {
         const auto& index = syntax::as<syntax::IndexExpr>(*expr);
         for (const syntax::Expr* e : index.indices)
-            if (exprWrites(e, task)) return true;
-        return exprWrites(index.base, task);
+            if (exprWrites(e, facts)) return true;
+        return exprWrites(index.base, facts);
     }
-    case NodeKind::Component: return exprWrites(syntax::as<syntax::ComponentExpr>(*expr).base, task);
+    case NodeKind::Component: return exprWrites(syntax::as<syntax::ComponentExpr>(*expr).base, facts);
     case NodeKind::Aggregate:
         for (const syntax::Expr* e : syntax::as<syntax::AggregateExpr>(*expr).elements)
-            if (exprWrites(e, task)) return true;
+            if (exprWrites(e, facts)) return true;
         return false;
     case NodeKind::Call: {
-        auto found = task.calls.find(expr);
-        if (found == task.calls.end() || !found->second.routine || !found->second.routine->native)
+        auto found = facts.calls.find(expr);
+        if (found == facts.calls.end() || !found->second.routine || !found->second.routine->native)
             return true;
         for (const auto& arg : found->second.args) {
             if (arg.param && arg.param->mode != syntax::ParamMode::In) return true;
-            if (exprWrites(arg.value, task)) return true;
+            if (exprWrites(arg.value, facts)) return true;
         }
         return false;
     }
@@ -91,7 +91,7 @@ bool exprWrites(const syntax::Expr* expr, const sema::Task& task) {
     }
 }
 
-bool stmtWrites(const syntax::Stmt& stmt, const sema::Module& module, const sema::Task& task) {
+bool stmtWrites(const syntax::Stmt& stmt, const sema::Module& module, const sema::FileFacts& facts) {
     using syntax::NodeKind;
     switch (stmt.kind) {
     case NodeKind::Assign: {
@@ -105,34 +105,34 @@ bool stmtWrites(const syntax::Stmt& stmt, const sema::Module& module, const sema
             symbol && symbol->kind == sema::SymbolKind::Data &&
             (symbol->storage == sema::Storage::RoutineData ||
              (symbol->storage == sema::Storage::Parameter && symbol->mode == syntax::ParamMode::In));
-        return !localTarget || exprWrites(assign.target, task) || exprWrites(assign.value, task);
+        return !localTarget || exprWrites(assign.target, facts) || exprWrites(assign.value, facts);
     }
     case NodeKind::If: {
         const auto& node = syntax::as<syntax::IfStmt>(stmt);
         for (const auto* branch : node.branches)
-            if (exprWrites(branch->condition, task) || writesMemory(branch->body, module, task)) return true;
-        return writesMemory(node.elseBody, module, task);
+            if (exprWrites(branch->condition, facts) || writesMemory(branch->body, module, facts)) return true;
+        return writesMemory(node.elseBody, module, facts);
     }
     case NodeKind::CompactIf: {
         const auto& node = syntax::as<syntax::CompactIfStmt>(stmt);
-        return exprWrites(node.condition, task) || stmtWrites(*node.body, module, task);
+        return exprWrites(node.condition, facts) || stmtWrites(*node.body, module, facts);
     }
     case NodeKind::For: {
         const auto& node = syntax::as<syntax::ForStmt>(stmt);
-        return exprWrites(node.from, task) || exprWrites(node.to, task) || exprWrites(node.step, task) ||
-               writesMemory(node.body, module, task);
+        return exprWrites(node.from, facts) || exprWrites(node.to, facts) || exprWrites(node.step, facts) ||
+               writesMemory(node.body, module, facts);
     }
     case NodeKind::While: {
         const auto& node = syntax::as<syntax::WhileStmt>(stmt);
-        return exprWrites(node.condition, task) || writesMemory(node.body, module, task);
+        return exprWrites(node.condition, facts) || writesMemory(node.body, module, facts);
     }
     case NodeKind::Test: {
         const auto& node = syntax::as<syntax::TestStmt>(stmt);
         for (const auto* c : node.cases)
-            if (writesMemory(c->body, module, task)) return true;
-        return exprWrites(node.subject, task) || writesMemory(node.defaultBody, module, task);
+            if (writesMemory(c->body, module, facts)) return true;
+        return exprWrites(node.subject, facts) || writesMemory(node.defaultBody, module, facts);
     }
-    case NodeKind::Return: return exprWrites(syntax::as<syntax::ReturnStmt>(stmt).value, task);
+    case NodeKind::Return: return exprWrites(syntax::as<syntax::ReturnStmt>(stmt).value, facts);
     case NodeKind::Goto:
     case NodeKind::Label:
     case NodeKind::Break:
@@ -142,9 +142,9 @@ bool stmtWrites(const syntax::Stmt& stmt, const sema::Module& module, const sema
     }
 }
 
-bool writesMemory(syntax::StmtList list, const sema::Module& module, const sema::Task& task) {
+bool writesMemory(syntax::StmtList list, const sema::Module& module, const sema::FileFacts& facts) {
     for (const syntax::Stmt* stmt : list)
-        if (stmtWrites(*stmt, module, task)) return true;
+        if (stmtWrites(*stmt, module, facts)) return true;
     return false;
 }
 

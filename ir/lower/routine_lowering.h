@@ -148,9 +148,8 @@ class RoutineLowering {
     const sema::BoundArg* findArg(const sema::BoundCall& call, std::string_view name) const;
 
     // helpers
-    /// Statement-level facts: of the task, or of the library for its routines written in RAPID.
-    const sema::Task& facts() const {
-        return module_->predefined ? program_.program().library : program_.task(task_);
+    const sema::FileFacts& facts() const {
+        return *module_->facts;
     }
     const sema::ExprInfo& info(const Expr& expr) const { return (*module_->exprs)[expr.id]; }
     const sema::Type* baseType(const Expr& expr) const { return info(expr).type.type->base(); }

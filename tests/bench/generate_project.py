@@ -189,8 +189,9 @@ def tool_module(w):
     w.add("ENDMODULE", "")
 
 
-def generate(folder, lines):
-    """Writes FOLDER/rapid/*.modx and FOLDER/all.c; gives the number of lines and of modules."""
+def generate(folder, lines, kind="mixed"):
+    """Writes FOLDER/rapid/*.modx and FOLDER/all.c; gives the numbers of lines in RAPID and C and of modules. The kind is
+    mixed, code or points."""
     os.makedirs(os.path.join(folder, "rapid"), exist_ok=True)
     everything = C_HEADER.splitlines()
     total = modules = 0
@@ -198,7 +199,7 @@ def generate(folder, lines):
         w, rng = Writer(), random.Random(modules)
         if modules == 0:
             tool_module(w)
-        elif modules % 3 == 1:
+        elif kind == "points" or (kind == "mixed" and modules % 3 == 1):
             points_module(w, modules, rng)
         else:
             code_module(w, modules, rng)
@@ -209,15 +210,16 @@ def generate(folder, lines):
         modules += 1
     with open(os.path.join(folder, "all.c"), "w", encoding="utf-8") as file:
         file.write("\n".join(everything) + "\n")
-    return total, modules
+    return total, len(everything), modules
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder")
     parser.add_argument("--lines", type=int, default=500_000)
+    parser.add_argument("--kind", choices=("mixed", "code", "points"), default="mixed")
     options = parser.parse_args()
-    lines, modules = generate(options.folder, options.lines)
+    lines, _, modules = generate(options.folder, options.lines, options.kind)
     print(f"{lines} lines in {modules} modules")
 
 

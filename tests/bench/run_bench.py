@@ -15,7 +15,10 @@ import subprocess
 import sys
 import time
 
-GOAL_MEAN, GOAL_WORST, GOAL_HELLO_MS, GOAL_LINES = 1.3, 2.0, 80, 500_000
+import generate_project
+
+GOAL_MEAN, GOAL_WORST, GOAL_HELLO_MS = 1.3, 2.0, 80
+GOAL_LINES, GOAL_CLANG, GOAL_MB = 1_000_000, 10, 1024
 HERE = os.path.dirname(os.path.abspath(__file__))
 PROGRAMS = os.path.join(HERE, "programs")
 
@@ -91,80 +94,47 @@ def start_up(rapidc, work):
           f"(goal: at most {GOAL_HELLO_MS} ms)")
 
 
-def generated_module(number):
-    """About 1000 lines of ordinary RAPID."""
-    lines = [f"MODULE Generated{number}", f"  LOCAL VAR num counter{number} := 0;",
-             f"  PERS tooldata tool{number} := [TRUE, [[0, 0, 100], [1, 0, 0, 0]], [1, [0, 0, 50], [1, 0, 0, 0], "
-             "0, 0, 0]];"]
-    routine = 0
-    while len(lines) < 990:
-        name = f"r{number}_{routine}"
-        previous = f"r{number}_{routine - 1}" if routine else None
-        lines += [
-            f"  CONST robtarget p{name} := [[{300 + routine}, {routine}, 400], [0, 0, 1, 0], [0, 0, 0, 0],",
-            "      [9E9, 9E9, 9E9, 9E9, 9E9, 9E9]];",
-            "",
-            f"  ! Routine {routine} of module {number}",
-            f"  PROC {name}(num a, INOUT num b \\switch fast)",
-            "    VAR num i;",
-            "    VAR num list{10};",
-            '    VAR string text := "value";',
-            "    FOR k FROM 1 TO 10 DO",
-            "      list{k} := a * k + b / 2;",
-            "      IF list{k} > 100 AND k < 9 THEN",
-            "        b := b + Abs(list{k} - 100);",
-            "      ELSEIF Present(fast) THEN",
-            f"        counter{number} := counter{number} + 1;",
-            "      ENDIF",
-            "    ENDFOR",
-            "    i := 0;",
-            "    WHILE i < 5 DO",
-            "      Incr i;",
-            '      text := text + NumToStr(i, 0) + ",";',
-            "    ENDWHILE",
-            f"    MoveL Offs(p{name}, 0, 0, a), v500, z10, tool{number};",
-            "    TEST i",
-            "    CASE 1, 2:",
-            "      TPWrite text;",
-            "    DEFAULT:",
-            '      TPWrite "b=" \\Num:=b;',
-            "    ENDTEST",
-            f"    {previous} a - 1, b \\fast?fast;" if previous else "    b := a;",
-            "  ERROR",
-            "    IF ERRNO = ERR_DIVZERO TRYNEXT;",
-            "    RAISE;",
-            "  ENDPROC",
-            "",
-        ]
-        routine += 1
-    # data must stand before routines
-    data = [i for i, line in enumerate(lines) if line.startswith("  CONST")]
-    taken = {j for i in data for j in (i, i + 1)}
-    head, body = lines[:3], [line for j, line in enumerate(lines) if j >= 3 and j not in taken]
-    return head + [lines[j] for j in sorted(taken)] + body + ["ENDMODULE"]
+def measure(command):
+    """(processor seconds, peak memory in MB) of a command that must succeed."""
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    err = process.stderr.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    process.stderr.close()
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode != 0:
+        sys.exit(f"{' '.join(command)} ended with status {process.returncode}\n{err.decode(errors='replace')[:2000]}")
+    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
 
 
-def checker(rapidc, work):
-    folder = os.path.join(work, "generated")
-    shutil.rmtree(folder, ignore_errors=True)
-    os.makedirs(folder)
-    lines = 0
-    number = 0
-    while lines < 100_000:
-        module = generated_module(number)
-        lines += len(module)
-        with open(os.path.join(folder, f"g{number}.modx"), "w", encoding="utf-8") as file:
-            file.write("\n".join(module) + "\n")
-        number += 1
-    walls = sorted(run_timed([rapidc, "check", folder])[1] for _ in range(5))
-    median = statistics.median(walls)
-    print(f"rapidc check of {lines} lines in {number} modules: median {median:.3f} s, "
-          f"{lines / median:,.0f} lines/s, best {lines / walls[0]:,.0f} (goal: at least {GOAL_LINES:,})")
+def checker(rapidc, work, rounds):
+    """Both compilers look for mistakes in the same half million lines; one process each, one core, in turns."""
+    print(f"rapidc check beside clang-19 -fsyntax-only, {rounds} rounds in turns, processor time (median)\n")
+    print(f"{'project':8} {'lines':>8} {'check s':>9} {'lines/s':>10} {'MB':>6} {'clang s':>9} {'lines/s':>10} {'ratio':>7}")
+    fine = True
+    for kind in ("mixed", "code", "points"):
+        folder = os.path.join(work, "generated_" + kind)
+        shutil.rmtree(folder, ignore_errors=True)
+        lines, c_lines, _ = generate_project.generate(folder, 500_000, kind)
+        sides = ([rapidc, "check", os.path.join(folder, "rapid")],
+                 ["clang-19", "-fsyntax-only", os.path.join(folder, "all.c")])
+        results = ([], [])
+        for _ in range(rounds):
+            for side, command in enumerate(sides):
+                results[side].append(measure(command))
+        seconds = [statistics.median(r[0] for r in side) for side in results]
+        memory = max(r[1] for r in results[0])
+        speeds = lines / seconds[0], c_lines / seconds[1]
+        print(f"{kind:8} {lines:8} {seconds[0]:9.3f} {speeds[0]:10,.0f} {memory:6.0f} {seconds[1]:9.3f} "
+              f"{speeds[1]:10,.0f} {speeds[0] / speeds[1]:7.1f}", flush=True)
+        if kind == "mixed":
+            fine = speeds[0] >= GOAL_LINES and memory <= GOAL_MB and speeds[0] >= GOAL_CLANG * speeds[1]
+    print(f"\ngoals on the mixed project: {GOAL_LINES:,} lines/s, {GOAL_CLANG} times clang, at most {GOAL_MB} MB: "
+          f"{'met' if fine else 'NOT MET'}")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", help="only these programs")
+    parser.add_argument("names", nargs="*", help="only these programs; check: only the checker")
     parser.add_argument("--rapidc", default=os.path.join(HERE, "..", "..", "build", "rapidc"))
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--rate", default="unlimited", help="instructions per virtual millisecond")
@@ -175,14 +145,18 @@ def main():
     work = os.path.join(os.path.dirname(rapidc), "bench")
     os.makedirs(work, exist_ok=True)
     known = sorted(name[:-5] for name in os.listdir(PROGRAMS) if name.endswith(".modx"))
-    unknown = [name for name in options.names if name not in known]
+    unknown = [name for name in options.names if name not in known and options.names != ["check"]]
     if unknown:
         sys.exit(f"no benchmark named {', '.join(unknown)}; there are {', '.join(known)}")
+    if options.names == ["check"]:
+        checker(rapidc, work, options.rounds)
+        return 0
     fine = compare(options.names or known, rapidc, work, options.rounds, options.rate)
     if not options.names:
         print()
         start_up(rapidc, work)
-        checker(rapidc, work)
+        print()
+        checker(rapidc, work, options.rounds)
     return 0 if fine else 1
 
 

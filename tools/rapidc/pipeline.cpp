@@ -100,14 +100,13 @@ void reportUnimplemented(Compilation& compilation) {
             anyUsed = anyUsed || (routine->used && isMissing(*routine));
     if (!anyUsed) return;
     for (const auto& task : compilation.program->tasks) {
-        for (const auto& [node, call] : task->calls) {
-            if (!call.routine || !isMissing(*call.routine)) continue;
-            const rapid::syntax::SyntaxTree* tree = nullptr;
-            for (const sema::Module* module : task->modules)
-                if (call.module == module) tree = module->tree;
-            if (tree)
-                compilation.sink.report(diag::Code::BuiltinNotImplemented, tree->source, tree->range(*node),
-                                        {call.routine->name});
+        const sema::FileFacts* previous = nullptr;
+        for (const sema::Module* module : task->modules) {
+            if (std::exchange(previous, module->facts) == module->facts) continue; // modules of one file share them
+            for (const auto& [node, call] : module->facts->calls)
+                if (call.routine && isMissing(*call.routine))
+                    compilation.sink.report(diag::Code::BuiltinNotImplemented, module->tree->source,
+                                            module->tree->range(*node), {call.routine->name});
         }
     }
 }

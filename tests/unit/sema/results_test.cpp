@@ -131,8 +131,8 @@ TEST_CASE("a call has one entry for each parameter, in order", "[sema]") {
     CHECK(work.params[4]->index == 4);
     CHECK(work.params[4]->assigned);
     CHECK_FALSE(work.params[0]->assigned);
-    const auto call = p.tasks[0]->calls.find(&bodyStmt(main, 0));
-    REQUIRE(call != p.tasks[0]->calls.end());
+    const auto call = p.tasks[0]->modules[0]->facts->calls.find(&bodyStmt(main, 0));
+    REQUIRE(call != p.tasks[0]->modules[0]->facts->calls.end());
     CHECK(call->second.routine == &work);
     CHECK(call->second.module == p.tasks[0]->modules[0]);
     const std::span<BoundArg> args = call->second.args;
@@ -165,7 +165,7 @@ TEST_CASE("one of several required parameters is chosen by type", "[sema]") {
     const RoutineSymbol& main = routine(p, "main");
     const auto chosen = [&](size_t stmt) {
         std::string names;
-        for (const BoundArg& arg : p.tasks[0]->calls.at(&bodyStmt(main, stmt)).args)
+        for (const BoundArg& arg : p.tasks[0]->modules[0]->facts->calls.at(&bodyStmt(main, stmt)).args)
             if (arg.kind == BoundArg::Kind::Present) names += arg.param->name + " ";
         return names;
     };
@@ -196,7 +196,7 @@ TEST_CASE("signals are values or handles by their place", "[sema]") {
         syntax::as<syntax::BinaryExpr>(*syntax::as<syntax::AssignStmt>(bodyStmt(main, 1)).value);
     CHECK(p.info(m, *sum.left).type.type == p.num);
     CHECK(p.info(m, *sum.right).type.type == p.num);
-    const BoundCall& call = p.tasks[0]->calls.at(&bodyStmt(main, 2));
+    const BoundCall& call = p.tasks[0]->modules[0]->facts->calls.at(&bodyStmt(main, 2));
     CHECK(p.info(m, *call.args[2].value).type.type->kind == TypeKind::SemiValue);
     REQUIRE(p.tasks[0]->signals.size() == 2);
     CHECK(p.tasks[0]->signals[0]->storage == Storage::Signal);
@@ -227,8 +227,8 @@ TEST_CASE("loop variables, traps and labels are resolved", "[sema]") {
     const RoutineSymbol& main = routine(p, "main");
     const auto& outer = syntax::as<syntax::ForStmt>(bodyStmt(main, 0));
     const auto& inner = syntax::as<syntax::ForStmt>(*outer.body[0]);
-    DataSymbol* outerVariable = task.loopVariables.at(&outer);
-    DataSymbol* innerVariable = task.loopVariables.at(&inner);
+    DataSymbol* outerVariable = task.modules[0]->facts->loopVariables.at(&outer);
+    DataSymbol* innerVariable = task.modules[0]->facts->loopVariables.at(&inner);
     CHECK(outerVariable != innerVariable);
     CHECK(p.info(m, *inner.from).symbol == outerVariable);
     CHECK(p.info(m, *syntax::as<syntax::AssignStmt>(*inner.body[0]).value).symbol == innerVariable);
@@ -236,8 +236,8 @@ TEST_CASE("loop variables, traps and labels are resolved", "[sema]") {
     CHECK(main.data[0]->index == 1);
     CHECK(main.data[1]->index == 2);
     CHECK(main.data[2]->index == 3);
-    CHECK(task.references.at(&bodyStmt(main, 1)) == &routine(p, "alarm"));
-    const Symbol* label = task.references.at(&bodyStmt(main, 2));
+    CHECK(task.modules[0]->facts->references.at(&bodyStmt(main, 1)) == &routine(p, "alarm"));
+    const Symbol* label = task.modules[0]->facts->references.at(&bodyStmt(main, 2));
     CHECK(label->kind == SymbolKind::Label);
     CHECK(label->decl == &bodyStmt(main, 3));
 }
@@ -261,7 +261,7 @@ TEST_CASE("aggregates have the type that their context gives", "[sema]") {
     const ExprInfo& assigned = p.info(m, *syntax::as<syntax::AssignStmt>(bodyStmt(main, 0)).value);
     CHECK(assigned.type.type == p.pos);
     CHECK(assigned.constant == nullptr);
-    const ExprInfo& list = p.info(m, *p.tasks[0]->calls.at(&bodyStmt(main, 1)).args[0].value);
+    const ExprInfo& list = p.info(m, *p.tasks[0]->modules[0]->facts->calls.at(&bodyStmt(main, 1)).args[0].value);
     CHECK(list.type.rank == 1);
     CHECK(list.type.dims[0] == 4);
     CHECK(list.type.type == p.num);
