@@ -20,8 +20,6 @@ class Collector {
         for (const Module* module : program.predefinedModules)
             for (const TypeSymbol* type : module->types)
                 predefinedTypes_.emplace(foldName(type->name), type);
-        for (const LabelSymbol& label : program.labelSymbols)
-            labels_[label.module].push_back(&label);
     }
 
     void collect(const Task& task) {
@@ -58,10 +56,9 @@ class Collector {
             for (const DataSymbol* data : routine->data)
                 declare(data);
         }
-        const auto labels = labels_.find(module_);
-        if (labels == labels_.end()) return;
-        for (const LabelSymbol* label : labels->second)
-            declare(label);
+        const auto& labels = module_->facts->labelSymbols;
+        for (size_t i = 0; i < labels.size(); ++i)
+            if (labels[i].module == module_) declare(&labels[i]);
     }
 
     void type(TokenIndex token) {
@@ -74,16 +71,16 @@ class Collector {
     }
 
     void call(const Node& node, TokenIndex name) {
-        const auto found = task_->calls.find(&node);
-        if (found == task_->calls.end()) return;
+        const auto found = module_->facts->calls.find(&node);
+        if (found == module_->facts->calls.end()) return;
         if (found->second.routine) add(name, found->second.routine);
         for (const BoundArg& arg : found->second.args)
             if (arg.param && arg.argument) add(arg.argument->name, arg.param);
     }
 
     const Symbol* statementSymbol(const Node& node) const {
-        const auto found = task_->references.find(&node);
-        return found == task_->references.end() ? nullptr : found->second;
+        const auto found = module_->facts->references.find(&node);
+        return found == module_->facts->references.end() ? nullptr : found->second;
     }
 
     void visit(const Node& node) {
@@ -111,7 +108,6 @@ class Collector {
     std::vector<Reference>& out_;
     TypeTable predefinedTypes_;
     TypeTable globalTypes_;
-    std::unordered_map<const Module*, std::vector<const LabelSymbol*>> labels_;
     const Task* task_ = nullptr;
     const Module* module_ = nullptr;
 };

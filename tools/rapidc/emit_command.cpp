@@ -91,8 +91,6 @@ int emit(EmitSettings& settings) {
     std::string text;
     if (early) {
         for (const auto& tree : compilation->program->trees) {
-            if (compilation->program->library.modules.empty() && tree->source->path().starts_with("stdlib:"))
-                continue;
             bool user = false;
             for (const auto& task : compilation->program->tasks)
                 for (const auto* module : task->modules)
