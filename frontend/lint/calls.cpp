@@ -42,8 +42,8 @@ const BoundArg* given(const BoundCall& call, int param) {
 } // namespace
 
 const BoundCall* Walker::find(const Node& node) const {
-    const auto found = task_.calls.find(&node);
-    return found == task_.calls.end() ? nullptr : &found->second;
+    const auto found = module_->facts->calls.find(&node);
+    return found == module_->facts->calls.end() ? nullptr : &found->second;
 }
 
 /// A call by name; whether the instruction behind it can be reached.
@@ -190,10 +190,10 @@ void Walker::movement(const BoundCall& call) {
     const BoundArg* zone = given(call, params.zone);
     if (!zone || !zone->value || given(call, params.inPos)) return;
     const sema::ConstValue* value = constant(*zone->value);
-    if (!value || value->members.size() < 2 || value->members[0].boolean) return;
+    if (!value || value->members().size() < 2 || value->members()[0].boolean) return;
     if (!given(call, params.concurrent)) flyBy_ = zone->value;
 
-    double size = value->members[1].number;
+    double size = value->members()[1].number;
     if (const BoundArg* ownSize = given(call, params.zoneSize)) {
         const double* own = ownSize->value ? number(*ownSize->value) : nullptr;
         if (!own) return;
@@ -206,8 +206,8 @@ void Walker::movement(const BoundCall& call) {
     const double* tcp = nullptr;
     if (ownSpeed)
         tcp = ownSpeed->value ? number(*ownSpeed->value) : nullptr;
-    else if (speedData && !speedData->members.empty())
-        tcp = &speedData->members[0].number;
+    else if (speedData && !speedData->members().empty())
+        tcp = &speedData->members()[0].number;
     if (tcp && *tcp > kFastest)
         report(Code::ZoneTooSmall, range(*zone->value), {text(*zone->value), fmt::format("{:g}", *tcp)});
 }

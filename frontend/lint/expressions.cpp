@@ -152,7 +152,7 @@ void Walker::textLength(const BinaryExpr& e) {
 unsigned Walker::leastLength(const Expr& e) const {
     const Expr& part = bare(e);
     if (const ConstValue* value = constant(part))
-        return value->kind == ConstValue::Kind::String ? static_cast<unsigned>(value->text.size()) : 0;
+        return value->kind == ConstValue::Kind::String ? static_cast<unsigned>(value->text().size()) : 0;
     if (part.kind == NodeKind::Binary && as<BinaryExpr>(part).op == BinaryOp::Add)
         return leastLength(*as<BinaryExpr>(part).left) + leastLength(*as<BinaryExpr>(part).right);
     const sema::BoundCall* called = part.kind == NodeKind::Call ? find(part) : nullptr;

@@ -155,8 +155,8 @@ void Walker::labelStmt(const LabelStmt& s) {
 }
 
 void Walker::gotoStmt(const GotoStmt& s) {
-    const auto found = task_.references.find(&s);
-    const sema::Symbol* target = found == task_.references.end() ? nullptr : found->second;
+    const auto found = module_->facts->references.find(&s);
+    const sema::Symbol* target = found == module_->facts->references.end() ? nullptr : found->second;
     if (target) {
         targets_.insert(target->decl);
         // A jump back from the end of the same list of instructions: nothing else leads on from here.
