@@ -8,8 +8,8 @@
 
 namespace rt {
 
-const RoutineDesc kTrapBoundary = {"(interrupt)", "", "", nullptr, 0,       0, 0, 0, 0, nullptr, 0, nullptr, 0,
-                                   0,             nullptr, 0, 0, 0, {}};
+const RoutineDesc kTrapBoundary = {"(interrupt)", "", "", nullptr, 0, 0, 0, 0, 0, nullptr, 0,
+                                   nullptr,       0,  0,  nullptr, 0, 0, 0, {}};
 
 bool InterruptTable::deliverable() const {
     return enabled_ && !running_ && !queue_.empty() && !task_.isStepwise();

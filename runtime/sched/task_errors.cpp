@@ -92,7 +92,8 @@ Status Task::propagateFrom(Frame* handler) {
 Status Task::dispatchError(const ErrorRoute& route, int number) {
     errorNumber = static_cast<float>(number);
     if (unwinding_ == Unwind::Abandon || undoAborted_) return silentStatus();
-    const bool backward = stepHook_ != nullptr && stepHook_->isBackward(*this); // no handler then (manual 1.21)
+    const bool backward =
+        stepHook_ != nullptr && stepHook_->isBackward(*this); // no handler then (manual 1.21)
     if (route.longJump && !backward) return startJump(route.handler, number);
     if (route.handler != nullptr && !backward) {
         noteHandled(route.handler, number);
