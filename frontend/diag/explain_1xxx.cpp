@@ -67,6 +67,17 @@ constexpr auto kExplanations = std::to_array<Explanation>({
     {1012, Kind::File,
      "A file may begin with a header between two lines '%%%' (manual 1.1.2). The second one is missing.",
      "%%%\nVERSION:1\nMODULE m\nENDMODULE", "%%%\nVERSION:1\nLANGUAGE:ENGLISH\n%%%\nMODULE m\nENDMODULE"},
+    {1013, Kind::Body, "A name begins with a letter; letters, digits and underscores follow (manual 1.1.2).",
+     "VAR num _count;", "VAR num count_;"},
+    {1014, Kind::File,
+     "Comments must not occur outside a module declaration (manual 1.1.2): the controller may refuse "
+     "the file, or lose them when it saves the module.",
+     "! tools of cell 3\n"
+     "MODULE m\n"
+     "ENDMODULE",
+     "MODULE m\n"
+     "  ! tools of cell 3\n"
+     "ENDMODULE"},
     {1099, Kind::Body,
      "The file has more than 50 mistakes of lexing and parsing. The first ones are shown; often they are the "
      "cause of the "
@@ -113,6 +124,14 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "Grip(1, 2);", "Grip 1, 2;"},
     {1111, Kind::Module, "The placeholder stands for another part of the program (manual 1.1.2).",
      "PROC p(<ALT>)\nENDPROC", "PROC p(<PAR>)\nENDPROC"},
+    {1112, Kind::Body,
+     "This is how other languages write it. RAPID compares with '=' and '<>', joins with AND, OR and "
+     "NOT, begins comments with '!', puts strings between double quotes and indexes between braces "
+     "(manual 1.1.2, 1.3.1, 1.3.2).",
+     "IF a == 1 THEN\n"
+     "ENDIF",
+     "IF a = 1 THEN\n"
+     "ENDIF"},
     {1201, Kind::Body,
      "Instructions and declarations end with ';'. The place is the end of the unfinished one, not the "
      "beginning of the "
@@ -151,6 +170,24 @@ constexpr auto kExplanations = std::to_array<Explanation>({
     {1213, Kind::Body, "ELSE is the last branch of IF.",
      "IF a THEN\n  x := 1;\nELSE\n  x := 2;\nELSEIF b THEN\n  x := 3;\nENDIF",
      "IF a THEN\n  x := 1;\nELSEIF b THEN\n  x := 3;\nELSE\n  x := 2;\nENDIF"},
+    {1214, Kind::Module,
+     "Declarations of routines cannot be nested (manual 1.1.5), and data types are declared at module "
+     "level only (manual 1.2.1).",
+     "PROC outer()\n"
+     "  PROC inner()\n"
+     "  ENDPROC\n"
+     "  inner;\n"
+     "ENDPROC",
+     "PROC outer()\n"
+     "  inner;\n"
+     "ENDPROC\n"
+     "PROC inner()\n"
+     "ENDPROC"},
+    {1215, Kind::Body, "A condition compares with '='; ':=' assigns and gives no value (manual 1.3.1).",
+     "IF n := 1 THEN\n"
+     "ENDIF",
+     "IF n = 1 THEN\n"
+     "ENDIF"},
     {1301, Kind::File, "A RAPID file contains one or more modules (manual 1.1.3).", "! only a comment",
      "MODULE m\n  ! a comment\nENDMODULE"},
     {1302, Kind::File, "Only comments may stand before, between and after modules.",
@@ -189,6 +226,63 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "PROC p(num list{10})\nENDPROC", "PROC p(num list{*})\nENDPROC"},
     {1315, Kind::Module, "Alternatives are optional parameters: they begin with '\\' (manual 1.1.5).",
      "PROC p(num a | num b)\nENDPROC", "PROC p(\\num a | num b)\nENDPROC"},
+    {1316, Kind::Module,
+     "TASK gives each task its own persistent or variable of a shared module. Constants, routines and "
+     "types have no use for it (manual 1.2.2).",
+     "TASK CONST num limit := 5;", "CONST num limit := 5;"},
+    {1317, Kind::Module,
+     "A declaration is global, LOCAL to its module or TASK global, not two of these at once (manual "
+     "1.2.2).",
+     "LOCAL TASK PERS num count := 0;", "TASK PERS num count := 0;"},
+    {1318, Kind::Module,
+     "Procedures give no value and traps are called by the system, so only FUNC has a data type "
+     "before its name (manual 1.1.5).",
+     "PROC num count()\n"
+     "ENDPROC",
+     "PROC count()\n"
+     "ENDPROC"},
+    {1319, Kind::Module,
+     "The type of the value stands between FUNC and the name of the function (manual 1.1.5).",
+     "FUNC half(num x)\n"
+     "  RETURN x / 2;\n"
+     "ENDFUNC",
+     "FUNC num half(num x)\n"
+     "  RETURN x / 2;\n"
+     "ENDFUNC"},
+    {1320, Kind::Module,
+     "A function returns a value of any value type, but never an array (manual 1.1.5). Pass an array "
+     "as VAR or INOUT parameter instead.",
+     "FUNC num{3} zeros()\n"
+     "  RETURN 0;\n"
+     "ENDFUNC",
+     "PROC zeros(VAR num a{*})\n"
+     "  a{1} := 0;\n"
+     "ENDPROC"},
+    {1321, Kind::Module,
+     "The access mode VAR, PERS or INOUT stands before the data type of the parameter (manual 1.1.5).",
+     "PROC reset(num VAR count)\n"
+     "  count := 0;\n"
+     "ENDPROC",
+     "PROC reset(VAR num count)\n"
+     "  count := 0;\n"
+     "ENDPROC"},
+    {1322, Kind::Module,
+     "A parameter has no default value (manual 1.1.5). Make it optional and test it with Present.",
+     "PROC pick(num speed := 5)\n"
+     "ENDPROC",
+     "PROC pick(\\num speed)\n"
+     "  VAR num used := 5;\n"
+     "  IF Present(speed) used := speed;\n"
+     "ENDPROC"},
+    {1323, Kind::Module,
+     "A component of a record is a data type and a name; VAR, PERS and CONST belong to data "
+     "declarations (manual 1.2.1).",
+     "RECORD part\n"
+     "  VAR num width;\n"
+     "ENDRECORD",
+     "RECORD part\n"
+     "  num width;\n"
+     "ENDRECORD"},
     {1324, Kind::Module,
      "Instructions and declarations of data end with ';'. ENDPROC, ENDFUNC, ENDTRAP, ENDRECORD and ENDMODULE "
      "end what "

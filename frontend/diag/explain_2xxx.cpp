@@ -60,6 +60,30 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "GOTO done;",
      "GOTO done;\n"
      "done:"},
+    {2008, Kind::File,
+     "LOCAL data, routines and types are known only in their own module (manual 1.1.5, 1.2.2).",
+     "MODULE tools\n"
+     "  LOCAL VAR num count;\n"
+     "ENDMODULE\n"
+     "MODULE work\n"
+     "  PROC run()\n"
+     "    count := 1;\n"
+     "  ENDPROC\n"
+     "ENDMODULE",
+     "MODULE tools\n"
+     "  VAR num count;\n"
+     "ENDMODULE\n"
+     "MODULE work\n"
+     "  PROC run()\n"
+     "    count := 1;\n"
+     "  ENDPROC\n"
+     "ENDMODULE"},
+    {2009, Kind::Body,
+     "Some modules of the task cannot be read: they are encrypted, were not saved with the backup or "
+     "are missing. The name may be declared there, so it cannot be judged.",
+     "",
+     "VAR num count;\n"
+     "count := 1;"},
     {2010, Kind::Module,
      "A name may be declared only once in a module, whatever it names: a routine, data and a type "
      "cannot share it, and letter case makes no difference (manual 1.1.5, 1.2.2).",

@@ -200,6 +200,18 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "PROC main(\\num b)\n"
      "  work \\a?b;\n"
      "ENDPROC"},
+    {4024, Kind::Body,
+     "Dim gives the size of one dimension of an array; arrays have one to three (manual 1.1.5, "
+     "1.2.2).",
+     "VAR num list{4};\n"
+     "reg1 := Dim(list, 2);",
+     "VAR num list{4};\n"
+     "reg1 := Dim(list, 1);"},
+    {4025, Kind::Body,
+     "The instruction or function belongs to a RobotWare option. The backup lists the options of its "
+     "controller, and this one is not among them: the controller does not know the name.",
+     "",
+     "TPWrite \"without options\";"},
 });
 // clang-format on
 

@@ -1,3 +1,4 @@
+#include "frontend/source/spelling.h"
 #include "frontend/lint/warnings.h"
 
 #include "frontend/diag/catalogue.h"
@@ -220,12 +221,12 @@ bool WarningLevels::set(std::string_view name, Level level) {
 }
 
 std::string warningSuggestion(std::string_view name) {
-    unsigned limit = sema::suggestionLimit(name.size());
+    unsigned limit = suggestionLimit(name.size());
     std::string best;
     for (const CatalogueEntry& entry : diag::catalogue()) {
         if (!isSwitchable(entry)) continue;
         std::string candidate = kebabName(entry);
-        const unsigned distance = sema::editDistance(name, candidate, limit);
+        const unsigned distance = editDistance(name, candidate, limit);
         if (distance > limit || (!best.empty() && distance == limit)) continue;
         limit = distance;
         best = std::move(candidate);

@@ -99,9 +99,28 @@ class Analyzer {
     static std::string describe(const Symbol& symbol);
     enum class Wanted : uint8_t { Data, Type, Procedure, Function, Trap };
     bool isWanted(const Symbol& symbol, Wanted wanted) const;
-    /// "; did you mean 'x'?" or "".
-    std::string suggestion(NameId name, Wanted wanted);
-    static std::string bestComponent(const Type& record, std::string_view name);
+    static std::string counted(size_t count, std::string_view noun);
+    /// Adds the fix that makes `name(e)` of an expression.
+    void fixCall(diag::Diagnostic& diagnostic, const syntax::Expr& e, const std::string& name, bool certain);
+
+    // ---- names that nothing declares (unknown.cpp)
+    struct Suggestion {
+        std::string name; ///< empty: none is near
+        bool isKeyword = false;
+    };
+    enum class Meant : uint8_t { Unknown, Keyword };
+    void setMissingModules(const TaskInput& input);
+    bool mayReportUnknown(NameId name);
+    /// Reports `code`, or rather that the name is LOCAL elsewhere or may be declared in a module that is missing.
+    /// A built-in whose RobotWare option the controller is known not to have.
+    void checkOption(const RoutineSymbol& routine, syntax::TokenIndex name);
+    Meant reportUnknown(Code code, syntax::TokenIndex token, NameId name, Wanted wanted,
+                        std::string_view otherHint = {});
+    void reportMayBeDeclared(syntax::TokenIndex token, const std::string& hint);
+    Suggestion suggestion(NameId name, Wanted wanted);
+    static std::string didYouMean(std::string_view name);
+    static const Type::Component* nearComponent(const Type& record, std::string_view name);
+    const DataSymbol* nearOptional(const RoutineSymbol& routine, NameId name) const;
 
     // ---- names (lookup.cpp)
     NameId idOf(syntax::TokenIndex token) { return interner_.intern(context_.tree->text(token)); }
@@ -116,10 +135,10 @@ class Analyzer {
     void gatherSignalUses(const syntax::Expr* expr);
     void gatherSignalUses(const RoutineSymbol& routine, std::span<syntax::Argument* const> args);
     void declareConfiguration();
-    bool mayReportUnknown(NameId name);
 
     // ---- tasks (checker.cpp)
     void startTask(const TaskInput& input);
+    bool sameStructure(const Type& left, const Type& right);
     void readFiles(const TaskInput& input);
     void declareModules();
 
@@ -215,6 +234,9 @@ class Analyzer {
 
     // ---- calls (call.cpp: matching; arguments.cpp: judging each argument)
     Typed functionCall(const syntax::CallExpr& e);
+    void reportNotAFunction(const syntax::CallExpr& e, const Symbol& symbol);
+    static size_t namedOptional(const RoutineSymbol& routine, NameId name);
+    void checkDim(const syntax::CallExpr& e, const RoutineSymbol& routine);
     void bindCall(const syntax::Node& node, RoutineSymbol& routine, syntax::TokenIndex name,
                   std::span<syntax::Argument* const> args);
     /// Gives each written argument its parameter; false when "missing" would only repeat what was reported.
@@ -228,7 +250,6 @@ class Analyzer {
     size_t requiredSlots(const RoutineSymbol& routine) const;
     void reportMissing(const BoundCall& call, syntax::TokenIndex name);
     void checkExclusive(const BoundCall& call);
-    std::string optionalSuggestion(const RoutineSymbol& routine, NameId name);
     void visitArguments(std::span<syntax::Argument* const> args);
     void lateCall(const syntax::CallStmt& stmt);
 
@@ -305,7 +326,8 @@ class Analyzer {
     NameMap<const Type> signalUses_; ///< undeclared names that stand where a signal is expected
     bool duplicateModule_ = false;   ///< its names collide with those of its twin, which is reported
     bool signalUsesKnown_ = false;
-    bool incomplete_ = false; ///< modules of the task are missing: names may be unknown
+    bool incomplete_ = false;                 ///< modules of the task are missing: names may be unknown
+    std::vector<std::string> missingModules_; ///< their names, as far as they are known
     std::vector<const syntax::SyntaxTree*> brokenTrees_; ///< with syntax errors
     std::unordered_set<NameId> maybeDeclared_;           ///< names in declarations that could not be read
     std::unordered_set<NameId> reportedNames_;           ///< unknown signals, reported once a task

@@ -34,7 +34,10 @@ void Analyzer::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
     }
     if (param.isSwitch) {
         if (!bound.value) return;
-        report(Code::SwitchWithValue, range(*bound.value), {param.name});
+        diag::Diagnostic& d = report(Code::SwitchWithValue, range(*bound.value), {param.name});
+        const bool isTrue =
+            bound.value->kind == NodeKind::BoolLiteral && as<BoolLiteralExpr>(*bound.value).value;
+        d.fix({range(arg.name).end, range(arg).end}, "", isTrue);
         visitLoose(*bound.value);
         return;
     }
@@ -189,6 +192,18 @@ DataSymbol* Analyzer::ownOptional(const Expr& e) {
     if (e.kind != NodeKind::Name || !context_.routine) return nullptr;
     DataSymbol* data = asData(lookup(idOf(as<NameExpr>(e).name)));
     return data && data->storage == Storage::Parameter && data->optional ? data : nullptr;
+}
+
+// Dim(array, number): which dimensions there are is known (manual 1.1.5).
+void Analyzer::checkDim(const CallExpr& e, const RoutineSymbol& routine) {
+    if (!routine.predefined || interner_.folded(routine.nameId) != "dim" || e.args.size() != 2) return;
+    const Expr *array = e.args[0]->value, *number = e.args[1]->value;
+    if (!array || !number || info(*array).type.rank == 0) return;
+    const ConstValue* value = info(*number).constant;
+    if (!value || value->kind != ConstValue::Kind::Number) return;
+    if (value->number < 1 || value->number > info(*array).type.rank)
+        report(Code::DimensionNumber, range(*number),
+               {text(*number), counted(info(*array).type.rank, "dimension")});
 }
 
 void Analyzer::checkPresent(const BoundArg& bound) {

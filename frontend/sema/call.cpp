@@ -17,21 +17,32 @@ Typed Analyzer::functionCall(const CallExpr& e) {
     RoutineSymbol* routine = asRoutine(symbol);
     if (!routine || routine->routineKind != RoutineKind::Func) {
         if (symbol) {
-            noteDeclared(report(Code::NotAFunction, range(e.name), {text(e.name), describe(*symbol)}),
-                         *symbol);
-        } else if (isName(e.name) && mayReportUnknown(idOf(e.name))) {
-            std::string hint = suggestion(idOf(e.name), Wanted::Function);
-            report(Code::UnknownFunction, range(e.name), {text(e.name), std::move(hint)});
+            reportNotAFunction(e, *symbol);
+        } else if (isName(e.name)) {
+            reportUnknown(Code::UnknownFunction, e.name, idOf(e.name), Wanted::Function);
         }
         visitArguments(e.args);
         return errorExpr(e);
     }
     routine->used = true;
+    checkOption(*routine, e.name);
     bindCall(e, *routine, e.name, e.args);
+    checkDim(e, *routine);
     ExprInfo& out = info(e);
     out.type = routine->returnType;
     out.symbol = routine;
     return {&out};
+}
+
+// Data with arguments: an array whose index stands in parentheses.
+void Analyzer::reportNotAFunction(const CallExpr& e, const Symbol& symbol) {
+    diag::Diagnostic& d = report(Code::NotAFunction, range(e.name), {text(e.name), describe(symbol)});
+    if (symbol.kind == SymbolKind::Data && static_cast<const DataSymbol&>(symbol).type.rank > 0) {
+        const SourceRange open = range(e.name + 1), whole = range(e);
+        d.fixes.push_back(
+            {"put the index between '{' and '}'", {{open, "{"}, {{whole.end - 1, whole.end}, "}"}}});
+    }
+    noteDeclared(d, symbol);
 }
 
 void Analyzer::visitArguments(std::span<Argument* const> args) {
@@ -105,6 +116,7 @@ bool Analyzer::matchArguments(BoundCall& call, TokenIndex name, std::span<Argume
     bool tooMany = false;
     for (const Argument* arg : args) {
         size_t index = kNoParam;
+        if (arg->value && arg->value->kind == NodeKind::ErrorExpr) complete = false;
         if (arg->argKind == ArgKind::Placeholder) {
             placeholder(*arg);
             complete = false;
@@ -119,11 +131,15 @@ bool Analyzer::matchArguments(BoundCall& call, TokenIndex name, std::span<Argume
             if (index != kNoParam && !routine.params[index]->optional)
                 slot = nextRequired(routine, alternativesEnd(routine, slot));
             if (index == kNoParam) complete = false;
+        } else if (arg->name != kNoToken && namedOptional(routine, idOf(arg->name)) != kNoParam) {
+            index = matchRequired(call, *arg, slot); // which says that '\\' is missing
+        } else if (arg->value && arg->value->kind == NodeKind::ErrorExpr) {
+            continue;
         } else if (!std::exchange(tooMany, true)) {
             const auto given = std::count_if(
                 args.begin(), args.end(), [](const Argument* a) { return a->argKind == ArgKind::Required; });
             report(Code::TooManyArguments, range(*arg),
-                   {text(name), std::to_string(requiredSlots(routine)), std::to_string(given)});
+                   {text(name), counted(requiredSlots(routine), "required argument"), std::to_string(given)});
         }
         if (index != kNoParam && call.args[index].argument) {
             report(Code::DuplicateArgument, range(*arg), {routine.params[index]->name});
@@ -161,13 +177,21 @@ size_t Analyzer::matchRequired(BoundCall& call, const Argument& arg, size_t slot
     const NameId name = idOf(arg.name);
     for (size_t i = slot; i < end; ++i)
         if (routine.params[i]->nameId == name) return i;
-    for (size_t i = 0; i < routine.params.size(); ++i) {
-        if (routine.params[i]->nameId != name || !routine.params[i]->optional) continue;
-        report(Code::OptionalWithoutBackslash, range(arg.name), {routine.name, routine.params[i]->name});
+    if (const size_t i = namedOptional(routine, name); i != kNoParam) {
+        const uint32_t begin = range(arg.name).begin;
+        report(Code::OptionalWithoutBackslash, range(arg.name), {routine.name, routine.params[i]->name})
+            .fix({begin, begin}, "\\");
         return i;
     }
     report(Code::ArgumentName, range(arg.name), {routine.name, text(arg.name), routine.params[slot]->name});
     return slot;
+}
+
+// The optional parameter of a name, or kNoParam.
+size_t Analyzer::namedOptional(const RoutineSymbol& routine, NameId name) {
+    for (size_t i = 0; i < routine.params.size(); ++i)
+        if (routine.params[i]->nameId == name && routine.params[i]->optional) return i;
+    return kNoParam;
 }
 
 size_t Analyzer::matchOptional(BoundCall& call, const Argument& arg, TokenIndex) {
@@ -182,23 +206,12 @@ size_t Analyzer::matchOptional(BoundCall& call, const Argument& arg, TokenIndex)
                    range(arg.name), {routine.name, param.name});
         return i;
     }
-    report(Code::UnknownParameter, range(arg.name),
-           {routine.name, text(arg.name), optionalSuggestion(routine, name)});
+    const DataSymbol* near = nearOptional(routine, name);
+    diag::Diagnostic& d =
+        report(Code::UnknownParameter, range(arg.name),
+               {routine.name, text(arg.name), near ? didYouMean(near->name) : std::string()});
+    if (near) d.fix(range(arg.name), near->name, false);
     return kNoParam;
-}
-
-std::string Analyzer::optionalSuggestion(const RoutineSymbol& routine, NameId name) {
-    const std::string_view written = interner_.folded(name);
-    unsigned limit = suggestionLimit(written.size());
-    const DataSymbol* best = nullptr;
-    for (const DataSymbol* param : routine.params) {
-        if (!param->optional) continue;
-        const unsigned distance = editDistance(written, interner_.folded(param->nameId), limit);
-        if (distance > limit || (best && distance == limit)) continue;
-        best = param;
-        limit = distance;
-    }
-    return best && limit < written.size() ? "; did you mean '" + best->name + "'?" : std::string();
 }
 
 // One of several parameters takes the argument (`num Value | dnum Dvalue`): the first one whose type fits.

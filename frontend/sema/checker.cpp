@@ -100,9 +100,7 @@ void Analyzer::startTask(const TaskInput& input) {
     signalUses_ = {};
     reportedNames_.clear();
     signalUsesKnown_ = false;
-    incomplete_ = input.incomplete && !options_.requireMain;
-    for (const auto& file : input.files)
-        if (file->isBinary()) incomplete_ = true; // reported once; what it declares is not known
+    setMissingModules(input);
     task_->incomplete = incomplete_;
     brokenTrees_.clear();
     maybeDeclared_.clear();
@@ -179,7 +177,8 @@ void Analyzer::checkEntry(Task& task) {
         routine->used = true;
         return;
     }
-    if (!options_.requireMain) return;
+    const bool wrongProcedure = routine && routine->routineKind == RoutineKind::Proc;
+    if (!options_.requireMain && !wrongProcedure) return;
     if (symbol) {
         enterModule(symbol->module);
         std::string found = routine && routine->routineKind == RoutineKind::Proc
@@ -195,7 +194,7 @@ void Analyzer::checkEntry(Task& task) {
         report(Code::EntryLocal, range(local->nameToken), {task.name, local->name});
         return;
     }
-    if (!mayReportUnknown(name)) return;
+    if (incomplete_ || !mayReportUnknown(name)) return;
     if (task.modules.empty()) { // why there is none has been told as a rule
         if (!sink_.hasErrors()) sink_.report(Code::NoEntry, nullptr, {}, {task.name, task.entry});
         return;
@@ -216,6 +215,20 @@ bool Analyzer::leaveOut(const TaskInput& input) {
     return true;
 }
 
+// Each task has types of its own: they are the same when their names and components are.
+bool Analyzer::sameStructure(const Type& left, const Type& right) {
+    const Type &a = *left.base(), &b = *right.base();
+    if (&a == &b || a.kind == TypeKind::Error || b.kind == TypeKind::Error) return true;
+    if (a.kind != b.kind || interner_.intern(a.name) != interner_.intern(b.name) ||
+        a.components.size() != b.components.size())
+        return false;
+    for (size_t i = 0; i < a.components.size(); ++i)
+        if (interner_.intern(a.components[i].name) != interner_.intern(b.components[i].name) ||
+            !sameStructure(*a.components[i].type, *b.components[i].type))
+            return false;
+    return true;
+}
+
 // A global persistent is one object for all tasks that declare it (manual 1.20).
 void Analyzer::checkAcrossTasks() {
     NameMap<DataSymbol> shared;
@@ -233,9 +246,7 @@ void Analyzer::checkAcrossTasks() {
                     continue;
                 }
                 const std::string own = typeName(data->type), theirs = typeName(other->type);
-                if (equivalent(data->type, other->type) ||
-                    (data->type.type->base()->name == other->type.type->base()->name &&
-                     sameShape(data->type, other->type)))
+                if (sameShape(data->type, other->type) && sameStructure(*data->type.type, *other->type.type))
                     continue;
                 enterModule(module);
                 noteDeclared(report(Code::PersConflict, range(data->nameToken), {data->name, own, theirs}),

@@ -83,7 +83,9 @@ Typed Analyzer::placeValue(const Expr& e) {
         const bool group = name == "signalgi" || name == "signalgo";
         return result(e, group ? program_.dnum : program_.num, group ? Flex::Group : Flex::None);
     }
-    case TypeKind::Switch: report(Code::SwitchAsValue, range(e), {text(e)}); return errorExpr(e);
+    case TypeKind::Switch:
+        fixCall(report(Code::SwitchAsValue, range(e), {text(e)}), e, "Present", true);
+        return errorExpr(e);
     case TypeKind::AnyType: return errorExpr(e);
     case TypeKind::NonValue: break;
     case TypeKind::Record:
@@ -118,8 +120,10 @@ bool Analyzer::aggregateFits(const AggregateExpr& e, const DataType& want) {
                                 : want.dims[0] > 0 ? static_cast<size_t>(want.dims[0])
                                                    : count;
         if (count == expected) return true;
+        for (const Expr* element : e.elements)
+            if (element->kind == NodeKind::ErrorExpr) return false;
         report(Code::AggregateCount, range(e),
-               {std::to_string(count), std::to_string(expected), typeName(want)});
+               {counted(count, "member"), std::to_string(expected), typeName(want)});
     }
     return false;
 }

@@ -58,6 +58,12 @@ Typed Analyzer::binaryChain(const BinaryExpr& top, const DataType* want) {
             left = combine(e, expr(*leaf, &right.info->type), right);
         } else {
             if (first) left = expr(*leaf, numeric);
+            if (left.isError()) { // its own mistakes only
+                visitLoose(*e.right);
+                left = combine(e, left, left);
+                first = false;
+                continue;
+            }
             // The partner of a comparison gives an aggregate its type.
             const Typed right = expr(*e.right, equal ? &left.info->type : numeric);
             left = combine(e, left, right);
@@ -68,6 +74,9 @@ Typed Analyzer::binaryChain(const BinaryExpr& top, const DataType* want) {
 }
 
 Typed Analyzer::combine(const BinaryExpr& e, Typed left, Typed right) {
+    const auto isRelation = [](BinaryOp op) { return op >= BinaryOp::Lt && op <= BinaryOp::Ne; };
+    if (isRelation(e.op) && e.left->kind == NodeKind::Binary && isRelation(as<BinaryExpr>(*e.left).op))
+        return result(e, program_.boolean); // a chain of relations is a syntax error
     if (left.isError() || right.isError()) {
         // What a comparison gives is known all the same.
         const bool gives = e.op >= BinaryOp::Lt;

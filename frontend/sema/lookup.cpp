@@ -32,23 +32,6 @@ Symbol* Analyzer::lookupOutside(NameId name) const {
     return at(predefined_, name);
 }
 
-// After a syntax error a name may be missing because its declaration could not be read: whoever uses it is not to
-// blame. Such a declaration still shows two words in a row, the second of which is the name.
-bool Analyzer::mayReportUnknown(NameId name) {
-    if (incomplete_) return false;
-    if (brokenTrees_.empty()) return true;
-    for (const SyntaxTree* tree : std::exchange(brokenTrees_, {nullptr})) {
-        for (size_t i = 0; tree && i + 1 < tree->tokens.size(); ++i) {
-            const TokenKind before = tree->tokens[i].kind;
-            const bool declares = before == TokenKind::Identifier || before == TokenKind::KwProc ||
-                                  before == TokenKind::KwTrap || before == TokenKind::KwRecord;
-            if (declares && tree->tokens[i + 1].kind == TokenKind::Identifier)
-                maybeDeclared_.insert(interner_.intern(tree->text(static_cast<TokenIndex>(i + 1))));
-        }
-    }
-    return !maybeDeclared_.contains(name);
-}
-
 DataSymbol* Analyzer::configuredObject(NameId name, std::string spelling, const Type* type) {
     DataSymbol& symbol = program_.dataSymbols.emplace_back();
     symbol.kind = SymbolKind::Data;
@@ -84,13 +67,15 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
     const Type* type = handle && handle->kind == TypeKind::SemiValue ? handle : nullptr;
     if (!type && !mecunit && context_.routine) type = signalTypeByUse(name);
     if (!type && !mecunit) {
-        if (mayReportUnknown(name)) {
-            std::string hint = suggestion(name, Wanted::Data);
-            if (hint.empty() && looksLikeSignal(interner_.folded(name)))
+        if (moduleNames_.find(name)) {
+            report(Code::NotData, range(token), {text(token), "a module"});
+        } else {
+            const char* hint = "";
+            if (looksLikeSignal(interner_.folded(name)))
                 hint = options_.configurationKnown
                            ? "; if it is a signal, define it in EIO.cfg and pass that with --config"
                            : "; if it is a signal, pass the configuration with --config=EIO.cfg";
-            report(Code::UnknownName, range(token), {text(token), std::move(hint)});
+            reportUnknown(Code::UnknownName, token, name, Wanted::Data, hint);
         }
         if (context_.routine) declareUnknown(name);
         return nullptr;
@@ -100,7 +85,10 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
         const Code code = mecunit   ? Code::MechanicalUnitUnknown
                           : isError ? Code::SignalUndefined
                                     : Code::SignalUnknown;
-        report(code, range(token), {text(token)});
+        if (incomplete_)
+            reportMayBeDeclared(token, {});
+        else
+            report(code, range(token), {text(token)});
     }
     return configuredObject(name, text(token), mecunit ? handle : type);
 }

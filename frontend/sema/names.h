@@ -1,6 +1,8 @@
 #pragma once
 // Identifiers as small numbers: RAPID names are compared without regard to case (manual 1.1.1, 1.1.2).
 
+#include "frontend/source/spelling.h"
+
 #include <array>
 #include <cstdint>
 #include <string>
@@ -81,13 +83,5 @@ template <class T> class NameMap {
 
 /// The folded spelling of a name that is not interned.
 std::string foldName(std::string_view name);
-
-/// How many edits may lie between a name and what was probably meant by it.
-inline unsigned suggestionLimit(size_t length) {
-    return length < 6 ? 1 : length < 9 ? 2 : 3;
-}
-
-/// Number of edits (insert, delete, replace, swap of neighbours) between two folded names, at most `limit` + 1.
-unsigned editDistance(std::string_view a, std::string_view b, unsigned limit);
 
 } // namespace rapid::sema

@@ -35,6 +35,10 @@ Place Analyzer::namePlace(const NameExpr& e, const Type* handle) {
         const bool function = routine && routine->routineKind == RoutineKind::Func;
         auto& d = function ? report(Code::FunctionWithoutParentheses, range(e), {text(e)})
                            : report(Code::NotData, range(e), {text(e), describe(*symbol)});
+        if (function && nextRequired(*routine, 0) >= routine->params.size()) {
+            const uint32_t end = range(e).end;
+            d.fix({end, end}, "()");
+        }
         noteDeclared(d, *symbol);
         return place;
     }
@@ -107,13 +111,13 @@ Place Analyzer::indexPlace(const IndexExpr& e, const Type* handle) {
             constant && value >= 1 && static_cast<size_t>(value) <= constant->members().size();
         constant = inside ? &constant->members()[static_cast<size_t>(value - 1)] : nullptr;
     }
-    if (error) return {};
+    if (error || e.base->kind != NodeKind::Name) return {}; // an index on a part is a syntax error
     if (type.rank == 0)
         report(Code::IndexNotArray, range(e), {text(*e.base), typeName(type)});
     else if (!countOk) {
         const SourceRange where = {range(*e.indices.front()).begin, range(*e.indices.back()).end};
         report(Code::IndexCount, where,
-               {text(*e.base), std::to_string(e.indices.size()), std::to_string(type.rank)});
+               {text(*e.base), std::to_string(e.indices.size()), counted(type.rank, "dimension")});
     }
     if (!countOk) return {};
     result.type = {type.type, 0, {}};
@@ -144,8 +148,11 @@ Place Analyzer::componentPlace(const ComponentExpr& e, const Type*) {
     const std::string_view name = context_.tree->text(e.name);
     const int component = base.type.type->findComponent(name);
     if (component < 0) {
-        report(Code::UnknownComponent, range(e.name),
-               {text(e.name), base.type.type->name, bestComponent(*base.type.type, name)});
+        const Type::Component* near = nearComponent(*base.type.type, name);
+        diag::Diagnostic& d =
+            report(Code::UnknownComponent, range(e.name),
+                   {text(e.name), base.type.type->name, near ? didYouMean(near->name) : std::string()});
+        if (near) d.fix(range(e.name), near->name, false);
         return {};
     }
     const auto index = static_cast<size_t>(component);

@@ -1,4 +1,4 @@
-// Wording of diagnostics: names of types and things, places of declarations, suggestions.
+// Wording of diagnostics: names of types and things, places of declarations.
 
 #include "frontend/sema/analysis.h"
 
@@ -81,45 +81,16 @@ bool Analyzer::isWanted(const Symbol& symbol, Wanted wanted) const {
     return false;
 }
 
-std::string Analyzer::suggestion(NameId name, Wanted wanted) {
-    if (suggestionsLeft_ == 0) return {};
-    --suggestionsLeft_;
-    const std::string_view written = interner_.folded(name);
-    unsigned limit = suggestionLimit(written.size());
-    const Symbol* best = nullptr;
-    const auto consider = [&](const Symbol* symbol) {
-        if (!symbol || symbol->nameId == name || symbol->name.empty() || !isWanted(*symbol, wanted)) return;
-        const unsigned distance = editDistance(written, interner_.folded(symbol->nameId), limit);
-        if (distance > limit || (best && distance == limit)) return;
-        best = symbol;
-        limit = distance;
-    };
-    // The nearest scope first: on equal distance the earlier candidate wins.
-    if (context_.routine)
-        for (const NameId id : declaredInRoutine_)
-            consider(at(routineNames_, id));
-    scopes_[context_.module->id]->names.forEach([&](NameId, const Symbol* symbol) { consider(symbol); });
-    for (const Symbol* symbol : globals_)
-        consider(symbol);
-    for (const DataSymbol* symbol : configured_)
-        consider(symbol);
-    for (const Symbol* symbol : predefined_)
-        consider(symbol);
-    // A name of one or two letters is near to everything of that length.
-    if (!best || limit >= written.size()) return {};
-    return "; did you mean '" + best->name + "'?";
+void Analyzer::fixCall(diag::Diagnostic& diagnostic, const Expr& e, const std::string& name, bool certain) {
+    const SourceRange whole = range(e);
+    diagnostic.fixes.push_back({"write " + name + "(...)",
+                                {{{whole.begin, whole.begin}, name + "("}, {{whole.end, whole.end}, ")"}},
+                                certain});
 }
 
-std::string Analyzer::bestComponent(const Type& record, std::string_view name) {
-    unsigned limit = suggestionLimit(name.size());
-    const Type::Component* best = nullptr;
-    for (const Type::Component& c : record.base()->components) {
-        const unsigned distance = editDistance(name, c.name, limit);
-        if (distance > limit || (best && distance == limit)) continue;
-        best = &c;
-        limit = distance;
-    }
-    return best && limit < name.size() ? "; did you mean '" + best->name + "'?" : std::string();
+/// "1 member", "3 members"
+std::string Analyzer::counted(size_t count, std::string_view noun) {
+    return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
 }
 
 } // namespace rapid::sema

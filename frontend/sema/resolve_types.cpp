@@ -38,10 +38,8 @@ const Type* Analyzer::resolveType(TokenIndex token) {
         if (!other) other = lookupOutside(name);
         if (other)
             noteDeclared(report(Code::NotAType, range(token), {text(token), describe(*other)}), *other);
-        else if (mayReportUnknown(name)) {
-            std::string hint = suggestion(name, Wanted::Type);
-            report(Code::UnknownType, range(token), {text(token), std::move(hint)});
-        }
+        else
+            reportUnknown(Code::UnknownType, token, name, Wanted::Type);
         return program_.errorType;
     }
     found->used = true;
@@ -159,7 +157,10 @@ void Analyzer::resolveParameter(RoutineSymbol& routine, const ParamDecl& decl) {
     routine.params.push_back(&symbol);
     if (decl.isSwitch) {
         symbol.type.type = switchType_;
-        if (!decl.optional) report(Code::SwitchNotOptional, range(decl.name), {symbol.name});
+        if (!decl.optional) {
+            const uint32_t begin = range(decl).begin;
+            report(Code::SwitchNotOptional, range(decl.name), {symbol.name}).fix({begin, begin}, "\\");
+        }
         symbol.optional = true;
         return;
     }

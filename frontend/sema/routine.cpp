@@ -120,13 +120,15 @@ void Analyzer::resolveJumps() {
         const TokenIndex token = as<GotoStmt>(*jump.node).label;
         const JumpPoint* target = byName.find(jump.name);
         if (!target) {
-            std::string hint;
+            std::string near;
             const std::string_view written = interner_.folded(jump.name);
             const unsigned limit = suggestionLimit(written.size());
             for (const JumpPoint& label : labels_)
-                if (hint.empty() && editDistance(written, interner_.folded(label.name), limit) <= limit)
-                    hint = "; did you mean '" + label.label->name + "'?";
-            report(Code::UnknownLabel, range(token), {text(token), std::move(hint)});
+                if (near.empty() && editDistance(written, interner_.folded(label.name), limit) <= limit)
+                    near = label.label->name;
+            diag::Diagnostic& d = report(Code::UnknownLabel, range(token),
+                                         {text(token), near.empty() ? std::string() : didYouMean(near)});
+            if (!near.empty()) d.fix(range(token), near, false);
             continue;
         }
         target->label->used = true;

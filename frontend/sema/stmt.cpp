@@ -2,6 +2,8 @@
 
 #include "frontend/sema/analysis.h"
 
+#include <fmt/format.h>
+
 namespace rapid::sema {
 
 using namespace syntax;
@@ -157,15 +159,20 @@ void Analyzer::testValues(const TestStmt& s, Typed subject) {
             values.push_back({value, t});
         }
     }
-    std::unordered_set<double> seen;
+    std::unordered_set<std::string> seen;
     for (const auto& [value, t] : values) {
         if (!fits(*value, t, type)) {
             report(Code::TestValueType, range(*value), {typeName(*t.info), typeName(*subject.info)});
             continue;
         }
         const ConstValue* constant = info(*value).constant;
-        if (constant && constant->kind == ConstValue::Kind::Number && !seen.insert(constant->number).second)
-            report(Code::DuplicateCase, range(*value), {text(*value)});
+        if (!constant || constant->kind == ConstValue::Kind::Aggregate ||
+            constant->kind == ConstValue::Kind::None)
+            continue;
+        std::string key = constant->kind == ConstValue::Kind::Number ? fmt::format("{}", constant->number)
+                          : constant->kind == ConstValue::Kind::Bool ? (constant->boolean ? "T" : "F")
+                                                                     : constant->text;
+        if (!seen.insert(std::move(key)).second) report(Code::DuplicateCase, range(*value), {text(*value)});
     }
 }
 
@@ -207,7 +214,8 @@ void Analyzer::assign(const AssignStmt& s) {
     if (remedy.empty())
         report(Code::AssignType, range(*s.value), {typeName(*value.info), typeName(want)});
     else
-        report(Code::NumDnumAssign, range(*s.value), {typeName(*value.info), typeName(want), remedy});
+        fixCall(report(Code::NumDnumAssign, range(*s.value), {typeName(*value.info), typeName(want), remedy}),
+                *s.value, remedy, remedy == "NumToDnum");
 }
 
 bool Analyzer::assignable(const Place& place, const Expr& target) {
@@ -215,7 +223,7 @@ bool Analyzer::assignable(const Place& place, const Expr& target) {
     const Type& type = *info(target).type.type;
     const bool parameter = root.storage == Storage::Parameter;
     if (type.kind == TypeKind::Switch) {
-        report(Code::SwitchAsValue, range(target), {text(target)});
+        report(Code::SwitchAsValue, range(target), {text(target)}); // no value to assign either
     } else if (type.kind == TypeKind::SemiValue) {
         const std::string& name = type.base()->name;
         std::string remedy = name == "signalao" ? "SetAO" : name == "signalgo" ? "SetGO" : "SetDO";
@@ -251,14 +259,15 @@ bool Analyzer::callStmt(const CallStmt& s) {
     if (!routine || routine->routineKind != RoutineKind::Proc) {
         if (symbol)
             reportNotCallable(*symbol, s.name);
-        else if (mayReportUnknown(name)) {
-            std::string hint = suggestion(name, Wanted::Procedure);
-            report(Code::UnknownProcedure, range(s.name), {text(s.name), std::move(hint)});
+        else if (reportUnknown(Code::UnknownProcedure, s.name, name, Wanted::Procedure) == Meant::Keyword) {
+            broken_ = true; // and its arguments are none
+            return true;
         }
         visitArguments(s.args);
         return true;
     }
     routine->used = true;
+    checkOption(*routine, s.name);
     bindCall(s, *routine, s.name, s.args);
     if (part_ == Part::Undo) callInUndo(*routine, s.name);
     return !routine->predefined || predefinedCall(*routine, s.name);

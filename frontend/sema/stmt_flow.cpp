@@ -78,9 +78,7 @@ void Analyzer::connectStmt(const ConnectStmt& s) {
         noteDeclared(report(Code::NotATrap, range(s.trap), {text(s.trap), describe(*symbol)}), *symbol);
         return;
     }
-    if (!mayReportUnknown(name)) return;
-    std::string hint = suggestion(name, Wanted::Trap);
-    report(Code::UnknownTrap, range(s.trap), {text(s.trap), std::move(hint)});
+    reportUnknown(Code::UnknownTrap, s.trap, name, Wanted::Trap);
 }
 
 void Analyzer::connectTarget(const Expr& target) {

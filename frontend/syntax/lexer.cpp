@@ -81,6 +81,32 @@ constexpr std::array<TokenKind, 128> kSingles = [] {
     return table;
 }();
 
+/// Second characters of operators that other languages have and RAPID has not.
+constexpr std::array<bool, 256> kForeignSeconds = [] {
+    std::array<bool, 256> table{};
+    for (const char c : {'=', '|', '/', '*', '>', '+', '-'})
+        table[static_cast<size_t>(c)] = true;
+    return table;
+}();
+
+/// Operators of other languages, and what RAPID writes. No text of RAPID has these two characters side by side.
+struct ForeignOperator {
+    std::string_view text;
+    TokenKind kind;
+    std::string_view expected;
+    std::string_view fix; ///< empty: not certain
+};
+constexpr ForeignOperator kForeignOperators[] = {
+    {"==", TokenKind::Equal, "'='", "="},
+    {"||", TokenKind::KwOr, "OR", "OR"},
+    {"->", TokenKind::Dot, "'.'", "."},
+    {"=>", TokenKind::GreaterEqual, "'>='", ">="},
+    {"+=", TokenKind::Assign, "':=' and the whole sum", ""},
+    {"-=", TokenKind::Assign, "':=' and the whole difference", ""},
+    {"*=", TokenKind::Assign, "':=' and the whole product", ""},
+    {"/=", TokenKind::Assign, "':=' and the whole quotient", ""},
+};
+
 unsigned char byteAt(const char* p) {
     return static_cast<unsigned char>(*p);
 }
@@ -141,6 +167,7 @@ class Lexer {
             if (c == CharClass::Space) {
                 ++p_;
             } else if (c == CharClass::Comment) {
+                if (p_[1] == '=' && isNotEqual()) break;
                 do
                     ++p_;
                 while (p_ < end_ && !isLineEnd(*p_));
@@ -167,10 +194,136 @@ class Lexer {
         token.kind = kind;
     }
 
-    void error(diag::Code code, const char* from, const char* to, std::vector<std::string> args = {}) {
+    void error(diag::Code code, const char* from, const char* to, std::vector<std::string> args = {},
+               std::optional<std::string> fix = {}) {
         if (result_.errors.size() >= kMaxLexErrors) return;
         const SourceRange range{static_cast<uint32_t>(from - begin_), static_cast<uint32_t>(to - begin_)};
-        result_.errors.push_back({code, range, std::move(args)});
+        result_.errors.push_back({code, range, std::move(args), std::move(fix)});
+    }
+
+    // ---- What other languages write (reported once, and read as it was meant)
+
+    /// `fix` may be a word: it keeps a distance from its neighbours.
+    void foreign(const char* start, std::string_view expected, std::string_view fix) {
+        std::optional<std::string> edit;
+        if (!fix.empty()) {
+            const bool word = classAt(fix.data()) == CharClass::Letter;
+            edit = (word && start > begin_ && classAt(start - 1) != CharClass::Space ? " " : "") +
+                   std::string(fix) + (word && classAt(p_) != CharClass::Space ? " " : "");
+        }
+        error(diag::Code::ForeignSpelling, start, p_, {std::string(slice(start, p_)), std::string(expected)},
+              std::move(edit));
+    }
+
+    void skipLine() {
+        while (p_ < end_ && !isLineEnd(*p_))
+            ++p_;
+    }
+
+    /// After the first character of a punctuation; false when the second one does not belong to it.
+    bool readForeign(const char* start) {
+        const std::string_view two(start, 2);
+        if (two == "//") {
+            ++p_;
+            foreign(start, "'!' before a comment", "!");
+            skipLine();
+            return true;
+        }
+        if (two == "/*") {
+            const std::string_view line = slice(start, std::find_if(start, end_, isLineEnd));
+            const size_t close = line.find("*/");
+            p_ = close == std::string_view::npos ? start + line.size() : start + close + 2;
+            foreign(start, "'!' before a comment", "");
+            return true;
+        }
+        if (two == "++" || two == "--") {
+            const char* next = p_ + 1;
+            while (*next == ' ')
+                ++next;
+            if (*next != ';') return false;
+            ++p_;
+            foreign(start, two == "++" ? "instruction Incr" : "instruction Decr", "");
+            push(TokenKind::Error, start);
+            return true;
+        }
+        for (const ForeignOperator& op : kForeignOperators) {
+            if (op.text != two) continue;
+            ++p_;
+            foreign(start, op.expected, op.fix);
+            push(op.kind, start);
+            return true;
+        }
+        return false;
+    }
+
+    /// Is the "!=" here an operator? It is, when an operand stands before it and code goes on behind it.
+    bool isNotEqual() const {
+        if (result_.tokens.empty() || p_[2] == '=' || isLineEnd(p_[2])) return false;
+        constexpr TokenSet kOperandEnds = {
+            TokenKind::Identifier, TokenKind::NumLiteral, TokenKind::StringLiteral, TokenKind::RightParen,
+            TokenKind::RightBrace, TokenKind::KwTrue,     TokenKind::RightBracket,  TokenKind::KwFalse};
+        const Token& previous = result_.tokens.back();
+        const char* from = begin_ + previous.offset + previous.length;
+        if (!kOperandEnds.has(previous.kind) || std::any_of(from, p_, isLineEnd)) return false;
+        const std::string_view rest = slice(p_, std::find_if(p_, end_, isLineEnd));
+        return rest.find(';') != std::string_view::npos || rest.find(" THEN") != std::string_view::npos ||
+               rest.find(" DO") != std::string_view::npos;
+    }
+
+    /// `&` `~` `^` and text in single quotes; false for other characters.
+    bool readForeignCharacter() {
+        const char* start = p_;
+        if (*p_ == '&') {
+            while (*p_ == '&')
+                ++p_;
+            foreign(start, "AND", "AND");
+            push(TokenKind::KwAnd, start);
+        } else if (*p_ == '~') {
+            ++p_;
+            foreign(start, "NOT", "NOT");
+            push(TokenKind::KwNot, start);
+        } else if (*p_ == '^') {
+            ++p_;
+            foreign(start, "function Pow", "");
+            push(TokenKind::Error, start);
+        } else if (*p_ == '\'') {
+            const char* close = p_ + 1;
+            while (close < end_ && *close != '\'' && !isLineEnd(*close))
+                ++close;
+            if (*close != '\'') return false;
+            p_ = close + 1;
+            const std::string_view content = slice(start + 1, close);
+            const bool plain = content.find_first_of("\"\\") == std::string_view::npos;
+            error(diag::Code::ForeignSpelling, start, p_,
+                  {std::string(slice(start, p_).substr(0, 40)), "a string between '\"'"},
+                  plain ? std::optional('"' + std::string(content) + '"') : std::nullopt);
+            push(TokenKind::Error, start);
+        } else {
+            return false;
+        }
+        return true;
+    }
+
+    /// "!="
+    void readNotEqual() {
+        const char* start = p_;
+        p_ += 2;
+        foreign(start, "'<>'", "<>");
+        push(TokenKind::NotEqual, start);
+    }
+
+    /// A word that begins with '_': a name, reported where it occurs first.
+    void readUnderscoreName() {
+        const char* start = p_;
+        while (*p_ == '_')
+            ++p_;
+        skipWordChars();
+        std::string name(slice(start, p_).substr(0, 40));
+        if (std::find(badNames_.begin(), badNames_.end(), name) == badNames_.end()) {
+            if (badNames_.size() < kMaxLexErrors) badNames_.push_back(name);
+            error(diag::Code::NameStart, start, p_, {std::move(name)});
+        }
+        push(TokenKind::Identifier, start);
     }
 
     std::string_view slice(const char* from, const char* to) const {
@@ -194,9 +347,9 @@ class Lexer {
         case CharClass::NonAscii:
             if (isLatin1Letter(p_)) return readWord();
             return readJunk();
+        case CharClass::Comment: return readNotEqual();
         case CharClass::Junk:
-        case CharClass::Space:
-        case CharClass::Comment: return readJunk();
+        case CharClass::Space: return readJunk();
         }
     }
 
@@ -324,6 +477,8 @@ class Lexer {
         if (*p_ == '=' && (c == ':' || c == '>')) {
             ++p_;
             kind = c == ':' ? TokenKind::Assign : TokenKind::GreaterEqual;
+        } else if (kForeignSeconds[byteAt(p_)] && readForeign(start)) {
+            return;
         }
         push(kind, start);
     }
@@ -350,12 +505,13 @@ class Lexer {
 
     /// One token for a run of unreadable characters, one report for a line of them.
     void readJunk() {
+        if (*p_ == '_') return readUnderscoreName();
+        if (readForeignCharacter()) return;
         const char* start = p_;
         while (p_ < end_ && isJunk()) {
             ++p_;
             skipContinuation();
         }
-        if (*start == '_') skipWordChars(); // a name that begins with '_'
         bool sameLine = lastJunk_ != nullptr;
         for (const char* q = lastJunk_; sameLine && q < start; ++q)
             sameLine = !isLineEnd(*q);
@@ -391,6 +547,7 @@ class Lexer {
     const char* padding_; ///< white space and end marks from here on
     const char* p_;
     const char* lastJunk_ = nullptr;
+    std::vector<std::string> badNames_; ///< that begin with '_'
     LexResult result_;
 };
 

@@ -4,6 +4,8 @@
 #include "frontend/diag/diagnostic.h"
 #include "frontend/syntax/ast.h"
 
+#include <optional>
+
 namespace rapid::syntax {
 
 /// A mistake found in the characters of a file. Whether it is shown is the parser's decision.
@@ -11,6 +13,7 @@ struct LexError {
     diag::Code code{};
     SourceRange range;
     std::vector<std::string> args;
+    std::optional<std::string> fix; ///< what certainly belongs in the place of `range`
 };
 
 struct LexResult {

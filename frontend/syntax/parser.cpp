@@ -61,7 +61,11 @@ Parser::Parser(SyntaxTree& tree, diag::Sink& sink, const ParseOptions& options)
       last_(static_cast<TokenIndex>(tree.tokens.size()) - 1) {}
 
 void Parser::parseFile(const LexResult& lexed) {
-    if (!lexed.hasModule) { // not RAPID: one report, whatever its characters are
+    if (!lexed.hasModule && startsMisspeltModule()) {
+        reportLexErrors(lexed);
+        accept(K::FileHeader);
+        retag(pos_, pos_, K::KwModule);
+    } else if (!lexed.hasModule) { // not RAPID: one report, whatever its characters are
         const TokenIndex first = kind() == K::FileHeader ? 1 : 0;
         if (kindAt(first) == K::EndOfFile) {
             report(Code::NoModule, first);
@@ -69,9 +73,13 @@ void Parser::parseFile(const LexResult& lexed) {
             report(Code::TextOutsideModule, first, {describe(first)});
         }
         return;
+    } else {
+        reportLexErrors(lexed);
+        accept(K::FileHeader);
     }
-    reportLexErrors(lexed);
-    while (kind() != K::EndOfFile) {
+    for (;;) {
+        warnOutsideComment(pos_);
+        if (kind() == K::EndOfFile) break;
         if (accept(K::FileHeader)) continue;
         if (kind() == K::KwModule) {
             parseModule();
@@ -83,11 +91,33 @@ void Parser::parseFile(const LexResult& lexed) {
     }
 }
 
+/// MODUEL name
+bool Parser::startsMisspeltModule() const {
+    const TokenIndex first = kind() == K::FileHeader ? 1 : 0;
+    return meant(first, K::KwModule) && kindAt(first + 1) == K::Identifier && !startsLine(first + 1);
+}
+
+/// Comments belong inside of modules (manual 1.1.2); one report a file.
+void Parser::warnOutsideComment(TokenIndex next) {
+    if (outsideCommentShown_) return;
+    const std::string_view text = tree_.source->text();
+    const uint32_t from = next == 0 ? 0 : tree_.range(next - 1).end;
+    const uint32_t to =
+        kindAt(next) == K::EndOfFile ? static_cast<uint32_t>(text.size()) : tokens_[next].offset;
+    const size_t comment = text.substr(0, to).find('!', from);
+    if (comment == std::string_view::npos) return;
+    outsideCommentShown_ = true;
+    const size_t end = std::min<size_t>(text.find_first_of("\r\n", comment), text.size());
+    reportAt(Code::CommentOutsideModule, {static_cast<uint32_t>(comment), static_cast<uint32_t>(end)});
+}
+
 void Parser::reportLexErrors(const LexResult& lexed) {
     for (const LexError& error : lexed.errors) {
+        if (error.code == Code::BadNumber) continue; // said where the number is read
         if (++errors_ <= kMaxErrorsPerFile) {
             diag::Diagnostic& d = sink_.report(error.code, tree_.source, error.range, error.args);
             if (error.code == Code::BadStringEscape) fixEscapes(d);
+            if (error.fix) d.fix(error.range, *error.fix);
         } else if (errors_ == kMaxErrorsPerFile + 1) {
             sink_.report(Code::TooManyErrors, tree_.source, error.range);
         }
@@ -223,6 +253,7 @@ bool Parser::startsDecl(TokenIndex i) const {
 void Parser::parseModuleDecls(ModuleDecl* module) {
     const size_t mark = decls_.size();
     while (kind() != K::KwEndmodule && kind() != K::KwModule && kind() != K::EndOfFile) {
+        if (kind() == K::Identifier && !quietOutside_ && retagDecl()) continue;
         const TokenIndex before = pos_;
         if (kind() == K::Semicolon && !quietOutside_) {
             skipStraySemicolons();
@@ -260,7 +291,25 @@ Decl* Parser::parseModuleDecl() {
         take();
         return parseData(ScopeWord::Task, first);
     }
+    if (isContextual(pos_, "TASK") && (kDeclStart.has(peek()) && !isPlaceholder(peek())))
+        return parseTaskDecl();
     return parseUnknownDecl();
+}
+
+/// TASK before what cannot take it: left out, or with LOCAL.
+Decl* Parser::parseTaskDecl() {
+    const TokenIndex first = pos_;
+    const SourceRange word{tree_.range(pos_).begin, tree_.range(pos_ + 1).begin};
+    if (peek() == K::KwLocal) {
+        report(Code::ScopeConflict, pos_);
+    } else {
+        fix(report(Code::TaskDirective, pos_, {describe(pos_ + 1)}), word, "");
+    }
+    take();
+    if (Decl* decl = parseModuleDecl()) return decl;
+    auto* node = make<PlaceholderDecl>(NodeKind::ErrorDecl);
+    node->first = first;
+    return finish(node);
 }
 
 Decl* Parser::parseScopedDecl() {
@@ -275,6 +324,11 @@ Decl* Parser::parseScopedDecl() {
     case K::KwRecord: return parseRecord(true, first);
     case K::KwAlias: return parseAlias(true, first);
     default: break;
+    }
+    if (isTaskDirective(pos_)) {
+        report(Code::ScopeConflict, pos_);
+        take();
+        return parseData(ScopeWord::Task, first);
     }
     unexpected("a declaration after LOCAL");
     quietOutside_ = true;

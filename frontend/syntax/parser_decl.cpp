@@ -76,7 +76,8 @@ Decl* Parser::parseRecord(bool local, TokenIndex first) {
         syncStatement();
     }
     const size_t mark = components_.size();
-    while (kind() != K::KwEndrecord && kind() != K::EndOfFile && !startsDecl(pos_)) {
+    while (kind() != K::KwEndrecord && kind() != K::EndOfFile) {
+        if (startsDecl(pos_) && !dropComponentWord()) break;
         if (kind() == K::KwEndmodule || kRoutineEnds.has(kind())) break;
         const TokenIndex before = pos_;
         if (isName(kind())) {
@@ -94,6 +95,19 @@ Decl* Parser::parseRecord(bool local, TokenIndex first) {
                {std::string(textOf(node->name))});
     closeBlock(K::KwEndrecord, opening);
     return finish(node);
+}
+
+/// "VAR num x;" in a record that is closed by ENDRECORD: the word is reported and left out.
+bool Parser::dropComponentWord() {
+    constexpr TokenSet kDataWords = {K::KwVar, K::KwPers, K::KwConst};
+    if (!kDataWords.has(kind()) || !isName(peek()) || !isName(peek(2))) return false;
+    constexpr TokenIndex kSearch = 200;
+    for (TokenIndex i = pos_ + 1; i < pos_ + kSearch && kindAt(i) != K::KwEndrecord; ++i)
+        if (i + 1 == pos_ + kSearch || kRoutineEnds.has(kindAt(i)) || kindAt(i) == K::EndOfFile) return false;
+    fix(report(Code::ComponentWord, pos_, {describe(pos_)}),
+        {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");
+    take();
+    return true;
 }
 
 RecordComponent* Parser::parseComponent() {
@@ -138,6 +152,9 @@ Decl* Parser::parseRoutine(bool local, TokenIndex first) {
     }
     const TokenSet outer = enclosing_;
     enclosing_ = TokenSet();
+    routineStart_ = pos_;
+    missingEndifs_ = -1;
+    plainError_ = false;
     blockOpening_ = kNoToken;
     compactIf_ = kNoToken;
     parseRoutineBody(node);
@@ -154,8 +171,18 @@ void Parser::parseRoutineHeader(RoutineDecl* routine) {
         if (!panic_ && kind() == K::LeftParen && !startsLine(pos_)) { // FUNC name(...): the type is missing
             routine->name = routine->returnType;
             routine->returnType = kNoToken;
-            report(Code::UnexpectedToken, pos_, {describe(pos_), "the name of the function after its type"});
+            report(Code::MissingReturnType, routine->name, {std::string(textOf(routine->name))});
+        } else if (!panic_ && kind() == K::LeftBrace) { // FUNC num{3} name()
+            report(Code::ArrayReturn, pos_);
+            while (kind() != K::RightBrace && kind() != K::EndOfFile && !startsLine(pos_))
+                take();
+            accept(K::RightBrace);
         }
+    } else if (isName(kind()) && isName(peek()) && !startsLine(pos_ + 1)) { // PROC num name()
+        fix(report(Code::ReturnTypeUnexpected, pos_,
+                   {std::string(textOf(pos_)), std::string(wordsOf(routine->routineKind).name)}),
+            {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");
+        take();
     }
     if (!panic_ && routine->name == kNoToken) routine->name = expectName();
     checkNameLength(routine->name);
@@ -263,10 +290,32 @@ ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
         return finish(node);
     }
     node->type = expectName();
+    dropMisplacedMode(node);
     if (!panic_) node->name = expectName(true);
     checkNameLength(node->name);
     if (!panic_ && kind() == K::LeftBrace) parseDimensions(node);
+    if (!panic_ && (kind() == K::Assign || kind() == K::Equal)) {
+        report(Code::ParameterValue, pos_, {std::string(textOf(node->name))});
+        take();
+        parseExpr();
+    }
     return finish(node);
+}
+
+/// `num VAR x`
+void Parser::dropMisplacedMode(ParamDecl* param) {
+    constexpr TokenSet kModes = {K::KwVar, K::KwPers, K::KwInout};
+    if (panic_ || !kModes.has(kind()) || !isName(peek())) return;
+    if (diag::Diagnostic* diagnostic = report(Code::ModeAfterType, pos_, {describe(pos_)})) {
+        const uint32_t begin = tree_.range(param->first).begin;
+        const SourceRange word{tree_.range(pos_).begin, tree_.range(pos_ + 1).begin};
+        diagnostic->fixes.push_back({"write it before the data type",
+                                     {{{begin, begin}, std::string(tokenText(kind())) + " "}, {word, ""}}});
+    }
+    param->mode = kind() == K::KwVar    ? ParamMode::Var
+                  : kind() == K::KwPers ? ParamMode::Pers
+                                        : ParamMode::Inout;
+    take();
 }
 
 /// `{*}`, `{*,*}`, `{*,*,*}` or `{<DIM>}`
@@ -301,8 +350,15 @@ bool Parser::isNative() const {
 
 void Parser::parseRoutineBody(RoutineDecl* routine) {
     const size_t mark = stmts_.size();
-    parseRoutineData(routine);
-    const StmtList list = parseList(kRoutineEnds);
+    const size_t dataMark = data_.size();
+    parseRoutineData();
+    StmtList list = parseList(kRoutineEnds);
+    while (parseNested(routine)) {
+        stmts_.insert(stmts_.end(), list.begin(), list.end());
+        if (stmts_.size() == mark) parseRoutineData();
+        list = parseList(kRoutineEnds);
+    }
+    routine->data = drain(data_, dataMark);
     if (stmts_.size() == mark) {
         routine->body = list;
     } else { // semicolons between the declarations are empty instructions
@@ -312,9 +368,35 @@ void Parser::parseRoutineBody(RoutineDecl* routine) {
     parseHandlers(routine);
 }
 
+/// A routine or type inside a routine: it is nested, and not the next one after a missing END word, when there are
+/// enough of these for all routines that follow and for this one.
+bool Parser::parseNested(const RoutineDecl* routine) {
+    constexpr TokenSet kRoutines = {K::KwProc, K::KwFunc, K::KwTrap};
+    constexpr TokenSet kEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
+    const TokenIndex word = kind() == K::KwLocal ? pos_ + 1 : pos_;
+    const bool isRoutine = kRoutines.has(kindAt(word));
+    if ((!isRoutine && kindAt(word) != K::KwRecord && kindAt(word) != K::KwAlias) ||
+        errors_ >= kMaxErrorsPerFile)
+        return false;
+    int open = 1;
+    for (TokenIndex i = word; kindAt(i) != K::EndOfFile && kindAt(i) != K::KwEndmodule; ++i) {
+        if (kRoutines.has(kindAt(i))) ++open;
+        if (kEnds.has(kindAt(i))) --open;
+    }
+    const Nest nest(*this);
+    if (open > 0 || !nest) return false;
+    report(Code::NestedDeclaration, word,
+           {describe(word), routine->name == kNoToken ? std::string() : std::string(textOf(routine->name))});
+    const TokenIndex start = routineStart_;
+    if (Decl* decl = parseModuleDecl()) decls_.push_back(decl);
+    routineStart_ = start;
+    missingEndifs_ = -1;
+    enclosing_ = TokenSet();
+    return true;
+}
+
 /// The declarations at the beginning; semicolons too many do not end them.
-void Parser::parseRoutineData(RoutineDecl* routine) {
-    const size_t mark = data_.size();
+void Parser::parseRoutineData() {
     for (;;) {
         const TokenIndex first = pos_;
         const K k = kind();
@@ -329,15 +411,15 @@ void Parser::parseRoutineData(RoutineDecl* routine) {
             reportScopeInside(k == K::KwLocal ? ScopeWord::Local : ScopeWord::Task);
             take();
             data_.push_back(parseData(k == K::KwLocal ? ScopeWord::Local : ScopeWord::Task, first));
-        } else {
+        } else if (k != K::Identifier || !retagData()) {
             break;
         }
     }
-    routine->data = drain(data_, mark);
 }
 
-/// LOCAL or TASK in front of routine data.
+/// LOCAL or TASK in front of routine data; PERS there is a mistake of its own.
 void Parser::reportScopeInside(ScopeWord scope) {
+    if (peek() == K::KwPers) return;
     fix(report(Code::ScopeInsideRoutine, pos_, {scope == ScopeWord::Local ? "LOCAL" : "TASK"}),
         {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");
 }
@@ -359,8 +441,10 @@ void Parser::parseHandler(RoutineDecl* routine, K previous) {
     const auto rank = [](K k) {
         return k == K::KwBackward ? 1 : k == K::KwError ? 2 : k == K::KwUndo ? 3 : 0;
     };
-    const bool repeated =
-        (word == K::KwBackward && routine->hasBackward) || (word == K::KwUndo && routine->hasUndo);
+    const bool plainError = word == K::KwError && peek() != K::LeftParen;
+    const bool repeated = (word == K::KwBackward && routine->hasBackward) ||
+                          (word == K::KwUndo && routine->hasUndo) || (plainError && plainError_);
+    plainError_ |= plainError;
     if (repeated) {
         report(Code::DuplicateHandler, pos_, {describe(pos_)});
     } else if (word == K::KwBackward && routine->routineKind != RoutineKind::Proc) {

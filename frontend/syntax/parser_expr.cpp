@@ -82,6 +82,17 @@ Expr* Parser::parseBinary(int minPrecedence) {
     }
     for (;;) {
         const Operator op = operatorOf(kind());
+        if (op.precedence == 0 && !panic_) {
+            if (kind() == K::Identifier && isMisspeltOperator(left)) {
+                if (pos_ == left->first) return parseBinary(minPrecedence); // NOT
+                continue;
+            }
+            if (kind() == K::Percent && !inLateName_ && !startsLine(pos_) && startsExpr(peek())) {
+                fix(report(Code::ForeignSpelling, pos_, {"%", "MOD"}), tree_.range(pos_), " MOD ");
+                tokens_[pos_].kind = K::KwMod;
+                continue;
+            }
+        }
         if (op.precedence == 0 || op.precedence < minPrecedence || panic_) return left;
         const uint32_t leftHeight = height_;
         auto* node = makeExpr<BinaryExpr>(NodeKind::Binary);
@@ -98,13 +109,41 @@ Expr* Parser::parseBinary(int minPrecedence) {
     }
 }
 
+/// A misspelt operator at the current token, or a misspelt NOT before it; the parser then stands there.
+bool Parser::isMisspeltOperator(const Expr* left) {
+    if (left->kind == NodeKind::Name && !startsLine(pos_) && startsExpr(kind()) &&
+        meant(left->first, K::KwNot)) {
+        TokenIndex then = 0;
+        if (inCondition_ && !findOnLine(pos_, K::KwThen, then)) return false;
+        pos_ = left->first;
+        retag(pos_, pos_, K::KwNot);
+        return true;
+    }
+    return retagOperator();
+}
+
+/// A condition; an assignment in it was meant as a comparison.
+Expr* Parser::parseCondition() {
+    Expr* condition = parseExpr();
+    if (panic_ || kind() != K::Assign) return condition;
+    fix(report(Code::AssignmentInCondition, pos_), tree_.range(pos_), "=");
+    auto* node = makeExpr<BinaryExpr>(NodeKind::Binary);
+    node->first = condition->first;
+    node->op = BinaryOp::Eq;
+    node->opToken = take();
+    node->left = condition;
+    node->right = parseExpr();
+    return finish(node);
+}
+
 /// NOT at the start of a logical term covers the whole term, after AND one relation (manual 1.3.5, 1.3.6).
 Expr* Parser::parseNot(int minPrecedence) {
     const Nest nest(*this);
     if (!nest) return tooDeepExpr();
     diag::Diagnostic* misplaced = nullptr;
     size_t reported = 0;
-    if (minPrecedence > kRelationLevel) {
+    const bool twice = pos_ > 0 && tokens_[pos_ - 1].kind == K::KwNot;
+    if (minPrecedence > kRelationLevel || twice) {
         misplaced = report(Code::NotInOperand, pos_);
         reported = sink_.all().size();
     }
@@ -170,15 +209,34 @@ Expr* Parser::parsePrimary() {
         take();
         return finish(node);
     }
-    default: unexpected("an expression"); return errorExpr();
+    default: break;
     }
+    if (atReservedName()) {
+        report(Code::ReservedWordAsName, pos_, {std::string(tokenText(kind()))});
+        auto* node = makeExpr<ErrorExpr>(NodeKind::ErrorExpr);
+        take();
+        return finish(node);
+    }
+    unexpected("an expression");
+    return errorExpr();
+}
+
+/// A reserved word where an operand stands, followed by what can follow an operand.
+bool Parser::atReservedName() const {
+    constexpr TokenSet kAfter = {K::Semicolon,    K::Comma,     K::RightParen, K::RightBrace, K::Dot,
+                                 K::RightBracket, K::LeftBrace, K::Plus,       K::Minus,      K::Star,
+                                 K::Slash,        K::Equal,     K::Less,       K::Greater,    K::LessEqual,
+                                 K::GreaterEqual, K::NotEqual};
+    return isKeyword(kind()) && !startsLine(pos_) && !startsLine(pos_ + 1) && kAfter.has(peek());
 }
 
 Expr* Parser::parseNumber() {
     auto* node = makeExpr<NumLiteralExpr>(NodeKind::NumLiteral);
     const TokenIndex token = take();
     const NumberValue number = numberValue(textOf(token));
-    if (number.valid && !number.inRange)
+    if (!number.valid)
+        report(Code::BadNumber, token, {std::string(textOf(token).substr(0, 40))});
+    else if (!number.inRange)
         report(Code::NumberTooLarge, token, {std::string(textOf(token).substr(0, 40))});
     node->value = number.value;
     return finish(node);
@@ -223,7 +281,8 @@ Expr* Parser::parseNamed(bool allowCall) {
     auto* node = makeExpr<NameExpr>(NodeKind::Name);
     node->name = take();
     finish(node);
-    if (kind() != K::Dot && kind() != K::LeftBrace) return node;
+    if (kind() != K::Dot && kind() != K::LeftBrace && (kind() != K::LeftBracket || startsLine(pos_)))
+        return node;
     return parsePostfix(node);
 }
 
@@ -241,7 +300,9 @@ Expr* Parser::parseCall() {
 /// Index and components. Only a whole variable takes an index, and a call result has no parts (manual 1.3.6).
 Expr* Parser::parsePostfix(Expr* base) {
     bool reported = false;
-    while ((kind() == K::LeftBrace || kind() == K::Dot) && !panic_) {
+    for (;;) {
+        const bool bracket = kind() == K::LeftBracket && base->kind == NodeKind::Name && !startsLine(pos_);
+        if ((kind() != K::LeftBrace && kind() != K::Dot && !bracket) || panic_) return base;
         if (base->kind == NodeKind::Call && !reported) {
             report(Code::PartOfCallResult, pos_, {std::string(textOf(pos_))});
             reported = true;
@@ -262,17 +323,32 @@ Expr* Parser::parsePostfix(Expr* base) {
                 report(Code::IndexOnPart, pos_);
                 reported = true;
             }
-            auto* node = makeExpr<IndexExpr>(NodeKind::Index);
-            node->first = base->first;
-            node->base = base;
-            const TokenIndex opening = take();
-            node->indices = parseExprList(K::RightBrace, opening);
+            base = parseIndex(base);
             height_ = std::max(baseHeight, height_) + 1;
-            base = finish(node);
         }
         if (height_ > kMaxDepth) return tooDeepExpr();
     }
-    return base;
+}
+
+/// `{1,2}`; other brackets are reported and read as if they were these.
+Expr* Parser::parseIndex(Expr* base) {
+    auto* node = makeExpr<IndexExpr>(NodeKind::Index);
+    node->first = base->first;
+    node->base = base;
+    const TokenIndex opening = pos_;
+    const K closing = kind() == K::LeftBracket ? K::RightBracket
+                      : kind() == K::LeftParen ? K::RightParen
+                                               : K::RightBrace;
+    diag::Diagnostic* diagnostic = nullptr;
+    if (closing != K::RightBrace)
+        diagnostic = report(Code::ForeignSpelling, pos_, {std::string(textOf(pos_)), "'{' before an index"});
+    const size_t reported = sink_.all().size();
+    take();
+    node->indices = parseExprList(closing, opening);
+    if (diagnostic && !panic_ && sink_.all().size() == reported)
+        diagnostic->fixes.push_back({"put the index between '{' and '}'",
+                                     {{tree_.range(opening), "{"}, {tree_.range(pos_ - 1), "}"}}});
+    return finish(node);
 }
 
 /// The arguments of a call up to what cannot be one; sets height_ to that of the call.

@@ -109,6 +109,7 @@ class Parser {
     SourceRange endOf(TokenIndex i) const { return {tree_.range(i).end, tree_.range(i).end}; }
     void reportTooDeep();
     void reportLexErrors(const LexResult& lexed);
+    bool startsMisspeltModule() const;
     void fixEscapes(diag::Diagnostic& diagnostic) const;
     void checkNameLength(TokenIndex name);
 
@@ -123,16 +124,30 @@ class Parser {
     bool findOnLine(TokenIndex from, K wanted, TokenIndex& found) const;
     void expectWord(K word);
     bool expectHeadWord(K word, bool whole);
-    Expr* parseHeadExpr(bool& whole, bool inCase = false);
+    enum class HeadPart : uint8_t { Value, CaseValue, Condition };
+    Expr* parseHeadExpr(bool& whole, HeadPart part = HeadPart::Value);
     /// `inCase`: a name and a colon are a value of CASE, no label.
     bool beginsInstruction(bool inCase = false) const;
     TokenIndex missingName();
     void expectClosing(K closing, TokenIndex opening, bool inList);
     void closeBlock(K end, TokenIndex opening, bool whole = true);
     bool handleStray(const TokenSet& own);
-    bool retagMisspelt(const TokenSet& own);
+    bool atReservedName() const;
     void abandonRoutine();
     TokenIndex expectName(bool newerKeywords = false);
+
+    // ---- Misspelt keywords (parser_typos.cpp)
+    bool meant(TokenIndex i, K word, unsigned limit = 0) const;
+    void retag(TokenIndex first, TokenIndex last, K word);
+    bool retagIfMeant(K word);
+    bool fitsAsListWord(K word, TokenIndex last) const;
+    bool retagMisspelt(const TokenSet& own);
+    bool retagData();
+    bool retagOpener();
+    bool retagCallee(TokenIndex callee);
+    bool retagDecl();
+    bool retagOperator();
+    bool isMisspeltOperator(const Expr* left);
 
     // ---- Expressions (parser_expr.cpp)
     Expr* parseExpr() { return parseBinary(1); }
@@ -144,6 +159,8 @@ class Parser {
     Expr* parseNamed(bool allowCall);
     Expr* parseCall();
     Expr* parsePostfix(Expr* base);
+    Expr* parseIndex(Expr* base);
+    Expr* parseCondition();
     Expr* parseParen();
     Expr* parseAggregate();
     Expr* errorExpr();
@@ -163,6 +180,8 @@ class Parser {
     Stmt* parseLabel();
     Stmt* parseCallStmt();
     bool parseParenthesisedCall(CallStmt* call);
+    bool isBracketTarget(K open, K close) const;
+    bool isSplitElseif();
     Stmt* parseLateCall();
     Stmt* parseIf();
     Stmt* parseIfBlocks(TokenIndex opening, Expr* condition);
@@ -187,6 +206,8 @@ class Parser {
     void parseModuleDecls(ModuleDecl* module);
     Decl* parseModuleDecl();
     Decl* parseScopedDecl();
+    Decl* parseTaskDecl();
+    void warnOutsideComment(TokenIndex next);
     Decl* parseUnknownDecl();
     void skipToDecl();
     void skipOutsideModule();
@@ -194,6 +215,8 @@ class Parser {
     DataDecl* parseData(ScopeWord scope, TokenIndex first);
     Decl* parseRecord(bool local, TokenIndex first);
     RecordComponent* parseComponent();
+    bool dropComponentWord();
+    void dropMisplacedMode(ParamDecl* param);
     Decl* parseAlias(bool local, TokenIndex first);
     Decl* parseRoutine(bool local, TokenIndex first);
     void parseRoutineHeader(RoutineDecl* routine);
@@ -203,7 +226,8 @@ class Parser {
     void parseDimensions(ParamDecl* param);
     bool isNative() const;
     void parseRoutineBody(RoutineDecl* routine);
-    void parseRoutineData(RoutineDecl* routine);
+    void parseRoutineData();
+    bool parseNested(const RoutineDecl* routine);
     void parseHandlers(RoutineDecl* routine);
     void parseHandler(RoutineDecl* routine, K previous);
     void closeRoutine(RoutineDecl* routine, TokenIndex opening);
@@ -220,6 +244,7 @@ class Parser {
     bool panic_ = false;
     bool abandoned_ = false; ///< the routine is nested too deep: blocks end without their words
     bool quietOutside_ = false;
+    bool outsideCommentShown_ = false;
     size_t errors_ = 0;
     diag::Diagnostic* lastOrder_ =
         nullptr;                         ///< module attributes out of order, while nothing else is reported
@@ -227,6 +252,14 @@ class Parser {
     TokenIndex wrongEnd_ = kNoToken;     ///< an END word that closes a block of another kind
     TokenIndex headReported_ = kNoToken; ///< a THEN or DO whose IF, FOR or WHILE is broken
     TokenIndex compactIf_ = kNoToken;    ///< the last IF without THEN
+    TokenIndex compactIfEnd_ =
+        kNoToken;                 ///< the end of its condition, when its instruction is on another line
+    int missingEndifs_ = -1;      ///< of the routine; -1: not counted yet
+    TokenIndex routineStart_ = 0; ///< its first token
+    bool inCondition_ = false;    ///< between IF and THEN
+    bool inLateName_ = false;     ///< between the '%' of a late-bound call
+    bool colonGiven_ = false;     ///< a DEFAULT that was written ELSE
+    bool plainError_ = false;     ///< the routine has an ERROR handler without a list
     TokenIndex blockOpening_ = kNoToken; ///< the word that opened the innermost block
 
     // Scratch space, shared by all levels of the recursion.

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace rapid::syntax {
 
@@ -35,22 +34,6 @@ constexpr TokenSet kLineWords = kStmtWords | kEndWords | kBlockWords | kDeclWord
 constexpr TokenSet kSearchEnd = kLineWords | TokenSet{TokenKind::Semicolon};
 
 constexpr uint32_t kSearchTokens = 200;
-
-/// Edit distance of two short words, letter case aside.
-size_t distance(std::string_view a, std::string_view upper) {
-    std::vector<size_t> row(upper.size() + 1);
-    std::iota(row.begin(), row.end(), size_t{0});
-    for (size_t i = 0; i < a.size(); ++i) {
-        size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (size_t j = 0; j < upper.size(); ++j) {
-            const size_t cost = diagonal + !equalsNoCase(a.substr(i, 1), upper.substr(j, 1));
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({cost, row[j] + 1, row[j + 1] + 1});
-        }
-    }
-    return row.back();
-}
 
 } // namespace
 
@@ -268,7 +251,7 @@ void Parser::syncStatement() {
 }
 
 void Parser::expectWord(K word) {
-    if (kind() == word) {
+    if (kind() == word || (!panic_ && kind() == K::Identifier && retagIfMeant(word))) {
         take();
         panic_ = false;
         return;
@@ -326,14 +309,14 @@ TokenIndex Parser::missingName() {
 }
 
 /// An expression in the head of a block. It may go over lines, but the next instruction is none.
-Expr* Parser::parseHeadExpr(bool& whole, bool inCase) {
+Expr* Parser::parseHeadExpr(bool& whole, HeadPart part) {
     if (!whole) return errorExpr();
-    if (beginsInstruction(inCase)) {
+    if (beginsInstruction(part == HeadPart::CaseValue)) {
         reportAt(Code::UnexpectedToken, endOf(pos_ - 1), {describe(pos_), "an expression"});
         whole = false;
         return errorExpr();
     }
-    Expr* expr = parseExpr();
+    Expr* expr = part == HeadPart::Condition ? parseCondition() : parseExpr();
     if (panic_ && (startsLine(pos_) || kind() == K::EndOfFile)) {
         whole = false;
         panic_ = false;
@@ -408,6 +391,19 @@ bool Parser::handleStray(const TokenSet& own) {
         wrongEnd_ = pos_;
         return true;
     }
+    if (stray == K::KwElse && own.has(K::KwDefault)) { // of TEST
+        fix(report(Code::MisspeltKeyword, pos_, {describe(pos_), "DEFAULT:"}), tree_.range(pos_), "DEFAULT:");
+        tokens_[pos_].kind = K::KwDefault;
+        colonGiven_ = true;
+        return true;
+    }
+    if (stray == K::KwEndif && compactIf_ != kNoToken && compactIfEnd_ != kNoToken &&
+        columnOf(pos_) == columnOf(compactIf_)) { // IF without THEN, its block closed by ENDIF
+        const SourceRange place = endOf(compactIfEnd_);
+        fix(reportAt(Code::MissingBlockWord, place, {describe(compactIfEnd_ + 1), "THEN"}), place, " THEN");
+        compactIf_ = kNoToken;
+        return false;
+    }
     std::string_view opener = "a routine";
     for (const Pair& pair : kOpeners)
         if (pair.stray == stray) opener = pair.opener;
@@ -417,41 +413,12 @@ bool Parser::handleStray(const TokenSet& own) {
     return false;
 }
 
-/// "ENDIFF", "END IF", "ELSIF": names alone in a line that stand for a word this list waits for.
-bool Parser::retagMisspelt(const TokenSet& own) {
-    const std::string_view text = textOf(pos_);
-    const K next = peek();
-    constexpr TokenSet kUsedAsName = {TokenKind::Assign, TokenKind::Colon, TokenKind::Semicolon,
-                                      TokenKind::Dot,    TokenKind::Comma, TokenKind::LeftBrace};
-    if (text.size() < 3 || text.size() > 12 || kUsedAsName.has(next) || !startsLine(pos_)) return false;
-    static constexpr K kWords[] = {K::KwEndif,   K::KwEndfor,  K::KwEndwhile, K::KwEndtest,
-                                   K::KwEndproc, K::KwEndfunc, K::KwEndtrap,  K::KwElseif};
-    for (const K word : kWords) {
-        if (!own.has(word)) continue;
-        const std::string_view spelling = tokenText(word);
-        TokenIndex last = pos_;
-        const bool twoWords = equalsNoCase(text, "END");
-        if (twoWords) {
-            if (startsLine(pos_ + 1) || !isKeyword(next) || tokenText(next) != spelling.substr(3)) continue;
-            last = pos_ + 1;
-        }
-        TokenIndex found = 0;
-        const bool fits = word == K::KwElseif ? findOnLine(last + 1, K::KwThen, found)
-                                              : last + 1 == last_ || startsLine(last + 1);
-        if (!fits || (!twoWords && distance(text, spelling) > 2)) continue;
-        const SourceRange range{tree_.range(pos_).begin, tree_.range(last).end};
-        const auto shown = tree_.source->text().substr(range.begin, range.end - range.begin);
-        fix(reportAt(Code::MisspeltKeyword, range, {std::string(shown), std::string(spelling)}), range,
-            std::string(spelling));
-        pos_ = last;
-        tokens_[pos_].kind = word;
-        return true;
-    }
-    return false;
-}
-
 TokenIndex Parser::expectName(bool newerKeywords) {
     if (isName(kind())) return take();
+    if (kind() == K::NumLiteral && !startsLine(pos_)) { // "1st"
+        report(Code::NameStart, pos_, {std::string(textOf(pos_).substr(0, 40))});
+        return take();
+    }
     if (newerKeywords && (kind() == K::KwBreak || kind() == K::KwContinue)) {
         tokens_[pos_].kind = K::Identifier; // RaiseToUser \Continue is older than the keyword
         return take();

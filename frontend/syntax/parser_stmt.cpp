@@ -2,6 +2,8 @@
 
 #include "frontend/syntax/parser_impl.h"
 
+#include <utility>
+
 namespace rapid::syntax {
 
 using diag::Code;
@@ -23,6 +25,11 @@ constexpr TokenSet kIfEnds = {TokenKind::KwEndif, TokenKind::KwElse, TokenKind::
                               TokenKind::PlaceEit};
 constexpr TokenSet kTestEnds = {TokenKind::KwEndtest, TokenKind::KwCase, TokenKind::KwDefault,
                                 TokenKind::PlaceCse};
+
+/// First letters of END, ELSE, ERROR, CASE, DEFAULT, UNDO, BACKWARD, and of words of other languages for them.
+bool mayBeMisspelt(char first) {
+    return std::string_view("ecdubnwo").find(static_cast<char>(first | 32)) != std::string_view::npos;
+}
 
 /// Sets a member for the length of a block.
 template <class T> class Restore {
@@ -50,7 +57,7 @@ StmtList Parser::parseList(const TokenSet& own) {
         if (kListStops.has(k)) {
             if (k == K::EndOfFile || own.has(k)) break;
             if (k == K::Identifier) {
-                if ((textOf(pos_)[0] | 32) == 'e' && retagMisspelt(own)) continue;
+                if (mayBeMisspelt(textOf(pos_)[0]) && retagMisspelt(own)) continue;
             } else if (k == K::KwLocal) {
                 if (peek() == K::KwProc || peek() == K::KwFunc || peek() == K::KwTrap ||
                     peek() == K::KwRecord || peek() == K::KwAlias)
@@ -77,6 +84,13 @@ Stmt* Parser::parseStmt() {
 
 Stmt* Parser::parseStmtUnguarded() {
     const TokenIndex first = pos_;
+    if ((peek() == K::Colon || peek() == K::Assign) && isKeyword(kind()) && kind() != K::KwDefault) {
+        report(Code::ReservedWordAsName, pos_, {std::string(tokenText(kind()))});
+        take();
+        if (kind() == K::Assign) return parseAssignment(errorExpr(), first);
+        take();
+        return errorStmt(first);
+    }
     switch (kind()) {
     case K::Identifier:
     case K::PlaceId: return parseNamedStmt();
@@ -185,10 +199,34 @@ Stmt* Parser::parseNamedStmt() {
         return parseAssignment(parseNamed(false), first);
     }
     case K::Colon: return parseLabel();
+    case K::Identifier:
+        if (retagOpener()) return parseStmtUnguarded();
+        break;
+    case K::LeftBracket:
+    case K::LeftParen: {
+        const bool bracket = peek() == K::LeftBracket;
+        if (!isBracketTarget(peek(), bracket ? K::RightBracket : K::RightParen)) break;
+        auto* name = makeExpr<NameExpr>(NodeKind::Name);
+        name->name = take();
+        return parseAssignment(parsePostfix(parseIndex(finish(name))), first);
+    }
     default: break;
     }
     if (isTaskDirective(pos_)) return parseLateDecl();
     return parseCallStmt();
+}
+
+/// `name(1) := ...`, `name[1].x := ...`
+bool Parser::isBracketTarget(K open, K close) const {
+    uint32_t depth = 0;
+    constexpr TokenIndex kSearch = 500;
+    for (TokenIndex i = pos_ + 1; i < pos_ + kSearch; ++i) {
+        const K k = kindAt(i);
+        if (k == K::Semicolon || k == K::EndOfFile || k == K::Assign) return false;
+        if (k == open) ++depth;
+        if (k == close && --depth == 0) return kindAt(i + 1) == K::Assign || kindAt(i + 1) == K::Dot;
+    }
+    return false;
 }
 
 Stmt* Parser::parseAssignment(Expr* target, TokenIndex first) {
@@ -223,7 +261,15 @@ Stmt* Parser::parseCallStmt() {
         return finish(node);
     }
     if (kind() == K::LeftParen && parseParenthesisedCall(node)) return finish(node);
+    const size_t errorsBefore = errors_;
     node->args = parseArguments(true);
+    if (kind() != K::Semicolon && !panic_ && errors_ == errorsBefore && retagCallee(node->name))
+        return parseStmtUnguarded();
+    if (node->args.empty() && atReservedName()) { // an argument
+        node->args = {};
+        report(Code::ReservedWordAsName, pos_, {std::string(tokenText(kind()))});
+        panic_ = true;
+    }
     endStatement(node->args.empty() ? "an argument or ';'" : "',' or ';'");
     return finish(node);
 }
@@ -262,7 +308,9 @@ bool Parser::parseParenthesisedCall(CallStmt* call) {
 Stmt* Parser::parseLateCall() {
     auto* node = make<CallStmt>(NodeKind::CallStmt);
     const TokenIndex opening = take();
+    const bool outer = std::exchange(inLateName_, true);
     node->lateName = parseExpr();
+    inLateName_ = outer;
     expectClosing(K::Percent, opening, false);
     if (!panic_ && !calleeEndsHere(opening, pos_ - 1)) node->args = parseArguments(true);
     endStatement(node->args.empty() ? "an argument or ';'" : "',' or ';'");
@@ -273,8 +321,11 @@ Stmt* Parser::parseLateCall() {
 
 Stmt* Parser::parseIf() {
     const TokenIndex opening = take();
-    Expr* condition = parseExpr();
+    const bool outer = std::exchange(inCondition_, true);
+    Expr* condition = parseCondition();
+    inCondition_ = outer;
     TokenIndex found = 0;
+    if (kind() == K::Identifier && startsLine(pos_ + 1)) retagIfMeant(K::KwThen);
     if (kind() == K::KwThen || findOnLine(pos_, K::KwThen, found)) return parseIfBlocks(opening, condition);
 
     auto* node = make<CompactIfStmt>(NodeKind::CompactIf);
@@ -283,6 +334,7 @@ Stmt* Parser::parseIf() {
     const TokenIndex bodyFirst = pos_;
     if (!panic_) {
         compactIf_ = opening;
+        compactIfEnd_ = startsLine(pos_) ? pos_ - 1 : kNoToken;
         const K k = kind();
         const bool canStart =
             k == K::PlaceVar || k == K::PlaceSmt || !kListStops.has(k) || k == K::Identifier;
@@ -320,6 +372,10 @@ Stmt* Parser::parseIfBlocks(TokenIndex opening, Expr* condition) {
             columnOf(pos_) == columnOf(outer) && columnOf(pos_) != columnOf(opening))
             break;
         if (node->hasElse) report(Code::InstructionAfterElse, pos_, {describe(pos_)});
+        if (kind() == K::KwElse && isSplitElseif()) {
+            retag(pos_, pos_ + 1, K::KwElseif);
+            ++pos_;
+        }
         if (accept(K::KwElse)) {
             const StmtList body = parseList(kIfEnds);
             if (!node->hasElse) node->elseBody = body;
@@ -329,7 +385,7 @@ Stmt* Parser::parseIfBlocks(TokenIndex opening, Expr* condition) {
         branch = make<IfBranch>(NodeKind::IfBranch);
         if (take(), tokens_[pos_ - 1].kind == K::KwElseif) {
             bool whole = true;
-            branch->condition = parseHeadExpr(whole);
+            branch->condition = parseHeadExpr(whole, HeadPart::Condition);
             allWhole = expectHeadWord(K::KwThen, whole) && allWhole;
         }
         branch->body = parseList(kIfEnds);
@@ -338,6 +394,24 @@ Stmt* Parser::parseIfBlocks(TokenIndex opening, Expr* condition) {
     closeBlock(K::KwEndif, opening, allWhole);
     node->branches = drain(branches_, mark);
     return finish(node);
+}
+
+/// "ELSE IF" in one line, in a routine that has fewer ENDIF than this takes: one word is meant.
+bool Parser::isSplitElseif() {
+    if (peek() != K::KwIf || startsLine(pos_ + 1)) return false;
+    if (missingEndifs_ < 0) {
+        constexpr TokenSet kStop = {K::KwEndproc, K::KwEndfunc,   K::KwEndtrap, K::KwProc,   K::KwFunc,
+                                    K::KwTrap,    K::KwEndmodule, K::KwModule,  K::EndOfFile};
+        missingEndifs_ = 0;
+        for (TokenIndex i = routineStart_; !kStop.has(kindAt(i)); ++i) {
+            TokenIndex then = 0;
+            if (kindAt(i) == K::KwIf && findOnLine(i + 1, K::KwThen, then)) ++missingEndifs_;
+            if (kindAt(i) == K::KwEndif) --missingEndifs_;
+        }
+    }
+    if (missingEndifs_ <= 0) return false;
+    --missingEndifs_;
+    return true;
 }
 
 Stmt* Parser::parseFor() {
@@ -361,8 +435,14 @@ Stmt* Parser::parseFor() {
         whole = expectHeadWord(K::KwFrom, whole);
     }
     node->from = parseHeadExpr(whole);
-    whole = expectHeadWord(K::KwTo, whole);
-    node->to = parseHeadExpr(whole);
+    if (whole && !panic_ && kind() == K::KwDo) {
+        report(Code::MissingBlockWord, pos_, {describe(pos_), "TO and the end value"});
+        node->to = errorExpr();
+    } else {
+        whole = expectHeadWord(K::KwTo, whole);
+        node->to = parseHeadExpr(whole);
+    }
+    if (!panic_ && whole && kind() == K::Identifier && !startsLine(pos_)) retagIfMeant(K::KwStep);
     if (!panic_ && whole && accept(K::KwStep)) node->step = parseHeadExpr(whole);
     whole = expectHeadWord(K::KwDo, whole);
     node->body = parseList({K::KwEndfor});
@@ -375,7 +455,7 @@ Stmt* Parser::parseWhile() {
     auto* node = make<WhileStmt>(NodeKind::While);
     const TokenIndex opening = blockOpening_ = take();
     bool whole = true;
-    node->condition = parseHeadExpr(whole);
+    node->condition = parseHeadExpr(whole, HeadPart::Condition);
     whole = expectHeadWord(K::KwDo, whole);
     node->body = parseList({K::KwEndwhile});
     closeBlock(K::KwEndwhile, opening, whole);
@@ -406,7 +486,7 @@ Stmt* Parser::parseTest() {
             continue;
         }
         take();
-        if (!accept(K::Colon)) // where it is missing
+        if (!std::exchange(colonGiven_, false) && !accept(K::Colon))
             fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "':'"}), endOf(pos_ - 1), ":");
         const StmtList body = parseList(kTestEnds);
         if (!node->hasDefault) node->defaultBody = body;
@@ -423,7 +503,7 @@ TestCase* Parser::parseCase() {
         const size_t mark = exprs_.size();
         bool whole = true;
         do
-            exprs_.push_back(parseHeadExpr(whole, true));
+            exprs_.push_back(parseHeadExpr(whole, HeadPart::CaseValue));
         while (whole && !panic_ && accept(K::Comma));
         node->values = drain(exprs_, mark);
         TokenIndex found = 0;
@@ -493,6 +573,7 @@ Stmt* Parser::parseConnect() {
         node->target = errorExpr();
     }
     if (!panic_) {
+        if (kind() == K::Identifier && isName(peek())) retagIfMeant(K::KwWith);
         if (accept(K::KwWith)) {
             node->trap = expectName();
         } else {

@@ -1,0 +1,58 @@
+// Built-ins that belong to a RobotWare option, when the controller's options are known from a backup.
+
+#include "frontend/sema/analysis.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace rapid::sema {
+
+namespace {
+
+/// "623-1 Multitasking" -> {"multitasking"}; the word RobotWare says nothing.
+std::vector<std::string> wordsOf(std::string_view text) {
+    std::vector<std::string> words(1);
+    for (const char c : text) {
+        if (std::isalpha(static_cast<unsigned char>(c)))
+            words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        else if (!words.back().empty())
+            words.emplace_back();
+    }
+    std::erase_if(words, [](const std::string& word) { return word.empty() || word == "robotware"; });
+    return words;
+}
+
+/// "Independent Axis" is sold as "610-1 Independent Axes": a letter may differ.
+bool covers(std::string_view installed, std::string_view wanted) {
+    const std::vector<std::string> has = wordsOf(installed);
+    const std::vector<std::string> needs = wordsOf(wanted);
+    return std::all_of(needs.begin(), needs.end(), [&](const std::string& need) {
+        const unsigned limit = need.size() > 3 ? 1 : 0;
+        return std::any_of(has.begin(), has.end(),
+                           [&](const std::string& word) { return editDistance(word, need, limit) <= limit; });
+    });
+}
+
+bool isInstalled(const std::vector<std::string>& installed, std::string_view wanted) {
+    constexpr std::string_view kOr = " or ";
+    for (;;) {
+        const size_t end = wanted.find(kOr);
+        const std::string_view one = wanted.substr(0, end);
+        if (std::any_of(installed.begin(), installed.end(),
+                        [&](const std::string& option) { return covers(option, one); }))
+            return true;
+        if (end == std::string_view::npos) return false;
+        wanted.remove_prefix(end + kOr.size());
+    }
+}
+
+} // namespace
+
+void Analyzer::checkOption(const RoutineSymbol& routine, syntax::TokenIndex name) {
+    if (routine.option.empty() || !options_.robotWareOptions) return;
+    if (isInstalled(*options_.robotWareOptions, routine.option)) return;
+    if (!reportedNames_.insert(routine.nameId).second) return; // once a task
+    report(Code::OptionMissing, range(name), {routine.name, "'" + routine.option + "'"});
+}
+
+} // namespace rapid::sema

@@ -1,0 +1,160 @@
+// Names that nothing declares: what may be said about them, and what was probably meant.
+
+#include "frontend/sema/analysis.h"
+
+#include <filesystem>
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+namespace {
+
+struct Word {
+    std::string_view folded;
+    std::string_view spelling;
+};
+constexpr Word kInstructionWords[] = {{"goto", "GOTO"},   {"return", "RETURN"},     {"raise", "RAISE"},
+                                      {"retry", "RETRY"}, {"trynext", "TRYNEXT"},   {"exit", "EXIT"},
+                                      {"break", "BREAK"}, {"continue", "CONTINUE"}, {"connect", "CONNECT"},
+                                      {"endif", "ENDIF"}, {"endwhile", "ENDWHILE"}, {"endfor", "ENDFOR"}};
+constexpr Word kValueWords[] = {{"true", "TRUE"}, {"false", "FALSE"}};
+
+/// "'a', 'b' or 'c'"; of many the first few.
+std::string listed(const std::vector<std::string>& names) {
+    constexpr size_t kShown = 3;
+    std::string out;
+    const size_t shown = names.size() > kShown + 1 ? kShown : names.size();
+    for (size_t i = 0; i < shown; ++i) {
+        if (i > 0) out += i + 1 == names.size() ? " or " : ", ";
+        out += "'" + names[i] + "'";
+    }
+    if (shown < names.size()) out += " or one of " + std::to_string(names.size() - shown) + " other modules";
+    return out;
+}
+
+} // namespace
+
+void Analyzer::setMissingModules(const TaskInput& input) {
+    missingModules_ = input.missingModules;
+    for (const auto& file : input.files) // what a file declares that cannot be read is not known
+        if (file->isBinary())
+            missingModules_.push_back(std::filesystem::path(file->path()).filename().string());
+    incomplete_ =
+        (input.incomplete && !options_.requireMain) || missingModules_.size() > input.missingModules.size();
+}
+
+// After a syntax error a name may be missing because its declaration could not be read: whoever uses it is not to
+// blame. Such a declaration still shows two words in a row, the second of which is the name.
+bool Analyzer::mayReportUnknown(NameId name) {
+    if (brokenTrees_.empty()) return true;
+    for (const SyntaxTree* tree : std::exchange(brokenTrees_, {nullptr})) {
+        for (size_t i = 0; tree && i + 1 < tree->tokens.size(); ++i) {
+            const TokenKind before = tree->tokens[i].kind;
+            const bool declares = before == TokenKind::Identifier || before == TokenKind::KwProc ||
+                                  before == TokenKind::KwTrap || before == TokenKind::KwRecord;
+            if (declares && tree->tokens[i + 1].kind == TokenKind::Identifier)
+                maybeDeclared_.insert(interner_.intern(tree->text(static_cast<TokenIndex>(i + 1))));
+        }
+    }
+    return !maybeDeclared_.contains(name);
+}
+
+Analyzer::Meant Analyzer::reportUnknown(Code code, TokenIndex token, NameId name, Wanted wanted,
+                                        std::string_view otherHint) {
+    if (!mayReportUnknown(name)) return Meant::Unknown;
+    const Suggestion best = suggestion(name, wanted);
+    const std::string hint = best.name.empty() ? std::string(otherHint) : didYouMean(best.name);
+    const Meant meant = best.isKeyword ? Meant::Keyword : Meant::Unknown;
+    if (incomplete_) {
+        if (reportedNames_.insert(name).second) reportMayBeDeclared(token, hint);
+        return meant;
+    }
+    for (const Module* module : task_ ? task_->modules : std::vector<Module*>()) {
+        const Symbol* local = module == context_.module ? nullptr : scopes_[module->id]->names.find(name);
+        if (!local || !isWanted(*local, wanted)) continue;
+        noteDeclared(report(Code::LocalElsewhere, range(token), {text(token), module->name}), *local);
+        return Meant::Unknown;
+    }
+    diag::Diagnostic& d = report(code, range(token), {text(token), hint});
+    if (!best.name.empty()) d.fix(range(token), best.name, false);
+    return meant;
+}
+
+void Analyzer::reportMayBeDeclared(TokenIndex token, const std::string& hint) {
+    const std::string where = missingModules_.empty() ? "a module that is missing" : listed(missingModules_);
+    report(Code::MayBeDeclared, range(token), {text(token), where, hint});
+}
+
+std::string Analyzer::didYouMean(std::string_view name) {
+    return "; did you mean '" + std::string(name) + "'?";
+}
+
+Analyzer::Suggestion Analyzer::suggestion(NameId name, Wanted wanted) {
+    if (suggestionsLeft_ == 0) return {};
+    --suggestionsLeft_;
+    const std::string_view written = interner_.folded(name);
+    unsigned limit = suggestionLimit(written.size());
+    Suggestion best;
+    const auto consider = [&](std::string_view folded, std::string_view spelling, bool keyword) {
+        const unsigned distance = editDistance(written, folded, limit);
+        if (distance > limit || (!best.name.empty() && distance == limit)) return;
+        best = {std::string(spelling), keyword};
+        limit = distance;
+    };
+    const auto considerSymbol = [&](const Symbol* symbol) {
+        if (symbol && symbol->nameId != name && !symbol->name.empty() && isWanted(*symbol, wanted))
+            consider(interner_.folded(symbol->nameId), symbol->name, false);
+    };
+    // The nearest scope first: on equal distance the earlier candidate wins.
+    if (context_.routine)
+        for (const NameId id : declaredInRoutine_)
+            considerSymbol(at(routineNames_, id));
+    scopes_[context_.module->id]->names.forEach(
+        [&](NameId, const Symbol* symbol) { considerSymbol(symbol); });
+    for (const Symbol* symbol : globals_)
+        considerSymbol(symbol);
+    for (const DataSymbol* symbol : configured_)
+        considerSymbol(symbol);
+    // A name of one to three letters is near to everything of that length.
+    constexpr size_t kShort = 4;
+    if (written.size() >= kShort) {
+        if (wanted == Wanted::Procedure)
+            for (const Word& word : kInstructionWords)
+                consider(word.folded, word.spelling, true);
+        if (wanted == Wanted::Data)
+            for (const Word& word : kValueWords)
+                consider(word.folded, word.spelling, true);
+        for (const Symbol* symbol : predefined_)
+            considerSymbol(symbol);
+    }
+    return limit < written.size() ? best : Suggestion();
+}
+
+const Type::Component* Analyzer::nearComponent(const Type& record, std::string_view name) {
+    unsigned limit = suggestionLimit(name.size());
+    const Type::Component* best = nullptr;
+    for (const Type::Component& c : record.base()->components) {
+        const unsigned distance = editDistance(name, c.name, limit);
+        if (distance > limit || (best && distance == limit)) continue;
+        best = &c;
+        limit = distance;
+    }
+    return best && limit < name.size() ? best : nullptr;
+}
+
+const DataSymbol* Analyzer::nearOptional(const RoutineSymbol& routine, NameId name) const {
+    const std::string_view written = interner_.folded(name);
+    unsigned limit = suggestionLimit(written.size());
+    const DataSymbol* best = nullptr;
+    for (const DataSymbol* param : routine.params) {
+        if (!param->optional) continue;
+        const unsigned distance = editDistance(written, interner_.folded(param->nameId), limit);
+        if (distance > limit || (best && distance == limit)) continue;
+        best = param;
+        limit = distance;
+    }
+    return best && limit < written.size() ? best : nullptr;
+}
+
+} // namespace rapid::sema

@@ -1,0 +1,181 @@
+// Misspelt keywords. A name is taken for a keyword only where a name cannot stand, or where what follows proves what was
+// meant; the token is then changed, so that one typing mistake costs one diagnostic.
+
+#include "frontend/source/spelling.h"
+#include "frontend/syntax/parser_impl.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace rapid::syntax {
+
+using diag::Code;
+
+namespace {
+
+/// Words of other languages for keywords of RAPID.
+struct ForeignWord {
+    std::string_view word;
+    TokenKind keyword;
+};
+constexpr ForeignWord kForeignWords[] = {
+    {"NEXT", TokenKind::KwEndfor},          {"WEND", TokenKind::KwEndwhile},
+    {"ENDSWITCH", TokenKind::KwEndtest},    {"ENDSELECT", TokenKind::KwEndtest},
+    {"ENDCASE", TokenKind::KwEndtest},      {"ELIF", TokenKind::KwElseif},
+    {"FUNCTION", TokenKind::KwFunc},        {"ENDFUNCTION", TokenKind::KwEndfunc},
+    {"PROCEDURE", TokenKind::KwProc},       {"SUB", TokenKind::KwProc},
+    {"ENDPROCEDURE", TokenKind::KwEndproc}, {"ENDSUB", TokenKind::KwEndproc},
+    {"SWITCH", TokenKind::KwTest},          {"SELECT", TokenKind::KwTest},
+    {"OTHERWISE", TokenKind::KwDefault},    {"CONSTANT", TokenKind::KwConst},
+    {"STRUCT", TokenKind::KwRecord},        {"ENDSTRUCT", TokenKind::KwEndrecord}};
+
+constexpr size_t kLongestTypo = 14;
+
+std::string upperCase(std::string_view text) {
+    std::string out(text);
+    std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::toupper(c); });
+    return out;
+}
+
+} // namespace
+
+/// Could the name have been meant as this keyword? Short words have many neighbours, so they allow one edit.
+bool Parser::meant(TokenIndex i, K word, unsigned limit) const {
+    if (kindAt(i) != K::Identifier) return false;
+    const std::string_view text = textOf(i);
+    const std::string_view spelling = tokenText(word);
+    if (text.size() < 2 || text.size() > kLongestTypo) return false;
+    const std::string written = upperCase(text);
+    for (const ForeignWord& foreign : kForeignWords)
+        if (foreign.word == written) return foreign.keyword == word;
+    if (limit == 0) limit = spelling.size() <= 4 ? 1 : 2;
+    return editDistance(written, spelling, limit) <= limit;
+}
+
+/// Reports the word and reads it as the keyword it stands for. `last` is the last token of the word.
+void Parser::retag(TokenIndex first, TokenIndex last, K word) {
+    const SourceRange range{tree_.range(first).begin, tree_.range(last).end};
+    const auto shown = tree_.source->text().substr(range.begin, range.end - range.begin);
+    const std::string spelling(tokenText(word));
+    fix(reportAt(Code::MisspeltKeyword, range, {std::string(shown), spelling}), range, spelling);
+    tokens_[last].kind = word;
+}
+
+bool Parser::retagIfMeant(K word) {
+    if (!meant(pos_, word)) return false;
+    retag(pos_, pos_, word);
+    return true;
+}
+
+/// Does what follows the words at `pos_` to `last` agree with this keyword of a list?
+bool Parser::fitsAsListWord(K word, TokenIndex last) const {
+    TokenIndex found = 0;
+    const K next = kindAt(last + 1);
+    const bool alone = last + 1 >= last_ || startsLine(last + 1);
+    switch (word) {
+    case K::KwElseif: return !alone && findOnLine(last + 1, K::KwThen, found);
+    case K::KwCase:
+        return !alone && next != K::Colon && findOnLine(last + 1, K::Colon, found) && !startsLine(found);
+    case K::KwDefault: return next == K::Colon;
+    case K::KwError: return alone || next == K::LeftParen;
+    default: return alone;
+    }
+}
+
+/// "ENDIFF", "END IF", "ELSIF", "CSAE 2:": names at the beginning of a line that stand for a word this list waits for.
+bool Parser::retagMisspelt(const TokenSet& own) {
+    const std::string_view text = textOf(pos_);
+    const K next = peek();
+    constexpr TokenSet kUsedAsName = {TokenKind::Assign, TokenKind::Semicolon, TokenKind::Dot,
+                                      TokenKind::Comma,  TokenKind::LeftBrace, TokenKind::LeftBracket};
+    if (text.size() < 3 || text.size() > kLongestTypo || kUsedAsName.has(next) || !startsLine(pos_))
+        return false;
+    static constexpr K kWords[] = {K::KwEndif,   K::KwEndfor,  K::KwEndwhile, K::KwEndtest, K::KwEndproc,
+                                   K::KwEndfunc, K::KwEndtrap, K::KwElseif,   K::KwElse,    K::KwCase,
+                                   K::KwDefault, K::KwError,   K::KwUndo,     K::KwBackward};
+    const bool end = equalsNoCase(text, "END");
+    for (const K word : kWords) {
+        if (!own.has(word)) continue;
+        const std::string_view spelling = tokenText(word);
+        TokenIndex last = pos_;
+        const bool twoWords = end && spelling.starts_with("END");
+        if (twoWords) {
+            if (startsLine(pos_ + 1) || !isKeyword(next) || tokenText(next) != spelling.substr(3)) continue;
+            last = pos_ + 1;
+        }
+        if (next == K::Colon && (word != K::KwDefault || text.size() > spelling.size())) continue;
+        if (!fitsAsListWord(word, last) || (!twoWords && !meant(pos_, word))) continue;
+        retag(pos_, last, word);
+        pos_ = last;
+        return true;
+    }
+    return false;
+}
+
+/// "VRA num x;", "PRES num x := 1;": three names in a row are a declaration.
+bool Parser::retagData() {
+    if (kind() != K::Identifier || !isName(peek()) || !isName(peek(2)) || startsLine(pos_ + 2)) return false;
+    constexpr TokenSet kAfter = {K::Semicolon, K::Assign, K::LeftBrace, K::Equal};
+    if (!kAfter.has(peek(3))) return false;
+    return retagIfMeant(K::KwVar) || retagIfMeant(K::KwPers) || retagIfMeant(K::KwConst);
+}
+
+/// A name that begins an instruction and is no callee.
+bool Parser::retagOpener() {
+    const K a = peek(), b = peek(2);
+    if (a != K::Identifier) return false;
+    if (b == K::KwFrom) return retagIfMeant(K::KwFor);
+    if (b == K::KwWith || (b == K::Identifier && meant(pos_ + 2, K::KwWith) && peek(3) == K::Identifier))
+        return retagIfMeant(K::KwConnect);
+    if (b == K::Identifier) return retagData();
+    if (b == K::Semicolon && equalsNoCase(textOf(pos_), "TRY") && equalsNoCase(textOf(pos_ + 1), "NEXT")) {
+        retag(pos_, pos_ + 1, K::KwTrynext);
+        ++pos_;
+        return true;
+    }
+    return false;
+}
+
+/// What was read as a call goes on with THEN, DO or CASE: the callee was meant as IF, WHILE or TEST.
+bool Parser::retagCallee(TokenIndex callee) {
+    K word = K::EndOfFile;
+    if (kind() == K::KwThen)
+        word = K::KwIf;
+    else if (kind() == K::KwDo)
+        word = K::KwWhile;
+    else if (kind() == K::KwCase && startsLine(pos_) && callee + 1 < pos_)
+        word = K::KwTest;
+    if (word == K::EndOfFile || !meant(callee, word, word == K::KwTest ? 1 : 2)) return false;
+    pos_ = callee;
+    retag(callee, callee, word);
+    return true;
+}
+
+/// At module level, where only a declaration or ENDMODULE can stand.
+bool Parser::retagDecl() {
+    if (kind() != K::Identifier) return false;
+    const K a = peek(), b = peek(2);
+    const bool line2 = startsLine(pos_ + 1), line3 = startsLine(pos_ + 2);
+    if (line2 || a == K::EndOfFile) return retagIfMeant(K::KwEndmodule);
+    constexpr TokenSet kDeclWords = {K::KwVar,  K::KwPers, K::KwConst,  K::KwProc,
+                                     K::KwFunc, K::KwTrap, K::KwRecord, K::KwAlias};
+    if (kDeclWords.has(a)) return retagIfMeant(K::KwLocal);
+    if (!isName(a)) return false;
+    if (b == K::LeftParen && !line3) return retagIfMeant(K::KwProc);
+    if (line3) return retagIfMeant(K::KwTrap) || retagIfMeant(K::KwRecord) || retagIfMeant(K::KwProc);
+    if (!isName(b)) return false;
+    if (peek(3) == K::LeftParen) return retagIfMeant(K::KwFunc);
+    return retagData() || (peek(3) == K::Semicolon && retagIfMeant(K::KwAlias));
+}
+
+/// Between two operands: "ANDD", "DVI". In an IF without THEN the name begins the instruction instead.
+bool Parser::retagOperator() {
+    if (startsLine(pos_) || startsLine(pos_ + 1) || !startsExpr(peek())) return false;
+    TokenIndex then = 0;
+    if (inCondition_ && !findOnLine(pos_, K::KwThen, then)) return false;
+    for (const K word : {K::KwAnd, K::KwOr, K::KwXor, K::KwDiv, K::KwMod})
+        if (retagIfMeant(word)) return true;
+    return false;
+}
+
+} // namespace rapid::syntax
