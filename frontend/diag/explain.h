@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace rapid::diag {
 
@@ -33,5 +35,16 @@ std::span<const Explanation> explanations8xxx();
 
 /// Null when there is none for the code.
 const Explanation* findExplanation(uint16_t number);
+
+/// What a range of numbers is about: "names and types".
+std::string_view areaOf(uint16_t number);
+
+/// A page of docs/diagnostics, Markdown: one a code, and `README.md`, which lists them.
+struct DiagnosticPage {
+    std::string fileName;
+    std::string text;
+};
+/// All pages. `rapidc explain --pages=FOLDER` writes them; a test holds docs/diagnostics against them.
+std::vector<DiagnosticPage> diagnosticPages();
 
 } // namespace rapid::diag

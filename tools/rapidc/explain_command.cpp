@@ -4,31 +4,20 @@
 
 #include "frontend/diag/catalogue.h"
 #include "frontend/diag/explain.h"
+#include "frontend/edit/atomic_file.h"
 #include "runtime/host/run_options.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <filesystem>
 #include <fmt/format.h>
+#include <set>
 
 namespace rapidc {
 
 namespace {
-
-const char* areaOf(uint16_t number) {
-    switch (number / 1000) {
-    case 1: return "reading the text (lexing and parsing)";
-    case 2: return "names and types";
-    case 3: return "expressions and constants";
-    case 4: return "calls and built-ins";
-    case 5: return "program flow and use of data";
-    case 6: return "projects, tasks and configuration";
-    case 7: return "what is compiled and linked";
-    case 8: return "style and likely mistakes";
-    default: return "rapidc itself";
-    }
-}
 
 std::string indented(std::string_view example) {
     std::string out = "    ";
@@ -50,7 +39,7 @@ int explain(const std::string& code) {
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
     fmt::print("RAP{} {} ({})\n", entry->number, entry->name, rapid::diag::severityName(entry->severity));
-    fmt::print("area: {}\ntext: {}\n", areaOf(entry->number), entry->text);
+    fmt::print("area: {}\ntext: {}\n", rapid::diag::areaOf(entry->number), entry->text);
     if (const rapid::diag::Explanation* explanation = rapid::diag::findExplanation(entry->number)) {
         fmt::print("\n{}\n", explanation->meaning);
         if (!explanation->wrong.empty()) fmt::print("\nwrong:\n{}\n", indented(explanation->wrong));
@@ -59,13 +48,42 @@ int explain(const std::string& code) {
     return 0;
 }
 
+/// Writes what changed and removes the pages of codes that are gone.
+int writePages(const std::string& folder) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    fs::create_directories(folder, error);
+    std::set<std::string> names;
+    for (const rapid::diag::DiagnosticPage& page : rapid::diag::diagnosticPages()) {
+        names.insert(page.fileName);
+        const std::string path = (fs::path(folder) / page.fileName).string();
+        const std::string problem = rapid::edit::replaceFile(path, page.text);
+        if (problem.empty()) continue;
+        fmt::print(stderr, "rapidc explain: {}\n", problem);
+        return 1;
+    }
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with("RAP") && name.ends_with(".md") && !names.contains(name))
+            fs::remove(entry.path(), error);
+    }
+    return 0;
+}
+
 } // namespace
 
 void addExplainCommand(CLI::App& app, int& status) {
     auto code = std::make_shared<std::string>();
+    auto folder = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand("explain", "Say what a diagnostic means");
-    command->add_option("code", *code, "A code such as RAP2104")->required();
-    command->callback([code, &status] { status = explain(*code); });
+    CLI::Option* one = command->add_option("code", *code, "A code such as RAP2104");
+    CLI::Option* all =
+        command->add_option("--pages", *folder, "Write a page for every code into this folder");
+    one->excludes(all);
+    command->callback([code, folder, &status] {
+        if (code->empty() && folder->empty()) throw CLI::RequiredError("code");
+        status = folder->empty() ? explain(*code) : writePages(*folder);
+    });
 }
 
 } // namespace rapidc

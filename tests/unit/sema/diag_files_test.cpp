@@ -3,6 +3,7 @@
 
 #include "sema_testing.h"
 
+#include "frontend/edit/apply_edits.h"
 #include "frontend/lint/lint.h"
 
 #include <catch2/catch.hpp>
@@ -100,6 +101,47 @@ sema::CheckOptions optionsOf(const std::vector<std::string>& lines, const fs::pa
     return options;
 }
 
+/// The certain fixes that do not touch each other, as `check --fix` takes them.
+std::vector<TextEdit> certainEdits(const diag::Sink& sink, size_t& count) {
+    std::vector<TextEdit> edits;
+    for (const diag::Diagnostic& d : sink.sorted()) {
+        if (d.fixes.empty() || !d.fixes.front().certain) continue;
+        const std::vector<TextEdit>& fresh = d.fixes.front().edits;
+        const bool touches = std::any_of(fresh.begin(), fresh.end(), [&](const TextEdit& a) {
+            return std::any_of(edits.begin(), edits.end(), [&](const TextEdit& b) {
+                return a.range.begin <= b.range.end && b.range.begin <= a.range.end;
+            });
+        });
+        if (touches) continue;
+        edits.insert(edits.end(), fresh.begin(), fresh.end());
+        ++count;
+    }
+    return edits;
+}
+
+std::string trimmed(std::string text) {
+    static const std::regex annotation(R"(\s*!\s*(error|warning)\[RAP.*$)");
+    text = std::regex_replace(text, annotation, "");
+    const size_t from = text.find_first_not_of(" \t"), to = text.find_last_not_of(" \t");
+    return from == std::string::npos ? std::string() : text.substr(from, to - from + 1);
+}
+
+/// `! fixed: reg1 := 5;` below a line says what it is after --fix.
+std::vector<std::pair<uint32_t, std::string>> fixedLines(const std::vector<std::string>& lines) {
+    static const std::regex fixed(R"(^\s*! fixed:\s*(.*?)\s*$)");
+    static const std::regex note(R"(^\s*!.*$)");
+    std::vector<std::pair<uint32_t, std::string>> found;
+    uint32_t codeLine = 0;
+    for (uint32_t number = 1; number <= lines.size(); ++number) {
+        std::smatch m;
+        if (std::regex_match(lines[number - 1], m, fixed))
+            found.emplace_back(codeLine, m[1]);
+        else if (!std::regex_match(lines[number - 1], note))
+            codeLine = number;
+    }
+    return found;
+}
+
 std::string describe(const diag::Diagnostic& d) {
     const LineColumn from = d.file->lineColumn(d.range.begin), to = d.file->lineColumn(d.range.end);
     return std::to_string(from.line) + ":" + std::to_string(from.column) + "-" + std::to_string(to.column) +
@@ -154,7 +196,45 @@ std::string compare(const fs::path& path) {
     return problems;
 }
 
+/// Applies the certain fixes of a program and checks it again: they mend what they are for and break nothing.
+std::string compareFixed(const fs::path& path) {
+    const std::string text = sema::testing::readFile(path.string());
+    const std::vector<std::string> lines = linesOf(text);
+    const sema::CheckOptions options = optionsOf(lines, path.parent_path());
+    const auto checkText = [&](const std::string& source, diag::Sink& sink) {
+        sema::TaskInput task;
+        task.files.push_back(std::make_shared<const SourceFile>(path.filename().string(), source));
+        sema::check({task}, options, sink);
+        return task.files.front();
+    };
+    diag::Sink before, after;
+    const auto file = checkText(text, before);
+    size_t count = 0;
+    const edit::EditResult edited = edit::applyEditsToText(file->text(), certainEdits(before, count));
+    if (!edited.ok()) return edited.problem;
+    std::string problems;
+    const std::vector<std::string> fixed = linesOf(edited.bytes);
+    for (const auto& [line, expected] : fixedLines(lines))
+        if (trimmed(fixed.at(line - 1)) != expected)
+            problems +=
+                "line " + std::to_string(line) + " is fixed to: " + trimmed(fixed.at(line - 1)) + "\n";
+    checkText(edited.bytes, after);
+    if (after.all().size() + count != before.all().size()) {
+        problems += "after --fix:\n";
+        for (const diag::Diagnostic& d : after.sorted())
+            problems += describe(d) + "\n";
+    }
+    return problems;
+}
+
 } // namespace
+
+TEST_CASE("certain fixes of the programs in tests/diag mend them", "[sema][diag]") {
+    for (const fs::path& path : diagnosticFiles()) {
+        INFO(path.string());
+        CHECK(compareFixed(path) == "");
+    }
+}
 
 TEST_CASE("the library checks without diagnostics", "[sema]") {
     diag::Sink sink;

@@ -76,9 +76,10 @@ TEST_CASE("tasks have names of their own but share global persistents", "[sema]"
         "  PERS num list{4};\n  LOCAL PERS bool mine := TRUE;\n  RECORD part\n    num x;\n  "
         "ENDRECORD\n  PERS part record1;\nENDMODULE\n";
     const auto checked = checkTasks({{first}, {second}});
-    CHECK(checked->messages() ==
-          Messages{"RAP6004 at 3:13: global persistent 'shared' is 'bool', but 'num' in another task: declare both alike, or TASK PERS",
-                   "RAP6004 at 5:12: global persistent 'list' is 'num{4}', but 'num{3}' in another task: declare both alike, or TASK PERS"});
+    CHECK(checked->messages() == Messages{"RAP6004 at 3:13: global persistent 'shared' is 'bool', but 'num' "
+                                          "in another task: declare both alike, or TASK PERS",
+                                          "RAP6004 at 5:12: global persistent 'list' is 'num{4}', but "
+                                          "'num{3}' in another task: declare both alike, or TASK PERS"});
     CHECK(checked->program->tasks.size() == 2);
 }
 
