@@ -88,7 +88,10 @@ Expr* Parser::parseBinary(int minPrecedence) {
                 continue;
             }
             if (kind() == K::Percent && !inLateName_ && !startsLine(pos_) && startsExpr(peek())) {
-                fix(report(Code::ForeignSpelling, pos_, {"%", "MOD"}), tree_.range(pos_), " MOD ");
+                const SourceRange sign = tree_.range(pos_);
+                const bool before = tree_.range(pos_ - 1).end == sign.begin, after = tokens_[pos_ + 1].offset == sign.end;
+                fix(report(Code::ForeignSpelling, pos_, {"%", "MOD"}), sign,
+                    std::string(before ? " " : "") + "MOD" + (after ? " " : ""));
                 tokens_[pos_].kind = K::KwMod;
                 continue;
             }

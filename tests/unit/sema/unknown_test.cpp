@@ -1,0 +1,162 @@
+// Names that nothing declares: modules that are missing, RobotWare options, what was probably meant.
+
+#include "sema_testing.h"
+
+#include <catch2/catch.hpp>
+
+namespace {
+
+using namespace rapid;
+using namespace rapid::sema;
+using Messages = std::vector<std::string>;
+
+/// Checks one module as the readable part of a task.
+std::unique_ptr<testing::Checked> checkBeside(std::vector<std::string> missing, const std::string& text,
+                                              bool binary = false, bool configuration = false) {
+    auto checked = std::make_unique<testing::Checked>();
+    TaskInput task;
+    task.files.push_back(std::make_shared<const SourceFile>("work.modx", text));
+    if (binary) task.files.push_back(std::make_shared<const SourceFile>("lib/secret.modx", "\xFC\x01\x02"));
+    task.missingModules = std::move(missing);
+    task.incomplete = !task.missingModules.empty();
+    CheckOptions options;
+    options.library = testing::library();
+    options.configurationKnown = configuration;
+    checked->program = check({task}, options, checked->sink);
+    return checked;
+}
+
+const std::string kUnknown = "MODULE work\n"
+                             "  VAR part p;\n"
+                             "  VAR intnum irq;\n"
+                             "  VAR num counter;\n"
+                             "  PROC run()\n"
+                             "    pick;\n"
+                             "    counter := weight(1);\n"
+                             "    IF limit > 1 limit := 2;\n"
+                             "    CONNECT irq WITH stopped;\n"
+                             "    pick;\n"
+                             "  ENDPROC\n"
+                             "  PROC run2()\n"
+                             "    limit := 3;\n"
+                             "    countr := 1;\n"
+                             "    MoveL 5;\n"
+                             "  ENDPROC\n"
+                             "ENDMODULE\n";
+
+} // namespace
+
+TEST_CASE("what a missing module may declare is a warning that names the module, once a name", "[sema]") {
+    const auto checked = checkBeside({"secret.sys"}, kUnknown);
+    Messages expected;
+    const auto add = [&](const char* place, const char* name, const char* hint = "") {
+        expected.push_back(std::string("RAP2009 at ") + place + ": '" + name +
+                           "' is not declared here, it may be declared in 'secret.sys'" + hint);
+    };
+    add("2:7", "part");
+    add("6:5", "pick");
+    add("7:16", "weight");
+    add("8:8", "limit");
+    add("9:22", "stopped");
+    add("14:5", "countr", "; did you mean 'counter'?");
+    expected.push_back(
+        "RAP4002 at 15:5: call of 'MoveL' lacks the required argument 'Speed', 'Zone', 'Tool'");
+    Messages found = checked->messages();
+    REQUIRE(found.size() == expected.size() + 1); // the 5 is no robtarget
+    for (size_t i = 0; i < expected.size(); ++i) {
+        INFO(found[i]);
+        CHECK(std::find(found.begin(), found.end(), expected[i]) != found.end());
+    }
+}
+
+TEST_CASE("several missing modules are listed, many are counted", "[sema]") {
+    const std::string text = "MODULE work\n  PROC run()\n    pick;\n  ENDPROC\nENDMODULE\n";
+    CHECK(checkBeside({"a.sys", "b.mod"}, text)->messages() ==
+          Messages{"RAP2009 at 3:5: 'pick' is not declared here, it may be declared in 'a.sys' or 'b.mod'"});
+    CHECK(checkBeside({"a", "b", "c", "d", "e"}, text)->messages() ==
+          Messages{
+              "RAP2009 at 3:5: 'pick' is not declared here, it may be declared in 'a', 'b', 'c' or one of 2 "
+              "other modules"});
+}
+
+TEST_CASE("an encrypted module among the files counts as missing", "[sema]") {
+    const auto checked =
+        checkBeside({}, "MODULE work\n  PROC run()\n    pick;\n  ENDPROC\nENDMODULE\n", true);
+    const Messages found = checked->messages();
+    CHECK(std::find(found.begin(), found.end(),
+                    "RAP2009 at 3:5: 'pick' is not declared here, it may be declared in 'secret.modx'") !=
+          found.end());
+}
+
+TEST_CASE("a signal that the configuration lacks may be a variable of a missing module", "[sema]") {
+    const auto checked = checkBeside(
+        {"io.sys"}, "MODULE work\n  PROC run()\n    Set doGrip;\n  ENDPROC\nENDMODULE\n", false, true);
+    CHECK(checked->messages() ==
+          Messages{"RAP2009 at 3:9: 'doGrip' is not declared here, it may be declared in 'io.sys'"});
+}
+
+TEST_CASE("nothing is missing: an unknown name is an error", "[sema]") {
+    const auto checked = checkBeside({}, "MODULE work\n  PROC run()\n    pick;\n  ENDPROC\nENDMODULE\n");
+    CHECK(checked->codes() == Messages{"RAP2003"});
+}
+
+TEST_CASE("a built-in names the RobotWare option that the controller lacks", "[sema]") {
+    const std::string text = "MODULE work\n"
+                             "  VAR wztemporary zone;\n"
+                             "  PROC run()\n"
+                             "    WZDisable zone;\n"
+                             "    WZEnable zone;\n"
+                             "    WZDisable zone;\n"
+                             "  ENDPROC\n"
+                             "ENDMODULE\n";
+    const auto codesWith = [&](std::optional<std::vector<std::string>> installed) {
+        CheckOptions options;
+        options.robotWareOptions = std::move(installed);
+        return testing::checkTexts({text}, options)->messages();
+    };
+    CHECK(codesWith(std::nullopt).empty()); // nothing is known about the controller
+    CHECK(codesWith(std::vector<std::string>{"608-1 World Zones", "623-1 Multitasking"}).empty());
+    CHECK(codesWith(std::vector<std::string>{"608-1 world zone"}).empty());
+    CHECK(
+        codesWith(std::vector<std::string>{"623-1 Multitasking"}) ==
+        Messages{
+            "RAP4025 at 4:5: 'WZDisable' needs the RobotWare option 'World Zones', which this controller "
+            "does "
+            "not have",
+            "RAP4025 at 5:5: 'WZEnable' needs the RobotWare option 'World Zones', which this controller does "
+            "not have"});
+}
+
+TEST_CASE("one of several options is enough", "[sema]") {
+    const std::string text = "MODULE work\n"
+                             "  VAR rmqslot slot;\n"
+                             "  PROC run()\n"
+                             "    RMQFindSlot slot, \"RMQ_T_ROB2\";\n"
+                             "  ENDPROC\n"
+                             "ENDMODULE\n";
+    const auto count = [&](const char* installed) {
+        CheckOptions options;
+        options.robotWareOptions = {installed};
+        return testing::checkTexts({text}, options)->messages().size();
+    };
+    CHECK(count("616-1 RobotStudio Connect") == 0);
+    CHECK(count("623-1 Multitasking") == 0);
+    CHECK(count("608-1 World Zones") == 1);
+}
+
+TEST_CASE("a persistent that tasks share has one type: records are compared by their components", "[sema]") {
+    const auto module = [](const char* components, const char* scope = "") {
+        return std::string("MODULE work\n  RECORD part\n") + components + "  ENDRECORD\n  " + scope +
+               "PERS part shared := [1,2];\nENDMODULE\n";
+    };
+    const auto codes = [&](const std::string& a, const std::string& b) {
+        return testing::checkTasks({{a}, {b}})->codes();
+    };
+    const std::string xy = module("    num x;\n    num y;\n");
+    CHECK(codes(xy, xy).empty());
+    CHECK(codes(xy, module("    num X;\n    num Y;\n")).empty());
+    CHECK(codes(xy, module("    num x;\n    dnum y;\n")) == Messages{"RAP6004"});
+    CHECK(codes(xy, module("    num x;\n    num z;\n")) == Messages{"RAP6004"});
+    CHECK(codes(xy, module("    num x;\n    dnum y;\n", "TASK ")).empty());
+    CHECK(codes(xy, module("    num x;\n    dnum y;\n", "LOCAL ")).empty());
+}
