@@ -137,6 +137,11 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "reg1 := 1;\n"
      "UNDO\n"
      "TPWrite \"undo\";"},
+    {5025, Kind::Body,
+     "Movement instructions can execute only in a motion task; STATIC and SEMISTATIC tasks run in the "
+     "background (manual 1.20).",
+     "",
+     "TPWrite \"watching\";"},
     {5030, Kind::Body,
      "BREAK leaves a loop and CONTINUE begins its next turn; there is none here (manual 1.5).",
      "BREAK;",

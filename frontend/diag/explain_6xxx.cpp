@@ -49,6 +49,11 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "",
      "MODULE m\n"
      "ENDMODULE"},
+    {6006, Kind::File,
+     "A controller runs up to 20 tasks (manual 1.20).",
+     "",
+     "MODULE m\n"
+     "ENDMODULE"},
     {6010, Kind::File,
      "The same file was named twice on the command line, or named and found in a folder.",
      "",

@@ -275,6 +275,7 @@ class Analyzer {
     void declareRoutineData(const syntax::DataDecl& decl);
     void checkErrorNumber(const syntax::Expr& e, const char* what);
     bool checkPart(Part part, syntax::StmtList list);
+    bool movesRobot(const RoutineSymbol& routine) const;
     void callInUndo(const RoutineSymbol& routine, syntax::TokenIndex name);
     bool block(syntax::StmtList list); ///< a new block; whether its end can be reached
     bool statements(syntax::StmtList list);

@@ -231,6 +231,9 @@ bool Analyzer::sameStructure(const Type& left, const Type& right) {
 
 // A global persistent is one object for all tasks that declare it (manual 1.20).
 void Analyzer::checkAcrossTasks() {
+    constexpr size_t kMaxTasks = 20; // manual 1.20
+    if (program_.tasks.size() > kMaxTasks)
+        sink_.report(Code::TooManyTasks, nullptr, {}, {std::to_string(program_.tasks.size())});
     NameMap<DataSymbol> shared;
     NameMap<const Task> names;
     for (const auto& task : program_.tasks) {

@@ -270,6 +270,8 @@ bool Analyzer::callStmt(const CallStmt& s) {
     checkOption(*routine, s.name);
     bindCall(s, *routine, s.name, s.args);
     if (part_ == Part::Undo) callInUndo(*routine, s.name);
+    if (movesRobot(*routine) && task_->type != "NORMAL")
+        report(Code::MotionInBackgroundTask, range(s.name), {text(s.name), task_->name, task_->type});
     return !routine->predefined || predefinedCall(*routine, s.name);
 }
 

@@ -89,7 +89,8 @@ Expr* Parser::parseBinary(int minPrecedence) {
             }
             if (kind() == K::Percent && !inLateName_ && !startsLine(pos_) && startsExpr(peek())) {
                 const SourceRange sign = tree_.range(pos_);
-                const bool before = tree_.range(pos_ - 1).end == sign.begin, after = tokens_[pos_ + 1].offset == sign.end;
+                const bool before = tree_.range(pos_ - 1).end == sign.begin,
+                           after = tokens_[pos_ + 1].offset == sign.end;
                 fix(report(Code::ForeignSpelling, pos_, {"%", "MOD"}), sign,
                     std::string(before ? " " : "") + "MOD" + (after ? " " : ""));
                 tokens_[pos_].kind = K::KwMod;

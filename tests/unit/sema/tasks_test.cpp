@@ -182,3 +182,41 @@ TEST_CASE("without a library the atomic types exist", "[sema]") {
     check({task}, {}, sink);
     CHECK(sink.all().empty());
 }
+
+TEST_CASE("a background task does not move the robot", "[sema]") {
+    const std::string text = "MODULE m\n"
+                             "  PROC main()\n"
+                             "    MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v100, fine, tool0;\n"
+                             "    StopMove;\n"
+                             "  ENDPROC\n"
+                             "ENDMODULE\n";
+    const auto codesIn = [&](const char* type) {
+        Checked checked;
+        TaskInput task;
+        task.name = "T_WATCH";
+        task.type = type;
+        task.files.push_back(std::make_shared<const SourceFile>("m.modx", text));
+        CheckOptions options;
+        options.library = library();
+        checked.program = check({task}, options, checked.sink);
+        return checked.codes();
+    };
+    CHECK(codesIn("NORMAL").empty());
+    CHECK(codesIn("STATIC") == Messages{"RAP5025"});
+    CHECK(codesIn("SEMISTATIC") == Messages{"RAP5025"});
+}
+
+TEST_CASE("a controller has at most 20 tasks", "[sema]") {
+    const auto codesOf = [](size_t count) {
+        Checked checked;
+        std::vector<TaskInput> tasks(count);
+        for (size_t i = 0; i < count; ++i)
+            tasks[i].name = "T" + std::to_string(i);
+        CheckOptions options;
+        options.library = library();
+        checked.program = check(tasks, options, checked.sink);
+        return checked.codes();
+    };
+    CHECK(codesOf(20).empty());
+    CHECK(codesOf(21) == Messages{"RAP6006"});
+}
