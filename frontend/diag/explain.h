@@ -31,6 +31,7 @@ std::span<const Explanation> explanations3xxx();
 std::span<const Explanation> explanations4xxx();
 std::span<const Explanation> explanations5xxx();
 std::span<const Explanation> explanations6xxx();
+std::span<const Explanation> explanations7xxx(); ///< and 9xxx
 std::span<const Explanation> explanations8xxx();
 
 /// Null when there is none for the code.

@@ -143,10 +143,10 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "begins.",
      "IF x > 1 THEN\n  Stop;", "IF x > 1 THEN\n  Stop;\nENDIF"},
     {1203, Kind::Body,
-     "The word closes or continues a block that was not opened. A frequent cause is an IF without THEN, "
-     "which ends with "
-     "one instruction.",
-     "IF x > 1\n  Stop;\nENDIF", "IF x > 1 THEN\n  Stop;\nENDIF"},
+     "The word closes or continues a block that was not opened, or is closed already. A frequent cause is an "
+     "IF "
+     "without THEN, which ends with one instruction.",
+     "x := 1;\nENDIF", "IF x > 1 THEN\n  x := 1;\nENDIF"},
     {1204, Kind::Body, "A word of IF, FOR or WHILE is missing: THEN, FROM, TO or DO.",
      "WHILE x < 3\n  x := x + 1;\nENDWHILE", "WHILE x < 3 DO\n  x := x + 1;\nENDWHILE"},
     {1205, Kind::Body, "A value is assigned with ':='. A single '=' compares.", "x = 1;", "x := 1;"},

@@ -105,6 +105,12 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "",
      "MODULE m\n"
      "ENDMODULE"},
+    {6040, Kind::File,
+     "A configuration file (.cfg) has text that is not in the form of ABB's system parameters: a "
+     "section, a colon, then lines of -Attribute value.",
+     "",
+     "MODULE m\n"
+     "ENDMODULE"},
     {6050, Kind::File,
      "What a backup holds, in one line: system, RobotWare version, number of tasks and of signals "
      "in EIO.cfg, robot (use_robot_type in MOC.cfg, else the option line in backinfo.txt), add- "

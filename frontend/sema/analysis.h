@@ -99,7 +99,7 @@ class Analyzer {
     static std::string describe(const Symbol& symbol);
     enum class Wanted : uint8_t { Data, Type, Procedure, Function, Trap };
     bool isWanted(const Symbol& symbol, Wanted wanted) const;
-    static std::string counted(size_t count, std::string_view noun);
+    static std::string counted(size_t count, std::string_view noun, std::string_view plural = {});
     /// Adds the fix that makes `name(e)` of an expression.
     void fixCall(diag::Diagnostic& diagnostic, const syntax::Expr& e, const std::string& name, bool certain);
 
@@ -235,13 +235,15 @@ class Analyzer {
     // ---- calls (call.cpp: matching; arguments.cpp: judging each argument)
     Typed functionCall(const syntax::CallExpr& e);
     void reportNotAFunction(const syntax::CallExpr& e, const Symbol& symbol);
+    /// `isLast`: nothing follows that would have to stand before it.
+    size_t matchUnmarked(const RoutineSymbol& routine, const syntax::Argument& arg, bool isLast);
     static size_t namedOptional(const RoutineSymbol& routine, NameId name);
     void checkDim(const syntax::CallExpr& e, const RoutineSymbol& routine);
     void bindCall(const syntax::Node& node, RoutineSymbol& routine, syntax::TokenIndex name,
                   std::span<syntax::Argument* const> args);
     /// Gives each written argument its parameter; false when "missing" would only repeat what was reported.
     bool matchArguments(BoundCall& call, syntax::TokenIndex name, std::span<syntax::Argument* const> args);
-    size_t matchRequired(BoundCall& call, const syntax::Argument& arg, size_t slot);
+    size_t matchRequired(BoundCall& call, const syntax::Argument& arg, size_t slot, bool isLast);
     size_t matchOptional(BoundCall& call, const syntax::Argument& arg, syntax::TokenIndex name);
     size_t chooseAlternative(BoundCall& call, const syntax::Argument& arg, size_t first, size_t end);
     bool endsWell(syntax::TokenIndex name, std::span<syntax::Argument* const> args) const;

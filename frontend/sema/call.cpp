@@ -127,12 +127,12 @@ bool Analyzer::matchArguments(BoundCall& call, TokenIndex name, std::span<Argume
             else if (index == slot)
                 slot = nextRequired(routine, alternativesEnd(routine, slot));
         } else if (slot < routine.params.size()) {
-            index = matchRequired(call, *arg, slot);
+            index = matchRequired(call, *arg, slot, args.back() == arg);
             if (index != kNoParam && !routine.params[index]->optional)
                 slot = nextRequired(routine, alternativesEnd(routine, slot));
             if (index == kNoParam) complete = false;
         } else if (arg->name != kNoToken && namedOptional(routine, idOf(arg->name)) != kNoParam) {
-            index = matchRequired(call, *arg, slot); // which says that '\\' is missing
+            index = matchUnmarked(routine, *arg, args.back() == arg);
         } else if (arg->value && arg->value->kind == NodeKind::ErrorExpr) {
             continue;
         } else if (!std::exchange(tooMany, true)) {
@@ -170,19 +170,14 @@ bool Analyzer::matchArguments(BoundCall& call, TokenIndex name, std::span<Argume
 }
 
 // The parameter of a required argument; its name, if written, must be that of the parameter in turn.
-size_t Analyzer::matchRequired(BoundCall& call, const Argument& arg, size_t slot) {
+size_t Analyzer::matchRequired(BoundCall& call, const Argument& arg, size_t slot, bool isLast) {
     const RoutineSymbol& routine = *call.routine;
     const size_t end = alternativesEnd(routine, slot);
     if (arg.name == kNoToken) return end - slot == 1 ? slot : chooseAlternative(call, arg, slot, end);
     const NameId name = idOf(arg.name);
     for (size_t i = slot; i < end; ++i)
         if (routine.params[i]->nameId == name) return i;
-    if (const size_t i = namedOptional(routine, name); i != kNoParam) {
-        const uint32_t begin = range(arg.name).begin;
-        report(Code::OptionalWithoutBackslash, range(arg.name), {routine.name, routine.params[i]->name})
-            .fix({begin, begin}, "\\");
-        return i;
-    }
+    if (const size_t i = matchUnmarked(routine, arg, isLast); i != kNoParam) return i;
     report(Code::ArgumentName, range(arg.name), {routine.name, text(arg.name), routine.params[slot]->name});
     return slot;
 }
@@ -192,6 +187,16 @@ size_t Analyzer::namedOptional(const RoutineSymbol& routine, NameId name) {
     for (size_t i = 0; i < routine.params.size(); ++i)
         if (routine.params[i]->nameId == name && routine.params[i]->optional) return i;
     return kNoParam;
+}
+
+// An optional argument without its backslash.
+size_t Analyzer::matchUnmarked(const RoutineSymbol& routine, const Argument& arg, bool isLast) {
+    const size_t i = namedOptional(routine, idOf(arg.name));
+    if (i == kNoParam) return i;
+    const uint32_t begin = range(arg.name).begin;
+    report(Code::OptionalWithoutBackslash, range(arg.name), {routine.name, routine.params[i]->name})
+        .fix({begin, begin}, "\\", isLast);
+    return i;
 }
 
 size_t Analyzer::matchOptional(BoundCall& call, const Argument& arg, TokenIndex) {

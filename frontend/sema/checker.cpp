@@ -177,8 +177,7 @@ void Analyzer::checkEntry(Task& task) {
         routine->used = true;
         return;
     }
-    const bool wrongProcedure = routine && routine->routineKind == RoutineKind::Proc;
-    if (!options_.requireMain && !wrongProcedure) return;
+    if (!options_.requireMain) return;
     if (symbol) {
         enterModule(symbol->module);
         std::string found = routine && routine->routineKind == RoutineKind::Proc

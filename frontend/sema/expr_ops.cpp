@@ -58,7 +58,9 @@ Typed Analyzer::binaryChain(const BinaryExpr& top, const DataType* want) {
             left = combine(e, expr(*leaf, &right.info->type), right);
         } else {
             if (first) left = expr(*leaf, numeric);
-            if (left.isError()) { // its own mistakes only
+            // One aggregate without a type is enough.
+            if (left.isError() && withoutParens(*e.left).kind == NodeKind::Aggregate &&
+                withoutParens(*e.right).kind == NodeKind::Aggregate) {
                 visitLoose(*e.right);
                 left = combine(e, left, left);
                 first = false;

@@ -98,6 +98,13 @@ Place Analyzer::indexPlace(const IndexExpr& e, const Type* handle) {
             visitLoose(*i);
         return place;
     }
+    if (context_.tree->tokens[e.base->last + 1].kind == TokenKind::LeftParen &&
+        e.base->kind == NodeKind::Name &&
+        asRoutine(lookup(idOf(as<NameExpr>(*e.base).name)))) { // `f(1) := 2`, a syntax error
+        for (const Expr* i : e.indices)
+            visitLoose(*i);
+        return place;
+    }
     place = this->place(*e.base, handle);
     place.whole = false;
     const DataType type = info(*e.base).type;
@@ -116,8 +123,9 @@ Place Analyzer::indexPlace(const IndexExpr& e, const Type* handle) {
         report(Code::IndexNotArray, range(e), {text(*e.base), typeName(type)});
     else if (!countOk) {
         const SourceRange where = {range(*e.indices.front()).begin, range(*e.indices.back()).end};
-        report(Code::IndexCount, where,
-               {text(*e.base), std::to_string(e.indices.size()), counted(type.rank, "dimension")});
+        report(
+            Code::IndexCount, where,
+            {text(*e.base), counted(e.indices.size(), "index", "indexes"), counted(type.rank, "dimension")});
     }
     if (!countOk) return {};
     result.type = {type.type, 0, {}};

@@ -89,8 +89,9 @@ void Analyzer::fixCall(diag::Diagnostic& diagnostic, const Expr& e, const std::s
 }
 
 /// "1 member", "3 members"
-std::string Analyzer::counted(size_t count, std::string_view noun) {
-    return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
+std::string Analyzer::counted(size_t count, std::string_view noun, std::string_view plural) {
+    const std::string many = plural.empty() ? std::string(noun) + "s" : std::string(plural);
+    return std::to_string(count) + " " + (count == 1 ? std::string(noun) : many);
 }
 
 } // namespace rapid::sema

@@ -505,16 +505,16 @@ class Lexer {
 
     /// One token for a run of unreadable characters, one report for a line of them.
     void readJunk() {
-        if (*p_ == '_') return readUnderscoreName();
-        if (readForeignCharacter()) return;
         const char* start = p_;
+        bool sameLine = lastJunk_ != nullptr;
+        for (const char* q = lastJunk_; sameLine && q < start; ++q)
+            sameLine = !isLineEnd(*q);
+        if (*p_ == '_') return readUnderscoreName();
+        if (!sameLine && readForeignCharacter()) return;
         while (p_ < end_ && isJunk()) {
             ++p_;
             skipContinuation();
         }
-        bool sameLine = lastJunk_ != nullptr;
-        for (const char* q = lastJunk_; sameLine && q < start; ++q)
-            sameLine = !isLineEnd(*q);
         if (!sameLine) error(diag::Code::UnexpectedCharacter, start, p_, {showCharacter(slice(start, p_))});
         lastJunk_ = p_;
         push(TokenKind::Error, start);

@@ -348,7 +348,8 @@ Decl* Parser::parseUnknownDecl() {
         } else if (kind() == K::KwEndrecord) {
             report(Code::StrayKeyword, pos_, {describe(pos_), "RECORD"});
         } else {
-            report(Code::InstructionOutsideRoutine, pos_, {describe(pos_)});
+            diag::Diagnostic* diagnostic = report(Code::InstructionOutsideRoutine, pos_, {describe(pos_)});
+            if (kind() == K::Semicolon) fix(diagnostic, tree_.range(pos_), "");
         }
     }
     if (kind() != K::Semicolon) quietOutside_ = true;

@@ -174,6 +174,7 @@ void Parser::parseRoutineHeader(RoutineDecl* routine) {
             report(Code::MissingReturnType, routine->name, {std::string(textOf(routine->name))});
         } else if (!panic_ && kind() == K::LeftBrace) { // FUNC num{3} name()
             report(Code::ArrayReturn, pos_);
+            routine->returnType = kNoToken;
             while (kind() != K::RightBrace && kind() != K::EndOfFile && !startsLine(pos_))
                 take();
             accept(K::RightBrace);

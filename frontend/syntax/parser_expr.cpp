@@ -87,15 +87,7 @@ Expr* Parser::parseBinary(int minPrecedence) {
                 if (pos_ == left->first) return parseBinary(minPrecedence); // NOT
                 continue;
             }
-            if (kind() == K::Percent && !inLateName_ && !startsLine(pos_) && startsExpr(peek())) {
-                const SourceRange sign = tree_.range(pos_);
-                const bool before = tree_.range(pos_ - 1).end == sign.begin,
-                           after = tokens_[pos_ + 1].offset == sign.end;
-                fix(report(Code::ForeignSpelling, pos_, {"%", "MOD"}), sign,
-                    std::string(before ? " " : "") + "MOD" + (after ? " " : ""));
-                tokens_[pos_].kind = K::KwMod;
-                continue;
-            }
+            if (kind() == K::Percent && takesPercentAsMod()) continue;
         }
         if (op.precedence == 0 || op.precedence < minPrecedence || panic_) return left;
         const uint32_t leftHeight = height_;
@@ -116,7 +108,7 @@ Expr* Parser::parseBinary(int minPrecedence) {
 /// A misspelt operator at the current token, or a misspelt NOT before it; the parser then stands there.
 bool Parser::isMisspeltOperator(const Expr* left) {
     if (left->kind == NodeKind::Name && !startsLine(pos_) && startsExpr(kind()) &&
-        meant(left->first, K::KwNot)) {
+        meant(left->first, K::KwNot) && isShuffled(left->first, K::KwNot)) {
         TokenIndex then = 0;
         if (inCondition_ && !findOnLine(pos_, K::KwThen, then)) return false;
         pos_ = left->first;
@@ -124,6 +116,19 @@ bool Parser::isMisspeltOperator(const Expr* left) {
         return true;
     }
     return retagOperator();
+}
+
+/// "5 % 3": not the name of a late-bound call, nor one that begins behind the condition of an IF.
+bool Parser::takesPercentAsMod() {
+    TokenIndex then = 0;
+    if (inLateName_ || startsLine(pos_) || !startsExpr(peek())) return false;
+    if (inCondition_ && !findOnLine(pos_, K::KwThen, then)) return false;
+    const SourceRange sign = tree_.range(pos_);
+    const bool before = tree_.range(pos_ - 1).end == sign.begin, after = tokens_[pos_ + 1].offset == sign.end;
+    fix(report(Code::ForeignSpelling, pos_, {"%", "MOD"}), sign,
+        std::string(before ? " " : "") + "MOD" + (after ? " " : ""));
+    tokens_[pos_].kind = K::KwMod;
+    return true;
 }
 
 /// A condition; an assignment in it was meant as a comparison.
@@ -146,8 +151,7 @@ Expr* Parser::parseNot(int minPrecedence) {
     if (!nest) return tooDeepExpr();
     diag::Diagnostic* misplaced = nullptr;
     size_t reported = 0;
-    const bool twice = pos_ > 0 && tokens_[pos_ - 1].kind == K::KwNot;
-    if (minPrecedence > kRelationLevel || twice) {
+    if (minPrecedence > kRelationLevel) {
         misplaced = report(Code::NotInOperand, pos_);
         reported = sink_.all().size();
     }

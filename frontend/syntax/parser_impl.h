@@ -138,6 +138,7 @@ class Parser {
 
     // ---- Misspelt keywords (parser_typos.cpp)
     bool meant(TokenIndex i, K word, unsigned limit = 0) const;
+    bool isShuffled(TokenIndex i, K word) const;
     void retag(TokenIndex first, TokenIndex last, K word);
     bool retagIfMeant(K word);
     bool fitsAsListWord(K word, TokenIndex last) const;
@@ -148,6 +149,7 @@ class Parser {
     bool retagDecl();
     bool retagOperator();
     bool isMisspeltOperator(const Expr* left);
+    bool takesPercentAsMod();
 
     // ---- Expressions (parser_expr.cpp)
     Expr* parseExpr() { return parseBinary(1); }

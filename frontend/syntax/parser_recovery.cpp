@@ -400,7 +400,10 @@ bool Parser::handleStray(const TokenSet& own) {
     if (stray == K::KwEndif && compactIf_ != kNoToken && compactIfEnd_ != kNoToken &&
         columnOf(pos_) == columnOf(compactIf_)) { // IF without THEN, its block closed by ENDIF
         const SourceRange place = endOf(compactIfEnd_);
-        fix(reportAt(Code::MissingBlockWord, place, {describe(compactIfEnd_ + 1), "THEN"}), place, " THEN");
+        diag::Diagnostic* diagnostic =
+            reportAt(Code::MissingBlockWord, place, {describe(compactIfEnd_ + 1), "THEN"});
+        fix(diagnostic, place, " THEN");
+        note(diagnostic, pos_, "this ENDIF closes a block, which begins with THEN");
         compactIf_ = kNoToken;
         return false;
     }

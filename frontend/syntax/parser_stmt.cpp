@@ -261,6 +261,10 @@ Stmt* Parser::parseCallStmt() {
         return finish(node);
     }
     if (kind() == K::LeftParen && parseParenthesisedCall(node)) return finish(node);
+    if (kind() == K::Error) { // reported; perhaps no call at all
+        syncStatement();
+        return errorStmt(node->name);
+    }
     const size_t errorsBefore = errors_;
     node->args = parseArguments(true);
     if (kind() != K::Semicolon && !panic_ && errors_ == errorsBefore && retagCallee(node->name))

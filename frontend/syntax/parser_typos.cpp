@@ -173,9 +173,20 @@ bool Parser::retagOperator() {
     if (startsLine(pos_) || startsLine(pos_ + 1) || !startsExpr(peek())) return false;
     TokenIndex then = 0;
     if (inCondition_ && !findOnLine(pos_, K::KwThen, then)) return false;
+    const bool isCall = peek() == K::LeftParen && tree_.range(pos_).end == tree_.range(pos_ + 1).begin;
+    if (isCall) return false;
     for (const K word : {K::KwAnd, K::KwOr, K::KwXor, K::KwDiv, K::KwMod})
-        if (retagIfMeant(word)) return true;
+        if (isShuffled(pos_, word) && retagIfMeant(word)) return true;
     return false;
+}
+
+/// Letters of the word in another order, or one too many or too few: "Dim" is not meant as DIV.
+bool Parser::isShuffled(TokenIndex i, K word) const {
+    std::string written = upperCase(textOf(i)), spelling(tokenText(word));
+    if (written.size() != spelling.size()) return true;
+    std::sort(written.begin(), written.end());
+    std::sort(spelling.begin(), spelling.end());
+    return written == spelling;
 }
 
 } // namespace rapid::syntax

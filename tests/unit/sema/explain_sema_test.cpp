@@ -51,6 +51,7 @@ TEST_CASE("wrong examples of the checker cause their diagnostic, right ones none
     checkExamples(diag::explanations4xxx());
     checkExamples(diag::explanations5xxx());
     checkExamples(diag::explanations6xxx());
+    checkExamples(diag::explanations7xxx());
 }
 
 TEST_CASE("wrong examples of warnings cause their warning, right ones none", "[lint][diag]") {

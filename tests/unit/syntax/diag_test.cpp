@@ -131,6 +131,21 @@ TEST_CASE("JSON: an array of objects, columns count characters", "[diag]") {
                                      {"message", "found '=', expected ':='"}}));
 }
 
+TEST_CASE("comments outside of modules are noted once", "[diag]") {
+    const auto notes = [](const char* text) {
+        const test::Parsed parsed = test::parseText(text);
+        size_t count = 0;
+        for (const diag::Diagnostic& d : parsed.sink.all())
+            count += d.code == Code::CommentOutsideModule && d.severity == diag::Severity::Note ? 1 : 0;
+        return std::make_pair(count, parsed.sink.all().size());
+    };
+    using Count = std::pair<size_t, size_t>;
+    CHECK(notes("! a\n! b\nMODULE m\nENDMODULE\n! c\n") == Count{1, 1});
+    CHECK(notes("MODULE m\nENDMODULE ! c") == Count{1, 1});
+    CHECK(notes("%%%\n VERSION:1\n%%%\n! a\nMODULE m\nENDMODULE\n") == Count{1, 1});
+    CHECK(notes("MODULE m ! a\n! b\nENDMODULE\nMODULE n\nENDMODULE\n") == Count{0, 0});
+}
+
 TEST_CASE("JSON: bytes that are not UTF-8 in a path", "[diag]") {
     diag::Sink sink;
     sink.report(Code::NoModule, std::make_shared<const SourceFile>("\xFF.modx", ""), {0, 0});
