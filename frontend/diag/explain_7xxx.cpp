@@ -12,13 +12,6 @@ using Kind = ExampleKind;
 
 // clang-format off
 constexpr auto kExplanations = std::to_array<Explanation>({
-    {7002, Kind::Module,
-     "The BACKWARD handler is correct, and checked like the rest of the procedure, but this version of rapidc cannot step "
-     "backward: the handler is never executed.",
-     "",
-     "PROC open()\n"
-     "  TPErase;\n"
-     "ENDPROC"},
     {7004, Kind::Body,
      "The instruction or function is predefined and its arguments are checked, but this version of rapidc cannot execute "
      "it: a program that reaches it stops with an event. `rapidc builtins` lists what can be executed.",

@@ -2,11 +2,23 @@
 
 #include "frontend/syntax/parser_impl.h"
 
+#include <algorithm>
+
 namespace rapid::syntax {
 
 using diag::Code;
 
 namespace {
+
+/// The second word after TRAP may begin an instruction; these are certainly data types.
+bool isBasicType(std::string_view word) {
+    for (const std::string_view type : {"num", "dnum", "bool", "string"})
+        if (std::equal(word.begin(), word.end(), type.begin(), type.end(),
+                       [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; }))
+            return true;
+    return false;
+}
+
 
 constexpr TokenSet kRoutineEnds = {TokenKind::KwEndproc,   TokenKind::KwEndfunc, TokenKind::KwEndtrap,
                                    TokenKind::KwError,     TokenKind::KwUndo,    TokenKind::KwBackward,
@@ -179,7 +191,8 @@ void Parser::parseRoutineHeader(RoutineDecl* routine) {
                 take();
             accept(K::RightBrace);
         }
-    } else if (isName(kind()) && isName(peek()) && !startsLine(pos_ + 1)) { // PROC num name()
+    } else if (isName(kind()) && isName(peek()) && !startsLine(pos_ + 1) &&
+               (routine->routineKind == RoutineKind::Proc || isBasicType(textOf(pos_)))) { // PROC num name()
         fix(report(Code::ReturnTypeUnexpected, pos_,
                    {std::string(textOf(pos_)), std::string(wordsOf(routine->routineKind).name)}),
             {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");
