@@ -171,7 +171,7 @@ void Analyzer::testValues(const TestStmt& s, Typed subject) {
             continue;
         std::string key = constant->kind == ConstValue::Kind::Number ? fmt::format("{}", constant->number)
                           : constant->kind == ConstValue::Kind::Bool ? (constant->boolean ? "T" : "F")
-                                                                     : constant->text;
+                                                                     : std::string(constant->text());
         if (!seen.insert(std::move(key)).second) report(Code::DuplicateCase, range(*value), {text(*value)});
     }
 }
