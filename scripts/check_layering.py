@@ -15,7 +15,8 @@ LAYERS = {
     "frontend/diag": ["frontend/source"],
     "frontend/syntax": ["frontend/source", "frontend/diag"],
     "frontend/sema": ["frontend/source", "frontend/diag", "frontend/syntax"],
-    "frontend/format": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/edit"],
+    "frontend/format": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/edit",
+                        "frontend/project"],
     "frontend/edit": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema"],
     # configuration text: needed by the front end and by the runtime, and knows neither
     "config": [],

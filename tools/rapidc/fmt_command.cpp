@@ -8,6 +8,7 @@
 #include "frontend/edit/atomic_file.h"
 #include "frontend/format/canonical_names.h"
 #include "frontend/format/formatter.h"
+#include "frontend/format/read_settings.h"
 #include "frontend/syntax/parser.h"
 #include "runtime/host/run_options.h"
 #include "stdlib/stdlib_text.h"
@@ -17,6 +18,7 @@
 #include <fmt/format.h>
 #include <iostream>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <unistd.h>
 
@@ -138,19 +140,40 @@ class Fmt {
         const auto tree = rapid::syntax::parse(source, sink);
         format::FormatRequest request = range_;
         request.keepErrors = settings_.keepErrors;
-        request.settings = settingsOf(source->path());
+        const auto& settings = settingsOf(source->path());
+        if (!settings)
+            return fail(source->path(), "the project file has mistakes; the module is left as it is"),
+                   std::nullopt;
+        request.settings = *settings;
         if (request.settings.names == format::NameCase::Canonical) request.names = &predefinedNames();
         auto result = format::format(*tree, format::errorRanges(sink), request);
         if (result.ok()) return std::move(result.edits);
-        const bool colour = isatty(STDERR_FILENO) != 0;
-        for (const diag::Diagnostic& diagnostic : sink.sorted())
-            fmt::print(stderr, "{}", diag::renderText(diagnostic, colour));
+        show(sink);
         fail(source->path(), result.problem + "; it is left as it is");
         return std::nullopt;
     }
 
-    format::FormatSettings settingsOf(const std::string&) { return {}; }
+    /// The settings that hold for a module; none when its project file has mistakes, which are shown once.
+    const std::optional<format::FormatSettings>& settingsOf(const std::string& path) {
+        const std::string projectFile = rapid::project::findSettings(path);
+        const auto known = projectFiles_.find(projectFile);
+        if (known != projectFiles_.end()) return known->second;
+        diag::Sink sink;
+        std::optional<format::FormatSettings> read =
+            format::readFormatSettings(rapid::project::loadSettings(path, sink), sink);
+        show(sink);
+        if (sink.hasErrors()) read.reset();
+        return projectFiles_.emplace(projectFile, read).first->second;
+    }
 
+    static void show(const diag::Sink& sink) {
+        const bool colour = isatty(STDERR_FILENO) != 0;
+        for (const diag::Diagnostic& diagnostic : sink.sorted())
+            fmt::print(stderr, "{}", diag::renderText(diagnostic, colour));
+    }
+
+    std::map<std::string, std::optional<format::FormatSettings>>
+        projectFiles_; ///< by path; "": there is none
     const FmtSettings& settings_;
     format::FormatRequest range_;
     bool changed_ = false;
