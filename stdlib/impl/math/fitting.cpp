@@ -57,11 +57,12 @@ data::Pos toPos(const Vector3d& v) {
 /// Mean, and the directions of largest to smallest spread.
 struct Spread {
     Vector3d mean;
-    Eigen::Matrix3d axes;
-    Vector3d sizes;
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+    Vector3d sizes = Vector3d::Zero();
     explicit Spread(const Points& points) : mean(points.rowwise().mean()) {
         const Eigen::Matrix3d scatter = (points.colwise() - mean) * (points.colwise() - mean).transpose();
         const Eigen::JacobiSVD<Eigen::Matrix3d> svd(scatter, Eigen::ComputeFullU | Eigen::ComputeFullV);
+        if (svd.info() != Eigen::Success) return; // coordinates beyond all bounds
         axes = svd.matrixU();
         sizes = svd.singularValues();
     }
