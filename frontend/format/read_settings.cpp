@@ -1,5 +1,7 @@
 #include "frontend/format/read_settings.h"
 
+#include "frontend/source/spelling.h"
+
 #include "frontend/sema/names.h"
 
 #include <algorithm>
@@ -78,11 +80,11 @@ std::string listed(std::span<const std::string_view> words) {
 /// The setting that is probably meant, or all of them.
 std::string expectedNames(const std::string& written) {
     const std::string_view* best = nullptr;
-    unsigned limit = sema::suggestionLimit(written.size());
+    unsigned limit = suggestionLimit(written.size());
     std::vector<std::string_view> all;
     for (const Entry& entry : kEntries) {
         all.push_back(entry.name);
-        const unsigned distance = sema::editDistance(written, entry.name, limit);
+        const unsigned distance = editDistance(written, entry.name, limit);
         if (distance > limit) continue;
         best = &entry.name;
         limit = distance > 0 ? distance - 1 : 0;
