@@ -75,8 +75,8 @@ void ModuleEmitter::declareTables() {
     typeDescType_ = make("rt.TypeDesc", {ptr_, ptr_, i8_, i32_, i32_, dims, ptr_, ptr_, ptr_});
     stmtDescType_ = make("rt.StmtDesc", {i32_, i32_, i32_, i32_, i8_, i8_, i8_, i8_, i32_});
     localDescType_ = make("rt.LocalDesc", {ptr_, ptr_, i8_, i8_, i8_, i8_});
-    routineDescType_ = make("rt.RoutineDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i8_, i8_, i8_, i8_, ptr_, i32_,
-                                               ptr_, i32_, i32_, ptr_, i32_, i8_, i8_, i8_, i8_});
+    routineDescType_ = make("rt.RoutineDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i8_,  i8_, i8_, i8_, ptr_,
+                                               i32_, ptr_, i32_, i32_, ptr_, i32_, i8_, i8_, i8_, i8_});
     taskDescType_ = make("rt.TaskDesc", {ptr_, ptr_, ptr_, ptr_, i8_});
     globalDescType_ = make("rt.GlobalDesc", {ptr_, ptr_, ptr_, ptr_, i8_, i32_, ptr_, i32_});
     externalDescType_ = make("rt.ExternalDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i32_});
@@ -137,15 +137,26 @@ llvm::Constant* ModuleEmitter::routineDescValue(const ir::Routine& routine) {
         filter.push_back(i32(number));
     for (uint32_t global : routine.errorFilterGlobals)
         variables.push_back(globals_[global]);
-    return llvm::ConstantStruct::get(
-        routineDescType_,
-        {text(routine.displayName), text(routine.moduleName), fileName(routine.file),
-         array(stmtDescType_, statements, "statements"), i32(static_cast<int64_t>(statements.size())),
-         i8(routine.errorHandler != ir::kNone), i8(routine.undoHandler != ir::kNone), i8(routine.noStepIn),
-         i8(routine.hasBackward), array(i32_, filter, "filter"), i32(static_cast<int64_t>(filter.size())),
-         array(ptr_, variables, "filterVariables"), i32(static_cast<int64_t>(variables.size())),
-         i32(static_cast<int64_t>(locals.size())), array(localDescType_, locals, "locals"), i32(routine.line),
-         i8(routine.stepping), i8(routine.callable), i8(0), i8(0)});
+    return llvm::ConstantStruct::get(routineDescType_, {text(routine.displayName),
+                                                        text(routine.moduleName),
+                                                        fileName(routine.file),
+                                                        array(stmtDescType_, statements, "statements"),
+                                                        i32(static_cast<int64_t>(statements.size())),
+                                                        i8(routine.errorHandler != ir::kNone),
+                                                        i8(routine.undoHandler != ir::kNone),
+                                                        i8(routine.noStepIn),
+                                                        i8(routine.hasBackward),
+                                                        array(i32_, filter, "filter"),
+                                                        i32(static_cast<int64_t>(filter.size())),
+                                                        array(ptr_, variables, "filterVariables"),
+                                                        i32(static_cast<int64_t>(variables.size())),
+                                                        i32(static_cast<int64_t>(locals.size())),
+                                                        array(localDescType_, locals, "locals"),
+                                                        i32(routine.line),
+                                                        i8(routine.stepping),
+                                                        i8(routine.callable),
+                                                        i8(0),
+                                                        i8(0)});
 }
 
 std::vector<uint32_t> describedLocals(const ir::Routine& routine) {

@@ -26,7 +26,8 @@ struct AccessTags {
 /// The runtime's functions and the structures of rt_abi.h.
 struct RuntimeParts {
     llvm::StructType *frame = nullptr, *steppingFrame = nullptr;
-    llvm::FunctionCallee raise, nativeFailed, land, takesError, propagate, handlerEnd, retry, stackOverflow, step;
+    llvm::FunctionCallee raise, nativeFailed, land, takesError, propagate, handlerEnd, retry, stackOverflow,
+        step;
     llvm::Function* safepointSlow = nullptr; ///< own function that keeps all registers, calls rt_safepoint
 };
 

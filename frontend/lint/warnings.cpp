@@ -1,5 +1,5 @@
-#include "frontend/source/spelling.h"
 #include "frontend/lint/warnings.h"
+#include "frontend/source/spelling.h"
 
 #include "frontend/diag/catalogue.h"
 #include "frontend/sema/names.h"

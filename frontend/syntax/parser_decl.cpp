@@ -19,7 +19,6 @@ bool isBasicType(std::string_view word) {
     return false;
 }
 
-
 constexpr TokenSet kRoutineEnds = {TokenKind::KwEndproc,   TokenKind::KwEndfunc, TokenKind::KwEndtrap,
                                    TokenKind::KwError,     TokenKind::KwUndo,    TokenKind::KwBackward,
                                    TokenKind::KwProc,      TokenKind::KwFunc,    TokenKind::KwTrap,

@@ -110,7 +110,8 @@ bool stmtWrites(const syntax::Stmt& stmt, const sema::Module& module, const sema
     case NodeKind::If: {
         const auto& node = syntax::as<syntax::IfStmt>(stmt);
         for (const auto* branch : node.branches)
-            if (exprWrites(branch->condition, facts) || writesMemory(branch->body, module, facts)) return true;
+            if (exprWrites(branch->condition, facts) || writesMemory(branch->body, module, facts))
+                return true;
         return writesMemory(node.elseBody, module, facts);
     }
     case NodeKind::CompactIf: {

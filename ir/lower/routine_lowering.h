@@ -148,9 +148,7 @@ class RoutineLowering {
     const sema::BoundArg* findArg(const sema::BoundCall& call, std::string_view name) const;
 
     // helpers
-    const sema::FileFacts& facts() const {
-        return *module_->facts;
-    }
+    const sema::FileFacts& facts() const { return *module_->facts; }
     const sema::ExprInfo& info(const Expr& expr) const { return (*module_->exprs)[expr.id]; }
     const sema::Type* baseType(const Expr& expr) const { return info(expr).type.type->base(); }
     static const Expr& unparen(const Expr& expr);

@@ -102,7 +102,8 @@ void reportUnimplemented(Compilation& compilation) {
     for (const auto& task : compilation.program->tasks) {
         const sema::FileFacts* previous = nullptr;
         for (const sema::Module* module : task->modules) {
-            if (std::exchange(previous, module->facts) == module->facts) continue; // modules of one file share them
+            if (std::exchange(previous, module->facts) == module->facts)
+                continue; // modules of one file share them
             for (const auto& [node, call] : module->facts->calls)
                 if (call.routine && isMissing(*call.routine))
                     compilation.sink.report(diag::Code::BuiltinNotImplemented, module->tree->source,

@@ -153,9 +153,9 @@ int run(RunSettings& settings) {
     findStimulus(settings);
     settings.stepping = settings.stepping || settings.interactive || stimulusSteps(settings.options.stimulus);
     ir::Module module;
-    const bool lowered =
-        !compilation->sink.hasErrors() &&
-        lowerToIr(*compilation, fs::path(settings.inputs.paths[0]).stem().string(), settings.stepping, module);
+    const bool lowered = !compilation->sink.hasErrors() &&
+                         lowerToIr(*compilation, fs::path(settings.inputs.paths[0]).stem().string(),
+                                   settings.stepping, module);
     printDiagnostics(*compilation);
     if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
     codegen::CodegenOptions options;

@@ -152,8 +152,7 @@ Status rt_ErrRaise(TaskCore* task, const String* ErrorName, float ErrorId, const
 Status rt_RaiseToUser(TaskCore* task, bool Continue, bool BreakOff, const float* ErrorNumber) {
     Task& owner = taskOf(task);
     if (Continue) return owner.fatal(static_cast<int>(EventId::NotImplemented), "RaiseToUser \\Continue");
-    if (!BreakOff)
-        return lib::fail(task, err::ERR_ARGVALERR, "RaiseToUser needs \\BreakOff or \\Continue");
+    if (!BreakOff) return lib::fail(task, err::ERR_ARGVALERR, "RaiseToUser needs \\BreakOff or \\Continue");
     const float number = ErrorNumber ? *ErrorNumber : owner.errorNumber;
     if (!mayBeRaised(owner.controller(), number))
         return lib::fail(

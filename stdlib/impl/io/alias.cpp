@@ -1,8 +1,8 @@
 // Manual 1.9: signal variables and what stands behind them.
 
+#include "runtime/value/value_text.h"
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/support/fail.h"
-#include "runtime/value/value_text.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"

@@ -1,7 +1,7 @@
 #include "stdlib/impl/io/signals.h"
 
-#include "stdlib/impl/support/fail.h"
 #include "runtime/value/value_text.h"
+#include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/support_natives.h"
 
 #include "stdlib_constants.h"

@@ -1,8 +1,8 @@
 // Manual 1.10: questions to the operator. An answer that makes no sense is asked for again.
 
+#include "runtime/value/value_text.h"
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/support/fail.h"
-#include "runtime/value/value_text.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"

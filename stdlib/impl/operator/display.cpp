@@ -1,8 +1,8 @@
 // Manual 1.10: texts for the operator.
 
 #include "runtime/host/controller.h"
-#include "stdlib/impl/support/fail.h"
 #include "runtime/value/value_text.h"
+#include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/utf8.h"
 
 #include "stdlib_natives.h"

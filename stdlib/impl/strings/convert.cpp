@@ -1,7 +1,7 @@
 // Manual 1.19 and 1.6: conversions between strings and values.
 
-#include "stdlib/impl/support/fail.h"
 #include "runtime/value/value_text.h"
+#include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/utf8.h"
 
 #include "stdlib_constants.h"

@@ -175,7 +175,8 @@ routine @"target" "target" in "M" exported void () {
         CHECK(run() == rt::kOk);
         fallibleStatuses = {6};
         CHECK(run() == 6);
-        CHECK(events == Events{"raise 10003 at 0 in target", "note 10003 < target", "raise 6 at 0 in target"});
+        CHECK(events ==
+              Events{"raise 10003 at 0 in target", "note 10003 < target", "raise 6 at 0 in target"});
     }
 }
 

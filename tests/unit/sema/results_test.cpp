@@ -261,7 +261,8 @@ TEST_CASE("aggregates have the type that their context gives", "[sema]") {
     const ExprInfo& assigned = p.info(m, *syntax::as<syntax::AssignStmt>(bodyStmt(main, 0)).value);
     CHECK(assigned.type.type == p.pos);
     CHECK(assigned.constant == nullptr);
-    const ExprInfo& list = p.info(m, *p.tasks[0]->modules[0]->facts->calls.at(&bodyStmt(main, 1)).args[0].value);
+    const ExprInfo& list =
+        p.info(m, *p.tasks[0]->modules[0]->facts->calls.at(&bodyStmt(main, 1)).args[0].value);
     CHECK(list.type.rank == 1);
     CHECK(list.type.dims[0] == 4);
     CHECK(list.type.type == p.num);
