@@ -215,7 +215,7 @@ class Layout {
         if (continues) noteSideComment(0, true);
     }
 
-    Indent commentIndent(const TokenPlan& next) const {
+    Indent commentIndent(const TokenPlan& next) {
         if (settings_.keepCommentsInFirstColumn && atom().column == 0) return {};
         if (!next.hasLevel) return continuation(false);
         return {next.endsBlock && belongsToEnd() ? next.level : next.commentLevel, 0};
@@ -223,11 +223,12 @@ class Layout {
 
     /// A comment before ELSE, CASE, ENDIF ...: does it stand under the word that ends the block, while the block
     /// itself is moved in?
-    bool belongsToEnd() const {
+    bool belongsToEnd() {
         const TokenIndex t = atom().token;
-        size_t word = at_;
+        size_t word = std::max(at_, lastWord_); // several comments may precede one word
         while (atoms_[word].isComment)
             ++word;
+        lastWord_ = word;
         if (atom().column > atoms_[word].column || lastLevel_ != plan_[t].commentLevel) return false;
         const Atom& inside = atoms_[lastLineAtom_];
         const bool beginsOldLine = inside.newlines > 0;
@@ -293,6 +294,7 @@ class Layout {
     size_t at_ = 0;
     size_t lineAtom_ = 0;     ///< first atom of the line
     size_t lastLineAtom_ = 0; ///< first token of the line of code before
+    size_t lastWord_ = 0;     ///< the token that ends a block, found for the comment before
     uint32_t lastLevel_ = 0;
     uint32_t line_ = 0;
 };

@@ -213,6 +213,28 @@ TEST_CASE("comments stand with the code they precede", "[format]") {
     CHECK(body("!old\n a;", with([](auto& s) { s.keepCommentsInFirstColumn = true; })) == "!old\n      a;");
 }
 
+TEST_CASE("each of many comments before the end of a block is judged for itself", "[format]") {
+    CHECK(body("IF x THEN\n  b;\n! else 1\n  ! b 1\n! else 2\n  ! b 2\nELSE\n  c;\n  ! c\n! end 1\n! end "
+               "2\nENDIF") == "      IF x THEN\n"
+                              "         b;\n"
+                              "      ! else 1\n"
+                              "         ! b 1\n"
+                              "      ! else 2\n"
+                              "         ! b 2\n"
+                              "      ELSE\n"
+                              "         c;\n"
+                              "         ! c\n"
+                              "      ! end 1\n"
+                              "      ! end 2\n"
+                              "      ENDIF");
+    std::string written = "IF x THEN\n  b;\n", expected = "      IF x THEN\n         b;\n";
+    for (int i = 0; i < 2000; ++i) {
+        written += i % 2 ? "! end\n" : "  ! b\n";
+        expected += i % 2 ? "      ! end\n" : "         ! b\n";
+    }
+    CHECK((body(written + "ENDIF") == expected + "      ENDIF"));
+}
+
 TEST_CASE("comments behind code keep their column when they share one", "[format]") {
     CHECK(body("a;! x\nbcd;      ! y") == "      a; ! x\n      bcd; ! y");
     CHECK(body("a;     ! x\nbcd;   ! y\n       ! more") ==
