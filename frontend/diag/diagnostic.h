@@ -65,6 +65,9 @@ class Sink {
     /// Sorted by file, position, code.
     std::vector<Diagnostic> sorted() const;
     const std::vector<Diagnostic>& all() const { return all_; }
+    /// Everything reported so far; the sink is empty then.
+    std::vector<Diagnostic> take();
+    void add(std::span<const Diagnostic> diagnostics);
 
   private:
     std::vector<Diagnostic> all_;

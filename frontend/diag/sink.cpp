@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace rapid::diag {
 
@@ -60,6 +61,17 @@ void Sink::revise(const std::function<bool(Diagnostic&)>& keep) {
     std::erase_if(all_, [&](Diagnostic& d) { return !keep(d); });
     errorCount_ = static_cast<size_t>(std::count_if(
         all_.begin(), all_.end(), [](const Diagnostic& d) { return d.severity == Severity::Error; }));
+}
+
+std::vector<Diagnostic> Sink::take() {
+    errorCount_ = 0;
+    return std::exchange(all_, {});
+}
+
+void Sink::add(std::span<const Diagnostic> diagnostics) {
+    for (const Diagnostic& d : diagnostics)
+        if (d.severity == Severity::Error) ++errorCount_;
+    all_.insert(all_.end(), diagnostics.begin(), diagnostics.end());
 }
 
 std::vector<Diagnostic> Sink::sorted() const {

@@ -66,11 +66,49 @@ struct Context {
     bool constant = false;            ///< inside a constant expression
 };
 
+/// A file of a task: where its tree and facts are in the program, and its modules.
+struct TaskFile {
+    size_t slot = 0;
+    bool broken = false; ///< it has syntax errors
+    std::vector<Module*> modules;
+};
+
+/// What is known about a task, kept between checks.
+struct TaskScope {
+    Task* task = nullptr;
+    std::vector<TaskFile> files;
+    std::vector<Symbol*> globals;        ///< by NameId
+    std::vector<DataSymbol*> configured; ///< signals and mechanical units, by NameId
+    std::vector<DataSymbol*> assumed;    ///< of these: those known by their use only
+    NameMap<Module> moduleNames;
+    bool incomplete = false; ///< modules are missing: names may be unknown
+    std::vector<std::string> missingModules;
+    bool entangled = false; ///< the outcome hangs on the order of the work: no file can be checked alone
+};
+
 class Analyzer {
   public:
     Analyzer(CheckedProgram& program, const CheckOptions& options, diag::Sink& sink);
     void loadLibrary();
     void checkTask(const TaskInput& input);
+
+    // ---- the steps of checkTask(), for a Session (checker.cpp, recheck.cpp)
+    void startTask(const TaskInput& input);
+    void readFiles(const TaskInput& input);
+    void checkFiles();
+    void finishTask();
+    TaskScope leaveTask();
+    void enterTask(TaskScope scope);
+    /// Takes another tree for a file of the task. Whether its other files see no difference.
+    bool replaceTree(size_t file, std::unique_ptr<syntax::SyntaxTree> tree, bool broken);
+    /// Checks some files again while the facts about the others stay.
+    void recheckFiles(std::span<const size_t> files);
+    /// Checks the whole task again, without parsing.
+    void recheckTask();
+    std::vector<TaskFile>& files() { return files_; }
+    bool isEntangled() const { return entangled_; }
+
+    void keepFacts() { keeps_ = true; }
     /// Before the first task: all of them, because each can name the others.
     void setTaskNames(std::vector<std::string> names) { taskNames_ = std::move(names); }
     /// What concerns several tasks: persistents they share.
@@ -127,7 +165,7 @@ class Analyzer {
     Symbol* lookup(NameId name) const;
     Symbol* lookupOutside(NameId name) const; ///< skips the routine
     Symbol* reportUnknownData(syntax::TokenIndex token, NameId name, const Type* handle);
-    DataSymbol* configuredObject(NameId name, std::string spelling, const Type* type);
+    DataSymbol* configuredObject(NameId name, std::string spelling, const Type* type, bool assumed);
     void declareUnknown(NameId name);
     const Type* signalTypeByUse(NameId name);
     void gatherSignalUses();
@@ -137,10 +175,15 @@ class Analyzer {
     void declareConfiguration();
 
     // ---- tasks (checker.cpp)
-    void startTask(const TaskInput& input);
     bool sameStructure(const Type& left, const Type& right);
-    void readFiles(const TaskInput& input);
     void declareModules();
+    void checkModules(std::span<Module* const> modules);
+    void listSignals();
+    void dropFacts(std::span<const size_t> files);
+    void renewFacts(const TaskFile& file, std::shared_ptr<FileSymbols> symbols);
+    void clearLooseEnds();
+    bool markUsed(Symbol& symbol);
+    void markAssigned(DataSymbol& symbol);
 
     // ---- collecting declarations (collect.cpp)
     void enterModule(Module* module);
@@ -148,10 +191,11 @@ class Analyzer {
                       FileFacts& facts);
     void collect(Module& module);
     void declareInModule(Symbol& symbol, ModuleScope& scope);
-    void checkModuleNames();
+    void checkModuleNames(std::span<Module* const> modules);
     DataSymbol& newData(const syntax::DataDecl& decl);
     RoutineSymbol& newRoutine(const syntax::RoutineDecl& decl);
     TypeSymbol& newType(const syntax::Decl& decl, syntax::TokenIndex name, bool local);
+    template <class S> S& recycled(Store<S>& store, SymbolKind kind, syntax::TokenIndex name);
     template <class S>
     S& fill(S& symbol, SymbolKind kind, const syntax::Node& decl, syntax::TokenIndex name, bool local);
 
@@ -167,6 +211,7 @@ class Analyzer {
     void resolveAlias(Type& type, const syntax::AliasDecl& decl);
     void resolveSignature(RoutineSymbol& symbol);
     void resolveParameter(RoutineSymbol& routine, const syntax::ParamDecl& decl);
+    DataSymbol& newParameter(RoutineSymbol& routine);
     static bool isValueType(const Type& type);
     static bool isHandle(const Type& type) { return !isValueType(type) && type.kind != TypeKind::SemiValue; }
     static bool isReal(const Type& type) {
@@ -231,6 +276,8 @@ class Analyzer {
     bool foldArithmetic(const syntax::BinaryExpr& e, double a, double b, bool isDnum, double& out);
     void foldUnary(const syntax::UnaryExpr& e, ConstValue* slot);
     void foldBool(ExprInfo& info, bool value);
+    ConstValue owned(const ConstValue& value);
+    const ConstValue* partOf(const ConstValue& value);
 
     // ---- calls (call.cpp: matching; arguments.cpp: judging each argument)
     Typed functionCall(const syntax::CallExpr& e);
@@ -324,6 +371,12 @@ class Analyzer {
     std::vector<DataSymbol*> configured_; ///< signals and mechanical units of the task, by NameId
     std::vector<std::unique_ptr<ModuleScope>> scopes_; ///< by Module::id
     NameMap<Module> moduleNames_;                      ///< of the task
+    std::vector<TaskFile> files_;                      ///< of the task
+    std::vector<DataSymbol*> assumed_, spareAssumed_;  ///< configured objects known by use; old ones
+    const NameMap<Symbol>* earlier_ = nullptr; ///< what the module declared when it was checked before
+    bool keeps_ = false;     ///< facts are kept when other files change: they must not share memory
+    bool entangled_ = false; ///< see TaskScope
+    uint32_t lastStamp_ = 0; ///< of a check of a file
     std::vector<Symbol*> routineNames_; ///< by NameId: parameters, data and loop variables of the routine
     std::vector<NameId> declaredInRoutine_;
     NameMap<const Type> signalUses_; ///< undeclared names that stand where a signal is expected
@@ -340,7 +393,8 @@ class Analyzer {
     /// Declarations being resolved inside each other; more than this nobody writes, and the stack is finite.
     static constexpr unsigned kMaxDepth = 500;
     unsigned depth_ = 0;
-    unsigned suggestionsLeft_ = 200; ///< they cost time; nobody reads more
+    static constexpr unsigned kMaxSuggestions = 200;
+    unsigned suggestionsLeft_ = kMaxSuggestions; ///< in the task: they cost time, and nobody reads more
 
     // of the routine being checked
     Part part_ = Part::Body;
@@ -366,6 +420,15 @@ S& Analyzer::fill(S& symbol, SymbolKind kind, const syntax::Node& decl, syntax::
     symbol.nameToken = name;
     symbol.isLocal = local;
     symbol.predefined = context_.module->predefined;
+    return symbol;
+}
+
+// The symbol that other files refer to since an earlier check, emptied, or a new one.
+template <class S> S& Analyzer::recycled(Store<S>& store, SymbolKind kind, syntax::TokenIndex name) {
+    Symbol* old = earlier_ ? earlier_->find(idOf(name)) : nullptr;
+    if (!old || old->kind != kind || old->decl) return store.emplace_back();
+    S& symbol = static_cast<S&>(*old);
+    symbol.reset();
     return symbol;
 }
 

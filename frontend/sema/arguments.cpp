@@ -153,7 +153,7 @@ void Analyzer::checkAccess(const RoutineSymbol& routine, const BoundArg& bound, 
                {bound.param->name, routine.name, "'" + root.name + "'"});
         return;
     }
-    if (!routine.special) root.assigned = true; // IsVar and their like only look
+    if (!routine.special) markAssigned(root); // IsVar and their like only look
 }
 
 // What an argument for such a parameter must be, or null when `found` is that.

@@ -24,7 +24,7 @@ Typed Analyzer::functionCall(const CallExpr& e) {
         visitArguments(e.args);
         return errorExpr(e);
     }
-    routine->used = true;
+    markUsed(*routine);
     checkOption(*routine, e.name);
     bindCall(e, *routine, e.name, e.args);
     checkDim(e, *routine);
@@ -317,7 +317,7 @@ void Analyzer::lateCall(const CallStmt& stmt) {
                 report(Code::ConditionalNotParameter, range(*arg->value), {text(*arg->value)});
         } else if (isPlaceExpr(*arg->value)) {
             if (DataSymbol* root = place(*arg->value).root)
-                root->assigned = true; // the callee may take it as VAR
+                markAssigned(*root); // the callee may take it as VAR
         } else {
             expr(*arg->value);
         }

@@ -70,19 +70,35 @@ struct BoundCall {
     std::span<BoundArg> args;
 };
 
-/// Everything sema makes for one file, except what belongs to the whole task.
+/// What a file declares at module level. It outlives a check of its file: other files refer to it.
+struct FileSymbols {
+    Arena arena;
+    Store<Type> types{arena};
+    Store<TypeSymbol> typeSymbols{arena};
+    Store<DataSymbol> dataSymbols{arena}; ///< with the parameters of routines
+    Store<RoutineSymbol> routineSymbols{arena};
+};
+
+/// Everything that one check of a file makes, except what belongs to the whole task.
 struct FileFacts {
-    FileFacts(const syntax::SyntaxTree& tree, const Type* unknown) : exprs(tree.exprCount, unknown, arena) {}
+    FileFacts(const syntax::SyntaxTree& tree, const Type* unknown, std::shared_ptr<FileSymbols> own,
+              uint32_t number)
+        : symbols(std::move(own)), stamp(number), exprs(tree.exprCount, unknown, arena) {}
+    std::shared_ptr<FileSymbols> symbols;
+    uint32_t stamp = 0; ///< no two checks of files have the same
+    /// The outcome hangs on what others do not declare, or on how they use it: unknown names, signals known by use.
+    bool open = false;
+    std::vector<Symbol*> used; ///< symbols that this file refers to; some more than once
+    std::vector<DataSymbol*> assigned;
+    std::vector<std::pair<DataSymbol*, syntax::TokenIndex>>
+        signals; ///< configured objects it names, in order
     Arena arena; ///< constants and arguments, too
     ExprTable exprs;
     NodeMap<syntax::Node, BoundCall> calls{arena}; ///< CallStmt and CallExpr
     NodeMap<syntax::ForStmt, DataSymbol*> loopVariables{arena};
     NodeMap<syntax::Node, Symbol*> references{arena}; ///< ConnectStmt -> trap; GotoStmt -> label
-    Store<Type> types{arena};
-    Store<TypeSymbol> typeSymbols{arena};
-    Store<DataSymbol> dataSymbols{arena};
-    Store<RoutineSymbol> routineSymbols{arena};
-    Store<LabelSymbol> labelSymbols{arena};
+    Store<DataSymbol> locals{arena};                  ///< data and loop variables of routines
+    Store<LabelSymbol> labels{arena};
 };
 
 struct Module {
@@ -96,6 +112,7 @@ struct Module {
     std::vector<TypeSymbol*> types;
     std::vector<DataSymbol*> data;        ///< module level, in source order
     std::vector<RoutineSymbol*> routines; ///< in source order
+    std::vector<DataSymbol*> persistents; ///< of `data`: those that tasks share
 };
 
 /// A configured signal known at compile time.

@@ -4,8 +4,6 @@
 
 #include "frontend/syntax/parser.h"
 
-#include <algorithm>
-
 namespace rapid::sema {
 
 using namespace syntax;
@@ -52,8 +50,8 @@ void Analyzer::loadLibrary() {
         parseOptions.declarations = true;
         program_.trees.push_back(parse(std::move(file), sink_, parseOptions));
         const SyntaxTree& tree = *program_.trees.back();
-        FileFacts& facts =
-            *program_.facts.emplace_back(std::make_unique<FileFacts>(tree, program_.errorType));
+        FileFacts& facts = *program_.facts.emplace_back(std::make_unique<FileFacts>(
+            tree, program_.errorType, std::make_shared<FileSymbols>(), ++lastStamp_));
         for (const ModuleDecl* decl : tree.modules)
             program_.predefinedModules.push_back(addModule(tree, *decl, true, facts));
     }
@@ -97,32 +95,36 @@ void Analyzer::startTask(const TaskInput& input) {
     globals_.assign(globals_.size(), nullptr);
     configured_.assign(configured_.size(), nullptr);
     moduleNames_ = {};
-    signalUses_ = {};
-    reportedNames_.clear();
-    signalUsesKnown_ = false;
+    files_.clear();
+    assumed_.clear();
+    spareAssumed_.clear();
+    entangled_ = false;
     setMissingModules(input);
     task_->incomplete = incomplete_;
-    brokenTrees_.clear();
-    maybeDeclared_.clear();
+    clearLooseEnds();
     declareConfiguration();
 }
 
 void Analyzer::readFiles(const TaskInput& input) {
-    std::vector<std::string_view> paths;
+    std::unordered_set<std::string_view> paths;
     for (const auto& file : input.files) {
-        if (std::find(paths.begin(), paths.end(), file->path()) != paths.end()) {
+        if (!paths.insert(file->path()).second) {
             sink_.report(Code::SameFileTwice, nullptr, {}, {file->path()});
             continue;
         }
-        paths.push_back(file->path());
         const size_t errorsBefore = sink_.errorCount();
         program_.trees.push_back(parse(file, sink_));
         const SyntaxTree& tree = *program_.trees.back();
-        FileFacts& facts =
-            *program_.facts.emplace_back(std::make_unique<FileFacts>(tree, program_.errorType));
-        if (sink_.errorCount() > errorsBefore) brokenTrees_.push_back(&tree);
-        for (const ModuleDecl* decl : tree.modules)
-            task_->modules.push_back(addModule(tree, *decl, false, facts));
+        FileFacts& facts = *program_.facts.emplace_back(std::make_unique<FileFacts>(
+            tree, program_.errorType, std::make_shared<FileSymbols>(), ++lastStamp_));
+        TaskFile& entry = files_.emplace_back();
+        entry.slot = program_.trees.size() - 1;
+        entry.broken = sink_.errorCount() > errorsBefore;
+        if (entry.broken) brokenTrees_.push_back(&tree);
+        for (const ModuleDecl* decl : tree.modules) {
+            entry.modules.push_back(addModule(tree, *decl, false, facts));
+            task_->modules.push_back(entry.modules.back());
+        }
     }
 }
 
@@ -133,6 +135,7 @@ void Analyzer::declareModules() {
         Module* other = moduleNames_.find(name);
         duplicateModule_ = other != nullptr;
         if (other) {
+            entangled_ = true;
             auto& d = report(Code::DuplicateModule, range(module->decl->name), {module->name});
             d.notes.push_back({other->tree->source, other->tree->range(other->decl->name),
                                "'" + other->name + "' is declared here"});
@@ -142,7 +145,7 @@ void Analyzer::declareModules() {
         collect(*module);
     }
     duplicateModule_ = false;
-    checkModuleNames();
+    checkModuleNames(task_->modules);
 }
 
 void Analyzer::checkTask(const TaskInput& input) {
@@ -150,21 +153,68 @@ void Analyzer::checkTask(const TaskInput& input) {
     readFiles(input);
     declareModules();
     if (leaveOut(input)) return;
-    for (Module* module : task_->modules)
+    checkModules(task_->modules);
+    finishTask();
+}
+
+void Analyzer::checkFiles() {
+    declareModules();
+    checkModules(task_->modules);
+}
+
+void Analyzer::checkModules(std::span<Module* const> modules) {
+    for (Module* module : modules)
         for (TypeSymbol* type : module->types)
             ensureType(*type);
-    for (Module* module : task_->modules)
+    for (Module* module : modules)
         for (RoutineSymbol* routine : module->routines)
             resolveSignature(*routine);
-    for (Module* module : task_->modules) {
+    for (Module* module : modules) {
         enterModule(module);
         for (DataSymbol* data : module->data)
             ensureValue(*data);
     }
-    for (Module* module : task_->modules)
+    for (Module* module : modules)
         for (RoutineSymbol* routine : module->routines)
             checkRoutine(*routine);
+}
+
+void Analyzer::finishTask() {
+    listSignals();
     checkEntry(*task_);
+}
+
+// Configured objects that the task names, in the order of its files.
+void Analyzer::listSignals() {
+    for (DataSymbol* signal : task_->signals)
+        signal->module = nullptr;
+    task_->signals.clear();
+    for (const TaskFile& file : files_) {
+        for (const auto& [signal, token] : program_.facts[file.slot]->signals) {
+            if (signal->module) continue;
+            signal->module = file.modules.front(); // where it is named first
+            signal->nameToken = token;
+            task_->signals.push_back(signal);
+        }
+    }
+}
+
+// Whether the file refers to the symbol for the first time.
+bool Analyzer::markUsed(Symbol& symbol) {
+    FileFacts& file = facts();
+    if (std::exchange(symbol.lastUser, file.stamp) == file.stamp) return false;
+    symbol.used = true;
+    ++symbol.users;
+    file.used.push_back(&symbol);
+    return true;
+}
+
+void Analyzer::markAssigned(DataSymbol& symbol) {
+    FileFacts& file = facts();
+    if (std::exchange(symbol.lastWriter, file.stamp) == file.stamp) return;
+    symbol.assigned = true;
+    ++symbol.writers;
+    file.assigned.push_back(&symbol);
 }
 
 void Analyzer::checkEntry(Task& task) {
@@ -174,6 +224,7 @@ void Analyzer::checkEntry(Task& task) {
     if (routine && routine->routineKind == RoutineKind::Proc &&
         nextRequired(*routine, 0) >= routine->params.size()) {
         task.entryRoutine = routine;
+        ++routine->users;
         routine->used = true;
         return;
     }
@@ -235,13 +286,13 @@ void Analyzer::checkAcrossTasks() {
         sink_.report(Code::TooManyTasks, nullptr, {}, {std::to_string(program_.tasks.size())});
     NameMap<DataSymbol> shared;
     NameMap<const Task> names;
+    const bool several = program_.tasks.size() > 1; // the names of one task are judged already
     for (const auto& task : program_.tasks) {
         const NameId taskName = interner_.intern(task->name);
         if (names.find(taskName)) sink_.report(Code::DuplicateTask, nullptr, {}, {task->name});
         names.set(taskName, task.get());
         for (Module* module : task->modules) {
-            for (DataSymbol* data : module->data) {
-                if (data->dataKind != DataKind::Pers || data->scope != ScopeWord::None) continue;
+            for (DataSymbol* data : several ? module->persistents : std::vector<DataSymbol*>()) {
                 DataSymbol* other = shared.find(data->nameId);
                 if (!other) {
                     shared.set(data->nameId, data);

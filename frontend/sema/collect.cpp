@@ -27,8 +27,10 @@ Module* Analyzer::addModule(const SyntaxTree& tree, const ModuleDecl& decl, bool
 }
 
 DataSymbol& Analyzer::newData(const DataDecl& decl) {
-    DataSymbol& symbol = fill(facts().dataSymbols.emplace_back(), SymbolKind::Data, decl, decl.name,
-                              decl.scope == ScopeWord::Local);
+    DataSymbol& symbol =
+        fill(context_.routine ? facts().locals.emplace_back()
+                              : recycled(facts().symbols->dataSymbols, SymbolKind::Data, decl.name),
+             SymbolKind::Data, decl, decl.name, decl.scope == ScopeWord::Local);
     symbol.dataKind = decl.dataKind;
     symbol.scope = decl.scope;
     symbol.init = decl.init;
@@ -38,8 +40,8 @@ DataSymbol& Analyzer::newData(const DataDecl& decl) {
 }
 
 RoutineSymbol& Analyzer::newRoutine(const RoutineDecl& decl) {
-    RoutineSymbol& symbol =
-        fill(facts().routineSymbols.emplace_back(), SymbolKind::Routine, decl, decl.name, decl.local);
+    RoutineSymbol& symbol = fill(recycled(facts().symbols->routineSymbols, SymbolKind::Routine, decl.name),
+                                 SymbolKind::Routine, decl, decl.name, decl.local);
     symbol.routineKind = decl.routineKind;
     symbol.routineDecl = &decl;
     symbol.native = !decl.hasBody;
@@ -48,7 +50,8 @@ RoutineSymbol& Analyzer::newRoutine(const RoutineDecl& decl) {
 }
 
 TypeSymbol& Analyzer::newType(const Decl& decl, TokenIndex name, bool local) {
-    return fill(facts().typeSymbols.emplace_back(), SymbolKind::Type, decl, name, local);
+    return fill(recycled(facts().symbols->typeSymbols, SymbolKind::Type, name), SymbolKind::Type, decl, name,
+                local);
 }
 
 void Analyzer::collect(Module& module) {
@@ -73,6 +76,8 @@ void Analyzer::collect(Module& module) {
             DataSymbol& symbol = newData(data);
             symbol.index = static_cast<uint32_t>(module.data.size());
             module.data.push_back(&symbol);
+            if (data.dataKind == DataKind::Pers && data.scope == ScopeWord::None)
+                module.persistents.push_back(&symbol);
             declareInModule(symbol, scope);
             break;
         }
@@ -111,8 +116,8 @@ void Analyzer::declareInModule(Symbol& symbol, ModuleScope& scope) {
 }
 
 // A module must not have the name of global data or of a global routine (manual 1.1.3).
-void Analyzer::checkModuleNames() {
-    for (Module* module : task_->modules) {
+void Analyzer::checkModuleNames(std::span<Module* const> modules) {
+    for (Module* module : modules) {
         enterModule(module);
         const auto check = [&](const Symbol& symbol, const char* what) {
             if (symbol.isLocal || !moduleNames_.find(symbol.nameId)) return;

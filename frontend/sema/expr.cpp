@@ -160,7 +160,7 @@ Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstVal
         if (!t.info->constant)
             constant = false;
         else if (t.info->constant != &members[i])
-            members[i] = *t.info->constant;
+            members[i] = owned(*t.info->constant);
     }
     ExprInfo& out = info(e);
     out.type = own;

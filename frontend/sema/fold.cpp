@@ -41,6 +41,28 @@ bool compare(BinaryOp op, double a, double b) {
 
 } // namespace
 
+// A value that stays when the file of `value` is checked again.
+ConstValue Analyzer::owned(const ConstValue& value) {
+    ConstValue copy = value;
+    if (!keeps_) return copy;
+    if (value.kind == ConstValue::Kind::String) copy.setText(value.text(), facts().arena);
+    if (value.kind == ConstValue::Kind::Aggregate) {
+        const std::span<ConstValue> members = facts().arena.makeArray<ConstValue>(value.members().size());
+        for (size_t i = 0; i < members.size(); ++i)
+            members[i] = owned(value.members()[i]);
+        copy.setMembers(members);
+    }
+    return copy;
+}
+
+// An element or component of a constant, which may be that of another file.
+const ConstValue* Analyzer::partOf(const ConstValue& value) {
+    if (!keeps_) return &value;
+    ConstValue* copy = newConst();
+    *copy = owned(value);
+    return copy;
+}
+
 void Analyzer::foldBool(ExprInfo& out, bool value) {
     ConstValue* constant = newConst();
     constant->kind = ConstValue::Kind::Bool;

@@ -32,15 +32,22 @@ Symbol* Analyzer::lookupOutside(NameId name) const {
     return at(predefined_, name);
 }
 
-DataSymbol* Analyzer::configuredObject(NameId name, std::string spelling, const Type* type) {
-    DataSymbol& symbol = program_.dataSymbols.emplace_back();
+DataSymbol* Analyzer::configuredObject(NameId name, std::string spelling, const Type* type, bool assumed) {
+    DataSymbol* spare = nullptr;
+    if (assumed && !spareAssumed_.empty()) {
+        spare = spareAssumed_.back();
+        spareAssumed_.pop_back();
+        spare->reset();
+    }
+    DataSymbol& symbol = spare ? *spare : program_.dataSymbols.emplace_back();
+    symbol.assumed = assumed;
+    if (assumed) assumed_.push_back(&symbol);
     symbol.kind = SymbolKind::Data;
     symbol.progress = symbol.valueProgress = Progress::Done;
     symbol.name = std::move(spelling);
     symbol.nameId = name;
     symbol.storage = Storage::Signal;
     symbol.type.type = type;
-    symbol.index = static_cast<uint32_t>(program_.dataSymbols.size());
     put(configured_, name, &symbol);
     return &symbol;
 }
@@ -48,13 +55,14 @@ DataSymbol* Analyzer::configuredObject(NameId name, std::string spelling, const 
 void Analyzer::declareConfiguration() {
     for (const SignalInfo& signal : options_.signals) {
         const TypeSymbol* type = asType(at(predefined_, interner_.intern(signal.type)));
-        if (type) configuredObject(interner_.intern(signal.name), signal.name, type->type);
+        if (type) configuredObject(interner_.intern(signal.name), signal.name, type->type, false);
     }
     // Each task has an identity, and the robot of the first motion task is always there.
     const auto declare = [&](const std::string& name, const char* typeName) {
         const TypeSymbol* type = asType(at(predefined_, interner_.intern(typeName)));
         const NameId id = interner_.intern(name);
-        if (type && !at(predefined_, id) && !at(configured_, id)) configuredObject(id, name, type->type);
+        if (type && !at(predefined_, id) && !at(configured_, id))
+            configuredObject(id, name, type->type, false);
     };
     for (const std::string& task : taskNames_)
         declare(task + "Id", "taskid");
@@ -63,6 +71,7 @@ void Analyzer::declareConfiguration() {
 
 // An unknown name as data: a signal where one is expected or where it is used as one elsewhere, otherwise an error.
 Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* handle) {
+    facts().open = true;
     const bool mecunit = handle && handle->base()->name == "mecunit";
     const Type* type = handle && handle->kind == TypeKind::SemiValue ? handle : nullptr;
     if (!type && !mecunit && context_.routine) type = signalTypeByUse(name);
@@ -90,12 +99,12 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
         else
             report(code, range(token), {text(token)});
     }
-    return configuredObject(name, text(token), mecunit ? handle : type);
+    return configuredObject(name, text(token), mecunit ? handle : type, true);
 }
 
 // From now on the routine has data of this name and of the type that fits everything: one mistake, one diagnostic.
 void Analyzer::declareUnknown(NameId name) {
-    DataSymbol& symbol = facts().dataSymbols.emplace_back();
+    DataSymbol& symbol = facts().locals.emplace_back();
     symbol.kind = SymbolKind::Data;
     symbol.progress = symbol.valueProgress = Progress::Done;
     symbol.nameId = name;

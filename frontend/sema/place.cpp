@@ -42,14 +42,8 @@ Place Analyzer::namePlace(const NameExpr& e, const Type* handle) {
         noteDeclared(d, *symbol);
         return place;
     }
-    if (!data->used) {
-        data->used = true;
-        if (data->storage == Storage::Signal) {
-            task_->signals.push_back(data);
-            data->module = context_.module; // where it is named first
-            data->nameToken = e.name;
-        }
-    }
+    if (data->assumed) facts().open = true;
+    if (markUsed(*data) && data->storage == Storage::Signal) facts().signals.emplace_back(data, e.name);
     ensureData(*data);
     if (data->optional && !data->isSwitch && data->routine == context_.routine && !presenceOnly_) {
         OptionalUse& use = optionalUses_[data->index];
@@ -129,7 +123,7 @@ Place Analyzer::indexPlace(const IndexExpr& e, const Type* handle) {
     }
     if (!countOk) return {};
     result.type = {type.type, 0, {}};
-    if (constant && constant->kind != ConstValue::Kind::None) result.constant = constant;
+    if (constant && constant->kind != ConstValue::Kind::None) result.constant = partOf(*constant);
     return place;
 }
 
@@ -167,7 +161,7 @@ Place Analyzer::componentPlace(const ComponentExpr& e, const Type*) {
     result.component = component;
     result.type = {base.type.type->base()->components[index].type, 0, {}};
     if (base.constant && index < base.constant->members().size())
-        result.constant = &base.constant->members()[index];
+        result.constant = partOf(base.constant->members()[index]);
     return place;
 }
 

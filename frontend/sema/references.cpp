@@ -56,7 +56,7 @@ class Collector {
             for (const DataSymbol* data : routine->data)
                 declare(data);
         }
-        const auto& labels = module_->facts->labelSymbols;
+        const auto& labels = module_->facts->labels;
         for (size_t i = 0; i < labels.size(); ++i)
             if (labels[i].module == module_) declare(&labels[i]);
     }

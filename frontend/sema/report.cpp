@@ -70,8 +70,10 @@ std::string Analyzer::describe(const Symbol& symbol) {
 
 bool Analyzer::isWanted(const Symbol& symbol, Wanted wanted) const {
     if (symbol.kind == SymbolKind::Data) return wanted == Wanted::Data;
-    if (symbol.kind == SymbolKind::Type)
-        return wanted == Wanted::Type && isReal(*static_cast<const TypeSymbol&>(symbol).type);
+    if (symbol.kind == SymbolKind::Type) {
+        const Type* type = static_cast<const TypeSymbol&>(symbol).type; // null: not resolved yet
+        return wanted == Wanted::Type && (!type || isReal(*type));
+    }
     if (symbol.kind != SymbolKind::Routine) return false;
     switch (static_cast<const RoutineSymbol&>(symbol).routineKind) {
     case RoutineKind::Proc: return wanted == Wanted::Procedure;

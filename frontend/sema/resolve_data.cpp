@@ -85,6 +85,7 @@ void Analyzer::ensureValue(DataSymbol& symbol) {
     if (cycle || depth_ >= kMaxDepth) {
         const Context saved = context_;
         if (!symbol.routine) enterModule(symbol.module);
+        entangled_ = true;
         report(cycle ? Code::ConstantCycle : Code::ConstantTooDeep, range(symbol.nameToken), {symbol.name});
         context_ = saved;
         symbol.valueProgress = Progress::Done;
@@ -173,7 +174,8 @@ void Analyzer::initialise(DataSymbol& symbol, const DataDecl& decl) {
     } else if (mustFold && !t.info->constant && !t.isError() && !cycle) {
         reportNonConstant(init);
     }
-    if (mustFold && t.info->constant && t.info->constant != &symbol.value) symbol.value = *t.info->constant;
+    if (mustFold && t.info->constant && t.info->constant != &symbol.value)
+        symbol.value = owned(*t.info->constant);
     if (mustFold && !t.info->constant) symbol.value = ConstValue{};
     if (mustFold) checkBigLiterals();
 }

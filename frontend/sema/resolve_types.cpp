@@ -42,7 +42,7 @@ const Type* Analyzer::resolveType(TokenIndex token) {
             reportUnknown(Code::UnknownType, token, name, Wanted::Type);
         return program_.errorType;
     }
-    found->used = true;
+    markUsed(*found);
     const Type* type = ensureType(*found);
     if (!isReal(*type) && !context_.module->predefined) {
         report(Code::PseudoType, range(token), {text(token)});
@@ -56,8 +56,9 @@ const Type* Analyzer::ensureType(TypeSymbol& symbol) {
     const Context saved = context_;
     enterModule(symbol.module);
     const bool cycle = symbol.progress == Progress::Active;
-    if (!symbol.type) symbol.type = &facts().types.emplace_back();
+    if (!symbol.type) symbol.type = &facts().symbols->types.emplace_back();
     if (cycle || depth_ >= kMaxDepth) {
+        entangled_ = true;
         report(cycle ? Code::TypeCycle : Code::TypeTooDeep, range(symbol.nameToken), {symbol.name});
         symbol.type->kind = TypeKind::Error;
         symbol.progress = Progress::Done;
@@ -131,13 +132,21 @@ void Analyzer::resolveSignature(RoutineSymbol& symbol) {
     if (symbol.predefined) applyRoutineAttributes(symbol);
 }
 
+DataSymbol& Analyzer::newParameter(RoutineSymbol& routine) {
+    const size_t index = routine.params.size();
+    if (index >= routine.formerParams.size()) return facts().symbols->dataSymbols.emplace_back();
+    DataSymbol& symbol = *routine.formerParams[index];
+    symbol.reset();
+    return symbol;
+}
+
 void Analyzer::resolveParameter(RoutineSymbol& routine, const ParamDecl& decl) {
     if (decl.placeholder || !isName(decl.name)) {
         if (decl.placeholder) placeholder(decl);
         routine.incomplete = true;
         return;
     }
-    DataSymbol& symbol = facts().dataSymbols.emplace_back();
+    DataSymbol& symbol = newParameter(routine);
     symbol.kind = SymbolKind::Data;
     symbol.progress = symbol.valueProgress = Progress::Done;
     symbol.name = text(decl.name);

@@ -106,7 +106,7 @@ void Analyzer::labelStmt(const LabelStmt& s) {
     }
     if (const Symbol* data = at(routineNames_, name))
         noteDeclared(report(Code::LabelNamedAsData, range(s.name), {text(s.name)}), *data);
-    LabelSymbol& symbol = fill(facts().labelSymbols.emplace_back(), SymbolKind::Label, s, s.name, false);
+    LabelSymbol& symbol = fill(facts().labels.emplace_back(), SymbolKind::Label, s, s.name, false);
     symbol.routine = context_.routine;
     labels_.push_back({name, block_, part_, &s, &symbol});
 }

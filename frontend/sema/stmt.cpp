@@ -120,7 +120,7 @@ bool Analyzer::forStmt(const ForStmt& s) {
     DataSymbol* variable = nullptr;
     Symbol* hidden = nullptr;
     if (isName(s.variable)) {
-        variable = &fill(facts().dataSymbols.emplace_back(), SymbolKind::Data, s, s.variable, false);
+        variable = &fill(facts().locals.emplace_back(), SymbolKind::Data, s, s.variable, false);
         variable->storage = Storage::LoopVariable;
         variable->type = {program_.num, 0, {}};
         variable->progress = variable->valueProgress = Progress::Done;
@@ -206,7 +206,7 @@ void Analyzer::assign(const AssignStmt& s) {
         visitLoose(*s.value);
         return;
     }
-    target.root->assigned = true;
+    markAssigned(*target.root);
     const DataType want = info(*s.target).type;
     const Typed value = expr(*s.value, &want);
     if (fits(*s.value, value, want)) return;
@@ -266,7 +266,7 @@ bool Analyzer::callStmt(const CallStmt& s) {
         visitArguments(s.args);
         return true;
     }
-    routine->used = true;
+    markUsed(*routine);
     checkOption(*routine, s.name);
     bindCall(s, *routine, s.name, s.args);
     if (part_ == Part::Undo) callInUndo(*routine, s.name);

@@ -70,7 +70,7 @@ void Analyzer::connectStmt(const ConnectStmt& s) {
     Symbol* symbol = lookup(name);
     RoutineSymbol* trap = asRoutine(symbol);
     if (trap && trap->routineKind == RoutineKind::Trap) {
-        trap->used = true;
+        markUsed(*trap);
         facts().references[&s] = trap;
         return;
     }
@@ -106,7 +106,7 @@ void Analyzer::connectTarget(const Expr& target) {
         noteDeclared(report(Code::ConnectNotVariable, range(target), {describe(root)}), root);
         return;
     }
-    root.assigned = true;
+    markAssigned(root);
     if (root.storage == Storage::RoutineData || (parameter && root.mode == ParamMode::In))
         noteDeclared(report(Code::ConnectRoutineData, range(target), {root.name}), root);
 }

@@ -57,9 +57,11 @@ struct Symbol {
     Progress progress = Progress::Pending; ///< types, and the data type of data
     std::string name;                      ///< as declared
     uint32_t nameId = 0;                   ///< equal for names that differ only in case
+    uint32_t users = 0;                    ///< files that refer to it
     Module* module = nullptr;              ///< configured objects: where they are named first
     const syntax::Node* decl = nullptr;    ///< null for configured signals
     syntax::TokenIndex nameToken = syntax::kNoToken;
+    uint32_t lastUser = 0;   ///< FileFacts::stamp of the file that was counted last
     bool isLocal = false;    ///< LOCAL
     bool predefined = false; ///< declared in stdlib
     bool used = false;
@@ -67,6 +69,15 @@ struct Symbol {
 
 struct TypeSymbol : Symbol {
     Type* type = nullptr;
+    /// As new, for another check of its file; what others refer to stays.
+    void reset() {
+        TypeSymbol fresh;
+        fresh.users = users;
+        fresh.used = users > 0;
+        fresh.type = type;
+        if (type) *type = Type{};
+        *this = std::move(fresh);
+    }
 };
 
 enum class Storage : uint8_t {
@@ -102,6 +113,17 @@ struct DataSymbol : Symbol {
     Progress valueProgress = Progress::Pending;
     RoutineSymbol* routine = nullptr; ///< routine data, parameters, loop variables
     uint32_t index = 0;               ///< dense per routine (parameters first) or per module
+    uint32_t writers = 0;             ///< files that write it
+    uint32_t lastWriter = 0;
+    bool assumed = false; ///< a signal or mechanical unit that is known by its use only
+    void reset() {
+        DataSymbol fresh;
+        fresh.users = users;
+        fresh.used = users > 0;
+        fresh.writers = writers;
+        fresh.assigned = writers > 0;
+        *this = std::move(fresh);
+    }
 };
 
 /// How a native may be called; from `effects:` in the declaration.
@@ -143,6 +165,14 @@ struct RoutineSymbol : Symbol {
     std::string option;                          ///< RobotWare option it needs
     std::string manual;                          ///< chapter of the manual, for built-ins
     std::string documentation;
+    std::vector<DataSymbol*> formerParams; ///< of an earlier check, to be used again
+    void reset() {
+        RoutineSymbol fresh;
+        fresh.users = users;
+        fresh.used = users > 0;
+        fresh.formerParams = std::move(params);
+        *this = std::move(fresh);
+    }
 };
 
 struct ModuleSymbol : Symbol {};

@@ -47,6 +47,7 @@ void Analyzer::setMissingModules(const TaskInput& input) {
 // After a syntax error a name may be missing because its declaration could not be read: whoever uses it is not to
 // blame. Such a declaration still shows two words in a row, the second of which is the name.
 bool Analyzer::mayReportUnknown(NameId name) {
+    if (context_.module) facts().open = true;
     if (brokenTrees_.empty()) return true;
     for (const SyntaxTree* tree : std::exchange(brokenTrees_, {nullptr})) {
         for (size_t i = 0; tree && i + 1 < tree->tokens.size(); ++i) {
@@ -91,32 +92,43 @@ std::string Analyzer::didYouMean(std::string_view name) {
 }
 
 Analyzer::Suggestion Analyzer::suggestion(NameId name, Wanted wanted) {
+    facts().open = true;
     if (suggestionsLeft_ == 0) return {};
     --suggestionsLeft_;
     const std::string_view written = interner_.folded(name);
     unsigned limit = suggestionLimit(written.size());
+    // The nearest scope first: on equal distance it wins, and within a scope the first in the alphabet.
     Suggestion best;
+    std::string_view bestFolded;
+    unsigned scope = 0, bestScope = 0;
     const auto consider = [&](std::string_view folded, std::string_view spelling, bool keyword) {
         const unsigned distance = editDistance(written, folded, limit);
-        if (distance > limit || (!best.name.empty() && distance == limit)) return;
+        if (distance > limit) return;
+        const bool equal = !best.name.empty() && distance == limit;
+        if (equal && (scope != bestScope || bestFolded <= folded)) return;
         best = {std::string(spelling), keyword};
+        bestFolded = folded;
+        bestScope = scope;
         limit = distance;
     };
     const auto considerSymbol = [&](const Symbol* symbol) {
         if (symbol && symbol->nameId != name && !symbol->name.empty() && isWanted(*symbol, wanted))
             consider(interner_.folded(symbol->nameId), symbol->name, false);
     };
-    // The nearest scope first: on equal distance the earlier candidate wins.
     if (context_.routine)
         for (const NameId id : declaredInRoutine_)
             considerSymbol(at(routineNames_, id));
+    scope = 1;
     scopes_[context_.module->id]->names.forEach(
         [&](NameId, const Symbol* symbol) { considerSymbol(symbol); });
+    scope = 2;
     for (const Symbol* symbol : globals_)
         considerSymbol(symbol);
+    scope = 3;
     for (const DataSymbol* symbol : configured_)
         considerSymbol(symbol);
     // A name of one to three letters is near to everything of that length.
+    scope = 4;
     constexpr size_t kShort = 4;
     if (written.size() >= kShort) {
         if (wanted == Wanted::Procedure)

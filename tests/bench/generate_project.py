@@ -74,13 +74,13 @@ def braces(text):
     return text.replace("[", "{").replace("]", "}")
 
 
-def points_module(w, n, rng):
+def points_module(w, n, rng, lines=LINES_PER_MODULE):
     """Taught points, as RobotStudio and the pendant write them, and the paths through them."""
     w.add(f"MODULE Points{n}", f"/* Points{n} */")
     w.add("", "")
     paths = []
     count = 0
-    while len(w.rapid) < LINES_PER_MODULE * 4 // 5:
+    while len(w.rapid) < lines * 4 // 5:
         names = []
         for _ in range(rng.randint(10, 60)):
             count += 1
@@ -91,7 +91,7 @@ def points_module(w, n, rng):
         paths.append(names)
         w.add(f"    ! path {len(paths)}", f"    // path {len(paths)}")
     for i, names in enumerate(paths):
-        if len(w.rapid) > LINES_PER_MODULE:
+        if len(w.rapid) > lines:
             break
         w.add(f"    PROC Path{n}_{i}()", f"    void Path{n}_{i}(void) {{")
         for name in names:
@@ -154,14 +154,14 @@ def statements(w, rng, n, routine):
         w.add(f"    counter{n} := Sqrt(Abs(a)) + {a}.{b};", f"    counter{n} = Sqrt(Abs(a)) + {a}.{b};")
 
 
-def code_module(w, n, rng):
+def code_module(w, n, rng, lines=LINES_PER_MODULE):
     w.add(f"MODULE Code{n}", f"/* Code{n} */")
     w.add(f"  LOCAL VAR num counter{n} := 0;", f"  static double counter{n} = 0;")
     value = target(rng)
     w.add(f"  CONST robtarget pHome{n} := [{value}];",
           f"  static const robtarget pHome{n} = {{{braces(value)}}};")
     routine = 0
-    while len(w.rapid) < LINES_PER_MODULE - 30:
+    while len(w.rapid) < lines - 30:
         w.add("", "")
         w.add(f"  ! Routine {routine}: picks, checks and places a part", f"  // Routine {routine}: picks, checks")
         w.add(f"  PROC r{n}_{routine}(num a, INOUT num b)", f"  void r{n}_{routine}(double a, double *b) {{")
@@ -211,6 +211,14 @@ def generate(folder, lines, kind="mixed"):
     with open(os.path.join(folder, "all.c"), "w", encoding="utf-8") as file:
         file.write("\n".join(everything) + "\n")
     return total, len(everything), modules
+
+
+def write_large_module(path, kind, lines=10_000):
+    """One more module for a generated project: code or points."""
+    w, rng = Writer(), random.Random(kind)
+    (code_module if kind == "code" else points_module)(w, 90_000, rng, lines)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("\n".join(w.rapid) + "\n")
 
 
 def main():

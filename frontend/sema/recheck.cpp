@@ -1,0 +1,209 @@
+// Checking again what a changed file concerns, while the facts about other files stay (see session.h).
+
+#include "frontend/sema/analysis.h"
+
+#include <algorithm>
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+namespace {
+
+/// The part of a declaration that can concern other files. Constants and types count even where they are LOCAL: those
+/// that others see may be made of them.
+std::string_view visiblePart(const SyntaxTree& tree, const Decl& decl) {
+    TokenIndex last = decl.last;
+    switch (decl.kind) {
+    case NodeKind::Record:
+    case NodeKind::Alias: break;
+    case NodeKind::Data: {
+        const auto& data = as<DataDecl>(decl);
+        if (data.dataKind == DataKind::Const) break;
+        if (data.scope == ScopeWord::Local) return {};
+        if (data.init) last = data.init->first;
+        break;
+    }
+    case NodeKind::Routine: {
+        const auto& routine = as<RoutineDecl>(decl);
+        if (routine.local) return {};
+        for (last = routine.name; last < decl.last; ++last)
+            if (routine.routineKind == RoutineKind::Trap || tree.tokens[last].kind == TokenKind::RightParen)
+                break;
+        break;
+    }
+    default: return {};
+    }
+    if (last == kNoToken || decl.first > last) return {};
+    const bool value =
+        decl.kind == NodeKind::Data && as<DataDecl>(decl).init && last == as<DataDecl>(decl).init->first;
+    const uint32_t begin = tree.range(decl.first).begin;
+    const uint32_t end = value ? tree.range(last).begin : tree.range(last).end;
+    return tree.source->text().substr(begin, end - begin);
+}
+
+/// The next declaration from `i` on that others can see; the number of declarations if there is none.
+size_t nextVisible(const SyntaxTree& tree, const ModuleDecl& module, size_t i, std::string_view& part) {
+    for (; i < module.decls.size(); ++i)
+        if (part = visiblePart(tree, *module.decls[i]); !part.empty()) return i;
+    return i;
+}
+
+/// Whether two modules look alike to other files.
+bool sameFromOutside(const SyntaxTree& oldTree, const ModuleDecl& old, const SyntaxTree& newTree,
+                     const ModuleDecl& fresh) {
+    if (oldTree.text(old.name) != newTree.text(fresh.name) || old.attributes != fresh.attributes)
+        return false;
+    std::string_view oldPart, newPart;
+    size_t i = nextVisible(oldTree, old, 0, oldPart);
+    size_t k = nextVisible(newTree, fresh, 0, newPart);
+    while (i < old.decls.size() && k < fresh.decls.size()) {
+        if (oldPart != newPart) return false;
+        i = nextVisible(oldTree, old, i + 1, oldPart);
+        k = nextVisible(newTree, fresh, k + 1, newPart);
+    }
+    return i == old.decls.size() && k == fresh.decls.size();
+}
+
+} // namespace
+
+TaskScope Analyzer::leaveTask() {
+    TaskScope scope;
+    scope.task = std::exchange(task_, nullptr);
+    scope.files = std::move(files_);
+    scope.globals = std::move(globals_);
+    scope.configured = std::move(configured_);
+    scope.assumed = std::move(assumed_);
+    scope.moduleNames = std::move(moduleNames_);
+    scope.missingModules = std::move(missingModules_);
+    scope.incomplete = incomplete_;
+    scope.entangled = entangled_;
+    globals_.clear();
+    configured_.clear();
+    return scope;
+}
+
+void Analyzer::enterTask(TaskScope scope) {
+    task_ = scope.task;
+    files_ = std::move(scope.files);
+    globals_ = std::move(scope.globals);
+    configured_ = std::move(scope.configured);
+    assumed_ = std::move(scope.assumed);
+    moduleNames_ = std::move(scope.moduleNames);
+    missingModules_ = std::move(scope.missingModules);
+    incomplete_ = scope.incomplete;
+    entangled_ = scope.entangled;
+    spareAssumed_.clear();
+}
+
+// What files have in common that are `open`: it begins anew each time, and all of them are checked again.
+void Analyzer::clearLooseEnds() {
+    for (DataSymbol* symbol : assumed_)
+        put<DataSymbol>(configured_, symbol->nameId, nullptr);
+    spareAssumed_.insert(spareAssumed_.end(), assumed_.begin(), assumed_.end());
+    assumed_.clear();
+    signalUses_ = {};
+    signalUsesKnown_ = false;
+    reportedNames_.clear();
+    maybeDeclared_.clear();
+    brokenTrees_.clear();
+    for (const TaskFile& file : files_)
+        if (file.broken) brokenTrees_.push_back(program_.trees[file.slot].get());
+    suggestionsLeft_ = kMaxSuggestions;
+}
+
+bool Analyzer::replaceTree(size_t index, std::unique_ptr<SyntaxTree> tree, bool broken) {
+    TaskFile& file = files_[index];
+    std::unique_ptr<SyntaxTree>& place = program_.trees[file.slot];
+    bool same = tree->modules.size() == place->modules.size();
+    for (size_t i = 0; same && i < tree->modules.size(); ++i)
+        same = sameFromOutside(*place, *place->modules[i], *tree, *tree->modules[i]);
+    dropFacts(std::span<const size_t>(&index, 1)); // they point into the old tree
+    place = std::move(tree);
+    file.broken = broken;
+    return same;
+}
+
+// Takes back what files say about the symbols of others.
+void Analyzer::dropFacts(std::span<const size_t> files) {
+    if (RoutineSymbol* entry = std::exchange(task_->entryRoutine, nullptr)) entry->used = --entry->users > 0;
+    for (const size_t index : files) {
+        FileFacts& facts = *program_.facts[files_[index].slot];
+        for (Symbol* symbol : std::exchange(facts.used, {}))
+            symbol->used = --symbol->users > 0;
+        for (DataSymbol* symbol : std::exchange(facts.assigned, {}))
+            symbol->assigned = --symbol->writers > 0;
+        facts.signals.clear();
+    }
+}
+
+// New facts for a file, and its modules as the tree has them now.
+void Analyzer::renewFacts(const TaskFile& file, std::shared_ptr<FileSymbols> symbols) {
+    const SyntaxTree& tree = *program_.trees[file.slot];
+    program_.facts[file.slot] =
+        std::make_unique<FileFacts>(tree, program_.errorType, std::move(symbols), ++lastStamp_);
+    FileFacts& facts = *program_.facts[file.slot];
+    for (size_t i = 0; i < file.modules.size(); ++i) {
+        Module& module = *file.modules[i];
+        const uint32_t id = module.id;
+        module = Module{};
+        module.id = id;
+        module.tree = &tree;
+        module.decl = tree.modules[i];
+        module.name = std::string(tree.text(module.decl->name));
+        module.facts = &facts;
+        module.exprs = &facts.exprs;
+    }
+}
+
+void Analyzer::recheckFiles(std::span<const size_t> files) {
+    dropFacts(files);
+    std::vector<Module*> modules;
+    std::vector<NameMap<Symbol>> earlier;
+    for (const size_t index : files) {
+        for (Module* module : files_[index].modules) {
+            modules.push_back(module);
+            earlier.push_back(std::exchange(scopes_[module->id]->names, {}));
+            earlier.back().forEach([&](NameId name, Symbol* symbol) {
+                if (at(globals_, name) == symbol) globals_[name] = nullptr;
+                symbol->decl = nullptr;
+            });
+        }
+    }
+    for (const size_t index : files)
+        renewFacts(files_[index], program_.facts[files_[index].slot]->symbols);
+    clearLooseEnds();
+    for (size_t i = 0; i < modules.size(); ++i) {
+        earlier_ = &earlier[i];
+        collect(*modules[i]);
+    }
+    earlier_ = nullptr;
+    checkModuleNames(modules);
+    checkModules(modules);
+}
+
+void Analyzer::recheckTask() {
+    std::vector<size_t> all(files_.size());
+    for (size_t i = 0; i < all.size(); ++i)
+        all[i] = i;
+    dropFacts(all);
+    task_->modules.clear();
+    globals_.assign(globals_.size(), nullptr);
+    moduleNames_ = {};
+    entangled_ = false;
+    for (TaskFile& file : files_) {
+        const SyntaxTree& tree = *program_.trees[file.slot];
+        file.modules.resize(std::min(file.modules.size(), tree.modules.size()));
+        for (Module* module : file.modules)
+            scopes_[module->id]->names = {};
+        renewFacts(file, std::make_shared<FileSymbols>());
+        while (file.modules.size() < tree.modules.size())
+            file.modules.push_back(
+                addModule(tree, *tree.modules[file.modules.size()], false, *program_.facts[file.slot]));
+        task_->modules.insert(task_->modules.end(), file.modules.begin(), file.modules.end());
+    }
+    clearLooseEnds();
+    checkFiles();
+}
+
+} // namespace rapid::sema

@@ -1,0 +1,196 @@
+#include "frontend/sema/session.h"
+
+#include "frontend/sema/analysis.h"
+#include "frontend/syntax/parser.h"
+
+#include <algorithm>
+#include <map>
+
+namespace rapid::sema {
+
+namespace {
+
+using Diagnostics = std::vector<diag::Diagnostic>;
+
+/// A file of a task with what was said about it.
+struct SessionFile {
+    std::shared_ptr<const SourceFile> source;
+    Diagnostics parsed;
+    Diagnostics checked;
+};
+
+struct SessionTask {
+    TaskInput input;
+    TaskScope scope;
+    std::vector<SessionFile> files; ///< as in `scope`
+    Diagnostics whole;              ///< about no file, or known only when all files are checked
+};
+
+bool pointsInto(const Diagnostics& diagnostics, const std::shared_ptr<const SourceFile>& file) {
+    return std::any_of(diagnostics.begin(), diagnostics.end(), [&](const diag::Diagnostic& d) {
+        return std::any_of(d.notes.begin(), d.notes.end(),
+                           [&](const auto& note) { return note.file == file; });
+    });
+}
+
+} // namespace
+
+struct Session::State {
+    explicit State(const CheckOptions& given)
+        : options(given), library(given.library.begin(), given.library.end()) {
+        options.library = library;
+        options.requireMain = false;
+    }
+
+    CheckOptions options;
+    std::vector<LibraryText> library;
+    diag::Sink sink; ///< empty between the steps
+    std::unique_ptr<CheckedProgram> program;
+    std::unique_ptr<Analyzer> analyzer;
+    Diagnostics libraryDiagnostics;
+    std::vector<SessionTask> tasks;
+    Diagnostics across;
+
+    void openTask(TaskInput input);
+    void change(SessionTask& task, size_t index, const std::shared_ptr<const SourceFile>& file);
+    void recheck(SessionTask& task, std::vector<size_t> dirty);
+    void checkAcross();
+    /// Moves what was reported since to the files it is about.
+    void distribute(SessionTask& task, Diagnostics SessionFile::* list);
+};
+
+void Session::State::distribute(SessionTask& task, Diagnostics SessionFile::* list) {
+    std::map<const SourceFile*, SessionFile*> byFile;
+    Diagnostics found = sink.take();
+    if (!found.empty())
+        for (SessionFile& file : task.files)
+            byFile[file.source.get()] = &file;
+    for (diag::Diagnostic& d : found) {
+        const auto at = byFile.find(d.file.get());
+        (at == byFile.end() ? task.whole : (at->second->*list)).push_back(std::move(d));
+    }
+}
+
+void Session::State::openTask(TaskInput input) {
+    SessionTask& task = tasks.emplace_back();
+    task.input = std::move(input);
+    analyzer->startTask(task.input);
+    analyzer->readFiles(task.input);
+    for (const TaskFile& file : analyzer->files()) {
+        task.files.emplace_back();
+        task.files.back().source = program->trees[file.slot]->source;
+    }
+    distribute(task, &SessionFile::parsed);
+    analyzer->checkFiles();
+    distribute(task, &SessionFile::checked);
+    analyzer->finishTask();
+    for (diag::Diagnostic& d : sink.take())
+        task.whole.push_back(std::move(d));
+    task.scope = analyzer->leaveTask();
+}
+
+void Session::State::change(SessionTask& task, size_t index, const std::shared_ptr<const SourceFile>& file) {
+    SessionFile& changed = task.files[index];
+    const std::shared_ptr<const SourceFile> before = changed.source;
+    analyzer->enterTask(std::move(task.scope));
+    auto tree = syntax::parse(file, sink);
+    const bool broken = sink.hasErrors();
+    changed.parsed = sink.take();
+    changed.source = file;
+    const bool wasEntangled = analyzer->isEntangled();
+    const bool alone = analyzer->replaceTree(index, std::move(tree), broken) && !wasEntangled;
+    std::vector<size_t> dirty;
+    for (size_t i = 0; i < task.files.size(); ++i) {
+        const bool open = program->facts[analyzer->files()[i].slot]->open;
+        if (i == index || !alone || open || pointsInto(task.files[i].checked, before)) dirty.push_back(i);
+    }
+    std::erase_if(task.whole, [](const diag::Diagnostic& d) { return d.code != diag::Code::SameFileTwice; });
+    for (const size_t i : dirty)
+        task.files[i].checked.clear();
+    if (alone)
+        analyzer->recheckFiles(dirty);
+    else
+        analyzer->recheckTask();
+    if (alone && analyzer->isEntangled()) { // from now on
+        sink.take();
+        for (SessionFile& each : task.files)
+            each.checked.clear();
+        analyzer->recheckTask();
+    }
+    distribute(task, &SessionFile::checked);
+    analyzer->finishTask();
+    for (diag::Diagnostic& d : sink.take())
+        task.whole.push_back(std::move(d));
+    task.scope = analyzer->leaveTask();
+}
+
+void Session::State::checkAcross() {
+    analyzer->checkAcrossTasks();
+    across = sink.take();
+}
+
+Session::Session(const CheckOptions& options) : state_(std::make_unique<State>(options)) {}
+Session::~Session() = default;
+
+void Session::open(std::vector<TaskInput> tasks) {
+    State& s = *state_;
+    s.tasks.clear();
+    s.analyzer.reset();
+    s.program = std::make_unique<CheckedProgram>();
+    s.analyzer = std::make_unique<Analyzer>(*s.program, s.options, s.sink);
+    s.analyzer->keepFacts();
+    s.analyzer->loadLibrary();
+    s.libraryDiagnostics = s.sink.take();
+    std::vector<std::string> names;
+    for (const TaskInput& task : tasks)
+        names.push_back(task.name);
+    s.analyzer->setTaskNames(std::move(names));
+    for (TaskInput& task : tasks)
+        s.openTask(std::move(task));
+    s.checkAcross();
+}
+
+bool Session::change(const std::shared_ptr<const SourceFile>& file) {
+    bool found = false;
+    bool readable = true;
+    for (SessionTask& task : state_->tasks) {
+        for (std::shared_ptr<const SourceFile>& known : task.input.files) {
+            if (known->path() != file->path()) continue;
+            found = true;
+            readable = readable && known->isBinary() == file->isBinary();
+            known = file;
+        }
+    }
+    if (!readable) { // the task is complete now, or no longer
+        std::vector<TaskInput> tasks;
+        for (SessionTask& task : state_->tasks)
+            tasks.push_back(std::move(task.input));
+        open(std::move(tasks));
+        return true;
+    }
+    for (SessionTask& task : state_->tasks)
+        for (size_t i = 0; i < task.files.size(); ++i)
+            if (task.files[i].source->path() == file->path()) state_->change(task, i, file);
+    if (found) state_->checkAcross();
+    return found;
+}
+
+const CheckedProgram& Session::program() const {
+    return *state_->program;
+}
+
+std::vector<diag::Diagnostic> Session::diagnostics() const {
+    diag::Sink all;
+    all.add(state_->libraryDiagnostics);
+    for (const SessionTask& task : state_->tasks) {
+        for (const SessionFile& file : task.files)
+            all.add(file.parsed);
+        for (const SessionFile& file : task.files)
+            all.add(file.checked);
+        all.add(task.whole);
+    }
+    all.add(state_->across);
+    return all.sorted();
+}
+
+} // namespace rapid::sema

@@ -1,0 +1,38 @@
+#pragma once
+// Checks the same tasks again and again while their files change: what an editor needs.
+
+#include "frontend/sema/checker.h"
+
+namespace rapid::sema {
+
+/// Holds the library, the trees of all files and what is known about them. After each change program() and
+/// diagnostics() are what check() would give for the files as they are now.
+///
+/// A changed file is parsed and checked again. Other files are left alone as long as they cannot see the change: the
+/// declarations that others see are the same, letter by letter. Otherwise all files of the task are checked again, but
+/// not parsed. Files with names that nobody declares are always checked again, because what is said about those names
+/// hangs on the bodies of other files; so are files with a message that points into the changed one.
+class Session {
+  public:
+    /// `requireMain` does not count: what is being written need not run.
+    explicit Session(const CheckOptions& options);
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    /// Takes other tasks or other lists of files; everything is parsed and checked.
+    void open(std::vector<TaskInput> tasks);
+    /// Takes another text (a SourceFile not used here before) for the file of the same path, in every task that has it. False: no task has such a file.
+    bool change(const std::shared_ptr<const SourceFile>& file);
+
+    /// Symbols, trees and facts of changed files are replaced by change(): keep no pointers to them.
+    const CheckedProgram& program() const;
+    /// Sorted as those of a Sink.
+    std::vector<diag::Diagnostic> diagnostics() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace rapid::sema
