@@ -150,7 +150,7 @@ void Walker::labelStmt(const LabelStmt& s) {
     label.mark.exits = exits();
     label.mark.calls = facts_.calls.size();
     labelIndex_[&s] = labels_.size();
-    labels_.push_back(std::move(label));
+    labels_.push_back(label);
     assigned_.set(); // a jump may come from anywhere
 }
 

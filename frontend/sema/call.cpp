@@ -173,7 +173,8 @@ bool Analyzer::matchArguments(BoundCall& call, TokenIndex name, std::span<Argume
 size_t Analyzer::matchRequired(BoundCall& call, const Argument& arg, size_t slot, bool isLast) {
     const RoutineSymbol& routine = *call.routine;
     const size_t end = alternativesEnd(routine, slot);
-    if (arg.name == kNoToken) return end - slot == 1 ? slot : chooseAlternative(call, arg, slot, end);
+    if (arg.name == kNoToken)
+        return end - slot == 1 || !arg.value ? slot : chooseAlternative(call, arg, slot, end);
     const NameId name = idOf(arg.name);
     for (size_t i = slot; i < end; ++i)
         if (routine.params[i]->nameId == name) return i;

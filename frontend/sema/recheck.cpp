@@ -42,27 +42,61 @@ std::string_view visiblePart(const SyntaxTree& tree, const Decl& decl) {
     return tree.source->text().substr(begin, end - begin);
 }
 
+/// Declarations that begin and end at the same places, counted from the beginning of the texts or from their ends.
+bool samePlace(const SyntaxTree& oldTree, const Decl& old, const SyntaxTree& newTree, const Decl& fresh,
+               size_t shift) {
+    const SourceRange before = oldTree.range(old), now = newTree.range(fresh);
+    return old.kind == fresh.kind && before.begin + shift == now.begin && before.end + shift == now.end;
+}
+
+using Decls = std::span<Decl* const>;
+
+/// Takes away what is the same letter by letter at both ends: nearly everything, after an edit of a line.
+void dropSameEnds(const SyntaxTree& oldTree, Decls& old, const SyntaxTree& newTree, Decls& fresh) {
+    const std::string_view before = oldTree.source->text(), now = newTree.source->text();
+    const size_t shorter = std::min(before.size(), now.size());
+    const auto length = static_cast<std::ptrdiff_t>(shorter);
+    const auto head = static_cast<size_t>(
+        std::mismatch(now.begin(), now.begin() + length, before.begin()).first - now.begin());
+    const auto tail = static_cast<size_t>(
+        std::mismatch(now.rbegin(), now.rbegin() + length, before.rbegin()).first - now.rbegin());
+    while (!old.empty() && !fresh.empty() && oldTree.range(*old.front()).end < head &&
+           samePlace(oldTree, *old.front(), newTree, *fresh.front(), 0)) {
+        old = old.subspan(1);
+        fresh = fresh.subspan(1);
+    }
+    const size_t shift = now.size() - before.size(); // modulo 2^64
+    while (!old.empty() && !fresh.empty() && oldTree.range(*old.back()).begin > before.size() - tail &&
+           samePlace(oldTree, *old.back(), newTree, *fresh.back(), shift)) {
+        old = old.first(old.size() - 1);
+        fresh = fresh.first(fresh.size() - 1);
+    }
+}
+
 /// The next declaration from `i` on that others can see; the number of declarations if there is none.
-size_t nextVisible(const SyntaxTree& tree, const ModuleDecl& module, size_t i, std::string_view& part) {
-    for (; i < module.decls.size(); ++i)
-        if (part = visiblePart(tree, *module.decls[i]); !part.empty()) return i;
+size_t nextVisible(const SyntaxTree& tree, Decls decls, size_t i, std::string_view& part) {
+    for (; i < decls.size(); ++i)
+        if (part = visiblePart(tree, *decls[i]); !part.empty()) return i;
     return i;
 }
 
 /// Whether two modules look alike to other files.
-bool sameFromOutside(const SyntaxTree& oldTree, const ModuleDecl& old, const SyntaxTree& newTree,
-                     const ModuleDecl& fresh) {
-    if (oldTree.text(old.name) != newTree.text(fresh.name) || old.attributes != fresh.attributes)
+bool sameFromOutside(const SyntaxTree& oldTree, const ModuleDecl& oldModule, const SyntaxTree& newTree,
+                     const ModuleDecl& newModule) {
+    if (oldTree.text(oldModule.name) != newTree.text(newModule.name) ||
+        oldModule.attributes != newModule.attributes)
         return false;
+    Decls old = oldModule.decls, fresh = newModule.decls;
+    dropSameEnds(oldTree, old, newTree, fresh);
     std::string_view oldPart, newPart;
     size_t i = nextVisible(oldTree, old, 0, oldPart);
     size_t k = nextVisible(newTree, fresh, 0, newPart);
-    while (i < old.decls.size() && k < fresh.decls.size()) {
+    while (i < old.size() && k < fresh.size()) {
         if (oldPart != newPart) return false;
         i = nextVisible(oldTree, old, i + 1, oldPart);
         k = nextVisible(newTree, fresh, k + 1, newPart);
     }
-    return i == old.decls.size() && k == fresh.decls.size();
+    return i == old.size() && k == fresh.size();
 }
 
 } // namespace

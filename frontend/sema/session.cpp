@@ -93,7 +93,9 @@ void Session::State::change(SessionTask& task, size_t index, const std::shared_p
     SessionFile& changed = task.files[index];
     const std::shared_ptr<const SourceFile> before = changed.source;
     analyzer->enterTask(std::move(task.scope));
-    auto tree = syntax::parse(file, sink);
+    syntax::ParseOptions parsing;
+    parsing.earlier = program->trees[analyzer->files()[index].slot].get();
+    auto tree = syntax::parse(file, sink, parsing);
     const bool broken = sink.hasErrors();
     changed.parsed = sink.take();
     changed.source = file;

@@ -267,6 +267,8 @@ struct SyntaxTree {
     Arena arena;
     std::vector<ModuleDecl*> modules;
     uint32_t exprCount = 0;
+    bool retagged =
+        false; ///< some tokens are not what the text alone says, or the text cannot be read: mistakes
 
     std::string_view text(TokenIndex t) const {
         return t == kNoToken ? std::string_view() : source->text().substr(tokens[t].offset, tokens[t].length);

@@ -147,11 +147,10 @@ std::string showCharacter(std::string_view text) {
 class Lexer {
   public:
     explicit Lexer(std::string_view text)
-        : begin_(text.data()), end_(begin_ + text.size()), padding_(findPadding(begin_, end_)), p_(begin_) {
-        result_.tokens.reserve(text.size() / 3 + 16);
-    }
+        : begin_(text.data()), end_(begin_ + text.size()), padding_(findPadding(begin_, end_)), p_(begin_) {}
 
     LexResult run() {
+        result_.tokens.reserve(static_cast<size_t>(end_ - begin_) / 3 + 16);
         readFileHeader();
         while (skipGap())
             readToken();
@@ -159,24 +158,36 @@ class Lexer {
         return std::move(result_);
     }
 
+    /// The tokens from one offset to another one; `before` is the kind of the token before them.
+    LexResult runPart(size_t from, size_t to, TokenKind before) {
+        before_ = before;
+        p_ = begin_ + from;
+        while (skipGap() && p_ < begin_ + to)
+            readToken();
+        if (p_ == end_) push(TokenKind::EndOfFile, end_);
+        return std::move(result_);
+    }
+
   private:
     /// Goes to the next token; false at the end of the text, which std::string terminates by a NUL.
     bool skipGap() {
+        const char* p = p_; // a local one stays in a register, here and in other loops over characters
         for (;;) {
-            const CharClass c = classAt(p_);
+            const CharClass c = classAt(p);
             if (c == CharClass::Space) {
-                ++p_;
+                ++p;
             } else if (c == CharClass::Comment) {
-                if (p_[1] == '=' && isNotEqual()) break;
+                p_ = p;
+                if (p[1] == '=' && isNotEqual()) break;
                 do
-                    ++p_;
-                while (p_ < end_ && !isLineEnd(*p_));
+                    ++p;
+                while (p < end_ && !isLineEnd(*p));
             } else {
                 break;
             }
         }
-        if (p_ >= padding_) p_ = end_;
-        return p_ < end_;
+        p_ = p < padding_ ? p : end_;
+        return p < padding_;
     }
 
     /// The end mark of old DOS files and the NUL bytes that fill up a sector are the end of the text.
@@ -185,6 +196,8 @@ class Lexer {
             --end;
         return end;
     }
+
+    TokenKind lastKind() const { return result_.tokens.empty() ? before_ : result_.tokens.back().kind; }
 
     void push(TokenKind kind, const char* start) {
         const auto length = std::min(static_cast<size_t>(p_ - start), kMaxTokenLength);
@@ -336,8 +349,7 @@ class Lexer {
         case CharClass::Digit: return readNumber();
         case CharClass::Quote: return readString();
         case CharClass::Punctuation:
-            if (*p_ == '%' && slice(p_, end_).starts_with("%%%") &&
-                result_.tokens.back().kind == TokenKind::KwEndmodule)
+            if (*p_ == '%' && slice(p_, end_).starts_with("%%%") && lastKind() == TokenKind::KwEndmodule)
                 return readFileHeader(); // files of several modules, put together from others
             return readPunctuation();
         case CharClass::Dot:
@@ -359,12 +371,14 @@ class Lexer {
     }
 
     void skipWordChars() {
+        const char* p = p_;
         for (;;) {
-            while (kWordChars[byteAt(p_)])
-                ++p_;
-            if (!isLatin1Letter(p_)) return;
-            p_ += 2;
+            while (kWordChars[byteAt(p)])
+                ++p;
+            if (!isLatin1Letter(p)) break;
+            p += 2;
         }
+        p_ = p;
     }
 
     void readWord() {
@@ -376,8 +390,10 @@ class Lexer {
     }
 
     void skipDigits() {
-        while (isDigit(*p_))
-            ++p_;
+        const char* p = p_;
+        while (isDigit(*p))
+            ++p;
+        p_ = p;
     }
 
     void readNumber() {
@@ -547,7 +563,8 @@ class Lexer {
     const char* padding_; ///< white space and end marks from here on
     const char* p_;
     const char* lastJunk_ = nullptr;
-    std::vector<std::string> badNames_; ///< that begin with '_'
+    TokenKind before_ = TokenKind::EndOfFile; ///< kind of the token before the first one
+    std::vector<std::string> badNames_;       ///< that begin with '_'
     LexResult result_;
 };
 
@@ -555,6 +572,10 @@ class Lexer {
 
 LexResult lex(std::string_view text) {
     return Lexer(text).run();
+}
+
+LexResult lexPart(std::string_view text, size_t from, size_t to, TokenKind before) {
+    return Lexer(text).runPart(from, to, before);
 }
 
 } // namespace rapid::syntax

@@ -28,6 +28,15 @@ inline constexpr size_t kMaxLexErrors = 64;
 /// it does in the text of a SourceFile.
 LexResult lex(std::string_view text);
 
+/// The tokens of a text that begin at `from` or behind it and before `to`, which both are starts of lines; with the
+/// EndOfFile when the text ends before `to`. `before` is the kind of the token before them.
+LexResult lexPart(std::string_view text, size_t from, size_t to, TokenKind before);
+
+/// Gives `tree`, whose source is known, its tokens from those of an earlier version of the file: lines that are the same
+/// at the beginning and at the end are not read again. False: nothing was done, because no line is the same or a
+/// token of the earlier version is not what the text alone says.
+bool relex(SyntaxTree& tree, const SyntaxTree& earlier, LexResult& lexed);
+
 /// Value of a number token. `valid` is false when the text is not a number, `inRange` when binary64 cannot hold it.
 struct NumberValue {
     double value = 0;

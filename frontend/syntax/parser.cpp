@@ -373,14 +373,18 @@ namespace {
 
 /// The tree with its tokens; a binary file has none but the end.
 std::unique_ptr<SyntaxTree> makeTree(std::shared_ptr<const SourceFile> source, diag::Sink& sink,
-                                     LexResult& lexed) {
+                                     const SyntaxTree* earlier, LexResult& lexed) {
     auto tree = std::make_unique<SyntaxTree>();
     tree->source = std::move(source);
     const std::string_view text = tree->source->text();
     if (checkEncoding(tree->source, sink)) {
-        lexed = lex(text);
-        tree->tokens = tree->arena.copy(lexed.tokens);
+        if (!earlier || !relex(*tree, *earlier, lexed)) {
+            lexed = lex(text);
+            tree->tokens = tree->arena.copy(lexed.tokens);
+        }
+        tree->retagged = !lexed.errors.empty();
     } else {
+        tree->retagged = true;
         tree->tokens = tree->arena.makeArray<Token>(1);
         tree->tokens[0].offset = static_cast<uint32_t>(text.size());
     }
@@ -392,7 +396,7 @@ std::unique_ptr<SyntaxTree> makeTree(std::shared_ptr<const SourceFile> source, d
 std::unique_ptr<SyntaxTree> parse(std::shared_ptr<const SourceFile> source, diag::Sink& sink,
                                   const ParseOptions& options) {
     LexResult lexed;
-    auto tree = makeTree(std::move(source), sink, lexed);
+    auto tree = makeTree(std::move(source), sink, options.earlier, lexed);
     if (!tree->source->isBinary()) Parser(*tree, sink, options).parseFile(lexed);
     return tree;
 }
@@ -400,7 +404,7 @@ std::unique_ptr<SyntaxTree> parse(std::shared_ptr<const SourceFile> source, diag
 ParsedExpr parseExpression(std::shared_ptr<const SourceFile> source, diag::Sink& sink) {
     LexResult lexed;
     ParsedExpr result;
-    result.tree = makeTree(std::move(source), sink, lexed);
+    result.tree = makeTree(std::move(source), sink, nullptr, lexed);
     const ParseOptions options;
     result.expr = Parser(*result.tree, sink, options).parseWholeExpression(lexed);
     return result;

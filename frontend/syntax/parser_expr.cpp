@@ -128,6 +128,7 @@ bool Parser::takesPercentAsMod() {
     fix(report(Code::ForeignSpelling, pos_, {"%", "MOD"}), sign,
         std::string(before ? " " : "") + "MOD" + (after ? " " : ""));
     tokens_[pos_].kind = K::KwMod;
+    tree_.retagged = true;
     return true;
 }
 
@@ -271,12 +272,32 @@ Expr* Parser::parseAggregate() {
     return finish(node);
 }
 
+/// A number, with a sign or without, that is a whole element of a list; null if something else begins here. It is what
+/// parseExpr() makes of it, sooner: taught points consist of such numbers.
+Expr* Parser::parseLoneNumber() {
+    const bool minus = kind() == K::Minus;
+    if (kindAt(pos_ + minus) != K::NumLiteral) return nullptr;
+    const K after = kindAt(pos_ + minus + 1);
+    if (after != K::Comma && after != K::RightBracket) return nullptr;
+    height_ = 1;
+    if (!minus) return parseNumber();
+    const Nest nest(*this);
+    if (!nest) return tooDeepExpr();
+    auto* node = makeExpr<UnaryExpr>(NodeKind::Unary);
+    node->op = UnaryOp::Minus;
+    take();
+    node->operand = parseNumber();
+    ++height_;
+    return finish(node);
+}
+
 /// `expr {, expr}` and the closing bracket; height_ is that of the highest one.
 std::span<Expr*> Parser::parseExprList(K closing, TokenIndex opening) {
     const size_t mark = exprs_.size();
     uint32_t height = 0;
     do {
-        exprs_.push_back(parseExpr());
+        Expr* number = parseLoneNumber();
+        exprs_.push_back(number ? number : parseExpr());
         height = std::max(height, height_);
     } while (!panic_ && accept(K::Comma));
     expectClosing(closing, opening, true);

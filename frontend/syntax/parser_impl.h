@@ -158,6 +158,7 @@ class Parser {
     Expr* parseSigned(int minPrecedence);
     Expr* parsePrimary();
     Expr* parseNumber();
+    Expr* parseLoneNumber();
     Expr* parseNamed(bool allowCall);
     Expr* parseCall();
     Expr* parsePostfix(Expr* base);

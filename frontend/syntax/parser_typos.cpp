@@ -59,6 +59,7 @@ void Parser::retag(TokenIndex first, TokenIndex last, K word) {
     const std::string spelling(tokenText(word));
     fix(reportAt(Code::MisspeltKeyword, range, {std::string(shown), spelling}), range, spelling);
     tokens_[last].kind = word;
+    tree_.retagged = true;
 }
 
 bool Parser::retagIfMeant(K word) {

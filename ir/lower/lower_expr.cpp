@@ -152,7 +152,7 @@ ir::ValueId RoutineLowering::lowerComparison(const BinaryExpr& expr) {
 ir::ValueId RoutineLowering::lowerEquality(const Expr& left, const Expr& right) {
     if (intRange(left) && intRange(right)) return b_.binary(Op::IEq, lowerInt(left), lowerInt(right));
     sema::DataType type = info(left).type;
-    if (!type.type || type.type->kind == TypeKind::Error || unparen(left).kind == NodeKind::Aggregate)
+    if (type.type->kind == TypeKind::Error || unparen(left).kind == NodeKind::Aggregate)
         type = info(right).type;
     const TypeKind kind = type.type->base()->kind;
     const TypeKind otherKind = baseType(right)->kind;

@@ -69,7 +69,8 @@ bool matches(const Module& module, TypeId type, const ConstData& data, size_t& a
             if (!matches(module, t.element, data, at)) return false;
         return true;
     }
-    return at < data.size() && data[at++].kind == t.kind;
+    if (at >= data.size()) return false;
+    return data[at++].kind == t.kind;
 }
 
 void checkDescs(const Module& module, Findings& out) {

@@ -177,13 +177,14 @@ void EventLog::flush() {
 
 std::string toJson(const Event& event) {
     nlohmann::ordered_json json;
+    const auto microseconds = event.time / kMicrosecond; // whole ones
     json["sequence"] = event.sequence;
     json["number"] = event.number;
     json["type"] = typeName(event.type);
     json["category"] = domainName(event.number);
     json["title"] = event.title;
     json["text"] = event.text;
-    json["time"] = static_cast<double>(event.time / kMicrosecond) / 1e6;
+    json["time"] = static_cast<double>(microseconds) / 1e6;
     json["task"] = event.task;
     json["module"] = event.place.module;
     json["routine"] = event.place.routine;

@@ -92,7 +92,7 @@ struct MotionSystem::Impl {
 
     void report(MotionEventKind kind, const Move* move, TimeNs time, uint32_t trigger = 0);
     ProfileState profileState(TimeNs time) const;
-    void begin(const std::shared_ptr<Move>& move, Profile profile);
+    void begin(const std::shared_ptr<Move>& move, const Profile& profile);
     void startNext();
     bool replaceProfile(bool toStop);
     void hold();
@@ -131,12 +131,12 @@ ProfileState MotionSystem::Impl::profileState(TimeNs time) const {
     return stretch().profile.at(toSeconds(time - stretch().start));
 }
 
-void MotionSystem::Impl::begin(const std::shared_ptr<Move>& move, Profile profile) {
+void MotionSystem::Impl::begin(const std::shared_ptr<Move>& move, const Profile& profile) {
     Stretch next;
     next.start = now;
     next.end = now + toNs(profile.duration());
     next.move = move;
-    next.profile = std::move(profile);
+    next.profile = profile;
     stretches.push_back(std::move(next));
 }
 
@@ -160,7 +160,7 @@ bool MotionSystem::Impl::replaceProfile(bool toStop) {
                              : Profile::continueTo(state, 1, move->plan.limitsAt(override), isFeasible);
     if (!isFeasible || (toStop && profile.end() >= 1 - 1e-12)) return false;
     if (isRunning) move->doneSeconds += toSeconds(std::min(now, stretch().end) - stretch().start);
-    begin(move, std::move(profile));
+    begin(move, profile);
     isBraking = toStop;
     return true;
 }

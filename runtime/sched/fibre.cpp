@@ -113,9 +113,8 @@ Fibre::Fibre(std::size_t stackBytes, std::function<void()> body) : impl_(std::ma
 Fibre::~Fibre() {
     Impl& impl = *impl_;
     if (impl.started && !impl.finished) {
-        // Destroying the fiber would throw through the frames on it.
-        new boost::context::fiber(std::move(impl.inside));
-        (void)impl_.release();
+        // Destroying the fiber would throw through the frames on it; so it is kept, with its stack.
+        [[maybe_unused]] const Impl* const kept = impl_.release();
         return;
     }
     munmap(impl.mapping, impl.mappingBytes);

@@ -11,7 +11,7 @@
 
 extern "C" const rt::ProgramDesc rapidc_program;
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of memory may end it
     rt::RunOptions options;
     CLI::App app(std::string("RAPID program ") + rapidc_program.name + " on a virtual controller");
     rt::addRunOptions(app, options, false);

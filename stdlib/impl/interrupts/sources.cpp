@@ -42,13 +42,17 @@ class WatchedData {
     std::vector<char> last_;
 };
 
+int domainOf(const Event& event) {
+    return event.number / kNumbersPerDomain;
+}
+
 struct ErrorFilter {
     float domain = k::COMMON_ERR; ///< COMMON_ERR: all
     float type = k::TYPE_ALL;     ///< TYPE_ALL: all
     std::optional<float> number;  ///< within the domain
 
     bool takes(const Event& event) const {
-        return (domain == k::COMMON_ERR || domain == static_cast<float>(event.number / kNumbersPerDomain)) &&
+        return (domain == k::COMMON_ERR || domain == static_cast<float>(domainOf(event))) &&
                (type == k::TYPE_ALL || type == static_cast<float>(event.type)) &&
                (!number || *number == static_cast<float>(event.number % kNumbersPerDomain));
     }
@@ -116,7 +120,7 @@ Status rt_ReadErrData(TaskCore* core, Handle* TrapEvent, float* ErrorDomain, flo
                          *TrapEvent < 0
                              ? "this trap was not caused by an event; only IError orders such interrupts"
                              : "the event is not kept in the event log any more");
-    *ErrorDomain = static_cast<float>(event->number / kNumbersPerDomain);
+    *ErrorDomain = static_cast<float>(domainOf(*event));
     *ErrorId = static_cast<float>(event->number % kNumbersPerDomain);
     *ErrorType = static_cast<float>(event->type);
     assignCut(Title, event->title);

@@ -35,7 +35,7 @@ Status waitSignal(TaskCore* core, const SignalWait& wait, double& last) {
     last = io.value(id);
     if (status != kOk) return status;
     if (wait.timeFlag) *wait.timeFlag = result == WaitResult::Timeout;
-    if (result == WaitResult::Done || wait.timeFlag) return kOk;
+    if (result == WaitResult::Done || wait.timeFlag != nullptr) return kOk;
     return lib::fail(core, err::ERR_WAIT_MAXTIME,
                      "signal " + io.config(id).name + " did not get the value within \\MaxTime");
 }

@@ -73,7 +73,7 @@ class Question {
         if (breaks_.maxTime) dialog.deadline = addTime(owner.now(), fromSeconds(*breaks_.maxTime));
         for (const SignalId id : {input_, output_})
             if (id >= 0) dialog.breakQueues.push_back(&io.changed(id));
-        if (breaks_.persistent) dialog.pollPeriod = kPersistentPoll;
+        if (breaks_.persistent != nullptr) dialog.pollPeriod = kPersistentPoll;
         dialog.broken = [this] { return reason() != kOk; };
         return kOk;
     }

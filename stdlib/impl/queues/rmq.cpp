@@ -177,7 +177,7 @@ Status rt_RMQGetMsgHeader(TaskCore* task, Handle* Message, data::Rmqheader* Head
         *Header = {};
         Header->datatype.assign(message->typeName());
         float* const sizes[] = {&Header->dim1, &Header->dim2, &Header->dim3};
-        for (std::size_t i = 0; i < message->dimensions.size() && message->dimensions[i] > 0; ++i) {
+        for (std::size_t i = 0; i < std::size(sizes) && message->dimensions[i] > 0; ++i) {
             *sizes[i] = static_cast<float>(message->dimensions[i]);
             Header->ndim = static_cast<float>(i + 1);
         }
