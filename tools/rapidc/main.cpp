@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of memory may end it
     CLI::App app{"rapidc compiles ABB RAPID to native code and runs it on a virtual controller"};
     app.name("rapidc");
     app.set_version_flag("--version", "rapidc " RAPIDC_VERSION);
