@@ -54,6 +54,14 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "",
      "MODULE m\n"
      "ENDMODULE"},
+    {6007, Kind::File,
+     "A module that SYS.cfg (CAB_TASK_MODULES) or a backup (TASK0) installs shared is there once for all tasks, with "
+     "one value of each of its data that are not TASK data (manual 1.2.2). The tasks were given modules of this name "
+     "that declare the data differently: use the same file in all of them.",
+     "",
+     "MODULE m(SYSMODULE)\n"
+     "  TASK VAR num counter := 0;\n"
+     "ENDMODULE"},
     {6010, Kind::File,
      "The same file was named twice on the command line, or named and found in a folder.",
      "",

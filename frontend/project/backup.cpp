@@ -357,6 +357,8 @@ class BackupLoader {
         }
         if (!infoFile_.text().empty()) out_.robotWareOptions = info_.options;
         if (robots_.empty()) out_.robot = robotOption();
+        for (const fs::path& path : sharedModules())
+            out_.sharedFiles.push_back(path.string());
         out_.homeFolder = home_.string();
         out_.isBackup = true;
     }

@@ -22,8 +22,9 @@ struct ProjectInput {
     std::vector<std::string> configFiles; ///< *.cfg files named or found, in the order of reading
     /// RobotWare options that a backup tells, e.g. "623-1 Multitasking"; not known without one.
     std::optional<std::vector<std::string>> robotWareOptions;
-    std::string robot;      ///< model that a backup names only among its options; else empty
-    std::string homeFolder; ///< HOME of a backup; empty if there is none
+    std::vector<std::string> sharedFiles; ///< modules that a backup holds once for all tasks (TASK0), by path
+    std::string robot;                    ///< model that a backup names only among its options; else empty
+    std::string homeFolder;               ///< HOME of a backup; empty if there is none
     bool isBackup = false;
 };
 

@@ -141,7 +141,7 @@ struct Routine {
     bool stepping =
         false; ///< made for the stepping profile: every statement has a start that `step` may choose
     bool hasBackward = false; ///< stepping: has a backward part
-    bool callable = false;    ///< a procedure without required parameters
+    bool callable = false;    ///< a procedure without parameters
     bool exported = false;    ///< reachable from outside (entry, late binding)
     TypeId result = kVoid; ///< scalar: returned beside the status; Str/Record/Array: through a hidden pointer
     std::vector<Param> params;

@@ -5,6 +5,7 @@
 #include "ir/core/ir.h"
 
 #include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,10 @@ struct Options {
     /// For the stepping profile (design chapter 4): every statement can be chosen to go on with, data of routines
     /// lie in memory and are described, BACKWARD handlers are compiled.
     bool stepping = false;
+    /// Procedures that the configuration connects with system events: reachable by name at run time. Lower case.
+    std::set<std::string> eventRoutines;
+    /// Modules that are installed once for all tasks: their data, except TASK data, are shared. Lower case.
+    std::set<std::string> sharedModules;
 };
 
 /// Lowers every task of a program without errors. Constructs that are not lowered yet are reported to `sink`,

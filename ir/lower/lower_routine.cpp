@@ -18,9 +18,7 @@ ir::Routine declareRoutine(ProgramLowering& program, const RoutineSymbol& symbol
     routine.name = fmt::format("{}/{}/{}", program.task(task).name, symbol.module->name, symbol.name);
     routine.noStepIn = symbol.noStepIn;
     routine.stepping = program.stepping();
-    routine.callable = symbol.routineKind == syntax::RoutineKind::Proc &&
-                       std::all_of(symbol.params.begin(), symbol.params.end(),
-                                   [](const DataSymbol* param) { return param->optional; });
+    routine.callable = symbol.routineKind == syntax::RoutineKind::Proc && symbol.params.empty();
     routine.hasBackward = program.stepping() && symbol.routineDecl && symbol.routineDecl->hasBackward;
     const auto& tree = *symbol.module->tree;
     routine.file = program.fileIndex(tree.source->path());

@@ -190,13 +190,20 @@ uint32_t ProgramLowering::addGlobal(const DataSymbol& symbol, uint32_t task, boo
     return index;
 }
 
+/// Its module is installed once for all tasks, and it is no TASK data (manual 1.2.2).
+bool ProgramLowering::inSharedModule(const DataSymbol& symbol) const {
+    return symbol.module && symbol.scope != syntax::ScopeWord::Task && !symbol.routine &&
+           options_.sharedModules.contains(foldCase(symbol.module->name));
+}
+
 uint32_t ProgramLowering::globalFor(const DataSymbol& symbol, uint32_t task) {
     const bool signal = symbol.storage == sema::Storage::Signal;
     const bool systemGlobalPers =
         !signal && symbol.dataKind == syntax::DataKind::Pers && symbol.scope == syntax::ScopeWord::None;
     const bool constant = !signal && symbol.dataKind == syntax::DataKind::Const;
-    // TASK PERS and VAR have a value per task; constants can be shared.
-    const bool shared = systemGlobalPers || (constant && symbol.predefined);
+    // TASK PERS and VAR have a value per task, unless their module is installed shared; constants can be shared.
+    const bool sharedModule = !signal && !constant && !systemGlobalPers && inSharedModule(symbol);
+    const bool shared = systemGlobalPers || sharedModule || (constant && symbol.predefined);
     const auto key = std::make_pair(shared ? ir::kNone : task, &symbol);
     if (auto found = globals_.find(key); found != globals_.end()) return found->second;
     uint32_t index = 0;
@@ -208,6 +215,18 @@ uint32_t ProgramLowering::globalFor(const DataSymbol& symbol, uint32_t task) {
         ir::Global& global = module_.globals[index];
         if (global.init.empty() && symbol.value.kind != sema::ConstValue::Kind::None)
             flatten(symbol.value, symbol.type, global.init);
+    } else if (sharedModule) {
+        // Every task has read the module for itself, so its data are found by their names.
+        const std::string name =
+            fmt::format("shared/{}/{}", foldCase(symbol.module->name), foldCase(symbol.name));
+        auto [it, isNew] = sharedPersistents_.try_emplace(name, 0);
+        if (isNew) it->second = addGlobal(symbol, task, true, name);
+        index = it->second;
+        if (module_.globals[index].type != irType(symbol.type)) {
+            const auto& tree = *symbol.module->tree;
+            sink_.report(diag::Code::SharedDataConflict, tree.source, tree.range(symbol.nameToken),
+                         {symbol.name, symbol.module->name});
+        }
     } else if (signal) {
         index = addGlobal(symbol, task, false,
                           fmt::format("{}/signal/{}", this->task(task).name, foldCase(symbol.name)));
@@ -330,7 +349,8 @@ void ProgramLowering::drainPending() {
         done.exported =
             done.exported || module_.routines[next.index].exported; // a CONNECT names it meanwhile
         // Breakpoints and the program pointer reach every routine of the program.
-        done.exported = done.exported || (options_.stepping && !next.symbol->predefined);
+        done.exported = done.exported || (options_.stepping && !next.symbol->predefined) ||
+                        (done.callable && options_.eventRoutines.contains(foldCase(next.symbol->name)));
         module_.routines[next.index] = std::move(done);
     }
 }

@@ -61,6 +61,7 @@ class ProgramLowering {
     void lowerTask(uint32_t task);
     uint32_t makeReset(uint32_t task);
     void drainPending();
+    bool inSharedModule(const sema::DataSymbol& symbol) const;
     uint32_t addGlobal(const sema::DataSymbol& symbol, uint32_t task, bool shared, const std::string& name);
 
     const sema::CheckedProgram& program_;
@@ -70,7 +71,7 @@ class ProgramLowering {
     std::unordered_map<const sema::Type*, ir::TypeId> records_;
     std::map<std::tuple<const sema::Type*, int, int, int>, uint32_t> descs_;
     std::map<std::pair<uint32_t, const sema::DataSymbol*>, uint32_t> globals_;
-    std::map<std::string, uint32_t> sharedPersistents_;
+    std::map<std::string, uint32_t> sharedPersistents_; ///< and data of shared modules
     std::map<std::pair<uint32_t, const sema::RoutineSymbol*>, uint32_t> routines_;
     std::unordered_map<std::string, uint32_t> natives_;
     std::map<std::string, uint32_t> constants_;

@@ -122,7 +122,7 @@ struct RoutineDesc {
     const LocalDesc* locals; ///< in their order; dimensions of arrays have rows without a name
     uint32_t line;           ///< of its declaration
     uint8_t stepping;        ///< made for the stepping profile
-    uint8_t callable; ///< a procedure without required parameters: the program pointer can be moved to it
+    uint8_t callable; ///< a procedure without parameters: the program pointer can be moved to it, the system can call it
     uint8_t tail[2];
 };
 

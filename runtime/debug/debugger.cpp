@@ -242,6 +242,11 @@ std::string Debugger::begin(Task& task, Mode mode, bool alone) {
         if (other->canResume()) other->resume();
     }
     controller_.motion().programStart();
+    // What the program pointer was moved to by hand decides between START and RESTART; a step is neither.
+    if (mode == Mode::Run || mode == Mode::Cursor)
+        controller_.oweStart(task);
+    else
+        task.events().owe(SystemEvent::Step);
     task.resume();
     return "";
 }
@@ -311,6 +316,7 @@ std::string Debugger::pointerToLine(Task& task, uint32_t line) {
         state.standing->statement = static_cast<int32_t>(s);
         state.backwardLast = false;
         state.backwardFrame = nullptr;
+        task.notePointerMoved(false);
         controller_.motion().clearPath();
         return "";
     }

@@ -50,7 +50,7 @@ struct Breakpoint {
 struct DebugFrame {
     SourcePlace place;
     Frame* frame = nullptr;
-    bool isTrap = false; ///< the system called it: an interrupt
+    bool isTrap = false; ///< the system called it: an interrupt or an event
 };
 
 class Debugger final : public StepHook {

@@ -44,7 +44,7 @@ std::vector<DebugFrame> Debugger::frames(const Task& task) const {
     std::vector<DebugFrame> result;
     bool trap = false;
     for (Frame* at = task.frame; at != nullptr; at = at->caller) {
-        if (at->routine == &kTrapBoundary) {
+        if (at->routine == &kTrapBoundary || at->routine == &kEventBoundary) {
             if (!result.empty()) result.back().isTrap = true;
             trap = false;
             continue;

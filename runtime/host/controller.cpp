@@ -87,8 +87,12 @@ const RoutineEntry* Controller::findRoutine(std::string_view name, std::string_v
 ExitStatus Controller::run() {
     motion_->setCirclePointStop([this](Task& task) { return debugger_.stopInside(task); });
     scheduleStimulus();
-    for (const auto& task : tasks_)
+    for (const auto& task : tasks_) {
         scheduler_.add(*task);
+        // The controller is switched on, the program loaded and started.
+        for (const SystemEvent event : {SystemEvent::PowerOn, SystemEvent::Reset, SystemEvent::Start})
+            task->events().owe(event);
+    }
     return finish(scheduler_.run([this] { return runOver(); }));
 }
 
@@ -98,7 +102,8 @@ bool Controller::runOver() {
     systemSignals_.update();
     for (const auto& task : tasks_) {
         if (!isNormal(task) || task->state() == TaskState::Finished) continue;
-        const bool stoppedForGood = task->isStopped() && !task->isUnwinding() && !startToCome();
+        const bool busy = task->isUnwinding() || task->events().owed() || task->events().executesStopped();
+        const bool stoppedForGood = task->isStopped() && !busy && !startToCome();
         if (!stoppedForGood) return false;
     }
     return motion_->isSettled();
@@ -108,7 +113,7 @@ bool Controller::stoppedByError() const {
     const auto failed = [](const auto& task) {
         return isNormal(task) && task->stopCause() == StopCause::Error;
     };
-    return systemFailed_ || std::any_of(tasks_.begin(), tasks_.end(), failed);
+    return systemFailed_ || backgroundStopped_ || std::any_of(tasks_.begin(), tasks_.end(), failed);
 }
 
 /// "T_ROB1 waits in Main:12, T_IO waits in Io:7." for the tasks that have not finished.
@@ -152,22 +157,21 @@ bool Controller::cyclesLeft(const Task& task) const {
     return task.cyclesDone() < static_cast<uint64_t>(options_.cycles);
 }
 
-std::string Controller::trustLevel(const Task& task) const {
-    for (const CfgInstance* instance : instances("SYS", "CAB_TASKS")) {
-        if (sameName(instance->text("Name"), task.name())) return instance->text("TrustLevel", "SysFail");
-    }
-    return "SysFail";
+void Controller::taskStopped(Task& task) {
+    debugger_.noteStop(task, StopReason::Stop);
+    if (task.kind() != TaskKind::Normal) backgroundStopped(task);
+}
+
+void Controller::taskExited(Task& task) {
+    if (task.kind() != TaskKind::Normal) backgroundStopped(task);
 }
 
 void Controller::taskFailed(Task& task) {
-    if (task.kind() != TaskKind::Normal) {
-        const std::string level = trustLevel(task);
-        if (sameName(level, "NoSafety") || sameName(level, "None")) return;
-        const char* type = task.kind() == TaskKind::Static ? "STATIC" : "SEMISTATIC";
-        log_.write(EventId::SystemFailure, &task, {task.name(), type, level});
-        systemFailed_ = true;
-    }
     debugger_.noteStop(task, StopReason::Error);
+    if (task.kind() != TaskKind::Normal) {
+        backgroundStopped(task);
+        return;
+    }
     stopNormalTasks(StopCause::Order);
     motion_->programStop();
 }
@@ -180,17 +184,39 @@ void Controller::stopNormalTasks(StopCause cause) {
 
 // ---- Controller actions --------------------------------------------------------------------------------------------
 
-void Controller::actionStop() {
+void Controller::actionStop(SystemEvent event) {
     bool any = false;
     for (const auto& task : tasks_) {
-        if (!isNormal(task) || !task->isExecuting()) continue;
+        if (!isNormal(task)) continue;
+        if (task->isStopped() && task->events().executesStopped()) { // its event routine is to stop as well
+            any = true;
+            const char* routine = nameOf(task->events().running());
+            const EventId told =
+                task->events().breakOff() ? EventId::EventRoutineBrokenOff : EventId::EventRoutineGoesOn;
+            log_.write(told, task.get(), {task->name(), routine});
+            continue;
+        }
+        if (!task->isExecuting()) continue;
         any = true;
-        log_.write(EventId::ProgramStopped, task.get(), {task->name(), "stop order"});
+        log_.write(EventId::ProgramStopped, task.get(),
+                   {task->name(), event == SystemEvent::QuickStop ? "quick stop order" : "stop order"});
         task->stop(StopCause::Order);
+        task->events().owe(event);
         debugger_.noteStop(*task, StopReason::Order);
     }
     if (!any) log_.write(EventId::NothingStopped, nullptr, {"stop", "executing"});
     motion_->programStop();
+}
+
+void Controller::oweStart(Task& task) {
+    task.events().owe(task.startsAtMain() ? SystemEvent::Start : SystemEvent::Restart);
+}
+
+/// Why no task may be started; "" when it may.
+std::string Controller::startRefusal(const Task& task) const {
+    if (systemFailed_) return "a background task has failed; end the run and repair it";
+    if (task.canResume()) return "";
+    return "SystemStopAction \\StopBlock was executed; move the program pointer to main first (pp_to_main)";
 }
 
 void Controller::actionStart() {
@@ -198,28 +224,23 @@ void Controller::actionStart() {
     for (const auto& task : tasks_) {
         if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished) continue;
         any = true;
-        if (systemFailed_) {
-            log_.write(EventId::StartRefused, task.get(),
-                       {task->name(), "a background task has failed; end the run and repair it"});
-            return;
-        }
-        if (task->stopCause() != StopCause::Blocked) continue;
-        log_.write(EventId::StartRefused, task.get(),
-                   {task->name(),
-                    "SystemStopAction \\StopBlock was executed; move the program pointer to main "
-                    "first (pp_to_main)"});
+        const std::string refusal = startRefusal(*task);
+        if (refusal.empty()) continue;
+        log_.write(EventId::StartRefused, task.get(), {task->name(), refusal});
         return;
     }
     if (!any) {
         log_.write(EventId::NothingStopped, nullptr, {"start", "stopped"});
         return;
     }
+    backgroundStopped_ = false;
     motion_->programStart();
     for (const auto& task : tasks_) {
         if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished) continue;
         const bool atMain = task->stopCause() == StopCause::AtMain;
         log_.write(atMain ? EventId::ProgramStarted : EventId::ProgramRestarted, task.get(), {task->name()});
         debugger_.continuous(*task);
+        oweStart(*task);
         task->resume();
     }
 }
@@ -234,6 +255,7 @@ void Controller::actionPpToMain() {
     for (const auto& task : tasks_) {
         if (!isNormal(task) || task->state() == TaskState::Finished) continue;
         task->moveToMain();
+        task->events().owe(SystemEvent::Reset);
         log_.write(EventId::ProgramPointerReset, task.get(), {task->name()});
     }
 }

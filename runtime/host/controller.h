@@ -90,20 +90,27 @@ class Controller final : public TaskHost {
     ExitStatus run();
 
     // ---- Controller actions (stimulus, clients): reach all NORMAL tasks -----------------------------------
-    void actionStop();
+    /// `event`: Stop, or QuickStop for a quick or an emergency stop.
+    void actionStop(SystemEvent event = SystemEvent::Stop);
     void actionStart();
     /// Refused with an event unless the program is stopped.
     void actionPpToMain();
     void actionStep(bool forward);
 
-    /// A NORMAL task was stopped by an error, or a background task brought the system down.
+    /// The stopped task is about to execute continuously: START at main, else RESTART becomes due.
+    void oweStart(Task& task);
+
+    /// A NORMAL task was stopped by an error, or a background task stopped the NORMAL tasks.
     bool stoppedByError() const;
+    /// False once a background task with TrustLevel SysHalt has stopped.
+    bool motorsOn() const { return motorsOn_; }
 
     // ---- TaskHost ----------------------------------------------------------------------------------------------
     bool cyclesLeft(const Task& task) const override;
     /// The stimulus has a `start` ahead.
     bool startToCome() const override { return startsToCome_ > 0 || debugger_.hasClient(); }
-    void taskStopped(Task& task) override { debugger_.noteStop(task, StopReason::Stop); }
+    void taskStopped(Task& task) override;
+    void taskExited(Task& task) override;
     int retryLimit() const override { return settings_.noOfRetry; }
     /// NORMAL tasks stop; when a STATIC or SEMISTATIC task failed, its TrustLevel decides (manual 1.20).
     void taskFailed(Task& task) override;
@@ -119,12 +126,19 @@ class Controller final : public TaskHost {
     bool connectExternals(const ProgramDesc& program);
     bool connectExternal(const ExternalDesc& external);
     void makeTasks(const ProgramDesc& program);
+    // task_parameters.cpp
+    void applyTaskParameters();
+    void setForeground(const CfgInstance& instance);
+    void addEventRoutines();
+    bool hookConcerns(const CfgInstance& hook, const Task& task) const;
+    void backgroundStopped(Task& task);
     void scheduleStimulus();
     void perform(const StimulusItem& item);
     bool runOver();
     bool isStart(const StimulusItem& item) const;
     ExitStatus finish(RunEnd end);
     std::string whereTasksAre(const char* verb) const;
+    std::string startRefusal(const Task& task) const;
     std::string trustLevel(const Task& task) const;
 
     RunOptions options_;
@@ -148,7 +162,9 @@ class Controller final : public TaskHost {
     std::vector<std::unique_ptr<Task>> tasks_;
     std::size_t startsToCome_ = 0; // `start` and steps that the stimulus has ahead
     Debugger debugger_{*this};
-    bool systemFailed_ = false; // a background task with TrustLevel SysFail or SysHalt has stopped
+    bool systemFailed_ = false;      // a background task with TrustLevel SysFail or SysHalt has stopped
+    bool backgroundStopped_ = false; // one with SysStop has, and there was no start since
+    bool motorsOn_ = true;
 };
 
 /// What a host adds to a controller before the program runs (names of errors, services).

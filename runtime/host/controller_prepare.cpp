@@ -58,7 +58,10 @@ ExitStatus Controller::prepare(const ProgramDesc& program) {
     if (status == ExitStatus::Ended) status = readStimulusFile();
     if (status == ExitStatus::Ended && !connectExternals(program)) status = ExitStatus::BadProgram;
     if (status == ExitStatus::Ended) status = openFiles();
-    if (status == ExitStatus::Ended) makeTasks(program);
+    if (status == ExitStatus::Ended) {
+        makeTasks(program);
+        applyTaskParameters();
+    }
     return status;
 }
 

@@ -105,6 +105,7 @@ void MotionDriver::schedule() {
 
 Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::MoveId& id,
                            std::optional<motion::MotionError>& error) {
+    if (const Status status = task.requireMovementAllowed(); status != kOk) return status;
     MotionPointer pointer = pointerOf(task, command);
     if (backward_ && pointer_.valid) command = reversed(command, pointer_.command);
     std::vector<motion::MoveCommand> parts;

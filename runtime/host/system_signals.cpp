@@ -24,8 +24,8 @@ T lookUp(const std::pair<const char*, T> (&table)[N], std::string_view word) {
 
 void SystemSignals::configure(const CfgFile& file, std::vector<CfgProblem>& problems) {
     static constexpr std::pair<const char*, Order> kOrders[] = {
-        {"Start", Order::Start},       {"StartMain", Order::StartMain}, {"Stop", Order::Stop},
-        {"QuickStop", Order::Stop},    {"SoftStop", Order::Stop},       {"StopInstr", Order::Stop},
+        {"Start", Order::Start},         {"StartMain", Order::StartMain}, {"Stop", Order::Stop},
+        {"QuickStop", Order::QuickStop}, {"SoftStop", Order::Stop},       {"StopInstr", Order::Stop},
         {"PPtoMain", Order::PpToMain},
     };
     static constexpr std::pair<const char*, State> kStates[] = {
@@ -35,8 +35,10 @@ void SystemSignals::configure(const CfgFile& file, std::vector<CfgProblem>& prob
         {"Error", State::Error},
         {"ExecutionError", State::Error},
         {"AutoOn", State::On},
-        {"MotorOn", State::On},
-        {"MotOnState", State::On},
+        {"MotorOn", State::MotorsOn},
+        {"MotOnState", State::MotorsOn},
+        {"MotorOff", State::MotorsOff},
+        {"MotOffState", State::MotorsOff},
         {"RunchOk", State::On},
     };
     const auto signalOf = [&](const CfgInstance& instance) {
@@ -79,6 +81,7 @@ void SystemSignals::carryOut(Order order) {
     switch (order) {
     case Order::None: return;
     case Order::Stop: controller_.actionStop(); return;
+    case Order::QuickStop: controller_.actionStop(SystemEvent::QuickStop); return;
     case Order::Start: controller_.actionStart(); return;
     case Order::PpToMain: controller_.actionPpToMain(); return;
     case Order::StartMain:
@@ -101,6 +104,8 @@ double SystemSignals::stateValue(const Output& output) const {
     }
     case State::NotMoving: return controller_.motion().isMoving() ? 0 : 1;
     case State::Error: return controller_.stoppedByError() ? 1 : 0;
+    case State::MotorsOn: return controller_.motorsOn() ? 1 : 0;
+    case State::MotorsOff: return controller_.motorsOn() ? 0 : 1;
     case State::None:
     case State::On: break;
     }

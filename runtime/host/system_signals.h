@@ -26,8 +26,8 @@ class SystemSignals {
     void update();
 
   private:
-    enum class Order : uint8_t { None, Start, StartMain, Stop, PpToMain };
-    enum class State : uint8_t { None, CycleOn, TaskExecuting, NotMoving, Error, On };
+    enum class Order : uint8_t { None, Start, StartMain, Stop, QuickStop, PpToMain };
+    enum class State : uint8_t { None, CycleOn, TaskExecuting, NotMoving, Error, MotorsOn, MotorsOff, On };
     struct Input {
         SignalId signal = -1;
         Order order = Order::None;

@@ -1,5 +1,6 @@
 #include "runtime/sched/error_search.h"
 
+#include "runtime/sched/event_routines.h"
 #include "runtime/sched/interrupts.h"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ bool inErrorHandler(const Frame& frame) {
 }
 
 ErrorRoute routeOfError(Frame* at, int errorNumber) {
-    if (at == nullptr) return {};
+    if (at == nullptr || at->routine == &kEventBoundary) return {};
     if (at->routine == nullptr || at->routine == &kTrapBoundary)
         return routeFromCall(at->caller, errorNumber);
     if (inUndoHandler(*at)) return {};
@@ -66,6 +67,7 @@ ErrorRoute routeFromCall(Frame* at, int errorNumber) {
     Frame* nearest = nullptr;
     bool trap = false; // past a trap routine only lists are asked
     for (Frame* frame = at; frame != nullptr; frame = frame->caller) {
+        if (frame->routine == &kEventBoundary) break;
         trap = trap || frame->routine == &kTrapBoundary;
         if (frame->routine == nullptr || frame->routine == &kTrapBoundary) continue;
         // Errors in an UNDO handler end it; they do not reach routines that are being left.
@@ -80,7 +82,9 @@ ErrorRoute routeFromCall(Frame* at, int errorNumber) {
 
 Frame* userLevelHandler(Frame* at, int errorNumber) {
     for (Frame* frame = at; frame != nullptr; frame = frame->caller) {
-        if (frame->routine == nullptr || frame->routine == &kTrapBoundary) return nullptr;
+        if (frame->routine == nullptr || frame->routine == &kTrapBoundary ||
+            frame->routine == &kEventBoundary)
+            return nullptr;
         if (frame->routine->noStepIn) continue;
         const bool takes = !inUndoHandler(*frame) && frame->routine->hasErrorHandler &&
                            coversStatement(*frame) && takesError(*frame->routine, errorNumber);

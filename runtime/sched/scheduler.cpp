@@ -130,13 +130,25 @@ void Scheduler::switchOut(Task& task) {
     task.fibre_->suspend();
 }
 
+namespace {
+
+/// Can run, and none of the tasks in whose background it is can (manual 1.20).
+bool hasItsTurn(const Task* task) {
+    if (!task->runnable()) return false;
+    for (const Task* other = task->foreground(); other != nullptr; other = other->foreground()) {
+        if (other->runnable()) return false;
+    }
+    return true;
+}
+
+} // namespace
+
 bool Scheduler::anyRunnable() const {
-    return std::any_of(ready_.begin(), ready_.end(), [](const Task* task) { return task->runnable(); });
+    return std::any_of(ready_.begin(), ready_.end(), hasItsTurn);
 }
 
 Task* Scheduler::takeRunnable() {
-    const auto found =
-        std::find_if(ready_.begin(), ready_.end(), [](const Task* task) { return task->runnable(); });
+    const auto found = std::find_if(ready_.begin(), ready_.end(), hasItsTurn);
     if (found == ready_.end()) return nullptr;
     Task* task = *found;
     ready_.erase(found);

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace rt {
 namespace {
@@ -41,14 +42,6 @@ Task::~Task() {
 
 void Task::fibreMain() {
     while (pendingUnwind_ != Unwind::Abandon) {
-        if (isStopped()) {
-            state_ = TaskState::Ready;
-            scheduler_.makeReady(*this);
-            scheduler_.switchOut(*this);
-            // At main there is nothing left to unwind.
-            if (pendingUnwind_ != Unwind::Abandon) pendingUnwind_ = Unwind::None;
-            continue;
-        }
         if (!runCycle()) break;
     }
     pendingUnwind_ = Unwind::None;
@@ -56,6 +49,14 @@ void Task::fibreMain() {
     interrupts_.clear();
 }
 
+/// The program pointer is at main and there is nothing to unwind.
+void Task::standAtMain() {
+    state_ = TaskState::Ready;
+    scheduler_.makeReady(*this);
+    scheduler_.switchOut(*this);
+}
+
+/// False: the task has come to its end.
 bool Task::runCycle() {
     pendingUnwind_ = Unwind::None;
     undoAborted_ = false;
@@ -66,29 +67,40 @@ bool Task::runCycle() {
         needsReset_ = false;
         if (desc_.reset != nullptr) status = desc_.reset(this, nullptr);
     }
+    if (status == kOk) status = events_.runOwed();
+    if (status == kOk && isStopped()) {
+        standAtMain();
+        return true;
+    }
     const EntryFunction entry = entryOverride_ != nullptr ? entryOverride_ : desc_.entry;
     entryOverride_ = nullptr;
     backwardCall_ = false;
     if (status == kOk && entry != nullptr) status = entry(this, nullptr);
-    if (status > 0) (void)raiseAt(nullptr, status); // no routine took it, and none reported it
+    if (status > 0) status = raiseAt(nullptr, status); // no routine took it, and none reported it
     frame = nullptr;
     retries_.clear();
     jumps_.clear();
     raiseToCaller_ = false;
     flushHandledWarning();
     interrupts_.unwound();
-    const Unwind how = unwinding_;
-    unwinding_ = Unwind::None;
+    return endCycle(std::exchange(unwinding_, Unwind::None));
+}
+
+bool Task::endCycle(Unwind how) {
     switch (how) {
     case Unwind::Abandon: return false;
     case Unwind::Exit:
         needsReset_ = true;
+        host_.taskExited(*this);
         if (kind_ != TaskKind::Normal || !host_.startToCome()) return false;
         stopCause_ = StopCause::AtMain;
+        notePointerMoved(true);
+        events_.owe(SystemEvent::Reset);
         return true;
     case Unwind::ToMain: return true;
     case Unwind::None:
     case Unwind::Jump:
+    case Unwind::Event:
     case Unwind::ExitCycle: break;
     }
     ++cyclesDone_;
@@ -106,14 +118,15 @@ Time Task::now() const {
 }
 
 bool Task::runnable() const {
-    return state_ == TaskState::Ready && (!isStopped() || isUnwinding());
+    return state_ == TaskState::Ready && (!mustStand() || isUnwinding() || events_.owed());
 }
 
 Status Task::beginUnwind(Unwind cause) {
     pendingUnwind_ = Unwind::None;
     const bool silent = cause == Unwind::Abandon || unwinding_ != Unwind::None;
-    if (unwinding_ == Unwind::None || unwinding_ == Unwind::Jump || cause == Unwind::Abandon)
-        unwinding_ = cause;
+    const bool weaker =
+        unwinding_ == Unwind::None || unwinding_ == Unwind::Jump || unwinding_ == Unwind::Event;
+    if (weaker || cause == Unwind::Abandon) unwinding_ = cause;
     return silent ? kUnwindSilent : kUnwind;
 }
 
@@ -121,6 +134,9 @@ Status Task::beginUnwind(Unwind cause) {
 Status Task::enterWait() {
     if (unwinding_ == Unwind::Abandon || undoAborted_) return silentStatus();
     if (pendingUnwind_ != Unwind::None) return beginUnwind(pendingUnwind_);
+    if (unwinding_ == Unwind::None && events_.owed()) {
+        if (const Status status = suspendStopped(); status < 0) return status;
+    }
     scheduler_.lookAtData();
     if (unwinding_ == Unwind::None && !isStopped() && interrupts_.deliverable()) return interrupts_.deliver();
     return kOk;
@@ -266,9 +282,9 @@ Status Task::safepointOnce(Frame* at) {
     flushHandledWarning();
     budget += stash_;
     stash_ = 0;
-    const bool leaving = pendingUnwind_ != Unwind::None || unwinding_ != Unwind::None || isStopped();
+    const bool leaving = pendingUnwind_ != Unwind::None || unwinding_ != Unwind::None || mustStand();
     Status status = kOk;
-    if (budget < 0 || leaving) {
+    if (budget < 0 || leaving || events_.owed()) {
         yieldWanted_ = false;
         status = yield();
     } else {
@@ -294,7 +310,8 @@ int32_t Task::step(Frame* at) {
     if (isUnwinding()) {
         if (const Status status = enterWait(); status < 0) return status;
     }
-    return stepHook_ != nullptr ? stepHook_->beforeStatement(*this, at) : at->statement;
+    const bool stepped = stepHook_ != nullptr && events_.running() == SystemEvent::None;
+    return stepped ? stepHook_->beforeStatement(*this, at) : at->statement;
 }
 
 void Task::setStepwise(bool stepwise) {
@@ -311,12 +328,12 @@ Status Task::requestExit() {
         if (unwinding_ == Unwind::Jump) unwinding_ = Unwind::Exit;
         return kUnwindSilent;
     }
-    unwinding_ = Unwind::Exit;
+    unwinding_ = events_.executesStopped() ? Unwind::Event : Unwind::Exit;
     return kUnwind;
 }
 
 Status Task::requestExitCycle() {
-    if (unwinding_ != Unwind::None) return requestExit();
+    if (unwinding_ != Unwind::None || events_.executesStopped()) return requestExit();
     unwinding_ = Unwind::ExitCycle;
     return kUnwind;
 }
@@ -330,8 +347,10 @@ bool Task::ignoredInUndo(const char* instruction) {
 Status Task::stopHere(const char* instruction, bool allNormal, StopCause cause) {
     if (const Status status = enterWait(); status < 0) return status;
     if (ignoredInUndo(instruction)) return kOk;
+    if (events_.executesStopped()) return requestExit(); // ends the event routine
     host_.log().write(EventId::ProgramStopped, this, {name_, instruction});
     stop(cause);
+    events_.owe(SystemEvent::Stop);
     host_.taskStopped(*this);
     if (allNormal) host_.stopNormalTasks(StopCause::Order);
     return suspendStopped();
@@ -339,13 +358,41 @@ Status Task::stopHere(const char* instruction, bool allNormal, StopCause cause) 
 
 /// Stands still until started again or unwound.
 Status Task::suspendStopped() {
-    while (isStopped()) {
+    for (;;) {
+        if (const Status status = events_.runOwed(); status < 0) return status;
+        if (!mustStand()) return kOk;
         state_ = TaskState::Ready;
         scheduler_.makeReady(*this);
         scheduler_.switchOut(*this);
         if (const Status status = afterSwitch(); status < 0) return status;
     }
-    return kOk;
+}
+
+void Task::endEventRoutine() {
+    pendingUnwind_ = Unwind::Event;
+    if (state_ == TaskState::Waiting) scheduler_.makeReady(*this);
+}
+
+bool Task::takeEventEnd() {
+    if (pendingUnwind_ == Unwind::Event) pendingUnwind_ = Unwind::None; // it came to its end by itself
+    if (unwinding_ != Unwind::Event) return false;
+    unwinding_ = Unwind::None;
+    undoAborted_ = false;
+    return true;
+}
+
+void Task::notePointerMoved(bool toMain) {
+    pointerMoved_ = true;
+    pointerMovedToMain_ = toMain;
+}
+
+Status Task::requireMovementAllowed() {
+    const bool undo = unwinding_ != Unwind::None;
+    const SystemEvent event = events_.running();
+    if (!undo && (event == SystemEvent::None || event == SystemEvent::Start)) return kOk;
+    if (undo) return fatal(static_cast<int>(EventId::MovementForbidden), "an UNDO handler");
+    return fatal(static_cast<int>(EventId::MovementForbidden),
+                 std::string("a routine of the event ") + nameOf(event));
 }
 
 void Task::stop(StopCause cause) {
@@ -355,6 +402,7 @@ void Task::stop(StopCause cause) {
         if (state_ == TaskState::Waiting) scheduler_.makeReady(*this); // in an UNDO handler: the wait is over
     }
     stopCause_ = cause;
+    pointerMoved_ = pointerMovedToMain_ = false;
     interrupts_.taskStopped();
     if (scheduler_.running() == this) forceSafepoint();
 }
@@ -378,6 +426,7 @@ bool Task::resume() {
 void Task::moveToRoutine(EntryFunction entry) {
     moveToMain();
     entryOverride_ = entry;
+    notePointerMoved(false);
 }
 
 void Task::moveToMain() {
@@ -385,6 +434,7 @@ void Task::moveToMain() {
     needsReset_ = true;
     entryOverride_ = nullptr;
     stopCause_ = StopCause::AtMain;
+    notePointerMoved(true);
     if (!fibre_->started()) return;
     pendingUnwind_ = Unwind::ToMain;
     if (state_ == TaskState::Waiting) scheduler_.makeReady(*this);

@@ -12,6 +12,7 @@
 // positive ERRNO.
 
 #include "runtime/abi/rt_abi.h"
+#include "runtime/sched/event_routines.h"
 #include "runtime/sched/interrupts.h"
 #include "runtime/sched/time.h"
 
@@ -87,6 +88,8 @@ class TaskHost {
     virtual void taskFailed(Task& task) = 0;
     /// The task executed Stop and stands still now.
     virtual void taskStopped(Task&) {}
+    /// The task executed EXIT and will not go on by itself.
+    virtual void taskExited(Task&) {}
     virtual void stopNormalTasks(StopCause cause) = 0;
 
   protected:
@@ -173,6 +176,19 @@ class Task : public TaskCore {
     const SourcePlace& errorPlace() const { return errorPlace_; }
 
     InterruptTable& interrupts() { return interrupts_; }
+    EventRoutines& events() { return events_; }
+    const EventRoutines& events() const { return events_; }
+    /// Whether the program pointer was moved (to main) since the task stopped last (IsStopStateEvent).
+    bool pointerMoved() const { return pointerMoved_; }
+    bool pointerMovedToMain() const { return pointerMovedToMain_; }
+    void notePointerMoved(bool toMain);
+    /// Movement instructions may not be executed in an UNDO handler, nor in event routines other than START: then the system
+    /// handler reports it; negative, as fatal().
+    Status requireMovementAllowed();
+
+    /// The task in whose background this one runs: it gets the processor only while that one waits or stands. Null: none.
+    void setForeground(const Task* task) { foreground_ = task; }
+    const Task* foreground() const { return foreground_; }
 
     /// Data that a part of the standard library keeps per task; made on first use, destroyed with the task.
     template <class T> T& local() {
@@ -209,6 +225,8 @@ class Task : public TaskCore {
     void stop(StopCause cause);
     bool resume();
     bool canResume() const;
+    /// Stopped with the program pointer at main: the next start is one from the beginning.
+    bool startsAtMain() const { return stopCause_ == StopCause::AtMain && entryOverride_ == nullptr; }
     /// Program pointer to main: the chain is unwound with its UNDO handlers at once; afterwards AtMain.
     void moveToMain();
     /// Program pointer to a procedure without parameters: as moveToMain, but the next start begins there and data
@@ -226,8 +244,13 @@ class Task : public TaskCore {
         backwardCall_ = false;
         return order;
     }
-    /// Stands still until started again or unwound.
+    /// Stands still until started again or unwound. Event routines that are due run first.
     Status suspendStopped();
+    /// Stopped, and no event routine of the system executes meanwhile.
+    bool mustStand() const { return isStopped() && !events_.executesStopped(); }
+    /// The event routine in progress ends here, with its UNDO handlers: at once / was ended so.
+    void endEventRoutine();
+    bool takeEventEnd();
     /// Can be given the processor: not waiting and not stopped, or being unwound.
     bool runnable() const;
     bool isUnwinding() const { return pendingUnwind_ != Unwind::None || unwinding_ != Unwind::None; }
@@ -238,7 +261,7 @@ class Task : public TaskCore {
   private:
     friend class Scheduler;
 
-    enum class Unwind : uint8_t { None, Exit, ExitCycle, ToMain, Abandon, Jump };
+    enum class Unwind : uint8_t { None, Exit, ExitCycle, ToMain, Abandon, Jump, Event };
     /// RETRYs of one statement, for each error number; belongs to a frame record as long as that one carries its id.
     struct RetryCount {
         Frame* frame = nullptr;
@@ -265,6 +288,8 @@ class Task : public TaskCore {
 
     void fibreMain();
     bool runCycle();
+    bool endCycle(Unwind how);
+    void standAtMain();
     Status block();
     Status safepointOnce(Frame* at);
     Status enterWait();
@@ -297,6 +322,9 @@ class Task : public TaskCore {
     StopCause stopCause_ = StopCause::None;
     std::unique_ptr<Fibre> fibre_;
     InterruptTable interrupts_{*this};
+    EventRoutines events_{*this};
+    const Task* foreground_ = nullptr;
+    bool pointerMoved_ = false, pointerMovedToMain_ = false; // since the last stop
     std::map<const void*, std::shared_ptr<void>> locals_;
 
     // kept by the scheduler: charged but not yet paid with time (in 1/rate ns); budget set aside by forceSafepoint

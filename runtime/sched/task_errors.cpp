@@ -21,7 +21,7 @@ constexpr std::size_t kMaxCalls = 24;
 
 SourcePlace Task::place() const {
     for (const Frame* at = frame; at != nullptr; at = at->caller) {
-        if (at->routine != &kTrapBoundary) return placeOf(at);
+        if (at->routine != &kTrapBoundary && at->routine != &kEventBoundary) return placeOf(at);
     }
     return {};
 }
@@ -152,6 +152,10 @@ Status Task::systemHandler(int eventNumber, int number, std::string text, const 
     event.errorNumber = number;
     event.errorName = log.errorName(number);
     log.write(std::move(event));
+    if (events_.executesStopped()) { // only the event routine ends
+        unwinding_ = Unwind::Event;
+        return kUnwind;
+    }
     stop(StopCause::Error);
     host_.taskFailed(*this);
     const Status status = suspendStopped();

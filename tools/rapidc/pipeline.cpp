@@ -2,6 +2,7 @@
 
 #include "frontend/lint/lint.h"
 #include "frontend/project/project.h"
+#include "frontend/project/system_parameters.h"
 #include "ir/lower/lower.h"
 #include "ir/passes/passes.h"
 #include "runtime/io/cfg_parser.h"
@@ -33,6 +34,11 @@ std::string upper(std::string text) {
     return text;
 }
 
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
 /// The configured signals by name and RAPID type; the runtime reads the same files again when the program starts.
 void readConfiguration(Compilation& compilation, const std::vector<std::string>& files,
                        sema::CheckOptions& options) {
@@ -61,6 +67,26 @@ void readConfiguration(Compilation& compilation, const std::vector<std::string>&
                 options.signals.push_back({signal.text("Name"), "signal" + type});
             }
     }
+}
+
+/// Event routines and shared modules of SYS.cfg, and what a backup holds for all tasks.
+void readTaskSettings(Compilation& compilation, const std::vector<std::string>& sharedFiles) {
+    for (size_t i = 0; i < compilation.configTexts.size(); ++i) {
+        std::vector<rt::CfgProblem> ignored;
+        const rt::CfgFile cfg = rt::parseCfg(compilation.configTexts[i], compilation.configNames[i], ignored);
+        if (upper(cfg.domain) != "SYS") continue;
+        for (const rt::CfgSection* section : cfg.find("CAB_EXEC_HOOKS"))
+            for (const rt::CfgInstance& hook : section->instances)
+                compilation.eventRoutines.insert(lower(hook.text("Routine")));
+        for (const rapid::project::ConfiguredModule& module :
+             rapid::project::readTaskParameters(compilation.configTexts[i]).modules)
+            if (module.shared) compilation.sharedModules.insert(lower(module.name));
+    }
+    for (const auto& task : compilation.program->tasks)
+        for (const sema::Module* module : task->modules)
+            if (std::find(sharedFiles.begin(), sharedFiles.end(), module->tree->source->path()) !=
+                sharedFiles.end())
+                compilation.sharedModules.insert(lower(module->name));
 }
 
 /// The robot of a backup: that of MOC.cfg, else the one among its options, which becomes part of the configuration.
@@ -193,6 +219,7 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     options.library = compilation->library;
     compilation->tasks = std::move(project.tasks);
     compilation->program = sema::check(compilation->tasks, options, compilation->sink);
+    readTaskSettings(*compilation, project.sharedFiles);
     reportUnimplemented(*compilation);
     judge(*compilation);
     return compilation;
@@ -204,6 +231,8 @@ bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping,
     options.stepping = stepping;
     options.configNames = compilation.configNames;
     options.configTexts = compilation.configTexts;
+    options.eventRoutines = compilation.eventRoutines;
+    options.sharedModules = compilation.sharedModules;
     options.nativeImplemented = [](std::string_view symbol) {
         return rt::findNativeAddress(symbol) != nullptr;
     };

@@ -6,6 +6,7 @@
 #include "ir/core/ir.h"
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct Compilation {
     rapid::lint::WarningLevels warningLevels;
     std::vector<std::string> configNames; ///< what --config and the folders gave
     std::vector<std::string> configTexts;
+    std::set<std::string> sharedModules;  ///< installed once for all tasks; lower case
+    std::set<std::string> eventRoutines;  ///< that the configuration names; lower case
     std::vector<std::string> usageErrors; ///< e.g. a --task that cannot be read
     std::string homeFolder;               ///< HOME of a backup; empty if there is none
 };

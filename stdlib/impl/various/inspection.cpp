@@ -131,6 +131,18 @@ Status rt_TaskIsActive(TaskCore* task, bool* result, Handle* TaskRef, const Stri
     if (other) *result = other->kind() == TaskKind::Normal;
     return status;
 }
+/// Nobody deselects tasks on a virtual controller.
+Status rt_GetTSPStatus(TaskCore* task, float* result, Handle* TaskRef, const String* TaskName) {
+    Status status = kOk;
+    const Task* other = taskAsked(task, TaskRef, TaskName, status);
+    if (other)
+        *result = other->kind() == TaskKind::Normal ? k::TSP_STATUS_ACT : k::TSP_STATUS_NOT_NORMAL_TASK;
+    return status;
+}
+Status rt_GetMecUnitName(TaskCore* task, String* result, Handle*) {
+    result->assign(taskOf(task).controller().motion().unitName()); // the only unit there is
+    return kOk;
+}
 Status rt_MotionPlannerNo(TaskCore* task, float* result) {
     *result = taskOf(task).isMotionTask() ? 1 : 0;
     return kOk;

@@ -1,0 +1,88 @@
+#include "runtime/sched/event_routines.h"
+
+#include "runtime/io/text_util.h"
+#include "runtime/sched/task.h"
+
+#include <algorithm>
+
+namespace rt {
+namespace {
+
+constexpr const char* kNames[kSystemEvents] = {"",      "POWER_ON", "START", "STOP",
+                                               "QSTOP", "RESTART",  "RESET", "STEP"};
+
+std::size_t indexOf(SystemEvent event) {
+    return static_cast<std::size_t>(event);
+}
+
+} // namespace
+
+const RoutineDesc kEventBoundary = {"(event)", "",      "", nullptr, 0,       0, 0, 0, 0, nullptr,
+                                    0,         nullptr, 0,  0,       nullptr, 0, 0, 0, {}};
+
+SystemEvent systemEventOf(std::string_view shelf) {
+    for (std::size_t i = 1; i < kSystemEvents; ++i) {
+        if (sameName(shelf, kNames[i])) return static_cast<SystemEvent>(i);
+    }
+    return SystemEvent::None;
+}
+
+const char* nameOf(SystemEvent event) {
+    return kNames[indexOf(event)];
+}
+
+void EventRoutines::add(SystemEvent event, EntryFunction routine) {
+    routines_[indexOf(event)].push_back(routine);
+}
+
+void EventRoutines::owe(SystemEvent event) {
+    if (routines_[indexOf(event)].empty() || task_.state() == TaskState::Finished) return;
+    const bool goesOn = running_ != SystemEvent::None && !executesStopped() && !task_.isUnwinding();
+    if (goesOn && !runsWhileStopped(event)) return;
+    if (std::find(owed_.begin(), owed_.end(), event) != owed_.end()) return;
+    owed_.push_back(event);
+    task_.interruptPosted(); // wakes it: what it waits for goes on waiting afterwards
+}
+
+bool EventRoutines::owed() const {
+    if (owed_.empty() || executesStopped()) return false;
+    return runsWhileStopped(owed_.front()) || !task_.isStopped();
+}
+
+Status EventRoutines::runOwed() {
+    while (owed() && !task_.isUnwinding()) {
+        const SystemEvent event = owed_.front();
+        owed_.pop_front();
+        if (const Status status = run(event); status < 0) return status;
+    }
+    return kOk;
+}
+
+Status EventRoutines::run(SystemEvent event) {
+    // What was interrupted must not see that something ran in between.
+    Frame* const interrupted = task_.frame;
+    const float errorNumber = task_.errorNumber;
+    const SystemEvent outer = running_;
+    Frame boundary{interrupted, &kEventBoundary, -1, 0};
+    running_ = event;
+    since_ = task_.now();
+    Status status = kOk;
+    for (const EntryFunction routine : routines_[indexOf(event)]) {
+        task_.frame = &boundary;
+        status = routine(&task_, &boundary);
+        if (task_.takeEventEnd()) status = kOk; // and the next routine has its turn
+        if (status != kOk) break;
+    }
+    running_ = outer;
+    task_.frame = interrupted;
+    task_.errorNumber = errorNumber;
+    return status > 0 ? task_.raiseAt(&boundary, status) : status;
+}
+
+bool EventRoutines::breakOff() {
+    if (task_.now() - since_ < kPatience) return false;
+    task_.endEventRoutine();
+    return true;
+}
+
+} // namespace rt
