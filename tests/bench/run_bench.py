@@ -19,6 +19,7 @@ import generate_project
 
 GOAL_MEAN, GOAL_WORST, GOAL_HELLO_MS = 1.3, 2.0, 80
 GOAL_LINES, GOAL_CLANG, GOAL_MB, GOAL_EDIT_MS = 1_000_000, 10, 1024, 10
+GOAL_ROUND_US = 1
 HERE = os.path.dirname(os.path.abspath(__file__))
 PROGRAMS = os.path.join(HERE, "programs")
 
@@ -162,9 +163,35 @@ def recheck(program, work):
             print(f"{kind:8} {int(lines):12,} {times[0]:>10} {times[1]:>7} {times[2]:>15} {times[3]:>7}", flush=True)
 
 
+def scheduler(rapidc, work, rounds):
+    """What tasks and interrupts cost that wait while one task runs a million rounds of the scheduler."""
+    tasks = os.path.join(HERE, "tasks")
+    million, waiting = (os.path.join(tasks, name + ".modx") for name in ("rounds", "waiting"))
+    armed = os.path.join(work, "armed.modx")
+    with open(million, encoding="utf-8") as file:
+        text = file.read()
+    count = 100
+    declarations = "".join(f"  VAR intnum i{k};\n" for k in range(count)) + '  TRAP never\n    TPWrite "trap";\n  ENDTRAP\n'
+    orders = "".join(f"    CONNECT i{k} WITH never;\n    ISignalDI di{k % 2 + 1}, 1, i{k};\n" for k in range(count))
+    with open(armed, "w", encoding="utf-8") as file:
+        file.write(text.replace("  PROC main()\n", declarations + "  PROC main()\n" + orders))
+    command = [rapidc, "run", "--config", os.path.join(tasks, "EIO.cfg"), "--rate=unlimited"]
+    others = [option for i in range(19) for option in ("--task", f"T_WAIT{i}={waiting}")]
+    variants = {"alone": [million], "19 waiting tasks": [million, *others], "100 armed interrupts": [armed]}
+    times = {name: [] for name in variants}
+    for _ in range(rounds):
+        for name, inputs in variants.items():
+            times[name].append(run_timed(command + inputs)[0])
+    best = {name: min(t) for name, t in times.items()}
+    print(f"\na million idle rounds of the scheduler, {rounds} rounds in turns, processor time (best)\n")
+    for name, items in (("alone", 1), ("19 waiting tasks", 19), ("100 armed interrupts", count)):
+        extra = best[name] - (best["alone"] if name != "alone" else 0)
+        print(f"{name:22} {best[name]:7.3f} s   {extra / items:7.4f} us each (goal: below {GOAL_ROUND_US})", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", help="only these programs; check: only the checker")
+    parser.add_argument("names", nargs="*", help="only these programs; check: only the checker; tasks: only the scheduler")
     parser.add_argument("--rapidc", default=os.path.join(HERE, "..", "..", "build", "rapidc"))
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--rate", default="unlimited", help="instructions per virtual millisecond")
@@ -175,10 +202,13 @@ def main():
     work = os.path.join(os.path.dirname(rapidc), "bench")
     os.makedirs(work, exist_ok=True)
     known = sorted(name[:-5] for name in os.listdir(PROGRAMS) if name.endswith(".modx"))
-    unknown = [name for name in options.names if name not in known and options.names != ["check"]]
+    unknown = [name for name in options.names if name not in known and options.names not in (["check"], ["tasks"])]
     if unknown:
         sys.exit(f"no benchmark named {', '.join(unknown)}; there are {', '.join(known)}")
     session = os.path.join(os.path.dirname(rapidc), "recheck_bench")
+    if options.names == ["tasks"]:
+        scheduler(rapidc, work, options.rounds)
+        return 0
     if options.names == ["check"]:
         checker(rapidc, work, options.rounds)
         recheck(session, work)
@@ -187,6 +217,7 @@ def main():
     if not options.names:
         print()
         start_up(rapidc, work)
+        scheduler(rapidc, work, options.rounds)
         print()
         checker(rapidc, work, options.rounds)
         recheck(session, work)
