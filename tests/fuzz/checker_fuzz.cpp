@@ -40,8 +40,9 @@ std::vector<sema::TaskInput> tasksOf(const std::string& bytes) {
     std::string module;
     int number = 0;
     const auto finish = [&] {
-        tasks.back().files.push_back(std::make_shared<const SourceFile>(
-            "m" + std::to_string(++number) + (number % 2 ? ".modx" : ".mod"), std::exchange(module, {})));
+        ++number;
+        const std::string name = "m" + std::to_string(number) + (number % 2 ? ".modx" : ".mod");
+        tasks.back().files.push_back(std::make_shared<const SourceFile>(name, std::exchange(module, {})));
     };
     for (const char c : bytes) {
         const auto byte = static_cast<unsigned char>(c);
