@@ -166,6 +166,11 @@ void Controller::taskExited(Task& task) {
     if (task.kind() != TaskKind::Normal) backgroundStopped(task);
 }
 
+void Controller::programReset(Task& task) {
+    for (const auto& action : resetActions_)
+        action(task);
+}
+
 void Controller::taskFailed(Task& task) {
     debugger_.noteStop(task, StopReason::Error);
     if (task.kind() != TaskKind::Normal) {

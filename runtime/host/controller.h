@@ -19,6 +19,7 @@
 #include "runtime/sim/stimulus.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <random>
@@ -89,6 +90,9 @@ class Controller final : public TaskHost {
     /// Runs to the end.
     ExitStatus run();
 
+    /// Called whenever the program of a task begins anew, ahead of its RESET routines (settings go back to their defaults).
+    void onProgramReset(std::function<void(Task&)> action) { resetActions_.push_back(std::move(action)); }
+
     // ---- Controller actions (stimulus, clients): reach all NORMAL tasks -----------------------------------
     /// `event`: Stop, or QuickStop for a quick or an emergency stop.
     void actionStop(SystemEvent event = SystemEvent::Stop);
@@ -111,6 +115,7 @@ class Controller final : public TaskHost {
     bool startToCome() const override { return startsToCome_ > 0 || debugger_.hasClient(); }
     void taskStopped(Task& task) override;
     void taskExited(Task& task) override;
+    void programReset(Task& task) override;
     int retryLimit() const override { return settings_.noOfRetry; }
     /// NORMAL tasks stop; when a STATIC or SEMISTATIC task failed, its TrustLevel decides (manual 1.20).
     void taskFailed(Task& task) override;
@@ -158,6 +163,7 @@ class Controller final : public TaskHost {
     std::mt19937 random_;
     int64_t startCalendar_ = 0;
     std::map<const void*, std::shared_ptr<void>> services_;
+    std::vector<std::function<void(Task&)>> resetActions_;
     const ProgramDesc* program_ = nullptr;
     std::vector<std::unique_ptr<Task>> tasks_;
     std::size_t startsToCome_ = 0; // `start` and steps that the stimulus has ahead

@@ -107,6 +107,17 @@ Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::Move
                            std::optional<motion::MotionError>& error) {
     if (const Status status = task.requireMovementAllowed(); status != kOk) return status;
     MotionPointer pointer = pointerOf(task, command);
+    if (processError_ != kOk) return takeProcessError(task);
+    const auto interrupted = std::exchange(interrupted_, {});
+    if (interrupted.frame != nullptr && interrupted.frame == pointer.frame &&
+        interrupted.statement == pointer.statement && interrupted.retry != task.latestRetry() &&
+        !system_.isDone(interrupted.move)) {
+        id = interrupted.move;
+        error.reset();
+        const Status status = waitReleased(task, id);
+        if (status > 0) interrupted_ = {pointer.frame, pointer.statement, id, task.latestRetry()};
+        return status;
+    }
     if (backward_ && pointer_.valid) command = reversed(command, pointer_.command);
     std::vector<motion::MoveCommand> parts;
     if (command.kind == motion::MoveKind::Circular && task.isStepwise() && !backward_ && circlePointStop_)
@@ -116,8 +127,9 @@ Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::Move
         if (i > 0) {
             if (const Status status = circlePointStop_(task); status < 0) return status;
         }
-        if (const Status status = submit(task, std::move(parts[i]), id, error); status < 0 || error)
-            return status;
+        const Status status = submit(task, std::move(parts[i]), id, error);
+        if (status > 0) interrupted_ = {pointer.frame, pointer.statement, id, task.latestRetry()};
+        if (status != kOk || error) return status;
     }
     pointer_ = std::move(pointer);
     return kOk;
@@ -146,9 +158,31 @@ Status MotionDriver::submit(Task& task, motion::MoveCommand command, motion::Mov
     }
     ++instructions_;
     refresh();
-    // In steps every movement is finished before the next instruction.
-    if (task.isStepwise()) return waitDone(task, id);
-    return task.waitFor({{&changed_}, [&] { return system().isReleased(id); }}, result);
+    return waitReleased(task, id);
+}
+
+/// Until the program may go on; in steps every movement is finished before the next instruction.
+Status MotionDriver::waitReleased(Task& task, motion::MoveId id) {
+    const auto mayGoOn = [&] {
+        if (processError_ != kOk) return true;
+        return task.isStepwise() ? system().isDone(id) : system().isReleased(id);
+    };
+    WaitResult result{};
+    const Status status = task.waitFor({{&changed_}, mayGoOn}, result);
+    return status == kOk ? takeProcessError(task) : status;
+}
+
+void MotionDriver::raiseProcessError(Status errorNumber) {
+    processError_ = errorNumber;
+    stopMove();
+    changed_.notifyAll();
+}
+
+Status MotionDriver::takeProcessError(Task& task) {
+    const Status number = std::exchange(processError_, kOk);
+    return number == kOk
+               ? kOk
+               : task.raise(number, "the movement was stopped by a process error (ProcerrRecovery)");
 }
 
 Status MotionDriver::waitDone(Task& task, motion::MoveId id) {
@@ -201,6 +235,7 @@ void MotionDriver::programStart() {
 
 void MotionDriver::clearPath() {
     advance(scheduler_.now());
+    interrupted_ = {};
     system_.clear();
     refresh();
     changed_.notifyAll(); // moves that tasks wait for are gone

@@ -66,6 +66,9 @@ class MotionDriver {
     void programStart();
     /// ClearPath, program pointer moved.
     void clearPath();
+    /// ProcerrRecovery: the arm stops on its path, and the movement instruction that waits, else the next one, raises
+    /// `errorNumber`. Executed again (RETRY) such an instruction goes on with the movement it has ordered.
+    void raiseProcessError(Status errorNumber);
 
     const MotionPointer& pointer() const { return pointer_; }
     /// Movements are executed backwards from now on: to their target, with type and speed of the motion pointer's.
@@ -81,6 +84,8 @@ class MotionDriver {
   private:
     Status submit(Task& task, motion::MoveCommand command, motion::MoveId& id,
                   std::optional<motion::MotionError>& error);
+    Status waitReleased(Task& task, motion::MoveId id);
+    Status takeProcessError(Task& task);
     void advance(Time time);
     void handle(const motion::MotionEvent& event);
     void schedule();
@@ -98,6 +103,13 @@ class MotionDriver {
     TraceWriter* trace_ = nullptr;
     Time nextSample_ = 0;
     bool stopMove_ = false, programStop_ = false;
+    Status processError_ = kOk;
+    struct { // the movement instruction that raised a process error while it waited
+        const Frame* frame = nullptr;
+        int32_t statement = -1;
+        motion::MoveId move = 0;
+        int32_t retry = 0; ///< Task::latestRetry at that time
+    } interrupted_;
     MotionPointer pointer_;
     bool backward_ = false;
     std::function<Status(Task&)> circlePointStop_;

@@ -66,6 +66,7 @@ bool Task::runCycle() {
         interrupts_.clear();
         needsReset_ = false;
         if (desc_.reset != nullptr) status = desc_.reset(this, nullptr);
+        if (entryOverride_ == nullptr) host_.programReset(*this);
     }
     if (status == kOk) status = events_.runOwed();
     if (status == kOk && isStopped()) {

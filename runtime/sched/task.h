@@ -88,6 +88,8 @@ class TaskHost {
     virtual void taskFailed(Task& task) = 0;
     /// The task executed Stop and stands still now.
     virtual void taskStopped(Task&) {}
+    /// The variables of the task have got their initial values because its program begins anew.
+    virtual void programReset(Task&) {}
     /// The task executed EXIT and will not go on by itself.
     virtual void taskExited(Task&) {}
     virtual void stopNormalTasks(StopCause cause) = 0;
@@ -167,6 +169,8 @@ class Task : public TaskCore {
     void skipWarn() { handled_.frame = nullptr; }
     /// RETRYs that remain for the error being handled (RemainingRetries); ResetRetryCount.
     int remainingRetries() const;
+    /// Changes with every RETRY of the task.
+    int32_t latestRetry() const { return lastRetryId_; }
     void resetRetryCount();
     /// Place of the statement in progress / the call chain, innermost first.
     SourcePlace place() const;

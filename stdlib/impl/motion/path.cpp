@@ -38,6 +38,21 @@ Status rt_StartMoveRetry(TaskCore* task) {
     return rt_StartMove(task, false);
 }
 
+/// The program waits at the movement that runs until its corner path begins, so the instruction that ordered the movement and
+/// the latest one are the same, or the error waits for the next one.
+Status rt_ProcerrRecovery(TaskCore* task, bool SyncOrgMoveInst, bool SyncLastMoveInst, Handle* ProcSignal) {
+    if (SyncOrgMoveInst == SyncLastMoveInst)
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "ProcerrRecovery needs one of \\SyncOrgMoveInst and \\SyncLastMoveInst");
+    Controller& controller = taskOf(task).controller();
+    const IoSystem& io = controller.io();
+    if (ProcSignal != nullptr && io.value(io.idOf(*ProcSignal)) == 0)
+        return lib::fail(task, err::ERR_PROCSIGNAL_OFF,
+                         "the process signal is 0: the process is off already");
+    controller.motion().raiseProcessError(err::ERR_PATH_STOP);
+    return kOk;
+}
+
 /// The stop is forgotten: the next movement ordered starts at once.
 Status rt_StopMoveReset(TaskCore* task, bool) {
     MotionDriver& driver = driverOf(task);

@@ -13,6 +13,15 @@ MotionState& motionState(TaskCore* task) {
     return taskOf(task).controller().service<MotionState>();
 }
 
+void resetSettings(Task& task) {
+    if (!task.isMotionTask()) return;
+    auto& state = task.controller().service<MotionState>();
+    MotionState defaults;
+    defaults.tool = state.tool;
+    defaults.workObject = state.workObject;
+    state = defaults;
+}
+
 Status requireMotionTask(TaskCore* task) {
     if (taskOf(task).isMotionTask()) return kOk;
     return fail(task, err::ERR_NOT_MOVETASK,

@@ -18,6 +18,8 @@ struct MotionState {
     int concurrentMoves = 0; ///< \Conc moves in succession
 };
 MotionState& motionState(TaskCore* task);
+/// What SYS_RESET does when the program of a motion task begins anew (manual 1.7): defaults; tool and work object stay.
+void resetSettings(Task& task);
 
 /// kOk, or ERR_NOT_MOVETASK raised: only a task that controls the robot may move it.
 Status requireMotionTask(TaskCore* task);
