@@ -52,10 +52,10 @@ void Debugger::stopAtEntry() {
 }
 
 bool Debugger::poll() {
-    const auto isUnwinding = [](const auto& task) { return task->isUnwinding(); };
+    const auto isBusy = [](const auto& task) { return task->hasWorkWhileStopped(); };
     while (client_ != nullptr && stoppedTask_ != nullptr && !quit_) {
-        // UNDO handlers run first.
-        if (std::any_of(controller_.tasks().begin(), controller_.tasks().end(), isUnwinding)) return false;
+        // UNDO handlers and event routines run first.
+        if (std::any_of(controller_.tasks().begin(), controller_.tasks().end(), isBusy)) return false;
         Task& task = *stoppedTask_;
         stoppedTask_ = nullptr;
         client_->stopped(*this, task, stopReason_);

@@ -102,8 +102,7 @@ bool Controller::runOver() {
     systemSignals_.update();
     for (const auto& task : tasks_) {
         if (!isNormal(task) || task->state() == TaskState::Finished) continue;
-        const bool busy = task->isUnwinding() || task->events().owed() || task->events().executesStopped();
-        const bool stoppedForGood = task->isStopped() && !busy && !startToCome();
+        const bool stoppedForGood = task->isStopped() && !task->hasWorkWhileStopped() && !startToCome();
         if (!stoppedForGood) return false;
     }
     return motion_->isSettled();

@@ -257,6 +257,10 @@ class Task : public TaskCore {
     bool takeEventEnd();
     /// Can be given the processor: not waiting and not stopped, or being unwound.
     bool runnable() const;
+    /// UNDO handlers or event routines of the system execute, or will before the task stands still.
+    bool hasWorkWhileStopped() const {
+        return isUnwinding() || events_.executesStopped() || (isStopped() && events_.owed());
+    }
     bool isUnwinding() const { return pendingUnwind_ != Unwind::None || unwinding_ != Unwind::None; }
     /// An interrupt without a trap routine or another fatal condition: the system handler. Negative; kAgain when the task
     /// was started again.

@@ -89,6 +89,21 @@ void readTaskSettings(Compilation& compilation, const std::vector<std::string>& 
                 compilation.sharedModules.insert(lower(module->name));
 }
 
+/// What SYS.cfg says of the tasks of the command line: entry and type. `typesTold`: tasks whose type the command line
+/// tells; that of the first task is NORMAL.
+void configureTasks(Compilation& compilation, const std::set<std::string>& typesTold) {
+    for (const std::string& text : compilation.configTexts) {
+        for (const rapid::project::ConfiguredTask& configured :
+             rapid::project::readTaskParameters(text).tasks) {
+            for (sema::TaskInput& task : compilation.tasks) {
+                if (lower(task.name) != lower(configured.name)) continue;
+                task.entry = configured.entry;
+                if (!typesTold.contains(task.name)) task.type = configured.type;
+            }
+        }
+    }
+}
+
 /// The robot of a backup: that of MOC.cfg, else the one among its options, which becomes part of the configuration.
 void checkRobot(Compilation& compilation, const std::string& option) {
     std::string robot = option;
@@ -192,12 +207,14 @@ bool readTaskSpec(const std::string& text, std::string& name, std::string& type,
 std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     auto compilation = std::make_unique<Compilation>();
     std::vector<rapid::project::TaskSpec> specs;
+    std::set<std::string> typesTold{"T_ROB1"};
     for (const std::string& text : inputs.tasks) {
         rapid::project::TaskSpec spec;
         std::string error;
-        if (readTaskSpec(text, spec.name, spec.type, spec.input, error))
+        if (readTaskSpec(text, spec.name, spec.type, spec.input, error)) {
+            if (text.substr(0, text.find('=')).find(':') != std::string::npos) typesTold.insert(spec.name);
             specs.push_back(std::move(spec));
-        else
+        } else
             compilation->usageErrors.push_back(error);
     }
     readWarningLevels(inputs, *compilation);
@@ -218,6 +235,7 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
         compilation->library.push_back({source.name, source.text});
     options.library = compilation->library;
     compilation->tasks = std::move(project.tasks);
+    if (!project.isBackup) configureTasks(*compilation, typesTold);
     compilation->program = sema::check(compilation->tasks, options, compilation->sink);
     readTaskSettings(*compilation, project.sharedFiles);
     reportUnimplemented(*compilation);
