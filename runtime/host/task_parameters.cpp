@@ -61,11 +61,16 @@ void Controller::addEventRoutines() {
     for (const CfgInstance* hook : instances("SYS", "CAB_EXEC_HOOKS"))
         bySequence.emplace(sequenceOf(*hook), hook);
     for (const auto& [number, hook] : bySequence) {
-        const std::string name = hook->text("Routine");
+        const std::string name = hook->text("Routine", "(without a name)");
         const SystemEvent event = systemEventOf(hook->text("Shelf"));
         if (event == SystemEvent::None) {
             log_.write(EventId::EventUnknown, nullptr, {name, hook->text("Shelf")});
             continue;
+        }
+        const CfgAttribute* listed = hook->find("Task");
+        for (const std::string& task : listed != nullptr ? listed->values : std::vector<std::string>()) {
+            if (findTask(task) == nullptr)
+                log_.write(EventId::EventRoutineMissing, nullptr, {name, nameOf(event), task});
         }
         for (const auto& task : tasks_) {
             if (!hookConcerns(*hook, *task)) continue;
