@@ -14,8 +14,12 @@ static_assert(sizeof(rt::StmtDesc) == 24 && offsetof(rt::RoutineDesc, errorFilte
               offsetof(rt::RoutineDesc, errorVariables) == 56);
 static_assert(sizeof(rt::LocalDesc) == 24 && offsetof(rt::RoutineDesc, locals) == 72);
 static_assert(offsetof(rt::GlobalDesc, task) == 36 && offsetof(rt::RoutineEntry, address) == 24);
+static_assert(offsetof(rt::RoutineEntry, late) == 40 && sizeof(rt::RoutineEntry) == 64);
+static_assert(sizeof(rt::ParamDesc) == 24 && sizeof(rt::RoutineDataDesc) == 40 &&
+              sizeof(rt::ModuleDesc) == 24);
+static_assert(int{rt::kDataLocal} == ir::kDataLocal && int{rt::kDataPredefined} == ir::kDataPredefined);
 static_assert(sizeof(rt::RoutineDesc) == 88 && sizeof(rt::TaskDesc) == 40 && sizeof(rt::GlobalDesc) == 56);
-static_assert(sizeof(rt::ExternalDesc) == 40 && sizeof(rt::ProgramDesc) == 96);
+static_assert(sizeof(rt::ExternalDesc) == 40 && sizeof(rt::ProgramDesc) == 136);
 
 static_assert(int{rt::kStmtCallsRoutine} == ir::kStmtCallsRoutine &&
               int{rt::kStmtCallsBackward} == ir::kStmtCallsBackward &&
@@ -78,11 +82,14 @@ void ModuleEmitter::declareTables() {
     routineDescType_ = make("rt.RoutineDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i8_,  i8_, i8_, i8_, ptr_,
                                                i32_, ptr_, i32_, i32_, ptr_, i32_, i8_, i8_, i8_, i8_});
     taskDescType_ = make("rt.TaskDesc", {ptr_, ptr_, ptr_, ptr_, i8_});
-    globalDescType_ = make("rt.GlobalDesc", {ptr_, ptr_, ptr_, ptr_, i8_, i32_, ptr_, i32_});
+    globalDescType_ = make("rt.GlobalDesc", {ptr_, ptr_, ptr_, ptr_, i8_, i8_, i32_, ptr_, i32_});
     externalDescType_ = make("rt.ExternalDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i32_});
-    routineEntryType_ = make("rt.RoutineEntry", {ptr_, ptr_, i32_, ptr_, ptr_});
-    programDescType_ =
-        make("rt.ProgramDesc", {ptr_, ptr_, i32_, ptr_, i32_, ptr_, i32_, ptr_, i32_, ptr_, ptr_, i32_});
+    routineEntryType_ = make("rt.RoutineEntry", {ptr_, ptr_, i32_, i8_, i8_, ptr_, ptr_, ptr_, ptr_, i32_});
+    paramDescType_ = make("rt.ParamDesc", {ptr_, ptr_, i8_, i8_, i8_, i8_});
+    routineDataType_ = make("rt.RoutineDataDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i8_});
+    moduleDescType_ = make("rt.ModuleDesc", {ptr_, ptr_, i32_});
+    programDescType_ = make("rt.ProgramDesc", {ptr_, ptr_, i32_, ptr_, i32_, ptr_, i32_, ptr_, i32_, ptr_,
+                                               ptr_, i32_, i32_, ptr_, ptr_, ptr_, i32_, i32_, ptr_});
     for (const ir::TypeDesc& desc : module_.typeDescs)
         typeDescs_.push_back(placeholder(*target_, typeDescType_, "type." + desc.name));
     for (const ir::Routine& routine : module_.routines)
@@ -161,7 +168,6 @@ llvm::Constant* ModuleEmitter::routineDescValue(const ir::Routine& routine) {
 
 std::vector<uint32_t> describedLocals(const ir::Routine& routine) {
     std::vector<uint32_t> result;
-    if (!routine.stepping) return result;
     for (uint32_t i = 0; i < routine.locals.size(); ++i) {
         if (routine.locals[i].typeDesc == ir::kNone) continue;
         result.push_back(i);
@@ -189,11 +195,11 @@ llvm::Constant* ModuleEmitter::globalTable(uint32_t& count) {
         const ir::Global& global = module_.globals[i];
         // Constants that the compiler made for itself have no name that anybody could ask for.
         if (global.displayName.empty() || global.typeDesc == ir::kNone) continue;
-        int64_t task = global.task == ir::kNone ? -1 : int64_t{global.task};
+        const int64_t task = taskNumber(global.task);
         rows.push_back(llvm::ConstantStruct::get(
-            globalDescType_,
-            {text(global.displayName), text(global.moduleName), globals_[i], typeDescs_[global.typeDesc],
-             i8(static_cast<int64_t>(global.kind)), i32(task), fileName(global.file), i32(global.line)}));
+            globalDescType_, {text(global.displayName), text(global.moduleName), globals_[i],
+                              typeDescs_[global.typeDesc], i8(static_cast<int64_t>(global.kind)),
+                              i8(global.flags), i32(task), fileName(global.file), i32(global.line)}));
     }
     count = static_cast<uint32_t>(rows.size());
     return array(globalDescType_, rows, "globals");
@@ -208,22 +214,67 @@ llvm::Constant* ModuleEmitter::externals() {
     return array(externalDescType_, rows, "externals");
 }
 
+llvm::Constant* ModuleEmitter::null() {
+    return llvm::ConstantPointerNull::get(ptr_);
+}
+
+int64_t ModuleEmitter::taskNumber(uint32_t task) const {
+    return task == ir::kNone ? -1 : int64_t{task};
+}
+
 /// The task a routine belongs to is the first part of its linkage name ("T_ROB1/MainModule/main"); -1 = any.
+int64_t ModuleEmitter::taskOf(const ir::Routine& routine) {
+    const std::string prefix = routine.name.substr(0, routine.name.find('/'));
+    for (size_t t = 0; t < module_.tasks.size(); ++t)
+        if (module_.tasks[t].name == prefix) return static_cast<int64_t>(t);
+    return module_.unitTask;
+}
+
+llvm::Constant* ModuleEmitter::routineRow(uint32_t index, const ir::NamedRoutine& named) {
+    const ir::Routine& routine = module_.routines[index];
+    std::vector<llvm::Constant*> params;
+    for (const ir::ParamEntry& param : named.params)
+        params.push_back(llvm::ConstantStruct::get(
+            paramDescType_,
+            {text(param.name), param.typeDesc == ir::kNone ? null() : typeDescs_[param.typeDesc],
+             i8(param.mode), i8(param.optional), i8(param.rank), i8(param.group)}));
+    return llvm::ConstantStruct::get(
+        routineEntryType_,
+        {text(routine.displayName), text(routine.moduleName), i32(taskOf(routine)),
+         i8(static_cast<int64_t>(named.kind)), i8(named.isLocal), cEntries_[index], routineDescs_[index],
+         named.late ? emitLateEntry(named) : null(), array(paramDescType_, params, "params"),
+         i32(static_cast<int64_t>(params.size()))});
+}
+
 llvm::Constant* ModuleEmitter::routineTable(uint32_t& count) {
     std::vector<llvm::Constant*> rows;
-    for (uint32_t i = 0; i < module_.routines.size(); ++i) {
-        const ir::Routine& routine = module_.routines[i];
-        if (!routine.exported) continue;
-        std::string prefix = routine.name.substr(0, routine.name.find('/'));
-        int64_t task = -1;
-        for (size_t t = 0; t < module_.tasks.size(); ++t)
-            if (module_.tasks[t].name == prefix) task = static_cast<int64_t>(t);
-        rows.push_back(
-            llvm::ConstantStruct::get(routineEntryType_, {text(routine.displayName), text(routine.moduleName),
-                                                          i32(task), cEntries_[i], routineDescs_[i]}));
+    std::vector<bool> named(module_.routines.size());
+    for (const ir::NamedRoutine& entry : module_.namedRoutines) {
+        named[entry.routine] = true;
+        rows.push_back(routineRow(entry.routine, entry));
     }
+    for (uint32_t i = 0; i < module_.routines.size(); ++i)
+        if (module_.routines[i].exported && !named[i]) rows.push_back(routineRow(i, {}));
     count = static_cast<uint32_t>(rows.size());
     return array(routineEntryType_, rows, "routines");
+}
+
+llvm::Constant* ModuleEmitter::moduleTable() {
+    std::vector<llvm::Constant*> rows;
+    for (const ir::ModuleEntry& entry : module_.modules)
+        rows.push_back(llvm::ConstantStruct::get(
+            moduleDescType_, {text(entry.name), fileName(entry.file), i32(taskNumber(entry.task))}));
+    return array(moduleDescType_, rows, "modules");
+}
+
+llvm::Constant* ModuleEmitter::routineDataTable() {
+    std::vector<llvm::Constant*> rows;
+    for (const ir::RoutineData& data : module_.routineData)
+        rows.push_back(llvm::ConstantStruct::get(routineDataType_,
+                                                 {text(data.name), text(data.moduleName), text(data.routine),
+                                                  typeDescs_[data.typeDesc], i32(taskNumber(data.task)),
+                                                  i8(static_cast<int64_t>(data.kind))}));
+    return array(routineDataType_, rows, "routineData");
 }
 
 void ModuleEmitter::emitTables() {
@@ -238,7 +289,9 @@ void ModuleEmitter::emitProgram() {
     uint32_t globalCount = 0, routineCount = 0;
     llvm::Constant* globalRows = globalTable(globalCount);
     llvm::Constant* routineRows = routineTable(routineCount);
-    std::vector<llvm::Constant*> names, texts;
+    std::vector<llvm::Constant*> names, texts, types;
+    for (uint32_t desc : module_.searchTypes)
+        types.push_back(typeDescs_[desc]);
     for (const std::string& name : module_.configNames)
         names.push_back(text(name));
     for (const std::string& config : module_.configTexts)
@@ -248,7 +301,10 @@ void ModuleEmitter::emitProgram() {
         {text(module_.name), tasks(), i32(static_cast<int64_t>(module_.tasks.size())), globalRows,
          i32(globalCount), externals(), i32(static_cast<int64_t>(module_.externals.size())), routineRows,
          i32(routineCount), array(ptr_, names, "configNames"), array(ptr_, texts, "configTexts"),
-         i32(static_cast<int64_t>(texts.size()))});
+         i32(static_cast<int64_t>(texts.size())), i32(static_cast<int64_t>(module_.modules.size())),
+         moduleTable(), array(ptr_, types, "searchTypes"), routineDataTable(),
+         i32(static_cast<int64_t>(types.size())), i32(static_cast<int64_t>(module_.routineData.size())),
+         module_.unitReset == ir::kNone ? null() : cEntries_[module_.unitReset]});
     auto* program =
         llvm::cast<llvm::GlobalVariable>(target_->getOrInsertGlobal(kProgramSymbol, programDescType_));
     program->setConstant(true);

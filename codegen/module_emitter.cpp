@@ -271,6 +271,7 @@ void ModuleEmitter::declareRoutines() {
         exportRoutine(task.entry);
         exportRoutine(task.reset);
     }
+    exportRoutine(module_.unitReset);
 }
 
 /// C entry: Bool travels as a byte, a scalar result through a pointer.
@@ -302,6 +303,44 @@ void ModuleEmitter::emitCEntry(uint32_t index) {
     if (routine.result == ir::kBool) value = b.CreateZExt(value, i8_);
     b.CreateStore(value, slot);
     b.CreateRet(b.CreateExtractValue(call, 0));
+}
+
+llvm::Constant* ModuleEmitter::emitLateEntry(const ir::NamedRoutine& named) {
+    static_assert(sizeof(rt::LateArg) == 24 && offsetof(rt::TypeDesc, dims) == 28);
+    const ir::Routine& routine = module_.routines[named.routine];
+    auto* type = llvm::FunctionType::get(i32_, {ptr_, ptr_, ptr_, ptr_}, false);
+    auto* late =
+        llvm::Function::Create(type, llvm::Function::InternalLinkage, routine.name + "$late", *target_);
+    late->setDoesNotThrow();
+    llvm::IRBuilder<> b(llvm::BasicBlock::Create(context_, "", late));
+    llvm::Type* row = llvm::StructType::get(context_, {ptr_, ptr_, ptr_});
+    std::vector<llvm::Value*> args{late->getArg(0), late->getArg(1)};
+    if (routine.result != ir::kVoid) args.push_back(late->getArg(3));
+    uint32_t next = 0;
+    for (uint32_t i = 0; i < named.params.size(); ++i) {
+        const ir::ParamEntry& param = named.params[i];
+        auto field = [&](unsigned number) {
+            llvm::Value* address = b.CreateConstInBoundsGEP1_32(row, late->getArg(2), i);
+            return b.CreateLoad(ptr_, b.CreateStructGEP(row, address, number));
+        };
+        llvm::Value* data = field(0);
+        const ir::TypeId wanted = routine.params[next++].type;
+        if (param.typeDesc == ir::kNone)
+            args.push_back(b.CreateZExt(b.CreateIsNotNull(data), i8_));
+        else
+            args.push_back(wanted == ir::kPtr ? data : b.CreateLoad(memoryType(wanted), data));
+        for (unsigned k = 0; k < param.rank; ++k, ++next)
+            args.push_back(b.CreateLoad(
+                i32_, b.CreateConstInBoundsGEP1_64(i8_, field(1), offsetof(rt::TypeDesc, dims) + 4 * k)));
+        if (param.passesName) {
+            args.push_back(field(2));
+            ++next;
+        }
+    }
+    llvm::CallInst* call = b.CreateCall(cEntries_[named.routine], args);
+    call->setIsNoInline();
+    b.CreateRet(call);
+    return late;
 }
 
 /// Fills the frame record and calls rt_safepoint. Keeps every register, so that the loop around pays nothing for the

@@ -72,6 +72,8 @@ class ModuleEmitter {
     void declareRoutines();
     void emitSafepointSlow();
     void emitCEntry(uint32_t index);
+    /// The entry that takes its arguments out of a table (rt::LateEntry).
+    llvm::Constant* emitLateEntry(const ir::NamedRoutine& named);
     llvm::Constant* initialValue(const ir::Global& global);
     // emit_tables.cpp
     void declareTables();
@@ -90,6 +92,13 @@ class ModuleEmitter {
     llvm::Constant* globalTable(uint32_t& count);
     llvm::Constant* externals();
     llvm::Constant* routineTable(uint32_t& count);
+    llvm::Constant* routineRow(uint32_t index, const ir::NamedRoutine& named);
+    llvm::Constant* moduleTable();
+    llvm::Constant* routineDataTable();
+    llvm::Constant* null();
+    int64_t taskOf(const ir::Routine& routine);
+    /// As the run-time tables say it: -1 = shared. Units loaded at run time belong to one task of the program.
+    int64_t taskNumber(uint32_t task) const;
     void emitProgram();
 
     const ir::Module& module_;
@@ -106,7 +115,8 @@ class ModuleEmitter {
     // Layout of rt_abi.h
     llvm::StructType *typeDescType_ = nullptr, *stmtDescType_ = nullptr, *routineDescType_ = nullptr,
                      *taskDescType_ = nullptr, *globalDescType_ = nullptr, *externalDescType_ = nullptr,
-                     *routineEntryType_ = nullptr, *programDescType_ = nullptr, *localDescType_ = nullptr;
+                     *routineEntryType_ = nullptr, *programDescType_ = nullptr, *localDescType_ = nullptr,
+                     *paramDescType_ = nullptr, *routineDataType_ = nullptr, *moduleDescType_ = nullptr;
     llvm::PointerType* ptr_ = nullptr;
     llvm::IntegerType *i32_ = nullptr, *i64_ = nullptr, *i8_ = nullptr;
 };

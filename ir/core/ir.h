@@ -184,6 +184,47 @@ struct Global {
     uint32_t typeDesc = kNone; ///< index into Module::typeDescs
     uint32_t task = kNone;     ///< owning task; kNone = shared by all
     uint32_t file = kNone, line = 0;
+    uint8_t flags = 0; ///< DataFlag
+};
+enum DataFlag : uint8_t {
+    kDataLocal = 1,     ///< visible in its module only
+    kDataPredefined = 2 ///< belongs to the language
+};
+
+/// A parameter as the source language sees it (one or more entries of Routine::params).
+struct ParamEntry {
+    std::string name;
+    uint32_t typeDesc = kNone; ///< kNone: a switch
+    uint8_t mode = 0;          ///< 0 in, 1 variable, 2 persistent, 3 either
+    bool optional = false;
+    uint8_t rank = 0;        ///< > 0: an array of elements of that type
+    uint8_t group = 0;       ///< equal for mutually exclusive parameters; 0 = none
+    bool passesName = false; ///< a Ptr parameter with the name of the argument follows
+};
+enum class RoutineKind : uint8_t { Procedure, Function, Interrupt };
+/// A routine that can be asked for by name at run time.
+struct NamedRoutine {
+    uint32_t routine = kNone;
+    RoutineKind kind = RoutineKind::Procedure;
+    bool isLocal = false;
+    bool late = false; ///< callable with its arguments in a table (rt::LateEntry)
+    std::vector<ParamEntry> params;
+};
+
+/// Data of a routine, for searches by name; it has no address.
+struct RoutineData {
+    std::string name;
+    std::string moduleName;
+    std::string routine;
+    uint32_t typeDesc = kNone;
+    uint32_t task = kNone;
+    GlobalKind kind = GlobalKind::Var;
+};
+/// A source module of a task.
+struct ModuleEntry {
+    std::string name;
+    uint32_t file = kNone;
+    uint32_t task = kNone;
 };
 
 enum class DescKind : uint8_t { Num, Dnum, Bool, String, Record, Array, Handle, Other };
@@ -222,7 +263,15 @@ struct Module {
     std::vector<TypeDesc> typeDescs;
     std::vector<ExternalRef> externals;
     std::vector<TaskEntry> tasks;
-    std::vector<std::string> files;       ///< source paths
+    std::vector<std::string> files; ///< source paths
+    std::vector<ModuleEntry> modules;
+    std::vector<uint32_t> searchTypes; ///< type descriptions that data can be searched by
+    std::vector<RoutineData> routineData;
+    std::vector<NamedRoutine> namedRoutines;
+    /// A unit that is loaded while a program runs has no tasks: number of the program's task it belongs to (-1: it is
+    /// no unit), and the routine that gives its variables their initial values.
+    int32_t unitTask = -1;
+    uint32_t unitReset = kNone;
     std::vector<std::string> configTexts; ///< configuration known at compile time, kept for the run
     std::vector<std::string> configNames;
 

@@ -71,8 +71,12 @@ void RoutineLowering::pushAny(const BoundArg& arg, std::vector<ValueId>& args) {
         args.push_back(b_.nullPtr());
         return;
     }
-    const Expr& value = unparen(*arg.value);
-    Place p = place(value);
+    const Place p = place(unparen(*arg.value));
+    args.push_back(p.addr);
+    args.push_back(typeAddress(p));
+}
+
+ir::ValueId RoutineLowering::typeAddress(const Place& p) {
     if (p.type.isArray() && p.type.dims[0] == 0) {
         // Conformant: its size is known at run time only; the runtime makes the description.
         const uint32_t native = program_.support("rt_arrayDesc", ir::NativeClass::Plain, ir::kPtr,
@@ -81,15 +85,17 @@ void RoutineLowering::pushAny(const BoundArg& arg, std::vector<ValueId>& args) {
         std::vector<ValueId> dims{element};
         for (int k = 0; k < 3; ++k)
             dims.push_back(k < p.type.rank ? dimValue(p, k) : b_.constI32(0));
-        args.push_back(p.addr);
-        args.push_back(b_.callNative(native, std::move(dims)));
-        return;
+        return b_.callNative(native, std::move(dims));
     }
-    args.push_back(p.addr);
-    args.push_back(b_.typeDescAddr(program_.typeDesc(p.type)));
+    return b_.typeDescAddr(program_.typeDesc(p.type));
 }
 
 void RoutineLowering::pushArgument(const BoundArg& arg, std::vector<ValueId>& args) {
+    pushValue(arg, args);
+    if (program_.passesName(*arg.param)) args.push_back(argumentName(arg));
+}
+
+void RoutineLowering::pushValue(const BoundArg& arg, std::vector<ValueId>& args) {
     const Passing passing = passingOf(*arg.param);
     if (passing == Passing::Any) return pushAny(arg, args);
     switch (arg.kind) {
@@ -120,6 +126,10 @@ ir::ValueId RoutineLowering::lowerCall(const Node& node, ValueId resultAddr) {
     const BoundCall& call = found->second;
     const sema::RoutineSymbol& callee = *call.routine;
     if (callee.native) {
+        if (foldCase(callee.name) == "argname") {
+            lowerArgName(call, resultAddr);
+            return ir::kNone;
+        }
         bool done = false;
         const ValueId value = lowerSpecial(call, done);
         if (done) return value;
@@ -228,110 +238,6 @@ void RoutineLowering::lowerWaitUntil(const BoundCall& call) {
     const BoundArg* flag = findArg(call, "TimeFlag");
     if (flag && flag->kind == BoundArg::Kind::Present) b_.store(ir::kBool, b_.constBool(false), timeFlag);
     b_.br(end);
-    b_.setBlock(end);
-}
-
-namespace {
-
-/// Can a VAR, INOUT or PERS parameter take it?
-bool isReference(const Expr& value, const sema::ExprInfo& facts) {
-    if (facts.constant) return false;
-    return value.kind == NodeKind::Name || value.kind == NodeKind::Index || value.kind == NodeKind::Component;
-}
-
-/// Matches the written arguments to the parameters of one candidate: required ones in order, optional ones by name.
-bool bindLate(const CallStmt& stmt, const sema::RoutineSymbol& callee, const sema::Module& module,
-              std::vector<BoundArg>& bound) {
-    for (DataSymbol* param : callee.params)
-        bound.emplace_back().param = param;
-    size_t next = 0;
-    for (const Argument* arg : stmt.args) {
-        if (arg->argKind == ArgKind::Placeholder) return false;
-        BoundArg* target = nullptr;
-        if (arg->argKind == ArgKind::Required) {
-            while (next < bound.size() && bound[next].param->optional)
-                ++next;
-            if (next < bound.size()) target = &bound[next++];
-        } else {
-            const std::string name = foldCase(module.tree->text(arg->name));
-            for (BoundArg& candidate : bound)
-                if (candidate.param->optional && foldCase(candidate.param->name) == name) target = &candidate;
-        }
-        if (!target || target->kind != BoundArg::Kind::Absent) return false;
-        if (target->param->isSwitch != (arg->value == nullptr) && arg->argKind != ArgKind::Conditional)
-            return false;
-        target->kind =
-            arg->argKind == ArgKind::Conditional ? BoundArg::Kind::Conditional : BoundArg::Kind::Present;
-        target->value = arg->value;
-        target->argument = arg;
-    }
-    for (const BoundArg& arg : bound)
-        if (!arg.param->optional && arg.kind == BoundArg::Kind::Absent) return false;
-    return true;
-}
-
-/// Can the arguments of a late-bound call be given to `callee`? Names and kinds were collected unchecked by sema.
-bool fits(const CallStmt& stmt, const sema::RoutineSymbol& callee, const sema::Module& module) {
-    std::vector<BoundArg> bound;
-    if (!bindLate(stmt, callee, module, bound)) return false;
-    for (const BoundArg& arg : bound) {
-        if (!arg.value || arg.param->isSwitch) continue;
-        const sema::ExprInfo& have = (*module.exprs)[arg.value->id];
-        const sema::DataType& want = arg.param->type;
-        if (!have.type.type || have.type.rank != want.rank || have.type.type->base() != want.type->base())
-            return false;
-        if (arg.param->mode != ParamMode::In && !isReference(*arg.value, have)) return false;
-    }
-    return true;
-}
-
-} // namespace
-
-/// %name% args: the names that can be meant are known; a table of them is searched at run time (manual 1.1.5).
-void RoutineLowering::lowerLateCall(const CallStmt& stmt) {
-    const sema::Task& task = program_.task(task_);
-    std::vector<const sema::RoutineSymbol*> candidates;
-    for (const sema::Module* m : task.modules)
-        for (const sema::RoutineSymbol* routine : m->routines)
-            if (!routine->isLocal || m == module_) candidates.push_back(routine);
-    ir::ConstData names;
-    for (const auto* candidate : candidates) {
-        ir::ConstScalar scalar;
-        scalar.kind = ir::TypeKind::Str;
-        scalar.text = foldCase(candidate->name);
-        names.push_back(std::move(scalar));
-    }
-    const ValueId name = lowerAddr(*stmt.lateName);
-    const uint32_t lookup =
-        program_.support("rt_lateLookup", ir::NativeClass::Plain, ir::kI32, {ir::kPtr, ir::kPtr, ir::kI32});
-    if (names.empty()) names.emplace_back().kind = ir::TypeKind::Str;
-    const auto count = static_cast<int32_t>(candidates.size());
-    const ir::TypeId tableType = program_.module().arrayOf(ir::kStr, {static_cast<int32_t>(names.size())});
-    const ValueId table = b_.globalAddr(program_.constGlobal(tableType, std::move(names)));
-    const ValueId number = b_.callNative(lookup, {name, table, b_.constI32(count)});
-    const ir::BlockId wrong = b_.addBlock("wrongcall");
-    const ir::BlockId end = b_.addBlock("called");
-    std::vector<ir::SwitchCase> cases;
-    const ir::BlockId here = b_.block();
-    for (int32_t i = 0; i < count; ++i) {
-        const sema::RoutineSymbol& callee = *candidates[static_cast<size_t>(i)];
-        // A name that is found but cannot be called so is ERR_CALLPROC, an unknown one ERR_REFUNKPRC.
-        if (callee.routineKind != RoutineKind::Proc || !fits(stmt, callee, *module_)) continue;
-        const ir::BlockId block = b_.addBlock("late");
-        cases.push_back({i, block});
-        b_.setBlock(block);
-        std::vector<BoundArg> bound;
-        bindLate(stmt, callee, *module_, bound);
-        std::vector<ValueId> args;
-        for (const BoundArg& arg : bound)
-            pushArgument(arg, args);
-        b_.call(program_.routineFor(callee, task_), std::move(args));
-        b_.br(end);
-    }
-    b_.setBlock(wrong);
-    b_.raise(b_.constI32(program_.errorNumber("ERR_CALLPROC")));
-    b_.setBlock(here);
-    b_.switchOn(number, std::move(cases), wrong);
     b_.setBlock(end);
 }
 

@@ -35,9 +35,19 @@ ir::Routine declareRoutine(ProgramLowering& program, const RoutineSymbol& symbol
                 routine.params.push_back({fmt::format("{}$dim{}", param->name, k + 1), ir::kI32});
             break;
         }
+        if (program.passesName(*param)) routine.params.push_back({param->name + "$name", ir::kPtr});
     }
     return routine;
 }
+
+namespace {
+/// Natives that find the data of the routine by name: they lie in memory and are described then.
+bool reachesData(std::string_view name) {
+    constexpr std::string_view kNames[] = {"getdataval", "setdataval", "setalldataval"};
+    if (name.size() < 10 || name.size() > 13) return false;
+    return std::find(std::begin(kNames), std::end(kNames), foldCase(name)) != std::end(kNames);
+}
+} // namespace
 
 RoutineLowering::RoutineLowering(ProgramLowering& program, const RoutineSymbol& symbol, uint32_t task,
                                  const ir::Routine& declared)
@@ -47,6 +57,10 @@ RoutineLowering::RoutineLowering(ProgramLowering& program, const RoutineSymbol& 
     const auto& tree = *symbol.module->tree;
     for (syntax::TokenIndex t = symbol.routineDecl->first; t <= symbol.routineDecl->last; ++t)
         routineHasPlaceholders_ = routineHasPlaceholders_ || syntax::isPlaceholder(tree.tokens[t].kind);
+    for (syntax::TokenIndex t = symbol.routineDecl->first; t <= symbol.routineDecl->last && !reachesData_;
+         ++t)
+        reachesData_ = tree.tokens[t].kind == syntax::TokenKind::Identifier && reachesData(tree.text(t));
+    describesData_ = reachesData_ || program.stepping();
 }
 
 namespace {
@@ -150,7 +164,7 @@ bool writesMemory(syntax::StmtList list, const sema::Module& module, const sema:
 } // namespace
 
 bool RoutineLowering::mayChangeArguments() const {
-    return hasErrorHandler_ || symbol_.routineDecl->hasUndo ||
+    return hasErrorHandler_ || symbol_.routineDecl->hasUndo || reachesData_ ||
            writesMemory(symbol_.routineDecl->body, *module_, facts());
 }
 
@@ -163,8 +177,9 @@ void RoutineLowering::lowerParameters() {
         const Passing passing = passingOf(*param);
         const ir::TypeId type = program_.irType(param->type.type);
         number += 1 + (passing == Passing::Pointer ? param->type.rank : 0u);
+        if (program_.passesName(*param)) slot.name = number++;
         if (passing == Passing::Switch) {
-            if (program_.stepping()) {
+            if (describesData_) {
                 const uint32_t shown = b_.addLocal(param->name, ir::kBool, true);
                 b_.store(ir::kBool, b_.param(slot.param), b_.localAddr(shown));
                 describeLocal(shown, scalarType(program_.program().boolean));
@@ -182,7 +197,7 @@ void RoutineLowering::lowerParameters() {
         slot.kind = Slot::Kind::Pointer;
         slot.optional = param->optional;
         const bool in = param->mode == syntax::ParamMode::In;
-        if (in && param->type.isArray() && param->assigned) {
+        if (in && param->type.isArray() && (param->assigned || reachesData_)) {
             copyArrayParameter(*param, slot);
         } else if (in && !param->type.isArray() && type != ir::kI64 && (param->assigned || copyAggregates)) {
             // IN is a private value: the caller's data may change while the routine runs.
@@ -200,8 +215,10 @@ void RoutineLowering::lowerParameters() {
                 b_.copy(type, b_.localAddr(slot.local), b_.param(slot.param));
             }
         }
-        if (program_.stepping() && passing == Passing::Pointer) {
-            if (slot.kind == Slot::Kind::Local)
+        if (describesData_ && passing == Passing::Pointer) {
+            if (slot.kind == Slot::Kind::Local && param->optional)
+                describeOptional(*param, slot);
+            else if (slot.kind == Slot::Kind::Local)
                 describeLocal(slot.local, param->type);
             else
                 describeReference(*param, slot);
@@ -211,7 +228,16 @@ void RoutineLowering::lowerParameters() {
 }
 
 void RoutineLowering::describeLocal(uint32_t local, const sema::DataType& type) {
-    if (program_.stepping()) routine_.locals[local].typeDesc = program_.typeDesc(type);
+    if (describesData_) routine_.locals[local].typeDesc = program_.typeDesc(type);
+}
+
+/// The private copy of an optional parameter: shown only when the parameter is present.
+void RoutineLowering::describeOptional(const DataSymbol& param, const Slot& slot) {
+    const uint32_t shown = b_.addLocal(param.name, ir::kPtr, true);
+    const ValueId given = b_.binary(ir::Op::INe, b_.param(slot.param), b_.nullPtr());
+    b_.store(ir::kPtr, b_.select(given, b_.localAddr(slot.local), b_.nullPtr()), b_.localAddr(shown));
+    routine_.locals[shown].reference = true;
+    routine_.locals[shown].typeDesc = program_.typeDesc(param.type);
 }
 
 /// The debugger finds the object by a local that holds its address, and arrays by locals with their dimensions.

@@ -167,6 +167,8 @@ uint32_t ProgramLowering::addGlobal(const DataSymbol& symbol, uint32_t task, boo
     global.moduleName = symbol.module ? symbol.module->name : "";
     global.type = irType(symbol.type);
     global.task = shared ? ir::kNone : task;
+    if (symbol.isLocal) global.flags |= ir::kDataLocal;
+    if (symbol.predefined) global.flags |= ir::kDataPredefined;
     if (symbol.storage == sema::Storage::Signal) {
         global.kind = ir::GlobalKind::Var; // filled when the program is loaded
     } else {
@@ -387,6 +389,7 @@ void ProgramLowering::lowerTask(uint32_t index) {
             routineFor(*routine, index);
     }
     drainPending();
+    if (searchesData()) addPredefinedData(index);
     ir::TaskEntry entry;
     entry.name = current.name;
     entry.type = current.type;
@@ -402,8 +405,11 @@ bool ProgramLowering::run() {
     module_.configNames = options_.configNames;
     module_.configTexts = options_.configTexts;
     const size_t errorsBefore = sink_.errorCount();
+    findNamedParameters();
     for (uint32_t i = 0; i < program_.tasks.size(); ++i)
         lowerTask(i);
+    addTables();
+    drainPending();
     return sink_.errorCount() == errorsBefore;
 }
 

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace rapid::lower {
 
@@ -48,6 +49,11 @@ class ProgramLowering {
     /// Value of a predefined ERR_ constant.
     int32_t errorNumber(std::string_view name) const;
     uint32_t fileIndex(const std::string& path);
+    /// The argument's name travels with this parameter, because ArgName asks for it.
+    bool passesName(const sema::DataSymbol& param) const { return namedParams_.contains(&param); }
+    bool asksForNames() const { return asksForNames_; }
+    /// Layout of an argument of a call by name (rt::LateCallArg).
+    ir::TypeId lateRow();
     const sema::Task& task(uint32_t index) const { return *program_.tasks[index]; }
     /// Appends the flattened constant in memory order; `None` gives zeros.
     void flatten(const sema::ConstValue& value, const sema::DataType& type, ir::ConstData& out);
@@ -59,6 +65,15 @@ class ProgramLowering {
         uint32_t index;
     };
     void lowerTask(uint32_t task);
+    // lower_named.cpp
+    bool uses(std::string_view native) const; ///< some routine calls it
+    bool searchesData() const;
+    void findNamedParameters();
+    void addPredefinedData(uint32_t task);
+    void addRoutineData(uint32_t task, const sema::Module& module);
+    void addSearchTypes();
+    void addNamedRoutine(const sema::RoutineSymbol& symbol, uint32_t task);
+    void addTables();
     uint32_t makeReset(uint32_t task);
     void drainPending();
     bool inSharedModule(const sema::DataSymbol& symbol) const;
@@ -78,6 +93,9 @@ class ProgramLowering {
     std::unordered_map<std::string, int32_t> errorNumbers_;
     std::unordered_map<std::string, uint32_t> files_;
     std::vector<Pending> pending_;
+    std::unordered_set<const sema::DataSymbol*> namedParams_;
+    bool asksForNames_ = false;
+    ir::TypeId lateRow_ = ir::kVoid;
 };
 
 /// Lower-cased copy: RAPID names are not case sensitive.

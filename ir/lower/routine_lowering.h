@@ -30,6 +30,7 @@ class RoutineLowering {
         uint32_t local = ir::kNone; ///< Local: the object; Pointer: its address, if not the
                                     ///< argument itself; IntLoop: the I32 counter
         uint32_t param = ir::kNone; ///< parameters: number of the IR parameter
+        uint32_t name = ir::kNone;  ///< the one with the name of the argument (ArgName)
         bool optional = false;      ///< must be checked before use
         int64_t lo = 0, hi = 0;     ///< IntLoop: range of the counter
     };
@@ -54,6 +55,7 @@ class RoutineLowering {
     void lowerBackwardHandler();
     /// Tells the debugger about a local (stepping profile only).
     void describeLocal(uint32_t local, const sema::DataType& type);
+    void describeOptional(const sema::DataSymbol& param, const Slot& slot);
     void describeReference(const sema::DataSymbol& param, Slot& slot);
     void lowerErrorHandler();
     bool lowerListedNumber(const Expr& number, ir::BlockId body);
@@ -139,13 +141,22 @@ class RoutineLowering {
     ValueId lowerPresent(const sema::BoundCall& call);
     ValueId lowerDim(const sema::BoundCall& call);
     void lowerWaitUntil(const sema::BoundCall& call);
-    void lowerLateCall(const syntax::CallStmt& stmt);
     void pushArgument(const sema::BoundArg& arg, std::vector<ValueId>& args);
+    void pushValue(const sema::BoundArg& arg, std::vector<ValueId>& args);
     void pushPointerArgument(const sema::BoundArg& arg, std::vector<ValueId>& args);
     void pushConditional(const sema::BoundArg& arg, std::vector<ValueId>& args);
     void pushAny(const sema::BoundArg& arg, std::vector<ValueId>& args);
     ValueId argumentAddress(const sema::BoundArg& arg);
+    ValueId typeAddress(const Place& p); ///< description of its type, made at run time for conformant arrays
     const sema::BoundArg* findArg(const sema::BoundCall& call, std::string_view name) const;
+
+    // lower_named.cpp
+    void lowerLateCall(const syntax::CallStmt& stmt);
+    void callByName(ValueId name, std::span<const sema::BoundArg> args, ir::RoutineKind kind, ValueId result);
+    void lateValue(const sema::BoundArg& arg, ValueId present, std::vector<ValueId>& out);
+    int32_t lateFlags(const sema::BoundArg& arg) const;
+    ValueId argumentName(const sema::BoundArg& arg);
+    void lowerArgName(const sema::BoundCall& call, ValueId resultAddr);
 
     // helpers
     const sema::FileFacts& facts() const { return *module_->facts; }
@@ -173,6 +184,8 @@ class RoutineLowering {
     std::vector<std::pair<ir::TypeId, uint32_t>> usedTemps_;
     bool hasErrorHandler_ = false;
     bool routineHasPlaceholders_ = false;
+    bool reachesData_ = false;    ///< calls what reads or writes data by name
+    bool describesData_ = false;  ///< its data can be found by name: by the debugger, or by what it calls
     bool inInstructions_ = false; ///< past the data: from here on the error handler is responsible
     enum class Region : uint8_t { Body, Error, Undo, Backward } region_ = Region::Body;
 };

@@ -35,7 +35,80 @@ class ModuleParser {
         if (in_.takeWord("external")) return external();
         if (in_.takeWord("task")) return task();
         if (in_.takeWord("config")) return config();
-        return in_.expected("module, file, type, desc, global, native, routine, external, task or config");
+        if (in_.takeWord("source")) return source();
+        if (in_.takeWord("search")) return searchType();
+        if (in_.takeWord("within")) return routineData();
+        if (in_.takeWord("named")) return named();
+        return in_.expected(
+            "module, file, type, desc, global, native, routine, external, task, source, search, "
+            "within, named or config");
+    }
+
+    bool small(uint8_t& value, int64_t largest) {
+        int64_t number = 0;
+        if (!in_.integer(number, 0, largest)) return false;
+        value = static_cast<uint8_t>(number);
+        return true;
+    }
+
+    bool source() {
+        ModuleEntry entry;
+        if (!in_.string(entry.name)) return false;
+        if (in_.takeWord("file") && !in_.unsignedInt(entry.file)) return false;
+        if (in_.takeWord("task") && !in_.unsignedInt(entry.task)) return false;
+        module_.modules.push_back(std::move(entry));
+        return in_.endOfLine();
+    }
+
+    bool searchType() {
+        uint32_t desc = kNone;
+        if (!in_.unsignedInt(desc)) return false;
+        module_.searchTypes.push_back(desc);
+        return in_.endOfLine();
+    }
+
+    bool routineData() {
+        RoutineData data;
+        size_t kind = 0;
+        if (!in_.string(data.moduleName) || !in_.string(data.routine) || !in_.string(data.name) ||
+            !in_.oneOf(kGlobalKindNames, "a kind of data", kind) || !in_.word("desc") ||
+            !in_.unsignedInt(data.typeDesc))
+            return false;
+        data.kind = static_cast<GlobalKind>(kind);
+        if (in_.takeWord("task") && !in_.unsignedInt(data.task)) return false;
+        module_.routineData.push_back(std::move(data));
+        return in_.endOfLine();
+    }
+
+    bool namedParam(ParamEntry& param) {
+        size_t mode = 0;
+        if (!in_.string(param.name) || !in_.oneOf(kParamModeNames, "a parameter mode", mode)) return false;
+        param.mode = static_cast<uint8_t>(mode);
+        if (in_.takeWord("desc") && !in_.unsignedInt(param.typeDesc)) return false;
+        if (in_.takeWord("rank") && !small(param.rank, 3)) return false;
+        param.optional = in_.takeWord("optional");
+        if (in_.takeWord("group") && !small(param.group, 255)) return false;
+        param.passesName = in_.takeWord("name");
+        return true;
+    }
+
+    bool named() {
+        NamedRoutine entry;
+        size_t kind = 0;
+        const size_t index = module_.namedRoutines.size();
+        if (!tableReference(Fixup::Kind::Routine, Fixup::Slot::Named, index) ||
+            !in_.oneOf(kRoutineKindNames, "a kind of routine", kind))
+            return false;
+        entry.kind = static_cast<RoutineKind>(kind);
+        entry.isLocal = in_.takeWord("local");
+        entry.late = in_.takeWord("late");
+        if (!in_.punct('(')) return false;
+        while (!in_.isPunct(')')) {
+            if (!namedParam(entry.params.emplace_back())) return false;
+            if (!in_.takePunct(',')) break;
+        }
+        module_.namedRoutines.push_back(std::move(entry));
+        return in_.punct(')') && in_.endOfLine();
     }
 
     bool position(size_t wanted, std::string_view what) {
@@ -141,6 +214,7 @@ class ModuleParser {
         if (in_.takeWord("desc") && !in_.unsignedInt(global.typeDesc)) return false;
         if (in_.takeWord("task") && !in_.unsignedInt(global.task)) return false;
         if (!place(global.file, global.line)) return false;
+        if (in_.takeWord("flags") && !small(global.flags, 255)) return false;
         if (in_.takePunct('=')) {
             if (!in_.punct('{')) return false;
             do {
@@ -256,6 +330,7 @@ class ModuleParser {
         case Fixup::Slot::External: module_.externals[fixup.index].global = target; break;
         case Fixup::Slot::TaskEntry: module_.tasks[fixup.index].entry = target; break;
         case Fixup::Slot::TaskReset: module_.tasks[fixup.index].reset = target; break;
+        case Fixup::Slot::Named: module_.namedRoutines[fixup.index].routine = target; break;
         case Fixup::Slot::ErrorFilter:
             module_.routines[fixup.routine].errorFilterGlobals[fixup.index] = target;
             break;

@@ -14,6 +14,8 @@ inline constexpr std::string_view kDescKindNames[] = {"num",    "dnum",  "bool",
 inline constexpr std::string_view kGlobalKindNames[] = {"var", "persistent", "const", "external"};
 inline constexpr std::string_view kStmtKindNames[] = {"plain",   "call",   "motion",
                                                       "control", "return", "handler"};
+inline constexpr std::string_view kRoutineKindNames[] = {"procedure", "function", "interrupt"};
+inline constexpr std::string_view kParamModeNames[] = {"in", "var", "pers", "inout"};
 
 /// The name by which the textual form refers to an item.
 inline const std::string& nameOf(const Global& global) {

@@ -102,6 +102,7 @@ void printGlobal(Out& out, const Global& global) {
     if (global.typeDesc != kNone) put(out, " desc {}", global.typeDesc);
     if (global.task != kNone) put(out, " task {}", global.task);
     printPlace(out, global.file, global.line);
+    if (global.flags != 0) put(out, " flags {}", global.flags);
     if (!global.init.empty()) printData(out, global.init);
     put(out, "\n");
 }
@@ -278,6 +279,43 @@ class RoutinePrinter {
     std::vector<uint32_t> numbers_;
 };
 
+void printNamed(Out& out, const Module& module, const NamedRoutine& named) {
+    put(out, "named @{} {}", quoted(module.routines[named.routine].name),
+        kRoutineKindNames[static_cast<size_t>(named.kind)]);
+    if (named.isLocal) put(out, " local");
+    if (named.late) put(out, " late");
+    put(out, " (");
+    for (size_t i = 0; i < named.params.size(); ++i) {
+        const ParamEntry& p = named.params[i];
+        put(out, "{}{} {}", i ? ", " : "", quoted(p.name), kParamModeNames[p.mode]);
+        if (p.typeDesc != kNone) put(out, " desc {}", p.typeDesc);
+        if (p.rank > 0) put(out, " rank {}", p.rank);
+        if (p.optional) put(out, " optional");
+        if (p.group > 0) put(out, " group {}", p.group);
+        if (p.passesName) put(out, " name");
+    }
+    put(out, ")\n");
+}
+
+void printSearchTables(Out& out, const Module& module) {
+    for (const ModuleEntry& entry : module.modules) {
+        put(out, "source {}", quoted(entry.name));
+        if (entry.file != kNone) put(out, " file {}", entry.file);
+        if (entry.task != kNone) put(out, " task {}", entry.task);
+        put(out, "\n");
+    }
+    for (uint32_t desc : module.searchTypes)
+        put(out, "search {}\n", desc);
+    for (const RoutineData& data : module.routineData) {
+        put(out, "within {} {} {} {} desc {}", quoted(data.moduleName), quoted(data.routine),
+            quoted(data.name), kGlobalKindNames[static_cast<size_t>(data.kind)], data.typeDesc);
+        if (data.task != kNone) put(out, " task {}", data.task);
+        put(out, "\n");
+    }
+    for (const NamedRoutine& named : module.namedRoutines)
+        printNamed(out, module, named);
+}
+
 void printTails(Out& out, const Module& module) {
     auto globalName = [&](uint32_t i) {
         return i < module.globals.size() ? quoted(module.globals[i].name) : "\"?\"";
@@ -297,6 +335,7 @@ void printTails(Out& out, const Module& module) {
         if (task.reset != kNone) put(out, " reset @{}", routineName(task.reset));
         put(out, "{}\n", task.motionTask ? " motion" : "");
     }
+    printSearchTables(out, module);
     for (size_t i = 0; i < module.configTexts.size(); ++i)
         put(out, "config {} {}\n", quoted(module.configNames[i]), quoted(module.configTexts[i]));
 }

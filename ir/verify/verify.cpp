@@ -164,6 +164,48 @@ void checkTables(const Module& module, Findings& out) {
         out.push_back("config: as many names as texts");
 }
 
+/// The parameters of a routine as the source language sees them cover its parameters exactly.
+bool covers(const Routine& routine, const std::vector<ParamEntry>& params) {
+    size_t next = 0;
+    auto take = [&](TypeId type) {
+        return next < routine.params.size() && routine.params[next++].type == type;
+    };
+    for (const ParamEntry& param : params) {
+        if (next >= routine.params.size()) return false;
+        const TypeId type = routine.params[next++].type;
+        bool fits = param.typeDesc != kNone ? type == kPtr || param.rank == 0 : type == kBool;
+        for (uint8_t k = 0; k < param.rank; ++k)
+            fits = fits && take(kI32);
+        if (!fits || (param.passesName && !take(kPtr))) return false;
+    }
+    return next == routine.params.size();
+}
+
+void checkNamed(const Module& module, Findings& out) {
+    for (const NamedRoutine& named : module.namedRoutines) {
+        if (named.routine >= module.routines.size()) {
+            out.push_back("named routine: does not exist");
+            continue;
+        }
+        const Routine& routine = module.routines[named.routine];
+        if (!routine.exported) out.push_back(fmt::format("named routine {}: is not exported", routine.name));
+        if (!covers(routine, named.params))
+            out.push_back(fmt::format("named routine {}: parameters do not fit", routine.name));
+        for (const ParamEntry& param : named.params)
+            if (param.typeDesc != kNone && param.typeDesc >= module.typeDescs.size())
+                out.push_back(fmt::format("named routine {}: desc of parameter {} does not exist",
+                                          routine.name, param.name));
+    }
+    for (uint32_t desc : module.searchTypes)
+        if (desc >= module.typeDescs.size()) out.push_back("search: desc does not exist");
+    for (const RoutineData& data : module.routineData)
+        if (data.typeDesc >= module.typeDescs.size())
+            out.push_back(fmt::format("within {}: desc of {} does not exist", data.routine, data.name));
+    for (const ModuleEntry& entry : module.modules)
+        if (entry.file != kNone && entry.file >= module.files.size())
+            out.push_back(fmt::format("source {}: file does not exist", entry.name));
+}
+
 } // namespace
 
 std::vector<std::string> verify(const Module& module) {
@@ -173,6 +215,7 @@ std::vector<std::string> verify(const Module& module) {
     checkGlobals(module, out);
     checkNatives(module, out);
     checkTables(module, out);
+    checkNamed(module, out);
     std::set<std::string_view> names;
     for (const Routine& routine : module.routines) {
         if (!names.insert(routine.name).second)

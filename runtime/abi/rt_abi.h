@@ -167,10 +167,30 @@ struct GlobalDesc { ///< module data, for SetDataVal, the debugger, saving of pe
     const char* module;
     void* address;
     const TypeDesc* type;
-    uint8_t kind; ///< ir::GlobalKind
-    int32_t task; ///< index into tasks; -1 = shared
+    uint8_t kind;  ///< ir::GlobalKind
+    uint8_t flags; ///< DataFlag
+    int32_t task;  ///< index into tasks; -1 = shared
     const char* file;
     uint32_t line;
+};
+/// GlobalDesc::flags. Equal to ir::DataFlag.
+enum DataFlag : uint8_t {
+    kDataLocal = 1,      ///< visible in its module only
+    kDataPredefined = 2, ///< belongs to the language, not to the program
+};
+/// Data of a routine, for searches by name (programs that use them).
+struct RoutineDataDesc {
+    const char* name;
+    const char* module;
+    const char* routine;
+    const TypeDesc* type;
+    int32_t task;
+    uint8_t kind; ///< ir::GlobalKind
+};
+struct ModuleDesc {
+    const char* name;
+    const char* file;
+    int32_t task;
 };
 struct ExternalDesc { ///< a configured object named by the program (signal ...)
     const char* name;
@@ -179,13 +199,38 @@ struct ExternalDesc { ///< a configured object named by the program (signal ...)
     const char* file;
     uint32_t line, column;
 };
+/// A parameter of a routine that can be called by name.
+struct ParamDesc {
+    const char* name;
+    const TypeDesc* type; ///< of the object; when rank > 0: of its elements; null: switch
+    uint8_t mode;         ///< ParamMode
+    uint8_t optional;
+    uint8_t rank;
+    uint8_t group; ///< equal for mutually exclusive parameters; 0 = none
+};
+enum ParamMode : uint8_t { kParamIn, kParamVar, kParamPers, kParamInOut };
+/// An argument given to a routine by name, in the order of its parameters. `data` null: not present (a present switch has
+/// any address).
+struct LateArg {
+    void* data;
+    const TypeDesc* type;
+    const String* name; ///< of the object the caller gave (ArgName); null: none
+};
+/// `result`: where a function's value goes.
+using LateEntry = Status (*)(TaskCore*, Frame*, const LateArg*, void* result);
 struct RoutineEntry { ///< for late binding
     const char* name;
     const char* module;
     int32_t task;
-    void* address;
+    uint8_t kind;    ///< RoutineKind
+    uint8_t isLocal; ///< visible in its module only
+    void* address;   ///< C entry; null: the routine is only listed
     const RoutineDesc* desc;
+    LateEntry late; ///< procedures and functions: called with arguments by name; null: not made
+    const ParamDesc* params;
+    uint32_t paramCount;
 };
+enum RoutineKind : uint8_t { kRoutineProc, kRoutineFunc, kRoutineTrap };
 struct ProgramDesc {
     const char* name;
     const TaskDesc* tasks;
@@ -199,6 +244,14 @@ struct ProgramDesc {
     const char* const* configNames;
     const char* const* configTexts;
     uint32_t configCount;
+    uint32_t moduleCount;
+    const ModuleDesc* modules;
+    const TypeDesc* const* types; ///< the types that data can be searched by, when the program does so
+    const RoutineDataDesc* routineData;
+    uint32_t typeCount;
+    uint32_t routineDataCount;
+    EntryFunction
+        reset; ///< of a unit loaded at run time (no tasks): gives its variables their initial values
 };
 
 } // namespace rt

@@ -22,6 +22,8 @@ struct DebugVariable {
     std::string module; ///< module data
 };
 
+/// Module data as a variable.
+DebugVariable dataOf(const GlobalDesc& desc);
 /// "num", "num{3,4}"
 std::string typeName(const DebugVariable& variable);
 /// Value as RAPID text; arrays longer than `maxElements` are cut off with "...". Handles: "<signaldo>".

@@ -73,10 +73,9 @@ void Debugger::noteStop(Task& task, StopReason reason) {
 
 Breakpoint Debugger::addBreakpoint(std::string_view where, uint32_t line) {
     Breakpoint breakpoint{++lastBreakpoint_, std::string(where), line, 0};
-    const ProgramDesc& program = controller_.program();
     // The nearest statement at or below the line that can be stopped at.
-    for (uint32_t i = 0; i < program.routineCount; ++i) {
-        const RoutineDesc& routine = *program.routines[i].desc;
+    for (const RoutineEntry* entry : controller_.tables().routines()) {
+        const RoutineDesc& routine = *entry->desc;
         if (!isPlace(routine, where)) continue;
         for (uint32_t s = 0; s < routine.statementCount; ++s) {
             const StmtDesc& statement = routine.statements[s];
@@ -287,9 +286,8 @@ std::string Debugger::stepMove(Task& task) {
 
 std::string Debugger::runToLine(Task& task, std::string_view where, uint32_t line) {
     bool exists = false;
-    const ProgramDesc& program = controller_.program();
-    for (uint32_t i = 0; i < program.routineCount && !exists; ++i) {
-        const RoutineDesc& routine = *program.routines[i].desc;
+    for (const RoutineEntry* entry : controller_.tables().routines()) {
+        const RoutineDesc& routine = *entry->desc;
         if (!isPlace(routine, where)) continue;
         for (uint32_t s = 0; s < routine.statementCount; ++s)
             exists = exists || (routine.statements[s].canStart != 0 && routine.statements[s].line == line);

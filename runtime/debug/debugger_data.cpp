@@ -26,7 +26,9 @@ DebugVariable local(const SteppingFrame& frame, uint32_t index) {
     return variable;
 }
 
-DebugVariable global(const GlobalDesc& desc) {
+} // namespace
+
+DebugVariable dataOf(const GlobalDesc& desc) {
     DebugVariable variable;
     variable.name = desc.name;
     variable.module = desc.module;
@@ -37,8 +39,6 @@ DebugVariable global(const GlobalDesc& desc) {
     variable.isConstant = desc.kind == 2;
     return variable;
 }
-
-} // namespace
 
 std::vector<DebugFrame> Debugger::frames(const Task& task) const {
     std::vector<DebugFrame> result;
@@ -66,11 +66,9 @@ std::vector<DebugVariable> Debugger::locals(const DebugFrame& frame) const {
 
 std::vector<DebugVariable> Debugger::globals(const Task& task) const {
     std::vector<DebugVariable> result;
-    const ProgramDesc& program = controller_.program();
-    for (uint32_t i = 0; i < program.globalCount; ++i) {
-        const GlobalDesc& desc = program.globals[i];
-        if (desc.task < 0 || desc.task == static_cast<int32_t>(task.index())) result.push_back(global(desc));
-    }
+    for (const GlobalDesc* desc : controller_.tables().globals())
+        if (desc->task < 0 || desc->task == static_cast<int32_t>(task.index()))
+            if (desc->kind != 2 || (desc->flags & kDataPredefined) == 0) result.push_back(dataOf(*desc));
     return result;
 }
 
@@ -89,7 +87,7 @@ DebugVariable Debugger::find(const Task& task, const DebugFrame* frame, std::str
     const GlobalDesc* found = nullptr;
     if (module.empty() && frame != nullptr) found = controller_.findGlobal(plain, frame->place.module, task);
     if (found == nullptr) found = controller_.findGlobal(plain, module, task);
-    if (found != nullptr) return partOf(global(*found), path.substr(end), error);
+    if (found != nullptr) return partOf(dataOf(*found), path.substr(end), error);
     error = fmt::format("there is no data '{}'", name);
     return {};
 }

@@ -61,25 +61,12 @@ Task* Controller::findTask(std::string_view name) {
 
 const GlobalDesc* Controller::findGlobal(std::string_view name, std::string_view module,
                                          const Task& task) const {
-    const GlobalDesc* shared = nullptr;
-    for (uint32_t i = 0; i < program_->globalCount; ++i) {
-        const GlobalDesc& global = program_->globals[i];
-        if (!sameName(global.name, name) || (!module.empty() && !sameName(global.module, module))) continue;
-        if (global.task == static_cast<int32_t>(task.index())) return &global;
-        if (global.task < 0 && shared == nullptr) shared = &global;
-    }
-    return shared;
+    return tables_.findGlobal(name, module, static_cast<int32_t>(task.index()), true);
 }
 
 const RoutineEntry* Controller::findRoutine(std::string_view name, std::string_view module,
                                             const Task& task) const {
-    for (uint32_t i = 0; i < program_->routineCount; ++i) {
-        const RoutineEntry& routine = program_->routines[i];
-        if (routine.task >= 0 && routine.task != static_cast<int32_t>(task.index())) continue;
-        if (sameName(routine.name, name) && (module.empty() || sameName(routine.module, module)))
-            return &routine;
-    }
-    return nullptr;
+    return tables_.findRoutine(name, module, "", static_cast<int32_t>(task.index()));
 }
 
 // ---- Run -----------------------------------------------------------------------------------------------------------

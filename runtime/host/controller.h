@@ -8,6 +8,7 @@
 #include "runtime/host/handle_table.h"
 #include "runtime/host/home_folder.h"
 #include "runtime/host/motion_driver.h"
+#include "runtime/host/program_tables.h"
 #include "runtime/host/run_options.h"
 #include "runtime/host/system_signals.h"
 #include "runtime/io/cfg_parser.h"
@@ -76,6 +77,9 @@ class Controller final : public TaskHost {
 
     // ---- Program ------------------------------------------------------------------------------------------
     const ProgramDesc& program() const { return *program_; }
+    /// Everything in program memory, modules loaded at run time included.
+    ProgramTables& tables() { return tables_; }
+    const ProgramTables& tables() const { return tables_; }
     const std::vector<std::unique_ptr<Task>>& tasks() const { return tasks_; }
     /// Without regard to case; null when there is none.
     Task* findTask(std::string_view name);
@@ -165,6 +169,7 @@ class Controller final : public TaskHost {
     std::map<const void*, std::shared_ptr<void>> services_;
     std::vector<std::function<void(Task&)>> resetActions_;
     const ProgramDesc* program_ = nullptr;
+    ProgramTables tables_;
     std::vector<std::unique_ptr<Task>> tasks_;
     std::size_t startsToCome_ = 0; // `start` and steps that the stimulus has ahead
     Debugger debugger_{*this};

@@ -52,6 +52,7 @@ bool signalTypeOf(const std::string& kind, SignalType& type) {
 
 ExitStatus Controller::prepare(const ProgramDesc& program) {
     program_ = &program;
+    tables_.setProgram(program);
     // An order in which each step can use what came before; the first that fails ends it.
     ExitStatus status = readConfiguration(program);
     if (status == ExitStatus::Ended) status = openRobot();

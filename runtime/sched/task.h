@@ -160,6 +160,12 @@ class Task : public TaskCore {
         setErrorDetail(std::move(detail));
         return number;
     }
+    /// A native that called a routine of the program returns that routine's status this way: its errors have been raised
+    /// there already.
+    Status passOn(Status status) {
+        raisedBelow_ = status > 0;
+        return status;
+    }
     /// The same, from an error handler to the routine's caller (RAISE with a number, ErrRaise in a handler).
     Status raiseToCaller(int number);
     /// RaiseToUser \BreakOff: to the innermost routine outside NOSTEPIN. Only for the error handler of a NOSTEPIN routine;
@@ -354,6 +360,7 @@ class Task : public TaskCore {
     uint64_t cyclesDone_ = 0;
 
     std::vector<Jump> jumps_;
+    bool raisedBelow_ = false;   // the error a native returns has been raised by what it called
     bool raiseToCaller_ = false; // the error that comes next leaves the routine although it is its handler's
 
     std::string errorDetail_, errorText_;

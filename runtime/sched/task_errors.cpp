@@ -58,6 +58,7 @@ Status Task::raiseAt(Frame* at, int number) {
 
 Status Task::nativeFailedAt(Frame* at, Status status) {
     frame = at;
+    if (std::exchange(raisedBelow_, false)) return status;
     return status > 0 ? raiseOnce(at, status) : status;
 }
 

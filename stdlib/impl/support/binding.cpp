@@ -1,30 +1,15 @@
-// What compiled code leaves to be settled at run time: late binding, descriptions of conformant arrays.
+// What compiled code leaves to be settled at run time: descriptions of conformant arrays, missing natives.
 
 #include "runtime/host/controller.h"
-#include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/support_natives.h"
 
-#include "stdlib_constants.h"
-
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <tuple>
 
 using namespace rt;
 
 namespace {
-
-bool sameName(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-
-bool isIdentifier(std::string_view text) {
-    return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) &&
-           std::all_of(text.begin(), text.end(),
-                       [](unsigned char c) { return std::isalnum(c) || c == '_' || c >= 0x80; });
-}
 
 /// One description with the one-element list that it refers to.
 struct ArrayDescription {
@@ -40,22 +25,6 @@ struct ArrayDescriptions {
 } // namespace
 
 extern "C" {
-
-Status rt_lateLookup(TaskCore* task, int32_t* result, const String* name, const String* table,
-                     int32_t count) {
-    const std::string_view written = name->view();
-    const std::string_view procedure = written.substr(written.find(':') + 1); // npos + 1 is 0: the whole text
-    if (!isIdentifier(procedure))
-        return lib::fail(task, err::ERR_CALLPROC,
-                         "\"" + std::string(written) + "\" is not the name of a procedure");
-    for (int32_t i = 0; i < count; ++i) {
-        if (!sameName(table[i].view(), procedure)) continue;
-        *result = i;
-        return kOk;
-    }
-    return lib::fail(task, err::ERR_REFUNKPRC,
-                     "there is no procedure named \"" + std::string(written) + "\"");
-}
 
 Status rt_arrayDesc(TaskCore* task, const TypeDesc** result, const TypeDesc* element, int32_t dim1,
                     int32_t dim2, int32_t dim3) {

@@ -3,6 +3,18 @@
 
 #include "runtime/abi/rt_abi.h"
 
+namespace rt {
+/// An argument of rt_lateCall.
+struct LateCallArg {
+    void* data; ///< null: a conditional argument that is absent; a switch: any address
+    const TypeDesc* type;
+    const String* objectName; ///< of the data object it is (ArgName), null: none
+    const String* parameter;  ///< null: the next required one
+    int32_t flags;            ///< LateFlag
+};
+enum LateFlag : int32_t { kLateReference = 1, kLateConstant = 2, kLateSwitch = 4 };
+} // namespace rt
+
 extern "C" {
 /// a + b for strings. Raises ERR_STRTOOLNG when the result has more than 80 bytes.
 rt::Status rt_strConcat(rt::TaskCore* task, rt::String* result, const rt::String* a, const rt::String* b);
@@ -27,10 +39,11 @@ rt::Status rt_waitUntilPoll(rt::TaskCore* task, bool* again, bool InPos, const f
 /// \InPos of WaitUntil: before the condition is looked at. Does nothing when `inPos` is false.
 rt::Status rt_waitInPos(rt::TaskCore* task, bool inPos);
 
-/// %name%: number (from 0) of the procedure in a table of `count` names. Raises ERR_REFUNKPRC when it is not there and
-/// ERR_CALLPROC when the text cannot be a name. "module:name" is accepted.
-rt::Status rt_lateLookup(rt::TaskCore* task, int32_t* result, const rt::String* name, const rt::String* table,
-                         int32_t count);
+/// %name% and other calls whose target is found by name when they are executed: "procedure" or "module:procedure". `kind` is
+/// a rt::RoutineKind, `result` where a function's value goes. Raises ERR_REFUNKPRC (ERR_REFUNKFUN) when there is none, and
+/// ERR_CALLPROC when it is no routine of that kind or the arguments do not fit.
+rt::Status rt_lateCall(rt::TaskCore* task, const rt::String* name, const rt::LateCallArg* args, int32_t count,
+                       int32_t kind, void* result);
 /// Description of an array whose dimensions are known at run time only (unused ones 0); lives as long as the
 /// controller.
 rt::Status rt_arrayDesc(rt::TaskCore* task, const rt::TypeDesc** result, const rt::TypeDesc* element,

@@ -2,12 +2,11 @@
 
 #include "runtime/host/controller.h"
 #include "stdlib/impl/support/fail.h"
+#include "stdlib/impl/support/task_asked.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 
@@ -21,34 +20,12 @@ constexpr uint8_t kPersistent = 1; // ir::GlobalKind::Persistent
 
 /// The data lie in (are, or are a part of) a persistent of the program.
 bool isPersistent(TaskCore* task, const void* data) {
-    const ProgramDesc& program = taskOf(task).controller().program();
     const auto* at = static_cast<const char*>(data);
-    for (uint32_t i = 0; i < program.globalCount; ++i) {
-        const GlobalDesc& global = program.globals[i];
-        const auto* first = static_cast<const char*>(global.address);
-        if (global.kind == kPersistent && at >= first && at < first + global.type->size) return true;
+    for (const GlobalDesc* global : taskOf(task).controller().tables().globals()) {
+        const auto* first = static_cast<const char*>(global->address);
+        if (global->kind == kPersistent && at >= first && at < first + global->type->size) return true;
     }
     return false;
-}
-
-bool sameName(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-
-/// The task asked for: by a taskid (number of the task from 1) or by name; null and ERR_TASKNAME when there is none.
-Task* taskAsked(TaskCore* task, const Handle* ref, const String* name, Status& status) {
-    Controller& controller = taskOf(task).controller();
-    Task* found = nullptr;
-    if (name)
-        found = controller.findTask(name->view());
-    else if (ref && *ref >= 1 && *ref <= static_cast<Handle>(controller.tasks().size()))
-        found = controller.tasks()[static_cast<size_t>(*ref - 1)].get();
-    status = found ? kOk
-                   : lib::fail(task, err::ERR_TASKNAME,
-                               name ? "there is no task named " + std::string(name->view())
-                                    : std::string("the taskid variable names no task"));
-    return found;
 }
 
 } // namespace
@@ -121,13 +98,13 @@ Status rt_TaskRunRob(TaskCore* task, bool* result) {
 }
 Status rt_TaskIsExecuting(TaskCore* task, bool* result, Handle* TaskRef, const String* TaskName) {
     Status status = kOk;
-    const Task* other = taskAsked(task, TaskRef, TaskName, status);
+    const Task* other = lib::taskAsked(task, TaskRef, TaskName, status);
     if (other) *result = other->isExecuting();
     return status;
 }
 Status rt_TaskIsActive(TaskCore* task, bool* result, Handle* TaskRef, const String* TaskName) {
     Status status = kOk;
-    const Task* other = taskAsked(task, TaskRef, TaskName, status);
+    const Task* other = lib::taskAsked(task, TaskRef, TaskName, status);
     if (other) *result = other->kind() == TaskKind::Normal;
     return status;
 }
@@ -149,21 +126,6 @@ Status rt_MotionPlannerNo(TaskCore* task, float* result) {
 }
 Status rt_IsSyncMoveOn(TaskCore*, bool* result) {
     *result = false; // one robot: never synchronized
-    return kOk;
-}
-
-Status rt_ModExist(TaskCore* task, bool* result, const String* ModuleName) {
-    const Task& owner = taskOf(task);
-    const ProgramDesc& program = owner.controller().program();
-    const auto visible = [&](int32_t index) {
-        return index < 0 || index == static_cast<int32_t>(owner.index());
-    };
-    *result = false;
-    for (uint32_t i = 0; i < program.routineCount && !*result; ++i)
-        *result =
-            visible(program.routines[i].task) && sameName(program.routines[i].module, ModuleName->view());
-    for (uint32_t i = 0; i < program.globalCount && !*result; ++i)
-        *result = visible(program.globals[i].task) && sameName(program.globals[i].module, ModuleName->view());
     return kOk;
 }
 

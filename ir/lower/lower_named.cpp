@@ -1,0 +1,309 @@
+// What a program finds out by name at run time: calls by name, tables of routines, modules and data, names of arguments.
+
+#include "frontend/syntax/token_set.h"
+#include "ir/lower/routine_lowering.h"
+
+#include <algorithm>
+
+namespace rapid::lower {
+
+using namespace syntax;
+using sema::BoundArg;
+using sema::BoundCall;
+using sema::DataSymbol;
+using sema::RoutineSymbol;
+using sema::Storage;
+using sema::TypeKind;
+
+// ---- Parameters whose argument's name is asked for (ArgName) -------------------------------------------------------
+
+namespace {
+
+const Expr& inner(const Expr& expr) {
+    const Expr* e = &expr;
+    while (e->kind == NodeKind::Paren)
+        e = as<ParenExpr>(*e).inner;
+    return *e;
+}
+
+/// The data object that a reference names as a whole or in part; null for anything else.
+const DataSymbol* rootOf(const Expr* written, const sema::Module& module) {
+    if (!written) return nullptr;
+    const Expr* expr = &inner(*written);
+    while (expr->kind == NodeKind::Index || expr->kind == NodeKind::Component)
+        expr = &inner(expr->kind == NodeKind::Index ? *as<IndexExpr>(*expr).base
+                                                    : *as<ComponentExpr>(*expr).base);
+    if (expr->kind != NodeKind::Name) return nullptr;
+    const sema::Symbol* symbol = (*module.exprs)[expr->id].symbol;
+    return symbol && symbol->kind == sema::SymbolKind::Data ? static_cast<const DataSymbol*>(symbol)
+                                                            : nullptr;
+}
+
+} // namespace
+
+bool ProgramLowering::uses(std::string_view native) const {
+    return natives_.contains("rt_" + std::string(native));
+}
+
+/// ArgName follows a parameter through the calls that pass it on, so these parameters bring a name along.
+void ProgramLowering::findNamedParameters() {
+    const RoutineSymbol* argName = nullptr;
+    for (const sema::Module* lib : program_.predefinedModules)
+        for (const RoutineSymbol* routine : lib->routines)
+            if (foldCase(routine->name) == "argname") argName = routine;
+    if (!argName || !argName->used) return;
+    asksForNames_ = true;
+    bool changed = true;
+    const auto mark = [&](const BoundArg& arg, const sema::Module& module) {
+        const DataSymbol* root = rootOf(arg.value, module);
+        if (root && root->storage == Storage::Parameter && namedParams_.insert(root).second) changed = true;
+    };
+    while (std::exchange(changed, false))
+        for (const auto& facts : program_.facts)
+            for (const auto& [node, call] : facts->calls) {
+                // A procedure called by name may ask for the name of any argument.
+                const bool any = !call.routine;
+                for (size_t i = 0; i < call.args.size(); ++i) {
+                    const BoundArg& arg = call.args[i];
+                    const bool asked = any || (call.routine == argName ? i == 0 : passesName(*arg.param));
+                    if (asked && arg.value && call.module) mark(arg, *call.module);
+                }
+            }
+}
+
+ir::ValueId RoutineLowering::argumentName(const BoundArg& arg) {
+    const DataSymbol* root = rootOf(arg.value, *module_);
+    if (!root) return b_.nullPtr();
+    if (root->storage != Storage::Parameter) return b_.globalAddr(program_.stringGlobal(root->name));
+    const Slot* slot = findSlot(*root);
+    return slot && slot->name != ir::kNone ? b_.param(slot->name) : b_.nullPtr();
+}
+
+/// The native gets the name where it expects the parameter; null when there is none.
+void RoutineLowering::lowerArgName(const BoundCall& call, ValueId resultAddr) {
+    std::vector<ValueId> args{resultAddr == ir::kNone ? tempAddr(ir::kStr) : resultAddr};
+    args.push_back(argumentName(call.args[0]));
+    args.push_back(b_.nullPtr());
+    pushArgument(call.args[1], args);
+    b_.callNative(program_.nativeFor(*call.routine), std::move(args));
+}
+
+// ---- Calls by name -------------------------------------------------------------------------------------------------
+
+namespace {
+/// rt::LateCallArg::flags
+constexpr int32_t kReference = 1;
+constexpr int32_t kConstant = 2;
+constexpr int32_t kSwitch = 4;
+} // namespace
+
+int32_t RoutineLowering::lateFlags(const BoundArg& arg) const {
+    if (!arg.value) return kSwitch;
+    const Expr& value = unparen(*arg.value);
+    const DataSymbol* root = rootSymbol(value);
+    int32_t flags = 0;
+    if (root) flags |= kReference;
+    if (info(value).constant ||
+        (root && root->dataKind == DataKind::Const && root->storage != Storage::Parameter))
+        flags |= kConstant;
+    if (arg.kind == BoundArg::Kind::Conditional && root && root->isSwitch) flags |= kSwitch;
+    return flags;
+}
+
+/// Address and type of an argument, null where a conditional one is absent.
+void RoutineLowering::lateValue(const BoundArg& arg, ValueId present, std::vector<ValueId>& out) {
+    if (!arg.value) { // a switch that is given
+        out.push_back(present);
+        out.push_back(b_.nullPtr());
+        return;
+    }
+    if (arg.kind == BoundArg::Kind::Conditional) {
+        const DataSymbol* source = rootSymbol(*arg.value);
+        const Slot* slot = findSlot(*source);
+        const ValueId given = b_.param(slot->param);
+        if (source->isSwitch) {
+            out.push_back(b_.select(given, present, b_.nullPtr()));
+            out.push_back(b_.nullPtr());
+            return;
+        }
+        ValueId data = given;
+        if (slot->kind == Slot::Kind::Local)
+            data = b_.select(b_.binary(ir::Op::INe, given, b_.nullPtr()), b_.localAddr(slot->local),
+                             b_.nullPtr());
+        out.push_back(data);
+        Place p;
+        p.type = source->type;
+        for (int k = 0; k < source->type.rank; ++k)
+            p.dims[static_cast<size_t>(k)] = b_.param(slot->param + 1 + static_cast<uint32_t>(k));
+        out.push_back(typeAddress(p));
+        return;
+    }
+    const sema::DataType wanted = arg.param ? arg.param->type : info(unparen(*arg.value)).type;
+    if (arg.param && passingOf(*arg.param) == Passing::Value) {
+        const ir::TypeId type = program_.irType(wanted);
+        const ValueId temporary = tempAddr(type);
+        b_.store(type, lowerValueAs(*arg.value, wanted.type), temporary);
+        out.push_back(temporary);
+        out.push_back(b_.typeDescAddr(program_.typeDesc(wanted)));
+        return;
+    }
+    if (arg.param && !wanted.isArray()) {
+        out.push_back(argumentAddress(arg));
+        out.push_back(b_.typeDescAddr(program_.typeDesc(wanted)));
+        return;
+    }
+    const Place p = reference(*arg.value);
+    out.push_back(p.addr);
+    out.push_back(typeAddress(p));
+}
+
+/// A call whose target is found by name when it is executed. Arguments travel in a table (rt::LateCallArg).
+void RoutineLowering::callByName(ValueId name, std::span<const BoundArg> args, ir::RoutineKind kind,
+                                 ValueId result) {
+    std::vector<const BoundArg*> given;
+    for (const BoundArg& arg : args)
+        if (arg.kind != BoundArg::Kind::Absent) given.push_back(&arg);
+    const auto count = static_cast<int32_t>(given.size());
+    const ir::TypeId row = program_.lateRow();
+    ValueId table = b_.nullPtr();
+    if (count > 0) table = tempAddr(program_.module().arrayOf(row, {count}));
+    for (int32_t i = 0; i < count; ++i) {
+        const BoundArg& arg = *given[static_cast<size_t>(i)];
+        std::vector<ValueId> value;
+        lateValue(arg, name, value);
+        const ValueId at = b_.elemAddr(row, table, b_.constI32(i));
+        const auto set = [&](uint32_t field, ir::TypeId type, ValueId content) {
+            b_.store(type, content, b_.fieldAddr(row, at, field));
+        };
+        set(0, ir::kPtr, value[0]);
+        set(1, ir::kPtr, value[1]);
+        set(2, ir::kPtr, program_.asksForNames() ? argumentName(arg) : b_.nullPtr());
+        const bool byName = arg.argument && arg.argument->argKind != ArgKind::Required;
+        set(3, ir::kPtr,
+            byName ? b_.globalAddr(program_.stringGlobal(module_->tree->text(arg.argument->name)))
+                   : b_.nullPtr());
+        set(4, ir::kI32, b_.constI32(lateFlags(arg)));
+    }
+    const uint32_t native = program_.support("rt_lateCall", ir::NativeClass::Plain, ir::kVoid,
+                                             {ir::kPtr, ir::kPtr, ir::kI32, ir::kI32, ir::kPtr});
+    b_.callNative(native, {name, table, b_.constI32(count), b_.constI32(static_cast<int32_t>(kind)), result});
+}
+
+/// %name% args (manual 1.1.5).
+void RoutineLowering::lowerLateCall(const CallStmt& stmt) {
+    const ValueId name = lowerAddr(*stmt.lateName);
+    const auto found = facts().calls.find(&stmt);
+    if (found == facts().calls.end()) return;
+    callByName(name, found->second.args, ir::RoutineKind::Procedure, b_.nullPtr());
+}
+
+ir::TypeId ProgramLowering::lateRow() {
+    if (lateRow_ == ir::kVoid)
+        lateRow_ = module_.addRecord("rt.LateCallArg", {{"data", ir::kPtr},
+                                                        {"type", ir::kPtr},
+                                                        {"objectName", ir::kPtr},
+                                                        {"parameter", ir::kPtr},
+                                                        {"flags", ir::kI32}});
+    return lateRow_;
+}
+
+// ---- Tables --------------------------------------------------------------------------------------------------------
+
+bool ProgramLowering::searchesData() const {
+    return uses("SetDataSearch") || uses("GetDataVal") || uses("SetDataVal") || uses("SetAllDataVal");
+}
+
+/// Data of the language can be read and searched by name, too.
+void ProgramLowering::addPredefinedData(uint32_t task) {
+    for (const sema::Module* lib : program_.predefinedModules)
+        for (const DataSymbol* data : lib->data)
+            if (data->storage == Storage::ModuleData && data->type.type->base()->kind != TypeKind::Error)
+                globalFor(*data, task);
+}
+
+void ProgramLowering::addRoutineData(uint32_t task, const sema::Module& module) {
+    for (const RoutineSymbol* routine : module.routines) {
+        const auto add = [&](const DataSymbol& data, ir::GlobalKind kind) {
+            if (data.isSwitch || data.type.type->base()->kind == TypeKind::Error) return;
+            ir::RoutineData row;
+            row.name = data.name;
+            row.moduleName = module.name;
+            row.routine = routine->name;
+            row.typeDesc = typeDesc({data.type.type, 0, {0, 0, 0}});
+            row.task = task;
+            row.kind = kind;
+            module_.routineData.push_back(std::move(row));
+        };
+        for (const DataSymbol* param : routine->params)
+            add(*param, param->mode == ParamMode::Pers ? ir::GlobalKind::Persistent : ir::GlobalKind::Var);
+        for (const DataSymbol* data : routine->data)
+            if (data->storage == Storage::RoutineData)
+                add(*data, data->dataKind == DataKind::Const ? ir::GlobalKind::Const : ir::GlobalKind::Var);
+    }
+}
+
+void ProgramLowering::addSearchTypes() {
+    std::vector<const sema::Module*> modules(program_.predefinedModules.begin(),
+                                             program_.predefinedModules.end());
+    for (const auto& task : program_.tasks)
+        modules.insert(modules.end(), task->modules.begin(), task->modules.end());
+    for (const sema::Module* module : modules)
+        for (const sema::TypeSymbol* symbol : module->types) {
+            const TypeKind kind = symbol->type->base()->kind;
+            if (kind == TypeKind::Error || kind == TypeKind::Switch || kind == TypeKind::AnyType) continue;
+            module_.searchTypes.push_back(typeDesc({symbol->type, 0, {0, 0, 0}}));
+        }
+}
+
+void ProgramLowering::addNamedRoutine(const RoutineSymbol& symbol, uint32_t task) {
+    ir::NamedRoutine named;
+    named.routine = routineFor(symbol, task);
+    module_.routines[named.routine].exported = true;
+    named.isLocal = symbol.isLocal;
+    switch (symbol.routineKind) {
+    case RoutineKind::Proc: named.kind = ir::RoutineKind::Procedure; break;
+    case RoutineKind::Func: named.kind = ir::RoutineKind::Function; break;
+    case RoutineKind::Trap: named.kind = ir::RoutineKind::Interrupt; break;
+    }
+    named.late = symbol.routineKind != RoutineKind::Trap;
+    for (const DataSymbol* param : symbol.params) {
+        ir::ParamEntry entry;
+        entry.name = param->name;
+        if (!param->isSwitch) entry.typeDesc = typeDesc({param->type.type, 0, {0, 0, 0}});
+        switch (param->mode) {
+        case ParamMode::In: entry.mode = 0; break;
+        case ParamMode::Var: entry.mode = 1; break;
+        case ParamMode::Pers: entry.mode = 2; break;
+        case ParamMode::Inout:
+        case ParamMode::Ref: entry.mode = 3; break;
+        }
+        entry.optional = param->optional;
+        entry.rank = param->type.rank;
+        entry.group = static_cast<uint8_t>(std::min<uint32_t>(param->group, 255));
+        entry.passesName = passesName(*param);
+        named.params.push_back(std::move(entry));
+    }
+    module_.namedRoutines.push_back(std::move(named));
+}
+
+/// Needed when the program is complete: what it asks for by name.
+void ProgramLowering::addTables() {
+    const bool callsByName = natives_.contains("rt_lateCall") || uses("Load") || uses("StartLoad");
+    const bool searches = searchesData();
+    for (uint32_t task = 0; task < program_.tasks.size(); ++task) {
+        for (const sema::Module* module : program_.tasks[task]->modules) {
+            ir::ModuleEntry entry;
+            entry.name = module->name;
+            entry.file = fileIndex(module->tree->source->path());
+            entry.task = task;
+            module_.modules.push_back(std::move(entry));
+            if (uses("SetDataSearch")) addRoutineData(task, *module);
+            if (!callsByName) continue;
+            for (const RoutineSymbol* routine : module->routines)
+                addNamedRoutine(*routine, task);
+        }
+    }
+    if (searches) addSearchTypes();
+}
+
+} // namespace rapid::lower

@@ -1,0 +1,153 @@
+// Calls whose target is found by name when they are executed (manual 1.1.5).
+
+#include "runtime/host/controller.h"
+#include "runtime/io/text_util.h"
+#include "stdlib/impl/support/fail.h"
+#include "stdlib/impl/support/support_natives.h"
+#include "stdlib/impl/support/type_match.h"
+
+#include "stdlib_constants.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/format.h>
+#include <vector>
+
+using namespace rt;
+
+namespace {
+
+constexpr uint8_t kPersistent = 1; // ir::GlobalKind::Persistent
+
+bool isIdentifier(std::string_view text) {
+    return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) &&
+           std::all_of(text.begin(), text.end(),
+                       [](unsigned char c) { return std::isalnum(c) || c == '_' || c >= 0x80; });
+}
+
+/// What absent arguments are described by: no dimensions.
+const TypeDesc kAbsent = {"", "", DescKind::Other, 0, 0, {0, 0, 0}, nullptr, nullptr, nullptr};
+
+bool isPersistent(const Controller& controller, const void* data) {
+    const auto* at = static_cast<const char*>(data);
+    for (const GlobalDesc* global : controller.tables().globals()) {
+        const auto* first = static_cast<const char*>(global->address);
+        if (global->kind == kPersistent && at >= first && at < first + global->type->size) return true;
+    }
+    return false;
+}
+
+/// Matches the arguments of a call to the parameters of a routine: required ones in order, optional ones by name.
+class Binder {
+  public:
+    Binder(const Controller& controller, const RoutineEntry& routine)
+        : controller_(controller), routine_(routine),
+          bound_(routine.paramCount, LateArg{nullptr, &kAbsent, nullptr}), taken_(routine.paramCount) {}
+
+    /// "" or what does not fit.
+    std::string bind(const LateCallArg* args, int32_t count) {
+        for (int32_t i = 0; i < count; ++i) {
+            const uint32_t number = target(args[i]);
+            if (number == routine_.paramCount)
+                return args[i].parameter != nullptr
+                           ? fmt::format("it has no optional parameter '{}'", args[i].parameter->view())
+                           : fmt::format("it takes fewer arguments than the {} given", i + 1);
+            if (taken_[number])
+                return fmt::format("parameter '{}' is given twice", routine_.params[number].name);
+            taken_[number] = true;
+            if (std::string problem = take(args[i], routine_.params[number], bound_[number]);
+                !problem.empty())
+                return problem;
+        }
+        for (uint32_t i = 0; i < routine_.paramCount; ++i)
+            if (!taken_[i] && routine_.params[i].optional == 0)
+                return fmt::format("an argument for parameter '{}' is missing", routine_.params[i].name);
+        return "";
+    }
+    const LateArg* arguments() const { return bound_.data(); }
+
+  private:
+    uint32_t target(const LateCallArg& arg) {
+        for (uint32_t i = 0; i < routine_.paramCount; ++i) {
+            const ParamDesc& param = routine_.params[i];
+            const bool fits = arg.parameter != nullptr
+                                  ? param.optional != 0 && sameName(param.name, arg.parameter->view())
+                                  : param.optional == 0 && !taken_[i];
+            if (fits) return i;
+        }
+        return routine_.paramCount;
+    }
+
+    std::string take(const LateCallArg& arg, const ParamDesc& param, LateArg& out) const {
+        if ((param.type == nullptr) != ((arg.flags & kLateSwitch) != 0))
+            return fmt::format("parameter '{}' {} a switch", param.name,
+                               param.type == nullptr ? "is" : "is not");
+        if (arg.data == nullptr) return ""; // a conditional argument that is absent
+        out = {arg.data, arg.type != nullptr ? arg.type : &kAbsent, arg.objectName};
+        if (param.type == nullptr) return "";
+        const lib::Match match = lib::matchArgument(*arg.type, *param.type, param.rank);
+        if (match == lib::Match::OtherType)
+            return fmt::format("parameter '{}' is of type {}, the argument of type {}", param.name,
+                               param.type->name, lib::elementOf(*arg.type).name);
+        if (match == lib::Match::OtherDimensions)
+            return fmt::format("the argument for parameter '{}' has other dimensions", param.name);
+        const bool reference = (arg.flags & kLateReference) != 0 && (arg.flags & kLateConstant) == 0;
+        if (param.mode != kParamIn && !reference)
+            return fmt::format("parameter '{}' needs a variable or persistent", param.name);
+        const bool persistent =
+            (param.mode == kParamPers || param.mode == kParamVar) && isPersistent(controller_, arg.data);
+        if (param.mode == kParamPers && !persistent)
+            return fmt::format("parameter '{}' needs a persistent", param.name);
+        if (param.mode == kParamVar && persistent)
+            return fmt::format("parameter '{}' needs a variable", param.name);
+        return "";
+    }
+
+    const Controller& controller_;
+    const RoutineEntry& routine_;
+    std::vector<LateArg> bound_;
+    std::vector<bool> taken_;
+};
+
+const char* wordFor(int32_t kind) {
+    return kind == kRoutineFunc ? "function" : kind == kRoutineTrap ? "trap routine" : "procedure";
+}
+
+} // namespace
+
+extern "C" {
+
+Status rt_lateCall(TaskCore* core, const String* name, const LateCallArg* args, int32_t count, int32_t kind,
+                   void* result) {
+    Task& task = taskOf(core);
+    const Controller& controller = task.controller();
+    const std::string_view written = name->view();
+    const std::size_t colon = written.find(':');
+    const std::string_view module = colon == std::string_view::npos ? "" : trimmed(written.substr(0, colon));
+    const std::string_view wanted = trimmed(written.substr(colon + 1)); // npos + 1 is 0: the whole text
+    if (!isIdentifier(wanted) || (colon != std::string_view::npos && !isIdentifier(module)))
+        return lib::fail(core, err::ERR_CALLPROC,
+                         fmt::format("\"{}\" is not the name of a procedure", written));
+    Frame* const caller = core->frame;
+    const RoutineEntry* routine = controller.tables().findRoutine(wanted, module, caller->routine->module,
+                                                                  static_cast<int32_t>(task.index()));
+    if (routine == nullptr) {
+        const Status number = kind == kRoutineFunc ? err::ERR_REFUNKFUN : err::ERR_REFUNKPRC;
+        return lib::fail(core, number, fmt::format("there is no {} named \"{}\"", wordFor(kind), written));
+    }
+    const auto refuse = [&](const std::string& why) {
+        return lib::fail(core, err::ERR_CALLPROC,
+                         fmt::format("'{}' cannot be called so: {}", routine->name, why));
+    };
+    if (routine->kind != kind || routine->late == nullptr)
+        return refuse(fmt::format("it is a {}, not a {}", wordFor(routine->kind), wordFor(kind)));
+    std::string problem;
+    Status status = kOk;
+    {
+        Binder binder(controller, *routine);
+        problem = binder.bind(args, count);
+        if (problem.empty()) status = routine->late(core, caller, binder.arguments(), result);
+    }
+    return problem.empty() ? task.passOn(status) : refuse(problem);
+}
+}
