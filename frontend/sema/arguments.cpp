@@ -50,9 +50,13 @@ void Analyzer::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
         return;
     }
     const bool byReference = param.mode != ParamMode::In || param.type.type->kind == TypeKind::SemiValue;
-    if (byReference)
+    if (byReference) {
+        // An argument that is absent is something ArgName may be asked about.
+        const bool asked = presenceOnly_ || (routine.predefined && routine.nameId == argNameId_);
+        const bool outer = std::exchange(presenceOnly_, asked);
         checkReference(routine, bound);
-    else {
+        presenceOnly_ = outer;
+    } else {
         const bool any = param.type.type->kind == TypeKind::AnyType;
         judgeValue(routine, bound, expr(*bound.value, any ? nullptr : &param.type));
     }

@@ -36,6 +36,7 @@ Analyzer::Analyzer(CheckedProgram& program, const CheckOptions& options, diag::S
         put<Symbol>(predefined_, symbol.nameId, &symbol);
     }
     presentId_ = interner_.intern("present");
+    argNameId_ = interner_.intern("argname");
 }
 
 void Analyzer::loadLibrary() {
