@@ -111,7 +111,7 @@ Status rt_TaskIsActive(TaskCore* task, bool* result, Handle* TaskRef, const Stri
 /// Nobody deselects tasks on a virtual controller.
 Status rt_GetTSPStatus(TaskCore* task, float* result, Handle* TaskRef, const String* TaskName) {
     Status status = kOk;
-    const Task* other = taskAsked(task, TaskRef, TaskName, status);
+    const Task* other = lib::taskAsked(task, TaskRef, TaskName, status);
     if (other)
         *result = other->kind() == TaskKind::Normal ? k::TSP_STATUS_ACT : k::TSP_STATUS_NOT_NORMAL_TASK;
     return status;
