@@ -196,10 +196,13 @@ llvm::Constant* ModuleEmitter::globalTable(uint32_t& count) {
         // Constants that the compiler made for itself have no name that anybody could ask for.
         if (global.displayName.empty() || global.typeDesc == ir::kNone) continue;
         const int64_t task = taskNumber(global.task);
+        // A unit has rows for persistents that lie in another one.
+        const bool elsewhere = global.kind == ir::GlobalKind::External;
+        const ir::GlobalKind kind = elsewhere ? ir::GlobalKind::Persistent : global.kind;
         rows.push_back(llvm::ConstantStruct::get(
             globalDescType_, {text(global.displayName), text(global.moduleName), globals_[i],
-                              typeDescs_[global.typeDesc], i8(static_cast<int64_t>(global.kind)),
-                              i8(global.flags), i32(task), fileName(global.file), i32(global.line)}));
+                              typeDescs_[global.typeDesc], i8(static_cast<int64_t>(kind)), i8(global.flags),
+                              i32(task), fileName(global.file), i32(global.line)}));
     }
     count = static_cast<uint32_t>(rows.size());
     return array(globalDescType_, rows, "globals");

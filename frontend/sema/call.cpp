@@ -292,9 +292,11 @@ void Analyzer::checkExclusive(const BoundCall& call) {
 
 // Late binding: the procedure is known at run time only, so arguments are collected as they are (manual 1.1.5).
 void Analyzer::lateCall(const CallStmt& stmt) {
-    const Typed name = expr(*stmt.lateName);
-    if (!name.isError() && !name.isScalar(TypeKind::String))
-        report(Code::LateBindingName, range(*stmt.lateName), {typeName(*name.info)});
+    if (stmt.lateName) {
+        const Typed name = expr(*stmt.lateName);
+        if (!name.isError() && !name.isScalar(TypeKind::String))
+            report(Code::LateBindingName, range(*stmt.lateName), {typeName(*name.info)});
+    }
     BoundCall& call = facts().calls[&stmt];
     call.module = context_.module;
     call.args = facts().arena.makeArray<BoundArg>(stmt.args.size());

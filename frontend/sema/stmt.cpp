@@ -262,6 +262,9 @@ bool Analyzer::callStmt(const CallStmt& s) {
         else if (reportUnknown(Code::UnknownProcedure, s.name, name, Wanted::Procedure) == Meant::Keyword) {
             broken_ = true; // and its arguments are none
             return true;
+        } else if (incomplete_) { // found when it is executed, or not
+            lateCall(s);
+            return true;
         }
         visitArguments(s.args);
         return true;

@@ -33,4 +33,17 @@ struct Options {
 bool lowerProgram(const sema::CheckedProgram& program, const Options& options, diag::Sink& sink,
                   ir::Module& out);
 
+/// A module that is loaded into a running program.
+struct UnitOptions {
+    Options program; ///< names, profile and natives as for a program
+    /// Is there data of this name (in that module, or "" = in any) in program memory? Persistents and predefined variables
+    /// are taken from there.
+    std::function<bool(std::string_view module, std::string_view name)> exists;
+};
+
+/// Lowers one module of a task of the checked program. Data of other modules are external globals (those with a type description:
+/// persistents of its own that another module has declared before), their routines are called by name, so that modules can come and go.
+bool lowerUnit(const sema::CheckedProgram& program, uint32_t task, const sema::Module& module,
+               const UnitOptions& options, diag::Sink& sink, ir::Module& out);
+
 } // namespace rapid::lower

@@ -146,6 +146,7 @@ ir::ValueId RoutineLowering::lowerCall(const Node& node, ValueId resultAddr) {
             return ir::kNone;
         }
     }
+    if (program_.isForeign(callee)) return lowerForeignCall(call, resultAddr);
     std::vector<ValueId> args;
     const bool isFunction = callee.routineKind == RoutineKind::Func;
     const ir::TypeId result = isFunction ? program_.irType(callee.returnType) : ir::kVoid;

@@ -1,6 +1,6 @@
 // What a program finds out by name at run time: calls by name, tables of routines, modules and data, names of arguments.
 
-#include "frontend/syntax/token_set.h"
+#include "frontend/syntax/tree_walk.h"
 #include "ir/lower/routine_lowering.h"
 
 #include <algorithm>
@@ -191,7 +191,8 @@ void RoutineLowering::callByName(ValueId name, std::span<const BoundArg> args, i
 
 /// %name% args (manual 1.1.5).
 void RoutineLowering::lowerLateCall(const CallStmt& stmt) {
-    const ValueId name = lowerAddr(*stmt.lateName);
+    const ValueId name = stmt.lateName ? lowerAddr(*stmt.lateName)
+                                       : b_.globalAddr(program_.stringGlobal(module_->tree->text(stmt.name)));
     const auto found = facts().calls.find(&stmt);
     if (found == facts().calls.end()) return;
     callByName(name, found->second.args, ir::RoutineKind::Procedure, b_.nullPtr());
@@ -217,7 +218,8 @@ bool ProgramLowering::searchesData() const {
 void ProgramLowering::addPredefinedData(uint32_t task) {
     for (const sema::Module* lib : program_.predefinedModules)
         for (const DataSymbol* data : lib->data)
-            if (data->storage == Storage::ModuleData && data->type.type->base()->kind != TypeKind::Error)
+            if (data->storage == Storage::ModuleData && data->type.type->base()->kind != TypeKind::Error &&
+                !(unit_ && unitOptions_->exists(lib->name, data->name)))
                 globalFor(*data, task);
 }
 
@@ -286,24 +288,107 @@ void ProgramLowering::addNamedRoutine(const RoutineSymbol& symbol, uint32_t task
     module_.namedRoutines.push_back(std::move(named));
 }
 
+void ProgramLowering::addTablesOf(uint32_t task, const sema::Module& module, bool callsByName) {
+    ir::ModuleEntry entry;
+    entry.name = module.name;
+    entry.file = fileIndex(module.tree->source->path());
+    entry.task = task;
+    module_.modules.push_back(std::move(entry));
+    if (unit_ || uses("SetDataSearch")) addRoutineData(task, module);
+    if (!callsByName) return;
+    for (const RoutineSymbol* routine : module.routines)
+        addNamedRoutine(*routine, task);
+}
+
 /// Needed when the program is complete: what it asks for by name.
 void ProgramLowering::addTables() {
     const bool callsByName = natives_.contains("rt_lateCall") || uses("Load") || uses("StartLoad");
-    const bool searches = searchesData();
-    for (uint32_t task = 0; task < program_.tasks.size(); ++task) {
-        for (const sema::Module* module : program_.tasks[task]->modules) {
-            ir::ModuleEntry entry;
-            entry.name = module->name;
-            entry.file = fileIndex(module->tree->source->path());
-            entry.task = task;
-            module_.modules.push_back(std::move(entry));
-            if (uses("SetDataSearch")) addRoutineData(task, *module);
-            if (!callsByName) continue;
-            for (const RoutineSymbol* routine : module->routines)
-                addNamedRoutine(*routine, task);
+    for (uint32_t task = 0; task < program_.tasks.size(); ++task)
+        for (const sema::Module* module : program_.tasks[task]->modules)
+            addTablesOf(task, *module, callsByName);
+    if (searchesData()) addSearchTypes();
+}
+
+// ---- Units: modules loaded while a program runs ----------------------------------------------------------------------
+
+/// Does the object lie in another unit? Persistents and what the language predefines do, as soon as one has them.
+bool ProgramLowering::isImported(const DataSymbol& symbol) const {
+    if (!unit_ || !symbol.module) return false;
+    if (symbol.module != unit_ && !symbol.predefined) return true;
+    const bool constant = symbol.dataKind == DataKind::Const;
+    const bool pers = symbol.dataKind == DataKind::Pers && symbol.scope == ScopeWord::None;
+    if (symbol.predefined) return !constant && unitOptions_->exists(symbol.module->name, symbol.name);
+    return pers && unitOptions_->exists("", symbol.name);
+}
+
+uint32_t ProgramLowering::importGlobal(const DataSymbol& symbol, uint32_t task) {
+    const bool own = symbol.module == unit_; // a persistent that others have declared before
+    ir::Global global;
+    global.name = "import/" + symbol.module->name + "/" + symbol.name;
+    global.displayName = symbol.name;
+    global.moduleName = symbol.module->name;
+    global.type = irType(symbol.type);
+    global.kind = ir::GlobalKind::External;
+    global.task = task;
+    if (own) global.typeDesc = typeDesc(symbol.type); // gives it a row in the table of this unit
+    module_.globals.push_back(std::move(global));
+    return static_cast<uint32_t>(module_.globals.size() - 1);
+}
+
+/// Something in the statement itself, not in one nested in it, that nothing declares; its name.
+std::string_view RoutineLowering::missingReference(const Node& node, const char*& error) const {
+    const auto& tree = *module_->tree;
+    if (node.kind == NodeKind::Name && info(as<NameExpr>(node)).type.type->base()->kind == TypeKind::Error) {
+        error = "ERR_REFUNKDAT";
+        return tree.text(as<NameExpr>(node).name);
+    }
+    if (node.kind == NodeKind::Call) {
+        const auto found = facts().calls.find(&node);
+        if (found == facts().calls.end() || !found->second.routine) {
+            error = "ERR_REFUNKFUN";
+            return tree.text(as<CallExpr>(node).name);
         }
     }
-    if (searches) addSearchTypes();
+    std::string_view missing;
+    forEachChild(node, [&](const Node& child) {
+        if (missing.empty() && !isStmt(child.kind)) missing = missingReference(child, error);
+    });
+    return missing;
+}
+
+/// A reference that stays open until the statement is executed (manual 1.6). True when the statement has been dealt with.
+bool RoutineLowering::lowerUnresolved(const Node& statement, const Node& part) {
+    if (!program_.task(task_).incomplete || statement.kind == NodeKind::PlaceholderStmt) return false;
+    const char* error = nullptr;
+    std::string_view missing;
+    if (statement.kind == NodeKind::Connect && facts().references.find(&statement) == facts().references.end()) {
+        error = "ERR_REFUNKTRP";
+        missing = module_->tree->text(as<ConnectStmt>(statement).trap);
+    } else {
+        missing = missingReference(part, error);
+    }
+    if (missing.empty()) return false;
+    startStatement(statement, ir::StmtKind::Plain);
+    const uint32_t native =
+        program_.support("rt_unresolved", ir::NativeClass::Plain, ir::kVoid, {ir::kI32, ir::kPtr});
+    b_.callNative(native,
+                  {b_.constI32(program_.errorNumber(error)), b_.globalAddr(program_.stringGlobal(missing))});
+    return true;
+}
+
+/// A routine of another unit.
+ir::ValueId RoutineLowering::lowerForeignCall(const BoundCall& call, ValueId resultAddr) {
+    const RoutineSymbol& callee = *call.routine;
+    const ValueId name = b_.globalAddr(program_.stringGlobal(callee.module->name + ":" + callee.name));
+    if (callee.routineKind != RoutineKind::Func) {
+        callByName(name, call.args, ir::RoutineKind::Procedure, b_.nullPtr());
+        return ir::kNone;
+    }
+    const ir::TypeId type = program_.irType(callee.returnType);
+    const bool scalar = program_.module().isScalar(type);
+    const ValueId result = !scalar && resultAddr != ir::kNone ? resultAddr : tempAddr(type);
+    callByName(name, call.args, ir::RoutineKind::Function, result);
+    return scalar ? b_.load(type, result) : ir::kNone;
 }
 
 } // namespace rapid::lower

@@ -288,6 +288,7 @@ void RoutineLowering::lowerData() {
         if (found == slots_.end() || data->storage != sema::Storage::RoutineData) continue;
         const ValueId target = b_.localAddr(found->second.local);
         if (data->init) {
+            if (lowerUnresolved(*data->decl, *data->init)) continue;
             startStatement(*data->decl, ir::StmtKind::Plain);
             lowerInto(*data->init, data->type, target);
         } else {

@@ -100,6 +100,7 @@ void RoutineLowering::lowerStmt(const Stmt& stmt) {
         b_.raise(b_.constI32(program_.errorNumber("ERR_EXECPHR")));
         return;
     }
+    if (lowerUnresolved(stmt, stmt)) return;
     switch (stmt.kind) {
     case NodeKind::Assign: return lowerAssign(as<AssignStmt>(stmt));
     case NodeKind::CallStmt: {
@@ -108,7 +109,8 @@ void RoutineLowering::lowerStmt(const Stmt& stmt) {
         const bool motion = found != facts().calls.end() && found->second.routine &&
                             found->second.routine->effects == sema::Effects::Motion;
         startStatement(stmt, motion ? ir::StmtKind::Motion : ir::StmtKind::Call);
-        if (call.lateName) return lowerLateCall(call);
+        if (call.lateName || (found != facts().calls.end() && !found->second.routine))
+            return lowerLateCall(call);
         lowerCall(stmt, ir::kNone);
         if (region_ == Region::Error && isStartMoveRetry(stmt)) b_.retry();
         return;
@@ -316,11 +318,20 @@ void RoutineLowering::lowerConnect(const ConnectStmt& stmt) {
     const auto& refs = facts().references;
     auto found = refs.find(&stmt);
     if (found == refs.end() || found->second->kind != sema::SymbolKind::Routine) return;
-    const uint32_t trap = program_.routineFor(*static_cast<const sema::RoutineSymbol*>(found->second), task_);
-    program_.module().routines[trap].exported = true;
+    const auto& symbol = *static_cast<const sema::RoutineSymbol*>(found->second);
+    ValueId address = ir::kNone;
     const Place target = place(*stmt.target);
+    if (program_.isForeign(symbol)) {
+        const ValueId name = b_.globalAddr(program_.stringGlobal(symbol.module->name + ":" + symbol.name));
+        address = b_.callNative(program_.support("rt_lateTrap", ir::NativeClass::Plain, ir::kPtr, {ir::kPtr}),
+                                {name});
+    } else {
+        const uint32_t trap = program_.routineFor(symbol, task_);
+        program_.module().routines[trap].exported = true;
+        address = b_.routineAddr(trap);
+    }
     b_.callNative(program_.support("rt_connect", ir::NativeClass::Plain, ir::kVoid, {ir::kPtr, ir::kPtr}),
-                  {target.addr, b_.routineAddr(trap)});
+                  {target.addr, address});
 }
 
 void RoutineLowering::lowerExit() {

@@ -208,6 +208,7 @@ uint32_t ProgramLowering::globalFor(const DataSymbol& symbol, uint32_t task) {
     const bool shared = systemGlobalPers || sharedModule || (constant && symbol.predefined);
     const auto key = std::make_pair(shared ? ir::kNone : task, &symbol);
     if (auto found = globals_.find(key); found != globals_.end()) return found->second;
+    if (!signal && isImported(symbol)) return globals_[key] = importGlobal(symbol, task);
     uint32_t index = 0;
     if (systemGlobalPers) {
         // One object for every task that declares it; sema has compared types and dimensions.
@@ -411,6 +412,31 @@ bool ProgramLowering::run() {
     addTables();
     drainPending();
     return sink_.errorCount() == errorsBefore;
+}
+
+bool ProgramLowering::runUnit(uint32_t task, const sema::Module& module, const UnitOptions& options) {
+    unit_ = &module;
+    unitOptions_ = &options;
+    module_.name = options_.programName;
+    module_.unitTask = static_cast<int32_t>(task);
+    const size_t errorsBefore = sink_.errorCount();
+    findNamedParameters();
+    for (const DataSymbol* data : module.data)
+        globalFor(*data, task);
+    for (const RoutineSymbol* routine : module.routines)
+        routineFor(*routine, task);
+    drainPending();
+    if (searchesData()) addPredefinedData(task);
+    module_.unitReset = makeReset(task);
+    addTablesOf(task, module, true);
+    addSearchTypes();
+    drainPending();
+    return sink_.errorCount() == errorsBefore;
+}
+
+bool lowerUnit(const sema::CheckedProgram& program, uint32_t task, const sema::Module& module,
+               const UnitOptions& options, diag::Sink& sink, ir::Module& out) {
+    return ProgramLowering(program, options.program, sink, out).runUnit(task, module, options);
 }
 
 bool lowerProgram(const sema::CheckedProgram& program, const Options& options, diag::Sink& sink,

@@ -25,6 +25,12 @@ class ProgramLowering {
                     ir::Module& out);
 
     bool run();
+    /// One module only (lowerUnit).
+    bool runUnit(uint32_t task, const sema::Module& module, const UnitOptions& options);
+    /// Belongs to another unit: reached by name when the program runs.
+    bool isForeign(const sema::Symbol& symbol) const {
+        return unit_ && !symbol.predefined && symbol.module != unit_;
+    }
 
     bool stepping() const { return options_.stepping; }
 
@@ -74,6 +80,9 @@ class ProgramLowering {
     void addSearchTypes();
     void addNamedRoutine(const sema::RoutineSymbol& symbol, uint32_t task);
     void addTables();
+    void addTablesOf(uint32_t task, const sema::Module& module, bool callsByName);
+    bool isImported(const sema::DataSymbol& symbol) const;
+    uint32_t importGlobal(const sema::DataSymbol& symbol, uint32_t task);
     uint32_t makeReset(uint32_t task);
     void drainPending();
     bool inSharedModule(const sema::DataSymbol& symbol) const;
@@ -93,6 +102,8 @@ class ProgramLowering {
     std::unordered_map<std::string, int32_t> errorNumbers_;
     std::unordered_map<std::string, uint32_t> files_;
     std::vector<Pending> pending_;
+    const sema::Module* unit_ = nullptr;
+    const UnitOptions* unitOptions_ = nullptr;
     std::unordered_set<const sema::DataSymbol*> namedParams_;
     bool asksForNames_ = false;
     ir::TypeId lateRow_ = ir::kVoid;

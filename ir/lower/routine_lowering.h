@@ -151,6 +151,9 @@ class RoutineLowering {
     const sema::BoundArg* findArg(const sema::BoundCall& call, std::string_view name) const;
 
     // lower_named.cpp
+    ValueId lowerForeignCall(const sema::BoundCall& call, ValueId resultAddr);
+    bool lowerUnresolved(const syntax::Node& statement, const syntax::Node& part);
+    std::string_view missingReference(const syntax::Node& node, const char*& error) const;
     void lowerLateCall(const syntax::CallStmt& stmt);
     void callByName(ValueId name, std::span<const sema::BoundArg> args, ir::RoutineKind kind, ValueId result);
     void lateValue(const sema::BoundArg& arg, ValueId present, std::vector<ValueId>& out);

@@ -109,7 +109,8 @@ void checkGlobals(const Module& module, Findings& out) {
         }
         if (global.typeDesc != kNone && global.typeDesc >= module.typeDescs.size())
             add("desc does not exist");
-        if (global.task != kNone && global.task >= module.tasks.size()) add("task does not exist");
+        const bool ofUnit = module.unitTask >= 0 && global.task == static_cast<uint32_t>(module.unitTask);
+        if (global.task != kNone && global.task >= module.tasks.size() && !ofUnit) add("task does not exist");
         if (global.file != kNone && global.file >= module.files.size()) add("file does not exist");
         if (global.init.empty()) continue;
         size_t at = 0;

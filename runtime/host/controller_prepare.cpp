@@ -2,6 +2,7 @@
 
 #include "runtime/host/controller.h"
 
+#include "runtime/host/module_units.h"
 #include "runtime/io/text_util.h"
 #include "runtime/robot/robot_model.h"
 #include "runtime/sim/csv_writers.h"
@@ -220,6 +221,10 @@ bool Controller::connectExternals(const ProgramDesc& program) {
 }
 
 bool Controller::connectExternal(const ExternalDesc& external) {
+    return rt::connectExternal(*this, external);
+}
+
+bool connectExternal(Controller& controller, const ExternalDesc& external) {
     const std::string kind = textOf(external.kind), name = textOf(external.name);
     const auto fail = [&external](const std::string& message) {
         const std::string file = textOf(external.file);
@@ -231,14 +236,14 @@ bool Controller::connectExternal(const ExternalDesc& external) {
     };
     SignalType type{};
     if (signalTypeOf(kind, type)) {
-        const SignalId id = io_.find(name);
+        const SignalId id = controller.io().find(name);
         if (id < 0) {
             return fail(fmt::format(
                 "signal '{}' ({}) is not defined; define it in an EIO configuration file "
                 "(EIO_SIGNAL: -Name \"{}\" -SignalType \"{}\") and pass it with --config=FILE.cfg",
                 name, kind, name, signalTypeName(type)));
         }
-        const SignalConfig& config = io_.config(id);
+        const SignalConfig& config = controller.io().config(id);
         if (config.type != type) {
             return fail(fmt::format(
                 "signal '{}' is used as {} but configured as {} in {}:{}; change one of the two", name,
@@ -247,13 +252,13 @@ bool Controller::connectExternal(const ExternalDesc& external) {
         *external.slot = IoSystem::handleOf(id);
         return true;
     }
-    if (sameName(kind, "mecunit") && sameName(name, motion_->unitName())) {
+    if (sameName(kind, "mecunit") && sameName(name, controller.motion().unitName())) {
         *external.slot = 1;
         return true;
     }
     if (sameName(kind, "taskid")) { // predefined for each task as <name>Id
-        for (uint32_t i = 0; i < program_->taskCount; ++i) {
-            if (!sameName(name, std::string(program_->tasks[i].name) + "Id")) continue;
+        for (uint32_t i = 0; i < controller.program().taskCount; ++i) {
+            if (!sameName(name, std::string(controller.program().tasks[i].name) + "Id")) continue;
             *external.slot = static_cast<Handle>(i) + 1;
             return true;
         }

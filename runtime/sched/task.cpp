@@ -1,6 +1,7 @@
 // Task: cycles of main on a fibre, waiting, stopping and ending. Errors: task_errors.cpp.
 
 #include "runtime/sched/task.h"
+#include "runtime/host/module_units.h"
 
 #include "runtime/log/event_log.h"
 #include "runtime/sched/error_search.h"
@@ -66,6 +67,7 @@ bool Task::runCycle() {
         interrupts_.clear();
         needsReset_ = false;
         if (desc_.reset != nullptr) status = desc_.reset(this, nullptr);
+        if (status == kOk && controller_ != nullptr) status = resetUnits(*controller_, *this);
         if (entryOverride_ == nullptr) host_.programReset(*this);
     }
     if (status == kOk) status = events_.runOwed();

@@ -257,11 +257,15 @@ bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping,
     const bool lowered = rapid::lower::lowerProgram(*compilation.program, options, compilation.sink, out);
     rapid::lint::applyLevels(compilation.warningLevels, compilation.sink);
     if (!lowered || compilation.sink.hasErrors()) return false;
+    return runIrPasses(out, stepping, compilation.sink);
+}
+
+bool runIrPasses(ir::Module& module, bool stepping, diag::Sink& sink) {
     ir::PassOptions passes;
     passes.profile = stepping ? ir::Profile::Stepping : ir::Profile::Release;
-    const std::vector<std::string> findings = ir::runPasses(out, passes);
+    const std::vector<std::string> findings = ir::runPasses(module, passes);
     for (const std::string& finding : findings)
-        compilation.sink.report(diag::Code::InternalIr, nullptr, {}, {finding});
+        sink.report(diag::Code::InternalIr, nullptr, {}, {finding});
     return findings.empty();
 }
 

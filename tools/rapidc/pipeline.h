@@ -51,6 +51,9 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs);
 /// Lowers and runs the IR passes. False with diagnostics in the sink when something stands against it.
 bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping, ir::Module& out);
 
+/// Verifies a module and runs the passes of the profile; findings are internal errors in the sink.
+bool runIrPasses(ir::Module& module, bool stepping, rapid::diag::Sink& sink);
+
 /// Writes all diagnostics to stderr in the form for people, and a closing line when there are errors. What a backup
 /// holds (notes 605x) is told only by `check`.
 void printDiagnostics(const Compilation& compilation, bool withReport = false);

@@ -4,9 +4,11 @@
 #include "tools/rapidc/line_debugger.h"
 #include "tools/rapidc/path_picture.h"
 #include "tools/rapidc/pipeline.h"
+#include "tools/rapidc/unit_loader.h"
 
 #include "codegen/codegen.h"
 #include "runtime/host/controller.h"
+#include "runtime/host/module_units.h"
 #include "runtime/host/run_options.h"
 #include "runtime/host/stop_signals.h"
 #include "runtime/sim/stimulus.h"
@@ -111,13 +113,14 @@ void printSummary(const RunSettings& settings, rt::Controller& controller, doubl
     if (!settings.picture.empty()) fmt::print(stderr, "picture     {}\n", settings.picture);
 }
 
-int execute(RunSettings& settings, const rt::ProgramDesc& program) {
+int execute(RunSettings& settings, const rt::ProgramDesc& program, rt::ModuleLoader& loader) {
     const auto start = std::chrono::steady_clock::now();
     const rt::StopSignals signals;
     rt::ExitStatus status = rt::ExitStatus::Ended;
     {
         rt::Controller controller(settings.options);
         rt::setUpStandardLibrary(controller);
+        rt::setModuleLoader(controller, &loader);
         status = controller.prepare(program);
         if (status != rt::ExitStatus::Ended) return static_cast<int>(status);
         LineDebugger debugger(controller);
@@ -161,7 +164,8 @@ int run(RunSettings& settings) {
     codegen::CodegenOptions options;
     options.optimise = !settings.noOptimise;
     std::string error;
-    const auto program = codegen::jit(module, options, nativeSymbols(), error);
+    const std::vector<codegen::NativeSymbol> natives = nativeSymbols();
+    const auto program = codegen::jit(module, options, natives, error);
     if (!program) {
         fmt::print(stderr, "rapidc run: {}\n", error);
         return static_cast<int>(rt::ExitStatus::BadProgram);
@@ -181,7 +185,8 @@ int run(RunSettings& settings) {
         }
     }
     makeFolders(settings);
-    return execute(settings, *program->program());
+    UnitLoader loader(*compilation, settings.stepping, options, natives);
+    return execute(settings, *program->program(), loader);
 }
 
 } // namespace

@@ -150,4 +150,22 @@ Status rt_lateCall(TaskCore* core, const String* name, const LateCallArg* args, 
     }
     return problem.empty() ? task.passOn(status) : refuse(problem);
 }
+
+Status rt_lateTrap(TaskCore* core, void** result, const String* name) {
+    const std::string_view written = name->view();
+    const std::size_t colon = written.find(':');
+    const std::string_view module = colon == std::string_view::npos ? "" : written.substr(0, colon);
+    const RoutineEntry* trap = taskOf(core).controller().tables().findRoutine(
+        written.substr(colon + 1), module, core->frame->routine->module,
+        static_cast<int32_t>(taskOf(core).index()));
+    if (trap == nullptr || trap->kind != kRoutineTrap)
+        return lib::fail(core, err::ERR_REFUNKTRP,
+                         fmt::format("there is no trap routine named \"{}\"", written));
+    *result = trap->address;
+    return kOk;
+}
+
+Status rt_unresolved(TaskCore* core, int32_t number, const String* name) {
+    return lib::fail(core, number, fmt::format("nothing in program memory declares '{}'", name->view()));
+}
 }

@@ -44,6 +44,10 @@ rt::Status rt_waitInPos(rt::TaskCore* task, bool inPos);
 /// ERR_CALLPROC when it is no routine of that kind or the arguments do not fit.
 rt::Status rt_lateCall(rt::TaskCore* task, const rt::String* name, const rt::LateCallArg* args, int32_t count,
                        int32_t kind, void* result);
+/// Address of a trap routine found by name, "module:trap". Raises ERR_REFUNKTRP.
+rt::Status rt_lateTrap(rt::TaskCore* task, void** result, const rt::String* name);
+/// A statement that refers to something nothing declares: raises `number`.
+rt::Status rt_unresolved(rt::TaskCore* task, int32_t number, const rt::String* name);
 /// Description of an array whose dimensions are known at run time only (unused ones 0); lives as long as the
 /// controller.
 rt::Status rt_arrayDesc(rt::TaskCore* task, const rt::TypeDesc** result, const rt::TypeDesc* element,

@@ -1,0 +1,38 @@
+#include "runtime/host/module_units.h"
+
+#include "runtime/host/controller.h"
+
+namespace rt {
+
+ModuleUnits& units(Controller& controller) {
+    return controller.service<ModuleUnits>();
+}
+
+void setModuleLoader(Controller& controller, ModuleLoader* loader) {
+    units(controller).loader = loader;
+}
+
+bool connectUnit(Controller& controller, const ProgramDesc& unit) {
+    bool all = true;
+    for (uint32_t i = 0; i < unit.externalCount; ++i)
+        all = connectExternal(controller, unit.externals[i]) && all;
+    return all;
+}
+
+Status resetUnits(Controller& controller, Task& task) {
+    const auto index = static_cast<int32_t>(task.index());
+    std::vector<std::string> gone;
+    Status status = kOk;
+    for (const LoadedModule& module : controller.tables().modules()) {
+        if (module.unit == nullptr || module.task != index) continue;
+        if (module.dynamic)
+            gone.push_back(module.name);
+        else if (status == kOk && module.unit->reset != nullptr)
+            status = module.unit->reset(&task, nullptr);
+    }
+    for (const std::string& name : gone)
+        controller.tables().remove(index, name);
+    return status;
+}
+
+} // namespace rt

@@ -1,0 +1,31 @@
+#pragma once
+// Modules that come and go while a program runs: who compiles them, and what the controller does with them.
+
+#include "runtime/host/module_loader.h"
+#include "runtime/sched/task.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace rt {
+
+class Controller;
+
+struct ModuleUnits {
+    ModuleLoader* loader = nullptr; ///< null: modules cannot be loaded
+    /// Bytes that the persistents of a unit had when it was loaded.
+    std::map<const ProgramDesc*, std::vector<std::string>> declared;
+};
+
+ModuleUnits& units(Controller& controller);
+/// The loader must outlive the controller.
+void setModuleLoader(Controller& controller, ModuleLoader* loader);
+/// Gives a signal or unit that a program names its handle; false, with a message on stderr, when it is not configured.
+bool connectExternal(Controller& controller, const ExternalDesc& external);
+/// All those of a unit.
+bool connectUnit(Controller& controller, const ProgramDesc& unit);
+/// Variables of a task get their initial values: those of loaded modules, too; modules loaded with \Dynamic leave memory.
+Status resetUnits(Controller& controller, Task& task);
+
+} // namespace rt

@@ -1,0 +1,220 @@
+// Manual 1.6: Load, UnLoad, EraseModule, CheckProgRef.
+
+#include "stdlib/impl/modules/loading.h"
+
+#include "runtime/host/module_units.h"
+#include "runtime/io/text_util.h"
+#include "stdlib/impl/support/fail.h"
+
+#include "stdlib_constants.h"
+#include "stdlib_natives.h"
+
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <sstream>
+#include <sys/stat.h>
+
+namespace rt::lib {
+namespace {
+
+/// Program memory of a controller takes some 20 MB of source; larger files are none that somebody wrote.
+constexpr std::size_t kLargestModule = std::size_t{20} << 20;
+
+/// Loading as a controller does it: opening the file, then so much for each KiB.
+constexpr Time kLoadingStart = kSecond / 50;
+constexpr Time kLoadingPerKib = kSecond / 1000;
+
+std::string written(const String& directory, const String* file) {
+    std::string text(directory.view());
+    if (file == nullptr) return text;
+    if (!text.empty() && text.back() != '/' && text.back() != ':') text += '/';
+    return text + std::string(file->view());
+}
+
+bool hostPath(TaskCore* task, const String& directory, const String* file, std::string& path) {
+    const HomeFolder& home = taskOf(task).controller().home();
+    return file != nullptr ? home.resolve(directory.view(), file->view(), path)
+                           : home.resolve(directory.view(), path);
+}
+
+/// Some task executes a routine of the module.
+bool executes(const Controller& controller, const LoadedModule& module) {
+    for (const auto& task : controller.tasks()) {
+        if (module.task >= 0 && static_cast<int32_t>(task->index()) != module.task) continue;
+        for (const Frame* at = task->frame; at != nullptr; at = at->caller)
+            if (at->routine != nullptr && sameName(at->routine->module, module.name)) return true;
+    }
+    return false;
+}
+
+std::vector<std::string> persistentsOf(const ProgramDesc& unit) {
+    constexpr uint8_t kPersistent = 1; // ir::GlobalKind::Persistent
+    std::vector<std::string> values;
+    for (uint32_t i = 0; i < unit.globalCount; ++i)
+        if (const GlobalDesc& data = unit.globals[i];
+            data.kind == kPersistent && (data.flags & kDataPredefined) == 0)
+            values.emplace_back(static_cast<const char*>(data.address), data.type->size);
+    return values;
+}
+
+bool isChanged(Controller& controller, const LoadedModule& module) {
+    return persistentsOf(*module.unit) != units(controller).declared[module.unit];
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+    constexpr std::size_t kShown = 10;
+    std::string text;
+    for (std::size_t i = 0; i < lines.size() && i < kShown; ++i)
+        text += (i > 0 ? ", " : "") + lines[i];
+    if (lines.size() > kShown) text += fmt::format(" and {} more", lines.size() - kShown);
+    return text;
+}
+
+} // namespace
+
+Status readModule(TaskCore* task, const String& directory, const String* file, ModuleFile& out) {
+    out.shown = written(directory, file);
+    if (!hostPath(task, directory, file, out.path))
+        return fail(task, err::ERR_FILNOTFND, fmt::format("{} is not a file in HOME:", out.shown));
+    struct stat status{};
+    if (::stat(out.path.c_str(), &status) != 0)
+        return fail(task, err::ERR_FILNOTFND, fmt::format("there is no file {}", out.shown));
+    std::ifstream in(out.path, std::ios::binary);
+    if (!S_ISREG(status.st_mode) || !in)
+        return fail(task, err::ERR_IOERROR, fmt::format("{} cannot be read", out.shown));
+    if (static_cast<std::size_t>(status.st_size) > kLargestModule)
+        return fail(task, err::ERR_PRGMEMFULL, fmt::format("{} does not fit into program memory", out.shown));
+    std::stringstream bytes;
+    bytes << in.rdbuf();
+    if (in.bad()) return fail(task, err::ERR_IOERROR, fmt::format("{} cannot be read", out.shown));
+    out.bytes = bytes.str();
+    out.time = static_cast<int64_t>(status.st_mtime);
+    return kOk;
+}
+
+Time loadingTime(const ModuleFile& file) {
+    return kLoadingStart + kLoadingPerKib * static_cast<Time>(file.bytes.size() / 1024);
+}
+
+Status checkReferencesOf(TaskCore* task) {
+    const Task& owner = taskOf(task);
+    Controller& controller = owner.controller();
+    ModuleLoader* const loader = units(controller).loader;
+    if (loader == nullptr) return kOk; // a built program was checked when it was made
+    const std::vector<std::string> open =
+        loader->unresolved(owner.name(), static_cast<int32_t>(owner.index()), controller.tables());
+    if (open.empty()) return kOk;
+    return fail(task, err::ERR_LINKREF, "nothing in the task declares " + joined(open));
+}
+
+Status linkModule(TaskCore* task, const ModuleFile& file, bool dynamic, bool checkReferences) {
+    const Task& owner = taskOf(task);
+    Controller& controller = owner.controller();
+    const auto index = static_cast<int32_t>(owner.index());
+    ModuleLoader* const loader = units(controller).loader;
+    if (loader == nullptr)
+        return fail(
+            task, err::ERR_IOERROR,
+            fmt::format(
+                "{} cannot be loaded: an executable made by `rapidc build` has no compiler for modules "
+                "that come while it runs. Run the program with `rapidc run`, or build it with the module",
+                file.shown));
+    const LoadResult result =
+        loader->make({owner.name(), index, file.path, file.shown, file.bytes}, controller.tables());
+    if (result.verdict == LoadResult::Verdict::Loaded)
+        return fail(task, err::ERR_LOADED,
+                    fmt::format("module {} of {} is loaded already", result.module, file.shown));
+    if (result.verdict == LoadResult::Verdict::Wrong)
+        return fail(task, err::ERR_SYNTAX, fmt::format("{} has errors:\n{}", file.shown, result.problems));
+    if (!connectUnit(controller, *result.unit))
+        return fail(task, err::ERR_SYNTAX,
+                    fmt::format("{} names a signal or unit that is not configured", file.shown));
+    LoadedModule module;
+    module.name = result.module;
+    module.task = index;
+    module.file = file.path;
+    module.dynamic = dynamic;
+    module.fileTime = file.time;
+    units(controller).declared[result.unit] = persistentsOf(*result.unit);
+    controller.tables().addUnit(*result.unit, std::move(module));
+    const Status status = checkReferences ? checkReferencesOf(task) : kOk;
+    if (status != kOk) controller.tables().remove(index, result.module);
+    return status;
+}
+
+Status unloadFile(TaskCore* task, const String& directory, const String* file) {
+    const Task& owner = taskOf(task);
+    Controller& controller = owner.controller();
+    const auto index = static_cast<int32_t>(owner.index());
+    const std::string shown = written(directory, file);
+    std::string path;
+    const LoadedModule* module =
+        hostPath(task, directory, file, path) ? controller.tables().findFile(index, path) : nullptr;
+    if (module == nullptr)
+        return fail(task, err::ERR_UNLOAD,
+                    fmt::format("no module has been loaded from {} by this task", shown));
+    if (executes(controller, *module))
+        return fail(task, err::ERR_UNLOAD, fmt::format("module {} is executing", module->name));
+    controller.tables().remove(index, std::string(module->name));
+    return kOk;
+}
+
+} // namespace rt::lib
+
+using namespace rt;
+
+extern "C" {
+
+Status rt_Load(TaskCore* task, bool Dynamic, const String* FilePath, const String* File, bool CheckRef) {
+    lib::ModuleFile file;
+    if (const Status status = lib::readModule(task, *FilePath, File, file); status != kOk) return status;
+    if (const Status status = taskOf(task).sleepFor(lib::loadingTime(file)); status != kOk) return status;
+    return lib::linkModule(task, file, Dynamic, CheckRef);
+}
+
+Status rt_UnLoad(TaskCore* task, bool ErrIfChanged, bool Save, const String* FilePath, const String* File) {
+    const Task& owner = taskOf(task);
+    Controller& controller = owner.controller();
+    std::string path;
+    const LoadedModule* module = lib::hostPath(task, *FilePath, File, path)
+                                     ? controller.tables().findFile(static_cast<int32_t>(owner.index()), path)
+                                     : nullptr;
+    if (module != nullptr && (ErrIfChanged || Save)) {
+        const bool changed = lib::isChanged(controller, *module);
+        if (changed && ErrIfChanged)
+            return lib::fail(
+                task, err::ERR_NOTSAVED,
+                fmt::format("persistents of module {} have changed since it was loaded", module->name));
+        if (changed)
+            return lib::fail(
+                task, err::ERR_UNLOAD,
+                fmt::format("module {} cannot be saved: a module loaded while the program runs has no writer",
+                            module->name));
+    }
+    return lib::unloadFile(task, *FilePath, File);
+}
+
+Status rt_EraseModule(TaskCore* task, const String* ModuleName) {
+    const Task& owner = taskOf(task);
+    Controller& controller = owner.controller();
+    const auto index = static_cast<int32_t>(owner.index());
+    const LoadedModule* module = controller.tables().findModule(index, ModuleName->view());
+    if (module == nullptr)
+        return lib::fail(task, err::ERR_MODULE, fmt::format("there is no module {}", ModuleName->view()));
+    if (lib::executes(controller, *module))
+        return lib::fail(task, err::ERR_MODULE, fmt::format("module {} is executing", module->name));
+    const bool compiledIn = module->unit == nullptr;
+    const std::string name = module->name;
+    controller.tables().remove(index, name);
+    if (ModuleLoader* loader = units(controller).loader; compiledIn && loader != nullptr) {
+        const auto open = loader->unresolved(owner.name(), index, controller.tables());
+        if (!open.empty()) controller.log().write(EventId::StillReferred, &owner, {name, lib::joined(open)});
+    }
+    return kOk;
+}
+
+Status rt_CheckProgRef(TaskCore* task) {
+    return lib::checkReferencesOf(task);
+}
+}
