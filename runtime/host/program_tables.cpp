@@ -71,12 +71,28 @@ bool ProgramTables::remove(int32_t task, std::string_view module) {
         return m.task == task && sameName(m.name, module);
     });
     if (found == modules_.end()) return false;
-    const auto inModule = [&](const auto* entry) {
-        return entry->task == task && sameName(entry->module, module);
-    };
-    std::erase_if(globals_, inModule);
-    std::erase_if(routines_, inModule);
-    std::erase_if(routineData_, inModule);
+    if (const ProgramDesc* unit = found->unit; unit != nullptr) {
+        // All it brought, persistents as well: those that others declare are in their tables, too.
+        const auto within = [](const auto* entry, const auto* first, uint32_t count) {
+            return entry >= first && entry < first + count;
+        };
+        std::erase_if(globals_, [&](const GlobalDesc* entry) {
+            return (entry->flags & kDataPredefined) == 0 && within(entry, unit->globals, unit->globalCount);
+        });
+        std::erase_if(routines_, [&](const RoutineEntry* entry) {
+            return within(entry, unit->routines, unit->routineCount);
+        });
+        std::erase_if(routineData_, [&](const RoutineDataDesc* entry) {
+            return within(entry, unit->routineData, unit->routineDataCount);
+        });
+    } else {
+        const auto inModule = [&](const auto* entry) {
+            return entry->task == task && sameName(entry->module, module);
+        };
+        std::erase_if(globals_, inModule);
+        std::erase_if(routines_, inModule);
+        std::erase_if(routineData_, inModule);
+    }
     modules_.erase(found);
     index();
     return true;

@@ -17,15 +17,14 @@ namespace diag = rapid::diag;
 
 namespace {
 
-/// "HOME:/part.modx:3:5: error[RAP2104]: ..."
+/// "HOME:/part.modx:3:5: cannot assign 'string' to 'num' (RAP2104)"
 std::string shortText(const diag::Diagnostic& diagnostic) {
     std::string place;
     if (diagnostic.file) {
         const rapid::LineColumn at = diagnostic.file->lineColumn(diagnostic.range.begin);
         place = fmt::format("{}:{}:{}: ", diagnostic.file->path(), at.line, at.column);
     }
-    return fmt::format("{}{}[{}]: {}", place, diag::severityName(diagnostic.severity),
-                       diag::codeName(diagnostic.code), diagnostic.message);
+    return fmt::format("{}{} ({})", place, diagnostic.message, diag::codeName(diagnostic.code));
 }
 
 std::string problemsOf(const diag::Sink& sink) {
@@ -62,7 +61,7 @@ std::string unknownTypes(const sema::Module& module) {
         const rapid::LineColumn at =
             module.tree->source->lineColumn(module.tree->range(symbol.nameToken).begin);
         text +=
-            fmt::format("{}{}:{}:{}: error: the type of '{}' is declared nowhere", text.empty() ? "" : "\n",
+            fmt::format("{}{}:{}:{}: the type of '{}' is declared nowhere", text.empty() ? "" : "\n",
                         module.tree->source->path(), at.line, at.column, symbol.name);
     };
     for (const sema::DataSymbol* data : module.data)
