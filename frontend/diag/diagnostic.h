@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace rapid::diag {
@@ -51,7 +52,11 @@ struct Diagnostic {
 /// Collects the diagnostics of one run; keeps the order of reporting until sorted.
 class Sink {
   public:
+    /// That many errors, and that many warnings, are kept of one file; a note says that there were more.
+    static constexpr uint32_t kMaxPerFile = 1000;
+
     /// Reports `code`. `args` replace {0}, {1}, ... in the catalogue text; their number must match the catalogue.
+    /// The reference is good until the next report.
     Diagnostic& report(Code code, const std::shared_ptr<const SourceFile>& file, SourceRange range,
                        std::span<const std::string> args);
     Diagnostic& report(Code code, const std::shared_ptr<const SourceFile>& file, SourceRange range,
@@ -70,7 +75,15 @@ class Sink {
     void add(std::span<const Diagnostic> diagnostics);
 
   private:
+    struct Kept {
+        uint32_t errors = 0;
+        uint32_t warnings = 0;
+    };
+    bool isOneTooMany(const std::shared_ptr<const SourceFile>& file, SourceRange range, Severity severity);
+
     std::vector<Diagnostic> all_;
+    Diagnostic dropped_; ///< what callers add notes and fixes to when there are too many
+    std::unordered_map<const SourceFile*, Kept> kept_;
     size_t errorCount_ = 0;
 };
 

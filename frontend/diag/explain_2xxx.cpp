@@ -308,6 +308,11 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "RECORD part\n"
      "  pos place;\n"
      "ENDRECORD"},
+    {2048, Kind::Module,
+     "LOCAL and TASK persistents must have an initial value (manual 1.2.2), and data of non-value and "
+     "semi-value types cannot have one (manual 1.2.1).",
+     "LOCAL PERS clock watch;",
+     "LOCAL VAR clock watch;"},
     {2104, Kind::Body,
      "The value must have the type of the data it is assigned to; an alias counts as the type it "
      "stands for, and arrays must have the same dimensions (manual 1.2.1, 1.3.2). Convert with "

@@ -212,6 +212,15 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "controller, and this one is not among them: the controller does not know the name.",
      "",
      "TPWrite \"without options\";"},
+    {4026, Kind::Module,
+     "Arguments without a name belong to the parameters in their order (manual 1.1.5, 1.3.4). Here each of two "
+     "arguments has the data type of the other one.",
+     "PROC go(robtarget p)\n"
+     "  MoveL p, fine, v100, tool0;\n"
+     "ENDPROC",
+     "PROC go(robtarget p)\n"
+     "  MoveL p, v100, fine, tool0;\n"
+     "ENDPROC"},
 });
 // clang-format on
 

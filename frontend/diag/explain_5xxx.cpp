@@ -142,6 +142,19 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "background (manual 1.20).",
      "",
      "TPWrite \"watching\";"},
+    {5026, Kind::Module,
+     "The list after ERROR names the errors that the handler is for: error constants, the numbers 1 to 90 "
+     "that RAISE takes, or data that got a number from BookErrNo (manual 1.12).",
+     "PROC main()\n"
+     "  reg1 := 1 / reg2;\n"
+     "ERROR (0)\n"
+     "  RETURN;\n"
+     "ENDPROC",
+     "PROC main()\n"
+     "  reg1 := 1 / reg2;\n"
+     "ERROR (ERR_DIVZERO)\n"
+     "  RETURN;\n"
+     "ENDPROC"},
     {5030, Kind::Body,
      "BREAK leaves a loop and CONTINUE begins its next turn; there is none here (manual 1.5).",
      "BREAK;",
@@ -170,6 +183,15 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "reg1 := 1;\n"
      "ERROR\n"
      "RETRY;"},
+    {5033, Kind::Body,
+     "FOR adds STEP to the loop variable until that has passed the end value (manual 1.5). Adding 0 never gets "
+     "there; without STEP the loop counts by 1.",
+     "FOR i FROM 1 TO 10 STEP 0 DO\n"
+     "  reg1 := i;\n"
+     "ENDFOR",
+     "FOR i FROM 1 TO 10 STEP 2 DO\n"
+     "  reg1 := i;\n"
+     "ENDFOR"},
     {5040, Kind::Module,
      "CONNECT stores the identity of the interrupt in a variable of type intnum (manual 1.11).",
      "VAR num i1;\n"

@@ -45,16 +45,33 @@ Diagnostic& Diagnostic::fix(SourceRange place, std::string replacement, bool cer
 
 Diagnostic& Sink::report(Code code, const std::shared_ptr<const SourceFile>& file, SourceRange range,
                          std::span<const std::string> args) {
-    Diagnostic diagnostic;
+    const CatalogueEntry* entry = findEntry(static_cast<uint16_t>(code));
+    const Severity severity = entry ? entry->severity : Severity::Error;
+    if (severity == Severity::Error) ++errorCount_;
+    if (isOneTooMany(file, range, severity)) return dropped_ = Diagnostic();
+    Diagnostic& diagnostic = all_.emplace_back();
     diagnostic.code = code;
+    diagnostic.severity = severity;
     diagnostic.file = file;
     diagnostic.range = range;
-    if (const CatalogueEntry* entry = findEntry(static_cast<uint16_t>(code))) {
-        diagnostic.severity = entry->severity;
-        diagnostic.message = formatText(entry->text, args);
+    if (entry) diagnostic.message = formatText(entry->text, args);
+    return diagnostic;
+}
+
+bool Sink::isOneTooMany(const std::shared_ptr<const SourceFile>& file, SourceRange range, Severity severity) {
+    if (!file || severity == Severity::Note) return false;
+    Kept& kept = kept_[file.get()];
+    const bool error = severity == Severity::Error;
+    uint32_t& count = error ? kept.errors : kept.warnings;
+    if (count < kMaxPerFile) {
+        ++count;
+        return false;
     }
-    if (diagnostic.severity == Severity::Error) ++errorCount_;
-    return all_.emplace_back(std::move(diagnostic));
+    if (count == kMaxPerFile) {
+        ++count;
+        report(Code::TooManyErrors, file, range, {error ? "errors" : "warnings"});
+    }
+    return true;
 }
 
 void Sink::revise(const std::function<bool(Diagnostic&)>& keep) {
@@ -65,6 +82,7 @@ void Sink::revise(const std::function<bool(Diagnostic&)>& keep) {
 
 std::vector<Diagnostic> Sink::take() {
     errorCount_ = 0;
+    kept_.clear();
     return std::exchange(all_, {});
 }
 

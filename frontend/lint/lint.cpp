@@ -275,11 +275,16 @@ void TaskLint::hiding(const Symbol& symbol, const char* kind) {
     const Symbol* hidden =
         symbol.nameId < predefined_.byName.size() ? predefined_.byName[symbol.nameId] : nullptr;
     if (!hidden || symbol.nameToken == kNoToken) return;
+    const auto* data = symbol.kind == SymbolKind::Data ? static_cast<const DataSymbol*>(&symbol) : nullptr;
+    // Optional parameters are often named as those of the instructions they are passed on to (\InPos).
+    if (data && data->optional && hidden->kind == SymbolKind::Data) return;
     const char* what = "the predefined data";
     if (hidden->kind == SymbolKind::Type) what = "the predefined data type";
     if (hidden->kind == SymbolKind::Routine) {
         const auto& routine = static_cast<const RoutineSymbol&>(*hidden);
         if (!routine.option.empty()) return; // not there on every controller
+        // Inside a routine nobody takes data for an instruction or a function; what calls it there is an error.
+        if (data && data->routine) return;
         what = routine.routineKind == RoutineKind::Func ? "the predefined function"
                                                         : "the predefined instruction";
     }

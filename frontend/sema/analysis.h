@@ -57,6 +57,13 @@ struct JumpPoint {
     LabelSymbol* label = nullptr;
 };
 
+/// An argument whose type is not that of its parameter.
+struct Mismatch {
+    const DataSymbol* param = nullptr;
+    const syntax::Expr* value = nullptr;
+    DataType found;
+};
+
 /// What is being checked now.
 struct Context {
     Module* module = nullptr;
@@ -157,8 +164,8 @@ class Analyzer {
     void reportMayBeDeclared(syntax::TokenIndex token, const std::string& hint);
     Suggestion suggestion(NameId name, Wanted wanted);
     static std::string didYouMean(std::string_view name);
-    static const Type::Component* nearComponent(const Type& record, std::string_view name);
-    const DataSymbol* nearOptional(const RoutineSymbol& routine, NameId name) const;
+    const Type::Component* nearComponent(const Type& record, std::string_view name);
+    const DataSymbol* nearOptional(const RoutineSymbol& routine, NameId name);
 
     // ---- names (lookup.cpp)
     NameId idOf(syntax::TokenIndex token) { return interner_.intern(context_.tree->text(token)); }
@@ -284,7 +291,8 @@ class Analyzer {
     void reportNotAFunction(const syntax::CallExpr& e, const Symbol& symbol);
     /// `isLast`: nothing follows that would have to stand before it.
     size_t matchUnmarked(const RoutineSymbol& routine, const syntax::Argument& arg, bool isLast);
-    static size_t namedOptional(const RoutineSymbol& routine, NameId name);
+    size_t namedParameter(const RoutineSymbol& routine, NameId name);
+    size_t namedOptional(const RoutineSymbol& routine, NameId name);
     void checkDim(const syntax::CallExpr& e, const RoutineSymbol& routine);
     void bindCall(const syntax::Node& node, RoutineSymbol& routine, syntax::TokenIndex name,
                   std::span<syntax::Argument* const> args);
@@ -307,6 +315,9 @@ class Analyzer {
     void judgeConditional(const RoutineSymbol& routine, const BoundArg& bound, const syntax::Expr& e);
     void checkReference(const RoutineSymbol& routine, const BoundArg& bound);
     void judgeReference(const RoutineSymbol& routine, const BoundArg& bound, const Place& place);
+    void reportArguments(const BoundCall& call, syntax::TokenIndex name, size_t firstMismatch, bool missing);
+    const DataSymbol* leftOut(const BoundCall& call);
+    bool reportEqualAsAssign(const BoundArg& bound);
     void judgeValue(const RoutineSymbol& routine, const BoundArg& bound, Typed t);
     void checkAccess(const RoutineSymbol& routine, const BoundArg& bound, const Place& place);
     void reportAccess(const RoutineSymbol& routine, const BoundArg& bound, const Symbol* symbol,
@@ -323,12 +334,16 @@ class Analyzer {
     void declareInRoutine(Symbol& symbol);
     void declareRoutineData(const syntax::DataDecl& decl);
     void checkErrorNumber(const syntax::Expr& e, const char* what);
+    void checkListedError(const syntax::Expr& e);
+    bool mayBeErrorNumber(const syntax::Expr& e);
     bool checkPart(Part part, syntax::StmtList list);
     bool movesRobot(const RoutineSymbol& routine) const;
     void callInUndo(const RoutineSymbol& routine, syntax::TokenIndex name);
     bool block(syntax::StmtList list); ///< a new block; whether its end can be reached
     bool statements(syntax::StmtList list);
     bool statement(const syntax::Stmt& s);
+    bool isCallWord(const syntax::CallStmt& s);
+    bool wholeStatement(const syntax::Stmt& s);
     bool ifStmt(const syntax::IfStmt& s);
     bool testStmt(const syntax::TestStmt& s);
     void testValues(const syntax::TestStmt& s, Typed subject);
@@ -347,6 +362,7 @@ class Analyzer {
     void placeholder(const syntax::Node& node);
     void loopWord(const syntax::Stmt& s, const char* word);
     void resolveJumps();
+    std::string nearLabel(NameId name);
     void reportUntestedOptionals();
     bool hasErrorHandler() const {
         return context_.routine && !context_.routine->routineDecl->errors.empty();
@@ -390,11 +406,20 @@ class Analyzer {
     std::vector<const syntax::Expr*> bigLiterals_;
     std::vector<const syntax::BinaryExpr*> spine_;
     std::vector<const syntax::Argument*> judged_; ///< arguments judged already to choose an alternative
+    const RoutineSymbol* wideRoutine_ = nullptr;  ///< one with very many parameters, and their names
+    NameMap<DataSymbol> wideNames_;
     /// Declarations being resolved inside each other; more than this nobody writes, and the stack is finite.
     static constexpr unsigned kMaxDepth = 500;
     unsigned depth_ = 0;
-    static constexpr unsigned kMaxSuggestions = 200;
-    unsigned suggestionsLeft_ = kMaxSuggestions; ///< in the task: they cost time, and nobody reads more
+    static constexpr size_t kMaxComparisons = 4'000'000;
+    size_t comparisonsLeft_ = kMaxComparisons; ///< of names with misspelt ones, in the task: they cost time
+    static constexpr size_t kMaxPartComparisons = 200'000;
+    size_t partComparisonsLeft_ =
+        kMaxPartComparisons; ///< of labels, components and parameters, in the routine
+
+    bool muted_ = false; ///< in what could not be read as a whole, which is reported
+    diag::Diagnostic unsaid_;
+    std::vector<Mismatch> mismatches_; ///< arguments of the wrong type, of the calls being checked
 
     // of the routine being checked
     Part part_ = Part::Body;
@@ -407,6 +432,7 @@ class Analyzer {
     uint32_t block_ = 0;
     std::vector<uint32_t> blockParents_;
     std::vector<JumpPoint> labels_;
+    NameMap<LabelSymbol> labelNames_;
     std::vector<JumpPoint> gotos_;
 };
 

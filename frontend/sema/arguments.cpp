@@ -49,6 +49,7 @@ void Analyzer::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
         checkPresent(bound);
         return;
     }
+    if (reportEqualAsAssign(bound)) return;
     const bool byReference = param.mode != ParamMode::In || param.type.type->kind == TypeKind::SemiValue;
     if (byReference) {
         // An argument that is absent is something ArgName may be asked about.
@@ -62,6 +63,74 @@ void Analyzer::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
     }
 }
 
+// `name = value` as an argument, where `name` is that of the parameter and nothing else.
+bool Analyzer::reportEqualAsAssign(const BoundArg& bound) {
+    if (bound.value->kind != NodeKind::Binary) return false;
+    const auto& equal = as<BinaryExpr>(*bound.value);
+    if (equal.op != BinaryOp::Eq || equal.left->kind != NodeKind::Name) return false;
+    const TokenIndex name = as<NameExpr>(*equal.left).name;
+    if (!isName(name) || idOf(name) != bound.param->nameId || lookup(idOf(name))) return false;
+    report(Code::EqualInAssignment, range(equal.opToken)).fix(range(equal.opToken), ":=");
+    visitLoose(*equal.right);
+    return true;
+}
+
+// The required parameter whose argument is missing in the middle: the arguments behind it fit the parameters after it.
+const DataSymbol* Analyzer::leftOut(const BoundCall& call) {
+    std::vector<const DataSymbol*> params;
+    std::vector<const DataType*> given;
+    for (const BoundArg& bound : call.args) {
+        if (bound.param->optional) continue;
+        if (bound.param->requiredAlternative) return nullptr;
+        params.push_back(bound.param);
+        if (bound.argument && bound.value) given.push_back(&info(*bound.value).type);
+    }
+    if (params.size() != given.size() + 1) return nullptr;
+    const auto fit = [&](size_t i, size_t param) {
+        const DataType& want = params[param]->type;
+        return given[i]->type && (want.type->kind == TypeKind::AnyType || equivalent(*given[i], want));
+    };
+    size_t out = 0;
+    while (out < given.size() && fit(out, out))
+        ++out;
+    for (size_t i = out; i < given.size(); ++i)
+        if (!fit(i, i + 1)) return nullptr;
+    return params[out];
+}
+
+// Arguments of the wrong type, and those that are missing. Two that have changed places, or one that is missing in the
+// middle, are one mistake.
+void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t firstMismatch, bool missing) {
+    const std::vector<Mismatch> wrong(mismatches_.begin() + static_cast<std::ptrdiff_t>(firstMismatch),
+                                      mismatches_.end());
+    mismatches_.resize(firstMismatch);
+    const RoutineSymbol& routine = *call.routine;
+    if (missing && !wrong.empty()) {
+        if (const DataSymbol* lost = leftOut(call)) {
+            noteDeclared(report(Code::MissingArgument, range(name), {text(name), "'" + lost->name + "'"}),
+                         routine);
+            return;
+        }
+    }
+    if (missing) reportMissing(call, name);
+    if (wrong.size() == 2 && equivalent(wrong[0].found, wrong[1].param->type) &&
+        equivalent(wrong[1].found, wrong[0].param->type)) {
+        const Expr &first = *wrong[0].value, &second = *wrong[1].value;
+        diag::Diagnostic& d = report(Code::ArgumentsSwapped, range(first),
+                                     {wrong[0].param->name, wrong[1].param->name, routine.name});
+        const std::string_view source = context_.tree->source->text();
+        const auto written = [&](const Expr& e) {
+            return std::string(source.substr(range(e).begin, range(e).end - range(e).begin));
+        };
+        d.fixes.push_back(
+            {"let them change places", {{range(first), written(second)}, {range(second), written(first)}}});
+        return;
+    }
+    for (const Mismatch& one : wrong)
+        report(Code::ArgumentType, range(*one.value),
+               {one.param->name, routine.name, typeName(one.found), typeName(one.param->type)});
+}
+
 void Analyzer::judgeValue(const RoutineSymbol& routine, const BoundArg& bound, Typed t) {
     const DataSymbol& param = *bound.param;
     if (t.isError()) return;
@@ -70,8 +139,7 @@ void Analyzer::judgeValue(const RoutineSymbol& routine, const BoundArg& bound, T
         return;
     }
     if (fits(*bound.value, t, param.type)) return;
-    report(Code::ArgumentType, range(*bound.value),
-           {param.name, routine.name, typeName(*t.info), typeName(param.type)});
+    mismatches_.push_back({&param, bound.value, t.info->type});
 }
 
 void Analyzer::checkReference(const RoutineSymbol& routine, const BoundArg& bound) {
@@ -98,8 +166,7 @@ void Analyzer::judgeReference(const RoutineSymbol& routine, const BoundArg& boun
     if (param.type.type->kind == TypeKind::AnyType) {
         if (!checkClass(routine, bound, found)) return;
     } else if (!equivalent(found, param.type)) {
-        report(Code::ArgumentType, range(*bound.value),
-               {param.name, routine.name, typeName(found), typeName(param.type)});
+        mismatches_.push_back({&param, bound.value, found});
         return;
     }
     if (param.mode != ParamMode::In && param.mode != ParamMode::Ref) checkAccess(routine, bound, place);

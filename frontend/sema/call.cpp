@@ -63,8 +63,9 @@ void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex nam
         return;
     }
     const size_t judgedBefore = judged_.size();
+    const size_t mismatchesBefore = mismatches_.size();
     const bool complete = matchArguments(call, name, args);
-    if (complete && endsWell(name, args)) reportMissing(call, name);
+    const bool mayMiss = complete && endsWell(name, args);
     checkExclusive(call);
     for (BoundArg& bound : call.args) {
         if (!bound.argument) continue;
@@ -72,6 +73,8 @@ void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex nam
         if (std::find(begin, judged_.end(), bound.argument) == judged_.end()) checkArgument(routine, bound);
     }
     judged_.resize(judgedBefore);
+    if (mayMiss || mismatches_.size() > mismatchesBefore)
+        reportArguments(call, name, mismatchesBefore, mayMiss);
 }
 
 // Whether the arguments were read to their end: after a syntax error in a call nothing is said to be missing.
@@ -183,11 +186,28 @@ size_t Analyzer::matchRequired(BoundCall& call, const Argument& arg, size_t slot
     return slot;
 }
 
+// The parameter of a name, or kNoParam.
+size_t Analyzer::namedParameter(const RoutineSymbol& routine, NameId name) {
+    constexpr size_t kMany = 64;
+    if (routine.params.size() < kMany) {
+        for (size_t i = 0; i < routine.params.size(); ++i)
+            if (routine.params[i]->nameId == name) return i;
+        return kNoParam;
+    }
+    if (wideRoutine_ != &routine) {
+        wideRoutine_ = &routine;
+        wideNames_ = {};
+        for (DataSymbol* param : routine.params)
+            if (!wideNames_.find(param->nameId)) wideNames_.set(param->nameId, param);
+    }
+    const DataSymbol* param = wideNames_.find(name);
+    return param ? param->index : kNoParam;
+}
+
 // The optional parameter of a name, or kNoParam.
 size_t Analyzer::namedOptional(const RoutineSymbol& routine, NameId name) {
-    for (size_t i = 0; i < routine.params.size(); ++i)
-        if (routine.params[i]->nameId == name && routine.params[i]->optional) return i;
-    return kNoParam;
+    const size_t i = namedParameter(routine, name);
+    return i != kNoParam && routine.params[i]->optional ? i : kNoParam;
 }
 
 // An optional argument without its backslash.
@@ -204,13 +224,12 @@ size_t Analyzer::matchOptional(BoundCall& call, const Argument& arg, TokenIndex)
     const RoutineSymbol& routine = *call.routine;
     if (!isName(arg.name)) return kNoParam;
     const NameId name = idOf(arg.name);
-    for (size_t i = 0; i < routine.params.size(); ++i) {
+    if (const size_t i = namedParameter(routine, name); i != kNoParam) {
         const DataSymbol& param = *routine.params[i];
-        if (param.nameId != name) continue;
         if (!param.optional)
             report(arg.argKind == ArgKind::Conditional ? Code::ConditionalRequired : Code::NotOptional,
                    range(arg.name), {routine.name, param.name});
-        return i;
+        return !param.optional && call.args[i].argument ? kNoParam : i; // given once more: one report will do
     }
     const DataSymbol* near = nearOptional(routine, name);
     diag::Diagnostic& d =

@@ -115,7 +115,7 @@ void Analyzer::declareInModule(Symbol& symbol, ModuleScope& scope) {
     put(table, symbol.nameId, &symbol);
 }
 
-// A module must not have the name of global data or of a global routine (manual 1.1.3).
+// A module must not have the name of global data or of a global routine (manual 1.1.3), nor of a global data type.
 void Analyzer::checkModuleNames(std::span<Module* const> modules) {
     for (Module* module : modules) {
         enterModule(module);
@@ -123,6 +123,8 @@ void Analyzer::checkModuleNames(std::span<Module* const> modules) {
             if (symbol.isLocal || !moduleNames_.find(symbol.nameId)) return;
             report(Code::NameOfModule, range(symbol.nameToken), {symbol.name, what});
         };
+        for (const TypeSymbol* type : module->types)
+            check(*type, "data type");
         for (const DataSymbol* data : module->data)
             check(*data, "data");
         for (const RoutineSymbol* routine : module->routines)

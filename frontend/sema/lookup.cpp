@@ -207,6 +207,14 @@ void Analyzer::gatherSignalUses(const Expr* e) {
 
 void Analyzer::gatherSignalUses(const RoutineSymbol& routine, std::span<Argument* const> args) {
     size_t next = nextRequired(routine, 0);
+    const Type* partner = nullptr; // AliasIO(name, signal): a signal of that type
+    for (const Argument* a : args) {
+        if (!a->value || a->value->kind != NodeKind::Name || !routine.predefined) continue;
+        DataSymbol* data = asData(lookupOutside(idOf(as<NameExpr>(*a->value).name)));
+        if (!data || data->storage != Storage::ModuleData) continue;
+        ensureData(*data);
+        if (data->type.type->kind == TypeKind::SemiValue) partner = data->type.type;
+    }
     for (const Argument* a : args) {
         const DataSymbol* param = nullptr;
         if (a->argKind == ArgKind::Required) {
@@ -219,8 +227,11 @@ void Analyzer::gatherSignalUses(const RoutineSymbol& routine, std::span<Argument
         }
         if (!param || !a->value || a->value->kind != NodeKind::Name) continue;
         const NameId name = idOf(as<NameExpr>(*a->value).name);
-        if (param->type.type->kind == TypeKind::SemiValue && !signalUses_.find(name) && !lookupOutside(name))
-            signalUses_.set(name, param->type.type);
+        const bool either =
+            param->accepts == ParamClass::SignalOrString || param->accepts == ParamClass::Signal;
+        const Type* type = either ? partner : param->type.type;
+        if (type && type->kind == TypeKind::SemiValue && !signalUses_.find(name) && !lookupOutside(name))
+            signalUses_.set(name, type);
     }
 }
 

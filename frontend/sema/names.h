@@ -59,6 +59,7 @@ template <class T> class NameMap {
             return;
         }
     }
+    size_t size() const { return count_; }
     template <class F> void forEach(F&& visit) const {
         for (const Slot& s : slots_)
             if (s.value) visit(s.name, s.value);

@@ -143,7 +143,7 @@ void Analyzer::clearLooseEnds() {
     brokenTrees_.clear();
     for (const TaskFile& file : files_)
         if (file.broken) brokenTrees_.push_back(program_.trees[file.slot].get());
-    suggestionsLeft_ = kMaxSuggestions;
+    comparisonsLeft_ = kMaxComparisons;
 }
 
 bool Analyzer::replaceTree(size_t index, std::unique_ptr<SyntaxTree> tree, bool broken) {

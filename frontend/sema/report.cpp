@@ -19,6 +19,7 @@ std::string Analyzer::text(const Node& node) const {
 }
 
 diag::Diagnostic& Analyzer::report(Code code, SourceRange where, std::initializer_list<std::string> args) {
+    if (muted_) return unsaid_ = diag::Diagnostic();
     return sink_.report(code, context_.tree->source, where, args);
 }
 

@@ -19,6 +19,7 @@ void Analyzer::ensureData(DataSymbol& symbol) {
     const Context saved = context_;
     if (!symbol.routine) enterModule(symbol.module);
     const auto& decl = as<DataDecl>(*symbol.decl);
+    const bool outerMuted = std::exchange(muted_, decl.broken);
     const Type* type = resolveType(decl.type);
     const uint64_t elements = resolveDimensions(symbol, decl);
     symbol.type.type = type;
@@ -29,6 +30,7 @@ void Analyzer::ensureData(DataSymbol& symbol) {
     symbol.progress = Progress::Done;
     if (symbol.predefined) applyDataAttributes(symbol);
     checkDeclaration(symbol);
+    muted_ = outerMuted;
     context_ = saved;
 }
 
@@ -41,9 +43,12 @@ void Analyzer::checkDeclaration(DataSymbol& symbol) {
         report(Code::ConstantNonValue, range(symbol.nameToken), {symbol.name, type.name});
     else if (!isValueType(type) && decl.init)
         report(Code::NonValueInit, range(*decl.init), {symbol.name, type.name});
-    if (symbol.dataKind == DataKind::Pers && !decl.init && decl.scope != ScopeWord::None && isValueType(type))
-        report(Code::PersWithoutValue, range(symbol.nameToken),
-               {symbol.name, decl.scope == ScopeWord::Local ? "LOCAL" : "TASK"});
+    if (symbol.dataKind != DataKind::Pers || decl.init || decl.scope == ScopeWord::None) return;
+    const char* scope = decl.scope == ScopeWord::Local ? "LOCAL" : "TASK";
+    if (isValueType(type))
+        report(Code::PersWithoutValue, range(symbol.nameToken), {symbol.name, scope});
+    else
+        report(Code::PersNonValue, range(symbol.nameToken), {symbol.name, scope, type.name});
 }
 
 // Gives the number of elements; it stops counting at kMaxLeaves.
@@ -97,7 +102,9 @@ void Analyzer::ensureValue(DataSymbol& symbol) {
     if (decl.init) {
         const Context saved = context_;
         if (!symbol.routine) enterModule(symbol.module);
+        const bool outerMuted = std::exchange(muted_, decl.broken);
         initialise(symbol, decl);
+        muted_ = outerMuted;
         context_ = saved;
     }
     --depth_;

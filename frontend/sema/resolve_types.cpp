@@ -67,6 +67,7 @@ const Type* Analyzer::ensureType(TypeSymbol& symbol) {
     }
     symbol.progress = Progress::Active;
     ++depth_;
+    const bool outerMuted = std::exchange(muted_, false);
     Type& type = *symbol.type;
     if (type.kind == TypeKind::Error) { // not one of the atomic types, which exist beforehand
         type.kind = TypeKind::Record;
@@ -78,6 +79,7 @@ const Type* Analyzer::ensureType(TypeSymbol& symbol) {
         if (symbol.predefined) applyTypeAttributes(symbol);
     }
     --depth_;
+    muted_ = outerMuted;
     symbol.progress = Progress::Done;
     context_ = saved;
     return symbol.type;

@@ -2,6 +2,8 @@
 
 #include "frontend/sema/analysis.h"
 
+#include <algorithm>
+
 namespace rapid::sema {
 
 using namespace syntax;
@@ -20,6 +22,9 @@ void Analyzer::checkRoutine(RoutineSymbol& symbol) {
     block_ = kNoBlock;
     blockParents_.clear();
     labels_.clear();
+    labelNames_ = {};
+    wideRoutine_ = nullptr;
+    partComparisonsLeft_ = kMaxPartComparisons;
     gotos_.clear();
 
     for (DataSymbol* param : symbol.params)
@@ -37,7 +42,7 @@ void Analyzer::checkRoutine(RoutineSymbol& symbol) {
     checkPart(Part::Backward, decl.backward);
     for (const ErrorClause* clause : decl.errors) {
         for (const Expr* number : clause->numbers)
-            checkErrorNumber(*number, "ERROR");
+            checkListedError(*number);
         checkPart(Part::Error, clause->body);
     }
     checkPart(Part::Undo, decl.undo);
@@ -99,9 +104,8 @@ bool Analyzer::isInside(uint32_t inner, uint32_t outer) const {
 void Analyzer::labelStmt(const LabelStmt& s) {
     if (!isName(s.name)) return;
     const NameId name = idOf(s.name);
-    for (const JumpPoint& other : labels_) {
-        if (other.name != name) continue;
-        noteDeclared(report(Code::DuplicateLabel, range(s.name), {text(s.name)}), *other.label);
+    if (const LabelSymbol* other = labelNames_.find(name)) {
+        noteDeclared(report(Code::DuplicateLabel, range(s.name), {text(s.name)}), *other);
         return;
     }
     if (const Symbol* data = at(routineNames_, name))
@@ -109,6 +113,17 @@ void Analyzer::labelStmt(const LabelStmt& s) {
     LabelSymbol& symbol = fill(facts().labels.emplace_back(), SymbolKind::Label, s, s.name, false);
     symbol.routine = context_.routine;
     labels_.push_back({name, block_, part_, &s, &symbol});
+    labelNames_.set(name, &symbol);
+}
+
+std::string Analyzer::nearLabel(NameId name) {
+    if (partComparisonsLeft_ < labels_.size()) return {};
+    partComparisonsLeft_ -= labels_.size();
+    const std::string_view written = interner_.folded(name);
+    const unsigned limit = suggestionLimit(written.size());
+    for (const JumpPoint& label : labels_)
+        if (editDistance(written, interner_.folded(label.name), limit) <= limit) return label.label->name;
+    return {};
 }
 
 // A jump may leave IF, TEST, FOR and WHILE but never enter one, and it stays in the body or in its handler.
@@ -120,12 +135,7 @@ void Analyzer::resolveJumps() {
         const TokenIndex token = as<GotoStmt>(*jump.node).label;
         const JumpPoint* target = byName.find(jump.name);
         if (!target) {
-            std::string near;
-            const std::string_view written = interner_.folded(jump.name);
-            const unsigned limit = suggestionLimit(written.size());
-            for (const JumpPoint& label : labels_)
-                if (near.empty() && editDistance(written, interner_.folded(label.name), limit) <= limit)
-                    near = label.label->name;
+            const std::string near = nearLabel(jump.name);
             diag::Diagnostic& d = report(Code::UnknownLabel, range(token),
                                          {text(token), near.empty() ? std::string() : didYouMean(near)});
             if (!near.empty()) d.fix(range(token), near, false);
@@ -145,12 +155,16 @@ void Analyzer::resolveJumps() {
 void Analyzer::reportUntestedOptionals() {
     const std::vector<DataSymbol*>& params = context_.routine->params;
     if (hasErrorHandler()) return; // it may answer ERR_NOTPRES
+    const bool any = std::any_of(optionalUses_.begin(), optionalUses_.end(),
+                                 [](const OptionalUse& use) { return use.first != nullptr; });
+    if (!any) return;
+    std::unordered_set<uint32_t> tested; // groups
+    for (size_t i = 0; i < params.size(); ++i)
+        if (optionalUses_[i].tested) tested.insert(params[i]->group);
     for (size_t i = 0; i < params.size(); ++i) {
         if (!optionalUses_[i].first) continue;
-        bool tested = false;
-        for (size_t k = 0; k < params.size(); ++k)
-            tested |= optionalUses_[k].tested && params[k]->group == params[i]->group;
-        if (!tested) report(Code::OptionalWithoutPresent, range(*optionalUses_[i].first), {params[i]->name});
+        if (!tested.contains(params[i]->group))
+            report(Code::OptionalWithoutPresent, range(*optionalUses_[i].first), {params[i]->name});
     }
 }
 

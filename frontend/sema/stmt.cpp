@@ -20,6 +20,13 @@ bool Analyzer::statements(StmtList list) {
 
 /// Checks one instruction; whether the next one can be reached from it.
 bool Analyzer::statement(const Stmt& s) {
+    muted_ = s.broken; // instructions that contain others never are
+    const bool goesOn = wholeStatement(s);
+    muted_ = false;
+    return goesOn;
+}
+
+bool Analyzer::wholeStatement(const Stmt& s) {
     switch (s.kind) {
     case NodeKind::Assign: assign(as<AssignStmt>(s)); return true;
     case NodeKind::CallStmt: return callStmt(as<CallStmt>(s));
@@ -115,6 +122,9 @@ bool Analyzer::forStmt(const ForStmt& s) {
     bound(s.from, "start value");
     bound(s.to, "end value");
     bound(s.step, "step");
+    const ConstValue* step = s.step ? info(*s.step).constant : nullptr;
+    if (step && step->kind == ConstValue::Kind::Number && step->number == 0)
+        report(Code::ZeroStep, range(*s.step));
 
     RoutineSymbol& routine = *context_.routine;
     DataSymbol* variable = nullptr;
@@ -244,6 +254,15 @@ bool Analyzer::assignable(const Place& place, const Expr& target) {
     return false;
 }
 
+// "CALL name;"
+bool Analyzer::isCallWord(const CallStmt& s) {
+    if (interner_.folded(idOf(s.name)) != "call" || s.args.size() != 1) return false;
+    const Expr* value = s.args[0]->value;
+    if (!value || value->kind != NodeKind::Name || !isName(as<NameExpr>(*value).name)) return false;
+    const RoutineSymbol* routine = asRoutine(lookup(idOf(as<NameExpr>(*value).name)));
+    return routine && routine->routineKind == RoutineKind::Proc;
+}
+
 bool Analyzer::callStmt(const CallStmt& s) {
     if (s.lateName) {
         lateCall(s);
@@ -259,7 +278,11 @@ bool Analyzer::callStmt(const CallStmt& s) {
     if (!routine || routine->routineKind != RoutineKind::Proc) {
         if (symbol)
             reportNotCallable(*symbol, s.name);
-        else if (reportUnknown(Code::UnknownProcedure, s.name, name, Wanted::Procedure) == Meant::Keyword) {
+        else if (isCallWord(s)) {
+            report(Code::ForeignSpelling, range(s.name), {text(s.name), "the name of the procedure"})
+                .fix({range(s.name).begin, range(s.args[0]->first).begin}, "");
+            return true;
+        } else if (reportUnknown(Code::UnknownProcedure, s.name, name, Wanted::Procedure) == Meant::Keyword) {
             broken_ = true; // and its arguments are none
             return true;
         } else if (incomplete_) { // found when it is executed, or not

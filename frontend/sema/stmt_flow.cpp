@@ -55,12 +55,21 @@ void Analyzer::raiseStmt(const RaiseStmt& s) {
         return;
     }
     checkErrorNumber(*s.value, "RAISE");
-    const ExprInfo& value = info(*s.value);
-    if (!value.constant || value.constant->kind != ConstValue::Kind::Number) return;
-    if (value.symbol && value.symbol->predefined) return; // ERR_...
+    if (!mayBeErrorNumber(*s.value)) report(Code::RaiseRange, range(*s.value), {text(*s.value)});
+}
+
+// A constant is ERR_..., or a number that programs may raise; of others the value shows at run time.
+bool Analyzer::mayBeErrorNumber(const Expr& e) {
+    const ExprInfo& value = info(e);
+    if (!value.constant || value.constant->kind != ConstValue::Kind::Number) return true;
+    if (value.symbol && value.symbol->predefined) return true;
     const double number = value.constant->number;
-    if (number < 1 || number > 90 || number != std::floor(number))
-        report(Code::RaiseRange, range(*s.value), {text(*s.value)});
+    return number >= 1 && number <= 90 && number == std::floor(number);
+}
+
+void Analyzer::checkListedError(const Expr& e) {
+    checkErrorNumber(e, "ERROR");
+    if (!mayBeErrorNumber(e)) report(Code::ListedErrorNumber, range(e), {text(e)});
 }
 
 void Analyzer::connectStmt(const ConnectStmt& s) {

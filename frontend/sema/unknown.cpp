@@ -20,6 +20,48 @@ constexpr Word kInstructionWords[] = {{"goto", "GOTO"},   {"return", "RETURN"}, 
                                       {"endif", "ENDIF"}, {"endwhile", "ENDWHILE"}, {"endfor", "ENDFOR"}};
 constexpr Word kValueWords[] = {{"true", "TRUE"}, {"false", "FALSE"}};
 
+/// Names that add-ins of RobotWare declare, which no backup holds; folded, '*' for any end.
+struct AddInNames {
+    std::string_view addIn;
+    std::string_view names; ///< separated by blanks
+};
+constexpr AddInNames kAddIns[] = {
+    {"Production Manager", "menudata partdata ee_event execengine pmgr* gap_*"},
+    {"BullsEye",
+     "be_device be_scan be_tooldesign besetuptoolj bechecktcp beupdatetcp berefpointer betcpextend"},
+    {"SmartGripper (YuMi)",
+     "hand_* g_init g_calibrate g_gripin g_gripout g_jogin g_jogout g_moveto g_stop g_getpos "
+     "g_vacuumon* g_vacuumoff* g_blowon* g_blowoff* g_setforce g_setmaxspd"},
+    {"PickMaster",
+     "itmsrc itmsrctype itmtgt getitmtgt ackitmtgt nextitmtgttype qstartitmsrc qstopitmsrc flushitmsrc "
+     "resetitmsrc resetflowcount getqueuelevel"},
+    {"Lincoln ArcLink XT", "lincweldmodedata"},
+    {"Discrete Application",
+     "dadeactproc daactproc daprocml daprocmj dagetprcdescr dagetappdescr dagetnumofprocs "
+     "dagetnumofrob dagetappindex dadefprocdata dadefuserdata dadefextsig dadefprocsig "
+     "dagetcurrdata"},
+    {"Dispense", "displ dispc beaddata equipdata"},
+    {"Spot", "spotl spotj spotml spotmj calibl calibj indgunmove indgunmovereset gundata spotdata forcedata"},
+    {"Force Control",
+     "fcact fcdeact fccalib fcloadid fcpresslstart fcpressl fcpressc fcpressend fcrefline fcrefcircle "
+     "fcrefforce fcreftorque fccondpos fccondforce fccondwaitwhile fcforcevector fcspeedvector fcframe"},
+};
+
+/// The add-in that declares the name, or nothing. `whole`: the beginning of a name is not enough.
+std::string_view addInOf(std::string_view folded, bool whole) {
+    for (const AddInNames& entry : kAddIns) {
+        for (std::string_view rest = entry.names; !rest.empty();) {
+            const size_t end = std::min(rest.find(' '), rest.size());
+            std::string_view word = rest.substr(0, end);
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+            const bool prefix = word.ends_with('*');
+            if (prefix) word.remove_suffix(1);
+            if (folded == word || (prefix && !whole && folded.starts_with(word))) return entry.addIn;
+        }
+    }
+    return {};
+}
+
 /// "'a', 'b' or 'c'"; of many the first few.
 std::string listed(const std::vector<std::string>& names) {
     constexpr size_t kShown = 3;
@@ -67,6 +109,11 @@ Analyzer::Meant Analyzer::reportUnknown(Code code, TokenIndex token, NameId name
     const Suggestion best = suggestion(name, wanted);
     const std::string hint = best.name.empty() ? std::string(otherHint) : didYouMean(best.name);
     const Meant meant = best.isKeyword ? Meant::Keyword : Meant::Unknown;
+    if (const std::string_view addIn = addInOf(interner_.folded(name), !best.name.empty()); !addIn.empty()) {
+        if (reportedNames_.insert(name).second)
+            report(Code::MayBeDeclared, range(token), {text(token), "the add-in " + std::string(addIn), ""});
+        return Meant::Unknown;
+    }
     if (incomplete_) {
         if (reportedNames_.insert(name).second) reportMayBeDeclared(token, hint);
         return meant;
@@ -93,8 +140,9 @@ std::string Analyzer::didYouMean(std::string_view name) {
 
 Analyzer::Suggestion Analyzer::suggestion(NameId name, Wanted wanted) {
     facts().open = true;
-    if (suggestionsLeft_ == 0) return {};
-    --suggestionsLeft_;
+    const size_t names = globals_.size() + predefined_.size() + scopes_[context_.module->id]->names.size();
+    if (comparisonsLeft_ < names) return {};
+    comparisonsLeft_ -= names;
     const std::string_view written = interner_.folded(name);
     unsigned limit = suggestionLimit(written.size());
     // The nearest scope first: on equal distance it wins, and within a scope the first in the alphabet.
@@ -144,9 +192,12 @@ Analyzer::Suggestion Analyzer::suggestion(NameId name, Wanted wanted) {
 }
 
 const Type::Component* Analyzer::nearComponent(const Type& record, std::string_view name) {
+    const std::vector<Type::Component>& components = record.base()->components;
+    if (partComparisonsLeft_ < components.size()) return nullptr;
+    partComparisonsLeft_ -= components.size();
     unsigned limit = suggestionLimit(name.size());
     const Type::Component* best = nullptr;
-    for (const Type::Component& c : record.base()->components) {
+    for (const Type::Component& c : components) {
         const unsigned distance = editDistance(name, c.name, limit);
         if (distance > limit || (best && distance == limit)) continue;
         best = &c;
@@ -155,7 +206,9 @@ const Type::Component* Analyzer::nearComponent(const Type& record, std::string_v
     return best && limit < name.size() ? best : nullptr;
 }
 
-const DataSymbol* Analyzer::nearOptional(const RoutineSymbol& routine, NameId name) const {
+const DataSymbol* Analyzer::nearOptional(const RoutineSymbol& routine, NameId name) {
+    if (partComparisonsLeft_ < routine.params.size()) return nullptr;
+    partComparisonsLeft_ -= routine.params.size();
     const std::string_view written = interner_.folded(name);
     unsigned limit = suggestionLimit(written.size());
     const DataSymbol* best = nullptr;

@@ -142,6 +142,23 @@ bool looksEncrypted(std::string_view bytes) {
            hasManyControls(bytes);
 }
 
+constexpr uint32_t kCharacterBlock = 4096;
+
+uint32_t countCharacters(std::string_view text, size_t begin, size_t end) {
+    const std::string_view part = text.substr(begin, end - begin);
+    return static_cast<uint32_t>(
+        std::count_if(part.begin(), part.end(), [](char c) { return !isContinuation(c); }));
+}
+
+/// How many characters lie before each block of the text, and before its end.
+std::vector<uint32_t> countCharacters(std::string_view text) {
+    std::vector<uint32_t> before{0};
+    before.reserve(text.size() / kCharacterBlock + 1);
+    for (size_t end = kCharacterBlock; end <= text.size(); end += kCharacterBlock)
+        before.push_back(before.back() + countCharacters(text, end - kCharacterBlock, end));
+    return before;
+}
+
 /// Without the NUL bytes and Ctrl-Z that disks and old tools leave at the end of a text.
 std::string_view withoutPadding(std::string_view bytes) {
     const size_t last = bytes.find_last_not_of(std::string_view("\0\x1A \t\r\n", 6));
@@ -181,6 +198,7 @@ SourceFile::SourceFile(std::string path, std::string bytes) : path_(std::move(pa
         badUtf8Offset_ = static_cast<int64_t>(bad);
     }
     lineStarts_ = findLines(text_);
+    characters_ = countCharacters(text_);
 }
 
 std::string SourceFile::bytes(SourceRange range) const {
@@ -216,10 +234,12 @@ LineColumn SourceFile::lineColumn(uint32_t offset) const {
     offset = std::min(offset, static_cast<uint32_t>(text_.size()));
     const auto next = std::upper_bound(lineStarts_.begin(), lineStarts_.end(), offset);
     const auto line = static_cast<uint32_t>(next - lineStarts_.begin());
-    const uint32_t start = lineStarts_[line - 1];
-    const auto before = std::count_if(text_.begin() + start, text_.begin() + offset,
-                                      [](char c) { return !isContinuation(c); });
-    return {line, static_cast<uint32_t>(before) + 1};
+    return {line, charactersBefore(offset) - charactersBefore(lineStarts_[line - 1]) + 1};
+}
+
+uint32_t SourceFile::charactersBefore(uint32_t offset) const {
+    const uint32_t block = offset / kCharacterBlock;
+    return characters_[block] + countCharacters(text_, block * kCharacterBlock, offset);
 }
 
 std::string_view SourceFile::lineText(uint32_t line) const {

@@ -66,9 +66,12 @@ class SourceFile {
     uint32_t lineStart(uint32_t line) const { return lineStarts_[line - 1]; }
 
   private:
+    uint32_t charactersBefore(uint32_t offset) const;
+
     std::string path_;
     std::string text_;
     std::vector<uint32_t> lineStarts_;
+    std::vector<uint32_t> characters_; ///< how many lie before each block of text_; a line may have megabytes
     std::vector<uint32_t>
         repaired_; ///< offsets in text_ of characters that stand for one byte that was not UTF-8
     Encoding encoding_ = Encoding::Utf8;

@@ -41,6 +41,8 @@ enum class NodeKind : uint8_t {
 /// Base of all nodes: kind and the tokens it covers, first to last inclusive (first > last: empty).
 struct Node {
     NodeKind kind;
+    bool broken =
+        false; ///< instructions and data: a part could not be read, so nothing is said about what it means
     TokenIndex first = kNoToken;
     TokenIndex last = 0;
 };

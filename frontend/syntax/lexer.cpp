@@ -84,12 +84,13 @@ constexpr std::array<TokenKind, 128> kSingles = [] {
 /// Second characters of operators that other languages have and RAPID has not.
 constexpr std::array<bool, 256> kForeignSeconds = [] {
     std::array<bool, 256> table{};
-    for (const char c : {'=', '|', '/', '*', '>', '+', '-'})
+    for (const char c : {'=', '|', '/', '*', '>', '+', '-', '<'})
         table[static_cast<size_t>(c)] = true;
     return table;
 }();
 
-/// Operators of other languages, and what RAPID writes. No text of RAPID has these two characters side by side.
+/// Operators of other languages, and what RAPID writes. No text of RAPID has these two characters side by side, but for
+/// '<' when a placeholder begins with it.
 struct ForeignOperator {
     std::string_view text;
     TokenKind kind;
@@ -101,6 +102,8 @@ constexpr ForeignOperator kForeignOperators[] = {
     {"||", TokenKind::KwOr, "OR", "OR"},
     {"->", TokenKind::Dot, "'.'", "."},
     {"=>", TokenKind::GreaterEqual, "'>='", ">="},
+    {"=<", TokenKind::LessEqual, "'<='", "<="},
+    {"><", TokenKind::NotEqual, "'<>'", "<>"},
     {"+=", TokenKind::Assign, "':=' and the whole sum", ""},
     {"-=", TokenKind::Assign, "':=' and the whole difference", ""},
     {"*=", TokenKind::Assign, "':=' and the whole product", ""},
@@ -261,6 +264,7 @@ class Lexer {
         }
         for (const ForeignOperator& op : kForeignOperators) {
             if (op.text != two) continue;
+            if (two[1] == '<' && classAt(start + 2) == CharClass::Letter) continue; // a placeholder
             ++p_;
             foreign(start, op.expected, op.fix);
             push(op.kind, start);
@@ -289,8 +293,13 @@ class Lexer {
         if (*p_ == '&') {
             while (*p_ == '&')
                 ++p_;
-            foreign(start, "AND", "AND");
-            push(TokenKind::KwAnd, start);
+            const char* next = p_;
+            while (*next == ' ')
+                ++next;
+            const bool joins = *next == '"' || (!result_.tokens.empty() &&
+                                                result_.tokens.back().kind == TokenKind::StringLiteral);
+            foreign(start, joins ? "'+' between strings" : "AND", joins ? "+" : "AND");
+            push(joins ? TokenKind::Plus : TokenKind::KwAnd, start);
         } else if (*p_ == '~') {
             ++p_;
             foreign(start, "NOT", "NOT");

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 namespace rapid::syntax {
 
@@ -111,15 +112,33 @@ void Parser::warnOutsideComment(TokenIndex next) {
     reportAt(Code::CommentOutsideModule, {static_cast<uint32_t>(comment), static_cast<uint32_t>(end)});
 }
 
+/// The second line of a string that was broken in two: its closing '"' looks like the beginning of another string.
+bool Parser::endsBrokenString(const LexError& error, const LexError* before) const {
+    if (error.code != Code::UnterminatedString || !before || before->code != Code::UnterminatedString)
+        return false;
+    const std::string_view text = tree_.source->text();
+    const uint32_t line = tree_.source->lineColumn(error.range.begin).line;
+    if (tree_.source->lineColumn(before->range.begin).line + 1 != line) return false;
+    const size_t next = text.find_first_not_of(" \t", error.range.begin + 1);
+    constexpr std::string_view kAfterString = ";,)]\\+\r\n";
+    return next == std::string_view::npos || kAfterString.find(text[next]) != std::string_view::npos;
+}
+
 void Parser::reportLexErrors(const LexResult& lexed) {
+    const LexError* before = nullptr;
     for (const LexError& error : lexed.errors) {
+        const LexError* last = std::exchange(before, &error);
         if (error.code == Code::BadNumber) continue; // said where the number is read
+        if (endsBrokenString(error, last)) {
+            before = nullptr;
+            continue;
+        }
         if (++errors_ <= kMaxErrorsPerFile) {
             diag::Diagnostic& d = sink_.report(error.code, tree_.source, error.range, error.args);
             if (error.code == Code::BadStringEscape) fixEscapes(d);
             if (error.fix) d.fix(error.range, *error.fix);
         } else if (errors_ == kMaxErrorsPerFile + 1) {
-            sink_.report(Code::TooManyErrors, tree_.source, error.range);
+            sink_.report(Code::TooManyErrors, tree_.source, error.range, {"errors"});
         }
     }
 }
@@ -158,6 +177,11 @@ Expr* Parser::parseWholeExpression(const LexResult& lexed) {
 
 /// Anything between modules but comments is reported once.
 void Parser::skipOutsideModule() {
+    if (kind() == K::KwEndmodule && openModules_ > 0) { // of a module around the last one, which is reported
+        --openModules_;
+        take();
+        return;
+    }
     if (kind() != K::Error) report(Code::TextOutsideModule, pos_, {describe(pos_)});
     do
         take();
@@ -189,6 +213,7 @@ void Parser::parseModule() {
     if (panic_) skipToDecl();
     parseModuleDecls(node);
     if (!accept(K::KwEndmodule)) {
+        ++openModules_;
         note(report(Code::MissingBlockEnd, pos_, {describe(pos_), "ENDMODULE"}), opening,
              "MODULE begins here");
     }

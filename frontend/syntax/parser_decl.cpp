@@ -47,6 +47,7 @@ RoutineWords wordsOf(RoutineKind kind) {
 /// `VAR type name{dims} := value;`, from the word VAR, PERS or CONST; `first` is that of the scope word.
 DataDecl* Parser::parseData(ScopeWord scope, TokenIndex first) {
     auto* node = make<DataDecl>(NodeKind::Data);
+    const size_t unreadable = unreadable_;
     node->first = first;
     node->scope = scope;
     node->dataKind = kind() == K::KwVar    ? DataKind::Var
@@ -72,6 +73,7 @@ DataDecl* Parser::parseData(ScopeWord scope, TokenIndex first) {
         }
     }
     endStatement(node->init ? "';'" : "':=' or ';'");
+    node->broken = unreadable_ > unreadable;
     return finish(node);
 }
 
@@ -168,6 +170,7 @@ Decl* Parser::parseRoutine(bool local, TokenIndex first) {
     plainError_ = false;
     blockOpening_ = kNoToken;
     compactIf_ = kNoToken;
+    foreignCloser_ = {};
     parseRoutineBody(node);
     closeRoutine(node, opening);
     enclosing_ = outer;
@@ -288,6 +291,12 @@ ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
         node->name = expectName(true);
         return finish(node);
     }
+    if (isContextual(pos_, "IN") && isName(peek()) && isName(peek(2)) && !options_.declarations) {
+        fix(report(Code::ForeignSpelling, pos_,
+                   {std::string(textOf(pos_)), "the data type: IN is what has no word"}),
+            {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");
+        take();
+    }
     if (accept(K::KwVar)) {
         node->mode = ParamMode::Var;
     } else if (accept(K::KwPers)) {
@@ -301,6 +310,12 @@ ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
     if (node->mode == ParamMode::In && !isName(kind())) {
         unexpected("a parameter");
         return finish(node);
+    }
+    constexpr TokenSet kModes = {K::KwVar, K::KwPers, K::KwInout};
+    if (node->mode != ParamMode::In && kModes.has(kind()) && isName(peek()) &&
+        isName(peek(2))) { // "VAR PERS num x"
+        report(Code::UnexpectedToken, pos_, {describe(pos_), "a data type"});
+        take();
     }
     node->type = expectName();
     dropMisplacedMode(node);

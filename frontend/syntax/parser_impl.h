@@ -14,7 +14,7 @@
 namespace rapid::syntax {
 
 inline constexpr uint32_t kMaxDepth = 1000; ///< nesting of expressions and instructions
-inline constexpr size_t kMaxErrorsPerFile = 50;
+inline constexpr size_t kMaxErrorsPerFile = 200;
 inline constexpr size_t kMaxNameLength = 32; // manual 1.1.2
 
 class Parser {
@@ -103,12 +103,15 @@ class Parser {
     void fixParentheses(diag::Diagnostic* diagnostic, const Node& operand);
     void reportEqual();
     void reportScopeInside(ScopeWord scope);
+    /// "found X, expected Y" where an expression has ended.
+    diag::Diagnostic* reportAfterExpr(diag::Code code, std::initializer_list<std::string> args);
     /// "found X, expected Y" at the current token, and panic.
     void unexpected(std::string_view expected);
     std::string describe(TokenIndex i) const;
     SourceRange endOf(TokenIndex i) const { return {tree_.range(i).end, tree_.range(i).end}; }
     void reportTooDeep();
     void reportLexErrors(const LexResult& lexed);
+    bool endsBrokenString(const LexError& error, const LexError* before) const;
     bool startsMisspeltModule() const;
     void fixEscapes(diag::Diagnostic& diagnostic) const;
     void checkNameLength(TokenIndex name);
@@ -145,6 +148,8 @@ class Parser {
     bool retagMisspelt(const TokenSet& own);
     bool retagData();
     bool retagOpener();
+    bool startsForeignBlock();
+    bool endsForeignBlock();
     bool retagCallee(TokenIndex callee);
     bool retagDecl();
     bool retagOperator();
@@ -249,6 +254,9 @@ class Parser {
     bool quietOutside_ = false;
     bool outsideCommentShown_ = false;
     size_t errors_ = 0;
+    size_t openModules_ = 0;         ///< modules whose ENDMODULE has not been found
+    size_t unreadable_ = 0;          ///< of these: parts of an instruction that could not be read
+    std::string_view foreignCloser_; ///< what ends the block of another language that has been reported
     diag::Diagnostic* lastOrder_ =
         nullptr;                         ///< module attributes out of order, while nothing else is reported
     TokenSet enclosing_;                 ///< words that end a list further out

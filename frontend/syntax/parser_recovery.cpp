@@ -41,9 +41,16 @@ constexpr uint32_t kSearchTokens = 200;
 
 diag::Diagnostic* Parser::reportAt(Code code, SourceRange range, std::initializer_list<std::string> args) {
     if (panic_) return nullptr;
+    if (code == Code::UnexpectedToken || code == Code::MissingClosing) ++unreadable_;
     if (++errors_ <= kMaxErrorsPerFile) return &sink_.report(code, tree_.source, range, args);
-    if (errors_ == kMaxErrorsPerFile + 1) sink_.report(Code::TooManyErrors, tree_.source, range);
+    if (errors_ == kMaxErrorsPerFile + 1) sink_.report(Code::TooManyErrors, tree_.source, range, {"errors"});
     return nullptr;
+}
+
+diag::Diagnostic* Parser::reportAfterExpr(Code code, std::initializer_list<std::string> args) {
+    if (kind() != K::Question) return report(code, pos_, args);
+    if (!panic_) ++unreadable_;
+    return report(Code::ForeignSpelling, pos_, {"?", "IF ... THEN ... ELSE ... ENDIF to choose a value"});
 }
 
 void Parser::note(diag::Diagnostic* diagnostic, TokenIndex at, std::string message) {
@@ -228,7 +235,7 @@ void Parser::endStatement(std::string_view expected) {
         } else if (kind() == K::Equal) {
             reportEqual();
         } else {
-            report(Code::UnexpectedToken, pos_, {describe(pos_), std::string(expected)});
+            reportAfterExpr(Code::UnexpectedToken, {describe(pos_), std::string(expected)});
         }
     }
     syncStatement();
@@ -254,6 +261,11 @@ void Parser::expectWord(K word) {
     if (kind() == word || (!panic_ && kind() == K::Identifier && retagIfMeant(word))) {
         take();
         panic_ = false;
+        return;
+    }
+    if (!panic_ && ((word == K::KwDo && kind() == K::KwThen) || (word == K::KwThen && kind() == K::KwDo))) {
+        retag(pos_, pos_, word);
+        take();
         return;
     }
     const bool silent = panic_ || kind() == K::Error;
@@ -337,7 +349,7 @@ void Parser::expectClosing(K closing, TokenIndex opening, bool inList) {
     if (startsLine(pos_)) {
         diagnostic = reportAt(Code::MissingClosing, endOf(pos_ - 1), {describe(pos_), expected});
     } else {
-        diagnostic = report(Code::MissingClosing, pos_, {describe(pos_), expected});
+        diagnostic = reportAfterExpr(Code::MissingClosing, {describe(pos_), expected});
     }
     note(diagnostic, opening, fmt::format("the '{}' is here", textOf(opening)));
     panic_ = true;
@@ -426,7 +438,10 @@ TokenIndex Parser::expectName(bool newerKeywords) {
         tokens_[pos_].kind = K::Identifier; // RaiseToUser \Continue is older than the keyword
         return take();
     }
-    if (isKeyword(kind()) && !kEndWords.has(kind()) && !startsLine(pos_)) {
+    constexpr TokenSet kAfterName = {K::Semicolon, K::Assign, K::LeftParen,
+                                     K::LeftBrace, K::Comma,  K::RightParen};
+    const bool canBeName = !kEndWords.has(kind()) || (kAfterName.has(peek()) && !startsLine(pos_ + 1));
+    if (isKeyword(kind()) && canBeName && !startsLine(pos_)) {
         report(Code::ReservedWordAsName, pos_, {std::string(tokenText(kind()))});
         return take();
     }

@@ -57,7 +57,8 @@ StmtList Parser::parseList(const TokenSet& own) {
         if (kListStops.has(k)) {
             if (k == K::EndOfFile || own.has(k)) break;
             if (k == K::Identifier) {
-                if (mayBeMisspelt(textOf(pos_)[0]) && retagMisspelt(own)) continue;
+                const bool closes = equalsNoCase(textOf(pos_), foreignCloser_);
+                if (!closes && mayBeMisspelt(textOf(pos_)[0]) && retagMisspelt(own)) continue;
             } else if (k == K::KwLocal) {
                 if (peek() == K::KwProc || peek() == K::KwFunc || peek() == K::KwTrap ||
                     peek() == K::KwRecord || peek() == K::KwAlias)
@@ -158,6 +159,8 @@ Stmt* Parser::parseOrphan() {
     const TokenIndex first = pos_;
     const K word = kind();
     if (word == K::KwThen && headReported_ != pos_) report(Code::StrayKeyword, pos_, {"THEN", "IF"});
+    if (word == K::KwDo && headReported_ != pos_ && startsLine(pos_) && startsForeignBlock())
+        return errorStmt(first);
     if (word == K::KwDo && headReported_ != pos_) report(Code::StrayKeyword, pos_, {"DO", "FOR or WHILE"});
     TokenSet ends = {K::KwEndfor, K::KwEndwhile};
     if (word == K::KwCase || word == K::KwDefault || word == K::PlaceCse) ends = kTestEnds;
@@ -202,6 +205,13 @@ Stmt* Parser::parseNamedStmt() {
     case K::Identifier:
         if (retagOpener()) return parseStmtUnguarded();
         break;
+    case K::KwTo:
+        if (peek(2) == K::Identifier && equalsNoCase(textOf(first), "GO")) {
+            retag(first, first + 1, K::KwGoto);
+            ++pos_;
+            return parseStmtUnguarded();
+        }
+        break;
     case K::LeftBracket:
     case K::LeftParen: {
         const bool bracket = peek() == K::LeftBracket;
@@ -213,6 +223,7 @@ Stmt* Parser::parseNamedStmt() {
     default: break;
     }
     if (isTaskDirective(pos_)) return parseLateDecl();
+    if (startsLine(first) && (endsForeignBlock() || startsForeignBlock())) return errorStmt(first);
     return parseCallStmt();
 }
 
@@ -231,6 +242,7 @@ bool Parser::isBracketTarget(K open, K close) const {
 
 Stmt* Parser::parseAssignment(Expr* target, TokenIndex first) {
     auto* node = make<AssignStmt>(NodeKind::Assign);
+    const size_t unreadable = unreadable_;
     node->first = first;
     node->target = target;
     if (kind() == K::Equal) {
@@ -241,6 +253,7 @@ Stmt* Parser::parseAssignment(Expr* target, TokenIndex first) {
     }
     node->value = panic_ ? errorExpr() : parseExpr();
     endStatement();
+    node->broken = unreadable_ > unreadable;
     return finish(node);
 }
 
@@ -266,6 +279,7 @@ Stmt* Parser::parseCallStmt() {
         return errorStmt(node->name);
     }
     const size_t errorsBefore = errors_;
+    const size_t unreadable = unreadable_;
     node->args = parseArguments(true);
     if (kind() != K::Semicolon && !panic_ && errors_ == errorsBefore && retagCallee(node->name))
         return parseStmtUnguarded();
@@ -275,6 +289,7 @@ Stmt* Parser::parseCallStmt() {
         panic_ = true;
     }
     endStatement(node->args.empty() ? "an argument or ';'" : "',' or ';'");
+    node->broken = unreadable_ > unreadable;
     return finish(node);
 }
 
@@ -330,7 +345,8 @@ Stmt* Parser::parseIf() {
     inCondition_ = outer;
     TokenIndex found = 0;
     if (kind() == K::Identifier && startsLine(pos_ + 1)) retagIfMeant(K::KwThen);
-    if (kind() == K::KwThen || findOnLine(pos_, K::KwThen, found)) return parseIfBlocks(opening, condition);
+    const bool isBlock = kind() == K::KwThen || (kind() == K::KwDo && startsLine(pos_ + 1));
+    if (isBlock || findOnLine(pos_, K::KwThen, found)) return parseIfBlocks(opening, condition);
 
     auto* node = make<CompactIfStmt>(NodeKind::CompactIf);
     node->first = opening;
@@ -460,6 +476,11 @@ Stmt* Parser::parseWhile() {
     const TokenIndex opening = blockOpening_ = take();
     bool whole = true;
     node->condition = parseHeadExpr(whole, HeadPart::Condition);
+    if (!panic_ && kind() == K::Semicolon && foreignCloser_ == "WHILE") { // DO ... WHILE condition;
+        foreignCloser_ = {};
+        take();
+        return errorStmt(opening);
+    }
     whole = expectHeadWord(K::KwDo, whole);
     node->body = parseList({K::KwEndwhile});
     closeBlock(K::KwEndwhile, opening, whole);
@@ -546,6 +567,7 @@ Stmt* Parser::parseGoto() {
 /// RETURN and RAISE with an optional value.
 Stmt* Parser::parseValueStmt(bool isReturn) {
     Expr* value = nullptr;
+    const size_t unreadable = unreadable_;
     const TokenIndex first = take();
     if (kind() != K::Semicolon && startsExpr(kind()) && !calleeEndsHere(first, first) &&
         !(startsLine(pos_) && isName(kind()) && (peek() == K::Assign || peek() == K::Colon)))
@@ -562,6 +584,7 @@ Stmt* Parser::parseValueStmt(bool isReturn) {
     }
     result->first = first;
     endStatement(value ? "';'" : "an expression or ';'");
+    result->broken = unreadable_ > unreadable;
     return finish(result);
 }
 

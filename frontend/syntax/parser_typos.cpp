@@ -29,6 +29,19 @@ constexpr ForeignWord kForeignWords[] = {
     {"OTHERWISE", TokenKind::KwDefault},    {"CONSTANT", TokenKind::KwConst},
     {"STRUCT", TokenKind::KwRecord},        {"ENDSTRUCT", TokenKind::KwEndrecord}};
 
+/// Blocks of other languages that RAPID writes in another way. WHILE is what closes DO.
+struct ForeignBlock {
+    std::string_view word;
+    std::string_view closer;
+    std::string_view expected;
+};
+constexpr ForeignBlock kForeignBlocks[] = {
+    {"REPEAT", "UNTIL", "WHILE and a condition"},
+    {"DO", "WHILE", "WHILE and a condition before DO"},
+    {"LOOP", "ENDLOOP", "WHILE TRUE DO"},
+    {"BEGIN", "END", "an instruction: blocks have no word of their own"},
+    {"TRY", "CATCH", "an ERROR handler at the end of the routine"}};
+
 constexpr size_t kLongestTypo = 14;
 
 std::string upperCase(std::string_view text) {
@@ -83,6 +96,28 @@ bool Parser::fitsAsListWord(K word, TokenIndex last) const {
     }
 }
 
+/// REPEAT, LOOP ... alone in their line: reported; the word that closes the block is then passed over.
+bool Parser::startsForeignBlock() {
+    if (!startsLine(pos_ + 1) && pos_ + 1 < last_) return false;
+    const std::string word = upperCase(textOf(pos_));
+    for (const ForeignBlock& block : kForeignBlocks) {
+        if (block.word != word) continue;
+        report(Code::ForeignSpelling, pos_, {word, std::string(block.expected)});
+        foreignCloser_ = block.closer;
+        take();
+        return true;
+    }
+    return false;
+}
+
+bool Parser::endsForeignBlock() {
+    if (foreignCloser_.empty() || !equalsNoCase(textOf(pos_), foreignCloser_)) return false;
+    foreignCloser_ = {};
+    take();
+    if (!startsLine(pos_)) syncStatement();
+    return true;
+}
+
 /// "ENDIFF", "END IF", "ELSIF", "CSAE 2:": names at the beginning of a line that stand for a word this list waits for.
 bool Parser::retagMisspelt(const TokenSet& own) {
     const std::string_view text = textOf(pos_);
@@ -99,9 +134,10 @@ bool Parser::retagMisspelt(const TokenSet& own) {
         if (!own.has(word)) continue;
         const std::string_view spelling = tokenText(word);
         TokenIndex last = pos_;
+        const bool alone = end && startsLine(pos_ + 1);
         const bool twoWords = end && spelling.starts_with("END");
-        if (twoWords) {
-            if (startsLine(pos_ + 1) || !isKeyword(next) || tokenText(next) != spelling.substr(3)) continue;
+        if (twoWords && !alone) {
+            if (!isKeyword(next) || tokenText(next) != spelling.substr(3)) continue;
             last = pos_ + 1;
         }
         if (next == K::Colon && (word != K::KwDefault || text.size() > spelling.size())) continue;
@@ -128,6 +164,13 @@ bool Parser::retagOpener() {
     if (b == K::KwFrom) return retagIfMeant(K::KwFor);
     if (b == K::KwWith || (b == K::Identifier && meant(pos_ + 2, K::KwWith) && peek(3) == K::Identifier))
         return retagIfMeant(K::KwConnect);
+    const bool isCall = equalsNoCase(textOf(pos_), "CALL") && !startsLine(pos_ + 1) && !startsLine(pos_ + 2);
+    if (isCall && (b == K::Identifier || b == K::NumLiteral || b == K::StringLiteral)) { // "CALL name 1;"
+        fix(report(Code::ForeignSpelling, pos_, {std::string(textOf(pos_)), "the name of the procedure"}),
+            {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");
+        take();
+        return true;
+    }
     if (b == K::Identifier) return retagData();
     if (b == K::Semicolon && equalsNoCase(textOf(pos_), "TRY") && equalsNoCase(textOf(pos_ + 1), "NEXT")) {
         retag(pos_, pos_ + 1, K::KwTrynext);

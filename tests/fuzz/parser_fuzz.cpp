@@ -37,7 +37,7 @@ void check(const char* name, const std::string& bytes, bool declarations) {
     options.declarations = declarations;
     const auto tree = syntax::parse(source, sink, options);
     require(syntax::printSource(*tree) == source->text(), "the tree does not give the source text back");
-    require(sink.errorCount() <= 51, "too many errors are shown");
+    require(sink.errorCount() <= 201, "too many errors are shown");
     for (const diag::Diagnostic& d : sink.sorted()) {
         require(d.range.begin <= d.range.end && d.range.end <= source->text().size(),
                 "a place outside the text");

@@ -34,8 +34,14 @@ int explain(const std::string& code) {
                  [](unsigned char c) { return std::isdigit(c); });
     const rapid::diag::CatalogueEntry* entry =
         digits.size() == 4 ? rapid::diag::findEntry(static_cast<uint16_t>(std::stoi(digits))) : nullptr;
+    for (const rapid::diag::CatalogueEntry& named : rapid::diag::catalogue())
+        if (!entry && kebabName(named) == code) entry = &named;
     if (!entry) {
-        fmt::print(stderr, "rapidc explain: '{}' is no code of rapidc, expected one such as RAP2104\n", code);
+        fmt::print(
+            stderr,
+            "rapidc explain: '{}' is no code of rapidc, expected one such as RAP2104 or a name such as "
+            "unused-variable\n",
+            code);
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
     fmt::print("RAP{} {} ({})\n", entry->number, entry->name, rapid::diag::severityName(entry->severity));
@@ -76,7 +82,7 @@ void addExplainCommand(CLI::App& app, int& status) {
     auto code = std::make_shared<std::string>();
     auto folder = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand("explain", "Say what a diagnostic means");
-    CLI::Option* one = command->add_option("code", *code, "A code such as RAP2104");
+    CLI::Option* one = command->add_option("code", *code, "A code such as RAP2104, or the name of a warning");
     CLI::Option* all =
         command->add_option("--pages", *folder, "Write a page for every code into this folder");
     one->excludes(all);

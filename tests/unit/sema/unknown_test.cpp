@@ -160,3 +160,45 @@ TEST_CASE("a persistent that tasks share has one type: records are compared by t
     CHECK(codes(xy, module("    num x;\n    dnum y;\n", "TASK ")).empty());
     CHECK(codes(xy, module("    num x;\n    dnum y;\n", "LOCAL ")).empty());
 }
+
+TEST_CASE("names of well-known add-ins are told from mistakes", "[sema]") {
+    const std::string text = "MODULE m\n"
+                             "  TASK PERS menudata md:=[\"\",1];\n"
+                             "  CONST be_device dev:=[TRUE];\n"
+                             "  PROC main()\n"
+                             "    Hand_GripInward\\holdForce:=10,\\NoWait;\n"
+                             "    Hand_GripInward;\n"
+                             "    BESetupToolJ dev;\n"
+                             "    hand_openn;\n"
+                             "    BESetup;\n"
+                             "    md.x:=1;\n"
+                             "  ENDPROC\n"
+                             "  PROC hand_open()\n"
+                             "  ENDPROC\n"
+                             "ENDMODULE\n";
+    const auto checked = testing::checkTexts({text});
+    const auto message = [](const char* place, const char* name, const char* addIn) {
+        return std::string("RAP2009 at ") + place + ": '" + name +
+               "' is not declared here, it may be declared in the add-in " + addIn;
+    };
+    CHECK(
+        checked->messages() ==
+        Messages{
+            message("2:13", "menudata", "Production Manager"), message("3:9", "be_device", "BullsEye"),
+            message("5:5", "Hand_GripInward", "SmartGripper (YuMi)"),
+            message("7:5", "BESetupToolJ", "BullsEye"),
+            "RAP2003 at 8:5: 'hand_openn' is not a known procedure or instruction; did you mean 'hand_open'?",
+            "RAP2003 at 9:5: 'BESetup' is not a known procedure or instruction"});
+}
+
+TEST_CASE("AliasIO takes a configured signal of the type of its partner", "[sema]") {
+    const std::string text = "MODULE m\n"
+                             "  VAR signaldo alias_do;\n"
+                             "  PROC main()\n"
+                             "    AliasIO doLock, alias_do;\n"
+                             "    SetDO doLock, 1;\n"
+                             "    WaitDI doLock, 1;\n"
+                             "  ENDPROC\n"
+                             "ENDMODULE\n";
+    CHECK(testing::checkTexts({text})->codes() == Messages{"RAP4021", "RAP4011"});
+}

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <set>
 
 using namespace rapid;
@@ -46,7 +47,7 @@ TEST_CASE("braces in a catalogue text are no placeholders", "[diag]") {
 TEST_CASE("diagnostics are sorted by place, the limit comes last", "[diag]") {
     diag::Sink sink;
     const auto source = file("abc\ndef\n");
-    sink.report(Code::TooManyErrors, source, {0, 1});
+    sink.report(Code::TooManyErrors, source, {0, 1}, {"errors"});
     sink.report(Code::EqualInAssignment, source, {5, 6});
     sink.report(Code::UnterminatedString, source, {1, 2});
     const auto sorted = sink.sorted();
@@ -56,6 +57,40 @@ TEST_CASE("diagnostics are sorted by place, the limit comes last", "[diag]") {
     CHECK(sorted[2].code == Code::TooManyErrors);
     CHECK(sink.errorCount() == 2);
     CHECK(sink.hasErrors());
+}
+
+TEST_CASE("so many errors and so many warnings are kept of a file, and a note tells of more", "[diag]") {
+    diag::Sink sink;
+    const auto source = file("abc"), other = file("def");
+    constexpr size_t kMost = diag::Sink::kMaxPerFile;
+    for (size_t i = 0; i < kMost + 500; ++i) {
+        sink.report(Code::EqualInAssignment, source, {0, 1}).fix({0, 1}, ":=");
+        sink.report(Code::UnusedVariable, source, {1, 2}, {"a"}).notes.push_back({source, {1, 2}, "here"});
+    }
+    CHECK(sink.errorCount() == kMost + 500);
+    CHECK(sink.all().size() == 2 * kMost + 2);
+    const auto notes = std::count_if(sink.all().begin(), sink.all().end(), [](const diag::Diagnostic& d) {
+        return d.code == Code::TooManyErrors && d.severity == diag::Severity::Note;
+    });
+    CHECK(notes == 2);
+    sink.report(Code::EqualInAssignment, other, {0, 1});
+    CHECK(sink.all().back().file == other);
+    CHECK(sink.all().back().code == Code::EqualInAssignment);
+}
+
+TEST_CASE("columns count characters, also far out in a line", "[source]") {
+    std::string line;
+    for (int i = 0; i < 10000; ++i)
+        line += "aä€";
+    const auto source = file("x\n" + line + "\ny");
+    CHECK(source->lineColumn(2).column == 1);
+    for (const uint32_t triple : {1u, 680u, 683u, 700u, 1400u, 9999u}) {
+        const LineColumn at = source->lineColumn(2 + triple * 6 + 3);
+        CHECK(at.line == 2);
+        CHECK(at.column == triple * 3 + 3);
+    }
+    CHECK(source->lineColumn(2 + 60000).column == 30001);
+    CHECK(source->lineColumn(2 + 60001).line == 3);
 }
 
 TEST_CASE("text: heading, excerpt, marks", "[diag]") {

@@ -92,7 +92,7 @@ TEST_CASE("broken sentences are read without loss and reported within bounds", "
         const test::Parsed parsed = test::parseText(text);
         INFO("seed " << seed << "\n" << text);
         REQUIRE(syntax::printSource(*parsed.tree) == text);
-        REQUIRE(parsed.sink.errorCount() <= 50);
+        REQUIRE(parsed.sink.errorCount() <= 200);
         syntax::printTree(*parsed.tree);
     }
 }

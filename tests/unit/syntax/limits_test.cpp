@@ -63,16 +63,17 @@ TEST_CASE("after a routine that is too deep the next one is read", "[syntax][lim
 
 TEST_CASE("signs without end are one kind of mistake and bounded", "[syntax][limits]") {
     const test::Parsed parsed = parseText(inProcedure("x := " + repeat("-", 100000) + "1;"));
-    CHECK(parsed.sink.errorCount() <= 50);
+    CHECK(parsed.sink.errorCount() <= 200);
 }
 
 TEST_CASE("a million mistakes and lines of megabytes are handled", "[syntax][limits]") {
     const test::Parsed many = parseText(inProcedure(repeat("x := ) 1;\n", 1000000)));
-    CHECK(many.sink.errorCount() == 50);
-    CHECK(many.sink.all().size() == 51);
+    CHECK(many.sink.errorCount() == 200);
+    CHECK(many.sink.all().size() == 201);
 
     const test::Parsed junk = parseText(inProcedure(repeat("@\n", 1000000)));
-    CHECK(junk.sink.errorCount() == 50);
+    CHECK(junk.sink.errorCount() > 0);
+    CHECK(junk.sink.errorCount() <= 200);
 
     const std::string longLine = inProcedure(repeat("x := 1; ", 1250000) + "y = 1;");
     const test::Parsed line = parseText(longLine);
