@@ -52,7 +52,7 @@ struct Diagnostic {
 /// Collects the diagnostics of one run; keeps the order of reporting until sorted.
 class Sink {
   public:
-    /// That many errors, and that many warnings, are kept of one file; a note says that there were more.
+    /// That many errors, and that many warnings and notes, are kept of one file; a note says that there were more.
     static constexpr uint32_t kMaxPerFile = 1000;
 
     /// Reports `code`. `args` replace {0}, {1}, ... in the catalogue text; their number must match the catalogue.

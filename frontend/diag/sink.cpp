@@ -48,7 +48,7 @@ Diagnostic& Sink::report(Code code, const std::shared_ptr<const SourceFile>& fil
     const CatalogueEntry* entry = findEntry(static_cast<uint16_t>(code));
     const Severity severity = entry ? entry->severity : Severity::Error;
     if (severity == Severity::Error) ++errorCount_;
-    if (isOneTooMany(file, range, severity)) return dropped_ = Diagnostic();
+    if (code != Code::TooManyErrors && isOneTooMany(file, range, severity)) return dropped_ = Diagnostic();
     Diagnostic& diagnostic = all_.emplace_back();
     diagnostic.code = code;
     diagnostic.severity = severity;
@@ -59,7 +59,7 @@ Diagnostic& Sink::report(Code code, const std::shared_ptr<const SourceFile>& fil
 }
 
 bool Sink::isOneTooMany(const std::shared_ptr<const SourceFile>& file, SourceRange range, Severity severity) {
-    if (!file || severity == Severity::Note) return false;
+    if (!file) return false;
     Kept& kept = kept_[file.get()];
     const bool error = severity == Severity::Error;
     uint32_t& count = error ? kept.errors : kept.warnings;
