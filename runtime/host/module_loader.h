@@ -24,6 +24,7 @@ struct LoadResult {
     enum class Verdict : uint8_t {
         Made,
         Loaded, ///< a module of that name is in program memory already
+        Full,   ///< there is no memory left for it
         Wrong   ///< it cannot be compiled beside them
     } verdict = Verdict::Wrong;
     std::string module;                ///< its name

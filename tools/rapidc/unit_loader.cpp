@@ -5,6 +5,7 @@
 #include "stdlib/native_table.h"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <set>
@@ -39,6 +40,36 @@ std::string problemsOf(const diag::Sink& sink) {
     return text;
 }
 
+/// Code and data of a unit are never given back, because data may be referred to: that bounds their number.
+constexpr size_t kMostUnits = 1000;
+
+/// Tells apart what compiling a module depends on: the file and every module in memory.
+std::string keyOf(const rt::LoadRequest& request, const rt::ProgramTables& present) {
+    std::string key =
+        fmt::format("{}|{}|{}|{}", request.taskIndex, request.shown, request.bytes.size(), request.bytes);
+    for (const rt::LoadedModule& module : present.modules())
+        key += fmt::format("|{}:{}:{}", module.task, module.name, static_cast<const void*>(module.unit));
+    return key;
+}
+
+/// Variables and persistents that lie in the unit itself.
+std::vector<std::pair<void*, std::string>> initialData(const rt::ProgramDesc& unit,
+                                                       const rt::ProgramTables& present) {
+    constexpr uint8_t kConst = 2; // ir::GlobalKind::Const
+    std::set<const void*> elsewhere;
+    for (const rt::GlobalDesc* data : present.globals())
+        elsewhere.insert(data->address);
+    std::vector<std::pair<void*, std::string>> result;
+    for (uint32_t i = 0; i < unit.globalCount; ++i) {
+        const rt::GlobalDesc& data = unit.globals[i];
+        if ((data.flags & rt::kDataPredefined) == 0 && data.kind < kConst &&
+            !elsewhere.contains(data.address))
+            result.emplace_back(data.address,
+                                std::string(static_cast<const char*>(data.address), data.type->size));
+    }
+    return result;
+}
+
 /// A task of the program has a small stack, too small for a compiler.
 template <class Work> void onOwnStack(Work&& work) {
     std::thread(std::forward<Work>(work)).join();
@@ -60,9 +91,8 @@ std::string unknownTypes(const sema::Module& module) {
         if (!isUnknown(type) || symbol.nameToken == rapid::syntax::kNoToken) return;
         const rapid::LineColumn at =
             module.tree->source->lineColumn(module.tree->range(symbol.nameToken).begin);
-        text +=
-            fmt::format("{}{}:{}:{}: the type of '{}' is declared nowhere", text.empty() ? "" : "\n",
-                        module.tree->source->path(), at.line, at.column, symbol.name);
+        text += fmt::format("{}{}:{}:{}: the type of '{}' is declared nowhere", text.empty() ? "" : "\n",
+                            module.tree->source->path(), at.line, at.column, symbol.name);
     };
     for (const sema::DataSymbol* data : module.data)
         look(*data, data->type.type);
@@ -123,8 +153,35 @@ std::vector<sema::TaskInput> UnitLoader::inputs(const rt::ProgramTables& present
 }
 
 rt::LoadResult UnitLoader::make(const rt::LoadRequest& request, const rt::ProgramTables& present) {
+    const std::string key = keyOf(request, present);
+    if (compiled_.contains(key)) return reuse(key, request, present);
     rt::LoadResult result;
+    if (units_.size() >= kMostUnits) {
+        result.verdict = rt::LoadResult::Verdict::Full;
+        return result;
+    }
     onOwnStack([&] { result = compile(request, present); });
+    if (result.verdict == rt::LoadResult::Verdict::Made)
+        compiled_[key] = {result.module, result.unit, loaded_[{request.taskIndex, request.path}],
+                          initialData(*result.unit, present)};
+    return result;
+}
+
+/// The same module beside the same others: its data begin anew.
+rt::LoadResult UnitLoader::reuse(const std::string& key, const rt::LoadRequest& request,
+                                 const rt::ProgramTables& present) {
+    const Compiled& compiled = compiled_.at(key);
+    rt::LoadResult result;
+    result.module = compiled.module;
+    result.unit = compiled.unit;
+    if (present.findModule(request.taskIndex, compiled.module)) {
+        result.verdict = rt::LoadResult::Verdict::Loaded;
+        return result;
+    }
+    result.verdict = rt::LoadResult::Verdict::Made;
+    loaded_[{request.taskIndex, request.path}] = compiled.file;
+    for (const auto& [address, bytes] : compiled.initial)
+        std::memcpy(address, bytes.data(), bytes.size());
     return result;
 }
 

@@ -29,6 +29,8 @@ class UnitLoader final : public rt::ModuleLoader {
     rt::LoadResult compile(const rt::LoadRequest& request, const rt::ProgramTables& present);
     std::vector<std::string> openReferences(const std::string& task, const rt::ProgramTables& present) const;
     std::vector<rapid::sema::TaskInput> inputs(const rt::ProgramTables& present) const;
+    rt::LoadResult reuse(const std::string& key, const rt::LoadRequest& request,
+                         const rt::ProgramTables& present);
     bool generate(ir::Module& module, const rt::ProgramTables& present, int32_t taskIndex,
                   rt::LoadResult& result);
 
@@ -37,6 +39,15 @@ class UnitLoader final : public rt::ModuleLoader {
     codegen::CodegenOptions options_;
     const std::vector<codegen::NativeSymbol>& natives_;
     std::map<std::pair<int32_t, std::string>, File> loaded_; ///< by task and path
+    /// What has been compiled, by file and by all modules it was compiled beside: programs load the same parts again and
+    /// again.
+    struct Compiled {
+        std::string module;
+        const rt::ProgramDesc* unit = nullptr;
+        File file;
+        std::vector<std::pair<void*, std::string>> initial; ///< bytes of its data
+    };
+    std::map<std::string, Compiled> compiled_;
     std::vector<std::unique_ptr<codegen::JitProgram>>
         units_; ///< kept: data and code may be referred to for ever
 };

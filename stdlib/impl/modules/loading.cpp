@@ -125,6 +125,9 @@ Status linkModule(TaskCore* task, const ModuleFile& file, bool dynamic, bool che
     if (result.verdict == LoadResult::Verdict::Loaded)
         return fail(task, err::ERR_LOADED,
                     fmt::format("module {} of {} is loaded already", result.module, file.shown));
+    if (result.verdict == LoadResult::Verdict::Full)
+        return fail(task, err::ERR_PRGMEMFULL,
+                    fmt::format("there is no program memory left for {}", file.shown));
     if (result.verdict == LoadResult::Verdict::Wrong)
         return fail(task, err::ERR_SYNTAX, fmt::format("{} has errors:\n{}", file.shown, result.problems));
     if (!connectUnit(controller, *result.unit))
