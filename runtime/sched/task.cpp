@@ -79,7 +79,7 @@ bool Task::runCycle() {
     entryOverride_ = nullptr;
     backwardCall_ = false;
     if (status == kOk && entry != nullptr) status = entry(this, nullptr);
-    if (status > 0) status = raiseAt(nullptr, status); // no routine took it, and none reported it
+    if (status > 0) (void)raiseAt(nullptr, status); // no routine took it, and none reported it
     frame = nullptr;
     retries_.clear();
     jumps_.clear();
