@@ -2,6 +2,7 @@
 
 #include "frontend/sema/analysis.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rapid::sema {
@@ -105,6 +106,8 @@ Place Analyzer::indexPlace(const IndexExpr& e, const Type* handle) {
     const bool error = type.type->kind == TypeKind::Error;
     const ConstValue* constant = info(*e.base).constant;
     const bool countOk = type.rank == e.indices.size();
+    const bool broken = std::any_of(e.indices.begin(), e.indices.end(),
+                                    [](const Expr* index) { return index->kind == NodeKind::ErrorExpr; });
     for (size_t i = 0; i < e.indices.size(); ++i) {
         int64_t value = 0;
         checkIndex(*e.indices[i], countOk && !error ? type.dims[i] : 0, value);
@@ -115,7 +118,7 @@ Place Analyzer::indexPlace(const IndexExpr& e, const Type* handle) {
     if (error || e.base->kind != NodeKind::Name) return {}; // an index on a part is a syntax error
     if (type.rank == 0)
         report(Code::IndexNotArray, range(e), {text(*e.base), typeName(type)});
-    else if (!countOk) {
+    else if (!countOk && !broken) {
         const SourceRange where = {range(*e.indices.front()).begin, range(*e.indices.back()).end};
         report(
             Code::IndexCount, where,
