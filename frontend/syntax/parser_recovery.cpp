@@ -108,9 +108,9 @@ void Parser::checkNameLength(TokenIndex name) {
 
 // ---- Looking around -------------------------------------------------------------------------------------------
 
-/// True when only white space and comments separate the token from the end of an earlier line.
+/// True when only white space and comments separate the token from the end of an earlier line, and behind the last one.
 bool Parser::startsLine(TokenIndex i) const {
-    if (i == 0) return true;
+    if (i == 0 || i > last_) return true;
     const std::string_view text = tree_.source->text();
     const uint32_t from = tokens_[i - 1].offset + tokens_[i - 1].length;
     for (uint32_t at = tokens_[i].offset; at > from; --at)

@@ -154,6 +154,7 @@ const std::vector<Case> kModules = {
     {"no module", "", "RAP1301@1:1"},
     {"only a comment", "! nothing\n", "RAP1301@2:1"},
     {"no module word", "PROC main()\nENDPROC\n", "RAP1302@1:1"},
+    {"the text ends behind a name", "MODULE x\nMODULEENDMODULE\n", "RAP1309@2:1 RAP1202@3:1"},
     {"text after the module", "MODULE m\nENDMODULE\nx := 1;\ny := 2;\n", "RAP1302@3:1"},
     {"comment around the module", "! a\nMODULE m\nENDMODULE\n! b\n", "RAP1014@1:1"},
     {"two modules", "MODULE m\nENDMODULE\nMODULE n\nENDMODULE\n", ""},
