@@ -19,7 +19,7 @@ static_assert(sizeof(rt::ParamDesc) == 24 && sizeof(rt::RoutineDataDesc) == 40 &
               sizeof(rt::ModuleDesc) == 24);
 static_assert(int{rt::kDataLocal} == ir::kDataLocal && int{rt::kDataPredefined} == ir::kDataPredefined);
 static_assert(sizeof(rt::RoutineDesc) == 88 && sizeof(rt::TaskDesc) == 40 && sizeof(rt::GlobalDesc) == 56);
-static_assert(sizeof(rt::ExternalDesc) == 40 && sizeof(rt::ProgramDesc) == 136);
+static_assert(sizeof(rt::ExternalDesc) == 40 && sizeof(rt::ProgramDesc) == 160);
 
 static_assert(int{rt::kStmtCallsRoutine} == ir::kStmtCallsRoutine &&
               int{rt::kStmtCallsBackward} == ir::kStmtCallsBackward &&
@@ -88,8 +88,9 @@ void ModuleEmitter::declareTables() {
     paramDescType_ = make("rt.ParamDesc", {ptr_, ptr_, i8_, i8_, i8_, i8_});
     routineDataType_ = make("rt.RoutineDataDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i8_});
     moduleDescType_ = make("rt.ModuleDesc", {ptr_, ptr_, i32_});
-    programDescType_ = make("rt.ProgramDesc", {ptr_, ptr_, i32_, ptr_, i32_, ptr_, i32_, ptr_, i32_, ptr_,
-                                               ptr_, i32_, i32_, ptr_, ptr_, ptr_, i32_, i32_, ptr_});
+    programDescType_ =
+        make("rt.ProgramDesc", {ptr_, ptr_, i32_, ptr_, i32_, ptr_, i32_, ptr_, i32_, ptr_, ptr_,
+                                i32_, i32_, ptr_, ptr_, ptr_, i32_, i32_, ptr_, ptr_, ptr_, i32_});
     for (const ir::TypeDesc& desc : module_.typeDescs)
         typeDescs_.push_back(placeholder(*target_, typeDescType_, "type." + desc.name));
     for (const ir::Routine& routine : module_.routines)
@@ -208,6 +209,19 @@ llvm::Constant* ModuleEmitter::globalTable(uint32_t& count) {
     return array(globalDescType_, rows, "globals");
 }
 
+llvm::Constant* ModuleEmitter::aliasTable() {
+    std::vector<llvm::Constant*> rows;
+    for (const ir::GlobalAlias& alias : module_.aliases) {
+        const ir::Global& global = module_.globals[alias.global];
+        rows.push_back(llvm::ConstantStruct::get(
+            globalDescType_,
+            {text(alias.displayName), text(alias.moduleName), globals_[alias.global],
+             typeDescs_[global.typeDesc], i8(static_cast<int64_t>(global.kind)), i8(global.flags),
+             i32(int64_t{alias.task}), fileName(alias.file), i32(alias.line)}));
+    }
+    return array(globalDescType_, rows, "aliases");
+}
+
 llvm::Constant* ModuleEmitter::externals() {
     std::vector<llvm::Constant*> rows;
     for (const ir::ExternalRef& external : module_.externals)
@@ -300,14 +314,28 @@ void ModuleEmitter::emitProgram() {
     for (const std::string& config : module_.configTexts)
         texts.push_back(text(config));
     llvm::Constant* value = llvm::ConstantStruct::get(
-        programDescType_,
-        {text(module_.name), tasks(), i32(static_cast<int64_t>(module_.tasks.size())), globalRows,
-         i32(globalCount), externals(), i32(static_cast<int64_t>(module_.externals.size())), routineRows,
-         i32(routineCount), array(ptr_, names, "configNames"), array(ptr_, texts, "configTexts"),
-         i32(static_cast<int64_t>(texts.size())), i32(static_cast<int64_t>(module_.modules.size())),
-         moduleTable(), array(ptr_, types, "searchTypes"), routineDataTable(),
-         i32(static_cast<int64_t>(types.size())), i32(static_cast<int64_t>(module_.routineData.size())),
-         module_.unitReset == ir::kNone ? null() : cEntries_[module_.unitReset]});
+        programDescType_, {text(module_.name),
+                           tasks(),
+                           i32(static_cast<int64_t>(module_.tasks.size())),
+                           globalRows,
+                           i32(globalCount),
+                           externals(),
+                           i32(static_cast<int64_t>(module_.externals.size())),
+                           routineRows,
+                           i32(routineCount),
+                           array(ptr_, names, "configNames"),
+                           array(ptr_, texts, "configTexts"),
+                           i32(static_cast<int64_t>(texts.size())),
+                           i32(static_cast<int64_t>(module_.modules.size())),
+                           moduleTable(),
+                           array(ptr_, types, "searchTypes"),
+                           routineDataTable(),
+                           i32(static_cast<int64_t>(types.size())),
+                           i32(static_cast<int64_t>(module_.routineData.size())),
+                           module_.unitReset == ir::kNone ? null() : cEntries_[module_.unitReset],
+                           text(module_.folder),
+                           aliasTable(),
+                           i32(static_cast<int64_t>(module_.aliases.size()))});
     auto* program =
         llvm::cast<llvm::GlobalVariable>(target_->getOrInsertGlobal(kProgramSymbol, programDescType_));
     program->setConstant(true);

@@ -40,7 +40,7 @@ LAYERS = {
     "runtime/sim": ["runtime/"],
     "runtime/value": ["runtime/abi"],
     "runtime/debug": ["runtime/"],
-    "runtime/host": ["runtime/", "stdlib"],
+    "runtime/host": ["runtime/", "stdlib", "config"],
     "stdlib/gen": ["frontend/"],
     "stdlib/impl": ["runtime/", "stdlib"],
     "stdlib": ["runtime/abi"],

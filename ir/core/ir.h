@@ -246,6 +246,15 @@ struct ExternalRef {
     uint32_t file = kNone, line = 0, column = 0;
 };
 
+/// A further declaration of an object that tasks share.
+struct GlobalAlias {
+    uint32_t global = kNone;
+    std::string displayName;
+    std::string moduleName;
+    uint32_t task = kNone; ///< that declares it
+    uint32_t file = kNone, line = 0;
+};
+
 struct TaskEntry {
     std::string name;
     std::string type = "NORMAL"; ///< NORMAL, STATIC, SEMISTATIC
@@ -262,8 +271,10 @@ struct Module {
     std::vector<Routine> routines;
     std::vector<TypeDesc> typeDescs;
     std::vector<ExternalRef> externals;
+    std::vector<GlobalAlias> aliases;
     std::vector<TaskEntry> tasks;
     std::vector<std::string> files; ///< source paths
+    std::string folder;             ///< relative source paths begin here; may be empty
     std::vector<ModuleEntry> modules;
     std::vector<uint32_t> searchTypes; ///< type descriptions that data can be searched by
     std::vector<RoutineData> routineData;

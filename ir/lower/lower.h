@@ -16,6 +16,7 @@ struct Options {
     std::string programName = "program";
     std::vector<std::string> configNames; ///< configuration files known now, kept in the program
     std::vector<std::string> configTexts;
+    std::string folder; ///< where relative paths of sources begin, so that they are found from elsewhere, too
     /// Tells whether a native symbol ("rt_MoveL") has an implementation; empty: all have. A call of one
     /// without is reported as a warning and stops the program with an event when it is reached.
     std::function<bool(std::string_view)> nativeImplemented;

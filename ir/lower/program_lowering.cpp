@@ -159,6 +159,19 @@ uint32_t ProgramLowering::fileIndex(const std::string& path) {
     return it->second;
 }
 
+namespace {
+uint32_t lineOf(const DataSymbol& symbol) {
+    const syntax::SyntaxTree& tree = *symbol.module->tree;
+    return tree.source->lineColumn(tree.range(symbol.nameToken).begin).line;
+}
+} // namespace
+
+ir::GlobalAlias ProgramLowering::aliasOf(const DataSymbol& symbol, uint32_t task, uint32_t global) {
+    return {
+        global,        symbol.name, symbol.module->name, task, fileIndex(symbol.module->tree->source->path()),
+        lineOf(symbol)};
+}
+
 uint32_t ProgramLowering::addGlobal(const DataSymbol& symbol, uint32_t task, bool shared,
                                     const std::string& name) {
     ir::Global global;
@@ -180,11 +193,9 @@ uint32_t ProgramLowering::addGlobal(const DataSymbol& symbol, uint32_t task, boo
         if (symbol.value.kind != sema::ConstValue::Kind::None)
             flatten(symbol.value, symbol.type, global.init);
         global.typeDesc = typeDesc(symbol.type);
-        if (symbol.module && symbol.decl) {
+        if (symbol.module && symbol.decl && !symbol.predefined) {
             global.file = fileIndex(symbol.module->tree->source->path());
-            global.line =
-                symbol.module->tree->source->lineColumn(symbol.module->tree->range(symbol.nameToken).begin)
-                    .line;
+            global.line = lineOf(symbol);
         }
     }
     const auto index = static_cast<uint32_t>(module_.globals.size());
@@ -213,7 +224,10 @@ uint32_t ProgramLowering::globalFor(const DataSymbol& symbol, uint32_t task) {
     if (systemGlobalPers) {
         // One object for every task that declares it; sema has compared types and dimensions.
         auto [it, isNew] = sharedPersistents_.try_emplace(foldCase(symbol.name), 0);
-        if (isNew) it->second = addGlobal(symbol, task, true, "pers/" + it->first);
+        if (isNew)
+            it->second = addGlobal(symbol, task, true, "pers/" + it->first);
+        else if (symbol.module && symbol.decl && !symbol.predefined)
+            module_.aliases.push_back(aliasOf(symbol, task, it->second));
         index = it->second;
         ir::Global& global = module_.globals[index];
         if (global.init.empty() && symbol.value.kind != sema::ConstValue::Kind::None)
@@ -405,6 +419,7 @@ bool ProgramLowering::run() {
     module_.name = options_.programName;
     module_.configNames = options_.configNames;
     module_.configTexts = options_.configTexts;
+    module_.folder = options_.folder;
     const size_t errorsBefore = sink_.errorCount();
     findNamedParameters();
     for (uint32_t i = 0; i < program_.tasks.size(); ++i)

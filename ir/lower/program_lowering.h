@@ -86,6 +86,7 @@ class ProgramLowering {
     uint32_t makeReset(uint32_t task);
     void drainPending();
     bool inSharedModule(const sema::DataSymbol& symbol) const;
+    ir::GlobalAlias aliasOf(const sema::DataSymbol& symbol, uint32_t task, uint32_t global);
     uint32_t addGlobal(const sema::DataSymbol& symbol, uint32_t task, bool shared, const std::string& name);
 
     const sema::CheckedProgram& program_;

@@ -27,21 +27,23 @@ class ModuleParser {
     bool item() {
         if (in_.takeWord("module")) return in_.string(module_.name) && in_.endOfLine();
         if (in_.takeWord("file")) return file();
+        if (in_.takeWord("folder")) return in_.string(module_.folder) && in_.endOfLine();
         if (in_.takeWord("type")) return type();
         if (in_.takeWord("desc")) return desc();
         if (in_.takeWord("global")) return global();
         if (in_.takeWord("native")) return native();
         if (in_.takeWord("routine")) return routine();
         if (in_.takeWord("external")) return external();
+        if (in_.takeWord("alias")) return alias();
         if (in_.takeWord("task")) return task();
         if (in_.takeWord("config")) return config();
         if (in_.takeWord("source")) return source();
         if (in_.takeWord("search")) return searchType();
         if (in_.takeWord("within")) return routineData();
         if (in_.takeWord("named")) return named();
-        return in_.expected(
-            "module, file, type, desc, global, native, routine, external, task, source, search, "
-            "within, named or config");
+        return in_.expected("module, file, folder, type, desc, global, native, routine, external, alias, "
+                            "task, source, search, "
+                            "within, named or config");
     }
 
     bool small(uint8_t& value, int64_t largest) {
@@ -288,6 +290,16 @@ class ModuleParser {
         return in_.endOfLine();
     }
 
+    bool alias() {
+        GlobalAlias entry;
+        if (!tableReference(Fixup::Kind::Global, Fixup::Slot::Alias, module_.aliases.size()) ||
+            !in_.string(entry.displayName) || !in_.word("in") || !in_.string(entry.moduleName) ||
+            !in_.word("task") || !in_.unsignedInt(entry.task) || !place(entry.file, entry.line))
+            return false;
+        module_.aliases.push_back(std::move(entry));
+        return in_.endOfLine();
+    }
+
     bool task() {
         TaskEntry entry;
         if (!in_.string(entry.name) || !in_.string(entry.type)) return false;
@@ -328,6 +340,7 @@ class ModuleParser {
         }
         switch (fixup.slot) {
         case Fixup::Slot::External: module_.externals[fixup.index].global = target; break;
+        case Fixup::Slot::Alias: module_.aliases[fixup.index].global = target; break;
         case Fixup::Slot::TaskEntry: module_.tasks[fixup.index].entry = target; break;
         case Fixup::Slot::TaskReset: module_.tasks[fixup.index].reset = target; break;
         case Fixup::Slot::Named: module_.namedRoutines[fixup.index].routine = target; break;

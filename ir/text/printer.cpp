@@ -329,6 +329,12 @@ void printTails(Out& out, const Module& module) {
         if (external.file != kNone) put(out, " at {}:{}:{}", external.file, external.line, external.column);
         put(out, "\n");
     }
+    for (const GlobalAlias& alias : module.aliases) {
+        put(out, "alias @{} {} in {} task {}", globalName(alias.global), quoted(alias.displayName),
+            quoted(alias.moduleName), alias.task);
+        printPlace(out, alias.file, alias.line);
+        put(out, "\n");
+    }
     for (const TaskEntry& task : module.tasks) {
         put(out, "task {} {}", quoted(task.name), quoted(task.type));
         if (task.entry != kNone) put(out, " entry @{}", routineName(task.entry));
@@ -353,6 +359,7 @@ std::string printModule(const Module& module) {
     put(out, "module {}\n", quoted(module.name));
     for (size_t i = 0; i < module.files.size(); ++i)
         put(out, "file {} {}\n", i, quoted(module.files[i]));
+    if (!module.folder.empty()) put(out, "folder {}\n", quoted(module.folder));
     for (TypeId id = kPtr + 1; id < module.types.size(); ++id)
         printType(out, module, id);
     for (size_t i = 0; i < module.typeDescs.size(); ++i)

@@ -147,6 +147,12 @@ void checkTables(const Module& module, Findings& out) {
         if (external.file != kNone && external.file >= module.files.size())
             out.push_back(fmt::format("external {}: file does not exist", external.name));
     }
+    for (const GlobalAlias& alias : module.aliases) {
+        if (alias.global >= module.globals.size() || alias.task >= module.tasks.size())
+            out.push_back(fmt::format("alias {}: global or task does not exist", alias.displayName));
+        if (alias.file != kNone && alias.file >= module.files.size())
+            out.push_back(fmt::format("alias {}: file does not exist", alias.displayName));
+    }
     for (const TaskEntry& task : module.tasks) {
         for (uint32_t index : {task.entry, task.reset}) {
             if (index == kNone) continue;

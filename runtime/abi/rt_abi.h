@@ -122,7 +122,8 @@ struct RoutineDesc {
     const LocalDesc* locals; ///< in their order; dimensions of arrays have rows without a name
     uint32_t line;           ///< of its declaration
     uint8_t stepping;        ///< made for the stepping profile
-    uint8_t callable; ///< a procedure without parameters: the program pointer can be moved to it, the system can call it
+    uint8_t
+        callable; ///< a procedure without parameters: the program pointer can be moved to it, the system can call it
     uint8_t tail[2];
 };
 
@@ -251,7 +252,10 @@ struct ProgramDesc {
     uint32_t typeCount;
     uint32_t routineDataCount;
     EntryFunction
-        reset; ///< of a unit loaded at run time (no tasks): gives its variables their initial values
+        reset;          ///< of a unit loaded at run time (no tasks): gives its variables their initial values
+    const char* folder; ///< where relative paths of files begin; "" = where the process runs
+    const GlobalDesc* aliases; ///< further declarations of persistents that tasks share, one row each
+    uint32_t aliasCount;
 };
 
 } // namespace rt

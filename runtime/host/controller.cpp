@@ -2,6 +2,8 @@
 
 #include "runtime/host/controller.h"
 
+#include "runtime/host/module_saver.h"
+#include "runtime/host/saved_state.h"
 #include "runtime/host/stop_signals.h"
 #include "runtime/io/text_util.h"
 #include "runtime/sim/csv_writers.h"
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <utility>
 
 namespace rt {
 namespace {
@@ -31,7 +34,8 @@ bool isNormal(const std::unique_ptr<Task>& task) {
 
 Controller::Controller(const RunOptions& options)
     : options_(options), scheduler_(schedulerOptions(options)), io_(scheduler_), random_(options.seed),
-      startCalendar_(static_cast<int64_t>(std::time(nullptr))) {
+      startCalendar_(static_cast<int64_t>(std::time(nullptr))), saver_(std::make_unique<ModuleSaver>(*this)),
+      state_(std::make_unique<SavedState>(*this)) {
     log_.setClock([this] { return scheduler_.now(); });
     scheduler_.setBeforeSleep([this] {
         panel_.flush();
@@ -78,7 +82,7 @@ ExitStatus Controller::run() {
         scheduler_.add(*task);
         // The controller is switched on, the program loaded and started.
         for (const SystemEvent event : {SystemEvent::PowerOn, SystemEvent::Reset, SystemEvent::Start})
-            task->events().owe(event);
+            if (event != SystemEvent::Reset || !task->keepsVariables()) task->events().owe(event);
     }
     return finish(scheduler_.run([this] { return runOver(); }));
 }
@@ -87,6 +91,7 @@ bool Controller::runOver() {
     if (StopSignals::received() != 0) return true;
     if (debugger_.poll()) return true;
     systemSignals_.update();
+    state_->keepFresh();
     for (const auto& task : tasks_) {
         if (!isNormal(task) || task->state() == TaskState::Finished) continue;
         const bool stoppedForGood = task->isStopped() && !task->hasWorkWhileStopped() && !startToCome();
@@ -127,7 +132,9 @@ ExitStatus Controller::finish(RunEnd end) {
         status = ExitStatus::MaxTimeReached;
     }
     motion_->finishTrace();
+    state_->write();
     scheduler_.abandonTasks();
+    if (options_.save) saver_->saveAll();
     panel_.flush();
     log_.flush();
     if (trace_ && !trace_->close())
@@ -175,7 +182,7 @@ void Controller::stopNormalTasks(StopCause cause) {
 
 // ---- Controller actions --------------------------------------------------------------------------------------------
 
-void Controller::actionStop(SystemEvent event) {
+void Controller::stopTasks(const char* order, SystemEvent event) {
     bool any = false;
     for (const auto& task : tasks_) {
         if (!isNormal(task)) continue;
@@ -189,13 +196,17 @@ void Controller::actionStop(SystemEvent event) {
         }
         if (!task->isExecuting()) continue;
         any = true;
-        log_.write(EventId::ProgramStopped, task.get(),
-                   {task->name(), event == SystemEvent::QuickStop ? "quick stop order" : "stop order"});
+        log_.write(EventId::ProgramStopped, task.get(), {task->name(), order});
         task->stop(StopCause::Order);
         task->events().owe(event);
         debugger_.noteStop(*task, StopReason::Order);
     }
     if (!any) log_.write(EventId::NothingStopped, nullptr, {"stop", "executing"});
+}
+
+/// The arm brakes on its path as fast as its limits allow in either case.
+void Controller::actionStop(SystemEvent event) {
+    stopTasks(event == SystemEvent::QuickStop ? "quick stop order" : "stop order", event);
     motion_->programStop();
 }
 
@@ -205,6 +216,7 @@ void Controller::oweStart(Task& task) {
 
 /// Why no task may be started; "" when it may.
 std::string Controller::startRefusal(const Task& task) const {
+    if (powerOff_) return "the power has failed (power_on first)";
     if (systemFailed_) return "a background task has failed; end the run and repair it";
     if (task.canResume()) return "";
     return "SystemStopAction \\StopBlock was executed; move the program pointer to main first (pp_to_main)";
@@ -225,6 +237,7 @@ void Controller::actionStart() {
         return;
     }
     backgroundStopped_ = false;
+    if (!std::exchange(motorsOn_, true)) log_.write(EventId::MotorsOn, nullptr);
     motion_->programStart();
     for (const auto& task : tasks_) {
         if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished) continue;
@@ -288,8 +301,8 @@ void Controller::scheduleStimulus() {
 
 bool Controller::isStart(const StimulusItem& item) const {
     if (item.kind != StimulusKind::Signal)
-        return item.kind == StimulusKind::Start || item.kind == StimulusKind::StepForward ||
-               item.kind == StimulusKind::StepBackward;
+        return item.kind == StimulusKind::Start || item.kind == StimulusKind::PowerOn ||
+               item.kind == StimulusKind::StepForward || item.kind == StimulusKind::StepBackward;
     return item.value != 0 && systemSignals_.isStart(io_.find(item.target));
 }
 
@@ -304,6 +317,10 @@ void Controller::perform(const StimulusItem& item) {
         return;
     case StimulusKind::Answer: panel_.answerCame(item.text); return;
     case StimulusKind::Stop: actionStop(); return;
+    case StimulusKind::QuickStop: actionStop(SystemEvent::QuickStop); return;
+    case StimulusKind::EmergencyStop: actionEmergencyStop(); return;
+    case StimulusKind::PowerFail: actionPowerFail(); return;
+    case StimulusKind::PowerOn: actionPowerOn(); return;
     case StimulusKind::Start: actionStart(); return;
     case StimulusKind::PpToMain: actionPpToMain(); return;
     case StimulusKind::StepForward: actionStep(true); return;

@@ -30,6 +30,8 @@
 
 namespace rt {
 
+class ModuleSaver;
+class SavedState;
 class SignalsWriter;
 class TraceWriter;
 
@@ -55,6 +57,7 @@ class Controller final : public TaskHost {
     MotionDriver& motion() { return *motion_; }
     HandleTable<ClockObject>& clocks() { return clocks_; }
     Debugger& debugger() { return debugger_; }
+    ModuleSaver& saver() { return *saver_; }
     const RunOptions& options() const { return options_; }
     const SystemSettings& settings() const { return settings_; }
     /// All configuration files read, in order (every domain).
@@ -100,6 +103,12 @@ class Controller final : public TaskHost {
     // ---- Controller actions (stimulus, clients): reach all NORMAL tasks -----------------------------------
     /// `event`: Stop, or QuickStop for a quick or an emergency stop.
     void actionStop(SystemEvent event = SystemEvent::Stop);
+    /// Motors off: the arm leaves its path; the next start switches them on and returns to it first (manual 2.2.6).
+    void actionEmergencyStop();
+    /// Everything stands still until actionPowerOn(); then data are as before, outputs as at the start of the controller,
+    /// STATIC tasks go on, SEMISTATIC ones begin anew, NORMAL ones wait for a start (manual 1.2.2, 1.20, 2.10).
+    void actionPowerFail();
+    void actionPowerOn();
     void actionStart();
     /// Refused with an event unless the program is stopped.
     void actionPpToMain();
@@ -131,6 +140,7 @@ class Controller final : public TaskHost {
     ExitStatus openRobot();
     void applyMotionParameters(robot::RobotModel& model) const;
     ExitStatus openFiles();
+    ExitStatus openState();
     ExitStatus readStimulusFile();
     bool connectExternals(const ProgramDesc& program);
     bool connectExternal(const ExternalDesc& external);
@@ -141,6 +151,7 @@ class Controller final : public TaskHost {
     void addEventRoutines();
     bool hookConcerns(const CfgInstance& hook, const Task& task) const;
     void backgroundStopped(Task& task);
+    void stopTasks(const char* order, SystemEvent event);
     void scheduleStimulus();
     void perform(const StimulusItem& item);
     bool runOver();
@@ -176,6 +187,9 @@ class Controller final : public TaskHost {
     bool systemFailed_ = false;      // a background task with TrustLevel SysFail or SysHalt has stopped
     bool backgroundStopped_ = false; // one with SysStop has, and there was no start since
     bool motorsOn_ = true;
+    bool powerOff_ = false;
+    std::unique_ptr<ModuleSaver> saver_;
+    std::unique_ptr<SavedState> state_;
 };
 
 /// What a host adds to a controller before the program runs (names of errors, services).

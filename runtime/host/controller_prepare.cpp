@@ -2,7 +2,9 @@
 
 #include "runtime/host/controller.h"
 
+#include "runtime/host/module_saver.h"
 #include "runtime/host/module_units.h"
+#include "runtime/host/saved_state.h"
 #include "runtime/io/text_util.h"
 #include "runtime/robot/robot_model.h"
 #include "runtime/sim/csv_writers.h"
@@ -54,17 +56,17 @@ bool signalTypeOf(const std::string& kind, SignalType& type) {
 ExitStatus Controller::prepare(const ProgramDesc& program) {
     program_ = &program;
     tables_.setProgram(program);
+    saver_->remember();
     // An order in which each step can use what came before; the first that fails ends it.
     ExitStatus status = readConfiguration(program);
     if (status == ExitStatus::Ended) status = openRobot();
     if (status == ExitStatus::Ended) status = readStimulusFile();
     if (status == ExitStatus::Ended && !connectExternals(program)) status = ExitStatus::BadProgram;
     if (status == ExitStatus::Ended) status = openFiles();
-    if (status == ExitStatus::Ended) {
-        makeTasks(program);
-        applyTaskParameters();
-    }
-    return status;
+    if (status != ExitStatus::Ended) return status;
+    makeTasks(program);
+    applyTaskParameters();
+    return openState();
 }
 
 // ---- Configuration -------------------------------------------------------------------------------------------------
@@ -181,6 +183,17 @@ ExitStatus Controller::openFiles() {
         print(fmt::format("--events: cannot write {}: {}", options_.events, std::strerror(errno)));
         return ExitStatus::BadUsage;
     }
+    return ExitStatus::Ended;
+}
+
+ExitStatus Controller::openState() {
+    if (options_.state.empty()) return ExitStatus::Ended;
+    std::string error;
+    if (!state_->open(options_.state, error)) {
+        print("--state: " + error);
+        return ExitStatus::BadUsage;
+    }
+    state_->restore();
     return ExitStatus::Ended;
 }
 

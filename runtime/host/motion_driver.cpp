@@ -233,6 +233,19 @@ void MotionDriver::programStart() {
     applyStops();
 }
 
+void MotionDriver::emergencyStop(bool powerFailure) {
+    programStop_ = true;
+    advance(scheduler_.now());
+    if (powerFailure) brokenPath_ = system_.isIdle() ? 0 : system_.lastOrdered();
+    system_.halt();
+    refresh();
+}
+
+bool MotionDriver::pathInterrupted() {
+    if (brokenPath_ != 0 && system().isDone(brokenPath_)) brokenPath_ = 0;
+    return brokenPath_ != 0;
+}
+
 void MotionDriver::clearPath() {
     advance(scheduler_.now());
     interrupted_ = {};

@@ -64,6 +64,11 @@ class MotionDriver {
     bool isStopMoveActive() const { return stopMove_; }
     void programStop();
     void programStart();
+    /// The motors go off: the arm leaves its path; programStart() brings it back first. `powerFailure`: notes that a path
+    /// was interrupted.
+    void emergencyStop(bool powerFailure);
+    /// A power failure interrupted a path, and that path is not finished yet (PFRestart).
+    bool pathInterrupted();
     /// ClearPath, program pointer moved.
     void clearPath();
     /// ProcerrRecovery: the arm stops on its path, and the movement instruction that waits, else the next one, raises
@@ -110,6 +115,7 @@ class MotionDriver {
         motion::MoveId move = 0;
         int32_t retry = 0; ///< Task::latestRetry at that time
     } interrupted_;
+    motion::MoveId brokenPath_ = 0; // last move of the path at the power failure; 0 = none
     MotionPointer pointer_;
     bool backward_ = false;
     std::function<Status(Task&)> circlePointStop_;

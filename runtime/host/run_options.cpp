@@ -89,6 +89,12 @@ void addRunOptions(CLI::App& app, RunOptions& options, bool withTasks) {
     app.add_option("--signals", options.signals, "write every change of a signal")->type_name("FILE.csv");
     app.add_option("--events", options.events, "write the event log, an object a line")
         ->type_name("FILE.jsonl");
+    app.add_option(
+           "--state", options.state,
+           "folder that keeps persistents, variables, events and the robot's position from run to run")
+        ->type_name("DIR");
+    app.add_flag("--save", options.save,
+                 "write the values of persistents back into the source files at the end, and let Save do so");
     app.add_flag("--realtime", options.realtime, "pace virtual time to the wall clock");
     addMaxTime(app, options);
     addWhole(app, "--seed", options.seed, UINT32_MAX, "start value of Rand; default 1");

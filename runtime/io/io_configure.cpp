@@ -140,6 +140,7 @@ void IoSystem::configureSignal(const CfgInstance& instance, const std::string& f
                                    shortestNumber(initial)));
     }
     config.defaultValue = initial;
+    config.store = instance.flag("Store");
 
     const SignalId known = find(config.name);
     if (known < 0) {

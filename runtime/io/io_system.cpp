@@ -151,6 +151,15 @@ IoResult IoSystem::invert(Handle handle) {
     return result == IoResult::Ok ? set(handle, present == 0 ? 1 : 0) : result;
 }
 
+void IoSystem::powerOn() {
+    for (SignalId id = 0; id < static_cast<SignalId>(signals_.size()); ++id) {
+        Signal& signal = *signals_[static_cast<std::size_t>(id)];
+        cancelPending(signal);
+        if (isInput(signal.config.type) || signal.config.store || signal.driven) continue;
+        change(id, signal.config.defaultValue, true);
+    }
+}
+
 IoResult IoSystem::force(SignalId id, double value) {
     if (id < 0 || id >= static_cast<SignalId>(signals_.size())) return IoResult::NoSignal;
     Signal& signal = *signals_[static_cast<std::size_t>(id)];

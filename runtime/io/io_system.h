@@ -44,6 +44,7 @@ struct SignalConfig {
     uint32_t bits = 1; ///< width of a group, from DeviceMap; 1 for digital
     double defaultValue = 0;
     double minValue = 0, maxValue = 1; ///< logical limits; analog without MaxLog: no limits
+    bool store = false;                ///< keeps its value over a power failure (Store)
     bool writable = true;              ///< a RAPID program may set it (Access, EIO_ACCESS)
     std::string file;
     uint32_t line = 0;
@@ -122,6 +123,8 @@ class IoSystem {
     IoResult pulse(Handle handle, Time length, bool high);
     /// InvertDO.
     IoResult invert(Handle handle);
+    /// Power has returned (manual 2.10): outputs get their start value, except those with Store; delays and pulses are gone.
+    void powerOn();
     /// Stimulus, client, test bench: any signal, limits checked, access not. Cancels pending changes as set
     /// does.
     IoResult force(SignalId id, double value);

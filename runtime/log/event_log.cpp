@@ -170,6 +170,20 @@ void EventLog::show(const Event& event) {
     }
 }
 
+void EventLog::restore(const std::vector<Event>& events) {
+    const auto own = static_cast<uint64_t>(events_.size());
+    for (auto event = events.rbegin(); event != events.rend(); ++event)
+        if (events_.size() < kKept) events_.push_front(*event);
+    // Those written already keep their order.
+    for (Event& event : events_)
+        event.sequence = 0;
+    const uint64_t last = events.empty() ? 0 : events.back().sequence;
+    uint64_t number = last + own;
+    for (auto event = events_.rbegin(); event != events_.rend(); ++event)
+        event->sequence = number > 0 ? number-- : 0;
+    sequence_ = last + own;
+}
+
 void EventLog::flush() {
     if (json_ != nullptr) std::fflush(json_);
     if (human_ != nullptr) std::fflush(human_);

@@ -77,6 +77,8 @@ class EventLog {
 
     /// The newest 1000, oldest first.
     const std::deque<Event>& events() const { return events_; }
+    /// Events of an earlier run come before those of this one; numbers go on. They are not shown again.
+    void restore(const std::vector<Event>& events);
     /// The event with this sequence number, while it is kept.
     const Event* find(uint64_t sequence) const;
     uint64_t count() const { return sequence_; }

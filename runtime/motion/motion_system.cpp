@@ -3,6 +3,8 @@
 
 #include "runtime/motion/motion_system.h"
 
+#include "runtime/motion/coast.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -59,7 +61,8 @@ struct Stretch {
     TimeNs end = 0;
     std::shared_ptr<const Move> move;
     Profile profile;
-    MotionState still; // without a move
+    MotionState still;                  // without a move
+    std::shared_ptr<const Coast> coast; // without a move: braking off the path
 };
 
 } // namespace
@@ -75,6 +78,8 @@ struct MotionSystem::Impl {
     bool isBraking = false;   // the current stretch ends before the end of the path
     bool isAbandoned = false; // ... and the rest of its move has been thrown away
     bool isStopAnnounced = true;
+    bool isHalted = false;   // off the path: the first move goes on at its pausedAt
+    bool isCoasting = false; // braking there
 
     std::deque<std::shared_ptr<Move>> queue; // the first may be in progress
     std::vector<Level> levels;
@@ -82,12 +87,13 @@ struct MotionSystem::Impl {
     std::vector<MotionEvent> events;
     MoveId nextId = 1;
     MoveId lastDone = 0;
-    std::vector<std::pair<MoveId, MoveId>> cleared; // first and last of each range
-    std::deque<std::pair<MoveId, TimeNs>> reached;  // the most recent
+    std::deque<std::pair<MoveId, MoveId>> cleared; // first and last of each range, the most recent
+    std::deque<std::pair<MoveId, TimeNs>> reached; // the most recent
 
     const Stretch& stretch() const { return stretches.back(); }
     const Move* findUnfinished(MoveId id) const;
-    bool isMoving() const { return stretch().move != nullptr && now < stretch().end; }
+    bool isOnPath() const { return stretch().move != nullptr && now < stretch().end; } // and moving
+    bool isMoving() const { return isOnPath() || (stretch().coast != nullptr && now < stretch().end); }
     bool isHeld() const { return isStopRequested || override <= 0; }
 
     void report(MotionEventKind kind, const Move* move, TimeNs time, uint32_t trigger = 0);
@@ -97,6 +103,9 @@ struct MotionSystem::Impl {
     bool replaceProfile(bool toStop);
     void hold();
     void goOn();
+    void noteCleared(MoveId first);
+    void coastNow();
+    void resume();
     void orderReturnToPath();
     std::optional<TimeNs> nextEvent() const;
     std::optional<TimeNs> triggerTime(const Trigger& trigger) const;
@@ -166,11 +175,45 @@ bool MotionSystem::Impl::replaceProfile(bool toStop) {
 }
 
 void MotionSystem::Impl::hold() {
-    if (isMoving() && !isBraking && stretch().profile.end() > 0) replaceProfile(true);
+    if (isOnPath() && !isBraking && stretch().profile.end() > 0) replaceProfile(true);
+}
+
+/// All moves from this one on. Who asks for one that was cleared long ago is told that it is done.
+void MotionSystem::Impl::noteCleared(MoveId first) {
+    cleared.emplace_back(first, nextId - 1);
+    if (cleared.size() > 64) cleared.pop_front();
+}
+
+/// Brakes off the path, and notes where on the path the arm would have stopped.
+void MotionSystem::Impl::coastNow() {
+    if (queue.front()->isReturn) { // it was on its way back: the move behind knows where to
+        queue.pop_front();
+    } else {
+        Move& move = *queue.front();
+        move.pausedAt = std::min(stretch().profile.end(), 1.0); // stop() has been called
+        move.doneSeconds += toSeconds(now - stretch().start);
+    }
+    if (isAbandoned) queue.clear();
+    Stretch next;
+    next.start = now;
+    next.still = stateAt(now);
+    const FrameSetup frames = stretch().move->plan.path().frames();
+    next.coast = std::make_shared<const Coast>(next.still, model, frames);
+    next.end = now + toNs(next.coast->duration());
+    stretches.push_back(std::move(next));
+    isBraking = isAbandoned = false;
+    isHalted = isCoasting = true;
+}
+
+/// After a halt by way of the path, else straight on.
+void MotionSystem::Impl::resume() {
+    if (isCoasting) return; // when it has come to rest
+    if (std::exchange(isHalted, false) && !queue.empty() && queue.front()->isStarted) orderReturnToPath();
+    goOn();
 }
 
 void MotionSystem::Impl::goOn() {
-    if (isHeld()) return;
+    if (isHeld() || isCoasting) return;
     const bool isUnfinished = !queue.empty() && queue.front()->isStarted;
     if (!isUnfinished) return startNext();
     const bool isInterrupted = isBraking || stretch().move != queue.front();
@@ -231,6 +274,7 @@ std::optional<TimeNs> MotionSystem::Impl::releaseTime() const {
 
 std::optional<TimeNs> MotionSystem::Impl::nextEvent() const {
     const Stretch& current = stretch();
+    if (isCoasting) return std::max(current.end, now);
     if (current.move == nullptr) return {};
     const bool isOver = queue.empty() || queue.front() != current.move;
     if (isOver) return {};
@@ -275,6 +319,13 @@ void MotionSystem::Impl::finishStretch() {
 }
 
 void MotionSystem::Impl::handleEventsNow() {
+    if (isCoasting) {
+        isCoasting = false;
+        if (!std::exchange(isStopAnnounced, true))
+            report(MotionEventKind::Stopped, queue.empty() ? nullptr : queue.front().get(), now);
+        if (!isHeld()) resume();
+        return;
+    }
     const std::shared_ptr<Move> move = queue.front();
     if (!isAbandoned) {
         for (Trigger& trigger : move->triggers) {
@@ -294,6 +345,7 @@ MotionState MotionSystem::Impl::stateAt(TimeNs time) const {
     const auto after = std::upper_bound(stretches.begin(), stretches.end(), time,
                                         [](TimeNs value, const Stretch& s) { return value < s.start; });
     const Stretch& at = after == stretches.begin() ? stretches.front() : *(after - 1);
+    if (at.coast != nullptr) return at.coast->at(toSeconds(time - at.start), kinematics);
     if (at.move == nullptr) return at.still;
     MotionState state = at.move->plan.sampleAt(at.profile.at(toSeconds(time - at.start)));
     state.move = at.move->id;
@@ -385,10 +437,16 @@ Expected<MoveId, MotionError> MotionSystem::enqueue(const MoveCommand& command) 
 void MotionSystem::clear() {
     Impl& s = *impl_;
     if (s.queue.empty()) return;
+    if (s.isHalted) { // what remains is not the arm's any more
+        s.noteCleared(s.queue.front()->id);
+        s.queue.clear();
+        s.isHalted = false;
+        return;
+    }
     const bool isUnderWay = s.queue.front()->isStarted;
     const bool isFinishing = isUnderWay && s.isMoving() && !s.isBraking && !s.replaceProfile(true);
     const MoveId first = s.queue.front()->id + (isFinishing ? 1 : 0);
-    if (first < s.nextId) s.cleared.emplace_back(first, s.nextId - 1);
+    if (first < s.nextId) s.noteCleared(first);
     if (isUnderWay && s.isMoving()) {
         s.queue.resize(1); // it comes to rest first
         s.isAbandoned = !isFinishing;
@@ -402,7 +460,7 @@ void MotionSystem::clear() {
 bool MotionSystem::storePath() {
     Impl& s = *impl_;
     if (s.isMoving()) return false;
-    if (!s.queue.empty() && s.queue.front()->isStarted) {
+    if (!std::exchange(s.isHalted, false) && !s.queue.empty() && s.queue.front()->isStarted) {
         s.queue.front()->pausedAt = s.profileState(s.now).s;
     }
     s.levels.push_back({std::exchange(s.queue, {}), s.isStopRequested, s.isBraking});
@@ -455,10 +513,19 @@ void MotionSystem::stop() {
     s.report(MotionEventKind::Stopped, s.queue.empty() ? nullptr : s.queue.front().get(), s.now);
 }
 
+void MotionSystem::halt() {
+    Impl& s = *impl_;
+    stop();
+    const bool onPath = s.isOnPath() && s.stretch().move->plan.limits().speed > 0; // not in a pause
+    if (!onPath) return;
+    s.isStopAnnounced = false;
+    s.coastNow();
+}
+
 void MotionSystem::start() {
     impl_->isStopRequested = false;
     impl_->isStopAnnounced = true;
-    impl_->goOn();
+    impl_->resume();
 }
 
 bool MotionSystem::isStopRequested() const {
@@ -471,7 +538,7 @@ void MotionSystem::setOverride(double percent) {
     if (wanted == std::exchange(s.override, wanted)) return;
     if (s.isHeld()) return s.hold();
     if (s.isAbandoned) return;
-    if (s.isMoving() && !s.isBraking)
+    if (s.isOnPath() && !s.isBraking)
         s.replaceProfile(false);
     else
         s.goOn();
@@ -541,6 +608,10 @@ bool MotionSystem::isDone(MoveId move) const {
     return state == MoveStatus::Done || state == MoveStatus::Cleared;
 }
 
+MoveId MotionSystem::lastOrdered() const {
+    return impl_->nextId - 1;
+}
+
 MoveId MotionSystem::currentMove() const {
     const Impl& s = *impl_;
     return !s.queue.empty() && s.queue.front()->isStarted ? s.queue.front()->id : s.lastDone;
@@ -552,7 +623,7 @@ std::optional<TimeNs> MotionSystem::reachTime(MoveId move) const {
         if (id == move) return time;
     }
     const bool isCurrent = !s.queue.empty() && s.queue.front()->id == move && s.queue.front()->isStarted;
-    if (!isCurrent || s.isBraking || s.queue.front()->isReturn) return {};
+    if (!isCurrent || s.isBraking || s.isHalted || s.queue.front()->isReturn) return {};
     return s.stretch().end;
 }
 

@@ -88,6 +88,9 @@ class MotionSystem {
     /// Brakes on the path as fast as the limits allow; a Stopped event follows. No effect when stopped
     /// already.
     void stop();
+    /// Motors off (emergency stop, power failure): each axis brakes for itself, which takes the arm off its path. start()
+    /// brings it back, axis by axis, to where stop() would have left it, and goes on from there.
+    void halt();
     /// Goes on from where stop() left the path.
     void start();
     bool isStopRequested() const; ///< between stop() and start()
@@ -114,6 +117,8 @@ class MotionSystem {
     bool isStarted(MoveId move) const;  ///< Moving or Done
     bool isReleased(MoveId move) const; ///< its Released event has happened, or it was cleared
     bool isDone(MoveId move) const;     ///< Done or Cleared
+    /// The move ordered last; 0 before the first.
+    MoveId lastOrdered() const;
     /// The move in progress or, when idle, the one finished last; 0 before the first.
     MoveId currentMove() const;
     /// When the move is or was reached, if it is being run (and not braking) or ended recently.

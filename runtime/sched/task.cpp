@@ -179,16 +179,27 @@ Status Task::sleepFor(Time span) {
     return sleepUntil(addTime(now(), std::max<Time>(span, 0)));
 }
 
+/// At a start after a stop all times count from the beginning (manual 2.2.6).
+void Task::countAgain(Time& deadline, Time span, uint64_t& starts) const {
+    if (starts == starts_) return;
+    starts = starts_;
+    if (deadline != kNever) deadline = addTime(startedAt_, span);
+}
+
 Status Task::waitFor(const WaitSpec& spec, WaitResult& result) {
     flushHandledWarning();
+    Time deadline = spec.deadline;
+    const Time span = deadline == kNever ? 0 : std::max<Time>(deadline - now(), 0);
+    uint64_t starts = starts_;
     Time nextPoll = spec.pollPeriod > 0 ? addTime(now(), spec.pollPeriod) : kNever;
     for (bool first = true;; first = false) {
         if (const Status status = enterWait(); status < 0) return status;
+        countAgain(deadline, span, starts);
         if (spec.condition ? spec.condition() : !first && notified_) {
             result = WaitResult::Done;
             return kOk;
         }
-        if (now() >= spec.deadline) {
+        if (now() >= deadline) {
             result = WaitResult::Timeout;
             return kOk;
         }
@@ -198,7 +209,7 @@ Status Task::waitFor(const WaitSpec& spec, WaitResult& result) {
         waitingOn_ = spec.queues;
         for (WaitQueue* queue : waitingOn_)
             queue->add(*this);
-        const Time wakeAt = std::min(spec.deadline, nextPoll);
+        const Time wakeAt = std::min(deadline, nextPoll);
         const EventToken timer =
             wakeAt == kNever ? 0 : scheduler_.at(wakeAt, [this] { scheduler_.makeReady(*this); });
         const Status status = block();
@@ -212,8 +223,11 @@ Status Task::waitFor(const WaitSpec& spec, WaitResult& result) {
 
 Status Task::waitExternal(int fd, short pollEvents, Time deadline, WaitResult& result) {
     flushHandledWarning();
+    const Time span = deadline == kNever ? 0 : std::max<Time>(deadline - now(), 0);
+    uint64_t starts = starts_;
     for (;;) {
         if (const Status status = enterWait(); status < 0) return status;
+        countAgain(deadline, span, starts);
         pollfd ready{fd, pollEvents, 0};
         if (::poll(&ready, 1, 0) != 0) { // an error shows itself at the read or write that follows
             result = WaitResult::Done;
@@ -423,6 +437,8 @@ bool Task::canResume() const {
 bool Task::resume() {
     if (!canResume()) return false;
     stopCause_ = StopCause::None;
+    ++starts_;
+    startedAt_ = now();
     return true;
 }
 

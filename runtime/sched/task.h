@@ -70,7 +70,8 @@ enum class WaitResult : uint8_t { Done, Timeout };
 struct WaitSpec {
     std::vector<WaitQueue*> queues;
     std::function<bool()> condition;
-    Time deadline = kNever; ///< absolute virtual time
+    Time deadline =
+        kNever; ///< absolute virtual time; after a stop and start all of it counts again (manual 2.2.6)
     Time pollPeriod = 0;
 };
 
@@ -119,6 +120,11 @@ class Task : public TaskCore {
     /// Not finished and not stopped.
     bool isExecuting() const { return state_ != TaskState::Finished && !isStopped(); }
     uint64_t cyclesDone() const { return cyclesDone_; }
+    /// main has returned as often as asked (not EXIT): a further start is one after a cycle.
+    bool endedByItself() const { return state_ == TaskState::Finished && !needsReset_; }
+    /// Variables hold what an earlier run left: they are not initialised ahead of main. Before the task runs.
+    void keepVariables() { needsReset_ = false; }
+    bool keepsVariables() const { return !needsReset_; }
 
     // ---- Time and waiting ---------------------------------------------------------------------------------
     /// Virtual time, instructions executed in this slice included.
@@ -305,6 +311,7 @@ class Task : public TaskCore {
     bool endCycle(Unwind how);
     void standAtMain();
     Status block();
+    void countAgain(Time& deadline, Time span, uint64_t& starts) const;
     Status safepointOnce(Frame* at);
     Status enterWait();
     Status afterSwitch();
@@ -356,6 +363,8 @@ class Task : public TaskCore {
     bool stepwise_ = false;
     bool backwardCall_ = false;
     EntryFunction entryOverride_ = nullptr; // program pointer moved to a routine: run instead of main once
+    uint64_t starts_ = 0;                   // how often the task went on after a stop,
+    Time startedAt_ = 0;                    // and when it did so last
     bool needsReset_ = true;                // variables get their initial values before main is entered
     uint64_t cyclesDone_ = 0;
 

@@ -218,8 +218,6 @@ void Task::abortUndo(std::string why) {
 void Task::noteHandled(Frame* handler, int number) {
     flushHandledWarning();
     handled_ = {handler, handler->routine, number, errorText_, errorPlace_, now()};
-    // Counts of frames deeper than the handler's belong to routines that are gone: the stack grows downward.
-    std::erase_if(retries_, [handler](const RetryCount& entry) { return entry.frame < handler; });
     RetryCount* entry = retryCountOf(handler);
     if (entry == nullptr) entry = &retries_.emplace_back();
     if (entry->frame != handler || entry->statement != handler->statement || entry->id != handler->reserved)
@@ -227,11 +225,12 @@ void Task::noteHandled(Frame* handler, int number) {
     entry->number = number;
 }
 
+/// The counts lie in the order of their frames, the innermost last. Those of frames deeper than the handler's belong to
+/// routines that are gone: the stack grows downward.
 Task::RetryCount* Task::retryCountOf(Frame* handler) {
-    for (RetryCount& entry : retries_) {
-        if (entry.frame == handler) return &entry;
-    }
-    return nullptr;
+    while (!retries_.empty() && retries_.back().frame < handler)
+        retries_.pop_back();
+    return !retries_.empty() && retries_.back().frame == handler ? &retries_.back() : nullptr;
 }
 
 Status Task::retryAt(Frame* handler) {

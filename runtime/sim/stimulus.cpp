@@ -65,6 +65,10 @@ bool actionKind(std::string_view target, StimulusKind& kind) {
     static constexpr std::pair<const char*, StimulusKind> kActions[] = {
         {"answer", StimulusKind::Answer},
         {"stop", StimulusKind::Stop},
+        {"quick_stop", StimulusKind::QuickStop},
+        {"emergency_stop", StimulusKind::EmergencyStop},
+        {"power_fail", StimulusKind::PowerFail},
+        {"power_on", StimulusKind::PowerOn},
         {"start", StimulusKind::Start},
         {"pp_to_main", StimulusKind::PpToMain},
         {"step_forward", StimulusKind::StepForward},

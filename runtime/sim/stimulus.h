@@ -11,7 +11,19 @@
 
 namespace rt {
 
-enum class StimulusKind : uint8_t { Signal, Answer, Stop, Start, PpToMain, StepForward, StepBackward };
+enum class StimulusKind : uint8_t {
+    Signal,
+    Answer,
+    Stop,
+    QuickStop,
+    EmergencyStop,
+    PowerFail,
+    PowerOn,
+    Start,
+    PpToMain,
+    StepForward,
+    StepBackward
+};
 
 struct StimulusItem {
     Time time = 0;

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <system_error>
 #include <vector>
@@ -34,7 +35,8 @@ double withoutNoise(double value, double noise) {
 /// Recursive reader of RAPID values; writes to `out` as it goes.
 class ValueReader {
   public:
-    explicit ValueReader(std::string_view text) : text_(text) {}
+    /// `codes`: \hh in strings is a byte, as in a source.
+    explicit ValueReader(std::string_view text, bool codes = false) : text_(text), codes_(codes) {}
 
     bool value(char* out, const TypeDesc& type) {
         switch (type.kind) {
@@ -105,9 +107,20 @@ class ValueReader {
                 return true;
             }
             if ((c == '"' || c == '\\') && doubled) ++at_;
-            read += c;
+            read += c == '\\' && !doubled && codes_ ? characterCode() : c;
         }
         return false;
+    }
+
+    /// The two digits behind a backslash; where there are none the backslash stands for itself.
+    char characterCode() {
+        unsigned code = 0;
+        const char* digits = text_.data() + at_;
+        if (at_ + 2 > text_.size()) return '\\';
+        const auto [stop, error] = std::from_chars(digits, digits + 2, code, 16);
+        if (error != std::errc() || stop != digits + 2) return '\\';
+        at_ += 2;
+        return static_cast<char>(code);
     }
 
     bool record(char* out, const TypeDesc& type) {
@@ -137,33 +150,50 @@ class ValueReader {
 
     std::string_view text_;
     size_t at_ = 0;
+    bool codes_ = false;
 };
 
-std::string quotedText(std::string_view text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') out += c;
-        out += c;
-    }
-    return out + '"';
+bool read(ValueReader reader, void* data, const TypeDesc& type) {
+    std::vector<char> copy(type.size); // a text that fails half-way must leave the data alone
+    std::memcpy(copy.data(), data, type.size);
+    if (!reader.value(copy.data(), type) || !reader.atEnd()) return false;
+    std::memcpy(data, copy.data(), type.size);
+    return true;
 }
 
-void appendValue(std::string& out, const char* data, const TypeDesc& type);
+/// Length of the UTF-8 character at the front of `text`; 0 when there is none.
+size_t characterLength(std::string_view text) {
+    const auto first = static_cast<unsigned char>(text[0]);
+    const size_t length = first < 0x80   ? 1
+                          : first < 0xC2 ? 0
+                          : first < 0xE0 ? 2
+                          : first < 0xF0 ? 3
+                          : first < 0xF5 ? 4
+                                         : 0;
+    if (length < 2) return length;
+    if (length > text.size()) return 0;
+    for (size_t i = 1; i < length; ++i)
+        if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return 0;
+    const auto second = static_cast<unsigned char>(text[1]);
+    const bool tooLong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
+    const bool noCharacter = (first == 0xED && second > 0x9F) || (first == 0xF4 && second > 0x8F);
+    return tooLong || noCharacter ? 0 : length;
+}
 
-void appendArray(std::string& out, const char*& data, const TypeDesc& type, int dim) {
-    const TypeDesc& element = *type.fields[0];
-    const bool innermost = dim == 2 || type.dims[dim + 1] == 0;
-    out += '[';
-    for (int32_t i = 0; i < type.dims[dim]; ++i) {
-        if (i > 0) out += ',';
-        if (!innermost) {
-            appendArray(out, data, type, dim + 1);
-            continue;
-        }
-        appendValue(out, data, element);
-        data += element.size;
-    }
-    out += ']';
+/// As few digits as tell the number from its neighbours; the layout of formatNum.
+template <class T> std::string shortestDigits(T value, double integerLimit, int plainExponent) {
+    if (value == 0) return std::signbit(value) ? "-0" : "0";
+    if (std::trunc(value) == value && std::fabs(static_cast<double>(value)) <= integerLimit)
+        return printed("%.*f", 0, static_cast<double>(value));
+    char buffer[64];
+    const char* end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific).ptr;
+    std::string text(buffer, static_cast<size_t>(end - buffer));
+    const size_t mark = text.find('e');
+    const int exponent = std::atoi(text.c_str() + mark + 1);
+    text[mark] = 'E';
+    if (exponent < -4 || exponent >= plainExponent) return text;
+    end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed).ptr;
+    return {buffer, static_cast<size_t>(end - buffer)};
 }
 
 template <class T> T loaded(const char* data) {
@@ -172,24 +202,81 @@ template <class T> T loaded(const char* data) {
     return value;
 }
 
-void appendValue(std::string& out, const char* data, const TypeDesc& type) {
-    switch (type.kind) {
-    case DescKind::Num: out += formatNum(loaded<float>(data)); break;
-    case DescKind::Dnum: out += formatDnum(loaded<double>(data)); break;
-    case DescKind::Bool: out += *data ? "TRUE" : "FALSE"; break;
-    case DescKind::String: out += quotedText(loaded<String>(data).view()); break;
-    case DescKind::Record:
+/// Writes values as people read them or, for a source, so that they read back identically.
+class ValueWriter {
+  public:
+    explicit ValueWriter(bool source) : source_(source) {}
+
+    std::string out;
+    bool hasLiteral = true;
+
+    void value(const char* data, const TypeDesc& type) {
+        switch (type.kind) {
+        case DescKind::Num: num(loaded<float>(data)); break;
+        case DescKind::Dnum: dnum(loaded<double>(data)); break;
+        case DescKind::Bool: out += *data ? "TRUE" : "FALSE"; break;
+        case DescKind::String: string(loaded<String>(data).view()); break;
+        case DescKind::Record:
+            out += '[';
+            for (uint32_t i = 0; i < type.count; ++i) {
+                if (i > 0) out += ',';
+                value(data + type.offsets[i], *type.fields[i]);
+            }
+            out += ']';
+            break;
+        case DescKind::Array: array(data, type, 0); break;
+        default: hasLiteral = false; break; // handles have no value
+        }
+    }
+
+  private:
+    void num(float number) {
+        hasLiteral = hasLiteral && std::isfinite(number);
+        out += source_ ? shortestDigits(number, kNumInteger, 7) : formatNum(number);
+    }
+    void dnum(double number) {
+        hasLiteral = hasLiteral && std::isfinite(number);
+        out += source_ ? shortestDigits(number, kDnumInteger, 16) : formatDnum(number);
+    }
+
+    void string(std::string_view text) {
+        out += '"';
+        while (!text.empty()) {
+            const size_t length = characterLength(text);
+            const auto first = static_cast<unsigned char>(text[0]);
+            if (source_ && (length == 0 || first < 0x20 || first == 0x7F)) {
+                constexpr const char* kDigits = "0123456789ABCDEF";
+                out += {'\\', kDigits[first >> 4], kDigits[first & 15]};
+            } else {
+                if (first == '"' || first == '\\') out += text[0];
+                out += text[0];
+            }
+            text.remove_prefix(1);
+            if (length < 2) continue;
+            out += text.substr(0, length - 1);
+            text.remove_prefix(length - 1);
+        }
+        out += '"';
+    }
+
+    void array(const char*& data, const TypeDesc& type, int dim) {
+        const TypeDesc& element = *type.fields[0];
+        const bool innermost = dim == 2 || type.dims[dim + 1] == 0;
         out += '[';
-        for (uint32_t i = 0; i < type.count; ++i) {
+        for (int32_t i = 0; i < type.dims[dim]; ++i) {
             if (i > 0) out += ',';
-            appendValue(out, data + type.offsets[i], *type.fields[i]);
+            if (!innermost) {
+                array(data, type, dim + 1);
+                continue;
+            }
+            value(data, element);
+            data += element.size;
         }
         out += ']';
-        break;
-    case DescKind::Array: appendArray(out, data, type, 0); break;
-    default: break; // handles have no value
     }
-}
+
+    bool source_;
+};
 
 /// Digits of an integer literal with a base prefix; false when there is none or a digit does not fit.
 bool parsePrefixed(std::string_view digits, double& value) {
@@ -227,19 +314,24 @@ std::string formatDecimals(double value, int decimals, bool exponent) {
 }
 
 std::string valueToText(const void* data, const TypeDesc& type) {
-    std::string out;
-    appendValue(out, static_cast<const char*>(data), type);
-    return out;
+    ValueWriter writer(false);
+    writer.value(static_cast<const char*>(data), type);
+    return std::move(writer.out);
 }
 
 bool textToValue(std::string_view text, void* data, const TypeDesc& type) {
-    std::vector<char> read(
-        type.size); // Load into a copy: a text that fails half-way must leave the data alone
-    std::memcpy(read.data(), data, type.size);
-    ValueReader reader(text);
-    if (!reader.value(read.data(), type) || !reader.atEnd()) return false;
-    std::memcpy(data, read.data(), type.size);
-    return true;
+    return read(ValueReader(text), data, type);
+}
+
+bool sourceToValue(std::string_view text, void* data, const TypeDesc& type) {
+    return read(ValueReader(text, true), data, type);
+}
+
+bool valueToSource(const void* data, const TypeDesc& type, std::string& text) {
+    ValueWriter writer(true);
+    writer.value(static_cast<const char*>(data), type);
+    text = std::move(writer.out);
+    return writer.hasLiteral;
 }
 
 bool parseRapidNumber(std::string_view text, double& value) {

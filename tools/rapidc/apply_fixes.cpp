@@ -1,7 +1,7 @@
 #include "tools/rapidc/apply_fixes.h"
 
+#include "config/atomic_file.h"
 #include "frontend/edit/apply_edits.h"
-#include "frontend/edit/atomic_file.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -51,7 +51,7 @@ FixOutcome applyCertainFixes(std::span<const Diagnostic> diagnostics) {
     for (const auto& [path, fixes] : files) {
         const rapid::edit::EditResult changed = rapid::edit::applyEdits(*fixes.file, fixes.edits);
         const std::string problem = changed.ok()
-                                        ? rapid::edit::replaceFile(path, changed.bytes)
+                                        ? rapid::config::replaceFile(path, changed.bytes)
                                         : fmt::format("'{}' is left as it is: {}", path, changed.problem);
         if (problem.empty())
             outcome.fixed[path] = fixes.count;

@@ -15,7 +15,7 @@ struct FixOutcome {
     std::vector<std::string> problems;   ///< files that could not be changed, and why
 };
 
-/// Writes every file for which there are certain fixes, each at once and whole (edit::replaceFile). Fixes that touch
+/// Writes every file for which there are certain fixes, each at once and whole (rapid::config::replaceFile). Fixes that touch
 /// each other are not applied together: check again and call it again.
 FixOutcome applyCertainFixes(std::span<const rapid::diag::Diagnostic> diagnostics);
 

@@ -83,6 +83,8 @@ int build(BuildSettings& settings) {
         fmt::print(stderr, "rapidc build: {}; name the executable with -o FILE\n", problem);
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
+    std::error_code ignored;
+    compilation->folder = fs::current_path(ignored).string();
     ir::Module module;
     const bool lowered =
         !compilation->sink.hasErrors() &&

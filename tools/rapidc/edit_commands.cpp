@@ -1,11 +1,12 @@
 // rapidc rename, rapidc set-value: small changes of modules that leave every other byte alone.
 
 #include "tools/rapidc/commands.h"
+#include "tools/rapidc/module_store.h"
 #include "tools/rapidc/pipeline.h"
 #include "tools/rapidc/text_diff.h"
 
+#include "config/atomic_file.h"
 #include "frontend/edit/apply_edits.h"
-#include "frontend/edit/atomic_file.h"
 #include "frontend/edit/initial_value.h"
 #include "frontend/edit/rename.h"
 #include "frontend/syntax/parser.h"
@@ -15,6 +16,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
+#include <fstream>
+#include <iostream>
 
 namespace rapidc {
 
@@ -30,6 +33,8 @@ struct EditSettings {
     std::string change; ///< set-value: NAME=VALUE
     std::string oldName;
     std::string newName;
+    std::string values; ///< set-value: file with lines MODULE.DATA=VALUE
+    std::string output;
     Inputs inputs;
     bool diff = false;
 };
@@ -52,7 +57,7 @@ int writeFiles(const char* command, const edit::EditSet& set, bool diffOnly) {
         files.emplace_back(file.file->path(), std::move(result.bytes));
     }
     for (const auto& [path, bytes] : files) {
-        const std::string problem = edit::replaceFile(path, bytes);
+        const std::string problem = rapid::config::replaceFile(path, bytes);
         if (!problem.empty()) return fail(command, problem);
     }
     for (const std::string& note : set.notes)
@@ -117,11 +122,48 @@ bool checkValue(const Compilation& compilation, const edit::FileEdits& change) {
     return good;
 }
 
+/// MODULE.DATA=VALUE; false when the line is something else.
+bool readValue(const std::string& line, rt::SavedValue& value) {
+    const size_t equals = line.find('='), dot = line.find('.');
+    if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 >= equals)
+        return false;
+    value = {line.substr(0, dot), line.substr(dot + 1, equals - dot - 1), line.substr(equals + 1)};
+    return true;
+}
+
+/// Many values in one step: persistents whose declarations still have initial values of that form. What built
+/// executables call.
+int setValues(const EditSettings& settings) {
+    if (settings.inputs.paths.size() != 1 || !settings.inputs.tasks.empty())
+        return fail("set-value", "--values changes one file: name one module file, without --task", kUsage);
+    rt::ModuleText text;
+    text.source = settings.inputs.paths.front();
+    text.destination = settings.output.empty() ? text.source : settings.output;
+    std::ifstream file;
+    if (settings.values != "-") {
+        file.open(settings.values);
+        if (!file) return fail("set-value", fmt::format("cannot read '{}'", settings.values), kUsage);
+    }
+    std::istream& lines = settings.values == "-" ? std::cin : file;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.empty()) continue;
+        if (!readValue(line, text.values.emplace_back()))
+            return fail("set-value", fmt::format("cannot read '{}': expected MODULE.DATA=VALUE", line),
+                        kUsage);
+    }
+    const rt::StoreResult result = SourceStore().store(text);
+    if (!result.problem.empty()) return fail("set-value", result.problem);
+    for (const std::string& note : result.notes)
+        fmt::print(stderr, "{}\n", note);
+    return 0;
+}
+
 int setValue(const EditSettings& settings) {
     const size_t equals = settings.change.find('=');
     if (equals == std::string::npos || equals == 0)
         return fail("set-value", fmt::format("cannot read '{}': expected MODULE.DATA=VALUE", settings.change),
                     kUsage);
+    if (settings.inputs.paths.empty()) return fail("set-value", "input is required", kUsage);
     const std::string path = settings.change.substr(0, equals), value = settings.change.substr(equals + 1);
     int status = 0;
     const auto compilation = load("set-value", settings.inputs, status);
@@ -150,12 +192,13 @@ int setValue(const EditSettings& settings) {
     return writeFiles("set-value", found, settings.diff);
 }
 
-void addInputs(CLI::App* command, EditSettings& settings) {
-    command->add_option("input", settings.inputs.paths, "Modules, folders, .pgf programs, backups")
-        ->required();
+CLI::Option* addInputs(CLI::App* command, EditSettings& settings) {
+    CLI::Option* input =
+        command->add_option("input", settings.inputs.paths, "Modules, folders, .pgf programs, backups");
     command->add_option("--task", settings.inputs.tasks, "NAME[:TYPE]=INPUT: a further task")
         ->allow_extra_args(false);
     command->add_flag("--diff", settings.diff, "Change nothing; show what would change");
+    return input;
 }
 
 } // namespace
@@ -166,7 +209,7 @@ void addRenameCommand(CLI::App& app, int& status) {
         app.add_subcommand("rename", "Rename data, a routine, a type or a label wherever it stands");
     command->add_option("old", settings->oldName, "NAME, MODULE.NAME or MODULE.ROUTINE.NAME")->required();
     command->add_option("new", settings->newName, "The new name")->required();
-    addInputs(command, *settings);
+    addInputs(command, *settings)->required();
     command->callback([settings, &status] { status = renameName(*settings); });
 }
 
@@ -174,9 +217,23 @@ void addSetValueCommand(CLI::App& app, int& status) {
     auto settings = std::make_shared<EditSettings>();
     CLI::App* command =
         app.add_subcommand("set-value", "Write an initial value into the declaration of data");
-    command->add_option("change", settings->change, "MODULE.DATA=VALUE")->required();
+    command->add_option(
+        "--values", settings->values,
+        "Lines MODULE.DATA=VALUE for persistents of one module file; - is the standard input");
+    command->add_option("--output", settings->output,
+                        "With --values: the file to write instead of the input");
+    command->add_option("change", settings->change, "MODULE.DATA=VALUE; not with --values");
     addInputs(command, *settings);
-    command->callback([settings, &status] { status = setValue(*settings); });
+    command->callback([settings, &status] {
+        if (settings->values.empty()) {
+            status = settings->output.empty() ? setValue(*settings)
+                                              : fail("set-value", "--output needs --values", kUsage);
+            return;
+        }
+        // There is no change to name: the first word is the input.
+        settings->inputs.paths.insert(settings->inputs.paths.begin(), settings->change);
+        status = setValues(*settings);
+    });
 }
 
 } // namespace rapidc

@@ -2,9 +2,9 @@
 
 #include "tools/rapidc/commands.h"
 
+#include "config/atomic_file.h"
 #include "frontend/diag/catalogue.h"
 #include "frontend/diag/explain.h"
-#include "frontend/edit/atomic_file.h"
 #include "runtime/host/run_options.h"
 
 #include <CLI/CLI.hpp>
@@ -63,7 +63,7 @@ int writePages(const std::string& folder) {
     for (const rapid::diag::DiagnosticPage& page : rapid::diag::diagnosticPages()) {
         names.insert(page.fileName);
         const std::string path = (fs::path(folder) / page.fileName).string();
-        const std::string problem = rapid::edit::replaceFile(path, page.text);
+        const std::string problem = rapid::config::replaceFile(path, page.text);
         if (problem.empty()) continue;
         fmt::print(stderr, "rapidc explain: {}\n", problem);
         return 1;

@@ -4,8 +4,8 @@
 #include "tools/rapidc/module_files.h"
 #include "tools/rapidc/text_diff.h"
 
+#include "config/atomic_file.h"
 #include "frontend/edit/apply_edits.h"
-#include "frontend/edit/atomic_file.h"
 #include "frontend/format/canonical_names.h"
 #include "frontend/format/formatter.h"
 #include "frontend/format/read_settings.h"
@@ -129,7 +129,7 @@ class Fmt {
         if (settings_.check && !settings_.diff) fmt::print("{}\n", path);
         if (settings_.check || settings_.diff) return;
         const auto result = rapid::edit::applyEdits(*source, *edits);
-        problem = result.ok() ? rapid::edit::replaceFile(path, result.bytes) : result.problem;
+        problem = result.ok() ? rapid::config::replaceFile(path, result.bytes) : result.problem;
         if (!problem.empty()) fail(path, problem);
     }
 

@@ -251,6 +251,7 @@ bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping,
     options.configTexts = compilation.configTexts;
     options.eventRoutines = compilation.eventRoutines;
     options.sharedModules = compilation.sharedModules;
+    options.folder = compilation.folder;
     options.nativeImplemented = [](std::string_view symbol) {
         return rt::findNativeAddress(symbol) != nullptr;
     };

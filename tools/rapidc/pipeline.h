@@ -39,6 +39,7 @@ struct Compilation {
     std::set<std::string> sharedModules;  ///< installed once for all tasks; lower case
     std::set<std::string> eventRoutines;  ///< that the configuration names; lower case
     std::vector<std::string> usageErrors; ///< e.g. a --task that cannot be read
+    std::string folder;                   ///< kept in the program: where relative paths begin; may be empty
     std::string homeFolder;               ///< HOME of a backup; empty if there is none
 };
 

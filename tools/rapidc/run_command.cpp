@@ -2,12 +2,14 @@
 
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/line_debugger.h"
+#include "tools/rapidc/module_store.h"
 #include "tools/rapidc/path_picture.h"
 #include "tools/rapidc/pipeline.h"
 #include "tools/rapidc/unit_loader.h"
 
 #include "codegen/codegen.h"
 #include "runtime/host/controller.h"
+#include "runtime/host/module_saver.h"
 #include "runtime/host/module_units.h"
 #include "runtime/host/run_options.h"
 #include "runtime/host/stop_signals.h"
@@ -121,6 +123,7 @@ int execute(RunSettings& settings, const rt::ProgramDesc& program, rt::ModuleLoa
         rt::Controller controller(settings.options);
         rt::setUpStandardLibrary(controller);
         rt::setModuleLoader(controller, &loader);
+        controller.saver().setStore(std::make_unique<SourceStore>());
         status = controller.prepare(program);
         if (status != rt::ExitStatus::Ended) return static_cast<int>(status);
         LineDebugger debugger(controller);

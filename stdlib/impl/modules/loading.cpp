@@ -2,6 +2,7 @@
 
 #include "stdlib/impl/modules/loading.h"
 
+#include "runtime/host/module_saver.h"
 #include "runtime/host/module_units.h"
 #include "runtime/io/text_util.h"
 #include "stdlib/impl/support/fail.h"
@@ -189,11 +190,12 @@ Status rt_UnLoad(TaskCore* task, bool ErrIfChanged, bool Save, const String* Fil
             return lib::fail(
                 task, err::ERR_NOTSAVED,
                 fmt::format("persistents of module {} have changed since it was loaded", module->name));
-        if (changed)
-            return lib::fail(
-                task, err::ERR_UNLOAD,
-                fmt::format("module {} cannot be saved: a module loaded while the program runs has no writer",
-                            module->name));
+        if (changed) {
+            const auto saved = controller.saver().save(owner, module->name, module->file);
+            if (saved.outcome != ModuleSaver::Outcome::Saved)
+                return lib::fail(task, err::ERR_UNLOAD,
+                                 fmt::format("module {} cannot be saved: {}", module->name, saved.text));
+        }
     }
     return lib::unloadFile(task, *FilePath, File);
 }

@@ -77,8 +77,9 @@ Status rt_PathLevel(TaskCore*, float* result) {
     return kOk;
 }
 
-Status rt_PFRestart(TaskCore*, bool* result, bool, bool) {
-    *result = false; // a virtual controller knows no power failure
+/// There is one path level: nothing is ever stored below an interrupt's.
+Status rt_PFRestart(TaskCore* task, bool* result, bool, bool Irpt) {
+    *result = !Irpt && driverOf(task).pathInterrupted();
     return kOk;
 }
 }

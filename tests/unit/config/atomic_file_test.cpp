@@ -1,6 +1,6 @@
 // Replacing a file: permissions, links, refusals, and a writer that is killed at random moments.
 
-#include "frontend/edit/atomic_file.h"
+#include "config/atomic_file.h"
 #include "unit/temporary_folder.h"
 
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-using rapid::edit::replaceFile;
+using rapid::config::replaceFile;
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace rapid::edit {
+namespace rapid::config {
 
 /// Writes `bytes` to a temporary file in the same folder, flushes it to the disk, renames it to `path` and flushes the
 /// folder. Permissions (and, where allowed, the owner) of an existing file are kept; through a symbolic link the file
@@ -14,4 +14,4 @@ namespace rapid::edit {
 /// Returns what went wrong, for people ("cannot write 'x.mod': No space left on device"); empty: success.
 [[nodiscard]] std::string replaceFile(const std::string& path, std::string_view bytes);
 
-} // namespace rapid::edit
+} // namespace rapid::config

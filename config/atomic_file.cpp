@@ -1,4 +1,4 @@
-#include "frontend/edit/atomic_file.h"
+#include "config/atomic_file.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace rapid::edit {
+namespace rapid::config {
 
 namespace {
 
@@ -79,4 +79,4 @@ std::string replaceFile(const std::string& path, std::string_view bytes) {
     return {};
 }
 
-} // namespace rapid::edit
+} // namespace rapid::config

@@ -1,0 +1,91 @@
+#pragma once
+// SavedState: what a controller keeps when it is switched off (manual 1.2.2, column "Power on"), in a folder of the host
+// (--state=DIR), so that it survives the end of the process. Read once at the start, written at the end, when the
+// program stops, and every second meanwhile; the file is replaced in one step.
+
+#include "runtime/log/event_log.h"
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rt {
+
+class Controller;
+class Task;
+struct GlobalDesc;
+
+/// The content of a state file.
+struct StateImage {
+    /// Where the program pointer of a task was.
+    enum class Pointer : uint8_t {
+        Main,  ///< at main, variables to be initialised
+        Ended, ///< main returned: the next start is one after a cycle
+        Inside ///< between statements of the program; compiled code cannot be entered there again
+    };
+    struct TaskImage {
+        Pointer pointer = Pointer::Main;
+        std::string place; ///< "Main:12"
+    };
+    struct Datum {
+        std::string type;    ///< with all components, as describeType
+        std::string initial; ///< what its declaration said
+        std::string value;
+    };
+    std::map<std::string, TaskImage> tasks;
+    std::map<std::string, Datum> persistents; ///< by keyOf
+    std::map<std::string, Datum> variables;
+    std::map<std::string, double> signals; ///< those that keep their value over a power failure (Store)
+    std::vector<double> axes;              ///< robot, then external axes; degrees, mm
+    std::string robot;
+    std::vector<Event> events;
+};
+
+/// "num", "{x:num,y:num}", "[3,4]string": equal for types with the same values.
+std::string describeType(const TypeDesc& type);
+/// Reads and writes the text of a state file. The reader never throws: "" or what is wrong.
+std::string readImage(const std::string& text, StateImage& image);
+std::string writeImage(const StateImage& image);
+
+class SavedState {
+  public:
+    explicit SavedState(Controller& controller) : controller_(controller) {}
+    ~SavedState();
+    SavedState(const SavedState&) = delete;
+    SavedState& operator=(const SavedState&) = delete;
+
+    /// Takes the folder, which is made when it does not exist. False with a message when that is not possible or when
+    /// another process uses it.
+    bool open(const std::string& folder, std::string& error);
+    /// Takes over what an earlier run left; once tasks and signals exist and before anything runs. A file that cannot be
+    /// understood is put aside, with an event.
+    void restore();
+    /// Writes the state as it is now. Every task must stand between two instructions.
+    void write();
+    /// To be called often between slices: writes when the last time was a second ago.
+    void keepFresh();
+
+  private:
+    using Rows = std::vector<std::pair<const GlobalDesc*, std::string>>; ///< data with their initial values
+    std::string path() const;
+    void putAside(const std::string& why);
+    void remember();
+    StateImage present() const;
+    void restoreTasks(const StateImage& image);
+    void restoreData(const Rows& rows, const std::map<std::string, StateImage::Datum>& data);
+    void restoreSurroundings(const StateImage& image);
+    std::string keyOf(const GlobalDesc& data) const;
+    const Task* ownerOf(const GlobalDesc& data) const;
+
+    Controller& controller_;
+    std::string folder_;
+    int lock_ = -1;
+    bool failed_ = false; // writing failed, which was reported
+    Rows persistents_, variables_;
+    std::chrono::steady_clock::time_point written_{};
+};
+
+} // namespace rt

@@ -1,0 +1,162 @@
+// The state file as text: JSON, versioned. What is read comes from a disk and may be anything.
+
+#include "runtime/host/saved_state.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace rt {
+namespace {
+
+using Json = nlohmann::json;
+using Data = std::map<std::string, StateImage::Datum>;
+
+constexpr const char* kFormat = "rapidc controller state";
+constexpr int kVersion = 1;
+constexpr std::pair<const char*, StateImage::Pointer> kPointers[] = {
+    {"main", StateImage::Pointer::Main},
+    {"ended", StateImage::Pointer::Ended},
+    {"inside", StateImage::Pointer::Inside},
+};
+
+Json jsonOf(const Data& data) {
+    Json json = Json::object();
+    for (const auto& [key, datum] : data)
+        json[key] = {{"type", datum.type}, {"initial", datum.initial}, {"value", datum.value}};
+    return json;
+}
+
+Json jsonOf(const Event& event) {
+    return {
+        {"sequence", event.sequence}, {"number", event.number},       {"type", static_cast<int>(event.type)},
+        {"title", event.title},       {"text", event.text},           {"time", event.time},
+        {"task", event.task},         {"module", event.place.module}, {"routine", event.place.routine},
+        {"file", event.place.file},   {"line", event.place.line},     {"column", event.place.column},
+        {"errno", event.errorNumber}, {"errorName", event.errorName}, {"arguments", event.arguments}};
+}
+
+// at(), get() and whole() throw what readImage catches.
+
+/// A float would be cut off, or out of range.
+template <class Integer> void whole(const Json& json, Integer& value) {
+    if (!json.is_number_integer()) throw std::invalid_argument("no whole number");
+    value = static_cast<Integer>(json.get<int64_t>());
+}
+
+Data dataFrom(const Json& json) {
+    Data data;
+    for (const auto& [key, row] : json.items())
+        data[key] = {row.at("type").get<std::string>(), row.at("initial").get<std::string>(),
+                     row.at("value").get<std::string>()};
+    return data;
+}
+
+Event eventFrom(const Json& json) {
+    Event event;
+    whole(json.at("sequence"), event.sequence);
+    whole(json.at("number"), event.number);
+    int type = 0;
+    whole(json.at("type"), type);
+    event.type = static_cast<EventType>(std::clamp(type, 1, 3));
+    json.at("title").get_to(event.title);
+    json.at("text").get_to(event.text);
+    whole(json.at("time"), event.time);
+    json.at("task").get_to(event.task);
+    json.at("module").get_to(event.place.module);
+    json.at("routine").get_to(event.place.routine);
+    json.at("file").get_to(event.place.file);
+    whole(json.at("line"), event.place.line);
+    whole(json.at("column"), event.place.column);
+    whole(json.at("errno"), event.errorNumber);
+    json.at("errorName").get_to(event.errorName);
+    json.at("arguments").get_to(event.arguments);
+    return event;
+}
+
+StateImage::TaskImage taskFrom(const Json& json) {
+    StateImage::TaskImage task;
+    const auto word = json.at("pointer").get<std::string>();
+    for (const auto& [name, pointer] : kPointers)
+        if (word == name) task.pointer = pointer;
+    json.at("place").get_to(task.place);
+    return task;
+}
+
+StateImage imageFrom(const Json& json) {
+    StateImage image;
+    for (const auto& [name, task] : json.at("tasks").items())
+        image.tasks[name] = taskFrom(task);
+    image.persistents = dataFrom(json.at("persistents"));
+    image.variables = dataFrom(json.at("variables"));
+    json.at("signals").get_to(image.signals);
+    json.at("robot").get_to(image.robot);
+    json.at("axes").get_to(image.axes);
+    for (const Json& event : json.at("events"))
+        image.events.push_back(eventFrom(event));
+    return image;
+}
+
+} // namespace
+
+std::string describeType(const TypeDesc& type) {
+    switch (type.kind) {
+    case DescKind::Num: return "num";
+    case DescKind::Dnum: return "dnum";
+    case DescKind::Bool: return "bool";
+    case DescKind::String: return "string";
+    case DescKind::Record: {
+        std::string text = "{";
+        for (uint32_t i = 0; i < type.count; ++i)
+            text +=
+                fmt::format("{}{}:{}", i > 0 ? "," : "", type.fieldNames[i], describeType(*type.fields[i]));
+        return text + "}";
+    }
+    case DescKind::Array: {
+        std::string text = "[";
+        for (int k = 0; k < 3 && type.dims[k] > 0; ++k)
+            text += fmt::format("{}{}", k > 0 ? "," : "", type.dims[k]);
+        return text + "]" + describeType(*type.fields[0]);
+    }
+    case DescKind::Handle:
+    case DescKind::Other: break;
+    }
+    return type.baseName;
+}
+
+std::string writeImage(const StateImage& image) {
+    Json tasks = Json::object(), events = Json::array();
+    for (const auto& [name, task] : image.tasks)
+        tasks[name] = {{"pointer", kPointers[static_cast<std::size_t>(task.pointer)].first},
+                       {"place", task.place}};
+    for (const Event& event : image.events)
+        events.push_back(jsonOf(event));
+    const Json json = {{"format", kFormat},
+                       {"version", kVersion},
+                       {"tasks", tasks},
+                       {"persistents", jsonOf(image.persistents)},
+                       {"variables", jsonOf(image.variables)},
+                       {"signals", image.signals},
+                       {"robot", image.robot},
+                       {"axes", image.axes},
+                       {"events", events}};
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string readImage(const std::string& text, StateImage& image) {
+    const Json json = Json::parse(text, nullptr, false);
+    if (json.is_discarded()) return "it is no JSON text, or a part of one";
+    if (!json.is_object() || json.value("format", Json()) != kFormat) return "it is no state of a controller";
+    if (json.value("version", Json()) != kVersion) return "it was written by another version of rapidc";
+    try {
+        image = imageFrom(json);
+    } catch (const std::exception&) {
+        return "a part of it is missing or has another form";
+    }
+    return {};
+}
+
+} // namespace rt

@@ -1,0 +1,11 @@
+"""memory.py COMMAND...: runs a command; tells its status and whether it stayed below a bound of memory."""
+
+import resource
+import subprocess
+import sys
+
+done = subprocess.run(sys.argv[1:], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=100, check=False)
+peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss // 1024  # MB
+print(done.stdout.decode(), end="")
+print("status", done.returncode)
+print("bounded" if peak < 400 else f"{peak} MB")
