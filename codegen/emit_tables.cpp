@@ -209,16 +209,18 @@ llvm::Constant* ModuleEmitter::globalTable(uint32_t& count) {
     return array(globalDescType_, rows, "globals");
 }
 
-llvm::Constant* ModuleEmitter::aliasTable() {
+llvm::Constant* ModuleEmitter::aliasTable(uint32_t& count) {
     std::vector<llvm::Constant*> rows;
     for (const ir::GlobalAlias& alias : module_.aliases) {
         const ir::Global& global = module_.globals[alias.global];
+        if (global.typeDesc == ir::kNone) continue; // as in globalTable
         rows.push_back(llvm::ConstantStruct::get(
             globalDescType_,
             {text(alias.displayName), text(alias.moduleName), globals_[alias.global],
              typeDescs_[global.typeDesc], i8(static_cast<int64_t>(global.kind)), i8(global.flags),
              i32(int64_t{alias.task}), fileName(alias.file), i32(alias.line)}));
     }
+    count = static_cast<uint32_t>(rows.size());
     return array(globalDescType_, rows, "aliases");
 }
 
