@@ -305,7 +305,8 @@ void ModuleEmitter::emitTables() {
 }
 
 void ModuleEmitter::emitProgram() {
-    uint32_t globalCount = 0, routineCount = 0;
+    uint32_t globalCount = 0, routineCount = 0, aliasCount = 0;
+    llvm::Constant* aliasRows = aliasTable(aliasCount);
     llvm::Constant* globalRows = globalTable(globalCount);
     llvm::Constant* routineRows = routineTable(routineCount);
     std::vector<llvm::Constant*> names, texts, types;
@@ -336,8 +337,8 @@ void ModuleEmitter::emitProgram() {
                            i32(static_cast<int64_t>(module_.routineData.size())),
                            module_.unitReset == ir::kNone ? null() : cEntries_[module_.unitReset],
                            text(module_.folder),
-                           aliasTable(),
-                           i32(static_cast<int64_t>(module_.aliases.size()))});
+                           aliasRows,
+                           i32(int64_t{aliasCount})});
     auto* program =
         llvm::cast<llvm::GlobalVariable>(target_->getOrInsertGlobal(kProgramSymbol, programDescType_));
     program->setConstant(true);

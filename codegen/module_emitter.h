@@ -90,7 +90,7 @@ class ModuleEmitter {
     llvm::Constant* routineDescValue(const ir::Routine& routine);
     llvm::Constant* tasks();
     llvm::Constant* globalTable(uint32_t& count);
-    llvm::Constant* aliasTable();
+    llvm::Constant* aliasTable(uint32_t& count);
     llvm::Constant* externals();
     llvm::Constant* routineTable(uint32_t& count);
     llvm::Constant* routineRow(uint32_t index, const ir::NamedRoutine& named);
