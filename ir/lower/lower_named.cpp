@@ -361,7 +361,8 @@ bool RoutineLowering::lowerUnresolved(const Node& statement, const Node& part) {
     if (!program_.task(task_).incomplete || statement.kind == NodeKind::PlaceholderStmt) return false;
     const char* error = nullptr;
     std::string_view missing;
-    if (statement.kind == NodeKind::Connect && facts().references.find(&statement) == facts().references.end()) {
+    if (statement.kind == NodeKind::Connect &&
+        facts().references.find(&statement) == facts().references.end()) {
         error = "ERR_REFUNKTRP";
         missing = module_->tree->text(as<ConnectStmt>(statement).trap);
     } else {

@@ -65,7 +65,14 @@ struct Fixup {
     Token where;
     uint32_t routine = kNone; ///< instruction `inst` of this routine ...
     uint32_t inst = kNone;    ///< ... or, when kNone, entry `slot` of the tables
-    enum class Slot : uint8_t { External, Alias, TaskEntry, TaskReset, ErrorFilter, Named } slot = Slot::External;
+    enum class Slot : uint8_t {
+        External,
+        Alias,
+        TaskEntry,
+        TaskReset,
+        ErrorFilter,
+        Named
+    } slot = Slot::External;
     uint32_t index = 0;
 };
 
