@@ -11,6 +11,7 @@ import tempfile
 import time
 
 LIMIT = 15  # s; a command that takes longer hangs
+SETTLE = 1  # s from the making of the folder until the program runs, however busy the machine is
 
 
 def main():
@@ -24,6 +25,7 @@ def main():
             end = time.monotonic() + LIMIT
             while not os.listdir(folder) and process.poll() is None and time.monotonic() < end:
                 time.sleep(0.01)
+            time.sleep(SETTLE)
             for _ in range(times):
                 process.send_signal(getattr(signal, name))
                 time.sleep(0.2)
