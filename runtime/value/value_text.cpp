@@ -189,6 +189,7 @@ template <class T> std::string shortestDigits(T value, double integerLimit, int 
     const char* end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific).ptr;
     std::string text(buffer, static_cast<size_t>(end - buffer));
     const size_t mark = text.find('e');
+    if (mark == std::string::npos) return text; // infinite, or no number
     const int exponent = std::atoi(text.c_str() + mark + 1);
     text[mark] = 'E';
     if (exponent < -4 || exponent >= plainExponent) return text;
