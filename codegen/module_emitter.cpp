@@ -331,7 +331,8 @@ llvm::Constant* ModuleEmitter::emitLateEntry(const ir::NamedRoutine& named) {
             args.push_back(wanted == ir::kPtr ? data : b.CreateLoad(memoryType(wanted), data));
         for (unsigned k = 0; k < param.rank; ++k, ++next)
             args.push_back(b.CreateLoad(
-                i32_, b.CreateConstInBoundsGEP1_64(i8_, field(1), offsetof(rt::TypeDesc, dims) + size_t{4} * k)));
+                i32_,
+                b.CreateConstInBoundsGEP1_64(i8_, field(1), offsetof(rt::TypeDesc, dims) + size_t{4} * k)));
         if (param.passesName) {
             args.push_back(field(2));
             ++next;
