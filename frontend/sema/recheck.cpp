@@ -1,6 +1,7 @@
 // Checking again what a changed file concerns, while the facts about other files stay (see session.h).
 
 #include "frontend/sema/analysis.h"
+#include "frontend/source/same_ends.h"
 
 #include <algorithm>
 
@@ -54,12 +55,7 @@ using Decls = std::span<Decl* const>;
 /// Takes away what is the same letter by letter at both ends: nearly everything, after an edit of a line.
 void dropSameEnds(const SyntaxTree& oldTree, Decls& old, const SyntaxTree& newTree, Decls& fresh) {
     const std::string_view before = oldTree.source->text(), now = newTree.source->text();
-    const size_t shorter = std::min(before.size(), now.size());
-    const auto length = static_cast<std::ptrdiff_t>(shorter);
-    const auto head = static_cast<size_t>(
-        std::mismatch(now.begin(), now.begin() + length, before.begin()).first - now.begin());
-    const auto tail = static_cast<size_t>(
-        std::mismatch(now.rbegin(), now.rbegin() + length, before.rbegin()).first - now.rbegin());
+    const auto [head, tail] = sameEnds(before, now);
     while (!old.empty() && !fresh.empty() && oldTree.range(*old.front()).end < head &&
            samePlace(oldTree, *old.front(), newTree, *fresh.front(), 0)) {
         old = old.subspan(1);

@@ -53,8 +53,9 @@ struct Session::State {
 
     void openTask(TaskInput input);
     void change(SessionTask& task, size_t index, const std::shared_ptr<const SourceFile>& file);
-    void recheck(SessionTask& task, std::vector<size_t> dirty);
     void checkAcross();
+    /// The last step of a check of a task, and what it reports about the whole.
+    void finish(SessionTask& task);
     /// Moves what was reported since to the files it is about.
     void distribute(SessionTask& task, Diagnostics SessionFile::* list);
 };
@@ -71,6 +72,13 @@ void Session::State::distribute(SessionTask& task, Diagnostics SessionFile::* li
     }
 }
 
+void Session::State::finish(SessionTask& task) {
+    analyzer->finishTask();
+    for (diag::Diagnostic& d : sink.take())
+        task.whole.push_back(std::move(d));
+    task.scope = analyzer->leaveTask();
+}
+
 void Session::State::openTask(TaskInput input) {
     SessionTask& task = tasks.emplace_back();
     task.input = std::move(input);
@@ -83,10 +91,7 @@ void Session::State::openTask(TaskInput input) {
     distribute(task, &SessionFile::parsed);
     analyzer->checkFiles();
     distribute(task, &SessionFile::checked);
-    analyzer->finishTask();
-    for (diag::Diagnostic& d : sink.take())
-        task.whole.push_back(std::move(d));
-    task.scope = analyzer->leaveTask();
+    finish(task);
 }
 
 void Session::State::change(SessionTask& task, size_t index, const std::shared_ptr<const SourceFile>& file) {
@@ -120,10 +125,7 @@ void Session::State::change(SessionTask& task, size_t index, const std::shared_p
         analyzer->recheckTask();
     }
     distribute(task, &SessionFile::checked);
-    analyzer->finishTask();
-    for (diag::Diagnostic& d : sink.take())
-        task.whole.push_back(std::move(d));
-    task.scope = analyzer->leaveTask();
+    finish(task);
 }
 
 void Session::State::checkAcross() {

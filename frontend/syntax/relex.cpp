@@ -1,6 +1,7 @@
 // Tokens of a changed file from those of its earlier version (lexer.h). No token but the file header spans a line end, and
 // nothing that a line holds depends on other lines but `%%%` behind ENDMODULE.
 
+#include "frontend/source/same_ends.h"
 #include "frontend/syntax/lexer.h"
 
 #include <algorithm>
@@ -17,12 +18,7 @@ struct Change {
 };
 
 Change findChange(std::string_view before, std::string_view now) {
-    const size_t shorter = std::min(before.size(), now.size());
-    size_t head = static_cast<size_t>(
-        std::mismatch(now.begin(), now.begin() + shorter, before.begin()).first - now.begin());
-    const size_t room = shorter - head;
-    const size_t tail = static_cast<size_t>(
-        std::mismatch(now.rbegin(), now.rbegin() + room, before.rbegin()).first - now.rbegin());
+    auto [head, tail] = sameEnds(before, now);
     while (head > 0 && now[head - 1] != '\n')
         --head;
     size_t end = now.size() - tail;
