@@ -238,7 +238,7 @@ LineColumn SourceFile::lineColumn(uint32_t offset) const {
 }
 
 uint32_t SourceFile::charactersBefore(uint32_t offset) const {
-    const uint32_t block = offset / kCharacterBlock;
+    const size_t block = offset / kCharacterBlock;
     return characters_[block] + countCharacters(text_, block * kCharacterBlock, offset);
 }
 

@@ -175,7 +175,8 @@ void checkTables(const Module& module, Findings& out) {
 bool covers(const Routine& routine, const std::vector<ParamEntry>& params) {
     size_t next = 0;
     auto take = [&](TypeId type) {
-        return next < routine.params.size() && routine.params[next++].type == type;
+        if (next >= routine.params.size()) return false;
+        return routine.params[next++].type == type;
     };
     for (const ParamEntry& param : params) {
         if (next >= routine.params.size()) return false;
