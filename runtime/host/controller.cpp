@@ -92,6 +92,7 @@ bool Controller::runOver() {
     if (debugger_.poll()) return true;
     systemSignals_.update();
     state_->keepFresh();
+    panel_.keepVisible();
     for (const auto& task : tasks_) {
         if (!isNormal(task) || task->state() == TaskState::Finished) continue;
         const bool stoppedForGood = task->isStopped() && !task->hasWorkWhileStopped() && !startToCome();

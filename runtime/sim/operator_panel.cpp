@@ -37,11 +37,18 @@ void OperatorPanel::writeLine(std::string_view text) {
     if (display_.size() > kKeptLines) display_.pop_front();
     const std::string line = std::string(text) + "\n";
     std::fwrite(line.data(), 1, line.size(), lines_);
+    unseen_ = true;
 }
 
 void OperatorPanel::flush() {
     std::fflush(lines_);
     std::fflush(dialogs_);
+    unseen_ = false;
+    seen_ = std::chrono::steady_clock::now();
+}
+
+void OperatorPanel::keepVisible() {
+    if (unseen_ && std::chrono::steady_clock::now() - seen_ > std::chrono::milliseconds(100)) flush();
 }
 
 bool OperatorPanel::terminalUsable() const {

@@ -5,6 +5,7 @@
 #include "runtime/sched/task.h"
 #include "runtime/sched/wait_queue.h"
 
+#include <chrono>
 #include <cstdio>
 #include <deque>
 #include <functional>
@@ -51,6 +52,8 @@ class OperatorPanel {
     /// Whether the terminal may be asked (default: stdin is a terminal).
     void setTerminal(bool usable) { terminal_ = usable ? 1 : 0; }
     void flush();
+    /// Lets others see what was written when that is a tenth of a second (wall clock) old: to be called often.
+    void keepVisible();
 
     /// Shows the dialog and suspends the task until it ends; the answer is the line as given, without line
     /// end and blanks around it. A native may ask again when the answer makes no sense.
@@ -81,6 +84,8 @@ class OperatorPanel {
 
     Controller& controller_;
     std::FILE* lines_ = stdout;
+    bool unseen_ = false; ///< lines were written since the last flush
+    std::chrono::steady_clock::time_point seen_ = std::chrono::steady_clock::now();
     std::FILE* dialogs_ = stderr;
     int terminal_ = -1;
     std::deque<std::string> display_;

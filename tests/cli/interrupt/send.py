@@ -1,6 +1,6 @@
 """send.py SIGNAL TIMES COMMAND...: sends a signal to the command once its temporary HOME: is there, tells how it ends.
 
-SIGNAL `close` closes the command's output after its first line instead.
+SIGNAL `close` closes the command's output after its first line instead; `seen-NAME` sends the signal when that line has come.
 """
 
 import os
@@ -21,6 +21,9 @@ def main():
         if name == "close":
             process.stdout.readline()
             process.stdout.close()
+        elif name.startswith("seen-"):
+            print("seen: " + process.stdout.readline().decode().strip())
+            process.send_signal(getattr(signal, name.removeprefix("seen-")))
         else:
             end = time.monotonic() + LIMIT
             while not os.listdir(folder) and process.poll() is None and time.monotonic() < end:
