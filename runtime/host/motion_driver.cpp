@@ -4,6 +4,7 @@
 #include "runtime/sim/csv_writers.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -38,7 +39,6 @@ motion::MoveCommand reversed(const motion::MoveCommand& target, const motion::Mo
     result.settings = as.settings;
     result.zone = {};
     result.concurrent = false;
-    result.triggers.clear(); // triggers belong to the way forward
     return result;
 }
 
@@ -82,12 +82,36 @@ void MotionDriver::advance(Time time) {
 }
 
 void MotionDriver::handle(const motion::MotionEvent& event) {
+    if (event.kind == motion::MotionEventKind::Reached)
+        dropActions(
+            [&event](const PendingAction& pending) { return pending.fired && pending.move == event.move; });
     if (event.kind != motion::MotionEventKind::Trigger) return;
-    const auto found = triggers_.find(event.trigger);
-    if (found == triggers_.end()) return;
-    const auto action = std::move(found->second);
-    triggers_.erase(found);
-    action(event);
+    const auto found = actions_.find(event.trigger);
+    if (found == actions_.end()) return;
+    PendingAction& pending = found->second;
+    pending.fired = true; // and kept: after a power failure it is executed again
+    const std::function<void()> act = pending.action.act;
+    const Time delay = pending.action.delay;
+    if (system_.isDone(pending.move)) actions_.erase(found);
+    if (delay > 0)
+        scheduler_.after(delay, act);
+    else
+        act();
+}
+
+void MotionDriver::addActions(motion::MoveCommand& command, std::vector<PathAction> actions) {
+    for (PathAction& action : actions) {
+        motion::PathTrigger& place = action.place;
+        place.id = ++lastTrigger_;
+        if (place.lag < 0) action.delay += fromSeconds(-std::exchange(place.lag, 0));
+        command.triggers.push_back(place);
+        actions_[place.id].action = std::move(action);
+    }
+}
+
+template <class Condition> void MotionDriver::dropActions(Condition drop) {
+    for (auto at = actions_.begin(); at != actions_.end();)
+        at = drop(at->second) ? actions_.erase(at) : std::next(at);
 }
 
 void MotionDriver::schedule() {
@@ -104,7 +128,7 @@ void MotionDriver::schedule() {
 }
 
 Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::MoveId& id,
-                           std::optional<motion::MotionError>& error) {
+                           std::optional<motion::MotionError>& error, std::vector<PathAction> actions) {
     if (const Status status = task.requireMovementAllowed(); status != kOk) return status;
     MotionPointer pointer = pointerOf(task, command);
     if (processError_ != kOk) return takeProcessError(task);
@@ -118,6 +142,17 @@ Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::Move
         if (status > 0) interrupted_ = {pointer.frame, pointer.statement, id, task.latestRetry()};
         return status;
     }
+    const uint32_t before = lastTrigger_;
+    if (!backward_) addActions(command, std::move(actions));
+    const Status status = orderParts(task, std::move(command), pointer, id, error);
+    for (auto at = actions_.upper_bound(before); at != actions_.end();) // those of a move that was not made
+        at = at->second.move == 0 ? actions_.erase(at) : std::next(at);
+    if (status == kOk && !error) pointer_ = std::move(pointer);
+    return status;
+}
+
+Status MotionDriver::orderParts(Task& task, motion::MoveCommand command, const MotionPointer& pointer,
+                                motion::MoveId& id, std::optional<motion::MotionError>& error) {
     if (backward_ && pointer_.valid) command = reversed(command, pointer_.command);
     std::vector<motion::MoveCommand> parts;
     if (command.kind == motion::MoveKind::Circular && task.isStepwise() && !backward_ && circlePointStop_)
@@ -131,7 +166,6 @@ Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::Move
         if (status > 0) interrupted_ = {pointer.frame, pointer.statement, id, task.latestRetry()};
         if (status != kOk || error) return status;
     }
-    pointer_ = std::move(pointer);
     return kOk;
 }
 
@@ -157,6 +191,8 @@ Status MotionDriver::submit(Task& task, motion::MoveCommand command, motion::Mov
         if (status < 0) return status;
     }
     ++instructions_;
+    for (const motion::PathTrigger& trigger : command.triggers)
+        actions_.at(trigger.id).move = id;
     refresh();
     return waitReleased(task, id);
 }
@@ -200,11 +236,6 @@ Status MotionDriver::waitZeroSpeed(Task& task) {
     return task.waitFor({{&changed_}, [this] { return !system().isMoving(); }}, result);
 }
 
-uint32_t MotionDriver::addTrigger(std::function<void(const motion::MotionEvent&)> action) {
-    triggers_.emplace(++lastTrigger_, std::move(action));
-    return lastTrigger_;
-}
-
 void MotionDriver::applyStops() {
     advance(scheduler_.now());
     const bool held = stopMove_ || programStop_;
@@ -238,6 +269,7 @@ void MotionDriver::emergencyStop(bool powerFailure) {
     advance(scheduler_.now());
     if (powerFailure) brokenPath_ = system_.isIdle() ? 0 : system_.lastOrdered();
     system_.halt();
+    if (powerFailure) system_.rearmTriggers();
     refresh();
 }
 
@@ -250,6 +282,8 @@ void MotionDriver::clearPath() {
     advance(scheduler_.now());
     interrupted_ = {};
     system_.clear();
+    dropActions(
+        [this](const PendingAction& pending) { return pending.move != 0 && system_.isDone(pending.move); });
     refresh();
     changed_.notifyAll(); // moves that tasks wait for are gone
 }

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace rt {
 
@@ -23,6 +24,13 @@ struct MotionPointer {
     const RoutineDesc* routine = nullptr;
     int32_t statement = -1;
     motion::MoveCommand command;
+};
+
+/// Something to do when the TCP passes a place of the path (manual 1.8, TriggIO and friends).
+struct PathAction {
+    motion::PathTrigger place; ///< its id is given by the driver
+    Time delay = 0; ///< after the place has been passed; a negative lag of `place` is such a delay, too
+    std::function<void()> act; ///< called by the scheduler, not on a task's fibre
 };
 
 class MotionDriver {
@@ -43,9 +51,9 @@ class MotionDriver {
     /// Orders a move and suspends the task until the program may go on (fine point reached, look-ahead,
     /// \Conc: started). While the queue is full the task waits first. A move that cannot be made is told in
     /// `error` and nothing else happens. The command's tag is set here: the number of the move instruction,
-    /// counted from 1.
+    /// counted from 1. `actions` vanish with the move; movements executed backwards have none.
     Status order(Task& task, motion::MoveCommand command, motion::MoveId& id,
-                 std::optional<motion::MotionError>& error);
+                 std::optional<motion::MotionError>& error, std::vector<PathAction> actions = {});
     /// Called between the two parts of a circle that is stepped forward: stops the task there.
     void setCirclePointStop(std::function<Status(Task&)> stop) { circlePointStop_ = std::move(stop); }
     Status waitDone(Task& task, motion::MoveId id);
@@ -53,8 +61,6 @@ class MotionDriver {
     Status waitIdle(Task& task);
     Status waitZeroSpeed(Task& task);
 
-    /// A trigger for MoveCommand::triggers: `action` is called once, by the scheduler, when it fires.
-    uint32_t addTrigger(std::function<void(const motion::MotionEvent&)> action);
     /// Notified after every motion event.
     WaitQueue& changed() { return changed_; }
 
@@ -87,6 +93,15 @@ class MotionDriver {
     void finishTrace();
 
   private:
+    struct PendingAction {
+        PathAction action;
+        motion::MoveId move = 0; ///< 0: not ordered yet
+        bool fired = false;
+    };
+    Status orderParts(Task& task, motion::MoveCommand command, const MotionPointer& pointer,
+                      motion::MoveId& id, std::optional<motion::MotionError>& error);
+    void addActions(motion::MoveCommand& command, std::vector<PathAction> actions);
+    template <class Condition> void dropActions(Condition drop);
     Status submit(Task& task, motion::MoveCommand command, motion::MoveId& id,
                   std::optional<motion::MotionError>& error);
     Status waitReleased(Task& task, motion::MoveId id);
@@ -103,7 +118,7 @@ class MotionDriver {
     Time nextTime_ = kNever;
     uint64_t instructions_ = 0; // move instructions ordered so far
     uint32_t lastTrigger_ = 0;
-    std::map<uint32_t, std::function<void(const motion::MotionEvent&)>> triggers_;
+    std::map<uint32_t, PendingAction> actions_; // by the id of the trigger
     WaitQueue changed_;
     TraceWriter* trace_ = nullptr;
     Time nextSample_ = 0;

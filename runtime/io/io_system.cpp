@@ -79,11 +79,19 @@ IoResult IoSystem::normalise(const SignalConfig& config, double& value) {
     return value < config.minValue || value > config.maxValue ? IoResult::OutOfRange : IoResult::Ok;
 }
 
+IoResult IoSystem::check(Handle handle, double value, bool forOutput) const {
+    const SignalId id = idOf(handle);
+    if (id < 0) return IoResult::NoSignal;
+    const SignalConfig& signal = config(id);
+    if (forOutput && (isInput(signal.type) || !signal.writable)) return IoResult::NotWritable;
+    return normalise(signal, value);
+}
+
 IoResult IoSystem::checkWrite(Handle handle, double& value, Signal*& signal) {
     signal = byHandle(handle);
-    if (signal == nullptr) return IoResult::NoSignal;
-    if (isInput(signal->config.type) || !signal->config.writable) return IoResult::NotWritable;
-    return normalise(signal->config, value);
+    const IoResult result = check(handle, value, true);
+    if (result == IoResult::Ok) normalise(signal->config, value);
+    return result;
 }
 
 void IoSystem::cancelPending(Signal& signal) {

@@ -114,6 +114,8 @@ class IoSystem {
     double value(SignalId id) const;
     /// Value by handle; 0 and result NoSignal for a bad handle.
     double read(Handle handle, IoResult& result) const;
+    /// Whether the signal can have this value; `forOutput`: and a program may set it.
+    IoResult check(Handle handle, double value, bool forOutput) const;
     /// A RAPID program sets an output now. Cancels a pending delayed change and a running pulse of it.
     /// Digital: every value but 0 acts as 1.
     IoResult set(Handle handle, double value);

@@ -107,6 +107,24 @@ Pose CartesianCurve::at(double s) const {
     return {centre_ + rotate(carry, spoke_), turn(carry * start_.rot, twist_, s)};
 }
 
+namespace {
+
+/// Triggers of a whole path to its two parts, of these lengths in mm. What is timed before the end belongs to the second.
+void shareOut(const std::vector<PathTrigger>& triggers, double first, double second,
+              std::vector<MoveCommand>& halves) {
+    halves[0].triggers.clear();
+    halves[1].triggers.clear();
+    for (PathTrigger trigger : triggers) {
+        const bool inDistance = !trigger.inTime && !trigger.nextMove;
+        const bool isInFirst = trigger.fromStart ? trigger.amount <= first : trigger.amount > second;
+        if (inDistance && isInFirst != trigger.fromStart)
+            trigger.amount -= trigger.fromStart ? first : second;
+        halves[inDistance && isInFirst ? 0 : 1].triggers.push_back(trigger);
+    }
+}
+
+} // namespace
+
 std::vector<MoveCommand> splitAtCirclePoint(const MoveCommand& command, const Pose& start) {
     const auto arc = CartesianCurve::arc(start, command.circlePoint, command.target.pose);
     if (!arc) return {};
@@ -121,7 +139,7 @@ std::vector<MoveCommand> splitAtCirclePoint(const MoveCommand& command, const Po
     halves[0].circlePoint = arc->at(part / 2);
     halves[0].zone = {};
     halves[0].confL = false; // the configuration is programmed for the target
-    halves[0].triggers.clear();
+    shareOut(command.triggers, arc->length() * part, arc->length() * (1 - part), halves);
     halves[0].duration = command.duration * part;
     halves[1].circlePoint = arc->at((1 + part) / 2);
     halves[1].duration = command.duration * (1 - part);

@@ -6,11 +6,26 @@
 
 namespace motion {
 
-std::optional<TimeNs> MotionSystem::Impl::triggerTime(const Trigger& trigger) const {
-    if (trigger.fired || stretch().move == nullptr) return {};
-    const PathTrigger& wanted = trigger.wanted;
+namespace {
+
+/// Profile parameter at the trigger's place.
+double placeOf(const PathTrigger& wanted, const PlannedMotion& plan) {
+    const double length = plan.path().length();
+    if (wanted.amount <= 0) return wanted.fromStart ? 0 : 1;
+    if (wanted.amount >= length) return wanted.fromStart ? 1 : 0;
+    return plan.parameterAtDistance(wanted.fromStart ? wanted.amount : length - wanted.amount);
+}
+
+} // namespace
+
+/// On the move in progress, or ahead of the one that follows it.
+std::optional<TimeNs> MotionSystem::Impl::triggerTime(const Move& move, const Trigger& trigger) const {
+    if (trigger.fired || trigger.wanted.nextMove || stretch().move == nullptr) return {};
+    return stretch().move.get() == &move ? timeOnPath(trigger.wanted) : timeAheadOf(move, trigger.wanted);
+}
+
+std::optional<TimeNs> MotionSystem::Impl::timeOnPath(const PathTrigger& wanted) const {
     const Stretch& current = stretch();
-    const PlannedMotion& plan = current.move->plan;
     double seconds = 0;
     if (wanted.inTime && wanted.fromStart) {
         seconds = wanted.amount - current.move->doneSeconds;
@@ -18,13 +33,39 @@ std::optional<TimeNs> MotionSystem::Impl::triggerTime(const Trigger& trigger) co
         if (isBraking) return {}; // the end of the path is not in sight
         seconds = current.profile.duration() - wanted.amount;
     } else {
-        const double mm = wanted.fromStart ? wanted.amount : plan.path().length() - wanted.amount;
-        const double place = plan.parameterAtDistance(mm);
+        const double place = placeOf(wanted, current.move->plan);
         if (place > current.profile.end() + 1e-12) return {};
         seconds = current.profile.timeAt(place);
     }
     const TimeNs time = current.start + toNs(std::max(0.0, seconds - wanted.lag));
     return isBraking && time > current.end ? std::nullopt : std::optional(time);
+}
+
+/// What the lag brings forward into the move in progress; none while that one does not run to its end.
+std::optional<TimeNs> MotionSystem::Impl::timeAheadOf(const Move& move, const PathTrigger& wanted) const {
+    if (!(wanted.lag > 0) || wanted.inTime || isBraking || isHeld()) return {};
+    const double seconds = move.plan.profileAt(override).timeAt(placeOf(wanted, move.plan)) - wanted.lag;
+    if (seconds >= 0) return {};
+    return std::max(stretch().start, stretch().end - toNs(-seconds));
+}
+
+/// The moves whose triggers may fire now: the one in progress and the one that follows it.
+std::vector<Move*> MotionSystem::Impl::movesWithTriggers() const {
+    std::vector<Move*> moves;
+    if (isAbandoned || queue.empty() || queue.front()->isReturn) return moves;
+    moves.push_back(queue.front().get());
+    if (queue.size() > 1) moves.push_back(queue[1].get());
+    return moves;
+}
+
+/// Triggers of the move that is over which lie on the one that follows.
+void MotionSystem::Impl::passTriggersOn(const Move& move) {
+    for (const Trigger& trigger : move.triggers) {
+        if (!trigger.wanted.nextMove) continue;
+        carried.push_back({trigger.wanted});
+        carried.back().wanted.nextMove = false;
+        carried.back().wanted.fromStart = true;
+    }
 }
 
 std::optional<TimeNs> MotionSystem::Impl::releaseTime() const {
@@ -48,11 +89,10 @@ std::optional<TimeNs> MotionSystem::Impl::nextEvent() const {
     const auto consider = [&](std::optional<TimeNs> time) {
         if (time && (!next || *time < *next)) next = std::max(*time, now);
     };
-    if (!isAbandoned) {
-        for (const Trigger& trigger : current.move->triggers)
-            consider(triggerTime(trigger));
-        consider(releaseTime());
-    }
+    for (const Move* move : movesWithTriggers())
+        for (const Trigger& trigger : move->triggers)
+            consider(triggerTime(*move, trigger));
+    if (!isAbandoned) consider(releaseTime());
     const bool isStanding = isBraking && isStopAnnounced && !isAbandoned && now >= current.end;
     if (!isStanding) consider(current.end);
     return next;
@@ -70,10 +110,10 @@ void MotionSystem::Impl::finishStretch() {
         if (!std::exchange(move->isReleased, true)) report(MotionEventKind::Released, move.get(), now);
         // What was to fire later than the point is reached (negative lag) fires with it.
         for (Trigger& trigger : move->triggers) {
-            if (!std::exchange(trigger.fired, true)) {
+            if (!trigger.wanted.nextMove && !std::exchange(trigger.fired, true))
                 report(MotionEventKind::Trigger, move.get(), now, trigger.wanted.id);
-            }
         }
+        passTriggersOn(*move);
         report(MotionEventKind::Reached, move.get(), now);
         queue.pop_front();
         lastDone = move->id;
@@ -93,16 +133,16 @@ void MotionSystem::Impl::handleEventsNow() {
         return;
     }
     const std::shared_ptr<Move> move = queue.front();
-    if (!isAbandoned) {
-        for (Trigger& trigger : move->triggers) {
-            if (!happensNow(triggerTime(trigger))) continue;
+    for (Move* with : movesWithTriggers()) {
+        for (Trigger& trigger : with->triggers) {
+            if (!happensNow(triggerTime(*with, trigger))) continue;
             trigger.fired = true;
-            report(MotionEventKind::Trigger, move.get(), now, trigger.wanted.id);
+            report(MotionEventKind::Trigger, with, now, trigger.wanted.id);
         }
-        if (happensNow(releaseTime())) {
-            move->isReleased = true;
-            report(MotionEventKind::Released, move.get(), now);
-        }
+    }
+    if (!isAbandoned && happensNow(releaseTime())) {
+        move->isReleased = true;
+        report(MotionEventKind::Released, move.get(), now);
     }
     if (now >= stretch().end) finishStretch();
 }

@@ -46,6 +46,8 @@ void MotionSystem::Impl::startNext() {
     if (queue.empty() || isHeld() || isMoving() || queue.front()->isStarted) return;
     const std::shared_ptr<Move>& move = queue.front();
     move->isStarted = true;
+    const std::vector<Trigger> passedOn = std::exchange(carried, {});
+    move->triggers.insert(move->triggers.end(), passedOn.begin(), passedOn.end());
     begin(move, move->plan.profileAt(override));
     if (!move->isReturn) report(MotionEventKind::Started, move.get(), now);
 }

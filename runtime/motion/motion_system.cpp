@@ -80,6 +80,7 @@ Expected<MoveId, MotionError> MotionSystem::enqueue(const MoveCommand& command) 
 
 void MotionSystem::clear() {
     Impl& s = *impl_;
+    s.carried.clear();
     if (s.queue.empty()) return;
     if (s.isHalted) { // what remains is not the arm's any more
         s.noteCleared(s.queue.front()->id);
@@ -101,13 +102,21 @@ void MotionSystem::clear() {
     }
 }
 
+void MotionSystem::rearmTriggers() {
+    Impl& s = *impl_;
+    if (s.queue.empty() || !s.queue.front()->isStarted) return;
+    for (Trigger& trigger : s.queue.front()->triggers)
+        trigger.fired = false;
+}
+
 bool MotionSystem::storePath() {
     Impl& s = *impl_;
     if (s.isMoving()) return false;
     if (!std::exchange(s.isHalted, false) && !s.queue.empty() && s.queue.front()->isStarted) {
         s.queue.front()->pausedAt = s.profileState(s.now).s;
     }
-    s.levels.push_back({std::exchange(s.queue, {}), s.isStopRequested, s.isBraking});
+    s.levels.push_back(
+        {std::exchange(s.queue, {}), std::exchange(s.carried, {}), s.isStopRequested, s.isBraking});
     s.isStopRequested = false;
     s.isBraking = false;
     s.isStopAnnounced = true;
@@ -120,6 +129,7 @@ bool MotionSystem::restorePath() {
     Level level = std::move(s.levels.back());
     s.levels.pop_back();
     s.queue = std::move(level.queue);
+    s.carried = std::move(level.carried);
     s.isStopRequested = level.isStopRequested;
     s.isBraking = level.isBraking;
     if (!s.queue.empty()) s.orderReturnToPath();

@@ -94,6 +94,9 @@ class MotionSystem {
     /// Goes on from where stop() left the path.
     void start();
     bool isStopRequested() const; ///< between stop() and start()
+    /// The triggers of the interrupted move fire again on what remains of its path; those whose place is passed, at once
+    /// when it goes on (restart after a power failure, manual 2.3). The arm stands still.
+    void rearmTriggers();
 
     /// Operator's speed override, percent 0..100, from now on; the current move changes speed on its path. 0
     /// stops.

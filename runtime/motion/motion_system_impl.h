@@ -41,6 +41,7 @@ struct Move {
 /// What storePath() puts aside.
 struct Level {
     std::deque<std::shared_ptr<Move>> queue;
+    std::vector<Trigger> carried;
     bool isStopRequested = false;
     bool isBraking = false;
 };
@@ -70,6 +71,7 @@ struct MotionSystem::Impl {
     bool isCoasting = false; // braking there
 
     std::deque<std::shared_ptr<Move>> queue; // the first may be in progress
+    std::vector<Trigger> carried;            // of a finished move, for the one that begins next
     std::vector<Level> levels;
     std::deque<Stretch> stretches; // in order of time; the last one is valid from its start on
     std::vector<MotionEvent> events;
@@ -96,7 +98,11 @@ struct MotionSystem::Impl {
     void resume();
     void orderReturnToPath();
     std::optional<TimeNs> nextEvent() const;
-    std::optional<TimeNs> triggerTime(const Trigger& trigger) const;
+    std::optional<TimeNs> triggerTime(const Move& move, const Trigger& trigger) const;
+    std::optional<TimeNs> timeOnPath(const PathTrigger& wanted) const;
+    std::optional<TimeNs> timeAheadOf(const Move& move, const PathTrigger& wanted) const;
+    std::vector<Move*> movesWithTriggers() const;
+    void passTriggersOn(const Move& move);
     std::optional<TimeNs> releaseTime() const;
     bool happensNow(std::optional<TimeNs> time) const { return time && *time <= now; }
     void handleEventsNow();

@@ -4,6 +4,7 @@
 
 #include "runtime/motion/targets.h"
 
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -43,13 +44,16 @@ struct MotionSettings {
     double worldAcceleration = 0;     ///< WorldAccLim, m/s^2; 0 = no limit
 };
 
-/// Something to be reported when the TCP passes a place on the path (TriggIO and friends).
+/// Something to be reported when the TCP passes a place on the path (TriggIO and friends). A place before the start of
+/// the path is its start, one behind its end is its end.
 struct PathTrigger {
     uint32_t id = 0;        ///< the caller's name for it
     bool fromStart = false; ///< measured from the start of the move instead of its end
     bool inTime = false; ///< `amount` is seconds before the end (after the start) instead of mm of TCP path
     double amount = 0;
-    double lag = 0; ///< EquipLag, s: positive fires earlier
+    double lag = 0; ///< EquipLag, s: positive fires earlier, also while the move before is still running
+    bool nextMove = false; ///< on the move that follows, `amount` mm after its start
+    friend auto operator<=>(const PathTrigger&, const PathTrigger&) = default;
 };
 
 struct MoveCommand {

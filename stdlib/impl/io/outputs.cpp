@@ -6,8 +6,6 @@
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
 
-#include <cmath>
-
 using namespace rt;
 using lib::ioStatus;
 
@@ -59,8 +57,7 @@ Status rt_SetAO(TaskCore* task, Handle* Signal, float Value) {
 Status rt_SetGO(TaskCore* task, const float* SDelay, Handle* Signal, const float* Value,
                 const double* Dvalue) {
     const double value = Value ? static_cast<double>(*Value) : *Dvalue;
-    if (std::trunc(value) != value)
-        return lib::fail(task, err::ERR_ARGVALERR, "a group takes whole numbers only");
+    if (const Status status = lib::checkWhole(task, value)) return status;
     return setAfter(task, *Signal, value, SDelay);
 }
 Status rt_PulseDO(TaskCore* task, bool High, const float* PLength, Handle* Signal) {

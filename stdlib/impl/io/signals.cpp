@@ -6,6 +6,8 @@
 
 #include "stdlib_constants.h"
 
+#include <cmath>
+
 namespace rt::lib {
 
 Status ioStatus(TaskCore* task, IoResult result, Handle handle) {
@@ -48,6 +50,11 @@ Status readSignal(TaskCore* task, Handle handle, double& value) {
     IoResult result = IoResult::Ok;
     value = taskOf(task).controller().io().read(handle, result);
     return ioStatus(task, result, handle);
+}
+
+Status checkWhole(TaskCore* task, double value) {
+    if (std::trunc(value) == value) return kOk;
+    return fail(task, err::ERR_ARGVALERR, "a group takes whole numbers only");
 }
 
 } // namespace rt::lib

@@ -12,4 +12,7 @@ SignalId signalOf(TaskCore* task, Handle handle, Status& status);
 /// Value of a signal.
 Status readSignal(TaskCore* task, Handle handle, double& value);
 
+/// kOk when a group may get this value as far as it is a whole number; else ERR_ARGVALERR.
+Status checkWhole(TaskCore* task, double value);
+
 } // namespace rt::lib

@@ -1,11 +1,13 @@
 // Manual 1.8: positioning instructions.
 
 #include "stdlib/impl/math/convert.h"
-#include "stdlib/impl/motion/state.h"
+#include "stdlib/impl/motion/move_order.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
+
+#include <utility>
 
 using namespace rt;
 
@@ -13,25 +15,12 @@ namespace {
 
 constexpr int kMostConcurrent = 5; // \Conc moves in succession
 
-/// The arguments every positioning instruction has.
-struct Common {
-    bool conc;
-    const data::Speeddata* speed;
-    const float* v; ///< \V, may be null, as those below
-    const float* t;
-    const data::Zonedata* zone;
-    const float* z;
-    const data::Stoppointdata* inpos;
-    const data::Tooldata* tool;
-    const data::Wobjdata* workObject;
-};
-
-motion::SpeedData speedOf(const Common& args) {
+motion::SpeedData speedOf(const lib::MoveArguments& args) {
     const data::Speeddata& s = *args.speed;
     return {args.v ? static_cast<double>(*args.v) : s.v_tcp, s.v_ori, s.v_leax, s.v_reax};
 }
 
-motion::ZoneData zoneOf(const Common& args) {
+motion::ZoneData zoneOf(const lib::MoveArguments& args) {
     const data::Zonedata& z = *args.zone;
     motion::ZoneData zone{z.finep,    z.pzone_tcp, z.pzone_ori, z.pzone_eax,
                           z.zone_ori, z.zone_leax, z.zone_reax};
@@ -53,16 +42,52 @@ Status checkConcurrent(TaskCore* task, lib::MotionState& state, bool conc) {
                      "at most 5 movement instructions with \\Conc may follow each other");
 }
 
-/// Completes the command with what is common, orders it and waits until the program may go on.
-Status order(TaskCore* task, motion::MoveCommand& command, const Common& args) {
-    if (const Status status = lib::requireMotionTask(task)) return status;
+/// As programmed, with the axis offsets in force.
+motion::MoveCommand moveTo(TaskCore* task, motion::MoveKind kind, const data::Robtarget& target) {
+    motion::MoveCommand command;
+    command.kind = kind;
+    command.target = lib::toTarget(target);
+    lib::addOffsets(command.target.extax, lib::motionState(task).axisOffsets, 1);
+    return command;
+}
+
+} // namespace
+
+namespace rt::lib {
+
+motion::MoveCommand jointMove(TaskCore* task, const data::Robtarget& target) {
+    return moveTo(task, motion::MoveKind::Joint, target);
+}
+
+motion::MoveCommand linearMove(TaskCore* task, const data::Robtarget& target) {
+    return moveTo(task, motion::MoveKind::Linear, target);
+}
+
+motion::MoveCommand circularMove(TaskCore* task, const data::Robtarget& circlePoint,
+                                 const data::Robtarget& target) {
+    motion::MoveCommand command = moveTo(task, motion::MoveKind::Circular, target);
+    command.circlePoint = toFrame(circlePoint);
+    return command;
+}
+
+motion::MoveCommand absoluteMove(TaskCore* task, const data::Jointtarget& target, bool noOffsets) {
+    motion::MoveCommand command;
+    command.kind = motion::MoveKind::AbsJoint;
+    command.joints = toJoints(target);
+    if (!noOffsets) addOffsets(command.joints.extax, motionState(task).axisOffsets, 1);
+    return command;
+}
+
+Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArguments& args,
+                 std::vector<PathAction> actions) {
+    if (const Status status = requireMotionTask(task)) return status;
     Task& owner = taskOf(task);
-    lib::MotionState& state = lib::motionState(task);
-    if (args.t && !(*args.t > 0)) return lib::fail(task, err::ERR_ARGVALERR, "\\T must be a time above 0 s");
+    MotionState& state = motionState(task);
+    if (args.t && !(*args.t > 0)) return fail(task, err::ERR_ARGVALERR, "\\T must be a time above 0 s");
     if (const Status status = checkConcurrent(task, state, args.conc)) return status;
-    static const data::Wobjdata kWorld = lib::MotionState().workObject;
+    static const data::Wobjdata kWorld = MotionState().workObject;
     const data::Wobjdata* workObject = args.workObject ? args.workObject : &kWorld;
-    command.frames = lib::frameSetup(state, args.tool, workObject);
+    command.frames = frameSetup(state, args.tool, workObject);
     command.speed = speedOf(args);
     command.duration = args.t ? static_cast<double>(*args.t) : 0.0;
     command.zone = zoneOf(args);
@@ -72,9 +97,10 @@ Status order(TaskCore* task, motion::MoveCommand& command, const Common& args) {
     command.settings = state.settings;
     motion::MoveId id = 0;
     std::optional<motion::MotionError> error;
-    const Status status = owner.controller().motion().order(owner, command, id, error);
+    const Status status =
+        owner.controller().motion().order(owner, std::move(command), id, error, std::move(actions));
     if (status != kOk) return status;
-    if (error) return lib::fail(task, lib::motionErrno(*error), error->message());
+    if (error) return fail(task, motionErrno(*error), error->message());
     state.tool = *args.tool;
     state.workObject = *workObject;
     // A stop point by time: the program goes on when the robot has stood there that long.
@@ -83,13 +109,7 @@ Status order(TaskCore* task, motion::MoveCommand& command, const Common& args) {
     return kOk;
 }
 
-motion::RobTarget programmed(TaskCore* task, const data::Robtarget& target) {
-    motion::RobTarget out = lib::toTarget(target);
-    lib::addOffsets(out.extax, lib::motionState(task).axisOffsets, 1);
-    return out;
-}
-
-} // namespace
+} // namespace rt::lib
 
 extern "C" {
 
@@ -97,42 +117,32 @@ Status rt_MoveAbsJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPo
                    const data::Speeddata* Speed, const float* V, const float* T, const data::Zonedata* Zone,
                    const float* Z, const data::Stoppointdata* Inpos, data::Tooldata* Tool,
                    data::Wobjdata* WObj, data::Loaddata*) {
-    motion::MoveCommand command;
-    command.kind = motion::MoveKind::AbsJoint;
-    command.joints = lib::toJoints(*ToJointPos);
-    if (!NoEOffs) lib::addOffsets(command.joints.extax, lib::motionState(task).axisOffsets, 1);
-    return order(task, command, {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
+    return lib::orderMove(task, lib::absoluteMove(task, *ToJointPos, NoEOffs),
+                          {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
 }
 
 Status rt_MoveJ(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float*,
                 const data::Speeddata* Speed, const float* V, const float* T, const data::Zonedata* Zone,
                 const float* Z, const data::Stoppointdata* Inpos, data::Tooldata* Tool, data::Wobjdata* WObj,
                 data::Loaddata*) {
-    motion::MoveCommand command;
-    command.kind = motion::MoveKind::Joint;
-    command.target = programmed(task, *ToPoint);
-    return order(task, command, {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
+    return lib::orderMove(task, lib::jointMove(task, *ToPoint),
+                          {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
 }
 
 Status rt_MoveL(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float*,
                 const data::Speeddata* Speed, const float* V, const float* T, const float*, const float*,
                 const data::Zonedata* Zone, const float* Z, const data::Stoppointdata* Inpos,
                 data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata*) {
-    motion::MoveCommand command;
-    command.kind = motion::MoveKind::Linear;
-    command.target = programmed(task, *ToPoint);
-    return order(task, command, {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
+    return lib::orderMove(task, lib::linearMove(task, *ToPoint),
+                          {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
 }
 
 Status rt_MoveC(TaskCore* task, bool Conc, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
                 const float*, const data::Speeddata* Speed, const float* V, const float* T,
                 const data::Zonedata* Zone, const float* Z, const data::Stoppointdata* Inpos,
                 data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata*) {
-    motion::MoveCommand command;
-    command.kind = motion::MoveKind::Circular;
-    command.circlePoint = lib::toFrame(*CirPoint);
-    command.target = programmed(task, *ToPoint);
-    return order(task, command, {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
+    return lib::orderMove(task, lib::circularMove(task, *CirPoint, *ToPoint),
+                          {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
 }
 
 Status rt_MoveExtJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float*,
@@ -148,6 +158,6 @@ Status rt_MoveExtJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPo
     if (UseEOffs) lib::addOffsets(command.joints.extax, state.axisOffsets, 1);
     const data::Tooldata tool = state.tool;
     const data::Wobjdata workObject = state.workObject;
-    return order(task, command, {Conc, Speed, nullptr, T, Zone, nullptr, Inpos, &tool, &workObject});
+    return lib::orderMove(task, command, {Conc, Speed, nullptr, T, Zone, nullptr, Inpos, &tool, &workObject});
 }
 }

@@ -1,6 +1,7 @@
 // Manual 1.19 and 1.6: conversions between strings and values.
 
 #include "runtime/value/value_text.h"
+#include "stdlib/impl/strings/digits.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/utf8.h"
 
@@ -27,12 +28,6 @@ Status decimalsText(TaskCore* task, String* result, double value, float dec, boo
         return lib::fail(task, err::ERR_ARGVALERR,
                          "the number of decimals must be a whole number, not negative");
     return store(task, result, formatDecimals(value, static_cast<int>(dec), exponent));
-}
-
-/// All of `text` as an unsigned integer of this base, at most `limit`.
-bool readDigits(std::string_view text, int base, uint64_t limit, uint64_t& value) {
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
-    return !text.empty() && error == std::errc() && stop == text.data() + text.size() && value <= limit;
 }
 
 std::string digits(uint64_t value, int base, size_t width) {
@@ -75,7 +70,7 @@ Status rt_StrToVal(TaskCore*, bool* result, const String* Str, void* Val, const 
 
 Status rt_DecToHex(TaskCore* task, String* result, const String* Str) {
     uint64_t value = 0;
-    if (!readDigits(Str->view(), 10, kLargest, value))
+    if (!lib::readDigits(Str->view(), 10, kLargest, value))
         return lib::fail(task, err::ERR_ARGVALERR,
                          "the text must be a decimal integer up to 9223372036854775807");
     return store(task, result, digits(value, 16, 1));
@@ -83,7 +78,7 @@ Status rt_DecToHex(TaskCore* task, String* result, const String* Str) {
 
 Status rt_HexToDec(TaskCore* task, String* result, const String* Str) {
     uint64_t value = 0;
-    if (!readDigits(Str->view(), 16, kLargest, value))
+    if (!lib::readDigits(Str->view(), 16, kLargest, value))
         return lib::fail(task, err::ERR_ARGVALERR,
                          "the text must be a hexadecimal integer up to 7FFFFFFFFFFFFFFF");
     return store(task, result, digits(value, 10, 1));
@@ -102,7 +97,7 @@ Status rt_StrToByte(TaskCore* task, float* result, const String* ConStr, bool He
     const std::string_view text = ConStr->view();
     uint64_t value = 0;
     const bool valid = Char ? lib::characterCount(text) == 1 && (value = lib::codePoint(text)) <= 255
-                            : readDigits(text, baseOf(Hex, Okt, Bin), 255, value);
+                            : lib::readDigits(text, baseOf(Hex, Okt, Bin), 255, value);
     if (!valid)
         return lib::fail(task, err::ERR_ARGVALERR,
                          Char ? "the text must be one character with a code up to 255"

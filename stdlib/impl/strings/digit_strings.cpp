@@ -1,6 +1,8 @@
 // stringdig: whole numbers from 0 to 4294967295 held as digits.
 
+#include "stdlib/impl/strings/digits.h"
 #include "stdlib/impl/support/fail.h"
+#include "stdlib/impl/support/relation.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
@@ -11,16 +13,11 @@ using namespace rt;
 
 namespace {
 
-constexpr uint64_t kLargest = 4294967295u;
-
-bool readDigits(const String& text, uint64_t& value) {
-    const char* end = text.bytes + text.length;
-    const auto [stop, error] = std::from_chars(text.bytes, end, value);
-    return text.length > 0 && error == std::errc() && stop == end && value <= kLargest;
-}
-
 Status readBoth(TaskCore* task, const String& a, const String& b, uint64_t& x, uint64_t& y) {
-    if (readDigits(a, x) && readDigits(b, y)) return kOk;
+    const auto read = [](const String& text, uint64_t& value) {
+        return lib::readDigits(text.view(), 10, lib::kLargestDigitString, value);
+    };
+    if (read(a, x) && read(b, y)) return kOk;
     return lib::fail(task, err::ERR_INT_NOTVAL,
                      "a digit string must be digits of a number from 0 to 4294967295");
 }
@@ -34,20 +31,9 @@ Status rt_StrDigCmp(TaskCore* task, bool* result, const String* StrDig1, float R
     uint64_t x = 0;
     uint64_t y = 0;
     if (const Status status = readBoth(task, *StrDig1, *StrDig2, x, y)) return status;
-    if (Relation == k::LT)
-        *result = x < y;
-    else if (Relation == k::LTEQ)
-        *result = x <= y;
-    else if (Relation == k::EQ)
-        *result = x == y;
-    else if (Relation == k::NOTEQ)
-        *result = x != y;
-    else if (Relation == k::GTEQ)
-        *result = x >= y;
-    else if (Relation == k::GT)
-        *result = x > y;
-    else
-        return lib::fail(task, err::ERR_ARGVALERR, "the relation must be LT, LTEQ, EQ, NOTEQ, GTEQ or GT");
+    const std::optional<bool> meets = lib::related(x, Relation, y);
+    if (!meets) return lib::fail(task, err::ERR_ARGVALERR, lib::kRelationNames);
+    *result = *meets;
     return kOk;
 }
 
@@ -70,7 +56,7 @@ Status rt_StrDigCalc(TaskCore* task, String* result, const String* StrDig1, floa
     } else
         return lib::fail(task, err::ERR_ARGVALERR,
                          "the operation must be OpAdd, OpSub, OpMult, OpDiv or OpMod");
-    if (value > kLargest)
+    if (value > lib::kLargestDigitString)
         return lib::fail(task, err::ERR_CALC_OVERFLOW, "the result is larger than 4294967295");
     result->assign(std::to_string(value));
     return kOk;

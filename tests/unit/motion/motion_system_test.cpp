@@ -204,6 +204,105 @@ TEST_CASE("triggers fire where and when they are asked to", "[motion][system]") 
                          [](const auto& a, const auto& b) { return a.time < b.time; }));
 }
 
+namespace {
+
+/// TCP of every trigger that fired, by its id, mm from `from`; -1: it did not.
+std::vector<double> placesOfTriggers(MotionSystem& system, const Vec3& from,
+                                     std::vector<MotionEvent>& events) {
+    std::vector<double> places(9, -1);
+    while (const auto next = system.nextEventTime()) {
+        system.advanceTo(*next);
+        for (const MotionEvent& event : system.takeEvents()) {
+            events.push_back(event);
+            if (event.kind == MotionEventKind::Trigger)
+                places[event.trigger] = norm(system.sample(event.time).tcp.pos - from);
+        }
+    }
+    return places;
+}
+
+} // namespace
+
+TEST_CASE("triggers reach into the move before and the one that follows", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    const Vec3 from = system.current().tcp.pos;
+    MoveCommand first = lineFrom(system, 0, 0, -50);
+    first.triggers.resize(1);
+    first.triggers[0].id = 1;
+    first.triggers[0].amount = 20;
+    first.triggers[0].nextMove = true; // 20 mm into the second
+    MoveCommand second = lineFrom(system, 0, 0, -100);
+    second.triggers.resize(1);
+    second.triggers[0].id = 2;
+    second.triggers[0].fromStart = true;
+    second.triggers[0].lag = 0.1; // s ahead of its start
+    REQUIRE(system.enqueue(first).hasValue());
+    REQUIRE(system.enqueue(second).hasValue());
+    std::vector<MotionEvent> events;
+    const std::vector<double> places = placesOfTriggers(system, from, events);
+    CHECK(places[1] == Approx(70).margin(1e-4));
+    CHECK(places[2] > 0);
+    CHECK(places[2] < 50);
+    const auto fired =
+        std::find_if(events.begin(), events.end(), [](const auto& e) { return e.trigger == 2; });
+    REQUIRE(fired != events.end());
+    CHECK(timeOf(events, MotionEventKind::Started, 2) - fired->time == Approx(1e8).margin(10));
+}
+
+TEST_CASE("after a power failure triggers fire again on the rest of the path", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    const Vec3 from = system.current().tcp.pos;
+    MoveCommand line = lineFrom(system, 0, 0, -100);
+    line.triggers.resize(2);
+    line.triggers[0].id = 1;
+    line.triggers[0].fromStart = true;
+    line.triggers[0].amount = 10;
+    line.triggers[1].id = 2;
+    line.triggers[1].amount = 10;
+    REQUIRE(system.enqueue(line).hasValue());
+    system.advanceTo(*system.reachTime(1) / 2);
+    REQUIRE(system.takeEvents().size() == 2); // started, and the first trigger
+    system.halt();
+    while (const auto next = system.nextEventTime())
+        system.advanceTo(*next);
+    system.takeEvents();
+    system.rearmTriggers();
+    system.start();
+    std::vector<MotionEvent> events;
+    const std::vector<double> places = placesOfTriggers(system, from, events);
+    CHECK(places[1] > 20); // its place lies behind: at once
+    CHECK(places[1] < 90);
+    CHECK(places[2] == Approx(90).margin(1e-4));
+}
+
+TEST_CASE("the triggers of a circle in two parts stay where they are", "[motion][path]") {
+    MoveCommand circle;
+    circle.kind = MoveKind::Circular;
+    circle.circlePoint.pos = {0, 100, 0};
+    circle.target.pose.pos = {-100, 0, 0};
+    circle.triggers = {{1, true, false, 50, 0},
+                       {2, false, false, 50, 0},
+                       {3, true, false, 200, 0},
+                       {4, false, false, 200, 0},
+                       {5, false, true, 0.1, 0}};
+    Pose start;
+    start.pos = {100, 0, 0};
+    const std::vector<MoveCommand> parts = splitAtCirclePoint(circle, start); // two quarters of 157.08 mm
+    REQUIRE(parts.size() == 2);
+    REQUIRE(parts[0].triggers.size() == 2);
+    CHECK(parts[0].triggers[0].id == 1);
+    CHECK(parts[0].triggers[0].amount == 50);
+    CHECK(parts[0].triggers[1].id == 4); // 200 mm before the end
+    CHECK_FALSE(parts[0].triggers[1].fromStart);
+    CHECK(parts[0].triggers[1].amount == Approx(200 - 157.0796));
+    REQUIRE(parts[1].triggers.size() == 3);
+    CHECK(parts[1].triggers[0].amount == 50);
+    CHECK(parts[1].triggers[1].id == 3); // 200 mm after the start
+    CHECK(parts[1].triggers[1].fromStart);
+    CHECK(parts[1].triggers[1].amount == Approx(200 - 157.0796));
+    CHECK(parts[1].triggers[2].id == 5);
+}
+
 TEST_CASE("stop brakes on the path and start goes on from there", "[motion][system]") {
     MotionSystem straight = makeSystem();
     MotionSystem system = makeSystem();

@@ -118,17 +118,13 @@ TEST_CASE("triggers call back at their time on the path", "[motion_driver]") {
         Task& task = taskOf(core);
         MotionDriver& driver = task.controller().motion();
         motion::MoveCommand command = toAxis1(40);
-        motion::PathTrigger trigger;
-        trigger.id = driver.addTrigger([&task](const motion::MotionEvent& event) {
-            fired = event.time;
-            CHECK(task.scheduler().now() == event.time);
-        });
-        trigger.inTime = true;
-        trigger.amount = 0.1; // s before the end
-        command.triggers.push_back(trigger);
+        PathAction action;
+        action.act = [&task] { fired = task.scheduler().now(); };
+        action.place.inTime = true;
+        action.place.amount = 0.1; // s before the end
         motion::MoveId id = 0;
         std::optional<motion::MotionError> error;
-        if (const Status status = driver.order(task, command, id, error)) return status;
+        if (const Status status = driver.order(task, command, id, error, {action})) return status;
         if (const Status status = driver.waitDone(task, id)) return status;
         reached = task.now();
         return kOk;

@@ -1,0 +1,35 @@
+#pragma once
+// What all movement instructions share: their common arguments, and how a move is ordered (manual 1.8).
+
+#include "stdlib/impl/motion/state.h"
+
+#include <vector>
+
+namespace rt::lib {
+
+/// The arguments every positioning instruction has; those that point may be null.
+struct MoveArguments {
+    bool conc = false;
+    const data::Speeddata* speed = nullptr; ///< always given
+    const float* v = nullptr;
+    const float* t = nullptr;
+    const data::Zonedata* zone = nullptr; ///< always given
+    const float* z = nullptr;
+    const data::Stoppointdata* inpos = nullptr;
+    const data::Tooldata* tool = nullptr; ///< always given
+    const data::Wobjdata* workObject = nullptr;
+};
+
+/// The movement to a target; the rest of the command is completed by orderMove.
+motion::MoveCommand jointMove(TaskCore* task, const data::Robtarget& target);
+motion::MoveCommand linearMove(TaskCore* task, const data::Robtarget& target);
+motion::MoveCommand circularMove(TaskCore* task, const data::Robtarget& circlePoint,
+                                 const data::Robtarget& target);
+motion::MoveCommand absoluteMove(TaskCore* task, const data::Jointtarget& target, bool noOffsets);
+
+/// Completes the command with what is common, orders it with what is to be done on its path, and waits until the program
+/// may go on.
+Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArguments& arguments,
+                 std::vector<PathAction> actions = {});
+
+} // namespace rt::lib

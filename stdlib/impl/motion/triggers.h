@@ -1,0 +1,59 @@
+#pragma once
+// triggdata: what is done at a place of the path (manual 1.8). A definition never changes; equal ones are one object, so
+// that a program which defines its triggers again and again needs no more room.
+
+#include "runtime/host/controller.h"
+
+#include <compare>
+#include <map>
+#include <vector>
+
+namespace rt::lib {
+
+struct TriggerDefinition {
+    enum class Kind : uint8_t {
+        Output,    ///< TriggIO, TriggEquip: sets `signal` to `value`
+        Interrupt, ///< TriggInt
+        Check,     ///< TriggCheckIO: the interrupt occurs unless `signal` stands in `relation` to `value`
+    };
+    Kind kind = Kind::Output;
+    motion::PathTrigger place;
+    Time delay = 0; ///< \DODelay
+    Handle signal = 0;
+    double value = 0;
+    float relation = 0;
+    bool stopMove = false;
+    int interrupt = 0;
+    const bool* inhibit = nullptr; ///< \Inhib: persistent, looked at when the place is passed
+    /// \InhibSetValue: the value while inhibited; null: 0. Persistent of this type.
+    const void* inhibitValue = nullptr;
+    const TypeDesc* inhibitType = nullptr;
+
+    friend auto operator<=>(const TriggerDefinition&, const TriggerDefinition&) = default;
+};
+
+/// The definitions of one task. 0, the initial value of a triggdata, is none.
+class TriggerStore {
+  public:
+    Handle intern(const TriggerDefinition& definition);
+    /// Null for a triggdata without contents.
+    const TriggerDefinition* find(Handle handle) const;
+
+  private:
+    std::map<TriggerDefinition, Handle> handles_;
+    std::vector<const TriggerDefinition*> definitions_; // by handle - 1
+};
+
+inline TriggerStore& triggerStore(TaskCore* task) {
+    return taskOf(task).local<TriggerStore>();
+}
+
+/// What the driver is to do for this trigger.
+PathAction actionOf(TaskCore* task, const TriggerDefinition& definition);
+
+/// An output can be set to this value by a program (ERR_AO_LIM, ERR_GO_LIM ...).
+Status checkOutput(TaskCore* task, Handle signal, double value);
+/// The place of a trigger: mm or s, as the program says it. ERR_ARGVALERR when that is not a number or negative.
+Status checkDistance(TaskCore* task, float distance);
+
+} // namespace rt::lib
