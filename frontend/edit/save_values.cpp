@@ -62,8 +62,8 @@ class LeafWriter {
     bool write(const Expr& before, const Expr& after) {
         if (before.kind == NodeKind::Aggregate || after.kind == NodeKind::Aggregate) {
             if (before.kind != after.kind) return false;
-            const auto& from = as<AggregateExpr>(before).elements;
-            const auto& to = as<AggregateExpr>(after).elements;
+            const std::span<Expr*> from = as<AggregateExpr>(before).elements();
+            const std::span<Expr*> to = as<AggregateExpr>(after).elements();
             if (from.size() != to.size()) return false;
             for (size_t i = 0; i < from.size(); ++i)
                 if (!write(*from[i], *to[i])) return false;

@@ -54,7 +54,7 @@ void Walker::expr(const Expr& e, bool partOfText) {
         return;
     case NodeKind::Call: call(e, as<CallExpr>(e).args); return;
     case NodeKind::Aggregate:
-        for (const Expr* element : as<AggregateExpr>(e).elements)
+        for (const Expr* element : as<AggregateExpr>(e).elements())
             expr(*element);
         return;
     case NodeKind::Paren: expr(*as<ParenExpr>(e).inner, partOfText); return;

@@ -230,7 +230,6 @@ class Analyzer {
     void ensureValue(DataSymbol& symbol);
     uint64_t resolveDimensions(DataSymbol& symbol, const syntax::DataDecl& decl);
     void initialise(DataSymbol& symbol, const syntax::DataDecl& decl);
-    bool foldLiterals(const syntax::Expr& e, const DataType& want, ConstValue& value);
     void checkDeclaration(DataSymbol& symbol);
     bool reportNonConstant(const syntax::Expr& expr);
     const syntax::Expr* findNonLiteral(const syntax::Expr& expr) const;

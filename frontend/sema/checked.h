@@ -20,8 +20,8 @@ struct ExprInfo {
     const ConstValue* constant = nullptr; ///< value when it is a constant expression (folded), else null
 };
 
-/// The ExprInfo of all expressions of a tree, by Expr::id, made where they are first asked for. An aggregate of
-/// literals that is the initial value of module data never has any: the symbol has its type and value.
+/// The ExprInfo of all expressions of a tree, by Expr::id, made where they are first asked for. A plain
+/// aggregate that fits its data never has any: the symbol has its type and value.
 class ExprTable {
   public:
     ExprTable(uint32_t count, const Type* unknown, Arena& arena)

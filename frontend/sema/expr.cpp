@@ -108,7 +108,7 @@ Typed Analyzer::paren(const ParenExpr& e, const DataType* want, ConstValue* slot
 
 // Can it be of type `want`? Says why not.
 bool Analyzer::aggregateFits(const AggregateExpr& e, const DataType& want) {
-    const size_t count = e.elements.size();
+    const size_t count = e.elements().size();
     if (want.type->kind == TypeKind::AnyType)
         report(Code::AggregateWithoutType, range(e));
     else if (want.type->kind == TypeKind::Error)
@@ -120,7 +120,7 @@ bool Analyzer::aggregateFits(const AggregateExpr& e, const DataType& want) {
                                 : want.dims[0] > 0 ? static_cast<size_t>(want.dims[0])
                                                    : count;
         if (count == expected) return true;
-        for (const Expr* element : e.elements)
+        for (const Expr* element : e.elements())
             if (element->kind == NodeKind::ErrorExpr) return false;
         report(Code::AggregateCount, range(e),
                {counted(count, "member"), std::to_string(expected), typeName(want)});
@@ -132,13 +132,13 @@ bool Analyzer::aggregateFits(const AggregateExpr& e, const DataType& want) {
 Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstValue* slot) {
     if (!want) report(Code::AggregateWithoutType, range(e));
     if (!want || !aggregateFits(e, *want)) {
-        for (const Expr* element : e.elements)
+        for (const Expr* element : e.elements())
             visitLoose(*element);
         return errorExpr(e);
     }
     const bool array = want->rank > 0;
     const std::vector<Type::Component>& components = want->type->base()->components;
-    const size_t count = e.elements.size();
+    const size_t count = e.elements().size();
     ConstValue* value = slot ? slot : newConst();
     const std::span<ConstValue> members = facts().arena.makeArray<ConstValue>(count);
     bool constant = true;
@@ -148,7 +148,7 @@ Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstVal
     DataType own = *want;
     if (array) own.dims[0] = static_cast<int32_t>(count);
     for (size_t i = 0; i < count; ++i) {
-        const Expr& element = *e.elements[i];
+        const Expr& element = *e.elements()[i];
         if (!array) member = {components[i].type, 0, {}};
         const Typed t = expr(element, &member, &members[i]);
         const bool fit = fits(element, t, member);

@@ -56,7 +56,8 @@ Place Analyzer::namePlace(const NameExpr& e, const Type* handle) {
     if (data->dataKind == DataKind::Const && data->storage != Storage::Parameter &&
         data->storage != Storage::Signal) {
         ensureValue(*data);
-        if (data->value.kind != ConstValue::Kind::None) result.constant = &data->value;
+        const ConstValue& value = data->value();
+        if (value.kind != ConstValue::Kind::None) result.constant = &value;
     }
     return place;
 }

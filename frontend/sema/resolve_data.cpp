@@ -2,13 +2,20 @@
 // constants of other modules in any order (manual 1.2.2).
 
 #include "frontend/sema/analysis.h"
+#include "frontend/sema/literal_value.h"
 
-#include <cfloat>
 #include <cmath>
 
 namespace rapid::sema {
 
 using namespace syntax;
+
+namespace {
+/// Such an expression gets no ExprInfo unless something is wrong with it: the symbol has type and value.
+bool isPlain(const Expr& e) {
+    return e.kind == NodeKind::Aggregate && as<AggregateExpr>(e).isPlain();
+}
+} // namespace
 
 void Analyzer::ensureData(DataSymbol& symbol) {
     if (symbol.progress != Progress::Pending) {
@@ -111,58 +118,18 @@ void Analyzer::ensureValue(DataSymbol& symbol) {
     symbol.valueProgress = Progress::Done;
 }
 
-// Modules full of taught points consist of such values: literals throughout, each of the type that is wanted. False:
-// `e` is another expression or not in order, and expr() has to tell; `value` may hold parts then. Such expressions get no ExprInfo: the
-// symbol has type and value.
-bool Analyzer::foldLiterals(const Expr& e, const DataType& want, ConstValue& value) {
-    if (e.kind == NodeKind::Aggregate) {
-        const auto& elements = as<AggregateExpr>(e).elements;
-        const bool array = want.rank > 0;
-        if (!array && want.type->kind != TypeKind::Record) return false;
-        const std::vector<Type::Component>& components = want.type->base()->components;
-        const size_t expected = array ? static_cast<size_t>(want.dims[0]) : components.size();
-        if (elements.size() != expected) return false;
-        const std::span<ConstValue> members = facts().arena.makeArray<ConstValue>(expected);
-        DataType member = want;
-        if (array) member = {want.type, static_cast<uint8_t>(want.rank - 1), {want.dims[1], want.dims[2], 0}};
-        for (size_t i = 0; i < expected; ++i) {
-            if (!array) member = {components[i].type, 0, {}};
-            if (!foldLiterals(*elements[i], member, members[i])) return false;
-        }
-        value.setMembers(members);
-        return true;
-    }
-    if (want.rank > 0) return false;
-    const bool negative = e.kind == NodeKind::Unary && as<UnaryExpr>(e).op == UnaryOp::Minus;
-    const Expr& literal = negative ? *as<UnaryExpr>(e).operand : e;
-    if (literal.kind == NodeKind::NumLiteral) {
-        const double number = as<NumLiteralExpr>(literal).value;
-        const bool num = want.type->kind == TypeKind::Num && number <= FLT_MAX;
-        if (!num && want.type->kind != TypeKind::Dnum) return false;
-        const double rounded = num ? static_cast<double>(static_cast<float>(number)) : number;
-        value.kind = ConstValue::Kind::Number;
-        value.number = negative ? -rounded : rounded;
-        return true;
-    }
-    if (e.kind == NodeKind::BoolLiteral && want.type->kind == TypeKind::Bool) {
-        value.kind = ConstValue::Kind::Bool;
-        value.boolean = as<BoolLiteralExpr>(e).value;
-        return true;
-    }
-    if (e.kind != NodeKind::StringLiteral || want.type->kind != TypeKind::String) return false;
-    value.setText(decodeStringLiteral(context_.tree->text(e.first)), facts().arena);
-    return true;
-}
-
 void Analyzer::initialise(DataSymbol& symbol, const DataDecl& decl) {
     const Expr& init = *decl.init;
     const bool mustFold = !symbol.routine || symbol.dataKind != DataKind::Var;
     const bool usable = isValueType(*symbol.type.type);
     context_.constant = mustFold;
     const DataType& want = symbol.type;
-    ConstValue* slot = mustFold ? &symbol.value : nullptr;
-    if (!symbol.routine && usable && init.kind == NodeKind::Aggregate && foldLiterals(init, want, *slot))
+    ConstValue* slot = mustFold ? &symbol.valueSlot() : nullptr;
+    if (usable && isPlain(init) && isLiteralOf(want, *context_.tree, as<AggregateExpr>(init))) {
+        symbol.setLiteral();
+        if (symbol.users > 0) symbol.value(); // files that are not checked again have its address
         return;
+    }
     if (symbol.dataKind == DataKind::Pers && usable) {
         if (const Expr* culprit = findNonLiteral(init)) {
             report(Code::NotLiteral, range(*culprit), {symbol.name});
@@ -181,9 +148,8 @@ void Analyzer::initialise(DataSymbol& symbol, const DataDecl& decl) {
     } else if (mustFold && !t.info->constant && !t.isError() && !cycle) {
         reportNonConstant(init);
     }
-    if (mustFold && t.info->constant && t.info->constant != &symbol.value)
-        symbol.value = owned(*t.info->constant);
-    if (mustFold && !t.info->constant) symbol.value = ConstValue{};
+    if (mustFold && t.info->constant && t.info->constant != slot) *slot = owned(*t.info->constant);
+    if (mustFold && !t.info->constant) *slot = ConstValue{};
     if (mustFold) checkBigLiterals();
 }
 
@@ -209,7 +175,7 @@ bool Analyzer::reportNonConstant(const Expr& e) {
     case NodeKind::Binary:
         return reportNonConstant(*as<BinaryExpr>(e).left) || reportNonConstant(*as<BinaryExpr>(e).right);
     case NodeKind::Aggregate:
-        for (const Expr* element : as<AggregateExpr>(e).elements)
+        for (const Expr* element : as<AggregateExpr>(e).elements())
             if (!info(*element).constant && reportNonConstant(*element)) return true;
         return false;
     default: return false;
@@ -228,7 +194,7 @@ const Expr* Analyzer::findNonLiteral(const Expr& e) const {
         return u.op != UnaryOp::Not && u.operand->kind == NodeKind::NumLiteral ? nullptr : &e;
     }
     case NodeKind::Aggregate:
-        for (const Expr* element : as<AggregateExpr>(e).elements)
+        for (const Expr* element : as<AggregateExpr>(e).elements())
             if (const Expr* culprit = findNonLiteral(*element)) return culprit;
         return nullptr;
     default: return &e;

@@ -100,7 +100,6 @@ struct DataSymbol : Symbol {
     syntax::ScopeWord scope = syntax::ScopeWord::None;
     DataType type;
     const syntax::Expr* init = nullptr;
-    ConstValue value; ///< CONST, and initial values of VAR and PERS at module level (None = zero)
     // Parameters
     syntax::ParamMode mode = syntax::ParamMode::In;
     bool optional = false;
@@ -116,6 +115,16 @@ struct DataSymbol : Symbol {
     uint32_t writers = 0;             ///< files that write it
     uint32_t lastWriter = 0;
     bool assumed = false; ///< a signal or mechanical unit that is known by its use only
+
+    /// CONST, and initial values of VAR and PERS at module level (None = zero).
+    const ConstValue& value() const {
+        if (literal_) readLiteral();
+        return value_;
+    }
+    ConstValue& valueSlot() { return value_; }
+    /// The value is that of `init`, a plain aggregate of this type; it is read when first asked for.
+    void setLiteral() { literal_ = true; }
+
     void reset() {
         DataSymbol fresh;
         fresh.users = users;
@@ -124,6 +133,12 @@ struct DataSymbol : Symbol {
         fresh.assigned = writers > 0;
         *this = std::move(fresh);
     }
+
+  private:
+    void readLiteral() const; // literal_value.cpp
+
+    mutable ConstValue value_;
+    mutable bool literal_ = false;
 };
 
 /// How a native may be called; from `effects:` in the declaration.

@@ -89,8 +89,40 @@ struct CallExpr : Expr { ///< function call
     TokenIndex name = kNoToken;
     std::span<Argument*> args;
 };
-struct AggregateExpr : Expr {
-    std::span<Expr*> elements;
+struct SyntaxTree;
+
+/// `[a,b]`. Modules full of taught points consist of initial values such as `[[1,-2.5],TRUE,"a"]`: nothing but literals.
+/// The elements of such a plain aggregate are made from its tokens when somebody asks for them; hardly anybody does.
+class AggregateExpr : public Expr {
+  public:
+    std::span<Expr*> elements() const {
+        if (!made_) makeElements();
+        return {elements_, count_};
+    }
+    void setElements(std::span<Expr*> elements) {
+        elements_ = elements.data();
+        count_ = static_cast<uint32_t>(elements.size());
+        made_ = true;
+    }
+    /// Nothing but literals and `[`, `]`, `,` and `-` from `first` to `last`, in order, and the numbers are finite as num.
+    bool isPlain() const { return plain_; }
+    /// The ids behind its own are kept free for the elements.
+    void setPlain(SyntaxTree& tree) {
+        tree_ = &tree;
+        plain_ = true;
+        made_ = false;
+    }
+
+  private:
+    void makeElements() const; // plain_aggregate.cpp
+
+    union {
+        Expr** elements_ = nullptr;
+        SyntaxTree* tree_; ///< while they are not made
+    };
+    uint32_t count_ = 0;
+    bool plain_ = false;
+    bool made_ = true;
 };
 struct ParenExpr : Expr {
     Expr* inner = nullptr;

@@ -296,7 +296,7 @@ Decl* Parser::parseModuleDecl() {
     switch (kind()) {
     case K::KwVar:
     case K::KwPers:
-    case K::KwConst: return parseData(ScopeWord::None, first);
+    case K::KwConst: return parseModuleData(ScopeWord::None, first);
     case K::KwLocal: return parseScopedDecl();
     case K::KwProc:
     case K::KwFunc:
@@ -314,7 +314,7 @@ Decl* Parser::parseModuleDecl() {
     }
     if (isTaskDirective(pos_)) {
         take();
-        return parseData(ScopeWord::Task, first);
+        return parseModuleData(ScopeWord::Task, first);
     }
     if (isContextual(pos_, "TASK") && (kDeclStart.has(peek()) && !isPlaceholder(peek())))
         return parseTaskDecl();
@@ -342,7 +342,7 @@ Decl* Parser::parseScopedDecl() {
     switch (kind()) {
     case K::KwVar:
     case K::KwPers:
-    case K::KwConst: return parseData(ScopeWord::Local, first);
+    case K::KwConst: return parseModuleData(ScopeWord::Local, first);
     case K::KwProc:
     case K::KwFunc:
     case K::KwTrap: quietOutside_ = false; return parseRoutine(true, first);
@@ -353,7 +353,7 @@ Decl* Parser::parseScopedDecl() {
     if (isTaskDirective(pos_)) {
         report(Code::ScopeConflict, pos_);
         take();
-        return parseData(ScopeWord::Task, first);
+        return parseModuleData(ScopeWord::Task, first);
     }
     unexpected("a declaration after LOCAL");
     quietOutside_ = true;

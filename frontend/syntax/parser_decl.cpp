@@ -45,7 +45,7 @@ RoutineWords wordsOf(RoutineKind kind) {
 // ---- Data and types --------------------------------------------------------------------------------------------
 
 /// `VAR type name{dims} := value;`, from the word VAR, PERS or CONST; `first` is that of the scope word.
-DataDecl* Parser::parseData(ScopeWord scope, TokenIndex first) {
+DataDecl* Parser::parseData(ScopeWord scope, TokenIndex first, bool ofModule) {
     auto* node = make<DataDecl>(NodeKind::Data);
     const size_t unreadable = unreadable_;
     node->first = first;
@@ -67,7 +67,8 @@ DataDecl* Parser::parseData(ScopeWord scope, TokenIndex first) {
             take();
             node->init = parseExpr();
         } else if (accept(K::Assign)) {
-            node->init = parseExpr();
+            if (ofModule) node->init = parsePlainAggregate();
+            if (!node->init) node->init = parseExpr();
         } else if (node->dataKind == DataKind::Const && !options_.declarations && kind() == K::Semicolon) {
             report(Code::ConstantWithoutValue, node->name, {std::string(textOf(node->name))});
         }

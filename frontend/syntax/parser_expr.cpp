@@ -267,7 +267,7 @@ Expr* Parser::parseAggregate() {
     if (!nest) return tooDeepExpr();
     auto* node = makeExpr<AggregateExpr>(NodeKind::Aggregate);
     const TokenIndex opening = take();
-    node->elements = parseExprList(K::RightBracket, opening);
+    node->setElements(parseExprList(K::RightBracket, opening));
     ++height_;
     return finish(node);
 }

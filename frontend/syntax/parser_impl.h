@@ -21,6 +21,7 @@ class Parser {
   public:
     Parser(SyntaxTree& tree, diag::Sink& sink, const ParseOptions& options);
     void parseFile(const LexResult& lexed);
+    void parseElements(AggregateExpr& plain);
     Expr* parseWholeExpression(const LexResult& lexed);
 
   private:
@@ -171,6 +172,8 @@ class Parser {
     Expr* parseCondition();
     Expr* parseParen();
     Expr* parseAggregate();
+    Expr* parsePlainAggregate();
+    bool skipPlainAggregate(TokenIndex& at, uint32_t& count) const;
     Expr* errorExpr();
     Expr* tooDeepExpr();
     std::span<Expr*> parseExprList(K closing, TokenIndex opening);
@@ -220,7 +223,8 @@ class Parser {
     void skipToDecl();
     void skipOutsideModule();
     void skipStraySemicolons();
-    DataDecl* parseData(ScopeWord scope, TokenIndex first);
+    DataDecl* parseModuleData(ScopeWord scope, TokenIndex first) { return parseData(scope, first, true); }
+    DataDecl* parseData(ScopeWord scope, TokenIndex first, bool ofModule = false);
     Decl* parseRecord(bool local, TokenIndex first);
     RecordComponent* parseComponent();
     bool dropComponentWord();

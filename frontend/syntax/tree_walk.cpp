@@ -84,7 +84,7 @@ void forEachChild(const Node& node, const Visit& visit) {
     }
     case NodeKind::Component: return one(as<ComponentExpr>(node).base, visit);
     case NodeKind::Call: return all(as<CallExpr>(node).args, visit);
-    case NodeKind::Aggregate: return all(as<AggregateExpr>(node).elements, visit);
+    case NodeKind::Aggregate: return all(as<AggregateExpr>(node).elements(), visit);
     case NodeKind::Paren: return one(as<ParenExpr>(node).inner, visit);
     case NodeKind::Unary: return one(as<UnaryExpr>(node).operand, visit);
     case NodeKind::Binary: {

@@ -27,8 +27,8 @@ RoutineLowering::Place RoutineLowering::placeOf(const DataSymbol& symbol) {
     if (!slot) {
         if (symbol.storage == Storage::RoutineData && symbol.dataKind == DataKind::Const) {
             ir::ConstData data;
-            if (symbol.value.kind != sema::ConstValue::Kind::None)
-                program_.flatten(symbol.value, symbol.type, data);
+            if (symbol.value().kind != sema::ConstValue::Kind::None)
+                program_.flatten(symbol.value(), symbol.type, data);
             p.addr = b_.globalAddr(program_.constGlobal(program_.irType(symbol.type), std::move(data)));
             return p;
         }
@@ -176,7 +176,7 @@ bool RoutineLowering::mentions(const Expr& outer, const DataSymbol& target) cons
     case NodeKind::Binary:
         return mentions(*as<BinaryExpr>(expr).left, target) || mentions(*as<BinaryExpr>(expr).right, target);
     case NodeKind::Aggregate:
-        for (const Expr* e : as<AggregateExpr>(expr).elements)
+        for (const Expr* e : as<AggregateExpr>(expr).elements())
             if (mentions(*e, target)) return true;
         return false;
     case NodeKind::Call: {

@@ -270,7 +270,7 @@ void RoutineLowering::lowerInto(const Expr& outer, const sema::DataType& type, V
     }
     switch (expr.kind) {
     case NodeKind::Aggregate: {
-        const auto& elements = as<AggregateExpr>(expr).elements;
+        const std::span<Expr*> elements = as<AggregateExpr>(expr).elements();
         if (type.isArray()) {
             sema::DataType inner{
                 type.type, static_cast<uint8_t>(type.rank - 1), {type.dims[1], type.dims[2], 0}};

@@ -86,7 +86,7 @@ bool exprWrites(const syntax::Expr* expr, const sema::FileFacts& facts) {
     }
     case NodeKind::Component: return exprWrites(syntax::as<syntax::ComponentExpr>(*expr).base, facts);
     case NodeKind::Aggregate:
-        for (const syntax::Expr* e : syntax::as<syntax::AggregateExpr>(*expr).elements)
+        for (const syntax::Expr* e : syntax::as<syntax::AggregateExpr>(*expr).elements())
             if (exprWrites(e, facts)) return true;
         return false;
     case NodeKind::Call: {

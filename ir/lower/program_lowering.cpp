@@ -58,7 +58,7 @@ ProgramLowering::ProgramLowering(const sema::CheckedProgram& program, const Opti
     for (const sema::Module* lib : program.predefinedModules)
         for (const DataSymbol* data : lib->data)
             if (data->name.starts_with("ERR_") || data->name == "LONG_JMP_ALL_ERR")
-                errorNumbers_[data->name] = static_cast<int32_t>(data->value.number);
+                errorNumbers_[data->name] = static_cast<int32_t>(data->value().number);
 }
 
 ir::TypeId ProgramLowering::irType(const sema::Type* type) {
@@ -190,8 +190,8 @@ uint32_t ProgramLowering::addGlobal(const DataSymbol& symbol, uint32_t task, boo
         case syntax::DataKind::Pers: global.kind = ir::GlobalKind::Persistent; break;
         case syntax::DataKind::Const: global.kind = ir::GlobalKind::Const; break;
         }
-        if (symbol.value.kind != sema::ConstValue::Kind::None)
-            flatten(symbol.value, symbol.type, global.init);
+        if (symbol.value().kind != sema::ConstValue::Kind::None)
+            flatten(symbol.value(), symbol.type, global.init);
         global.typeDesc = typeDesc(symbol.type);
         if (symbol.module && symbol.decl && !symbol.predefined) {
             global.file = fileIndex(symbol.module->tree->source->path());
@@ -230,8 +230,8 @@ uint32_t ProgramLowering::globalFor(const DataSymbol& symbol, uint32_t task) {
             module_.aliases.push_back(aliasOf(symbol, task, it->second));
         index = it->second;
         ir::Global& global = module_.globals[index];
-        if (global.init.empty() && symbol.value.kind != sema::ConstValue::Kind::None)
-            flatten(symbol.value, symbol.type, global.init);
+        if (global.init.empty() && symbol.value().kind != sema::ConstValue::Kind::None)
+            flatten(symbol.value(), symbol.type, global.init);
     } else if (sharedModule) {
         // Every task has read the module for itself, so its data are found by their names.
         const std::string name =

@@ -54,26 +54,84 @@ TEST_CASE("initial values are folded and rounded to their type", "[sema]") {
     REQUIRE(c->messages() == none());
     const CheckedProgram& p = *c->program;
     const double third = static_cast<double>(1.0f / 3.0f);
-    CHECK(data(p, "tenth").value.number == static_cast<double>(0.1f));
-    CHECK(data(p, "exact").value.number == 0.1);
-    CHECK(data(p, "third").value.number == third);
-    CHECK(data(p, "sum").value.number == static_cast<double>(static_cast<float>(2 * third) + 1.0f));
-    CHECK(data(p, "text").value.text() == "aA\\");
-    const ConstValue& place = data(p, "place").value;
+    CHECK(data(p, "tenth").value().number == static_cast<double>(0.1f));
+    CHECK(data(p, "exact").value().number == 0.1);
+    CHECK(data(p, "third").value().number == third);
+    CHECK(data(p, "sum").value().number == static_cast<double>(static_cast<float>(2 * third) + 1.0f));
+    CHECK(data(p, "text").value().text() == "aA\\");
+    const ConstValue& place = data(p, "place").value();
     REQUIRE(place.members().size() == 3);
     CHECK(place.members()[2].number == -third);
-    const ConstValue& grid = data(p, "grid").value;
+    const ConstValue& grid = data(p, "grid").value();
     REQUIRE(grid.members().size() == 2);
     REQUIRE(grid.members()[1].members().size() == 3);
     CHECK(grid.members()[1].members()[0].number == 4);
-    CHECK(data(p, "plain").value.kind == ConstValue::Kind::None);
-    CHECK(data(p, "part").value.number == 5);
-    CHECK(data(p, "yes").value.boolean);
-    CHECK(data(p, "rest").value.number == -2);
+    CHECK(data(p, "plain").value().kind == ConstValue::Kind::None);
+    CHECK(data(p, "part").value().number == 5);
+    CHECK(data(p, "yes").value().boolean);
+    CHECK(data(p, "rest").value().number == -2);
     CHECK(data(p, "grid").type.rank == 2);
     CHECK(data(p, "grid").type.dims[1] == 3);
     CHECK(data(p, "tenth").index == 0);
     CHECK(data(p, "exact").index == 1);
+}
+
+TEST_CASE("the value of literals is read when it is asked for", "[sema]") {
+    const auto c = checkTexts(
+        {"MODULE m\n"
+         "  RECORD part\n"
+         "    string text;\n"
+         "    dnum exact;\n"
+         "    bool good;\n"
+         "    length size;\n"
+         "  ENDRECORD\n"
+         "  ALIAS num length;\n"
+         "  PERS part parts{2} := [[\"a\\41\"\"\",0.1,TRUE,0.1],[\"\",-16777217,FALSE,-16777217]];\n"
+         "  CONST pos seen := [1, -2.5, 3E2];\n"
+         "  CONST num height := seen.z;\n"
+         "ENDMODULE\n",
+         "MODULE n\n"
+         "  CONST num depth := seen.y;\n"
+         "ENDMODULE\n"});
+    REQUIRE(c->messages() == none());
+    const CheckedProgram& p = *c->program;
+    for (const bool again : {false, true}) {
+        INFO(again);
+        const ConstValue& parts = data(p, "parts").value();
+        REQUIRE(parts.members().size() == 2);
+        REQUIRE(parts.members()[0].members().size() == 4);
+        const auto first = parts.members()[0].members(), second = parts.members()[1].members();
+        CHECK(first[0].text() == "aA\"");
+        CHECK(first[1].number == 0.1);
+        CHECK(first[2].boolean);
+        CHECK(first[3].number == static_cast<double>(0.1f));
+        CHECK(second[0].kind == ConstValue::Kind::String);
+        CHECK(second[0].text().empty());
+        CHECK(second[1].number == -16777217);
+        CHECK(second[2].kind == ConstValue::Kind::Bool);
+        CHECK_FALSE(second[2].boolean);
+        CHECK(second[3].number == -16777216);
+        // Making the elements changes nothing.
+        CHECK(syntax::as<syntax::AggregateExpr>(*data(p, "parts").init).elements().size() == 2);
+    }
+    CHECK(data(p, "height").value().number == 300);
+    CHECK(data(p, "depth").value().number == -2.5);
+}
+
+TEST_CASE("literals of another shape or type than their data", "[sema]") {
+    const auto c = checkTexts({"MODULE m\n"
+                               "  CONST pos few := [1,2];\n"
+                               "  CONST pos many := [1,2,3,4];\n"
+                               "  CONST pos word := [1,\"a\",3];\n"
+                               "  CONST pos nested := [1,[2],3];\n"
+                               "  CONST num atom := [1];\n"
+                               "  CONST num list{2} := [1,TRUE];\n"
+                               "  CONST num rows{2,2} := [[1,2],3];\n"
+                               "  CONST pose flat := [1,2];\n"
+                               "ENDMODULE\n"});
+    CHECK(c->codes() == std::vector<std::string>{"RAP3021", "RAP3021", "RAP3023", "RAP3022", "RAP3022",
+                                                 "RAP3023", "RAP3023", "RAP3023", "RAP3023"});
+    CHECK(data(*c->program, "word").value().kind == ConstValue::Kind::None);
 }
 
 TEST_CASE("literals take the numeric type of their context", "[sema]") {

@@ -69,7 +69,7 @@ std::string place(const Symbol* symbol) {
 }
 
 std::string show(const DataSymbol& data) {
-    return place(&data) + " " + show(data.type) + " " + show(data.value) + (data.used ? " used" : "") +
+    return place(&data) + " " + show(data.type) + " " + show(data.value()) + (data.used ? " used" : "") +
            (data.assigned ? " assigned" : "") + " " + std::to_string(data.index) + "\n";
 }
 

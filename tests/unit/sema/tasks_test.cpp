@@ -150,7 +150,7 @@ TEST_CASE("long chains of operators and many names are no trouble", "[sema]") {
     };
     const auto constants = checkTexts({chainOf(400)});
     REQUIRE(constants->messages() == Messages{});
-    CHECK(static_cast<const DataSymbol*>(findSymbol(*constants->program, "c0"))->value.number == 400);
+    CHECK(static_cast<const DataSymbol*>(findSymbol(*constants->program, "c0"))->value().number == 400);
     const auto tooDeep = checkTexts({chainOf(20000)});
     REQUIRE(!tooDeep->codes().empty());
     CHECK(tooDeep->codes()[0] == "RAP3039");
