@@ -6,6 +6,7 @@ import json
 import os
 import re
 import shlex
+import signal
 import subprocess
 
 SOURCE_SUFFIXES = (".modx", ".sysx", ".mod", ".sys")
@@ -40,15 +41,18 @@ def read(path):
 
 
 def execute(command, cwd, timeout, stdin=None):
-    """Runs a command; a signal that killed it gives a negative status."""
-    try:
-        done = subprocess.run(command, cwd=cwd, timeout=timeout, input=stdin or b"", stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, check=False)
-    except subprocess.TimeoutExpired as expired:
-        def text(data):
-            return (data or b"").decode("utf-8", "replace")
-        return Output(124, text(expired.stdout), text(expired.stderr) + f"\n(timed out after {timeout} s)")
-    return Output(done.returncode, done.stdout.decode("utf-8", "replace"), done.stderr.decode("utf-8", "replace"))
+    """Runs a command; a signal that killed it gives a negative status. At the time limit whatever it started ends with it."""
+    with subprocess.Popen(command, cwd=cwd, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          start_new_session=True) as process:
+        status = 124
+        try:
+            out, err = process.communicate(stdin or b"", timeout)
+            status = process.returncode
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            out, err = process.communicate()
+            err += f"\n(timed out after {timeout} s)".encode()
+    return Output(status, out.decode("utf-8", "replace"), err.decode("utf-8", "replace"))
 
 
 def directives_of(path):
