@@ -183,6 +183,20 @@ std::string refusal(const SyntaxTree& tree, const std::vector<SourceRange>& erro
     return {};
 }
 
+constexpr uint32_t kFirstReach = 16; // bytes
+
+/// Where the text would mean something else after the edits, or could not be changed so; no value: nowhere.
+std::optional<SourceRange> changeOfMeaning(const SyntaxTree& tree, const std::vector<TextEdit>& edits,
+                                           const FormatRequest& request, bool nodes) {
+    const auto changed = edit::applyEditsToText(tree.source->text(), edits);
+    if (!changed.ok()) return edits.front().range;
+    diag::Sink ignored; // mistakes that are kept
+    ParseOptions options;
+    options.declarations = request.declarations;
+    const auto again = parse(std::make_shared<const SourceFile>("new.modx", changed.bytes), ignored, options);
+    return findDifference(tree, *again, nodes);
+}
+
 } // namespace
 
 std::vector<SourceRange> errorRanges(const diag::Sink& sink) {
@@ -198,21 +212,25 @@ FormatResult format(const SyntaxTree& tree, const std::vector<SourceRange>& erro
     result.problem = refusal(tree, errors, request.keepErrors);
     if (!result.ok()) return result;
     if (tree.tokens.size() == 1 && tree.modules.empty()) return result; // nothing but comments
-    result.edits = Formatter(tree, errors, request).run();
-    if (result.edits.empty()) return result;
-
-    const auto changed = edit::applyEditsToText(tree.source->text(), result.edits);
-    std::string difference = changed.problem;
-    if (changed.ok()) {
-        diag::Sink ignored; // mistakes that are kept
-        ParseOptions options;
-        options.declarations = request.declarations;
-        const auto again =
-            parse(std::make_shared<const SourceFile>("new.modx", changed.bytes), ignored, options);
-        difference = findDifference(tree, *again, errors.empty()); // mistakes may be read in another way
+    // A mistake, or an instruction that goes on outside of the range, may be read in another way when something near
+    // it moves. Then that part is left as it is too.
+    const bool partly = !errors.empty() || request.firstLine > 1 || request.lastLine != UINT32_MAX;
+    std::vector<SourceRange> untouched = errors;
+    for (uint32_t reach = 0;; reach = std::max(kFirstReach, 4 * reach)) {
+        result.edits = Formatter(tree, untouched, request).run();
+        if (result.edits.empty()) return result;
+        const auto change = changeOfMeaning(tree, result.edits, request, errors.empty());
+        if (!change) return result;
+        const auto size = static_cast<uint32_t>(tree.source->text().size());
+        if (!partly || reach / 4 > size) {
+            const uint32_t line = tree.source->lineColumn(change->begin).line;
+            return {{},
+                    fmt::format("formatting is refused, since line {} would change; please report this file",
+                                line)};
+        }
+        untouched.push_back({change->begin - std::min(change->begin, reach),
+                             change->end + std::min(size - change->end, reach)});
     }
-    if (difference.empty()) return result;
-    return {{}, fmt::format("formatting is refused, since {}; please report this file", difference)};
 }
 
 } // namespace rapid::format

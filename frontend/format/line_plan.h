@@ -44,8 +44,7 @@ struct TokenPlan {
     bool has(uint16_t flag) const { return (flags & flag) != 0; }
 };
 
-/// One entry a token, the end of the file included. `keepErrors`: declarations in which a diagnostic of `broken`
-/// lies are marked verbatim.
+/// One entry a token, the end of the file included. Declarations in which a place of `broken` lies are marked verbatim.
 std::vector<TokenPlan> planLines(const syntax::SyntaxTree& tree, const FormatSettings& settings,
                                  const std::vector<SourceRange>& broken);
 

@@ -5,7 +5,6 @@
 #include "frontend/syntax/tree_walk.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace rapid::format {
 
@@ -30,34 +29,39 @@ bool sameToken(const SyntaxTree& a, const SyntaxTree& b, TokenIndex t) {
     return word ? equalsAnyCase(a.text(t), b.text(t)) : a.text(t) == b.text(t);
 }
 
-bool sameNode(const Node& a, const Node& b) {
-    if (a.kind != b.kind || a.first != b.first || a.last != b.last) return false;
+/// The innermost node that differs; null when none does.
+const Node* differingNode(const Node& a, const Node& b) {
+    if (a.kind != b.kind || a.first != b.first || a.last != b.last) return &a;
     std::vector<const Node*> left, right;
     forEachChild(a, [&](const Node& child) { left.push_back(&child); });
     forEachChild(b, [&](const Node& child) { right.push_back(&child); });
-    return std::equal(left.begin(), left.end(), right.begin(), right.end(),
-                      [](const Node* x, const Node* y) { return sameNode(*x, *y); });
+    if (left.size() != right.size()) return &a;
+    for (size_t i = 0; i < left.size(); ++i)
+        if (const Node* found = differingNode(*left[i], *right[i])) return found;
+    return nullptr;
 }
 
-std::string differsAt(const SyntaxTree& before, const Atom& atom) {
-    return fmt::format("line {} would change", before.source->lineColumn(atom.begin).line);
+SourceRange rangeOf(const SyntaxTree& tree, const Node& node) {
+    return node.first <= node.last ? tree.range(node) : tree.range(node.first);
 }
 
 } // namespace
 
-std::string findDifference(const SyntaxTree& before, const SyntaxTree& after, bool nodes) {
+std::optional<SourceRange> findDifference(const SyntaxTree& before, const SyntaxTree& after, bool nodes) {
     const auto old = collectAtoms(before, 1), now = collectAtoms(after, 1);
     for (size_t i = 0; i < std::min(old.size(), now.size()); ++i) {
         const bool same = old[i].isComment == now[i].isComment && old[i].token == now[i].token &&
                           (old[i].isComment ? textOf(before, old[i]) == textOf(after, now[i])
                                             : sameToken(before, after, old[i].token));
-        if (!same) return differsAt(before, old[i]);
+        if (!same) return SourceRange{old[i].begin, old[i].end};
     }
-    if (old.size() != now.size()) return "the end would change";
+    const auto size = static_cast<uint32_t>(before.source->text().size());
+    if (old.size() != now.size()) return SourceRange{size, size};
     if (!nodes) return {};
-    if (before.modules.size() != after.modules.size()) return "the modules would change";
+    if (before.modules.size() != after.modules.size()) return SourceRange{0, size};
     for (size_t i = 0; i < before.modules.size(); ++i)
-        if (!sameNode(*before.modules[i], *after.modules[i])) return "the structure would change";
+        if (const Node* node = differingNode(*before.modules[i], *after.modules[i]))
+            return rangeOf(before, *node);
     return {};
 }
 

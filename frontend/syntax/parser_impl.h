@@ -125,6 +125,7 @@ class Parser {
     bool looksLikeStatement(TokenIndex i) const;
     bool opensBlock(TokenIndex i) const;
     bool calleeEndsHere(TokenIndex callee, TokenIndex calleeEnd) const;
+    bool endsLine(TokenIndex last) const;
     bool findOnLine(TokenIndex from, K wanted, TokenIndex& found) const;
     void expectWord(K word);
     bool expectHeadWord(K word, bool whole);

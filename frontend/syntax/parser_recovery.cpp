@@ -220,6 +220,14 @@ bool Parser::calleeEndsHere(TokenIndex callee, TokenIndex calleeEnd) const {
     }
 }
 
+/// Names up to `last` that end their line and do not go on with an argument below. It does not matter where they begin:
+/// formatting gives each instruction a line, but keeps the lines within one.
+bool Parser::endsLine(TokenIndex last) const {
+    const K next = kindAt(last + 1);
+    return last + 1 >= last_ ||
+           (startsLine(last + 1) && (isName(next) || (!startsExpr(next) && next != K::Backslash)));
+}
+
 // ---- Finding the way back --------------------------------------------------------------------------------------
 
 void Parser::endStatement(std::string_view expected) {

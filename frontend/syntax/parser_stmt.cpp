@@ -223,7 +223,7 @@ Stmt* Parser::parseNamedStmt() {
     default: break;
     }
     if (isTaskDirective(pos_)) return parseLateDecl();
-    if (startsLine(first) && (endsForeignBlock() || startsForeignBlock())) return errorStmt(first);
+    if (endsForeignBlock() || startsForeignBlock()) return errorStmt(first);
     return parseCallStmt();
 }
 
@@ -344,7 +344,7 @@ Stmt* Parser::parseIf() {
     Expr* condition = parseCondition();
     inCondition_ = outer;
     TokenIndex found = 0;
-    if (kind() == K::Identifier && startsLine(pos_ + 1)) retagIfMeant(K::KwThen);
+    if (kind() == K::Identifier && endsLine(pos_)) retagIfMeant(K::KwThen);
     const bool isBlock = kind() == K::KwThen || (kind() == K::KwDo && startsLine(pos_ + 1));
     if (isBlock || findOnLine(pos_, K::KwThen, found)) return parseIfBlocks(opening, condition);
 

@@ -85,20 +85,22 @@ bool Parser::retagIfMeant(K word) {
 bool Parser::fitsAsListWord(K word, TokenIndex last) const {
     TokenIndex found = 0;
     const K next = kindAt(last + 1);
-    const bool alone = last + 1 >= last_ || startsLine(last + 1);
+    const bool alone = endsLine(last);
     switch (word) {
     case K::KwElseif: return !alone && findOnLine(last + 1, K::KwThen, found);
     case K::KwCase:
         return !alone && next != K::Colon && findOnLine(last + 1, K::Colon, found) && !startsLine(found);
     case K::KwDefault: return next == K::Colon;
-    case K::KwError: return alone || next == K::LeftParen;
+    case K::KwError: // of a call, the semicolon would follow
+        return alone ||
+               (next == K::LeftParen && findOnLine(last + 2, K::RightParen, found) && startsLine(found + 1));
     default: return alone;
     }
 }
 
-/// REPEAT, LOOP ... alone in their line: reported; the word that closes the block is then passed over.
+/// REPEAT, LOOP ... at the end of a line: reported; the word that closes the block is then passed over.
 bool Parser::startsForeignBlock() {
-    if (!startsLine(pos_ + 1) && pos_ + 1 < last_) return false;
+    if (!endsLine(pos_)) return false;
     const std::string word = upperCase(textOf(pos_));
     for (const ForeignBlock& block : kForeignBlocks) {
         if (block.word != word) continue;
@@ -118,14 +120,14 @@ bool Parser::endsForeignBlock() {
     return true;
 }
 
-/// "ENDIFF", "END IF", "ELSIF", "CSAE 2:": names at the beginning of a line that stand for a word this list waits for.
+/// "ENDIFF", "END IF", "ELSIF", "CSAE 2:": names at the beginning of an instruction that stand for a word this list
+/// waits for.
 bool Parser::retagMisspelt(const TokenSet& own) {
     const std::string_view text = textOf(pos_);
     const K next = peek();
     constexpr TokenSet kUsedAsName = {TokenKind::Assign, TokenKind::Semicolon, TokenKind::Dot,
                                       TokenKind::Comma,  TokenKind::LeftBrace, TokenKind::LeftBracket};
-    if (text.size() < 3 || text.size() > kLongestTypo || kUsedAsName.has(next) || !startsLine(pos_))
-        return false;
+    if (text.size() < 3 || text.size() > kLongestTypo || kUsedAsName.has(next)) return false;
     static constexpr K kWords[] = {K::KwEndif,   K::KwEndfor,  K::KwEndwhile, K::KwEndtest, K::KwEndproc,
                                    K::KwEndfunc, K::KwEndtrap, K::KwElseif,   K::KwElse,    K::KwCase,
                                    K::KwDefault, K::KwError,   K::KwUndo,     K::KwBackward};

@@ -297,6 +297,38 @@ TEST_CASE("a range of lines changes these lines only", "[format]") {
           "MODULE m\nVAR\n         num b;\n   VAR num c;\nVAR num d;\nENDMODULE");
 }
 
+TEST_CASE("what is right does not become wrong on a line of its own", "[format]") {
+    // Words that could stand for keywords if they were alone in their line.
+    for (const std::string call :
+         {"ENDSUB", "Repeat", "Loop", "Begin", "Try", "ENDPROG", "Errors", "Undos", "ENDIFS"}) {
+        for (const std::string argument :
+             {"5", "\"text\"", "(a)", "[1,2]", "\\a", "-a", "NOT a", "n:=5", "a", "a,b"}) {
+            const std::string text =
+                "MODULE m\nPROC p()\nVAR num n;" + call + "\n" + argument + ";\nENDPROC\nENDMODULE\n";
+            INFO(text);
+            const std::string formatted = formatText(text);
+            if (formatted == "refused: the file has mistakes") continue; // read so before and after
+            CHECK(formatText(formatted) == formatted);
+            CHECK(formatted.find("      " + call + "\n") != std::string::npos);
+        }
+    }
+    CHECK(formatText("MODULE m\nPROC p()\nx:=1;Errors (1);\nIF a Them\n1;\nENDPROC\nENDMODULE\n") ==
+          "MODULE m\n   PROC p()\n      x:=1;\n      Errors (1);\n      IF a Them\n            1;\n"
+          "   ENDPROC\nENDMODULE\n");
+}
+
+TEST_CASE("a range that cuts an instruction leaves it as it is", "[format]") {
+    FormatRequest request;
+    request.firstLine = 4;
+    request.lastLine = 8;
+    // Further in than n, Foo would end its line.
+    CHECK(formatText("MODULE m\nPROC q()\nENDPROC\nPROC r()\nx :=1;\nENDPROC\nPROC p()\nFoo\n n := 1;\n"
+                     "ENDPROC\nENDMODULE\n",
+                     request) ==
+          "MODULE m\nPROC q()\nENDPROC\n   PROC r()\n      x:=1;\n   ENDPROC\nPROC p()\nFoo\n n := 1;\n"
+          "ENDPROC\nENDMODULE\n");
+}
+
 TEST_CASE("modules with mistakes are refused, or formatted around them", "[format]") {
     const std::string text =
         "MODULE m\nvar num a;\nPROC p()\n  a := ;\n IF a THEN\nENDPROC\nproc q()\na;\nENDPROC\nENDMODULE\n";
@@ -306,5 +338,8 @@ TEST_CASE("modules with mistakes are refused, or formatted around them", "[forma
     CHECK(formatText(text, request) == "MODULE m\n   VAR num a;\nPROC p()\n  a := ;\n IF a THEN\nENDPROC\n"
                                        "   PROC q()\n      a;\n   ENDPROC\nENDMODULE\n");
     CHECK(formatText("hello", request).starts_with("refused"));
+    // A mistake at the end of the line of another declaration.
+    CHECK(formatText("MODULE m\nVAR num n;ENDSUB\nn := a + a;\nPROC  p()\nENDPROC\nENDMODULE\n", request) ==
+          "MODULE m\nVAR num n;ENDSUB\nn := a + a;\n   PROC p()\n   ENDPROC\nENDMODULE\n");
     CHECK(formatText("\xFC\x01\x02", {}, "m.mod") == "refused: the file is encrypted or binary");
 }
