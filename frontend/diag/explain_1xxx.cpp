@@ -288,6 +288,18 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "end what "
      "they name by themselves (manual 1.1.3, 1.1.5).",
      "PROC p()\nENDPROC;", "PROC p()\nENDPROC"},
+    {1325, Kind::Module,
+     "A declaration names the data type before the name; so does each parameter, also the second one of the "
+     "same type "
+     "(manual 1.1.5, 1.2.5).",
+     "PROC main()\n"
+     "  VAR counter;\n"
+     "  counter := 1;\n"
+     "ENDPROC",
+     "PROC main()\n"
+     "  VAR num counter;\n"
+     "  counter := 1;\n"
+     "ENDPROC"},
 });
 
 } // namespace

@@ -52,6 +52,14 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "PROC main(VAR signaldo lamp)\n"
      "  SetDO lamp, 1;\n"
      "ENDPROC"},
+    {5006, Kind::Module,
+     "The name of a function is no variable in it. RETURN ends the function and gives its value (manual 1.1.5, 1.4.4).",
+     "FUNC num Twice(num x)\n"
+     "  Twice := 2 * x;\n"
+     "ENDFUNC",
+     "FUNC num Twice(num x)\n"
+     "  RETURN 2 * x;\n"
+     "ENDFUNC"},
     {5010, Kind::Module,
      "Only functions return a value (manual 1.1.5). A procedure can give results through INOUT or VAR "
      "parameters.",

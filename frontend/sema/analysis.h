@@ -349,6 +349,7 @@ class Analyzer {
     bool forStmt(const syntax::ForStmt& s);
     bool whileStmt(const syntax::WhileStmt& s);
     void assign(const syntax::AssignStmt& s);
+    bool assignsResult(const syntax::Expr& target);
     bool assignable(const Place& place, const syntax::Expr& target);
     bool predefinedCall(const RoutineSymbol& routine, syntax::TokenIndex name);
     bool callStmt(const syntax::CallStmt& s);
@@ -418,6 +419,7 @@ class Analyzer {
 
     bool muted_ = false; ///< in what could not be read as a whole, which is reported
     diag::Diagnostic unsaid_;
+    bool shapeReported_ = false;       ///< an argument of the call has been reported that may hold several
     std::vector<Mismatch> mismatches_; ///< arguments of the wrong type, of the calls being checked
 
     // of the routine being checked

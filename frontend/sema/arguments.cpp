@@ -21,6 +21,10 @@ std::string Analyzer::describeExpr(const Expr& e) {
     case NodeKind::BoolLiteral: return "a literal";
     case NodeKind::Call: return "a function call";
     case NodeKind::Aggregate: return "an aggregate";
+    case NodeKind::Binary: {
+        const BinaryOp op = as<BinaryExpr>(e).op;
+        return op >= BinaryOp::Lt && op <= BinaryOp::Ge ? "a comparison" : "an expression";
+    }
     default: return "an expression";
     }
 }
@@ -105,6 +109,7 @@ void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t fi
                                       mismatches_.end());
     mismatches_.resize(firstMismatch);
     const RoutineSymbol& routine = *call.routine;
+    if (std::exchange(shapeReported_, false)) missing = false;
     if (missing && !wrong.empty()) {
         if (const DataSymbol* lost = leftOut(call)) {
             noteDeclared(report(Code::MissingArgument, range(name), {text(name), "'" + lost->name + "'"}),
@@ -153,6 +158,12 @@ void Analyzer::checkReference(const RoutineSymbol& routine, const BoundArg& boun
         if (!t.isError()) checkClass(routine, bound, t.info->type);
         return;
     }
+    if (e.kind == NodeKind::Binary && bound.param->type.type->kind == TypeKind::SemiValue) {
+        shapeReported_ =
+            true; // "WaitDI di1=1;": what stands in it, and what is missing behind it, is no news
+        reportAccess(routine, bound, nullptr, describeExpr(e));
+        return;
+    }
     visitLoose(e);
     if (e.kind == NodeKind::PlaceholderExpr || e.kind == NodeKind::ErrorExpr) return;
     reportAccess(routine, bound, nullptr, describeExpr(e));
@@ -182,7 +193,8 @@ void Analyzer::reportAccess(const RoutineSymbol& routine, const BoundArg& bound,
     case ParamMode::In:
     case ParamMode::Ref: break;
     }
-    if (bound.param->type.type->kind == TypeKind::SemiValue) expected = "a signal";
+    if (bound.param->type.type->kind == TypeKind::SemiValue)
+        expected = shapeReported_ ? "a signal, and ',' before the next argument" : "a signal";
     auto& d = report(Code::ArgumentNotVariable, range(*bound.value),
                      {bound.param->name, routine.name, std::move(found), expected});
     if (symbol) noteDeclared(d, *symbol);

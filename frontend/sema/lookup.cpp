@@ -3,6 +3,8 @@
 
 #include "frontend/sema/analysis.h"
 
+#include <cctype>
+
 namespace rapid::sema {
 
 using namespace syntax;
@@ -14,6 +16,21 @@ bool looksLikeSignal(std::string_view name) {
     for (const std::string_view prefix : kPrefixes)
         if (name.starts_with(prefix) && name.size() > 2) return true;
     return false;
+}
+
+/// The type of a signal by the habit of naming them: diStart, DO_Clamp, gi1. Empty: the name has another form.
+std::string_view signalTypeByName(std::string_view name) {
+    if (name.size() < 3) return {};
+    const auto lower = [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); };
+    const auto isUpper = [](char c) { return c >= 'A' && c <= 'Z'; };
+    const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+    const bool marked = name[2] == '_' || isDigit(name[2]) || (isUpper(name[2]) && !isUpper(name[1]));
+    if (!marked) return {};
+    static constexpr std::string_view kTypes[] = {"signaldi", "signaldo", "signalgi",
+                                                  "signalgo", "signalai", "signalao"};
+    for (const std::string_view type : kTypes)
+        if (lower(name[0]) == type[6] && lower(name[1]) == type[7]) return type;
+    return {};
 }
 } // namespace
 
@@ -75,6 +92,12 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
     const bool mecunit = handle && handle->base()->name == "mecunit";
     const Type* type = handle && handle->kind == TypeKind::SemiValue ? handle : nullptr;
     if (!type && !mecunit && context_.routine) type = signalTypeByUse(name);
+    if (!type && !mecunit && context_.routine && !options_.configurationKnown && !incomplete_) {
+        const std::string_view typeName = signalTypeByName(text(token));
+        if (const TypeSymbol* signal =
+                typeName.empty() ? nullptr : asType(at(predefined_, interner_.intern(typeName))))
+            type = signal->type;
+    }
     if (!type && !mecunit) {
         if (moduleNames_.find(name)) {
             report(Code::NotData, range(token), {text(token), "a module"});

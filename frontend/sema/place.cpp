@@ -34,6 +34,8 @@ Place Analyzer::namePlace(const NameExpr& e, const Type* handle) {
     if (!data) {
         const RoutineSymbol* routine = asRoutine(symbol);
         const bool function = routine && routine->routineKind == RoutineKind::Func;
+        if (function && context_.tree->tokens[e.name + 1].kind == TokenKind::LeftBracket)
+            return place; // reported
         auto& d = function ? report(Code::FunctionWithoutParentheses, range(e), {text(e)})
                            : report(Code::NotData, range(e), {text(e), describe(*symbol)});
         if (function && nextRequired(*routine, 0) >= routine->params.size()) {

@@ -86,7 +86,7 @@ bool Analyzer::ifStmt(const IfStmt& s) {
     for (const IfBranch* branch : s.branches) {
         if (branch->condition)
             condition(*branch->condition, first ? "IF" : "ELSEIF");
-        else if (branch->first != kNoToken)
+        else if (context_.tree->tokens[branch->first].kind == TokenKind::PlaceEit)
             placeholder(*branch);
         completes |= block(branch->body);
         first = false;
@@ -156,7 +156,7 @@ void Analyzer::testValues(const TestStmt& s, Typed subject) {
     const DataType& type = subject.info->type; // changes when a value decides between num and dnum
     const bool known = !subject.isError();
     for (const TestCase* c : s.cases) {
-        if (c->values.empty() && c->first != kNoToken) placeholder(*c);
+        if (c->values.empty() && context_.tree->tokens[c->first].kind == TokenKind::PlaceCse) placeholder(*c);
         for (const Expr* value : c->values) {
             const Typed t = expr(*value, &type);
             if (t.isError() || !known) continue;
@@ -211,6 +211,10 @@ void Analyzer::assign(const AssignStmt& s) {
         visitLoose(*s.value);
         return;
     }
+    if (assignsResult(*s.target)) {
+        visitLoose(*s.value);
+        return;
+    }
     const Place target = place(*s.target);
     if (!target.root || !assignable(target, *s.target)) {
         visitLoose(*s.value);
@@ -226,6 +230,17 @@ void Analyzer::assign(const AssignStmt& s) {
     else
         fixCall(report(Code::NumDnumAssign, range(*s.value), {typeName(*value.info), typeName(want), remedy}),
                 *s.value, remedy, remedy == "NumToDnum");
+}
+
+// "Sum := a + b;" in function Sum, as other languages give back a value.
+bool Analyzer::assignsResult(const Expr& target) {
+    if (target.kind != NodeKind::Name || !isName(as<NameExpr>(target).name)) return false;
+    const Symbol* symbol = lookup(idOf(as<NameExpr>(target).name));
+    if (!symbol || symbol != context_.routine || context_.routine->routineKind != RoutineKind::Func)
+        return false;
+    report(Code::FunctionAssigned, range(target), {text(target)});
+    broken_ = true; // the missing RETURN is the same mistake
+    return true;
 }
 
 bool Analyzer::assignable(const Place& place, const Expr& target) {

@@ -1,5 +1,6 @@
 // Names that nothing declares: what may be said about them, and what was probably meant.
 
+#include "frontend/sema/add_ins.h"
 #include "frontend/sema/analysis.h"
 
 #include <filesystem>
@@ -19,48 +20,6 @@ constexpr Word kInstructionWords[] = {{"goto", "GOTO"},   {"return", "RETURN"}, 
                                       {"break", "BREAK"}, {"continue", "CONTINUE"}, {"connect", "CONNECT"},
                                       {"endif", "ENDIF"}, {"endwhile", "ENDWHILE"}, {"endfor", "ENDFOR"}};
 constexpr Word kValueWords[] = {{"true", "TRUE"}, {"false", "FALSE"}};
-
-/// Names that add-ins of RobotWare declare, which no backup holds; folded, '*' for any end.
-struct AddInNames {
-    std::string_view addIn;
-    std::string_view names; ///< separated by blanks
-};
-constexpr AddInNames kAddIns[] = {
-    {"Production Manager", "menudata partdata ee_event execengine pmgr* gap_*"},
-    {"BullsEye",
-     "be_device be_scan be_tooldesign besetuptoolj bechecktcp beupdatetcp berefpointer betcpextend"},
-    {"SmartGripper (YuMi)",
-     "hand_* g_init g_calibrate g_gripin g_gripout g_jogin g_jogout g_moveto g_stop g_getpos "
-     "g_vacuumon* g_vacuumoff* g_blowon* g_blowoff* g_setforce g_setmaxspd"},
-    {"PickMaster",
-     "itmsrc itmsrctype itmtgt getitmtgt ackitmtgt nextitmtgttype qstartitmsrc qstopitmsrc flushitmsrc "
-     "resetitmsrc resetflowcount getqueuelevel"},
-    {"Lincoln ArcLink XT", "lincweldmodedata"},
-    {"Discrete Application",
-     "dadeactproc daactproc daprocml daprocmj dagetprcdescr dagetappdescr dagetnumofprocs "
-     "dagetnumofrob dagetappindex dadefprocdata dadefuserdata dadefextsig dadefprocsig "
-     "dagetcurrdata"},
-    {"Dispense", "displ dispc beaddata equipdata"},
-    {"Spot", "spotl spotj spotml spotmj calibl calibj indgunmove indgunmovereset gundata spotdata forcedata"},
-    {"Force Control",
-     "fcact fcdeact fccalib fcloadid fcpresslstart fcpressl fcpressc fcpressend fcrefline fcrefcircle "
-     "fcrefforce fcreftorque fccondpos fccondforce fccondwaitwhile fcforcevector fcspeedvector fcframe"},
-};
-
-/// The add-in that declares the name, or nothing. `whole`: the beginning of a name is not enough.
-std::string_view addInOf(std::string_view folded, bool whole) {
-    for (const AddInNames& entry : kAddIns) {
-        for (std::string_view rest = entry.names; !rest.empty();) {
-            const size_t end = std::min(rest.find(' '), rest.size());
-            std::string_view word = rest.substr(0, end);
-            rest.remove_prefix(std::min(end + 1, rest.size()));
-            const bool prefix = word.ends_with('*');
-            if (prefix) word.remove_suffix(1);
-            if (folded == word || (prefix && !whole && folded.starts_with(word))) return entry.addIn;
-        }
-    }
-    return {};
-}
 
 /// "'a', 'b' or 'c'"; of many the first few.
 std::string listed(const std::vector<std::string>& names) {

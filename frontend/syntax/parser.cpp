@@ -208,7 +208,7 @@ void Parser::parseModule() {
     checkNameLength(node->name);
     if (!panic_ && kind() == K::LeftParen) parseModuleAttributes(node);
     if (!panic_ && !startsDecl(pos_) && !startsLine(pos_) && kind() != K::KwEndmodule &&
-        kind() != K::EndOfFile)
+        kind() != K::EndOfFile && kind() != K::Semicolon)
         unexpected("'(' or a declaration");
     if (panic_) skipToDecl();
     parseModuleDecls(node);
@@ -285,6 +285,8 @@ void Parser::parseModuleDecls(ModuleDecl* module) {
             continue;
         }
         if (Decl* decl = parseModuleDecl()) decls_.push_back(decl);
+        while (Decl* decl = parseMoreNames())
+            decls_.push_back(decl);
         panic_ = false;
         if (pos_ == before) take();
     }
@@ -318,6 +320,7 @@ Decl* Parser::parseModuleDecl() {
     }
     if (isContextual(pos_, "TASK") && (kDeclStart.has(peek()) && !isPlaceholder(peek())))
         return parseTaskDecl();
+    if (isWordlessData() && !quietOutside_) return parseWordlessData();
     return parseUnknownDecl();
 }
 

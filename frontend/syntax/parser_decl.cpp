@@ -10,15 +10,6 @@ using diag::Code;
 
 namespace {
 
-/// The second word after TRAP may begin an instruction; these are certainly data types.
-bool isBasicType(std::string_view word) {
-    for (const std::string_view type : {"num", "dnum", "bool", "string"})
-        if (std::equal(word.begin(), word.end(), type.begin(), type.end(),
-                       [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; }))
-            return true;
-    return false;
-}
-
 constexpr TokenSet kRoutineEnds = {TokenKind::KwEndproc,   TokenKind::KwEndfunc, TokenKind::KwEndtrap,
                                    TokenKind::KwError,     TokenKind::KwUndo,    TokenKind::KwBackward,
                                    TokenKind::KwProc,      TokenKind::KwFunc,    TokenKind::KwTrap,
@@ -42,6 +33,15 @@ RoutineWords wordsOf(RoutineKind kind) {
 
 } // namespace
 
+/// Data types that are certainly no procedures: what begins with such a word is a declaration.
+bool Parser::isBasicType(std::string_view word) {
+    for (const std::string_view type :
+         {"NUM", "DNUM", "BOOL", "STRING", "ROBTARGET", "JOINTTARGET", "POS", "ORIENT", "POSE", "INTNUM",
+          "TOOLDATA", "WOBJDATA", "SPEEDDATA", "ZONEDATA", "LOADDATA", "CLOCK", "BYTE"})
+        if (equalsNoCase(word, type)) return true;
+    return false;
+}
+
 // ---- Data and types --------------------------------------------------------------------------------------------
 
 /// `VAR type name{dims} := value;`, from the word VAR, PERS or CONST; `first` is that of the scope word.
@@ -54,13 +54,29 @@ DataDecl* Parser::parseData(ScopeWord scope, TokenIndex first, bool ofModule) {
                      : kind() == K::KwPers ? DataKind::Pers
                                            : DataKind::Const;
     take();
-    node->type = expectName();
-    if (!panic_) node->name = expectName();
+    const bool foreign = parseForeignData(node);
+    if (!foreign) node->type = expectName();
+    parseDataTail(node, !foreign, ofModule);
+    node->broken = unreadable_ > unreadable;
+    return finish(node);
+}
+
+/// `num x;`: read as if VAR stood before it.
+DataDecl* Parser::parseWordlessData() {
+    auto* node = make<DataDecl>(NodeKind::Data);
+    fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "VAR, PERS or CONST before a data type"}),
+        {tree_.range(pos_).begin, tree_.range(pos_).begin}, "VAR ", false);
+    node->type = take();
+    parseDataTail(node, true, false);
+    return finish(node);
+}
+
+/// What follows the data type: name, dimensions, value, semicolon.
+void Parser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) {
+    if (!panic_ && kind() == K::LeftBrace && nameMissing) parseDimensionsOf(node, true);
+    if (!panic_ && nameMissing) node->name = expectName();
     checkNameLength(node->name);
-    if (!panic_ && kind() == K::LeftBrace) {
-        const TokenIndex opening = take();
-        node->dims = parseExprList(K::RightBrace, opening);
-    }
+    if (!panic_) parseDimensionsOf(node, false);
     if (!panic_) {
         if (kind() == K::Equal) {
             reportEqual();
@@ -73,9 +89,8 @@ DataDecl* Parser::parseData(ScopeWord scope, TokenIndex first, bool ofModule) {
             report(Code::ConstantWithoutValue, node->name, {std::string(textOf(node->name))});
         }
     }
-    endStatement(node->init ? "';'" : "':=' or ';'");
-    node->broken = unreadable_ > unreadable;
-    return finish(node);
+    noteMoreNames(node);
+    if (!moreOf_) endStatement(node->init ? "';'" : "':=' or ';'");
 }
 
 Decl* Parser::parseRecord(bool local, TokenIndex first) {
@@ -91,6 +106,11 @@ Decl* Parser::parseRecord(bool local, TokenIndex first) {
     }
     const size_t mark = components_.size();
     while (kind() != K::KwEndrecord && kind() != K::EndOfFile) {
+        if (kind() == K::Identifier && endsLine(pos_) &&
+            (equalsNoCase(textOf(pos_), "END") || meant(pos_, K::KwEndrecord))) {
+            retag(pos_, pos_, K::KwEndrecord);
+            break;
+        }
         if (startsDecl(pos_) && !dropComponentWord()) break;
         if (kind() == K::KwEndmodule || kRoutineEnds.has(kind())) break;
         const TokenIndex before = pos_;
@@ -107,6 +127,9 @@ Decl* Parser::parseRecord(bool local, TokenIndex first) {
     if (node->components.empty() && kind() == K::KwEndrecord && !options_.declarations)
         report(Code::EmptyRecord, node->name == kNoToken ? opening : node->name,
                {std::string(textOf(node->name))});
+    // An END word of a routine below RECORD was meant as its end.
+    constexpr TokenSet kWrong = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
+    if (kWrong.has(kind()) && startsLine(pos_) && columnOf(pos_) == indentOf(opening)) wrongEnd_ = pos_;
     closeBlock(K::KwEndrecord, opening);
     return finish(node);
 }
@@ -172,8 +195,9 @@ Decl* Parser::parseRoutine(bool local, TokenIndex first) {
     blockOpening_ = kNoToken;
     compactIf_ = kNoToken;
     foreignCloser_ = {};
-    parseRoutineBody(node);
-    closeRoutine(node, opening);
+    bool braced = false;
+    parseRoutineBody(node, braced);
+    closeRoutine(node, opening, braced);
     enclosing_ = outer;
     abandoned_ = false;
     panic_ = false;
@@ -181,12 +205,14 @@ Decl* Parser::parseRoutine(bool local, TokenIndex first) {
 }
 
 void Parser::parseRoutineHeader(RoutineDecl* routine) {
+    bool typeMissed = false;
     if (routine->routineKind == RoutineKind::Func) {
         routine->returnType = expectName();
         if (!panic_ && kind() == K::LeftParen && !startsLine(pos_)) { // FUNC name(...): the type is missing
             routine->name = routine->returnType;
             routine->returnType = kNoToken;
             report(Code::MissingReturnType, routine->name, {std::string(textOf(routine->name))});
+            typeMissed = true;
         } else if (!panic_ && kind() == K::LeftBrace) { // FUNC num{3} name()
             report(Code::ArrayReturn, pos_);
             routine->returnType = kNoToken;
@@ -215,6 +241,8 @@ void Parser::parseRoutineHeader(RoutineDecl* routine) {
         }
     } else if (panic_ || kind() == K::LeftParen) {
         parseParameters(routine);
+        if (typeMissed && isName(kind()) && !startsLine(pos_) && startsLine(pos_ + 1))
+            routine->returnType = take(); // FUNC name(...) num
     } else if (startsLine(pos_) || kind() == K::Semicolon) {
         diag::Diagnostic* diagnostic =
             reportAt(Code::MissingParameterList, endOf(pos_ - 1), {std::string(textOf(routine->name))});
@@ -222,6 +250,13 @@ void Parser::parseRoutineHeader(RoutineDecl* routine) {
         accept(K::Semicolon);
     } else {
         unexpected("'('");
+        TokenIndex open = pos_;
+        while (kindAt(open) != K::LeftParen && kindAt(open) != K::EndOfFile && !startsLine(open + 1))
+            ++open;
+        if (kindAt(open) == K::LeftParen && !startsLine(pos_)) { // PROC my-name()
+            pos_ = open;
+            panic_ = false;
+        }
         parseParameters(routine);
     }
 }
@@ -230,6 +265,7 @@ void Parser::parseParameters(RoutineDecl* routine) {
     const size_t mark = params_.size();
     if (!panic_) {
         const TokenIndex opening = take();
+        typeMissed_ = false;
         uint32_t group = 0;
         while (!panic_ && (kind() != K::RightParen || group > 0)) {
             if (group > 0 && !accept(K::Comma) && kind() != K::Backslash) break;
@@ -292,12 +328,7 @@ ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
         node->name = expectName(true);
         return finish(node);
     }
-    if (isContextual(pos_, "IN") && isName(peek()) && isName(peek(2)) && !options_.declarations) {
-        fix(report(Code::ForeignSpelling, pos_,
-                   {std::string(textOf(pos_)), "the data type: IN is what has no word"}),
-            {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");
-        take();
-    }
+    if (kind() == K::Identifier) dropForeignMode(node);
     if (accept(K::KwVar)) {
         node->mode = ParamMode::Var;
     } else if (accept(K::KwPers)) {
@@ -318,11 +349,13 @@ ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
         report(Code::UnexpectedToken, pos_, {describe(pos_), "a data type"});
         take();
     }
-    node->type = expectName();
-    dropMisplacedMode(node);
-    if (!panic_) node->name = expectName(true);
+    if (!parseForeignParameter(node)) {
+        node->type = expectName();
+        dropMisplacedMode(node);
+        if (!panic_) node->name = expectName(true);
+    }
     checkNameLength(node->name);
-    if (!panic_ && kind() == K::LeftBrace) parseDimensions(node);
+    if (!panic_ && (kind() == K::LeftBrace || kind() == K::LeftBracket)) parseDimensions(node);
     if (!panic_ && (kind() == K::Assign || kind() == K::Equal)) {
         report(Code::ParameterValue, pos_, {std::string(textOf(node->name))});
         take();
@@ -349,7 +382,14 @@ void Parser::dropMisplacedMode(ParamDecl* param) {
 
 /// `{*}`, `{*,*}`, `{*,*,*}` or `{<DIM>}`
 void Parser::parseDimensions(ParamDecl* param) {
+    const bool foreign = kind() == K::LeftBracket;
+    const K closing = foreign ? K::RightBracket : K::RightBrace;
+    if (foreign) report(Code::ForeignSpelling, pos_, {"[", "'{*}' behind the name of an array"});
     const TokenIndex opening = take();
+    if (foreign && accept(closing)) {
+        param->rank = 1;
+        return;
+    }
     constexpr uint8_t kPlaceholderRank = 255;
     constexpr uint8_t kMostStars = 254;
     if (accept(K::PlaceDim)) {
@@ -357,7 +397,9 @@ void Parser::parseDimensions(ParamDecl* param) {
     } else {
         do {
             const bool isSize = kind() == K::NumLiteral || isName(kind());
-            if (isSize && (peek() == K::Comma || peek() == K::RightBrace)) {
+            if (isSize && foreign) {
+                take();
+            } else if (isSize && (peek() == K::Comma || peek() == K::RightBrace)) {
                 fix(report(Code::DimensionWithoutStar, pos_), tree_.range(pos_), "*");
                 take();
             } else if (!accept(K::Star)) {
@@ -367,7 +409,7 @@ void Parser::parseDimensions(ParamDecl* param) {
             if (param->rank < kMostStars) ++param->rank;
         } while (accept(K::Comma));
     }
-    expectClosing(K::RightBrace, opening, true);
+    expectClosing(closing, opening, true);
 }
 
 /// After the header of a built-in: true when what follows is the next declaration.
@@ -377,12 +419,15 @@ bool Parser::isNative() const {
     return kNext.has(kind()) || isTaskDirective(pos_);
 }
 
-void Parser::parseRoutineBody(RoutineDecl* routine) {
+void Parser::parseRoutineBody(RoutineDecl* routine, bool& braced) {
     const size_t mark = stmts_.size();
     const size_t dataMark = data_.size();
-    parseRoutineData();
-    StmtList list = parseList(kRoutineEnds);
-    while (parseNested(routine)) {
+    const RoutineWords words = wordsOf(routine->routineKind);
+    const std::string expected = "an instruction: the instructions of " + std::string(words.name) +
+                                 " end with " + std::string(tokenText(words.end));
+    if (kind() != K::LeftBrace) parseRoutineData();
+    StmtList list = parseBody(kRoutineEnds, expected, braced);
+    while (!braced && parseNested(routine)) {
         stmts_.insert(stmts_.end(), list.begin(), list.end());
         if (stmts_.size() == mark) parseRoutineData();
         list = parseList(kRoutineEnds);
@@ -440,6 +485,10 @@ void Parser::parseRoutineData() {
             reportScopeInside(k == K::KwLocal ? ScopeWord::Local : ScopeWord::Task);
             take();
             data_.push_back(parseData(k == K::KwLocal ? ScopeWord::Local : ScopeWord::Task, first));
+        } else if (k == K::Comma && moreOf_) {
+            data_.push_back(parseMoreNames());
+        } else if (isWordlessData()) {
+            data_.push_back(parseWordlessData());
         } else if (k != K::Identifier || !retagData()) {
             break;
         }
@@ -489,6 +538,7 @@ void Parser::parseHandler(RoutineDecl* routine, K previous) {
         clause->numbers = parseExprList(K::RightParen, opening);
         if (panic_) syncStatement();
     }
+    takesColonAs("");
     blockOpening_ = kNoToken;
     const StmtList body = parseList(kRoutineEnds);
     if (word == K::KwError) {
@@ -503,15 +553,16 @@ void Parser::parseHandler(RoutineDecl* routine, K previous) {
     }
 }
 
-void Parser::closeRoutine(RoutineDecl* routine, TokenIndex opening) {
+void Parser::closeRoutine(RoutineDecl* routine, TokenIndex opening, bool braced) {
     const RoutineWords words = wordsOf(routine->routineKind);
     constexpr TokenSet kEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
-    if (!accept(words.end)) {
-        diag::Diagnostic* diagnostic =
-            report(Code::MissingBlockEnd, pos_, {describe(pos_), std::string(tokenText(words.end))});
-        note(diagnostic, opening, std::string(words.name) + " begins here");
-        if (kEnds.has(kind())) take();
-    }
+    if (accept(words.end) || braced) return;
+    const std::string expected(tokenText(words.end));
+    diag::Diagnostic* diagnostic = report(Code::MissingBlockEnd, pos_, {describe(pos_), expected});
+    note(diagnostic, opening, std::string(words.name) + " begins here");
+    if (!kEnds.has(kind()) && wrongEnd_ != pos_) return;
+    fix(diagnostic, tree_.range(pos_), expected, false);
+    take();
 }
 
 } // namespace rapid::syntax

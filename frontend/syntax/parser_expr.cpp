@@ -95,6 +95,11 @@ Expr* Parser::parseBinary(int minPrecedence) {
         node->first = left->first;
         node->op = op.op;
         node->opToken = take();
+        if (node->op == BinaryOp::Mul && kind() == K::Star && !panic_) {
+            reportAt(Code::ForeignSpelling, {tree_.range(node->opToken).begin, tree_.range(pos_).end},
+                     {"**", "function Pow"});
+            take();
+        }
         node->left = left;
         node->right = parseBinary(op.precedence + 1);
         height_ = std::max(height_, leftHeight) + 1;
@@ -258,6 +263,10 @@ Expr* Parser::parseParen() {
     const TokenIndex opening = take();
     node->inner = parseExpr();
     ++height_;
+    if (kind() == K::Comma && !panic_) {
+        parseForeignAggregate(opening);
+        return errorExpr();
+    }
     expectClosing(K::RightParen, opening, false);
     return finish(node);
 }
@@ -310,8 +319,8 @@ Expr* Parser::parseNamed(bool allowCall) {
     auto* node = makeExpr<NameExpr>(NodeKind::Name);
     node->name = take();
     finish(node);
-    if (kind() != K::Dot && kind() != K::LeftBrace && (kind() != K::LeftBracket || startsLine(pos_)))
-        return node;
+    const bool brace = kind() == K::LeftBrace && !isBlockBrace();
+    if (kind() != K::Dot && !brace && (kind() != K::LeftBracket || startsLine(pos_))) return node;
     return parsePostfix(node);
 }
 
@@ -331,7 +340,7 @@ Expr* Parser::parsePostfix(Expr* base) {
     bool reported = false;
     for (;;) {
         const bool bracket = kind() == K::LeftBracket && base->kind == NodeKind::Name && !startsLine(pos_);
-        if ((kind() != K::LeftBrace && kind() != K::Dot && !bracket) || panic_) return base;
+        if ((kind() != K::LeftBrace && kind() != K::Dot && !bracket) || panic_ || isBlockBrace()) return base;
         if (base->kind == NodeKind::Call && !reported) {
             report(Code::PartOfCallResult, pos_, {std::string(textOf(pos_))});
             reported = true;
@@ -422,6 +431,16 @@ Argument* Parser::parseRequiredArgument(bool procedure) {
         take();
     }
     node->value = parseExpr();
+    if (!panic_ && kind() == K::Assign && node->value->kind == NodeKind::Binary) { // "tool0/WObj:=wobj1"
+        const auto& slash = as<BinaryExpr>(*node->value);
+        if (slash.op == BinaryOp::Div && slash.right->kind == NodeKind::Name) {
+            fix(report(Code::ForeignSpelling, slash.opToken, {"/", "'\\' before an optional argument"}),
+                tree_.range(slash.opToken), "\\");
+            take();
+            parseExpr();
+            node->value = errorExpr();
+        }
+    }
     return finish(node);
 }
 

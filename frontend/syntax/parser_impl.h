@@ -17,6 +17,26 @@ inline constexpr uint32_t kMaxDepth = 1000; ///< nesting of expressions and inst
 inline constexpr size_t kMaxErrorsPerFile = 200;
 inline constexpr size_t kMaxNameLength = 32; // manual 1.1.2
 
+/// Sets a member for the length of a block.
+template <class T> class Restore {
+  public:
+    explicit Restore(T& place) : place_(place), saved_(place) {}
+    ~Restore() { place_ = saved_; }
+    const T& saved() const { return saved_; }
+    Restore(const Restore&) = delete;
+    Restore& operator=(const Restore&) = delete;
+
+  private:
+    T& place_;
+    T saved_;
+};
+
+/// Words that end a branch.
+inline constexpr TokenSet kIfEnds = {TokenKind::KwEndif, TokenKind::KwElse, TokenKind::KwElseif,
+                                     TokenKind::PlaceEit};
+inline constexpr TokenSet kTestEnds = {TokenKind::KwEndtest, TokenKind::KwCase, TokenKind::KwDefault,
+                                       TokenKind::PlaceCse};
+
 class Parser {
   public:
     Parser(SyntaxTree& tree, diag::Sink& sink, const ParseOptions& options);
@@ -158,6 +178,25 @@ class Parser {
     bool isMisspeltOperator(const Expr* left);
     bool takesPercentAsMod();
 
+    // ---- Spellings of other languages (parser_foreign.cpp)
+    bool isBlockBrace() const;
+    StmtList parseBody(const TokenSet& own, const std::string& expected, bool& braced);
+    void closeBracedBlock(K end, TokenIndex opening, bool whole, bool braced);
+    bool skipBracedComment();
+    Stmt* parseBareBraces();
+    bool takesColonAs(std::string_view word);
+    bool negatesByComment(std::string_view ending);
+    bool parseForeignFor(ForStmt* node);
+    bool isWordlessData() const;
+    bool parseForeignData(DataDecl* node);
+    void parseDimensionsOf(DataDecl* node, bool beforeName);
+    void noteMoreNames(const DataDecl* node);
+    DataDecl* parseMoreNames();
+    bool parseForeignParameter(ParamDecl* node);
+    void dropForeignMode(ParamDecl* node);
+    void parseForeignAggregate(TokenIndex opening);
+    bool skipForeignComment();
+
     // ---- Expressions (parser_expr.cpp)
     Expr* parseExpr() { return parseBinary(1); }
     Expr* parseBinary(int minPrecedence);
@@ -184,7 +223,8 @@ class Parser {
     static bool startsExpr(K k);
 
     // ---- Instructions (parser_stmt.cpp)
-    StmtList parseList(const TokenSet& own);
+    /// `braced`: the list began with '{' and may end with '}'.
+    StmtList parseList(const TokenSet& own, bool braced = false);
     Stmt* parseStmt();
     Stmt* parseStmtUnguarded();
     Stmt* parseNamedStmt();
@@ -195,12 +235,18 @@ class Parser {
     bool isBracketTarget(K open, K close) const;
     bool isSplitElseif();
     Stmt* parseLateCall();
+
+    // ---- Blocks (parser_blocks.cpp)
     Stmt* parseIf();
-    Stmt* parseIfBlocks(TokenIndex opening, Expr* condition);
+    Stmt* parseIfBlocks(TokenIndex opening, Expr* condition, bool headRead);
+    Stmt* parseLateMore();
     Stmt* parseFor();
+    Stmt* parseForBody(ForStmt* node, TokenIndex opening, bool whole);
     Stmt* parseWhile();
     Stmt* parseTest();
     TestCase* parseCase();
+
+    // ---- Instructions of one word and an operand (parser_stmt.cpp)
     Stmt* parseGoto();
     Stmt* parseValueStmt(bool isReturn);
     Stmt* parseConnect();
@@ -226,6 +272,8 @@ class Parser {
     void skipStraySemicolons();
     DataDecl* parseModuleData(ScopeWord scope, TokenIndex first) { return parseData(scope, first, true); }
     DataDecl* parseData(ScopeWord scope, TokenIndex first, bool ofModule = false);
+    DataDecl* parseWordlessData();
+    void parseDataTail(DataDecl* node, bool nameMissing, bool ofModule);
     Decl* parseRecord(bool local, TokenIndex first);
     RecordComponent* parseComponent();
     bool dropComponentWord();
@@ -238,12 +286,13 @@ class Parser {
     ParamDecl* parseParameter(bool optional, uint32_t group);
     void parseDimensions(ParamDecl* param);
     bool isNative() const;
-    void parseRoutineBody(RoutineDecl* routine);
+    void parseRoutineBody(RoutineDecl* routine, bool& braced);
     void parseRoutineData();
     bool parseNested(const RoutineDecl* routine);
     void parseHandlers(RoutineDecl* routine);
     void parseHandler(RoutineDecl* routine, K previous);
-    void closeRoutine(RoutineDecl* routine, TokenIndex opening);
+    void closeRoutine(RoutineDecl* routine, TokenIndex opening, bool braced);
+    static bool isBasicType(std::string_view word);
     bool startsDecl(TokenIndex i) const;
 
     SyntaxTree& tree_;
@@ -269,13 +318,17 @@ class Parser {
     TokenIndex headReported_ = kNoToken; ///< a THEN or DO whose IF, FOR or WHILE is broken
     TokenIndex compactIf_ = kNoToken;    ///< the last IF without THEN
     TokenIndex compactIfEnd_ =
-        kNoToken;                 ///< the end of its condition, when its instruction is on another line
-    int missingEndifs_ = -1;      ///< of the routine; -1: not counted yet
-    TokenIndex routineStart_ = 0; ///< its first token
-    bool inCondition_ = false;    ///< between IF and THEN
-    bool inLateName_ = false;     ///< between the '%' of a late-bound call
-    bool colonGiven_ = false;     ///< a DEFAULT that was written ELSE
-    bool plainError_ = false;     ///< the routine has an ERROR handler without a list
+        kNoToken;                      ///< the end of its condition, when its instruction is on another line
+    int missingEndifs_ = -1;           ///< of the routine; -1: not counted yet
+    TokenIndex routineStart_ = 0;      ///< its first token
+    bool inCondition_ = false;         ///< between IF and THEN
+    bool inHead_ = false;              ///< between IF, FOR or WHILE and the block
+    bool typeMissed_ = false;          ///< a parameter of the header without a data type has been reported
+    uint32_t braces_ = 0;              ///< open blocks that began with '{'
+    const DataDecl* moreOf_ = nullptr; ///< a declaration that goes on with another name, at its comma
+    bool inLateName_ = false;          ///< between the '%' of a late-bound call
+    bool colonGiven_ = false;          ///< a DEFAULT that was written ELSE
+    bool plainError_ = false;          ///< the routine has an ERROR handler without a list
     TokenIndex blockOpening_ = kNoToken; ///< the word that opened the innermost block
 
     // Scratch space, shared by all levels of the recursion.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace rapid::syntax {
 
@@ -276,6 +277,7 @@ void Parser::expectWord(K word) {
         take();
         return;
     }
+    if (takesColonAs(tokenText(word))) return;
     const bool silent = panic_ || kind() == K::Error;
     TokenIndex found = 0;
     const bool later = findOnLine(pos_, word, found);
@@ -336,7 +338,9 @@ Expr* Parser::parseHeadExpr(bool& whole, HeadPart part) {
         whole = false;
         return errorExpr();
     }
+    const bool outer = std::exchange(inHead_, true);
     Expr* expr = part == HeadPart::Condition ? parseCondition() : parseExpr();
+    inHead_ = outer;
     if (panic_ && (startsLine(pos_) || kind() == K::EndOfFile)) {
         whole = false;
         panic_ = false;
@@ -417,15 +421,23 @@ bool Parser::handleStray(const TokenSet& own) {
         colonGiven_ = true;
         return true;
     }
-    if (stray == K::KwEndif && compactIf_ != kNoToken && compactIfEnd_ != kNoToken &&
+    constexpr TokenSet kOfIf = {K::KwEndif, K::KwElse, K::KwElseif};
+    if (kOfIf.has(stray) && compactIf_ != kNoToken && compactIfEnd_ != kNoToken &&
         columnOf(pos_) == columnOf(compactIf_)) { // IF without THEN, its block closed by ENDIF
         const SourceRange place = endOf(compactIfEnd_);
         diag::Diagnostic* diagnostic =
             reportAt(Code::MissingBlockWord, place, {describe(compactIfEnd_ + 1), "THEN"});
         fix(diagnostic, place, " THEN");
-        note(diagnostic, pos_, "this ENDIF closes a block, which begins with THEN");
+        note(diagnostic, pos_,
+             fmt::format("this {} belongs to a block, which begins with THEN", describe(pos_)));
         compactIf_ = kNoToken;
         return false;
+    }
+    // Followed by the next routine: the end of this one was meant.
+    constexpr TokenSet kNext = {K::KwProc, K::KwFunc, K::KwTrap, K::KwEndmodule, K::KwLocal, K::EndOfFile};
+    if (isEnd && own.has(K::KwEndproc) && kNext.has(peek())) {
+        wrongEnd_ = pos_;
+        return true;
     }
     std::string_view opener = "a routine";
     for (const Pair& pair : kOpeners)

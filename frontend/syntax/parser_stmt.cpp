@@ -21,33 +21,14 @@ constexpr TokenSet kListStops = {
     TokenKind::PlaceEit,   TokenKind::PlaceCse,  TokenKind::EndOfFile,   TokenKind::KwLocal,
     TokenKind::Identifier};
 
-constexpr TokenSet kIfEnds = {TokenKind::KwEndif, TokenKind::KwElse, TokenKind::KwElseif,
-                              TokenKind::PlaceEit};
-constexpr TokenSet kTestEnds = {TokenKind::KwEndtest, TokenKind::KwCase, TokenKind::KwDefault,
-                                TokenKind::PlaceCse};
-
 /// First letters of END, ELSE, ERROR, CASE, DEFAULT, UNDO, BACKWARD, and of words of other languages for them.
 bool mayBeMisspelt(char first) {
     return std::string_view("ecdubnwo").find(static_cast<char>(first | 32)) != std::string_view::npos;
 }
 
-/// Sets a member for the length of a block.
-template <class T> class Restore {
-  public:
-    explicit Restore(T& place) : place_(place), saved_(place) {}
-    ~Restore() { place_ = saved_; }
-    const T& saved() const { return saved_; }
-    Restore(const Restore&) = delete;
-    Restore& operator=(const Restore&) = delete;
-
-  private:
-    T& place_;
-    T saved_;
-};
-
 } // namespace
 
-StmtList Parser::parseList(const TokenSet& own) {
+StmtList Parser::parseList(const TokenSet& own, bool braced) {
     const Restore restore(enclosing_);
     const TokenSet outer = enclosing_;
     enclosing_ = enclosing_ | own;
@@ -57,7 +38,8 @@ StmtList Parser::parseList(const TokenSet& own) {
         if (kListStops.has(k)) {
             if (k == K::EndOfFile || own.has(k)) break;
             if (k == K::Identifier) {
-                const bool closes = equalsNoCase(textOf(pos_), foreignCloser_);
+                const bool closes =
+                    equalsNoCase(textOf(pos_), foreignCloser_.substr(0, foreignCloser_.find(' ')));
                 if (!closes && mayBeMisspelt(textOf(pos_)[0]) && retagMisspelt(own)) continue;
             } else if (k == K::KwLocal) {
                 if (peek() == K::KwProc || peek() == K::KwFunc || peek() == K::KwTrap ||
@@ -66,9 +48,13 @@ StmtList Parser::parseList(const TokenSet& own) {
             } else if (outer.has(k) || handleStray(own)) {
                 break;
             }
+        } else if (k == K::RightBrace && braces_ > 0) {
+            if (braced) take();
+            break;
         }
         const TokenIndex before = pos_;
         stmts_.push_back(parseStmt());
+        if (moreOf_) stmts_.push_back(parseLateMore());
         if (pos_ == before) take();
     }
     return drain(stmts_, mark);
@@ -125,6 +111,10 @@ Stmt* Parser::parseStmtUnguarded() {
     case K::KwConst:
     case K::KwLocal:
     case K::PlaceDdn: return parseLateDecl();
+    case K::LeftBrace: return parseBareBraces();
+    case K::Minus:
+        if (skipForeignComment()) return errorStmt(first);
+        break;
     case K::KwElse:
     case K::KwElseif:
     case K::PlaceEit: // reported as stray; the rest of the IF belongs to it
@@ -204,6 +194,12 @@ Stmt* Parser::parseNamedStmt() {
     case K::Colon: return parseLabel();
     case K::Identifier:
         if (retagOpener()) return parseStmtUnguarded();
+        if (skipForeignComment()) return errorStmt(first);
+        if (isWordlessData()) {
+            auto* node = make<DeclStmt>(NodeKind::DeclStmt);
+            node->decl = parseWordlessData();
+            return finish(node);
+        }
         break;
     case K::KwTo:
         if (peek(2) == K::Identifier && equalsNoCase(textOf(first), "GO")) {
@@ -250,6 +246,12 @@ Stmt* Parser::parseAssignment(Expr* target, TokenIndex first) {
         take();
     } else if (!accept(K::Assign) && !panic_) {
         unexpected("':='");
+    }
+    const bool valueLost = beginsInstruction() || (!isName(kind()) && !startsExpr(kind()));
+    if (valueLost && negatesByComment(";")) {
+        node->value = errorExpr();
+        node->broken = true;
+        return finish(node);
     }
     node->value = panic_ ? errorExpr() : parseExpr();
     endStatement();
@@ -336,224 +338,6 @@ Stmt* Parser::parseLateCall() {
     return finish(node);
 }
 
-// ---- Blocks ----------------------------------------------------------------------------------------------------
-
-Stmt* Parser::parseIf() {
-    const TokenIndex opening = take();
-    const bool outer = std::exchange(inCondition_, true);
-    Expr* condition = parseCondition();
-    inCondition_ = outer;
-    TokenIndex found = 0;
-    if (kind() == K::Identifier && endsLine(pos_)) retagIfMeant(K::KwThen);
-    const bool isBlock = kind() == K::KwThen || (kind() == K::KwDo && startsLine(pos_ + 1));
-    if (isBlock || findOnLine(pos_, K::KwThen, found)) return parseIfBlocks(opening, condition);
-
-    auto* node = make<CompactIfStmt>(NodeKind::CompactIf);
-    node->first = opening;
-    node->condition = condition;
-    const TokenIndex bodyFirst = pos_;
-    if (!panic_) {
-        compactIf_ = opening;
-        compactIfEnd_ = startsLine(pos_) ? pos_ - 1 : kNoToken;
-        const K k = kind();
-        const bool canStart =
-            k == K::PlaceVar || k == K::PlaceSmt || !kListStops.has(k) || k == K::Identifier;
-        if (canStart && (!startsExpr(k) || isName(k) || k == K::PlaceVar)) {
-            node->body = parseStmt();
-            return finish(node);
-        }
-        if (kind() != K::Error)
-            report(Code::MissingBlockWord, pos_, {describe(pos_), "THEN or an instruction"});
-    }
-    if (!kListStops.has(kind())) syncStatement();
-    panic_ = false;
-    node->body = errorStmt(bodyFirst);
-    return finish(node);
-}
-
-Stmt* Parser::parseIfBlocks(TokenIndex opening, Expr* condition) {
-    const Restore restore(blockOpening_);
-    blockOpening_ = opening;
-    auto* node = make<IfStmt>(NodeKind::If);
-    node->first = opening;
-    const size_t mark = branches_.size();
-
-    auto* branch = make<IfBranch>(NodeKind::IfBranch);
-    branch->first = opening;
-    branch->condition = condition;
-    expectWord(K::KwThen);
-    branch->body = parseList(kIfEnds);
-    branches_.push_back(finish(branch));
-    bool allWhole = true;
-    const TokenIndex outer = restore.saved();
-    while (kind() != K::KwEndif && kIfEnds.has(kind())) {
-        // A second ELSE that stands below the IF around this one belongs to that: the ENDIF is missing.
-        if (node->hasElse && outer != kNoToken && kindAt(outer) == K::KwIf && startsLine(pos_) &&
-            columnOf(pos_) == columnOf(outer) && columnOf(pos_) != columnOf(opening))
-            break;
-        if (node->hasElse) report(Code::InstructionAfterElse, pos_, {describe(pos_)});
-        if (kind() == K::KwElse && isSplitElseif()) {
-            retag(pos_, pos_ + 1, K::KwElseif);
-            ++pos_;
-        }
-        if (accept(K::KwElse)) {
-            const StmtList body = parseList(kIfEnds);
-            if (!node->hasElse) node->elseBody = body;
-            node->hasElse = true;
-            continue;
-        }
-        branch = make<IfBranch>(NodeKind::IfBranch);
-        if (take(), tokens_[pos_ - 1].kind == K::KwElseif) {
-            bool whole = true;
-            branch->condition = parseHeadExpr(whole, HeadPart::Condition);
-            allWhole = expectHeadWord(K::KwThen, whole) && allWhole;
-        }
-        branch->body = parseList(kIfEnds);
-        branches_.push_back(finish(branch));
-    }
-    closeBlock(K::KwEndif, opening, allWhole);
-    node->branches = drain(branches_, mark);
-    return finish(node);
-}
-
-/// "ELSE IF" in one line, in a routine that has fewer ENDIF than this takes: one word is meant.
-bool Parser::isSplitElseif() {
-    if (peek() != K::KwIf || startsLine(pos_ + 1)) return false;
-    if (missingEndifs_ < 0) {
-        constexpr TokenSet kStop = {K::KwEndproc, K::KwEndfunc,   K::KwEndtrap, K::KwProc,   K::KwFunc,
-                                    K::KwTrap,    K::KwEndmodule, K::KwModule,  K::EndOfFile};
-        missingEndifs_ = 0;
-        for (TokenIndex i = routineStart_; !kStop.has(kindAt(i)); ++i) {
-            TokenIndex then = 0;
-            if (kindAt(i) == K::KwIf && findOnLine(i + 1, K::KwThen, then)) ++missingEndifs_;
-            if (kindAt(i) == K::KwEndif) --missingEndifs_;
-        }
-    }
-    if (missingEndifs_ <= 0) return false;
-    --missingEndifs_;
-    return true;
-}
-
-Stmt* Parser::parseFor() {
-    const Restore restore(blockOpening_);
-    auto* node = make<ForStmt>(NodeKind::For);
-    const TokenIndex opening = blockOpening_ = take();
-    bool whole = true; // once the head is broken, the rest of it is not missed
-    if (kind() == K::KwFrom && peek() != K::KwFrom) {
-        report(Code::UnexpectedToken, pos_, {describe(pos_), "a name"});
-    } else if (beginsInstruction()) {
-        node->variable = missingName();
-        whole = false;
-    } else {
-        node->variable = expectName();
-        checkNameLength(node->variable);
-    }
-    if (!panic_ && (kind() == K::Assign || kind() == K::Equal)) { // FOR i := 1 TO 5 DO
-        fix(report(Code::MissingBlockWord, pos_, {describe(pos_), "FROM"}), tree_.range(pos_), "FROM");
-        take();
-    } else {
-        whole = expectHeadWord(K::KwFrom, whole);
-    }
-    node->from = parseHeadExpr(whole);
-    if (whole && !panic_ && kind() == K::KwDo) {
-        report(Code::MissingBlockWord, pos_, {describe(pos_), "TO and the end value"});
-        node->to = errorExpr();
-    } else {
-        whole = expectHeadWord(K::KwTo, whole);
-        node->to = parseHeadExpr(whole);
-    }
-    if (!panic_ && whole && kind() == K::Identifier && !startsLine(pos_)) retagIfMeant(K::KwStep);
-    if (!panic_ && whole && accept(K::KwStep)) node->step = parseHeadExpr(whole);
-    whole = expectHeadWord(K::KwDo, whole);
-    node->body = parseList({K::KwEndfor});
-    closeBlock(K::KwEndfor, opening, whole);
-    return finish(node);
-}
-
-Stmt* Parser::parseWhile() {
-    const Restore restore(blockOpening_);
-    auto* node = make<WhileStmt>(NodeKind::While);
-    const TokenIndex opening = blockOpening_ = take();
-    bool whole = true;
-    node->condition = parseHeadExpr(whole, HeadPart::Condition);
-    if (!panic_ && kind() == K::Semicolon && foreignCloser_ == "WHILE") { // DO ... WHILE condition;
-        foreignCloser_ = {};
-        take();
-        return errorStmt(opening);
-    }
-    whole = expectHeadWord(K::KwDo, whole);
-    node->body = parseList({K::KwEndwhile});
-    closeBlock(K::KwEndwhile, opening, whole);
-    return finish(node);
-}
-
-Stmt* Parser::parseTest() {
-    const Restore restore(blockOpening_);
-    auto* node = make<TestStmt>(NodeKind::Test);
-    const TokenIndex opening = blockOpening_ = take();
-    node->subject = parseExpr();
-    const size_t mark = cases_.size();
-    if (panic_) syncStatement();
-    if (!kTestEnds.has(kind()) && kind() != K::EndOfFile) {
-        auto* lost = make<TestCase>(NodeKind::TestCase);
-        const TokenIndex at = pos_;
-        const size_t errorsBefore = errors_;
-        lost->body = parseList(kTestEnds);
-        if (!lost->body.empty()) {
-            if (errors_ == errorsBefore) report(Code::InstructionOutsideCase, at);
-            cases_.push_back(finish(lost));
-        }
-    }
-    while (kind() != K::KwEndtest && kTestEnds.has(kind())) {
-        if (node->hasDefault) report(Code::CaseAfterDefault, pos_, {describe(pos_)});
-        if (kind() != K::KwDefault) {
-            cases_.push_back(parseCase());
-            continue;
-        }
-        take();
-        if (!std::exchange(colonGiven_, false) && !accept(K::Colon))
-            fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "':'"}), endOf(pos_ - 1), ":");
-        const StmtList body = parseList(kTestEnds);
-        if (!node->hasDefault) node->defaultBody = body;
-        node->hasDefault = true;
-    }
-    closeBlock(K::KwEndtest, opening);
-    node->cases = drain(cases_, mark);
-    return finish(node);
-}
-
-TestCase* Parser::parseCase() {
-    auto* node = make<TestCase>(NodeKind::TestCase);
-    if (take(), tokens_[pos_ - 1].kind == K::KwCase) {
-        const size_t mark = exprs_.size();
-        bool whole = true;
-        do
-            exprs_.push_back(parseHeadExpr(whole, HeadPart::CaseValue));
-        while (whole && !panic_ && accept(K::Comma));
-        node->values = drain(exprs_, mark);
-        TokenIndex found = 0;
-        if (whole && !accept(K::Colon)) {
-            const bool later = findOnLine(pos_, K::Colon, found) && !startsLine(found);
-            if (startsLine(pos_) && pos_ > 0) {
-                fix(reportAt(Code::UnexpectedToken, endOf(pos_ - 1), {describe(pos_), "':'"}),
-                    endOf(pos_ - 1), ":");
-            } else if (kind() != K::Error) {
-                diag::Diagnostic* d = report(Code::UnexpectedToken, pos_, {describe(pos_), "',' or ':'"});
-                if (kind() == K::Semicolon) fix(d, tree_.range(pos_), ":");
-            }
-            if (later) {
-                pos_ = found + 1;
-            } else if (accept(K::Semicolon)) { // "CASE 1;"
-            } else if (panic_) {
-                syncStatement();
-            }
-            panic_ = false;
-        }
-    }
-    node->body = parseList(kTestEnds);
-    return finish(node);
-}
-
 // ---- Instructions of one word and an operand ---------------------------------------------------------------------
 
 Stmt* Parser::parseGoto() {
@@ -615,6 +399,13 @@ Stmt* Parser::parseSimple(NodeKind nodeKind) {
     auto* node = make<SimpleStmt>(nodeKind);
     take();
     endStatement();
+    return finish(node);
+}
+
+/// Another name of the data declared last.
+Stmt* Parser::parseLateMore() {
+    auto* node = make<DeclStmt>(NodeKind::DeclStmt);
+    node->decl = parseMoreNames();
     return finish(node);
 }
 

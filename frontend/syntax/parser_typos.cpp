@@ -20,6 +20,8 @@ struct ForeignWord {
 };
 constexpr ForeignWord kForeignWords[] = {
     {"NEXT", TokenKind::KwEndfor},          {"WEND", TokenKind::KwEndwhile},
+    {"ENDDO", TokenKind::KwEndwhile},       {"ENDDO", TokenKind::KwEndfor},
+    {"DONE", TokenKind::KwEndwhile},        {"DONE", TokenKind::KwEndfor},
     {"ENDSWITCH", TokenKind::KwEndtest},    {"ENDSELECT", TokenKind::KwEndtest},
     {"ENDCASE", TokenKind::KwEndtest},      {"ELIF", TokenKind::KwElseif},
     {"FUNCTION", TokenKind::KwFunc},        {"ENDFUNCTION", TokenKind::KwEndfunc},
@@ -32,7 +34,7 @@ constexpr ForeignWord kForeignWords[] = {
 /// Blocks of other languages that RAPID writes in another way. WHILE is what closes DO.
 struct ForeignBlock {
     std::string_view word;
-    std::string_view closer;
+    std::string_view closer; ///< or two, in this order
     std::string_view expected;
 };
 constexpr ForeignBlock kForeignBlocks[] = {
@@ -40,7 +42,7 @@ constexpr ForeignBlock kForeignBlocks[] = {
     {"DO", "WHILE", "WHILE and a condition before DO"},
     {"LOOP", "ENDLOOP", "WHILE TRUE DO"},
     {"BEGIN", "END", "an instruction: blocks have no word of their own"},
-    {"TRY", "CATCH", "an ERROR handler at the end of the routine"}};
+    {"TRY", "CATCH ENDTRY", "an ERROR handler at the end of the routine"}};
 
 constexpr size_t kLongestTypo = 14;
 
@@ -59,8 +61,13 @@ bool Parser::meant(TokenIndex i, K word, unsigned limit) const {
     const std::string_view spelling = tokenText(word);
     if (text.size() < 2 || text.size() > kLongestTypo) return false;
     const std::string written = upperCase(text);
-    for (const ForeignWord& foreign : kForeignWords)
-        if (foreign.word == written) return foreign.keyword == word;
+    bool known = false;
+    for (const ForeignWord& foreign : kForeignWords) {
+        if (foreign.word != written) continue;
+        if (foreign.keyword == word) return true;
+        known = true;
+    }
+    if (known) return false;
     if (limit == 0) limit = spelling.size() <= 4 ? 1 : 2;
     return editDistance(written, spelling, limit) <= limit;
 }
@@ -113,8 +120,9 @@ bool Parser::startsForeignBlock() {
 }
 
 bool Parser::endsForeignBlock() {
-    if (foreignCloser_.empty() || !equalsNoCase(textOf(pos_), foreignCloser_)) return false;
-    foreignCloser_ = {};
+    const std::string_view closer = foreignCloser_.substr(0, foreignCloser_.find(' '));
+    if (closer.empty() || !equalsNoCase(textOf(pos_), closer)) return false;
+    foreignCloser_.remove_prefix(std::min(closer.size() + 1, foreignCloser_.size()));
     take();
     if (!startsLine(pos_)) syncStatement();
     return true;
@@ -131,6 +139,11 @@ bool Parser::retagMisspelt(const TokenSet& own) {
     static constexpr K kWords[] = {K::KwEndif,   K::KwEndfor,  K::KwEndwhile, K::KwEndtest, K::KwEndproc,
                                    K::KwEndfunc, K::KwEndtrap, K::KwElseif,   K::KwElse,    K::KwCase,
                                    K::KwDefault, K::KwError,   K::KwUndo,     K::KwBackward};
+    if (own.has(K::KwEndfor) && next == K::Identifier && equalsNoCase(text, "NEXT") && endsLine(pos_ + 1)) {
+        retag(pos_, pos_ + 1, K::KwEndfor); // "NEXT i"
+        ++pos_;
+        return true;
+    }
     const bool end = equalsNoCase(text, "END");
     for (const K word : kWords) {
         if (!own.has(word)) continue;

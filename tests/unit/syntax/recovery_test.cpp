@@ -65,7 +65,7 @@ const std::vector<Case> kBodies = {
     {"ELSE without IF", "x := 1;\nELSE\n  y := 2;\nENDIF\nz := 3;", "RAP1203@4:1"},
     {"CASE without TEST", "x := 1;\nCASE 2:\n  y := 2;\nCASE 3:\n  y := 3;\nENDTEST\nz := 3;", "RAP1203@4:1"},
     {"THEN missing before a block with ELSE", "IF a = 1\n  x := 1;\nELSE\n  x := 2;\nENDIF\ny := 1;",
-     "RAP1203@5:1"},
+     "RAP1204@3:9"},
     {"wrong END word", "IF a THEN\n  x := 1;\nENDWHILE\ny := 2;", "RAP1202@5:1"},
     {"ENDIF misspelt", "IF a THEN\n  x := 1;\nENDIFF\ny := 2;", "RAP1206@5:1"},
     {"ENDIF in two words", "IF a THEN\n  x := 1;\nEND IF\ny := 2;", "RAP1206@5:1"},

@@ -1,0 +1,257 @@
+// IF, FOR, WHILE and TEST (manual 1.4.2).
+
+#include "frontend/syntax/parser_impl.h"
+
+namespace rapid::syntax {
+
+using diag::Code;
+
+Stmt* Parser::parseIf() {
+    const TokenIndex opening = take();
+    const Restore outerCondition(inCondition_);
+    const Restore outerHead(inHead_);
+    inCondition_ = inHead_ = true;
+    TokenIndex found = 0;
+    const bool hidden = !findOnLine(pos_, K::KwThen, found) && negatesByComment("THEN");
+    Expr* condition = hidden ? errorExpr() : parseCondition();
+    inCondition_ = outerCondition.saved();
+    inHead_ = outerHead.saved();
+    if (kind() == K::Identifier && endsLine(pos_)) retagIfMeant(K::KwThen);
+    const bool isBlock = hidden || kind() == K::KwThen || kind() == K::Colon || kind() == K::LeftBrace ||
+                         (kind() == K::KwDo && startsLine(pos_ + 1));
+    if (isBlock || findOnLine(pos_, K::KwThen, found)) return parseIfBlocks(opening, condition, hidden);
+
+    auto* node = make<CompactIfStmt>(NodeKind::CompactIf);
+    node->first = opening;
+    node->condition = condition;
+    const TokenIndex bodyFirst = pos_;
+    if (!panic_) {
+        compactIf_ = opening;
+        compactIfEnd_ = startsLine(pos_) ? pos_ - 1 : kNoToken;
+        const K k = kind();
+        const bool canStart =
+            k == K::PlaceVar || k == K::PlaceSmt || !kListStops.has(k) || k == K::Identifier;
+        if (canStart && (!startsExpr(k) || isName(k) || k == K::PlaceVar)) {
+            node->body = parseStmt();
+            return finish(node);
+        }
+        if (kind() != K::Error)
+            report(Code::MissingBlockWord, pos_, {describe(pos_), "THEN or an instruction"});
+    }
+    if (!kListStops.has(kind())) syncStatement();
+    panic_ = false;
+    node->body = errorStmt(bodyFirst);
+    return finish(node);
+}
+
+/// `headRead`: THEN has been lost in a comment.
+Stmt* Parser::parseIfBlocks(TokenIndex opening, Expr* condition, bool headRead) {
+    const Restore restore(blockOpening_);
+    blockOpening_ = opening;
+    auto* node = make<IfStmt>(NodeKind::If);
+    node->first = opening;
+    const size_t mark = branches_.size();
+
+    auto* branch = make<IfBranch>(NodeKind::IfBranch);
+    branch->first = opening;
+    branch->condition = condition;
+    bool braced = false;
+    const std::string bracesOf = "THEN: the instructions of IF end with ENDIF";
+    if (!headRead && kind() != K::LeftBrace) expectWord(K::KwThen);
+    branch->body = parseBody(kIfEnds, bracesOf, braced);
+    branches_.push_back(finish(branch));
+    bool allWhole = true;
+    const TokenIndex outer = restore.saved();
+    while (kind() != K::KwEndif && kIfEnds.has(kind())) {
+        // A second ELSE that stands below the IF around this one belongs to that: the ENDIF is missing.
+        if (node->hasElse && outer != kNoToken && kindAt(outer) == K::KwIf && startsLine(pos_) &&
+            columnOf(pos_) == columnOf(outer) && columnOf(pos_) != columnOf(opening))
+            break;
+        if (node->hasElse) report(Code::InstructionAfterElse, pos_, {describe(pos_)});
+        if (kind() == K::KwElse && isSplitElseif()) {
+            retag(pos_, pos_ + 1, K::KwElseif);
+            ++pos_;
+        }
+        if (accept(K::KwElse)) {
+            takesColonAs("");
+            if (kind() == K::KwThen && !startsLine(pos_)) {
+                fix(report(Code::StrayKeyword, pos_, {"THEN", "IF"}), tree_.range(pos_), "");
+                take();
+            }
+            const StmtList body = parseBody(kIfEnds, bracesOf, braced);
+            if (!node->hasElse) node->elseBody = body;
+            node->hasElse = true;
+            continue;
+        }
+        branch = make<IfBranch>(NodeKind::IfBranch);
+        if (take(), tokens_[pos_ - 1].kind == K::KwElseif) {
+            bool whole = true;
+            const bool hidden = negatesByComment("THEN");
+            branch->condition = hidden ? errorExpr() : parseHeadExpr(whole, HeadPart::Condition);
+            if (!hidden && kind() != K::LeftBrace) allWhole = expectHeadWord(K::KwThen, whole) && allWhole;
+        }
+        branch->body = parseBody(kIfEnds, bracesOf, braced);
+        branches_.push_back(finish(branch));
+    }
+    closeBracedBlock(K::KwEndif, opening, allWhole, braced);
+    node->branches = drain(branches_, mark);
+    return finish(node);
+}
+
+/// "ELSE IF" in one line, in a routine that has fewer ENDIF than this takes: one word is meant.
+bool Parser::isSplitElseif() {
+    if (peek() != K::KwIf || startsLine(pos_ + 1)) return false;
+    if (missingEndifs_ < 0) {
+        constexpr TokenSet kStop = {K::KwEndproc, K::KwEndfunc,   K::KwEndtrap, K::KwProc,   K::KwFunc,
+                                    K::KwTrap,    K::KwEndmodule, K::KwModule,  K::EndOfFile};
+        missingEndifs_ = 0;
+        for (TokenIndex i = routineStart_; !kStop.has(kindAt(i)); ++i) {
+            TokenIndex then = 0;
+            if (kindAt(i) == K::KwIf && findOnLine(i + 1, K::KwThen, then)) ++missingEndifs_;
+            if (kindAt(i) == K::KwEndif) --missingEndifs_;
+        }
+    }
+    if (missingEndifs_ <= 0) return false;
+    --missingEndifs_;
+    return true;
+}
+
+Stmt* Parser::parseFor() {
+    const Restore restore(blockOpening_);
+    auto* node = make<ForStmt>(NodeKind::For);
+    const TokenIndex opening = blockOpening_ = take();
+    bool whole = true; // once the head is broken, the rest of it is not missed
+    if (parseForeignFor(node)) return parseForBody(node, opening, false);
+    if (kind() == K::KwFrom && peek() != K::KwFrom) {
+        report(Code::UnexpectedToken, pos_, {describe(pos_), "a name"});
+    } else if (beginsInstruction()) {
+        node->variable = missingName();
+        whole = false;
+    } else {
+        node->variable = expectName();
+        checkNameLength(node->variable);
+    }
+    if (!panic_ && (kind() == K::Assign || kind() == K::Equal)) { // FOR i := 1 TO 5 DO
+        fix(report(Code::MissingBlockWord, pos_, {describe(pos_), "FROM"}), tree_.range(pos_), "FROM");
+        take();
+    } else {
+        whole = expectHeadWord(K::KwFrom, whole);
+    }
+    node->from = parseHeadExpr(whole);
+    if (whole && !panic_ && kind() == K::KwDo) {
+        report(Code::MissingBlockWord, pos_, {describe(pos_), "TO and the end value"});
+        node->to = errorExpr();
+    } else {
+        whole = expectHeadWord(K::KwTo, whole);
+        node->to = parseHeadExpr(whole);
+    }
+    if (!panic_ && whole && kind() == K::Identifier && !startsLine(pos_)) retagIfMeant(K::KwStep);
+    if (!panic_ && whole && accept(K::KwStep)) node->step = parseHeadExpr(whole);
+    if (kind() != K::LeftBrace) whole = expectHeadWord(K::KwDo, whole);
+    return parseForBody(node, opening, whole);
+}
+
+Stmt* Parser::parseForBody(ForStmt* node, TokenIndex opening, bool whole) {
+    bool braced = !whole; // the head has been reported
+    node->body = parseBody({K::KwEndfor}, "DO: the instructions of FOR end with ENDFOR", braced);
+    closeBracedBlock(K::KwEndfor, opening, whole, braced);
+    return finish(node);
+}
+
+Stmt* Parser::parseWhile() {
+    const Restore restore(blockOpening_);
+    auto* node = make<WhileStmt>(NodeKind::While);
+    const TokenIndex opening = blockOpening_ = take();
+    bool whole = true;
+    TokenIndex found = 0;
+    const bool hidden = !findOnLine(pos_, K::KwDo, found) && negatesByComment("DO");
+    node->condition = hidden ? errorExpr() : parseHeadExpr(whole, HeadPart::Condition);
+    if (!panic_ && kind() == K::Semicolon && foreignCloser_ == "WHILE") { // DO ... WHILE condition;
+        foreignCloser_ = {};
+        take();
+        return errorStmt(opening);
+    }
+    if (!hidden && kind() != K::LeftBrace) whole = expectHeadWord(K::KwDo, whole);
+    bool braced = false;
+    node->body = parseBody({K::KwEndwhile}, "DO: the instructions of WHILE end with ENDWHILE", braced);
+    closeBracedBlock(K::KwEndwhile, opening, whole, braced);
+    return finish(node);
+}
+
+Stmt* Parser::parseTest() {
+    const Restore restore(blockOpening_);
+    auto* node = make<TestStmt>(NodeKind::Test);
+    const TokenIndex opening = blockOpening_ = take();
+    node->subject = parseExpr();
+    const size_t mark = cases_.size();
+    if (!panic_ && !kTestEnds.has(kind()) && !startsLine(pos_) && startsLine(pos_ + 1) &&
+        kTestEnds.has(peek())) { // TEST n OF
+        fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "CASE"}), tree_.range(pos_), "");
+        take();
+    }
+    if (panic_) syncStatement();
+    if (!kTestEnds.has(kind()) && kind() != K::EndOfFile) {
+        auto* lost = make<TestCase>(NodeKind::TestCase);
+        const TokenIndex at = pos_;
+        const size_t errorsBefore = errors_;
+        lost->body = parseList(kTestEnds);
+        if (!lost->body.empty()) {
+            if (errors_ == errorsBefore) report(Code::InstructionOutsideCase, at);
+            cases_.push_back(finish(lost));
+        }
+    }
+    while (kind() != K::KwEndtest && kTestEnds.has(kind())) {
+        if (node->hasDefault) report(Code::CaseAfterDefault, pos_, {describe(pos_)});
+        if (kind() == K::KwCase && peek() == K::KwElse && peek(2) == K::Colon) {
+            retag(pos_, pos_ + 1, K::KwDefault);
+            ++pos_;
+        }
+        if (kind() != K::KwDefault) {
+            cases_.push_back(parseCase());
+            continue;
+        }
+        take();
+        if (!std::exchange(colonGiven_, false) && !accept(K::Colon))
+            fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "':'"}), endOf(pos_ - 1), ":");
+        const StmtList body = parseList(kTestEnds);
+        if (!node->hasDefault) node->defaultBody = body;
+        node->hasDefault = true;
+    }
+    closeBlock(K::KwEndtest, opening);
+    node->cases = drain(cases_, mark);
+    return finish(node);
+}
+
+TestCase* Parser::parseCase() {
+    auto* node = make<TestCase>(NodeKind::TestCase);
+    if (take(), tokens_[pos_ - 1].kind == K::KwCase) {
+        const size_t mark = exprs_.size();
+        bool whole = true;
+        do
+            exprs_.push_back(parseHeadExpr(whole, HeadPart::CaseValue));
+        while (whole && !panic_ && accept(K::Comma));
+        node->values = drain(exprs_, mark);
+        TokenIndex found = 0;
+        if (whole && !accept(K::Colon)) {
+            const bool later = findOnLine(pos_, K::Colon, found) && !startsLine(found);
+            if (startsLine(pos_) && pos_ > 0) {
+                fix(reportAt(Code::UnexpectedToken, endOf(pos_ - 1), {describe(pos_), "':'"}),
+                    endOf(pos_ - 1), ":");
+            } else if (kind() != K::Error) {
+                diag::Diagnostic* d = report(Code::UnexpectedToken, pos_, {describe(pos_), "',' or ':'"});
+                if (kind() == K::Semicolon) fix(d, tree_.range(pos_), ":");
+            }
+            if (later) {
+                pos_ = found + 1;
+            } else if (accept(K::Semicolon)) { // "CASE 1;"
+            } else if (panic_) {
+                syncStatement();
+            }
+            panic_ = false;
+        }
+    }
+    node->body = parseList(kTestEnds);
+    return finish(node);
+}
+
+} // namespace rapid::syntax

@@ -1,0 +1,284 @@
+// What other languages write where RAPID has blocks, negation and declarations of its own: reported once, and read as it
+// was meant, so that the rest of the routine keeps its meaning.
+
+#include "frontend/syntax/parser_impl.h"
+
+#include <utility>
+
+namespace rapid::syntax {
+
+using diag::Code;
+
+namespace {
+
+bool isBlank(char c) {
+    return c == ' ' || c == '\t';
+}
+
+} // namespace
+
+// ---- Blocks in braces ------------------------------------------------------------------------------------------
+
+/// At '{' behind a name: does it begin a block? Then the line ends, and what follows is no list of indexes.
+bool Parser::isBlockBrace() const {
+    if (kind() != K::LeftBrace || !inHead_ || !startsLine(pos_ + 1)) return false;
+    // An index goes on to its '}', with ':=' only in the arguments of a call.
+    constexpr TokenSet kBlock = {K::Semicolon, K::KwIf,    K::KwFor,  K::KwWhile, K::KwTest,
+                                 K::KwReturn,  K::KwRaise, K::KwGoto, K::KwExit,  K::EndOfFile};
+    uint32_t depth = 0;
+    TokenIndex i = pos_ + 1;
+    for (; kindAt(i) != K::RightBrace && !kBlock.has(kindAt(i)); ++i) {
+        if (kindAt(i) == K::LeftParen) ++depth;
+        if (kindAt(i) == K::RightParen && depth > 0) --depth;
+        if (kindAt(i) == K::Assign && depth == 0) return true;
+    }
+    return kindAt(i) != K::RightBrace || i == pos_ + 1;
+}
+
+/// A block in braces: `expected` says how RAPID writes it. The list ends at its '}', or as it should.
+StmtList Parser::parseBody(const TokenSet& own, const std::string& expected, bool& braced) {
+    if (skipBracedComment() || kind() != K::LeftBrace || panic_) return parseList(own);
+    if (!braced) report(Code::ForeignSpelling, pos_, {"{", expected});
+    braced = true;
+    take();
+    ++braces_;
+    const StmtList list = parseList(own, true);
+    --braces_;
+    return list;
+}
+
+/// The END word of a block that may have ended with '}'. Then it is not missed, and one that stands further out belongs
+/// to a block around this one.
+void Parser::closeBracedBlock(K end, TokenIndex opening, bool whole, bool braced) {
+    if (!braced) return closeBlock(end, opening, whole);
+    const bool own = !startsLine(pos_) || columnOf(pos_) == indentOf(opening);
+    if (own) accept(end);
+    panic_ = false;
+}
+
+/// `{ text }` in one line, without a semicolon: a comment of another language.
+bool Parser::skipBracedComment() {
+    if (kind() != K::LeftBrace || panic_) return false;
+    TokenIndex close = pos_ + 1;
+    while (close < last_ && !startsLine(close) && kindAt(close) != K::RightBrace &&
+           kindAt(close) != K::Semicolon)
+        ++close;
+    if (kindAt(close) != K::RightBrace || startsLine(close) || close == pos_ + 1) return false;
+    report(Code::ForeignSpelling, pos_, {"{", "'!' before a comment"});
+    pos_ = close + 1;
+    return true;
+}
+
+/// Braces that belong to nothing: a block without a word, or a comment.
+Stmt* Parser::parseBareBraces() {
+    const TokenIndex first = pos_;
+    if (skipBracedComment()) return errorStmt(first);
+    bool braced = false;
+    parseBody(enclosing_, "an instruction: RAPID has no blocks in braces", braced);
+    return errorStmt(first);
+}
+
+// ---- Heads -----------------------------------------------------------------------------------------------------
+
+/// `:` in place of THEN or DO, or behind a word that takes none.
+bool Parser::takesColonAs(std::string_view word) {
+    if (panic_ || kind() != K::Colon || startsLine(pos_) || !startsLine(pos_ + 1)) return false;
+    if (word.empty()) {
+        fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "an instruction"}), tree_.range(pos_), "");
+    } else {
+        const bool spaced = tree_.range(pos_ - 1).end < tree_.range(pos_).begin;
+        fix(report(Code::MissingBlockWord, pos_, {describe(pos_), std::string(word)}), tree_.range(pos_),
+            (spaced ? "" : " ") + std::string(word));
+    }
+    take();
+    return true;
+}
+
+/// "IF !ready THEN": the rest of the line is a comment, which ends with this word, and what follows is no operand.
+bool Parser::negatesByComment(std::string_view ending) {
+    if (panic_ || !startsLine(pos_)) return false;
+    const std::string_view text = tree_.source->text();
+    uint32_t at = tree_.range(pos_ - 1).end;
+    while (at < text.size() && isBlank(text[at]))
+        ++at;
+    if (at + 1 >= text.size() || text[at] != '!' || isBlank(text[at + 1]) || text[at + 1] == '!')
+        return false;
+    std::string_view comment = text.substr(at, text.find_first_of("\r\n", at) - at);
+    while (isBlank(comment.back()))
+        comment.remove_suffix(1);
+    if (comment.size() <= ending.size() ||
+        !equalsNoCase(comment.substr(comment.size() - ending.size()), ending))
+        return false;
+    fix(reportAt(Code::ForeignSpelling, {at, at + 1}, {"!", "NOT: '!' begins a comment"}), {at, at + 1},
+        "NOT ");
+    return true;
+}
+
+/// `FOR (i = 0; i < 3; i++)`: one report for the head; what is assigned first is the loop variable.
+bool Parser::parseForeignFor(ForStmt* node) {
+    if (panic_ || kind() != K::LeftParen) return false;
+    report(Code::ForeignSpelling, pos_, {"(", "a head such as FOR i FROM 1 TO 10 DO"});
+    uint32_t depth = 0;
+    do {
+        if (kind() == K::LeftParen) ++depth;
+        if (kind() == K::RightParen) --depth;
+        const bool assigned = peek() == K::Assign || peek() == K::Equal || peek() == K::KwFrom;
+        if (node->variable == kNoToken && isName(kind()) && assigned) node->variable = pos_;
+        take();
+    } while (depth > 0 && !startsLine(pos_) && kind() != K::EndOfFile);
+    node->from = errorExpr();
+    node->to = errorExpr();
+    accept(K::KwDo);
+    return true;
+}
+
+// ---- Declarations ----------------------------------------------------------------------------------------------
+
+/// `num x;`, `num x := 1;`: a word is missing before the data type.
+bool Parser::isWordlessData() const {
+    constexpr TokenSet kAfter = {K::Semicolon, K::Assign, K::LeftBrace, K::Equal};
+    return kind() == K::Identifier && isBasicType(textOf(pos_)) && isName(peek()) && !startsLine(pos_ + 1) &&
+           kAfter.has(peek(2));
+}
+
+/// Type and name of data that stand in another order, or without a type: `x : num`, `x AS num`, `x := 1`.
+bool Parser::parseForeignData(DataDecl* node) {
+    if (!isName(kind())) return false;
+    constexpr TokenSet kAfterName = {K::Semicolon, K::Assign, K::Equal};
+    const bool as = isContextual(pos_ + 1, "AS") && isName(peek(2));
+    const bool colon = peek() == K::Colon && isName(peek(2));
+    if (as || colon) {
+        report(Code::ForeignSpelling, pos_ + 1,
+               {std::string(textOf(pos_ + 1)), "the data type before the name"});
+        node->name = take();
+        take();
+        node->type = take();
+        return true;
+    }
+    if (!kAfterName.has(peek()) || isBasicType(textOf(pos_))) return false; // of a type, the name is missing
+    report(Code::MissingDataType, pos_, {std::string(textOf(pos_))});
+    node->name = take();
+    return true;
+}
+
+/// Dimensions in other brackets, or before the name: `num list[10]`, `num{10} list`.
+void Parser::parseDimensionsOf(DataDecl* node, bool beforeName) {
+    const K open = kind();
+    const bool foreign = open == K::LeftBracket || open == K::LeftParen;
+    if (open != K::LeftBrace && !foreign) return;
+    diag::Diagnostic* diagnostic = nullptr;
+    if (beforeName) {
+        report(Code::UnexpectedToken, pos_, {describe(pos_), "a name: the dimensions stand behind it"});
+    } else if (foreign) {
+        diagnostic =
+            report(Code::ForeignSpelling, pos_, {std::string(textOf(pos_)), "'{' before the dimensions"});
+    }
+    const TokenIndex opening = take();
+    const size_t reported = sink_.all().size();
+    const K closing = open == K::LeftBracket ? K::RightBracket
+                      : open == K::LeftParen ? K::RightParen
+                                             : K::RightBrace;
+    node->dims = parseExprList(closing, opening);
+    if (diagnostic && !panic_ && sink_.all().size() == reported)
+        diagnostic->fixes.push_back({"put the dimensions between '{' and '}'",
+                                     {{tree_.range(opening), "{"}, {tree_.range(pos_ - 1), "}"}}});
+}
+
+/// `VAR num x, y;`: each name after the first is read as a declaration of its own.
+void Parser::noteMoreNames(const DataDecl* node) {
+    if (panic_ || kind() != K::Comma || !isName(peek()) || startsLine(pos_ + 1)) return;
+    report(Code::UnexpectedToken, pos_, {describe(pos_), "';': a declaration has one name"});
+    moreOf_ = node;
+}
+
+DataDecl* Parser::parseMoreNames() {
+    if (!moreOf_) return nullptr;
+    const DataDecl* model = moreOf_;
+    moreOf_ = nullptr;
+    auto* node = make<DataDecl>(NodeKind::Data);
+    take(); // the comma
+    node->scope = model->scope;
+    node->dataKind = model->dataKind;
+    node->type = model->type;
+    parseDataTail(node, true, false);
+    return finish(node);
+}
+
+/// A parameter without a data type, or with it behind the name; true when it has been read.
+bool Parser::parseForeignParameter(ParamDecl* node) {
+    constexpr TokenSet kAfter = {K::Comma, K::RightParen, K::Bar, K::Backslash};
+    if (!isName(kind())) return false;
+    if (peek() == K::Colon && isName(peek(2))) {
+        report(Code::ForeignSpelling, pos_ + 1, {":", "the data type before the name"});
+        node->name = take();
+        take();
+        node->type = take();
+        return true;
+    }
+    if (!kAfter.has(peek()) || isBasicType(textOf(pos_))) return false;
+    if (!std::exchange(typeMissed_, true)) report(Code::MissingDataType, pos_, {std::string(textOf(pos_))});
+    node->name = take();
+    return true;
+}
+
+/// IN, REF, OUT ... before a parameter: reported and left out.
+void Parser::dropForeignMode(ParamDecl* node) {
+    if (options_.declarations || !isName(peek()) || !isName(peek(2))) return;
+    struct Mode {
+        std::string_view word, expected, fix;
+        ParamMode mode;
+    };
+    static constexpr Mode kModes[] = {
+        {"IN", "the data type: IN is what has no word", "", ParamMode::In},
+        {"BYVAL", "the data type: what has no word is passed by value", "", ParamMode::In},
+        {"REF", "INOUT", "INOUT", ParamMode::Inout},
+        {"BYREF", "INOUT", "INOUT", ParamMode::Inout},
+        {"OUT", "INOUT", "INOUT", ParamMode::Inout}};
+    for (const Mode& mode : kModes) {
+        if (!isContextual(pos_, mode.word)) continue;
+        diag::Diagnostic* diagnostic =
+            report(Code::ForeignSpelling, pos_, {std::string(textOf(pos_)), std::string(mode.expected)});
+        if (mode.fix.empty())
+            fix(diagnostic, {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");
+        else
+            fix(diagnostic, tree_.range(pos_), std::string(mode.fix));
+        node->mode = mode.mode;
+        take();
+        return;
+    }
+}
+
+// ---- Lists and comments ----------------------------------------------------------------------------------------
+
+/// `(1, 2, 3)` as a value, at its first comma.
+void Parser::parseForeignAggregate(TokenIndex opening) {
+    diag::Diagnostic* diagnostic =
+        report(Code::ForeignSpelling, opening, {"(", "'[' around the values of a record or an array"});
+    const size_t reported = sink_.all().size();
+    take();
+    parseExprList(K::RightParen, opening);
+    if (diagnostic && !panic_ && sink_.all().size() == reported)
+        diagnostic->fixes.push_back({"put the values between '[' and ']'",
+                                     {{tree_.range(opening), "["}, {tree_.range(pos_ - 1), "]"}}});
+}
+
+/// "REM text", "-- text": the line is skipped.
+bool Parser::skipForeignComment() {
+    const bool dashes = kind() == K::Minus && peek() == K::Minus;
+    if (!dashes) {
+        if (!isContextual(pos_, "REM") || startsLine(pos_ + 1) || kindAt(pos_ + 1) == K::Semicolon)
+            return false;
+        TokenIndex last = pos_; // with a semicolon it is a call
+        while (last + 1 < last_ && !startsLine(last + 1))
+            ++last;
+        if (kindAt(last) == K::Semicolon) return false;
+    }
+    const SourceRange range{tree_.range(pos_).begin, tree_.range(dashes ? pos_ + 1 : pos_).end};
+    fix(reportAt(Code::ForeignSpelling, range, {dashes ? "--" : "REM", "'!' before a comment"}), range, "!");
+    do
+        take();
+    while (!startsLine(pos_) && kind() != K::EndOfFile);
+    return true;
+}
+
+} // namespace rapid::syntax
