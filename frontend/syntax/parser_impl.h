@@ -31,6 +31,16 @@ template <class T> class Restore {
     T saved_;
 };
 
+/// Words at which a list of instructions has to stop and think.
+inline constexpr TokenSet kListStops = {
+    TokenKind::KwEndfor,   TokenKind::KwEndfunc, TokenKind::KwEndif,     TokenKind::KwEndmodule,
+    TokenKind::KwEndproc,  TokenKind::KwEndtest, TokenKind::KwEndrecord, TokenKind::KwEndtrap,
+    TokenKind::KwEndwhile, TokenKind::KwElse,    TokenKind::KwElseif,    TokenKind::KwCase,
+    TokenKind::KwDefault,  TokenKind::KwError,   TokenKind::KwUndo,      TokenKind::KwBackward,
+    TokenKind::KwProc,     TokenKind::KwFunc,    TokenKind::KwTrap,      TokenKind::KwRecord,
+    TokenKind::KwAlias,    TokenKind::KwModule,  TokenKind::PlaceTdn,    TokenKind::PlaceRdn,
+    TokenKind::PlaceEit,   TokenKind::PlaceCse,  TokenKind::EndOfFile,   TokenKind::KwLocal,
+    TokenKind::Identifier};
 /// Words that end a branch.
 inline constexpr TokenSet kIfEnds = {TokenKind::KwEndif, TokenKind::KwElse, TokenKind::KwElseif,
                                      TokenKind::PlaceEit};

@@ -10,17 +10,6 @@ using diag::Code;
 
 namespace {
 
-/// Words at which a list of instructions has to stop and think.
-constexpr TokenSet kListStops = {
-    TokenKind::KwEndfor,   TokenKind::KwEndfunc, TokenKind::KwEndif,     TokenKind::KwEndmodule,
-    TokenKind::KwEndproc,  TokenKind::KwEndtest, TokenKind::KwEndrecord, TokenKind::KwEndtrap,
-    TokenKind::KwEndwhile, TokenKind::KwElse,    TokenKind::KwElseif,    TokenKind::KwCase,
-    TokenKind::KwDefault,  TokenKind::KwError,   TokenKind::KwUndo,      TokenKind::KwBackward,
-    TokenKind::KwProc,     TokenKind::KwFunc,    TokenKind::KwTrap,      TokenKind::KwRecord,
-    TokenKind::KwAlias,    TokenKind::KwModule,  TokenKind::PlaceTdn,    TokenKind::PlaceRdn,
-    TokenKind::PlaceEit,   TokenKind::PlaceCse,  TokenKind::EndOfFile,   TokenKind::KwLocal,
-    TokenKind::Identifier};
-
 /// First letters of END, ELSE, ERROR, CASE, DEFAULT, UNDO, BACKWARD, and of words of other languages for them.
 bool mayBeMisspelt(char first) {
     return std::string_view("ecdubnwo").find(static_cast<char>(first | 32)) != std::string_view::npos;
