@@ -37,15 +37,22 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "same := reg1 = \"1\";",
      "VAR bool same;\n"
      "same := NumToStr(reg1, 0) = \"1\";"},
-    {3005, Kind::Body,
-     "There is no operator for whole arrays except assignment (manual 1.3.2). Compare element by "
-     "element in a loop.",
-     "VAR num a{2};\n"
-     "VAR num b{2};\n"
-     "IF a = b reg1 := 1;",
-     "VAR num a{2};\n"
-     "VAR num b{2};\n"
-     "IF a{1} = b{1} AND a{2} = b{2} reg1 := 1;"},
+    {3005, Kind::Module,
+     "Whole arrays are compared when their sizes are known and equal. The size of an array parameter is known at "
+     "run time only (manual 1.1.5): compare element by element in a loop.",
+     "PROC main()\n"
+     "ENDPROC\n"
+     "FUNC bool Same(num a{*}, num b{*})\n"
+     "  RETURN a = b;\n"
+     "ENDFUNC",
+     "PROC main()\n"
+     "ENDPROC\n"
+     "FUNC bool Same(num a{*}, num b{*})\n"
+     "  FOR i FROM 1 TO Dim(a, 1) DO\n"
+     "    IF a{i} <> b{i} RETURN FALSE;\n"
+     "  ENDFOR\n"
+     "  RETURN TRUE;\n"
+     "ENDFUNC"},
     {3006, Kind::Body,
      "Data of non-value types is used only through instructions and functions made for it (manual "
      "1.2.1).",

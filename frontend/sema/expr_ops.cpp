@@ -191,6 +191,24 @@ Typed Analyzer::comparison(const BinaryExpr& e, Typed left, Typed right) {
     return result(e, program_.boolean);
 }
 
+namespace {
+
+/// Arrays of the same dimensions; `known`: all of them are, on both sides.
+bool sameDimensions(const DataType& a, const DataType& b, bool& known) {
+    known = true;
+    if (a.rank != b.rank) return false;
+    for (unsigned i = 0; i < a.rank && i < std::size(a.dims); ++i) {
+        if (a.dims[i] == 0 || b.dims[i] == 0)
+            known = false;
+        else if (a.dims[i] != b.dims[i])
+            return false;
+    }
+    return true;
+}
+
+} // namespace
+
+// Whole arrays of known, equal size are compared as they are assigned (manual 1.3.2).
 Typed Analyzer::equality(const BinaryExpr& e, Typed left, Typed right) {
     Flex flex = Flex::None;
     const Numeric numeric = unify(e, left, right, flex);
@@ -200,9 +218,9 @@ Typed Analyzer::equality(const BinaryExpr& e, Typed left, Typed right) {
         foldBinary(e);
     else if (numeric == Numeric::Mixed)
         report(Code::NumDnumMixed, range(e.opToken), {text(e.opToken)});
-    else if (a.type->base() != b.type->base() || a.rank != b.rank)
+    else if (bool known = true; a.type->base() != b.type->base() || !sameDimensions(a, b, known))
         report(Code::CompareTypes, range(e.opToken), {text(e.opToken), typeName(a), typeName(b)});
-    else if (a.rank > 0)
+    else if (!known)
         report(Code::CompareArrays, range(e.opToken), {text(e.opToken)});
     else
         foldBinary(e);

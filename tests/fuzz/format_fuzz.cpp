@@ -67,7 +67,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         return 0;
     }
     request.keepErrors = true;
-    formatOnce(bytes, request, refused);
+    const std::string around = formatOnce(bytes, request, refused);
+    if (!refused) {
+        const std::string twice = formatOnce(around, request, refused);
+        require(!refused && around == twice, "formatting around mistakes again changes the text");
+    }
     request.keepErrors = false;
     request.firstLine = 2;
     request.lastLine = 5;
