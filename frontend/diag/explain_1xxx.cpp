@@ -14,10 +14,8 @@ constexpr auto kExplanations = std::to_array<Explanation>({
     {1001, Kind::Body,
      "The character has no meaning in RAPID outside strings and comments. Names consist of letters of ISO "
      "8859-1, digits "
-     "and '_', and begin with a letter (manual 1.1.2). Text pasted from a word processor often has "
-     "typographic quotation "
-     "marks or non-breaking spaces.",
-     "TPWrite “hello”;", "TPWrite \"hello\";"},
+     "and '_', and begin with a letter (manual 1.1.2).",
+     "reg1 := 5 @ 3;", "reg1 := 5 + 3;"},
     {1002, Kind::File,
      "The file contains bytes that no text has. Modules that were encrypted by a controller look like this, "
      "and so do "

@@ -21,6 +21,7 @@ std::string Analyzer::describeExpr(const Expr& e) {
     case NodeKind::BoolLiteral: return "a literal";
     case NodeKind::Call: return "a function call";
     case NodeKind::Aggregate: return "an aggregate";
+    case NodeKind::Paren: return "an expression in parentheses";
     case NodeKind::Binary: {
         const BinaryOp op = as<BinaryExpr>(e).op;
         return op >= BinaryOp::Lt && op <= BinaryOp::Ge ? "a comparison" : "an expression";

@@ -229,8 +229,7 @@ Typed Analyzer::equality(const BinaryExpr& e, Typed left, Typed right) {
 
 Typed Analyzer::logic(const BinaryExpr& e, Typed left, Typed right) {
     if (!left.isScalar(TypeKind::Bool) || !right.isScalar(TypeKind::Bool)) {
-        operatorError(e, left, right);
-        return result(e, program_.boolean);
+        return operatorError(e, left, right);
     }
     const Typed t = result(e, program_.boolean);
     foldBinary(e);

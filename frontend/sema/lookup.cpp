@@ -92,7 +92,7 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
     const bool mecunit = handle && handle->base()->name == "mecunit";
     const Type* type = handle && handle->kind == TypeKind::SemiValue ? handle : nullptr;
     if (!type && !mecunit && context_.routine) type = signalTypeByUse(name);
-    if (!type && !mecunit && context_.routine && !options_.configurationKnown && !incomplete_) {
+    if (!type && !mecunit && context_.routine && !incomplete_) {
         const std::string_view typeName = signalTypeByName(text(token));
         if (const TypeSymbol* signal =
                 typeName.empty() ? nullptr : asType(at(predefined_, interner_.intern(typeName))))

@@ -273,8 +273,11 @@ bool Analyzer::assignable(const Place& place, const Expr& target) {
 bool Analyzer::isCallWord(const CallStmt& s) {
     if (interner_.folded(idOf(s.name)) != "call" || s.args.size() != 1) return false;
     const Expr* value = s.args[0]->value;
-    if (!value || value->kind != NodeKind::Name || !isName(as<NameExpr>(*value).name)) return false;
-    const RoutineSymbol* routine = asRoutine(lookup(idOf(as<NameExpr>(*value).name)));
+    TokenIndex name = kNoToken; // CALL work; CALL work(1);
+    if (value && value->kind == NodeKind::Name) name = as<NameExpr>(*value).name;
+    if (value && value->kind == NodeKind::Call) name = as<CallExpr>(*value).name;
+    if (!isName(name)) return false;
+    const RoutineSymbol* routine = asRoutine(lookup(idOf(name)));
     return routine && routine->routineKind == RoutineKind::Proc;
 }
 

@@ -1,4 +1,5 @@
 #include "frontend/syntax/lexer.h"
+#include "frontend/syntax/foreign_characters.h"
 
 #include "frontend/syntax/token_set.h"
 
@@ -134,19 +135,6 @@ bool isLatin1Letter(const char* p) {
 }
 
 /// "'@'" or "U+00A0" for what a screen does not show.
-std::string showCharacter(std::string_view text) {
-    const auto c = static_cast<unsigned char>(text[0]);
-    if (c < 0x80) return c >= 0x20 && c != 0x7F ? fmt::format("'{}'", text[0]) : fmt::format("U+{:04X}", c);
-    const size_t length = c >= 0xF0 ? 4 : c >= 0xE0 ? 3 : 2;
-    uint32_t point = c & (length == 4 ? 0x07u : length == 3 ? 0x0Fu : 0x1Fu);
-    for (size_t i = 1; i < length && i < text.size(); ++i)
-        point = point << 6 | (static_cast<unsigned char>(text[i]) & 0x3Fu);
-    const bool visible = point > 0xA0 && point != 0xAD && !(point >= 0x2000 && point <= 0x200F) &&
-                         !(point >= 0x2028 && point <= 0x202F) && point != 0xFEFF && point != 0x3000;
-    return visible ? fmt::format("'{}' (U+{:04X})", text.substr(0, length), point)
-                   : fmt::format("U+{:04X}", point);
-}
-
 class Lexer {
   public:
     explicit Lexer(std::string_view text)
@@ -287,6 +275,13 @@ class Lexer {
                rest.find(" DO") != std::string_view::npos;
     }
 
+    /// At the beginning of a line or behind an instruction, where nothing but a comment goes on.
+    bool mayBeRemark(const char* start) const {
+        if (result_.tokens.empty() || result_.tokens.back().kind == TokenKind::Semicolon) return true;
+        const Token& last = result_.tokens.back();
+        return isKeyword(last.kind) || std::any_of(begin_ + last.offset + last.length, start, isLineEnd);
+    }
+
     /// `&` `~` `^` and text in single quotes; false for other characters.
     bool readForeignCharacter() {
         const char* start = p_;
@@ -304,6 +299,10 @@ class Lexer {
             ++p_;
             foreign(start, "NOT", "NOT");
             push(TokenKind::KwNot, start);
+        } else if (*p_ == '#' && mayBeRemark(start)) {
+            ++p_;
+            foreign(start, "'!' before a comment", "!");
+            skipLine();
         } else if (*p_ == '^') {
             ++p_;
             foreign(start, "function Pow", "");
@@ -312,7 +311,13 @@ class Lexer {
             const char* close = p_ + 1;
             while (close < end_ && *close != '\'' && !isLineEnd(*close))
                 ++close;
-            if (*close != '\'') return false;
+            if (*close != '\'') {
+                if (!mayBeRemark(start)) return false;
+                ++p_;
+                foreign(start, "'!' before a comment", "!");
+                skipLine();
+                return true;
+            }
             p_ = close + 1;
             const std::string_view content = slice(start + 1, close);
             const bool plain = content.find_first_of("\"\\") == std::string_view::npos;
@@ -528,6 +533,36 @@ class Lexer {
         push(TokenKind::Less, start);
     }
 
+    /// Quotation marks, dashes, spaces and punctuation of word processors and other keyboards; false for other characters.
+    bool readTypographic() {
+        const char* start = p_;
+        const std::string_view line = slice(start, std::find_if(start, end_, isLineEnd));
+        const ForeignCharacter* found = foreignCharacter(line);
+        if (!found) return false;
+        p_ += found->utf8.size();
+        if (found->meant != "\"") {
+            const bool space = found->meant == " ";
+            error(diag::Code::ForeignSpelling, start, p_,
+                  {space ? showCharacter(found->utf8) : std::string(found->utf8),
+                   space ? "a plain space" : fmt::format("'{}'", found->meant)},
+                  std::string(found->meant));
+            if (found->kind != TokenKind::Error) push(found->kind, start);
+            return true;
+        }
+        const char* close = p_;
+        const char* end = line.data() + line.size();
+        while (close < end && quoteLength(slice(close, end)) == 0)
+            ++close;
+        const std::string_view content = slice(p_, close);
+        const bool whole = close < end && content.find('\\') == std::string_view::npos;
+        p_ = close + quoteLength(slice(close, end));
+        error(diag::Code::ForeignSpelling, start, p_,
+              {std::string(slice(start, p_).substr(0, 40)), "a string between '\"'"},
+              whole ? std::optional('"' + std::string(content) + '"') : std::nullopt);
+        push(TokenKind::Error, start);
+        return true;
+    }
+
     /// One token for a run of unreadable characters, one report for a line of them.
     void readJunk() {
         const char* start = p_;
@@ -535,7 +570,7 @@ class Lexer {
         for (const char* q = lastJunk_; sameLine && q < start; ++q)
             sameLine = !isLineEnd(*q);
         if (*p_ == '_') return readUnderscoreName();
-        if (!sameLine && readForeignCharacter()) return;
+        if (!sameLine && (readForeignCharacter() || readTypographic())) return;
         while (p_ < end_ && isJunk()) {
             ++p_;
             skipContinuation();

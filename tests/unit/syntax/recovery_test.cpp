@@ -129,7 +129,7 @@ const std::vector<Case> kBodies = {
     {"unknown character", "x := 1 @ 2;\ny := 1;", "RAP1001@3:8"},
     {"unknown characters in a line", "@ # $ & ~\ny := 1;", "RAP1001@3:1"},
     {"unknown characters in two lines", "x := @;\ny := #;", "RAP1001@3:6 RAP1001@4:6"},
-    {"typographic quotes", "TPWrite “hello world”;\ny := 1;", "RAP1001@3:9"},
+    {"typographic quotes", "TPWrite “hello world”;\ny := 1;", "RAP1112@3:9"},
     {"name that begins with _", "VAR num _a;\ny := 1;", "RAP1013@3:9"},
     {"string not closed", "TPWrite \"hello;\ny := 1;", "RAP1006@3:9"},
     {"string not closed inside parentheses", "x := f(\"hello);\ny := 1;", "RAP1006@3:8"},
