@@ -13,7 +13,8 @@ struct Module;
 }
 namespace rt {
 struct ProgramDesc;
-}
+struct UnitImage;
+} // namespace rt
 
 namespace codegen {
 
@@ -48,6 +49,11 @@ std::unique_ptr<JitProgram> jit(const ir::Module& module, const CodegenOptions& 
 bool emitObject(const ir::Module& module, const std::string& path, const CodegenOptions& options,
                 std::string& error);
 
+/// Compiles `module` into an image that any process can map, without debug information. False and a message in `error` on
+/// failure.
+bool emitImage(const ir::Module& module, const CodegenOptions& options, rt::UnitImage& image,
+               std::string& error);
+
 /// Text of the LLVM IR (after optimisation when asked for) or of the assembly; empty with `error` set on failure.
 std::string emitLlvm(const ir::Module& module, const CodegenOptions& options, std::string& error);
 std::string emitAsm(const ir::Module& module, const CodegenOptions& options, std::string& error);
@@ -59,6 +65,7 @@ struct LinkOptions {
     std::vector<std::string>
         extraArguments; ///< passed on to the linker driver after the libraries, e.g. "-lpthread"
     std::string driver; ///< compiler driver; empty: clang++-19, clang++, g++-12, g++, c++ in turn
+    std::vector<std::string> wholeLibraries; ///< as `libraries`, but nothing in them is left out
     bool stripDebug = false;
 };
 

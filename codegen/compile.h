@@ -24,4 +24,8 @@ std::unique_ptr<llvm::Module> compile(const ir::Module& module, const CodegenOpt
 bool generate(llvm::Module& module, llvm::TargetMachine& machine, llvm::CodeGenFileType type,
               llvm::SmallVectorImpl<char>& out, std::string& error);
 
+/// Both: from the IR to the bytes of an object file or the text of the assembly.
+bool compileTo(const ir::Module& module, const CodegenOptions& options, llvm::CodeGenFileType type,
+               llvm::SmallVectorImpl<char>& out, std::string& error);
+
 } // namespace codegen

@@ -19,7 +19,7 @@ static_assert(sizeof(rt::ParamDesc) == 24 && sizeof(rt::RoutineDataDesc) == 40 &
               sizeof(rt::ModuleDesc) == 24);
 static_assert(int{rt::kDataLocal} == ir::kDataLocal && int{rt::kDataPredefined} == ir::kDataPredefined);
 static_assert(sizeof(rt::RoutineDesc) == 88 && sizeof(rt::TaskDesc) == 40 && sizeof(rt::GlobalDesc) == 56);
-static_assert(sizeof(rt::ExternalDesc) == 40 && sizeof(rt::ProgramDesc) == 160);
+static_assert(sizeof(rt::ExternalDesc) == 40 && sizeof(rt::ProgramDesc) == 176);
 
 static_assert(int{rt::kStmtCallsRoutine} == ir::kStmtCallsRoutine &&
               int{rt::kStmtCallsBackward} == ir::kStmtCallsBackward &&
@@ -89,8 +89,8 @@ void ModuleEmitter::declareTables() {
     routineDataType_ = make("rt.RoutineDataDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i8_});
     moduleDescType_ = make("rt.ModuleDesc", {ptr_, ptr_, i32_});
     programDescType_ =
-        make("rt.ProgramDesc", {ptr_, ptr_, i32_, ptr_, i32_, ptr_, i32_, ptr_, i32_, ptr_, ptr_,
-                                i32_, i32_, ptr_, ptr_, ptr_, i32_, i32_, ptr_, ptr_, ptr_, i32_});
+        make("rt.ProgramDesc", {ptr_, ptr_, i32_, ptr_, i32_, ptr_, i32_, ptr_, i32_, ptr_, ptr_, i32_,
+                                i32_, ptr_, ptr_, ptr_, i32_, i32_, ptr_, ptr_, ptr_, i32_, ptr_, i64_});
     for (const ir::TypeDesc& desc : module_.typeDescs)
         typeDescs_.push_back(placeholder(*target_, typeDescType_, "type." + desc.name));
     for (const ir::Routine& routine : module_.routines)
@@ -338,7 +338,9 @@ void ModuleEmitter::emitProgram() {
                            module_.unitReset == ir::kNone ? null() : cEntries_[module_.unitReset],
                            text(module_.folder),
                            aliasRows,
-                           i32(int64_t{aliasCount})});
+                           i32(int64_t{aliasCount}),
+                           module_.sources.empty() ? null() : text(module_.sources),
+                           llvm::ConstantInt::get(i64_, module_.sources.size())});
     auto* program =
         llvm::cast<llvm::GlobalVariable>(target_->getOrInsertGlobal(kProgramSymbol, programDescType_));
     program->setConstant(true);

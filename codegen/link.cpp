@@ -60,14 +60,20 @@ bool linkExecutable(const std::string& objectPath, const std::string& outputPath
                     std::string& error) {
     std::string driver = findDriver(options.driver, error);
     if (driver.empty()) return false;
-    for (const std::string& library : options.libraries) {
-        if (llvm::sys::fs::exists(library)) continue;
-        error = "the library " + library + " is missing: the installation of rapidc is incomplete";
-        return false;
-    }
+    for (const auto* libraries : {&options.libraries, &options.wholeLibraries})
+        for (const std::string& library : *libraries) {
+            if (llvm::sys::fs::exists(library)) continue;
+            error = "the library " + library + " is missing: the installation of rapidc is incomplete";
+            return false;
+        }
     std::vector<std::string> arguments{driver, objectPath};
     if (canUseLld()) arguments.push_back("-fuse-ld=lld");
     if (options.stripDebug) arguments.push_back("-Wl,--strip-debug");
+    if (!options.wholeLibraries.empty()) {
+        arguments.push_back("-Wl,--whole-archive");
+        arguments.insert(arguments.end(), options.wholeLibraries.begin(), options.wholeLibraries.end());
+        arguments.push_back("-Wl,--no-whole-archive");
+    }
     arguments.push_back("-Wl,--start-group");
     arguments.insert(arguments.end(), options.libraries.begin(), options.libraries.end());
     arguments.push_back("-Wl,--end-group");

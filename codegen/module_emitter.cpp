@@ -179,7 +179,8 @@ void ModuleEmitter::declareGlobals() {
         bool external = global.kind == ir::GlobalKind::External;
         llvm::Constant* init = external ? nullptr : initialValue(global);
         llvm::Type* type = init ? init->getType() : memoryType(global.type);
-        auto linkage = external ? llvm::GlobalValue::ExternalLinkage : llvm::GlobalValue::InternalLinkage;
+        // Data of another unit may be absent: its address is null then.
+        auto linkage = external ? llvm::GlobalValue::ExternalWeakLinkage : llvm::GlobalValue::InternalLinkage;
         auto* variable =
             new llvm::GlobalVariable(*target_, type, global.kind == ir::GlobalKind::Const, linkage, init,
                                      external ? global.name : internalName(global.name));

@@ -7,11 +7,9 @@
 #include "codegen/compile.h"
 
 namespace codegen {
-namespace {
 
-/// Compiles and generates; the bytes of an object file or the text of the assembly.
-bool build(const ir::Module& module, const CodegenOptions& options, llvm::CodeGenFileType type,
-           llvm::SmallVectorImpl<char>& out, std::string& error) {
+bool compileTo(const ir::Module& module, const CodegenOptions& options, llvm::CodeGenFileType type,
+               llvm::SmallVectorImpl<char>& out, std::string& error) {
     auto machine = makeTargetMachine(options, error);
     if (!machine) return false;
     llvm::LLVMContext context;
@@ -19,12 +17,10 @@ bool build(const ir::Module& module, const CodegenOptions& options, llvm::CodeGe
     return compiled && generate(*compiled, *machine, type, out, error);
 }
 
-} // namespace
-
 bool emitObject(const ir::Module& module, const std::string& path, const CodegenOptions& options,
                 std::string& error) {
     llvm::SmallVector<char, 0> bytes;
-    if (!build(module, options, llvm::CodeGenFileType::ObjectFile, bytes, error)) return false;
+    if (!compileTo(module, options, llvm::CodeGenFileType::ObjectFile, bytes, error)) return false;
     std::error_code failure;
     llvm::raw_fd_ostream file(path, failure);
     if (!failure) {
@@ -51,7 +47,7 @@ std::string emitLlvm(const ir::Module& module, const CodegenOptions& options, st
 
 std::string emitAsm(const ir::Module& module, const CodegenOptions& options, std::string& error) {
     llvm::SmallVector<char, 0> text;
-    if (!build(module, options, llvm::CodeGenFileType::AssemblyFile, text, error)) return {};
+    if (!compileTo(module, options, llvm::CodeGenFileType::AssemblyFile, text, error)) return {};
     return {text.data(), text.size()};
 }
 

@@ -275,6 +275,7 @@ struct Module {
     std::vector<TaskEntry> tasks;
     std::vector<std::string> files; ///< source paths
     std::string folder;             ///< relative source paths begin here; may be empty
+    std::string sources; ///< what the host compiles further modules by (any bytes); may be empty
     std::vector<ModuleEntry> modules;
     std::vector<uint32_t> searchTypes; ///< type descriptions that data can be searched by
     std::vector<RoutineData> routineData;

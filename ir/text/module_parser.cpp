@@ -28,6 +28,7 @@ class ModuleParser {
         if (in_.takeWord("module")) return in_.string(module_.name) && in_.endOfLine();
         if (in_.takeWord("file")) return file();
         if (in_.takeWord("folder")) return in_.string(module_.folder) && in_.endOfLine();
+        if (in_.takeWord("sources")) return in_.string(module_.sources) && in_.endOfLine();
         if (in_.takeWord("type")) return type();
         if (in_.takeWord("desc")) return desc();
         if (in_.takeWord("global")) return global();
@@ -41,7 +42,7 @@ class ModuleParser {
         if (in_.takeWord("search")) return searchType();
         if (in_.takeWord("within")) return routineData();
         if (in_.takeWord("named")) return named();
-        return in_.expected("module, file, folder, type, desc, global, native, routine, external, alias, "
+        return in_.expected("module, file, folder, sources, type, desc, global, native, routine, external, alias, "
                             "task, source, search, "
                             "within, named or config");
     }

@@ -360,6 +360,7 @@ std::string printModule(const Module& module) {
     for (size_t i = 0; i < module.files.size(); ++i)
         put(out, "file {} {}\n", i, quoted(module.files[i]));
     if (!module.folder.empty()) put(out, "folder {}\n", quoted(module.folder));
+    if (!module.sources.empty()) put(out, "sources {}\n", quoted(module.sources));
     for (TypeId id = kPtr + 1; id < module.types.size(); ++id)
         printType(out, module, id);
     for (size_t i = 0; i < module.typeDescs.size(); ++i)

@@ -256,6 +256,8 @@ struct ProgramDesc {
     const char* folder; ///< where relative paths of files begin; "" = where the process runs
     const GlobalDesc* aliases; ///< further declarations of persistents that tasks share, one row each
     uint32_t aliasCount;
+    const char* sources; ///< executables that can load modules: what the compiler needs for that; not a text
+    uint64_t sourcesSize;
 };
 
 } // namespace rt

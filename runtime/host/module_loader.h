@@ -1,6 +1,5 @@
 #pragma once
-// What the runtime needs from a compiler to load a module while a program runs (Load, StartLoad). The host supplies it;
-// executables made by `rapidc build` have none.
+// What the controller needs to load a module while a program runs (Load, StartLoad); see UnitLoader.
 
 #include "runtime/abi/rt_abi.h"
 
@@ -23,13 +22,20 @@ struct LoadRequest {
 struct LoadResult {
     enum class Verdict : uint8_t {
         Made,
-        Loaded, ///< a module of that name is in program memory already
-        Full,   ///< there is no memory left for it
-        Wrong   ///< it cannot be compiled beside them
+        Loaded,    ///< a module of that name is in program memory already
+        Full,      ///< there is no memory left for it
+        Wrong,     ///< it cannot be compiled beside them
+        NoCompiler ///< there is nothing that could compile it; `problems` says what is missing
     } verdict = Verdict::Wrong;
     std::string module;                ///< its name
     const ProgramDesc* unit = nullptr; ///< lives as long as the loader
     std::string problems;              ///< diagnostics, each with its place
+};
+
+/// References that nothing in memory declares: "'name' (module.modx:12)".
+struct OpenReferences {
+    std::vector<std::string> names;
+    std::string problem; ///< not empty: they could not be found out, and why
 };
 
 class ModuleLoader {
@@ -37,9 +43,11 @@ class ModuleLoader {
     virtual ~ModuleLoader() = default;
     /// Compiles a module against what `present` says is in memory; nothing there changes.
     virtual LoadResult make(const LoadRequest& request, const ProgramTables& present) = 0;
-    /// References in the modules of a task that nothing in memory declares: "Module:12: 'name'". Empty: all is well.
-    virtual std::vector<std::string> unresolved(const std::string& task, int32_t taskIndex,
-                                                const ProgramTables& present) = 0;
+    /// References of the modules of a task.
+    virtual OpenReferences unresolved(const std::string& task, int32_t taskIndex,
+                                      const ProgramTables& present) = 0;
+    /// A module has come into memory or left it: what others refer to may lie elsewhere now, or nowhere.
+    virtual void memoryChanged(const ProgramTables& present) = 0;
 };
 
 } // namespace rt

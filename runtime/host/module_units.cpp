@@ -12,6 +12,18 @@ void setModuleLoader(Controller& controller, ModuleLoader* loader) {
     units(controller).loader = loader;
 }
 
+void addModule(Controller& controller, const ProgramDesc& unit, LoadedModule module) {
+    controller.tables().addUnit(unit, std::move(module));
+    if (ModuleLoader* loader = units(controller).loader; loader != nullptr)
+        loader->memoryChanged(controller.tables());
+}
+
+void removeModule(Controller& controller, int32_t task, const std::string& module) {
+    controller.tables().remove(task, module);
+    if (ModuleLoader* loader = units(controller).loader; loader != nullptr)
+        loader->memoryChanged(controller.tables());
+}
+
 bool connectUnit(Controller& controller, const ProgramDesc& unit) {
     bool all = true;
     for (uint32_t i = 0; i < unit.externalCount; ++i)
@@ -31,7 +43,7 @@ Status resetUnits(Controller& controller, Task& task) {
             status = module.unit->reset(&task, nullptr);
     }
     for (const std::string& name : gone)
-        controller.tables().remove(index, name);
+        removeModule(controller, index, name);
     return status;
 }
 

@@ -2,6 +2,7 @@
 // Modules that come and go while a program runs: who compiles them, and what the controller does with them.
 
 #include "runtime/host/module_loader.h"
+#include "runtime/host/program_tables.h"
 #include "runtime/sched/task.h"
 
 #include <map>
@@ -13,7 +14,7 @@ namespace rt {
 class Controller;
 
 struct ModuleUnits {
-    ModuleLoader* loader = nullptr; ///< null: modules cannot be loaded
+    ModuleLoader* loader = nullptr; ///< null: none has been needed yet
     /// Bytes that the persistents of a unit had when it was loaded.
     std::map<const ProgramDesc*, std::vector<std::string>> declared;
 };
@@ -23,6 +24,9 @@ ModuleUnits& units(Controller& controller);
 void setModuleLoader(Controller& controller, ModuleLoader* loader);
 /// Gives a signal or unit that a program names its handle; false, with a message on stderr, when it is not configured.
 bool connectExternal(Controller& controller, const ExternalDesc& external);
+/// Brings a unit into memory, takes a module out of it: its name, and what others have bound to its data.
+void addModule(Controller& controller, const ProgramDesc& unit, LoadedModule module);
+void removeModule(Controller& controller, int32_t task, const std::string& module);
 /// All those of a unit.
 bool connectUnit(Controller& controller, const ProgramDesc& unit);
 /// Variables of a task get their initial values: those of loaded modules, too; modules loaded with \Dynamic leave memory.

@@ -19,10 +19,8 @@ namespace {
 /// Closes a file descriptor at the end.
 struct Descriptor {
     int number = -1;
-    ~Descriptor() { close(); }
-    void close() {
+    ~Descriptor() {
         if (number >= 0) ::close(number);
-        number = -1;
     }
 };
 
@@ -38,6 +36,7 @@ bool writeAll(int file, std::string_view bytes) {
 
 std::string readAll(int file) {
     std::string text;
+    if (::lseek(file, 0, SEEK_SET) != 0) return text;
     char buffer[4096];
     for (;;) {
         const ssize_t done = ::read(file, buffer, sizeof buffer);
@@ -47,58 +46,70 @@ std::string readAll(int file) {
     }
 }
 
-/// What the child says on its error output, and its exit status; -1 when it could not be started (errno).
-int runChild(const std::vector<std::string>& arguments, std::string_view input, std::string& said) {
-    Descriptor in{::memfd_create("values", MFD_CLOEXEC)}, out, childOut;
-    int ends[2];
-    if (in.number < 0 || !writeAll(in.number, input) || ::pipe2(ends, O_CLOEXEC) != 0) return -1;
-    out.number = ends[0];
-    childOut.number = ends[1];
+} // namespace
+
+RapidcAnswer askRapidc(std::vector<std::string> arguments, std::string_view input) {
+    RapidcAnswer answer;
+    const char* named = std::getenv(kRapidcVariable);
+    answer.program = named != nullptr && *named != '\0' ? named : "rapidc";
+    arguments.insert(arguments.begin(), answer.program);
+    // Its output goes to memory: nobody has to read while it writes.
+    const Descriptor in{::memfd_create("input", MFD_CLOEXEC)}, out{::memfd_create("output", MFD_CLOEXEC)},
+        said{::memfd_create("said", MFD_CLOEXEC)};
+    if (in.number < 0 || out.number < 0 || said.number < 0 || !writeAll(in.number, input)) {
+        answer.status = -1;
+        answer.error = errno;
+        return answer;
+    }
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, in.number, STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, childOut.number, STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, out.number, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, said.number, STDERR_FILENO);
     std::vector<char*> argv;
-    for (const std::string& argument : arguments)
-        argv.push_back(const_cast<char*>(argument.c_str()));
+    for (std::string& argument : arguments)
+        argv.push_back(argument.data());
     argv.push_back(nullptr);
     pid_t child = 0;
-    const int error = ::posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
+    answer.error = ::posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
-    errno = error;
-    if (error != 0) return -1;
-    childOut.close();
-    said = readAll(out.number);
+    if (answer.error != 0) {
+        answer.status = -1;
+        return answer;
+    }
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+    answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+    answer.out = readAll(out.number);
+    answer.said = readAll(said.number);
+    while (!answer.said.empty() && answer.said.back() == '\n')
+        answer.said.pop_back();
+    return answer;
 }
 
-} // namespace
+std::string RapidcAnswer::notStarted(std::string_view purpose) const {
+    return fmt::format(
+        "an executable needs the installed rapidc to {}, and '{}' could not be started ({}): put it "
+        "in PATH, or name it in the environment variable {}",
+        purpose, program, std::strerror(error), kRapidcVariable);
+}
 
 StoreResult RapidcProcess::store(const ModuleText& text) {
-    const char* named = std::getenv(kVariable);
-    const std::string program = named != nullptr && *named != '\0' ? named : "rapidc";
-    std::string input, said;
+    std::string input;
     for (const SavedValue& value : text.values)
         input += fmt::format("{}.{}={}\n", value.module, value.name, value.text);
     StoreResult result;
-    const int status = runChild(
-        {program, "set-value", "--values=-", "--output=" + text.destination, text.source}, input, said);
-    if (status < 0) {
-        result.problem =
-            fmt::format("an executable needs the installed rapidc to write modules, and '{}' could not be "
-                        "started ({}): put it in PATH, or name it in the environment variable {}",
-                        program, std::strerror(errno), kVariable);
-        return result;
-    }
-    while (!said.empty() && said.back() == '\n')
-        said.pop_back();
-    if (status != 0)
-        result.problem = said.empty() ? fmt::format("{} ended with status {}", program, status) : said;
-    else if (!said.empty())
-        result.notes.push_back(said);
+    const RapidcAnswer answer =
+        askRapidc({"set-value", "--values=-", "--output=" + text.destination, text.source}, input);
+    if (answer.status < 0)
+        result.problem = answer.notStarted("write modules");
+    else if (answer.status != 0)
+        result.problem = answer.said.empty()
+                             ? fmt::format("{} ended with status {}", answer.program, answer.status)
+                             : answer.said;
+    else if (!answer.said.empty())
+        result.notes.push_back(answer.said);
     return result;
 }
 

@@ -40,10 +40,11 @@ def read(path):
         return file.read()
 
 
-def execute(command, cwd, timeout, stdin=None):
-    """Runs a command; a signal that killed it gives a negative status. At the time limit whatever it started ends with it."""
+def execute(command, cwd, timeout, stdin=None, environment=None):
+    """Runs a command, with further environment variables; a signal that killed it gives a negative status. At the time limit
+    whatever it started ends with it."""
     with subprocess.Popen(command, cwd=cwd, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          start_new_session=True) as process:
+                          start_new_session=True, env={**os.environ, **(environment or {})}) as process:
         status = 124
         try:
             out, err = process.communicate(stdin or b"", timeout)
@@ -180,7 +181,8 @@ class ProgramTest:
                 command = [program, *self.stimulus_of_folder(), *run_options, *extra]
             else:
                 raise BadTest(f"unknown mode '{mode}'")
-            output = execute(command, scratch, timeout)
+            # Executables that load modules or write them ask rapidc to do it.
+            output = execute(command, scratch, timeout, environment={"RAPIDC": context.rapidc})
             problems += [f"[{mode}] {p}" for p in
                          self.judge(context, command, output, expected_status, outputs, mode)]
         return problems

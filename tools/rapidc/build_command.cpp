@@ -2,11 +2,13 @@
 
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/pipeline.h"
+#include "tools/rapidc/program_sources.h"
 
 #include "codegen/codegen.h"
 #include "runtime/host/run_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -34,12 +36,15 @@ fs::path ownFolder() {
     return self.parent_path();
 }
 
-codegen::LinkOptions linkOptions(bool strip) {
+/// A program that loads modules must hold all that they may use.
+codegen::LinkOptions linkOptions(bool strip, bool wholeLibrary) {
     codegen::LinkOptions options;
-    const fs::path lib = ownFolder() / "lib";
-    for (const char* name :
-         {"rapidc_host_main", "rapidc_stdlib", "rapidc_runtime", "rapidc_motion", "rapidc_config"})
-        options.libraries.push_back((lib / fmt::format("lib{}.a", name)).string());
+    const auto path = [](const char* name) {
+        return (ownFolder() / "lib" / fmt::format("lib{}.a", name)).string();
+    };
+    for (const char* name : {"rapidc_host_main", "rapidc_runtime", "rapidc_motion", "rapidc_config"})
+        options.libraries.push_back(path(name));
+    (wholeLibrary ? options.wholeLibraries : options.libraries).push_back(path("rapidc_stdlib"));
     options.libraries.emplace_back(RAPIDC_BOOST_CONTEXT);
     options.stripDebug = strip;
     const std::string arguments = RAPIDC_LINK_ARGUMENTS;
@@ -69,6 +74,14 @@ std::string outputProblem(const std::string& output) {
     return fmt::format("cannot write {}: {}", output, std::strerror(errno));
 }
 
+/// Modules may come, or references have to be checked, while the program runs.
+bool needsSources(const ir::Module& module) {
+    constexpr std::string_view kUsers[] = {"rt_Load", "rt_StartLoad", "rt_CheckProgRef", "rt_EraseModule"};
+    return std::any_of(module.natives.begin(), module.natives.end(), [&](const ir::Native& native) {
+        return std::find(std::begin(kUsers), std::end(kUsers), native.symbol) != std::end(kUsers);
+    });
+}
+
 int build(BuildSettings& settings) {
     settings.inputs.requireMain = true;
     const auto compilation = checkInputs(settings.inputs);
@@ -91,13 +104,15 @@ int build(BuildSettings& settings) {
         lowerToIr(*compilation, fs::path(settings.output).filename().string(), settings.stepping, module);
     printDiagnostics(*compilation);
     if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
+    const bool loads = needsSources(module);
+    if (loads) module.sources = pack(*sourcesOf(*compilation, settings.stepping, !settings.noOptimise));
     const TemporaryFile object{fmt::format("{}.{}.o", settings.output, getpid())};
     codegen::CodegenOptions options;
     options.optimise = !settings.noOptimise;
     options.debugInfo = !settings.strip;
     std::string error;
     if (!codegen::emitObject(module, object.path, options, error) ||
-        !codegen::linkExecutable(object.path, settings.output, linkOptions(settings.strip), error)) {
+        !codegen::linkExecutable(object.path, settings.output, linkOptions(settings.strip, loads), error)) {
         fmt::print(stderr, "rapidc build: {}\n", error);
         return static_cast<int>(rt::ExitStatus::BadProgram);
     }

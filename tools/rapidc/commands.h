@@ -16,5 +16,6 @@ void addBuiltinsCommand(CLI::App& app, int& status);
 void addFmtCommand(CLI::App& app, int& status);
 void addRenameCommand(CLI::App& app, int& status);
 void addSetValueCommand(CLI::App& app, int& status);
+void addCompileUnitCommand(CLI::App& app, int& status);
 
 } // namespace rapidc

@@ -20,6 +20,7 @@ int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of m
     rapidc::addFmtCommand(app, status);
     rapidc::addRenameCommand(app, status);
     rapidc::addSetValueCommand(app, status);
+    rapidc::addCompileUnitCommand(app, status);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {

@@ -5,7 +5,7 @@
 #include "tools/rapidc/module_store.h"
 #include "tools/rapidc/path_picture.h"
 #include "tools/rapidc/pipeline.h"
-#include "tools/rapidc/unit_loader.h"
+#include "tools/rapidc/unit_compiler.h"
 
 #include "codegen/codegen.h"
 #include "runtime/host/controller.h"
@@ -13,6 +13,7 @@
 #include "runtime/host/module_units.h"
 #include "runtime/host/run_options.h"
 #include "runtime/host/stop_signals.h"
+#include "runtime/host/unit_loader.h"
 #include "runtime/sim/stimulus.h"
 #include "stdlib/native_table.h"
 
@@ -188,7 +189,9 @@ int run(RunSettings& settings) {
         }
     }
     makeFolders(settings);
-    UnitLoader loader(*compilation, settings.stepping, options, natives);
+    const auto sources = sourcesOf(*compilation, settings.stepping, options.optimise);
+    SourceCompiler compiler(*sources);
+    rt::UnitLoader loader(compiler);
     return execute(settings, *program->program(), loader);
 }
 

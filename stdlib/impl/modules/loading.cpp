@@ -4,6 +4,8 @@
 
 #include "runtime/host/module_saver.h"
 #include "runtime/host/module_units.h"
+#include "runtime/host/rapidc_compiler.h"
+#include "runtime/host/unit_loader.h"
 #include "runtime/io/text_util.h"
 #include "stdlib/impl/support/fail.h"
 
@@ -72,6 +74,25 @@ std::string joined(const std::vector<std::string>& lines) {
     return text;
 }
 
+/// In a built executable the installed rapidc compiles.
+struct RapidcLoader {
+    explicit RapidcLoader(std::string_view sources) : compiler(sources), loader(compiler) {}
+    RapidcCompiler compiler;
+    UnitLoader loader;
+};
+
+/// Who compiles and maps modules; null when the program cannot have any.
+ModuleLoader* loaderOf(Controller& controller) {
+    ModuleUnits& all = units(controller);
+    const ProgramDesc& program = controller.program();
+    if (all.loader == nullptr && program.sources != nullptr) {
+        auto& own = controller.service<std::unique_ptr<RapidcLoader>>();
+        own = std::make_unique<RapidcLoader>(std::string_view(program.sources, program.sourcesSize));
+        all.loader = &own->loader;
+    }
+    return all.loader;
+}
+
 } // namespace
 
 Status readModule(TaskCore* task, const String& directory, const String* file, ModuleFile& out) {
@@ -101,26 +122,24 @@ Time loadingTime(const ModuleFile& file) {
 Status checkReferencesOf(TaskCore* task) {
     const Task& owner = taskOf(task);
     Controller& controller = owner.controller();
-    ModuleLoader* const loader = units(controller).loader;
-    if (loader == nullptr) return kOk; // a built program was checked when it was made
-    const std::vector<std::string> open =
+    ModuleLoader* const loader = loaderOf(controller);
+    if (loader == nullptr) return kOk; // the program was checked when it was made
+    const OpenReferences open =
         loader->unresolved(owner.name(), static_cast<int32_t>(owner.index()), controller.tables());
-    if (open.empty()) return kOk;
-    return fail(task, err::ERR_LINKREF, "nothing in the task declares " + joined(open));
+    if (!open.problem.empty())
+        return fail(task, err::ERR_IOERROR, "references cannot be checked: " + open.problem);
+    if (open.names.empty()) return kOk;
+    return fail(task, err::ERR_LINKREF, "nothing in the task declares " + joined(open.names));
 }
 
 Status linkModule(TaskCore* task, const ModuleFile& file, bool dynamic, bool checkReferences) {
     const Task& owner = taskOf(task);
     Controller& controller = owner.controller();
     const auto index = static_cast<int32_t>(owner.index());
-    ModuleLoader* const loader = units(controller).loader;
+    ModuleLoader* const loader = loaderOf(controller);
     if (loader == nullptr)
-        return fail(
-            task, err::ERR_IOERROR,
-            fmt::format(
-                "{} cannot be loaded: an executable made by `rapidc build` has no compiler for modules "
-                "that come while it runs. Run the program with `rapidc run`, or build it with the module",
-                file.shown));
+        return fail(task, err::ERR_IOERROR,
+                    fmt::format("{} cannot be loaded: there is no compiler for it", file.shown));
     const LoadResult result =
         loader->make({owner.name(), index, file.path, file.shown, file.bytes}, controller.tables());
     if (result.verdict == LoadResult::Verdict::Loaded)
@@ -129,6 +148,9 @@ Status linkModule(TaskCore* task, const ModuleFile& file, bool dynamic, bool che
     if (result.verdict == LoadResult::Verdict::Full)
         return fail(task, err::ERR_PRGMEMFULL,
                     fmt::format("there is no program memory left for {}", file.shown));
+    if (result.verdict == LoadResult::Verdict::NoCompiler)
+        return fail(task, err::ERR_IOERROR,
+                    fmt::format("{} cannot be loaded: {}", file.shown, result.problems));
     if (result.verdict == LoadResult::Verdict::Wrong)
         return fail(task, err::ERR_SYNTAX, fmt::format("{} has errors:\n{}", file.shown, result.problems));
     if (!connectUnit(controller, *result.unit))
@@ -141,9 +163,9 @@ Status linkModule(TaskCore* task, const ModuleFile& file, bool dynamic, bool che
     module.dynamic = dynamic;
     module.fileTime = file.time;
     units(controller).declared[result.unit] = persistentsOf(*result.unit);
-    controller.tables().addUnit(*result.unit, std::move(module));
+    addModule(controller, *result.unit, std::move(module));
     const Status status = checkReferences ? checkReferencesOf(task) : kOk;
-    if (status != kOk) controller.tables().remove(index, result.module);
+    if (status != kOk) removeModule(controller, index, result.module);
     return status;
 }
 
@@ -160,7 +182,7 @@ Status unloadFile(TaskCore* task, const String& directory, const String* file) {
                     fmt::format("no module has been loaded from {} by this task", shown));
     if (executes(controller, *module))
         return fail(task, err::ERR_UNLOAD, fmt::format("module {} is executing", module->name));
-    controller.tables().remove(index, std::string(module->name));
+    removeModule(controller, index, std::string(module->name));
     return kOk;
 }
 
@@ -211,10 +233,11 @@ Status rt_EraseModule(TaskCore* task, const String* ModuleName) {
         return lib::fail(task, err::ERR_MODULE, fmt::format("module {} is executing", module->name));
     const bool compiledIn = module->unit == nullptr;
     const std::string name = module->name;
-    controller.tables().remove(index, name);
-    if (ModuleLoader* loader = units(controller).loader; compiledIn && loader != nullptr) {
-        const auto open = loader->unresolved(owner.name(), index, controller.tables());
-        if (!open.empty()) controller.log().write(EventId::StillReferred, &owner, {name, lib::joined(open)});
+    removeModule(controller, index, name);
+    if (ModuleLoader* loader = lib::loaderOf(controller); compiledIn && loader != nullptr) {
+        const OpenReferences open = loader->unresolved(owner.name(), index, controller.tables());
+        if (!open.names.empty())
+            controller.log().write(EventId::StillReferred, &owner, {name, lib::joined(open.names)});
     }
     return kOk;
 }

@@ -1,0 +1,50 @@
+#include "runtime/host/rapidc_compiler.h"
+
+#include "runtime/host/rapidc_process.h"
+#include "runtime/host/unit_messages.h"
+
+#include <fmt/format.h>
+
+namespace rt {
+namespace {
+
+/// Asks for a unit or for open references; `problem` is set when there is no answer.
+UnitAnswer askForUnit(const std::string& request, std::string& problem) {
+    const RapidcAnswer answer = askRapidc({"compile-unit"}, request);
+    if (answer.status < 0) {
+        problem = answer.notStarted("load modules");
+        return {};
+    }
+    std::optional<UnitAnswer> unit;
+    if (answer.status == 0) unit = readUnitAnswer(answer.out);
+    if (unit) return std::move(*unit);
+    problem = fmt::format(
+        "'{}' cannot compile a module for this executable (status {}{}{}): it must be the "
+        "rapidc that the executable was built by; name that one in the environment variable {}, or "
+        "build the program again",
+        answer.program, answer.status, answer.said.empty() ? "" : ", ", answer.said, kRapidcVariable);
+    return {};
+}
+
+} // namespace
+
+CompiledUnit RapidcCompiler::compile(const LoadRequest& request, const ProgramState& state) {
+    std::string problem;
+    UnitAnswer answer = askForUnit(writeUnitRequest(sources_, false, request, state), problem);
+    if (!problem.empty()) {
+        answer.unit.verdict = LoadResult::Verdict::NoCompiler;
+        answer.unit.problems = std::move(problem);
+    }
+    return std::move(answer.unit);
+}
+
+OpenReferences RapidcCompiler::unresolved(const std::string& task, const ProgramState& state) {
+    std::string problem;
+    LoadRequest request;
+    request.task = task;
+    UnitAnswer answer = askForUnit(writeUnitRequest(sources_, true, request, state), problem);
+    if (!problem.empty()) answer.open.problem = std::move(problem);
+    return std::move(answer.open);
+}
+
+} // namespace rt

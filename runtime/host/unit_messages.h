@@ -1,0 +1,45 @@
+#pragma once
+// What a built executable and the installed rapidc say to each other when a module is to be compiled: CBOR on the standard
+// input and output of `rapidc compile-unit`.
+
+#include "runtime/host/program_tables.h"
+#include "runtime/host/unit_compiler.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace rt {
+
+/// The request as its receiver has it: the tables hold names, no addresses.
+struct UnitRequest {
+    std::string sources; ///< what the executable was built from (ProgramDesc::sources)
+    bool references =
+        false; ///< only the open references of the task are asked for; the file to be loaded is empty
+    LoadRequest load;
+    ProgramTables tables;
+    std::deque<LoadedFile> files;
+
+  private:
+    friend std::unique_ptr<UnitRequest> readUnitRequest(std::string_view);
+    std::deque<std::string> names_; // what the tables point at
+    std::vector<GlobalDesc> data_;
+    std::vector<ModuleDesc> modules_;
+    ProgramDesc program_{}, unit_{};
+};
+
+std::string writeUnitRequest(std::string_view sources, bool references, const LoadRequest& load,
+                             const ProgramState& state);
+/// Null when the bytes are none.
+std::unique_ptr<UnitRequest> readUnitRequest(std::string_view bytes);
+
+/// The answer; one of both is meant.
+struct UnitAnswer {
+    CompiledUnit unit;
+    OpenReferences open;
+};
+std::string writeUnitAnswer(const UnitAnswer& answer);
+std::optional<UnitAnswer> readUnitAnswer(std::string_view bytes);
+
+} // namespace rt

@@ -1,0 +1,48 @@
+// rapidc compile-unit: what built executables call to load modules; not meant for people.
+
+#include "runtime/host/unit_messages.h"
+#include "tools/rapidc/commands.h"
+#include "tools/rapidc/unit_compiler.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <iostream>
+#include <iterator>
+
+namespace rapidc {
+
+namespace {
+
+int fail(std::string_view problem) {
+    fmt::print(stderr, "{}\n", problem);
+    return 1;
+}
+
+int compileUnit() {
+    const std::string bytes(std::istreambuf_iterator<char>(std::cin), {});
+    const auto request = rt::readUnitRequest(bytes);
+    if (!request)
+        return fail("compile-unit serves executables made by `rapidc build`; this is no request of one");
+    std::string problem;
+    const auto sources = unpack(request->sources, problem);
+    if (!sources) return fail(problem);
+    SourceCompiler compiler(*sources);
+    const rt::ProgramState state{request->tables, request->files};
+    rt::UnitAnswer answer;
+    if (request->references)
+        answer.open = compiler.unresolved(request->load.task, state);
+    else
+        answer.unit = compiler.compile(request->load, state);
+    std::cout << rt::writeUnitAnswer(answer) << std::flush;
+    return 0;
+}
+
+} // namespace
+
+void addCompileUnitCommand(CLI::App& app, int& status) {
+    CLI::App* command = app.add_subcommand("compile-unit", "Serve an executable that loads a module");
+    command->group(""); // not listed
+    command->callback([&status] { status = compileUnit(); });
+}
+
+} // namespace rapidc
