@@ -16,7 +16,7 @@ static_assert(sizeof(rt::LocalDesc) == 24 && offsetof(rt::RoutineDesc, locals) =
 static_assert(offsetof(rt::GlobalDesc, task) == 36 && offsetof(rt::RoutineEntry, address) == 24);
 static_assert(offsetof(rt::RoutineEntry, late) == 40 && sizeof(rt::RoutineEntry) == 64);
 static_assert(sizeof(rt::ParamDesc) == 24 && sizeof(rt::RoutineDataDesc) == 40 &&
-              sizeof(rt::ModuleDesc) == 24);
+              sizeof(rt::ModuleDesc) == 32);
 static_assert(int{rt::kDataLocal} == ir::kDataLocal && int{rt::kDataPredefined} == ir::kDataPredefined);
 static_assert(sizeof(rt::RoutineDesc) == 88 && sizeof(rt::TaskDesc) == 40 && sizeof(rt::GlobalDesc) == 56);
 static_assert(sizeof(rt::ExternalDesc) == 40 && sizeof(rt::ProgramDesc) == 176);
@@ -87,7 +87,7 @@ void ModuleEmitter::declareTables() {
     routineEntryType_ = make("rt.RoutineEntry", {ptr_, ptr_, i32_, i8_, i8_, ptr_, ptr_, ptr_, ptr_, i32_});
     paramDescType_ = make("rt.ParamDesc", {ptr_, ptr_, i8_, i8_, i8_, i8_});
     routineDataType_ = make("rt.RoutineDataDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i8_});
-    moduleDescType_ = make("rt.ModuleDesc", {ptr_, ptr_, i32_});
+    moduleDescType_ = make("rt.ModuleDesc", {ptr_, ptr_, i32_, ptr_});
     programDescType_ =
         make("rt.ProgramDesc", {ptr_, ptr_, i32_, ptr_, i32_, ptr_, i32_, ptr_, i32_, ptr_, ptr_, i32_,
                                 i32_, ptr_, ptr_, ptr_, i32_, i32_, ptr_, ptr_, ptr_, i32_, ptr_, i64_});
@@ -282,7 +282,8 @@ llvm::Constant* ModuleEmitter::moduleTable() {
     std::vector<llvm::Constant*> rows;
     for (const ir::ModuleEntry& entry : module_.modules)
         rows.push_back(llvm::ConstantStruct::get(
-            moduleDescType_, {text(entry.name), fileName(entry.file), i32(taskNumber(entry.task))}));
+            moduleDescType_, {text(entry.name), fileName(entry.file), i32(taskNumber(entry.task)),
+                              entry.gone == ir::kNone ? null() : globals_[entry.gone]}));
     return array(moduleDescType_, rows, "modules");
 }
 

@@ -225,6 +225,7 @@ struct ModuleEntry {
     std::string name;
     uint32_t file = kNone;
     uint32_t task = kNone;
+    uint32_t gone = kNone; ///< global I32 that becomes 1 when the module leaves memory; kNone: nobody asks
 };
 
 enum class DescKind : uint8_t { Num, Dnum, Bool, String, Record, Array, Handle, Other };
@@ -275,7 +276,7 @@ struct Module {
     std::vector<TaskEntry> tasks;
     std::vector<std::string> files; ///< source paths
     std::string folder;             ///< relative source paths begin here; may be empty
-    std::string sources; ///< what the host compiles further modules by (any bytes); may be empty
+    std::string sources;            ///< what the host compiles further modules by (any bytes); may be empty
     std::vector<ModuleEntry> modules;
     std::vector<uint32_t> searchTypes; ///< type descriptions that data can be searched by
     std::vector<RoutineData> routineData;

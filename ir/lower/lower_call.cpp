@@ -147,6 +147,7 @@ ir::ValueId RoutineLowering::lowerCall(const Node& node, ValueId resultAddr) {
         }
     }
     if (program_.isForeign(callee)) return lowerForeignCall(call, resultAddr);
+    if (program_.mayBeErased(callee, module_)) return lowerErasableCall(call, resultAddr);
     std::vector<ValueId> args;
     const bool isFunction = callee.routineKind == RoutineKind::Func;
     const ir::TypeId result = isFunction ? program_.irType(callee.returnType) : ir::kVoid;

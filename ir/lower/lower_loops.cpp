@@ -50,6 +50,7 @@ void RoutineLowering::lowerFor(const ForStmt& stmt) {
     sema::DataSymbol& variable = *found->second;
     // The row stands for the head only: the place of an error in a bound.
     startStatement(*stmt.from, ir::StmtKind::Control);
+    checkForeignData(stmt);
     // The debugger may change the variable: no conclusion from its bounds holds then.
     if (program_.stepping()) return lowerFloatLoop(stmt, variable);
     const bool isNum = variable.type.type->base()->kind == sema::TypeKind::Num;

@@ -45,13 +45,18 @@ bool ProgramLowering::uses(std::string_view native) const {
     return natives_.contains("rt_" + std::string(native));
 }
 
-/// ArgName follows a parameter through the calls that pass it on, so these parameters bring a name along.
-void ProgramLowering::findNamedParameters() {
-    const RoutineSymbol* argName = nullptr;
+/// Null when the program does not call it; `name` in lower case.
+const RoutineSymbol* ProgramLowering::usedBuiltIn(std::string_view name) const {
     for (const sema::Module* lib : program_.predefinedModules)
         for (const RoutineSymbol* routine : lib->routines)
-            if (foldCase(routine->name) == "argname") argName = routine;
-    if (!argName || !argName->used) return;
+            if (routine->used && foldCase(routine->name) == name) return routine;
+    return nullptr;
+}
+
+/// ArgName follows a parameter through the calls that pass it on, so these parameters bring a name along.
+void ProgramLowering::findNamedParameters() {
+    const RoutineSymbol* argName = usedBuiltIn("argname");
+    if (!argName) return;
     asksForNames_ = true;
     bool changed = true;
     const auto mark = [&](const BoundArg& arg, const sema::Module& module) {
@@ -293,6 +298,7 @@ void ProgramLowering::addTablesOf(uint32_t task, const sema::Module& module, boo
     entry.name = module.name;
     entry.file = fileIndex(module.tree->source->path());
     entry.task = task;
+    if (erases_ && !unit_) entry.gone = goneFlag(module, task);
     module_.modules.push_back(std::move(entry));
     if (unit_ || uses("SetDataSearch")) addRoutineData(task, module);
     if (!callsByName) return;
@@ -370,11 +376,102 @@ bool RoutineLowering::lowerUnresolved(const Node& statement, const Node& part) {
     }
     if (missing.empty()) return false;
     startStatement(statement, ir::StmtKind::Plain);
+    raiseUnresolved(error, missing);
+    return true;
+}
+
+// ---- Modules that leave memory --------------------------------------------------------------------------------------
+
+uint32_t ProgramLowering::goneFlag(const sema::Module& module, uint32_t task) {
+    auto [found, isNew] = goneFlags_.try_emplace({task, &module}, 0);
+    if (isNew) {
+        ir::Global flag;
+        flag.name = "gone/" + this->task(task).name + "/" + module.name;
+        flag.type = ir::kI32;
+        found->second = static_cast<uint32_t>(module_.globals.size());
+        module_.globals.push_back(std::move(flag));
+    }
+    return found->second;
+}
+
+/// True as long as the module of the symbol has not been erased.
+ir::ValueId RoutineLowering::isInMemory(const sema::Symbol& symbol) {
+    const ValueId gone = b_.load(ir::kI32, b_.globalAddr(program_.goneFlag(*symbol.module, task_)));
+    return b_.binary(ir::Op::IEq, gone, b_.constI32(0));
+}
+
+/// A call of a routine of the program that EraseModule may have taken out: then by name, for another module may have come
+/// that declares it.
+ir::ValueId RoutineLowering::lowerErasableCall(const BoundCall& call, ValueId resultAddr) {
+    const RoutineSymbol& callee = *call.routine;
+    const bool isFunction = callee.routineKind == RoutineKind::Func;
+    const ir::TypeId type = isFunction ? program_.irType(callee.returnType) : ir::kVoid;
+    const bool scalar = isFunction && program_.module().isScalar(type);
+    const bool aggregate = isFunction && !scalar;
+    if (aggregate && resultAddr == ir::kNone) resultAddr = tempAddr(type);
+    const ValueId result = scalar ? tempAddr(type) : resultAddr;
+    const ir::BlockId direct = b_.addBlock("inmemory");
+    const ir::BlockId late = b_.addBlock("erased");
+    const ir::BlockId end = b_.addBlock("called");
+    b_.condBr(isInMemory(callee), direct, late);
+    b_.setBlock(direct);
+    std::vector<ValueId> args;
+    if (aggregate) args.push_back(resultAddr);
+    for (const BoundArg& arg : call.args)
+        pushArgument(arg, args);
+    ValueId value = b_.call(program_.routineFor(callee, task_), std::move(args));
+    if (scalar) b_.store(type, value, result);
+    b_.br(end);
+    b_.setBlock(late);
+    value = lowerForeignCall(call, resultAddr);
+    if (scalar) b_.store(type, value, result);
+    b_.br(end);
+    b_.setBlock(end);
+    return scalar ? b_.load(type, result) : ir::kNone;
+}
+
+void RoutineLowering::collectForeignData(const Node& node, std::vector<const DataSymbol*>& out) const {
+    if (node.kind == NodeKind::Name) {
+        const sema::Symbol* symbol = info(as<NameExpr>(node)).symbol;
+        if (!symbol || symbol->kind != sema::SymbolKind::Data) return;
+        const auto* data = static_cast<const DataSymbol*>(symbol);
+        const bool foreign = program_.isForeign(*data) || program_.mayBeErased(*data, module_);
+        if (foreign && data->storage == Storage::ModuleData &&
+            std::find(out.begin(), out.end(), data) == out.end())
+            out.push_back(data);
+        return;
+    }
+    forEachChild(node, [&](const Node& child) {
+        if (!isStmt(child.kind)) collectForeignData(child, out);
+    });
+}
+
+/// Data of modules that may have left memory raise an error when the instruction begins. `part`: the statement itself or
+/// an expression of it; statements nested in it look after themselves.
+void RoutineLowering::checkForeignData(const Node& part) {
+    if (!program_.dataMayBeAbsent()) return;
+    std::vector<const DataSymbol*> used;
+    collectForeignData(part, used);
+    for (const DataSymbol* data : used) {
+        const ValueId present =
+            program_.isForeign(*data)
+                ? b_.binary(ir::Op::INe, b_.globalAddr(program_.globalFor(*data, task_)), b_.nullPtr())
+                : isInMemory(*data);
+        const ir::BlockId absent = b_.addBlock("absent");
+        const ir::BlockId there = b_.addBlock("present");
+        b_.condBr(present, there, absent);
+        b_.setBlock(absent);
+        raiseUnresolved("ERR_REFUNKDAT", data->name);
+        b_.br(there);
+        b_.setBlock(there);
+    }
+}
+
+void RoutineLowering::raiseUnresolved(const char* error, std::string_view name) {
     const uint32_t native =
         program_.support("rt_unresolved", ir::NativeClass::Plain, ir::kVoid, {ir::kI32, ir::kPtr});
     b_.callNative(native,
-                  {b_.constI32(program_.errorNumber(error)), b_.globalAddr(program_.stringGlobal(missing))});
-    return true;
+                  {b_.constI32(program_.errorNumber(error)), b_.globalAddr(program_.stringGlobal(name))});
 }
 
 /// A routine of another unit.

@@ -22,6 +22,7 @@ void RoutineLowering::startStatement(const Node& node, ir::StmtKind kind) {
     row.kind = region_ == Region::Body ? kind : ir::StmtKind::Handler;
     row.handled = region_ == Region::Body && hasErrorHandler_ && inInstructions_;
     b_.setStatement(b_.addStatement(row));
+    if (node.kind != NodeKind::Routine) checkForeignData(node);
 }
 
 void RoutineLowering::lowerList(StmtList list) {
@@ -67,9 +68,12 @@ uint8_t RoutineLowering::statementFlags(const Stmt& stmt) const {
     if (region_ == Region::Backward) flags |= ir::kStmtInBackward;
     if (region_ == Region::Error || region_ == Region::Undo) flags |= ir::kStmtInHandler;
     if (stmt.kind != NodeKind::CallStmt) return flags;
-    if (as<CallStmt>(stmt).lateName) return flags | ir::kStmtCallsRoutine;
+    // Whether a procedure that is found by name says how it is executed backwards shows when it is called.
+    constexpr uint8_t kLate = ir::kStmtCallsRoutine | ir::kStmtCallsBackward;
+    if (as<CallStmt>(stmt).lateName) return flags | kLate;
     const auto found = facts().calls.find(&stmt);
-    if (found == facts().calls.end() || !found->second.routine) return flags;
+    if (found == facts().calls.end()) return flags;
+    if (!found->second.routine) return flags | kLate;
     const sema::RoutineSymbol& callee = *found->second.routine;
     if (!callee.predefined) {
         flags |= ir::kStmtCallsRoutine;
@@ -237,6 +241,7 @@ void RoutineLowering::lowerWhile(const WhileStmt& stmt) {
 
 void RoutineLowering::lowerTest(const TestStmt& stmt) {
     startStatement(*stmt.subject, ir::StmtKind::Control);
+    checkForeignData(stmt); // what the cases compare with, too
     const sema::DataType type = info(*stmt.subject).type;
     const ir::TypeId irType = program_.irType(type.type);
     const bool signal = namesSignal(*stmt.subject);
@@ -321,7 +326,7 @@ void RoutineLowering::lowerConnect(const ConnectStmt& stmt) {
     const auto& symbol = *static_cast<const sema::RoutineSymbol*>(found->second);
     ValueId address = ir::kNone;
     const Place target = place(*stmt.target);
-    if (program_.isForeign(symbol)) {
+    if (program_.isForeign(symbol) || program_.mayBeErased(symbol, module_)) {
         const ValueId name = b_.globalAddr(program_.stringGlobal(symbol.module->name + ":" + symbol.name));
         address = b_.callNative(program_.support("rt_lateTrap", ir::NativeClass::Plain, ir::kPtr, {ir::kPtr}),
                                 {name});

@@ -422,6 +422,7 @@ bool ProgramLowering::run() {
     module_.folder = options_.folder;
     const size_t errorsBefore = sink_.errorCount();
     findNamedParameters();
+    erases_ = usedBuiltIn("erasemodule") != nullptr;
     for (uint32_t i = 0; i < program_.tasks.size(); ++i)
         lowerTask(i);
     addTables();

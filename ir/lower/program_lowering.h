@@ -32,6 +32,15 @@ class ProgramLowering {
         return unit_ && !symbol.predefined && symbol.module != unit_;
     }
 
+    /// Belongs to another module that EraseModule may take out of memory.
+    bool mayBeErased(const sema::Symbol& symbol, const sema::Module* from) const {
+        return erases_ && !unit_ && !symbol.predefined && symbol.module && symbol.module != from;
+    }
+    /// The global I32 that tells whether that has happened.
+    uint32_t goneFlag(const sema::Module& module, uint32_t task);
+    /// Some data of other modules may be absent when an instruction is executed.
+    bool dataMayBeAbsent() const { return unit_ || erases_; }
+
     bool stepping() const { return options_.stepping; }
 
     ir::Module& module() { return module_; }
@@ -72,7 +81,8 @@ class ProgramLowering {
     };
     void lowerTask(uint32_t task);
     // lower_named.cpp
-    bool uses(std::string_view native) const; ///< some routine calls it
+    bool uses(std::string_view native) const; ///< some routine calls it; known when all is lowered
+    const sema::RoutineSymbol* usedBuiltIn(std::string_view name) const;
     bool searchesData() const;
     void findNamedParameters();
     void addPredefinedData(uint32_t task);
@@ -107,6 +117,8 @@ class ProgramLowering {
     const UnitOptions* unitOptions_ = nullptr;
     std::unordered_set<const sema::DataSymbol*> namedParams_;
     bool asksForNames_ = false;
+    bool erases_ = false; ///< calls EraseModule
+    std::map<std::pair<uint32_t, const sema::Module*>, uint32_t> goneFlags_;
     ir::TypeId lateRow_ = ir::kVoid;
 };
 

@@ -152,6 +152,11 @@ class RoutineLowering {
 
     // lower_named.cpp
     ValueId lowerForeignCall(const sema::BoundCall& call, ValueId resultAddr);
+    ValueId lowerErasableCall(const sema::BoundCall& call, ValueId resultAddr);
+    ValueId isInMemory(const sema::Symbol& symbol);
+    void collectForeignData(const syntax::Node& node, std::vector<const sema::DataSymbol*>& out) const;
+    void checkForeignData(const syntax::Node& part);
+    void raiseUnresolved(const char* error, std::string_view name);
     bool lowerUnresolved(const syntax::Node& statement, const syntax::Node& part);
     std::string_view missingReference(const syntax::Node& node, const char*& error) const;
     void lowerLateCall(const syntax::CallStmt& stmt);

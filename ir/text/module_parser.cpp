@@ -42,9 +42,10 @@ class ModuleParser {
         if (in_.takeWord("search")) return searchType();
         if (in_.takeWord("within")) return routineData();
         if (in_.takeWord("named")) return named();
-        return in_.expected("module, file, folder, sources, type, desc, global, native, routine, external, alias, "
-                            "task, source, search, "
-                            "within, named or config");
+        return in_.expected(
+            "module, file, folder, sources, type, desc, global, native, routine, external, alias, "
+            "task, source, search, "
+            "within, named or config");
     }
 
     bool small(uint8_t& value, int64_t largest) {
@@ -59,6 +60,9 @@ class ModuleParser {
         if (!in_.string(entry.name)) return false;
         if (in_.takeWord("file") && !in_.unsignedInt(entry.file)) return false;
         if (in_.takeWord("task") && !in_.unsignedInt(entry.task)) return false;
+        if (in_.takeWord("gone") &&
+            !tableReference(Fixup::Kind::Global, Fixup::Slot::ModuleGone, module_.modules.size()))
+            return false;
         module_.modules.push_back(std::move(entry));
         return in_.endOfLine();
     }
@@ -342,6 +346,7 @@ class ModuleParser {
         switch (fixup.slot) {
         case Fixup::Slot::External: module_.externals[fixup.index].global = target; break;
         case Fixup::Slot::Alias: module_.aliases[fixup.index].global = target; break;
+        case Fixup::Slot::ModuleGone: module_.modules[fixup.index].gone = target; break;
         case Fixup::Slot::TaskEntry: module_.tasks[fixup.index].entry = target; break;
         case Fixup::Slot::TaskReset: module_.tasks[fixup.index].reset = target; break;
         case Fixup::Slot::Named: module_.namedRoutines[fixup.index].routine = target; break;

@@ -68,6 +68,7 @@ struct Fixup {
     enum class Slot : uint8_t {
         External,
         Alias,
+        ModuleGone,
         TaskEntry,
         TaskReset,
         ErrorFilter,

@@ -302,6 +302,7 @@ void printSearchTables(Out& out, const Module& module) {
         put(out, "source {}", quoted(entry.name));
         if (entry.file != kNone) put(out, " file {}", entry.file);
         if (entry.task != kNone) put(out, " task {}", entry.task);
+        if (entry.gone != kNone) put(out, " gone @{}", nameIn(module.globals, entry.gone));
         put(out, "\n");
     }
     for (uint32_t desc : module.searchTypes)

@@ -209,9 +209,13 @@ void checkNamed(const Module& module, Findings& out) {
     for (const RoutineData& data : module.routineData)
         if (data.typeDesc >= module.typeDescs.size())
             out.push_back(fmt::format("within {}: desc of {} does not exist", data.routine, data.name));
-    for (const ModuleEntry& entry : module.modules)
+    for (const ModuleEntry& entry : module.modules) {
         if (entry.file != kNone && entry.file >= module.files.size())
             out.push_back(fmt::format("source {}: file does not exist", entry.name));
+        if (entry.gone != kNone &&
+            (entry.gone >= module.globals.size() || module.globals[entry.gone].type != kI32))
+            out.push_back(fmt::format("source {}: gone is no i32", entry.name));
+    }
 }
 
 } // namespace

@@ -192,6 +192,7 @@ struct ModuleDesc {
     const char* name;
     const char* file;
     int32_t task;
+    int32_t* gone; ///< set to 1 when the module leaves memory; null: nobody asks
 };
 struct ExternalDesc { ///< a configured object named by the program (signal ...)
     const char* name;

@@ -72,21 +72,34 @@ void Debugger::noteStop(Task& task, StopReason reason) {
 // ---- Breakpoints ---------------------------------------------------------------------------------------------------
 
 Breakpoint Debugger::addBreakpoint(std::string_view where, uint32_t line) {
-    Breakpoint breakpoint{++lastBreakpoint_, std::string(where), line, 0};
-    // The nearest statement at or below the line that can be stopped at.
+    Breakpoint& breakpoint =
+        breakpoints_.emplace_back(Breakpoint{++lastBreakpoint_, std::string(where), line, 0, false});
+    findLine(breakpoint);
+    stops_.clear();
+    return breakpoint;
+}
+
+/// The nearest statement at or below the line that can be stopped at.
+void Debugger::findLine(Breakpoint& breakpoint) const {
+    breakpoint.actualLine = 0;
+    breakpoint.waits = true;
     for (const RoutineEntry* entry : controller_.tables().routines()) {
         const RoutineDesc& routine = *entry->desc;
-        if (!isPlace(routine, where)) continue;
+        if (!isPlace(routine, breakpoint.file)) continue;
+        breakpoint.waits = false;
         for (uint32_t s = 0; s < routine.statementCount; ++s) {
             const StmtDesc& statement = routine.statements[s];
-            if (statement.canStart == 0 || statement.line < line) continue;
+            if (statement.canStart == 0 || statement.line < breakpoint.line) continue;
             if (breakpoint.actualLine == 0 || statement.line < breakpoint.actualLine)
                 breakpoint.actualLine = statement.line;
         }
     }
-    breakpoints_.push_back(breakpoint);
+}
+
+void Debugger::memoryChanged() {
+    for (Breakpoint& breakpoint : breakpoints_)
+        findLine(breakpoint);
     stops_.clear();
-    return breakpoint;
 }
 
 bool Debugger::removeBreakpoint(int id) {

@@ -44,6 +44,7 @@ struct Breakpoint {
     std::string file;        ///< as given: a path, a file name or the name of a module
     uint32_t line = 0;       ///< as given, from 1
     uint32_t actualLine = 0; ///< of the statement that stops; 0: there is none
+    bool waits = false;      ///< no module of that name is in memory; it may be loaded later
 };
 
 /// One routine in progress, innermost first.
@@ -72,6 +73,8 @@ class Debugger final : public StepHook {
     Breakpoint addBreakpoint(std::string_view where, uint32_t line);
     bool removeBreakpoint(int id);
     const std::vector<Breakpoint>& breakpoints() const { return breakpoints_; }
+    /// A module has come into memory or left it.
+    void memoryChanged();
 
     // ---- Orders; each returns "" or why it is refused. The other NORMAL tasks execute while one is stepped.
     std::string run();
@@ -110,6 +113,9 @@ class Debugger final : public StepHook {
     void noteStop(Task& task, StopReason reason);
     /// `start` after steps: continuous execution.
     void continuous(Task& task);
+    /// A procedure found by name is about to be called. False: its caller is executed backwards and it does not say how
+    /// that is done; it is not called.
+    bool allowsCall(Task& task, const Frame* caller, const RoutineDesc& callee);
     /// Stands still inside an instruction (at the circle point of a MoveC).
     Status stopInside(Task& task);
 
@@ -135,11 +141,13 @@ class Debugger final : public StepHook {
         bool backwardTop = false;       ///< nothing lies before the program pointer
         Frame* backwardFrame = nullptr; ///< its statement is being executed backwards
         int32_t backwardStatement = -1;
+        bool backwardRefused = false; ///< it could not be done
     };
 
     State& stateOf(const Task& task) { return states_[&task]; }
     bool shouldStop(State& state, Frame* at, StopReason& reason);
     bool isBreakpoint(const Frame& at);
+    void findLine(Breakpoint& breakpoint) const;
     int32_t stopHere(Task& task, State& state, Frame* at, int32_t here, StopReason reason);
     static int32_t goOn(State& state, const Frame* at, int32_t here);
     /// `alone`: the other tasks are left as they are.

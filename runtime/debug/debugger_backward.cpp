@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace rt {
 namespace {
 
@@ -85,7 +87,7 @@ std::string Debugger::startBackward(Task& task, State& state, Frame* at) {
     if (call && (statement.flags & kStmtCallsBackward) == 0)
         return fmt::format("the procedure called in line {} has no BACKWARD handler", statement.line);
     if (call || (statement.flags & kStmtMovement) != 0) {
-        task.orderBackward(call);
+        task.orderBackward(call ? at : nullptr);
         controller_.motion().setBackward(true);
         state.backwardFrame = at;
         state.backwardStatement = at->statement;
@@ -100,11 +102,27 @@ std::string Debugger::startBackward(Task& task, State& state, Frame* at) {
 /// The statement is done; its frame is asked about the one behind it.
 void Debugger::finishBackward(Task& task, State& state, Frame* at) {
     controller_.motion().setBackward(false);
-    task.orderBackward(false);
+    task.orderBackward(nullptr);
     state.backwardFrame = nullptr;
+    if (std::exchange(state.backwardRefused, false)) { // the program pointer stays
+        at->statement = state.backwardStatement;
+        return;
+    }
     const int32_t above = row(*at, state.backwardStatement).previous;
     state.backwardTop = above < 0;
     at->statement = above < 0 ? state.backwardStatement : above;
+}
+
+bool Debugger::allowsCall(Task& task, const Frame* caller, const RoutineDesc& callee) {
+    const auto found = states_.find(&task);
+    if (found == states_.end() || found->second.backwardFrame != caller || callee.hasBackward != 0)
+        return true;
+    found->second.backwardRefused = true;
+    controller_.log().write(
+        EventId::StepRefused, &task,
+        {"Stepping backward", fmt::format("procedure '{}', called in line {}, has no BACKWARD handler",
+                                          callee.name, row(*caller, caller->statement).line)});
+    return false;
 }
 
 bool Debugger::turnForward(Task&, State& state) {

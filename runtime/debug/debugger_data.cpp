@@ -67,7 +67,7 @@ std::vector<DebugVariable> Debugger::locals(const DebugFrame& frame) const {
 std::vector<DebugVariable> Debugger::globals(const Task& task) const {
     std::vector<DebugVariable> result;
     for (const GlobalDesc* desc : controller_.tables().globals())
-        if (desc->task < 0 || desc->task == static_cast<int32_t>(task.index()))
+        if (controller_.tables().isDeclaredIn(*desc, static_cast<int32_t>(task.index())))
             if (desc->kind != 2 || (desc->flags & kDataPredefined) == 0) result.push_back(dataOf(*desc));
     return result;
 }

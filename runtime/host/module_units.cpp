@@ -12,16 +12,22 @@ void setModuleLoader(Controller& controller, ModuleLoader* loader) {
     units(controller).loader = loader;
 }
 
-void addModule(Controller& controller, const ProgramDesc& unit, LoadedModule module) {
-    controller.tables().addUnit(unit, std::move(module));
+namespace {
+void memoryChanged(Controller& controller) {
     if (ModuleLoader* loader = units(controller).loader; loader != nullptr)
         loader->memoryChanged(controller.tables());
+    controller.debugger().memoryChanged();
+}
+} // namespace
+
+void addModule(Controller& controller, const ProgramDesc& unit, LoadedModule module) {
+    controller.tables().addUnit(unit, std::move(module));
+    memoryChanged(controller);
 }
 
 void removeModule(Controller& controller, int32_t task, const std::string& module) {
     controller.tables().remove(task, module);
-    if (ModuleLoader* loader = units(controller).loader; loader != nullptr)
-        loader->memoryChanged(controller.tables());
+    memoryChanged(controller);
 }
 
 bool connectUnit(Controller& controller, const ProgramDesc& unit) {

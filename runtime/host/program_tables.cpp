@@ -34,6 +34,7 @@ void ProgramTables::setProgram(const ProgramDesc& program) {
         module.task = desc.task;
         if (desc.file != nullptr) module.file = desc.file;
         module.fileTime = timeOf(module.file);
+        module.gone = desc.gone;
         modules_.push_back(std::move(module));
     }
     take(program);
@@ -48,6 +49,8 @@ void ProgramTables::addUnit(const ProgramDesc& unit, LoadedModule module) {
 void ProgramTables::take(const ProgramDesc& unit) {
     for (uint32_t i = 0; i < unit.globalCount; ++i)
         globals_.push_back(&unit.globals[i]);
+    for (uint32_t i = 0; i < unit.aliasCount; ++i)
+        globals_.push_back(&unit.aliases[i]);
     for (uint32_t i = 0; i < unit.routineCount; ++i)
         routines_.push_back(&unit.routines[i]);
     for (uint32_t i = 0; i < unit.routineDataCount; ++i)
@@ -86,6 +89,7 @@ bool ProgramTables::remove(int32_t task, std::string_view module) {
             return within(entry, unit->routineData, unit->routineDataCount);
         });
     } else {
+        if (found->gone != nullptr) *found->gone = 1;
         const auto inModule = [&](const auto* entry) {
             return entry->task == task && sameName(entry->module, module);
         };
@@ -96,6 +100,14 @@ bool ProgramTables::remove(int32_t task, std::string_view module) {
     modules_.erase(found);
     index();
     return true;
+}
+
+bool ProgramTables::isDeclaredIn(const GlobalDesc& data, int32_t task) const {
+    if (data.task >= 0) return data.task == task;
+    if ((data.flags & kDataPredefined) != 0) return true;
+    // A shared object: the row tells module and file of the first declaration, not its task.
+    const LoadedModule* module = findModule(task, data.module);
+    return module != nullptr && (data.file == nullptr || module->file.empty() || module->file == data.file);
 }
 
 const LoadedModule* ProgramTables::findModule(int32_t task, std::string_view name) const {

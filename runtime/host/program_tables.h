@@ -22,11 +22,12 @@ struct LoadedModule {
     bool dynamic = false;              ///< leaves memory when the program pointer is moved to main
     int64_t fileTime =
         -1; ///< when its file was modified last before loading; seconds since 1970, -1: unknown
+    int32_t* gone = nullptr; ///< compiled code wants to know when it leaves memory
 };
 
 class ProgramTables {
   public:
-    /// The program itself, once.
+    /// The program itself, once; `program` stays valid for the life of the tables.
     void setProgram(const ProgramDesc& program);
     /// A unit loaded at run time: its module, and what it declares. `unit` stays valid for the life of the tables.
     void addUnit(const ProgramDesc& unit, LoadedModule module);
@@ -38,7 +39,11 @@ class ProgramTables {
     /// The module loaded from a file, null when there is none.
     const LoadedModule* findFile(int32_t task, const std::string& hostPath) const;
 
+    /// Module data by their declarations: a persistent that modules share has a row for each of them.
     const std::vector<const GlobalDesc*>& globals() const { return globals_; }
+    /// Does the row stand for a declaration in a module of the task? Of shared persistents only one row is the task's
+    /// own, the others belong to other tasks' modules.
+    bool isDeclaredIn(const GlobalDesc& data, int32_t task) const;
     const std::vector<const RoutineEntry*>& routines() const { return routines_; }
     const std::vector<const RoutineDataDesc*>& routineData() const { return routineData_; }
     const std::vector<const TypeDesc*>& types() const { return types_; }

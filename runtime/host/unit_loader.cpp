@@ -176,6 +176,8 @@ void UnitLoader::memoryChanged(const ProgramTables& present) {
 void UnitLoader::bind(Unit& unit, const ProgramTables& present) {
     for (Binding& binding : unit.bindings) {
         const GlobalDesc* object = present.findGlobal(binding.name, binding.module, unit.task, true);
+        if (object == nullptr && binding.bound->kind == kPersistent) // another module may declare it, too
+            object = findUnitData(present, binding.name, "", unit.task);
         if (object != nullptr && ((object->flags & kDataLocal) != 0 || !isLike(*object, *binding.bound)))
             object = nullptr;
         const void* address = object != nullptr ? object->address : nullptr;

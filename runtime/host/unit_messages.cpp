@@ -98,7 +98,8 @@ std::unique_ptr<UnitRequest> readUnitRequest(std::string_view bytes) try {
     std::vector<LoadedModule> loaded;
     for (const Json& row : json.at("memory").at("modules")) {
         if (!row.at(3).get<bool>()) {
-            request->modules_.push_back({keep(row.at(0)), keep(row.at(2)), row.at(1).get<int32_t>()});
+            request->modules_.push_back(
+                {keep(row.at(0)), keep(row.at(2)), row.at(1).get<int32_t>(), nullptr});
             continue;
         }
         LoadedModule& module = loaded.emplace_back();

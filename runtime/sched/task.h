@@ -253,11 +253,12 @@ class Task : public TaskCore {
     /// Interrupts are not handled while the task is stepped (manual 1.11).
     void setStepwise(bool stepwise);
     bool isStepwise() const { return stepwise_; }
-    /// The next procedure with a BACKWARD part that is called runs that part (manual 1.21).
-    void orderBackward(bool order) { backwardCall_ = order; }
+    /// The next procedure with a BACKWARD part that is called from this frame runs that part (manual 1.21); null: none.
+    void orderBackward(const Frame* caller) { backwardCaller_ = caller; }
+    /// Asked by that procedure.
     bool takeBackward() {
-        const bool order = backwardCall_;
-        backwardCall_ = false;
+        const bool order = backwardCaller_ != nullptr && frame != nullptr && frame->caller == backwardCaller_;
+        if (order) backwardCaller_ = nullptr;
         return order;
     }
     /// Stands still until started again or unwound. Event routines that are due run first.
@@ -361,7 +362,7 @@ class Task : public TaskCore {
     bool undoAborted_ = false;
     StepHook* stepHook_ = nullptr;
     bool stepwise_ = false;
-    bool backwardCall_ = false;
+    const Frame* backwardCaller_ = nullptr;
     EntryFunction entryOverride_ = nullptr; // program pointer moved to a routine: run instead of main once
     uint64_t starts_ = 0;                   // how often the task went on after a stop,
     Time startedAt_ = 0;                    // and when it did so last

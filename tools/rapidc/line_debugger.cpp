@@ -204,7 +204,10 @@ bool LineDebugger::breakAt(std::string_view arguments) {
     uint32_t line = 0;
     if (!readPlace(arguments, module, line)) return false;
     const rt::Breakpoint breakpoint = debugger_->addBreakpoint(module, line);
-    if (breakpoint.actualLine == 0)
+    if (breakpoint.waits)
+        fmt::print("breakpoint {}: {}:{}, waits for a module of that name to be loaded\n", breakpoint.id,
+                   module, line);
+    else if (breakpoint.actualLine == 0)
         fmt::print("breakpoint {}: no instruction at or below line {} of {}\n", breakpoint.id, line, module);
     else
         fmt::print("breakpoint {}: {}:{}\n", breakpoint.id, module, breakpoint.actualLine);
@@ -213,7 +216,9 @@ bool LineDebugger::breakAt(std::string_view arguments) {
 
 bool LineDebugger::breakpoints(std::string_view) {
     for (const rt::Breakpoint& breakpoint : debugger_->breakpoints())
-        fmt::print("{}  {}:{}\n", breakpoint.id, breakpoint.file, breakpoint.actualLine);
+        fmt::print("{}  {}:{}{}\n", breakpoint.id, breakpoint.file,
+                   breakpoint.waits ? breakpoint.line : breakpoint.actualLine,
+                   breakpoint.waits ? " (waits for its module)" : "");
     if (debugger_->breakpoints().empty()) fmt::print("no breakpoints\n");
     return false;
 }

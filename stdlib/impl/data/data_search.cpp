@@ -96,12 +96,25 @@ class Collector {
 
   private:
     template <class Filter> void global(Filter filter, bool below) {
-        for (const GlobalDesc* data : tables_.globals()) {
-            if ((data->task >= 0 && data->task != task_) || !filter(*data)) continue;
-            if (!wanted(criteria_, data->name, *data->type, data->kind, (data->flags & kDataLocal) != 0))
-                continue;
+        std::vector<const GlobalDesc*> found;
+        for (const GlobalDesc* data : tables_.globals())
+            if (tables_.isDeclaredIn(*data, task_) && filter(*data) &&
+                wanted(criteria_, data->name, *data->type, data->kind, (data->flags & kDataLocal) != 0))
+                found.push_back(data);
+        // As they are declared: rows of shared persistents stand elsewhere in the table.
+        std::stable_sort(found.begin(), found.end(), [&](const GlobalDesc* a, const GlobalDesc* b) {
+            return placeOf(*a) < placeOf(*b);
+        });
+        for (const GlobalDesc* data : found)
             hits_.push_back({data->name, {data->module, "", task_}, below});
-        }
+    }
+    std::pair<std::size_t, uint32_t> placeOf(const GlobalDesc& data) const {
+        const auto& modules = tables_.modules();
+        const auto at = std::find_if(modules.begin(), modules.end(), [&](const LoadedModule& module) {
+            return module.task == task_ && sameName(module.name, data.module);
+        });
+        if (at == modules.end()) return {0, 0}; // predefined
+        return {1 + static_cast<std::size_t>(at - modules.begin()), data.line};
     }
     void routines(std::string_view module, std::string_view routine, bool below) {
         for (const RoutineDataDesc* data : tables_.routineData()) {
@@ -182,7 +195,7 @@ Status rt_SetAllDataVal(TaskCore* task, const String* Type, const String* TypeMo
         (void)lib::copyData(task, variable, const_cast<void*>(Value), *ValueType, true);
     };
     for (const GlobalDesc* data : tables.globals()) {
-        const bool own = data->task < 0 || data->task == static_cast<int32_t>(owner.index());
+        const bool own = tables.isDeclaredIn(*data, static_cast<int32_t>(owner.index()));
         if (own && (data->flags & kDataPredefined) == 0 && data->kind != kConstant &&
             wanted(criteria, data->name, *data->type, data->kind, false))
             set(dataOf(*data));

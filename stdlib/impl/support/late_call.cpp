@@ -141,6 +141,8 @@ Status rt_lateCall(TaskCore* core, const String* name, const LateCallArg* args, 
     };
     if (routine->kind != kind || routine->late == nullptr)
         return refuse(fmt::format("it is a {}, not a {}", wordFor(routine->kind), wordFor(kind)));
+    if (kind == kRoutineProc && !task.controller().debugger().allowsCall(task, caller, *routine->desc))
+        return kOk;
     std::string problem;
     Status status = kOk;
     {
