@@ -297,12 +297,16 @@ void printNamed(Out& out, const Module& module, const NamedRoutine& named) {
     put(out, ")\n");
 }
 
+std::string globalName(const Module& module, uint32_t index) {
+    return index < module.globals.size() ? quoted(module.globals[index].name) : "\"?\"";
+}
+
 void printSearchTables(Out& out, const Module& module) {
     for (const ModuleEntry& entry : module.modules) {
         put(out, "source {}", quoted(entry.name));
         if (entry.file != kNone) put(out, " file {}", entry.file);
         if (entry.task != kNone) put(out, " task {}", entry.task);
-        if (entry.gone != kNone) put(out, " gone @{}", nameIn(module.globals, entry.gone));
+        if (entry.gone != kNone) put(out, " gone @{}", globalName(module, entry.gone));
         put(out, "\n");
     }
     for (uint32_t desc : module.searchTypes)
@@ -318,20 +322,17 @@ void printSearchTables(Out& out, const Module& module) {
 }
 
 void printTails(Out& out, const Module& module) {
-    auto globalName = [&](uint32_t i) {
-        return i < module.globals.size() ? quoted(module.globals[i].name) : "\"?\"";
-    };
     auto routineName = [&](uint32_t i) {
         return i < module.routines.size() ? quoted(module.routines[i].name) : "\"?\"";
     };
     for (const ExternalRef& external : module.externals) {
         put(out, "external {} {}", quoted(external.name), quoted(external.kind));
-        if (external.global != kNone) put(out, " @{}", globalName(external.global));
+        if (external.global != kNone) put(out, " @{}", globalName(module, external.global));
         if (external.file != kNone) put(out, " at {}:{}:{}", external.file, external.line, external.column);
         put(out, "\n");
     }
     for (const GlobalAlias& alias : module.aliases) {
-        put(out, "alias @{} {} in {} task {}", globalName(alias.global), quoted(alias.displayName),
+        put(out, "alias @{} {} in {} task {}", globalName(module, alias.global), quoted(alias.displayName),
             quoted(alias.moduleName), alias.task);
         printPlace(out, alias.file, alias.line);
         put(out, "\n");

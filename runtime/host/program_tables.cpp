@@ -107,7 +107,10 @@ bool ProgramTables::isDeclaredIn(const GlobalDesc& data, int32_t task) const {
     if ((data.flags & kDataPredefined) != 0) return true;
     // A shared object: the row tells module and file of the first declaration, not its task.
     const LoadedModule* module = findModule(task, data.module);
-    return module != nullptr && (data.file == nullptr || module->file.empty() || module->file == data.file);
+    if (module == nullptr) return false;
+    // Units name their file otherwise; no other module of the task has that name.
+    return module->unit != nullptr || data.file == nullptr || module->file.empty() ||
+           module->file == data.file;
 }
 
 const LoadedModule* ProgramTables::findModule(int32_t task, std::string_view name) const {

@@ -1,34 +1,18 @@
 #include "runtime/host/unit_messages.h"
 
-#include <nlohmann/json.hpp>
+#include "runtime/host/cbor.h"
 
 namespace rt {
 namespace {
 
 using Json = nlohmann::json;
 
-/// Bytes of files need not be UTF-8.
-Json binary(std::string_view bytes) {
-    return Json::binary({bytes.begin(), bytes.end()});
-}
-
-std::string bytesOf(const Json& value) {
-    const Json::binary_t& bytes = value.get_binary();
-    return {bytes.begin(), bytes.end()};
-}
-
-std::string encode(const Json& json) {
-    std::string bytes;
-    Json::to_cbor(json, bytes);
-    return bytes;
-}
-
 Json jsonOf(const UnitImage& image) {
     Json json{{"size", image.size}, {"program", image.program}, {"imports", image.imports}};
     json["segments"] = Json::array();
     for (const UnitImage::Segment& segment : image.segments)
         json["segments"].push_back(
-            {segment.offset, segment.size, binary(segment.bytes), segment.writable, segment.executable});
+            {segment.offset, segment.size, binaryJson(segment.bytes), segment.writable, segment.executable});
     json["patches"] = Json::array();
     for (const UnitImage::Patch& patch : image.patches)
         json["patches"].push_back({patch.offset, patch.addend, patch.import});
@@ -62,18 +46,22 @@ Json jsonOf(const ProgramTables& tables) {
 
 std::string writeUnitRequest(std::string_view sources, bool references, const LoadRequest& load,
                              const ProgramState& state) {
-    Json json{{"sources", binary(sources)},  {"references", references},
-              {"task", load.task},           {"index", load.taskIndex},
-              {"path", load.path},           {"shown", load.shown},
-              {"bytes", binary(load.bytes)}, {"memory", jsonOf(state.tables)},
+    Json json{{"sources", binaryJson(sources)},
+              {"references", references},
+              {"task", load.task},
+              {"index", load.taskIndex},
+              {"path", load.path},
+              {"shown", load.shown},
+              {"bytes", binaryJson(load.bytes)},
+              {"memory", jsonOf(state.tables)},
               {"files", Json::array()}};
     for (const LoadedFile& file : state.files)
-        json["files"].push_back({file.task, file.path, file.shown, binary(file.bytes)});
-    return encode(json);
+        json["files"].push_back({file.task, file.path, file.shown, binaryJson(file.bytes)});
+    return writeCbor(json);
 }
 
 std::unique_ptr<UnitRequest> readUnitRequest(std::string_view bytes) try {
-    const Json json = Json::from_cbor(bytes);
+    const Json json = readCbor(bytes);
     auto request = std::make_unique<UnitRequest>();
     request->sources = bytesOf(json.at("sources"));
     request->references = json.at("references").get<bool>();
@@ -129,11 +117,11 @@ std::string writeUnitAnswer(const UnitAnswer& answer) {
               {"data", Json::array()}};
     for (const CompiledUnit::Import& import : answer.unit.data)
         json["data"].push_back({import.symbol, import.name, import.module});
-    return encode(json);
+    return writeCbor(json);
 }
 
 std::optional<UnitAnswer> readUnitAnswer(std::string_view bytes) try {
-    const Json json = Json::from_cbor(bytes);
+    const Json json = readCbor(bytes);
     UnitAnswer answer;
     const int verdict = json.at("verdict").get<int>();
     if (verdict < 0 || verdict > static_cast<int>(LoadResult::Verdict::NoCompiler)) return std::nullopt;

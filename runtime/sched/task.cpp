@@ -77,7 +77,7 @@ bool Task::runCycle() {
     }
     const EntryFunction entry = entryOverride_ != nullptr ? entryOverride_ : desc_.entry;
     entryOverride_ = nullptr;
-    backwardCall_ = false;
+    backwardCaller_ = nullptr;
     if (status == kOk && entry != nullptr) status = entry(this, nullptr);
     if (status > 0) (void)raiseAt(nullptr, status); // no routine took it, and none reported it
     frame = nullptr;

@@ -1,11 +1,11 @@
 #include "tools/rapidc/program_sources.h"
 
 #include "runtime/abi/rt_abi.h"
+#include "runtime/host/cbor.h"
 #include "stdlib/stdlib_text.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace rapidc {
 
@@ -46,10 +46,8 @@ Json jsonOf(const ProgramSources::Task& task) {
               {"optional", task.input.optional},
               {"modules", task.modules},
               {"files", Json::array()}};
-    for (const auto& file : task.input.files) {
-        const std::string bytes = file->bytes();
-        json["files"].push_back({file->path(), Json::binary({bytes.begin(), bytes.end()})});
-    }
+    for (const auto& file : task.input.files)
+        json["files"].push_back({file->path(), rt::binaryJson(file->bytes())});
     return json;
 }
 
@@ -62,11 +60,9 @@ ProgramSources::Task taskOf(const Json& json) {
     task.input.incomplete = json.at("incomplete").get<bool>();
     task.input.optional = json.at("optional").get<bool>();
     task.modules = json.at("modules").get<std::vector<std::vector<std::string>>>();
-    for (const Json& file : json.at("files")) {
-        const Json::binary_t& bytes = file.at(1).get_binary();
-        task.input.files.push_back(std::make_shared<const rapid::SourceFile>(
-            file.at(0).get<std::string>(), std::string(bytes.begin(), bytes.end())));
-    }
+    for (const Json& file : json.at("files"))
+        task.input.files.push_back(std::make_shared<const rapid::SourceFile>(file.at(0).get<std::string>(),
+                                                                             rt::bytesOf(file.at(1))));
     return task;
 }
 
@@ -111,13 +107,11 @@ std::string pack(const ProgramSources& sources) {
         json["signals"].push_back({signal.name, signal.type});
     for (const ProgramSources::Task& task : sources.tasks)
         json["tasks"].push_back(jsonOf(task));
-    std::string bytes;
-    Json::to_cbor(json, bytes);
-    return bytes;
+    return rt::writeCbor(json);
 }
 
 std::unique_ptr<ProgramSources> unpack(std::string_view bytes, std::string& problem) try {
-    const Json json = Json::from_cbor(bytes);
+    const Json json = rt::readCbor(bytes);
     const auto version = json.at("version").get<std::string>();
     if (json.at("fingerprint").get<std::string>() != fingerprint()) {
         problem = fmt::format("the executable was built by {} rapidc {}, this is rapidc {}",

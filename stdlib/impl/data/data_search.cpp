@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <tuple>
 
 using namespace rt;
 
@@ -96,25 +97,24 @@ class Collector {
 
   private:
     template <class Filter> void global(Filter filter, bool below) {
-        std::vector<const GlobalDesc*> found;
+        std::vector<std::pair<Place, const GlobalDesc*>> found;
         for (const GlobalDesc* data : tables_.globals())
             if (tables_.isDeclaredIn(*data, task_) && filter(*data) &&
                 wanted(criteria_, data->name, *data->type, data->kind, (data->flags & kDataLocal) != 0))
-                found.push_back(data);
+                found.push_back({placeOf(*data, found.size()), data});
         // As they are declared: rows of shared persistents stand elsewhere in the table.
-        std::stable_sort(found.begin(), found.end(), [&](const GlobalDesc* a, const GlobalDesc* b) {
-            return placeOf(*a) < placeOf(*b);
-        });
-        for (const GlobalDesc* data : found)
+        std::sort(found.begin(), found.end());
+        for (const auto& [place, data] : found)
             hits_.push_back({data->name, {data->module, "", task_}, below});
     }
-    std::pair<std::size_t, uint32_t> placeOf(const GlobalDesc& data) const {
+    using Place = std::tuple<std::size_t, uint32_t, std::size_t>; ///< module, line, row in the table
+    Place placeOf(const GlobalDesc& data, std::size_t row) const {
         const auto& modules = tables_.modules();
         const auto at = std::find_if(modules.begin(), modules.end(), [&](const LoadedModule& module) {
             return module.task == task_ && sameName(module.name, data.module);
         });
-        if (at == modules.end()) return {0, 0}; // predefined
-        return {1 + static_cast<std::size_t>(at - modules.begin()), data.line};
+        if (at == modules.end()) return {0, 0, row}; // predefined
+        return {1 + static_cast<std::size_t>(at - modules.begin()), data.line, row};
     }
     void routines(std::string_view module, std::string_view routine, bool below) {
         for (const RoutineDataDesc* data : tables_.routineData()) {

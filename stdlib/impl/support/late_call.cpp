@@ -168,6 +168,9 @@ Status rt_lateTrap(TaskCore* core, void** result, const String* name) {
 }
 
 Status rt_unresolved(TaskCore* core, int32_t number, const String* name) {
-    return lib::fail(core, number, fmt::format("nothing in program memory declares '{}'", name->view()));
+    const char* detail =
+        number == err::ERR_REFUNKDAT ? ", or not as it was when the module that uses it was compiled" : "";
+    return lib::fail(core, number,
+                     fmt::format("nothing in program memory declares '{}'{}", name->view(), detail));
 }
 }

@@ -45,6 +45,10 @@ TEST_CASE("the program description tells what the module holds", "[codegen]") {
     CHECK(std::string(desc.externals[0].kind) == "signaldo");
     CHECK(desc.externals[0].slot == global(*program, "do1"));
     CHECK(desc.externals[0].column == 3);
+    CHECK(std::string_view(desc.sources, desc.sourcesSize) == std::string_view("\xa2\0\xff, any bytes", 14));
+    REQUIRE(desc.moduleCount == 1);
+    REQUIRE(desc.modules[0].gone);
+    CHECK(*desc.modules[0].gone == 0);
     REQUIRE(desc.configCount == 1);
     CHECK(std::string(desc.configNames[0]) == "EIO");
     CHECK(std::string(desc.configTexts[0]) == "EIO:CFG_1.0\n# text\n");
