@@ -7,8 +7,6 @@
 #include <llvm/ExecutionEngine/JITLink/x86_64.h>
 #include <llvm/Support/MemoryBuffer.h>
 
-#include <map>
-
 #include "codegen/compile.h"
 #include "ir/core/ir.h"
 #include "runtime/abi/unit_image.h"
@@ -89,15 +87,12 @@ class ImageContext : public jitlink::JITLinkContext {
 
     void lookup(const LookupMap& symbols,
                 std::unique_ptr<jitlink::JITLinkAsyncLookupContinuation> next) override {
-        std::map<std::string, llvm::StringRef> sorted; // the same image for the same module
-        for (const auto& symbol : symbols)
-            sorted.emplace(symbol.first.str(), symbol.first);
         jitlink::AsyncLookupResult result;
-        for (const auto& [name, symbol] : sorted) {
-            result[symbol] = {orc::ExecutorAddr(kImports + kImportStep * image_.imports.size()),
-                              llvm::JITSymbolFlags::Exported};
-            numbers_[symbol] = static_cast<int32_t>(image_.imports.size());
-            image_.imports.push_back(name);
+        for (const auto& entry : symbols) {
+            result[entry.first] = {orc::ExecutorAddr(kImports + kImportStep * image_.imports.size()),
+                                   llvm::JITSymbolFlags::Exported};
+            numbers_[entry.first] = static_cast<int32_t>(image_.imports.size());
+            image_.imports.push_back(entry.first.str());
         }
         next->run(std::move(result));
     }

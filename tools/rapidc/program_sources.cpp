@@ -2,6 +2,7 @@
 
 #include "runtime/abi/rt_abi.h"
 #include "runtime/host/cbor.h"
+#include "stdlib/native_table.h"
 #include "stdlib/stdlib_text.h"
 
 #include <algorithm>
@@ -24,6 +25,8 @@ std::string fingerprint() {
     };
     for (const rapid::stdlib::StdlibSource& source : rapid::stdlib::sources())
         add(source.text);
+    for (const rt::SupportEntry& entry : rt::supportTable())
+        add(entry.symbol);
     add(fmt::format("{} {} {} {} {} {}", sizeof(rt::ProgramDesc), sizeof(rt::RoutineDesc),
                     sizeof(rt::GlobalDesc), sizeof(rt::RoutineEntry), sizeof(rt::TypeDesc),
                     sizeof(rt::TaskCore)));
