@@ -59,7 +59,8 @@ constexpr AddInNames kAddIns[] = {
      "striggl scssdeactmovel hr_*"},
     {"SmartGripper (YuMi)",
      "hand_* g_init g_calibrate g_gripin g_gripout g_jogin g_jogout g_moveto g_stop g_getpos "
-     "g_vacuumon* g_vacuumoff* g_blowon* g_blowoff* g_setforce g_setmaxspd"},
+     "g_vacuumon* g_vacuumoff* g_blowon* g_blowoff* g_setforce g_setmaxspd g_getspd g_iscalibrated "
+     "g_getpressure* g_getvac*"},
     {"PickMaster", "itmsrc itmsrctype itmtgt getitmtgt ackitmtgt nextitmtgttype qstartitmsrc qstopitmsrc "
                    "flushitmsrc resetitmsrc resetflowcount getqueuelevel"},
     {"Lincoln ArcLink XT", "lincweldmodedata"},

@@ -272,6 +272,9 @@ Stmt* Parser::parseCallStmt() {
     const size_t errorsBefore = errors_;
     const size_t unreadable = unreadable_;
     node->args = parseArguments(true);
+    if (!panic_ && !node->args.empty() && isName(kind()) && peek() == K::Assign && !startsLine(pos_)) {
+        unexpected("'\\' or ','"); // "Move 1 speed:=2;"
+    }
     if (kind() != K::Semicolon && !panic_ && errors_ == errorsBefore && retagCallee(node->name))
         return parseStmtUnguarded();
     if (node->args.empty() && atReservedName()) { // an argument
