@@ -67,11 +67,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         return 0;
     }
     request.keepErrors = true;
-    const std::string around = formatOnce(bytes, request, refused);
-    if (!refused) {
-        const std::string twice = formatOnce(around, request, refused);
-        require(!refused && around == twice, "formatting around mistakes again changes the text");
-    }
+    formatOnce(bytes, request, refused);
     request.keepErrors = false;
     request.firstLine = 2;
     request.lastLine = 5;
