@@ -109,9 +109,9 @@ void Parser::checkNameLength(TokenIndex name) {
 
 // ---- Looking around -------------------------------------------------------------------------------------------
 
-/// True when only white space and comments separate the token from the end of an earlier line, and behind the last one.
+/// True when only white space and comments separate the token from the end of an earlier line, and at the end of the file.
 bool Parser::startsLine(TokenIndex i) const {
-    if (i == 0 || i > last_) return true;
+    if (i == 0 || i >= last_) return true;
     const std::string_view text = tree_.source->text();
     const uint32_t from = tokens_[i - 1].offset + tokens_[i - 1].length;
     for (uint32_t at = tokens_[i].offset; at > from; --at)
@@ -225,8 +225,7 @@ bool Parser::calleeEndsHere(TokenIndex callee, TokenIndex calleeEnd) const {
 /// formatting gives each instruction a line, but keeps the lines within one.
 bool Parser::endsLine(TokenIndex last) const {
     const K next = kindAt(last + 1);
-    return last + 1 >= last_ ||
-           (startsLine(last + 1) && (isName(next) || (!startsExpr(next) && next != K::Backslash)));
+    return startsLine(last + 1) && (isName(next) || (!startsExpr(next) && next != K::Backslash));
 }
 
 // ---- Finding the way back --------------------------------------------------------------------------------------

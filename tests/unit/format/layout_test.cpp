@@ -338,6 +338,8 @@ TEST_CASE("modules with mistakes are refused, or formatted around them", "[forma
     CHECK(formatText(text, request) == "MODULE m\n   VAR num a;\nPROC p()\n  a := ;\n IF a THEN\nENDPROC\n"
                                        "   PROC q()\n      a;\n   ENDPROC\nENDMODULE\n");
     CHECK(formatText("hello", request).starts_with("refused"));
+    // The end of the file ends a line.
+    CHECK(formatText("MODULE m\nPROC p()\n a := ;\nEND", request) == "MODULE m\nPROC p()\n a := ;\nEND\n");
     // A mistake at the end of the line of another declaration.
     CHECK(formatText("MODULE m\nVAR num n;ENDSUB\nn := a + a;\nPROC  p()\nENDPROC\nENDMODULE\n", request) ==
           "MODULE m\nVAR num n;ENDSUB\nn := a + a;\n   PROC p()\n   ENDPROC\nENDMODULE\n");
