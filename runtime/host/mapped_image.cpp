@@ -55,9 +55,13 @@ std::unique_ptr<MappedImage> MappedImage::map(const UnitImage& image, const std:
         if (segment.size > 0) mapped->segments_.push_back({segment.offset, segment.size, bits});
     }
     for (const UnitImage::Patch& patch : image.patches) {
-        mapped->apply(patch,
-                      patch.import < 0 ? mapped->base_ : imports[static_cast<std::size_t>(patch.import)]);
-        if (patch.import >= 0) mapped->patches_.push_back(patch);
+        if (patch.import < 0) {
+            mapped->write(patch.offset,
+                          reinterpret_cast<uint64_t>(memory) + static_cast<uint64_t>(patch.addend));
+            continue;
+        }
+        mapped->patches_.push_back(patch);
+        mapped->bind(patch, imports[static_cast<std::size_t>(patch.import)]);
     }
     if (!mapped->protect(false)) {
         error = fmt::format("memory cannot be made executable: {}", std::strerror(errno));
@@ -80,16 +84,19 @@ bool MappedImage::protect(bool patching) {
     return done;
 }
 
-void MappedImage::apply(const UnitImage::Patch& patch, const void* address) {
-    const uint64_t value =
-        address == nullptr ? 0 : reinterpret_cast<uint64_t>(address) + static_cast<uint64_t>(patch.addend);
-    std::memcpy(base_ + patch.offset, &value, sizeof value);
+void MappedImage::write(uint64_t offset, uint64_t value) {
+    std::memcpy(base_ + offset, &value, sizeof value);
+}
+
+void MappedImage::bind(const UnitImage::Patch& patch, const void* address) {
+    const auto target = reinterpret_cast<uint64_t>(address);
+    write(patch.offset, target == 0 ? 0 : target + static_cast<uint64_t>(patch.addend));
 }
 
 void MappedImage::rebind(std::size_t import, const void* address) {
     if (!protect(true)) return;
     for (const UnitImage::Patch& patch : patches_)
-        if (patch.import == static_cast<int32_t>(import)) apply(patch, address);
+        if (patch.import == static_cast<int32_t>(import)) bind(patch, address);
     protect(false);
 }
 

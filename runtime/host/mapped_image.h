@@ -31,7 +31,8 @@ class MappedImage {
         int bits;
     };
     bool protect(bool patching);
-    void apply(const UnitImage::Patch& patch, const void* address);
+    void write(uint64_t offset, uint64_t value);
+    void bind(const UnitImage::Patch& patch, const void* address);
 
     char* base_ = nullptr;
     uint64_t size_ = 0;
