@@ -117,15 +117,21 @@ void RoutineEmitter::constNative(const ir::Inst& inst, ir::ValueId id) {
     define(id, result);
 }
 
-void RoutineEmitter::safepoint(const ir::Inst& inst) {
+/// Takes the cost from the budget; what is left.
+llvm::Value* RoutineEmitter::pay(Value* cost) {
     Value* budget = taskField(offsetof(rt::TaskCore, budget), "budget");
-    llvm::Type* i64 = b_.getInt64Ty();
-    auto* before = b_.CreateLoad(i64, budget);
+    auto* before = b_.CreateLoad(b_.getInt64Ty(), budget);
     before->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
-    Value* cost = llvm::ConstantInt::getSigned(i64, inst.extra);
-    if (!inst.operands.empty()) cost = b_.CreateAdd(cost, operand(inst, 0));
     Value* after = b_.CreateSub(before, cost);
     b_.CreateStore(after, budget)->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
+    return after;
+}
+
+void RoutineEmitter::safepoint(const ir::Inst& inst) {
+    llvm::Type* i64 = b_.getInt64Ty();
+    Value* cost = llvm::ConstantInt::getSigned(i64, inst.extra);
+    if (!inst.operands.empty()) cost = b_.CreateAdd(cost, operand(inst, 0));
+    Value* after = pay(cost);
     BasicBlock *go = newBlock("go"), *slow = newBlock("safepoint");
     b_.CreateCondBr(b_.CreateICmpSGE(after, llvm::ConstantInt::get(i64, 0)), go, slow, m_.unlikely());
     b_.SetInsertPoint(slow);
@@ -139,12 +145,18 @@ void RoutineEmitter::safepoint(const ir::Inst& inst) {
     storedStmt_.reset(); // the slow path stores its own
 }
 
-/// The controller is asked which statement to go on with; usually it is this one.
+/// Who watches the program is asked which statement to go on with; usually it is this one. Nobody is as a rule.
 void RoutineEmitter::step(const ir::Inst& inst) {
     Value* here = b_.getInt32(inst.index);
     storeStatement(here);
+    Value* after = pay(b_.getInt64(1));
+    Value* asked = b_.CreateLoad(b_.getInt32Ty(), taskField(offsetof(rt::TaskCore, askSteps), "askSteps"));
+    BasicBlock *go = newBlock("go"), *ask = newBlock("ask");
+    Value* mayGo = b_.CreateAnd(b_.CreateICmpSGE(after, llvm::ConstantInt::get(b_.getInt64Ty(), 0)),
+                                b_.CreateICmpEQ(asked, b_.getInt32(0)));
+    b_.CreateCondBr(mayGo, go, ask, m_.unlikely());
+    b_.SetInsertPoint(ask);
     Value* wanted = b_.CreateCall(m_.runtime().step, {task_, frame_});
-    BasicBlock* go = newBlock("go");
     BasicBlock* elsewhere = joinFrom(makeJoin(steps_, "step"), wanted);
     b_.CreateCondBr(b_.CreateICmpEQ(wanted, here), go, elsewhere, m_.unlikely());
     b_.SetInsertPoint(go);

@@ -1,6 +1,7 @@
 // The structures of rt_abi.h: type descriptions, statement tables, routine descriptions, the program description.
 
 #include <cstddef>
+#include <set>
 
 #include "codegen/module_emitter.h"
 #include "runtime/abi/rt_abi.h"
@@ -18,7 +19,7 @@ static_assert(offsetof(rt::RoutineEntry, late) == 40 && sizeof(rt::RoutineEntry)
 static_assert(sizeof(rt::ParamDesc) == 24 && sizeof(rt::RoutineDataDesc) == 40 &&
               sizeof(rt::ModuleDesc) == 32);
 static_assert(int{rt::kDataLocal} == ir::kDataLocal && int{rt::kDataPredefined} == ir::kDataPredefined);
-static_assert(sizeof(rt::RoutineDesc) == 88 && sizeof(rt::TaskDesc) == 40 && sizeof(rt::GlobalDesc) == 56);
+static_assert(sizeof(rt::RoutineDesc) == 96 && sizeof(rt::TaskDesc) == 40 && sizeof(rt::GlobalDesc) == 56);
 static_assert(sizeof(rt::ExternalDesc) == 40 && sizeof(rt::ProgramDesc) == 176);
 
 static_assert(int{rt::kStmtCallsRoutine} == ir::kStmtCallsRoutine &&
@@ -80,7 +81,7 @@ void ModuleEmitter::declareTables() {
     stmtDescType_ = make("rt.StmtDesc", {i32_, i32_, i32_, i32_, i8_, i8_, i8_, i8_, i32_});
     localDescType_ = make("rt.LocalDesc", {ptr_, ptr_, i8_, i8_, i8_, i8_});
     routineDescType_ = make("rt.RoutineDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i8_,  i8_, i8_, i8_, ptr_,
-                                               i32_, ptr_, i32_, i32_, ptr_, i32_, i8_, i8_, i8_, i8_});
+                                               i32_, ptr_, i32_, i32_, ptr_, i32_, i8_, i8_, i8_, i8_, i32_});
     taskDescType_ = make("rt.TaskDesc", {ptr_, ptr_, ptr_, ptr_, i8_});
     globalDescType_ = make("rt.GlobalDesc", {ptr_, ptr_, ptr_, ptr_, i8_, i8_, i32_, ptr_, i32_});
     externalDescType_ = make("rt.ExternalDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i32_});
@@ -122,13 +123,24 @@ llvm::Constant* ModuleEmitter::typeDescValue(const ir::TypeDesc& desc) {
                         array(ptr_, names, "fieldNames"), array(i32_, offsets, "offsets")});
 }
 
+namespace {
+
+/// rt::StmtDesc::canStart. `starts`: of the statements before it.
+int64_t startMark(const ir::Routine& routine, const ir::Statement& statement, std::set<ir::BlockId>& starts) {
+    if (!routine.stepping || statement.start == ir::kNone) return rt::kCannotStart;
+    return starts.insert(statement.start).second ? rt::kCanStart : rt::kStartsEarlier;
+}
+
+} // namespace
+
 llvm::Constant* ModuleEmitter::routineDescValue(const ir::Routine& routine) {
     std::vector<llvm::Constant*> statements, filter, variables;
+    std::set<ir::BlockId> starts;
     for (const ir::Statement& s : routine.statements)
         statements.push_back(llvm::ConstantStruct::get(
             stmtDescType_,
             {i32(s.line), i32(s.column), i32(s.endLine), i32(s.endColumn), i8(static_cast<int64_t>(s.kind)),
-             i8(s.handled), i8(s.flags), i8(routine.stepping && s.start != ir::kNone),
+             i8(s.handled), i8(s.flags), i8(startMark(routine, s, starts)),
              i32(s.previous == ir::kNone ? -1 : int64_t{s.previous})}));
     std::vector<llvm::Constant*> locals;
     for (uint32_t local : describedLocals(routine)) {
@@ -164,7 +176,8 @@ llvm::Constant* ModuleEmitter::routineDescValue(const ir::Routine& routine) {
                                                         i8(routine.stepping),
                                                         i8(routine.callable),
                                                         i8(0),
-                                                        i8(0)});
+                                                        i8(0),
+                                                        i32(int64_t{routine.textHash})});
 }
 
 std::vector<uint32_t> describedLocals(const ir::Routine& routine) {

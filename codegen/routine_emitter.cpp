@@ -99,13 +99,15 @@ void RoutineEmitter::allocate() {
     caller_ = function_->getArg(1);
     if (!module_.isScalar(routine_.result)) result_ = function_->getArg(2);
     const std::vector<uint32_t> described = describedLocals(routine_);
-    frame_ = b_.CreateAlloca(described.empty() ? m_.runtime().frame : m_.runtime().steppingFrame, nullptr,
-                             "frame");
+    const bool extended = routine_.stepping || !described.empty();
+    frame_ = b_.CreateAlloca(extended ? m_.runtime().steppingFrame : m_.runtime().frame, nullptr, "frame");
     if (!described.empty())
         addresses_ =
             b_.CreateAlloca(llvm::ArrayType::get(b_.getPtrTy(), described.size()), nullptr, "addresses");
     llvm::Type* i32 = b_.getInt32Ty();
-    if (routine_.errorHandler != ir::kNone) failed_ = b_.CreateAlloca(i32, nullptr, "failed");
+    if (routine_.errorHandler != ir::kNone)
+        failed_ = extended ? b_.CreateStructGEP(m_.runtime().steppingFrame, frame_, 2, "failed")
+                           : b_.CreateAlloca(i32, nullptr, "failed");
     if (routine_.undoHandler != ir::kNone) unwinding_ = b_.CreateAlloca(i32, nullptr, "unwinding");
     for (const ir::Local& local : routine_.locals) {
         if (module_.size(local.type) > kLargeLocal) {

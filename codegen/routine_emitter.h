@@ -65,6 +65,7 @@ class RoutineEmitter {
     void call(const ir::Inst& inst, ir::ValueId id);
     void nativeCall(const ir::Inst& inst, ir::ValueId id);
     void constNative(const ir::Inst& inst, ir::ValueId id);
+    Value* pay(Value* cost);
     void safepoint(const ir::Inst& inst);
     void step(const ir::Inst& inst);
     void storeStatement(Value* stmt);
@@ -118,7 +119,8 @@ class RoutineEmitter {
     std::vector<Value*> locals_;
     llvm::AllocaInst* resultSlots_[8] = {}; ///< for scalar results of natives, by type
     Value *task_ = nullptr, *caller_ = nullptr, *result_ = nullptr;
-    llvm::AllocaInst *frame_ = nullptr, *failed_ = nullptr, *unwinding_ = nullptr;
+    llvm::AllocaInst *frame_ = nullptr, *unwinding_ = nullptr;
+    Value* failed_ = nullptr; ///< address: the statement that failed
     ir::BlockId frameBlock_ = ir::kNone; ///< where the frame record is filled; kNone: only on cold paths
     bool frameInPrologue_ = false;
     ir::BlockId current_ = 0;

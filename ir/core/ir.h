@@ -107,7 +107,11 @@ enum StatementFlag : uint8_t {
     kStmtForwardOnly = 4,   ///< cannot be executed backwards, the attempt gives a warning
     kStmtInBackward = 8,    ///< belongs to the backward part of its routine
     kStmtMovement = 16,     ///< moves the robot
-    kStmtInHandler = 32     ///< belongs to the error handler
+    kStmtInHandler = 32,    ///< belongs to the error handler
+    /// Interrupted while it waits, it can be executed from its beginning: nothing that has an effect comes ahead.
+    kStmtRepeatable = 64,
+    /// Its only call of a routine can be entered again by executing it from its beginning.
+    kStmtReenterable = 128
 };
 
 // ---- Routines --------------------------------------------------------------------------------------------
@@ -142,6 +146,7 @@ struct Routine {
         false; ///< made for the stepping profile: every statement has a start that `step` may choose
     bool hasBackward = false; ///< stepping: has a backward part
     bool callable = false;    ///< a procedure without parameters
+    uint32_t textHash = 0;    ///< stepping: another number when its source text was changed
     bool exported = false;    ///< reachable from outside (entry, late binding)
     TypeId result = kVoid; ///< scalar: returned beside the status; Str/Record/Array: through a hidden pointer
     std::vector<Param> params;

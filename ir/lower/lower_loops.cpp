@@ -214,6 +214,10 @@ void RoutineLowering::lowerFloatLoop(const ForStmt& stmt, sema::DataSymbol& vari
     describeLocal(slot.local, variable.type);
     const uint32_t to = b_.addLocal("", t);
     const uint32_t step = b_.addLocal("", t);
+    if (program_.stepping()) { // without a name: nobody sees them, but they are part of what the routine is at
+        describeLocal(to, variable.type);
+        describeLocal(step, variable.type);
+    }
     const ValueId fromValue = lowerValueAs(*stmt.from, type);
     b_.store(t, fromValue, b_.localAddr(slot.local));
     b_.store(t, lowerValueAs(*stmt.to, type), b_.localAddr(to));

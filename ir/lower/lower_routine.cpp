@@ -18,6 +18,7 @@ ir::Routine declareRoutine(ProgramLowering& program, const RoutineSymbol& symbol
     routine.name = fmt::format("{}/{}/{}", program.task(task).name, symbol.module->name, symbol.name);
     routine.noStepIn = symbol.noStepIn;
     routine.stepping = program.stepping();
+    if (routine.stepping) routine.textHash = textHash(symbol);
     routine.callable = symbol.routineKind == syntax::RoutineKind::Proc && symbol.params.empty();
     routine.hasBackward = program.stepping() && symbol.routineDecl && symbol.routineDecl->hasBackward;
     const auto& tree = *symbol.module->tree;

@@ -41,9 +41,11 @@ void RoutineLowering::lowerList(StmtList list) {
             lowerStmt(*stmt);
             branchIfOpen(next);
             // Rows made by this statement itself, not by nested ones, which have set their own.
+            size_t own = 0;
             for (size_t i = firstRow; i < routine_.statements.size(); ++i) {
                 ir::Statement& row = routine_.statements[i];
                 if (row.start != ir::kNone) continue;
+                if (program_.stepping()) row.flags |= resumeFlags(*stmt, own++);
                 row.start = start;
                 row.next = next;
                 row.previous = previous;

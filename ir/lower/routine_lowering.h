@@ -13,6 +13,9 @@ namespace rapid::lower {
 /// Signature and names of a routine whose body follows later.
 ir::Routine declareRoutine(ProgramLowering& program, const sema::RoutineSymbol& symbol, uint32_t task);
 
+/// Tells whether the text of a routine was changed since an earlier compilation; layout and comments do not count.
+uint32_t textHash(const sema::RoutineSymbol& symbol);
+
 class RoutineLowering {
   public:
     /// `declared` is the result of declareRoutine(); the finished routine is returned by run().
@@ -67,6 +70,8 @@ class RoutineLowering {
     void lowerStmt(const syntax::Stmt& stmt);
     bool hasPlaceholder(const syntax::Node& node) const;
     uint8_t statementFlags(const syntax::Stmt& stmt) const;
+    struct CallSearch; ///< lower_resume.cpp
+    uint8_t resumeFlags(const syntax::Stmt& stmt, size_t row) const;
     void lowerAssign(const syntax::AssignStmt& stmt);
     void lowerIf(const syntax::IfStmt& stmt);
     void lowerCompactIf(const syntax::CompactIfStmt& stmt);

@@ -263,6 +263,7 @@ class ModuleParser {
         routine.stepping = in_.takeWord("stepping");
         routine.hasBackward = in_.takeWord("backward");
         routine.callable = in_.takeWord("callable");
+        if (in_.takeWord("hash") && !in_.unsignedInt(routine.textHash)) return false;
         if (!in_.type(module_, routine.result) || !in_.punct('(')) return false;
         while (!in_.isPunct(')')) {
             Param param;

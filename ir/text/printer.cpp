@@ -139,6 +139,7 @@ class RoutinePrinter {
         if (routine_.stepping) put(out_, " stepping");
         if (routine_.hasBackward) put(out_, " backward");
         if (routine_.callable) put(out_, " callable");
+        if (routine_.textHash != 0) put(out_, " hash {}", routine_.textHash);
         put(out_, " {} (", typeName(routine_.result));
         for (size_t i = 0; i < routine_.params.size(); ++i)
             put(out_, "{}{} {}", i ? ", " : "", typeName(routine_.params[i].type),

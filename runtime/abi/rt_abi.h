@@ -67,8 +67,15 @@ struct StmtDesc {
     uint8_t kind;                              ///< ir::StmtKind; kStmtHandler: in an error or UNDO handler
     uint8_t handled;                           ///< 1: an error here goes to the routine's error handler
     uint8_t flags;                             ///< ir::StatementFlag; stepping profile
-    uint8_t canStart;                          ///< 1: rt_step may name it. 0 always in the release profile
+    uint8_t canStart;                          ///< StartMark
     int32_t previous;                          ///< the statement before it in its list, -1: it is the first
+};
+
+/// StmtDesc::canStart: whether rt_step may name the statement. kCannotStart always in the release profile.
+enum StartMark : uint8_t {
+    kCannotStart = 0,
+    kCanStart = 1,
+    kStartsEarlier = 2 ///< a further condition of an IF: execution begins at the first one
 };
 
 /// StmtDesc::flags: what executing the statement backwards means. Equal to ir::StatementFlag.
@@ -78,7 +85,9 @@ enum StmtFlag : uint8_t {
     kStmtForwardOnly = 4,
     kStmtInBackward = 8,
     kStmtMovement = 16,
-    kStmtInHandler = 32
+    kStmtInHandler = 32,
+    kStmtRepeatable = 64,
+    kStmtReenterable = 128
 };
 
 /// A local variable or parameter that the debugger shows (stepping profile).
@@ -87,7 +96,7 @@ struct LocalDesc {
         Value,    ///< its address is the object's
         Reference ///< at its address stands the object's; null = parameter not given
     };
-    const char* name;
+    const char* name;     ///< "": belongs to an instruction (end and step of FOR), nobody sees it
     const TypeDesc* type; ///< of the object; when rank > 0: of its elements
     Kind kind;
     uint8_t isParam;
@@ -118,13 +127,14 @@ struct RoutineDesc {
     uint32_t errorFilterCount;
     const float* const* errorVariables; ///< further listed numbers, in variables of the program
     uint32_t errorVariableCount;
-    uint32_t localCount;     ///< > 0: the frame record is a SteppingFrame
-    const LocalDesc* locals; ///< in their order; dimensions of arrays have rows without a name
+    uint32_t localCount;     ///< > 0, or `stepping`: the frame record is a SteppingFrame
+    const LocalDesc* locals; ///< in their order; dimensions of arrays have rows without name and type
     uint32_t line;           ///< of its declaration
     uint8_t stepping;        ///< made for the stepping profile
     uint8_t
         callable; ///< a procedure without parameters: the program pointer can be moved to it, the system can call it
     uint8_t tail[2];
+    uint32_t textHash; ///< stepping profile: another number when the source text was changed
 };
 
 /// Frame record: lies in the stack frame of each routine in progress; the chain is the call stack. The caller's record
@@ -137,9 +147,11 @@ struct Frame {
 };
 inline constexpr int32_t kFrameInUndo = -1;
 
-/// Frame record of a routine with described locals (RoutineDesc::localCount > 0).
+/// Frame record of a routine with described locals (RoutineDesc::localCount > 0), and of each one made for the stepping
+/// profile.
 struct SteppingFrame : Frame {
     void* const* addresses; ///< one per LocalDesc
+    int32_t failed;         ///< in the error handler: the statement that failed
 };
 
 /// The part of a task that compiled code touches directly. rt::Task begins with it.
@@ -150,6 +162,7 @@ struct TaskCore {
     Frame* frame;          ///< innermost frame record, stored before native calls
     float errorNumber;     ///< ERRNO
     float interruptNumber; ///< INTNO
+    int32_t askSteps;      ///< stepping profile: not 0: rt_step is called ahead of every statement
 };
 
 // ---- Program description: emitted once per program as the symbol `rapidc_program` ---------------------------------
@@ -285,8 +298,8 @@ rt::Status rt_handlerEnd(rt::TaskCore* task, rt::Frame* frame);
 /// RETRY in the handler of `frame`: counts; 0, or an unwinding status when the task stopped because No Of Retry is
 /// exceeded. Started again, it counts anew.
 rt::Status rt_retry(rt::TaskCore* task, rt::Frame* frame);
-/// Stepping profile, ahead of every statement: the task may stop here, be told to go on elsewhere, pay for what it has
-/// executed. Returns the number of the statement to go on with (>= 0), or a negative status (unwind).
+/// Stepping profile, ahead of a statement, when the budget is used up or TaskCore::askSteps is set: the task may stop
+/// here or be told to go on elsewhere. Returns the number of the statement to go on with (>= 0), or a negative status (unwind).
 int32_t rt_step(rt::TaskCore* task, rt::Frame* frame);
 /// The stack of the task is used up. Returns kUnwind.
 rt::Status rt_stackOverflow(rt::TaskCore* task, rt::Frame* frame);

@@ -43,7 +43,18 @@ bool Debugger::available() const {
     return false;
 }
 
+void Debugger::setClient(DebugClient* client) {
+    client_ = client;
+    if (client != nullptr) watch();
+}
+
+void Debugger::watch() {
+    for (const auto& task : controller_.tasks())
+        task->askSteps = 1;
+}
+
 void Debugger::stopAtEntry() {
+    watch();
     for (const auto& task : controller_.tasks()) {
         if (task->kind() != TaskKind::Normal) continue;
         stateOf(*task).mode = Mode::In;
@@ -72,6 +83,7 @@ void Debugger::noteStop(Task& task, StopReason reason) {
 // ---- Breakpoints ---------------------------------------------------------------------------------------------------
 
 Breakpoint Debugger::addBreakpoint(std::string_view where, uint32_t line) {
+    watch();
     Breakpoint& breakpoint =
         breakpoints_.emplace_back(Breakpoint{++lastBreakpoint_, std::string(where), line, 0, false});
     findLine(breakpoint);
@@ -235,6 +247,7 @@ std::string Debugger::refusal(const Task& task) const {
 /// One task is stepped, the others execute until it stands still again.
 std::string Debugger::begin(Task& task, Mode mode, bool alone) {
     if (std::string problem = refusal(task); !problem.empty()) return problem;
+    watch();
     State& state = stateOf(task);
     const bool forward = mode != Mode::Backward;
     if (forward && state.backwardLast && state.standing != nullptr && mode != Mode::Run) {

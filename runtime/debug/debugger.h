@@ -59,7 +59,7 @@ class Debugger final : public StepHook {
     explicit Debugger(Controller& controller) : controller_(controller) {}
 
     /// Null: nobody looks; then only orders of the stimulus step the program.
-    void setClient(DebugClient* client) { client_ = client; }
+    void setClient(DebugClient* client);
     bool hasClient() const { return client_ != nullptr; }
     /// Every NORMAL task stops ahead of its first statement.
     void stopAtEntry();
@@ -155,6 +155,8 @@ class Debugger final : public StepHook {
     std::string refusal(const Task& task) const;
     /// What belongs to the call chain that was left.
     void forget(const Task& task);
+    /// From now on tasks ask ahead of every statement; before, a program pays nothing for what nobody uses.
+    void watch();
     // debugger_backward.cpp
     /// Moves the program pointer, or begins to execute its statement backwards (then backwardFrame is set).
     std::string startBackward(Task& task, State& state, Frame* at);

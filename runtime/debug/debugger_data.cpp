@@ -60,7 +60,8 @@ std::vector<DebugVariable> Debugger::locals(const DebugFrame& frame) const {
     if (routine == nullptr || routine->localCount == 0) return result;
     const auto& record = *static_cast<const SteppingFrame*>(frame.frame);
     for (uint32_t i = 0; i < routine->localCount; i += 1u + routine->locals[i].rank)
-        if (routine->locals[i].type != nullptr) result.push_back(local(record, i));
+        if (routine->locals[i].type != nullptr && *routine->locals[i].name != '\0')
+            result.push_back(local(record, i));
     return result;
 }
 

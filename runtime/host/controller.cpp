@@ -81,8 +81,9 @@ ExitStatus Controller::run() {
     for (const auto& task : tasks_) {
         scheduler_.add(*task);
         // The controller is switched on, the program loaded and started.
-        for (const SystemEvent event : {SystemEvent::PowerOn, SystemEvent::Reset, SystemEvent::Start})
-            if (event != SystemEvent::Reset || !task->keepsVariables()) task->events().owe(event);
+        task->events().owe(SystemEvent::PowerOn);
+        if (!task->keepsVariables()) task->events().owe(SystemEvent::Reset);
+        task->events().owe(task->isReentering() ? SystemEvent::Restart : SystemEvent::Start);
     }
     return finish(scheduler_.run([this] { return runOver(); }));
 }

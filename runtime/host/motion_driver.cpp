@@ -1,5 +1,6 @@
 #include "runtime/host/motion_driver.h"
 
+#include "runtime/motion/path.h"
 #include "runtime/sched/task.h"
 #include "runtime/sim/csv_writers.h"
 
@@ -173,12 +174,15 @@ Status MotionDriver::submit(Task& task, motion::MoveCommand command, motion::Mov
                             std::optional<motion::MotionError>& error) {
     error.reset();
     command.tag = instructions_ + 1;
+    continueEarlier(command);
     WaitResult result{};
     for (;;) {
         refresh();
+        const motion::Pose start = startOf(command);
         const auto ordered = system_.enqueue(command);
         if (ordered) {
             id = *ordered;
+            enqueued(id, command, start);
             break;
         }
         if (ordered.error().kind != motion::MotionErrorKind::QueueFull) {
@@ -204,7 +208,9 @@ Status MotionDriver::waitReleased(Task& task, motion::MoveId id) {
         return task.isStepwise() ? system().isDone(id) : system().isReleased(id);
     };
     WaitResult result{};
+    awaited_ = id;
     const Status status = task.waitFor({{&changed_}, mayGoOn}, result);
+    awaited_ = 0;
     return status == kOk ? takeProcessError(task) : status;
 }
 
@@ -281,11 +287,69 @@ bool MotionDriver::pathInterrupted() {
 void MotionDriver::clearPath() {
     advance(scheduler_.now());
     interrupted_ = {};
+    earlier_ = {};
     system_.clear();
     dropActions(
         [this](const PendingAction& pending) { return pending.move != 0 && system_.isDone(pending.move); });
     refresh();
     changed_.notifyAll(); // moves that tasks wait for are gone
+}
+
+// ---- Between two processes -----------------------------------------------------------------------------------------
+
+motion::Pose MotionDriver::startOf(const motion::MoveCommand& command) const {
+    return system_.toRobTarget(system_.plannedEnd(), command.frames).pose;
+}
+
+void MotionDriver::enqueued(motion::MoveId id, const motion::MoveCommand& command, const motion::Pose& start) {
+    while (!ordered_.empty() && system_.isDone(ordered_.front().id))
+        ordered_.pop_front();
+    ordered_.push_back({id, command, start});
+}
+
+MotionDriver::EarlierPath MotionDriver::remainingPath() {
+    const motion::MotionSystem& arm = system();
+    EarlierPath path;
+    bool first = true;
+    for (const UnfinishedMove& move : ordered_) {
+        if (arm.isDone(move.id)) continue;
+        if (std::exchange(first, false) && arm.isStarted(move.id)) path.begun = move.start;
+        if (move.id == awaited_)
+            path.awaited = move.command;
+        else
+            path.moves.push_back(move.command);
+    }
+    if (!path.awaited && earlier_.awaited) path.awaited = earlier_.awaited; // not ordered again yet
+    if (first) path.begun = earlier_.begun;
+    path.stopMove = stopMove_;
+    return path;
+}
+
+void MotionDriver::continuePath(const EarlierPath& path) {
+    earlier_ = path;
+    earlier_.awaited.reset();
+    for (motion::MoveCommand command : path.moves) {
+        continueEarlier(command);
+        command.tag = ++instructions_;
+        const motion::Pose start = startOf(command);
+        if (const auto id = system_.enqueue(command)) enqueued(*id, command, start);
+    }
+    earlier_.awaited = path.awaited;
+    stopMove_ = path.stopMove;
+    applyStops();
+}
+
+void MotionDriver::continueEarlier(motion::MoveCommand& command) {
+    if (const auto awaited = std::exchange(earlier_.awaited, {})) {
+        auto triggers = std::move(command.triggers);
+        const uint64_t tag = command.tag;
+        command = *awaited;
+        command.triggers = std::move(triggers);
+        command.tag = tag;
+    }
+    const auto begun = std::exchange(earlier_.begun, {});
+    if (begun && command.kind == motion::MoveKind::Circular)
+        command = motion::restOfCircle(command, *begun, system_.currentTarget(command.frames).pose);
 }
 
 bool MotionDriver::isSettled() const {

@@ -6,6 +6,7 @@
 #include "runtime/sched/scheduler.h"
 #include "runtime/sched/wait_queue.h"
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <optional>
@@ -77,6 +78,17 @@ class MotionDriver {
     bool pathInterrupted();
     /// ClearPath, program pointer moved.
     void clearPath();
+
+    /// What an earlier process left of its path.
+    struct EarlierPath {
+        std::vector<motion::MoveCommand> moves;     ///< to be ordered at once
+        std::optional<motion::MoveCommand> awaited; ///< then the one whose instruction the program executes again
+        std::optional<motion::Pose> begun;          ///< where the first of all these began; it is under way
+        bool stopMove = false;                      ///< StopMove holds the arm
+    };
+    EarlierPath remainingPath();
+    /// From where the arm stands. The next movement the program orders is `awaited`, whatever its arguments are now.
+    void continuePath(const EarlierPath& path);
     /// ProcerrRecovery: the arm stops on its path, and the movement instruction that waits, else the next one, raises
     /// `errorNumber`. Executed again (RETRY) such an instruction goes on with the movement it has ordered.
     void raiseProcessError(Status errorNumber);
@@ -93,6 +105,12 @@ class MotionDriver {
     void finishTrace();
 
   private:
+    /// A move that has been ordered and, as far as anybody has looked, has not reached its point.
+    struct UnfinishedMove {
+        motion::MoveId id = 0;
+        motion::MoveCommand command;
+        motion::Pose start; ///< in the frames of the command
+    };
     struct PendingAction {
         PathAction action;
         motion::MoveId move = 0; ///< 0: not ordered yet
@@ -105,6 +123,10 @@ class MotionDriver {
     Status submit(Task& task, motion::MoveCommand command, motion::MoveId& id,
                   std::optional<motion::MotionError>& error);
     Status waitReleased(Task& task, motion::MoveId id);
+    motion::Pose startOf(const motion::MoveCommand& command) const;
+    void enqueued(motion::MoveId id, const motion::MoveCommand& command, const motion::Pose& start);
+    /// The movement that an earlier process waited for; of a circle that it had begun the rest.
+    void continueEarlier(motion::MoveCommand& command);
     Status takeProcessError(Task& task);
     void advance(Time time);
     void handle(const motion::MotionEvent& event);
@@ -132,6 +154,9 @@ class MotionDriver {
     } interrupted_;
     motion::MoveId brokenPath_ = 0; // last move of the path at the power failure; 0 = none
     MotionPointer pointer_;
+    std::deque<UnfinishedMove> ordered_;
+    motion::MoveId awaited_ = 0; // by the instruction that ordered it
+    EarlierPath earlier_;        // what is left to be taken over
     bool backward_ = false;
     std::function<Status(Task&)> circlePointStop_;
     bool advancing_ = false;

@@ -91,8 +91,10 @@ void addRunOptions(CLI::App& app, RunOptions& options, bool withTasks) {
         ->type_name("FILE.jsonl");
     app.add_option(
            "--state", options.state,
-           "folder that keeps persistents, variables, events and the robot's position from run to run")
+           "folder that keeps the controller's state from run to run: data, events, the robot's position, and where "
+           "a program that was interrupted goes on")
         ->type_name("DIR");
+    app.add_flag("--pp-to-main", options.ppToMain, "with --state: the program begins at main nevertheless");
     app.add_flag("--save", options.save,
                  "write the values of persistents back into the source files at the end, and let Save do so");
     app.add_flag("--realtime", options.realtime, "pace virtual time to the wall clock");

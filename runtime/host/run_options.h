@@ -22,6 +22,7 @@ struct RunOptions {
     std::string stimulus, trace, signals, events; ///< paths; "" = not asked for
     bool realtime = false;
     std::string state;  ///< folder in which the controller's state survives the process; "" = none
+    bool ppToMain = false; ///< with `state`: NORMAL tasks begin at main
     bool save = false;  ///< values of persistents go back into the source files
     double maxTime = 0; ///< s of virtual time; meant only when hasMaxTime
     bool hasMaxTime = false;

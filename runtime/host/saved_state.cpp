@@ -2,11 +2,14 @@
 
 #include "config/atomic_file.h"
 #include "runtime/host/controller.h"
+#include "runtime/host/state_keepers.h"
 #include "runtime/io/text_util.h"
 #include "runtime/value/value_text.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -26,6 +29,8 @@ constexpr const char* kAside = "state.broken.json";
 constexpr uint8_t kVariable = 0, kPersistent = 1; // ir::GlobalKind
 constexpr std::size_t kMostNamed = 5;             // names in one event
 constexpr std::size_t kKeptEvents = 100;
+constexpr std::chrono::seconds kPeriod{1};
+constexpr std::chrono::milliseconds kRetryPeriod{5};
 
 /// Numbers of interrupts mean nothing to the next process.
 bool namesInterrupts(const TypeDesc& type) {
@@ -35,6 +40,16 @@ bool namesInterrupts(const TypeDesc& type) {
     for (uint32_t i = 0; i < parts; ++i)
         if (namesInterrupts(*type.fields[i])) return true;
     return false;
+}
+
+/// "" or what is wrong with the text.
+std::string loadKept(const StateKeepers::Keeper& keeper, const std::string& text) {
+    try {
+        keeper.load(nlohmann::json::parse(text));
+    } catch (const std::exception& problem) {
+        return problem.what();
+    }
+    return {};
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -84,12 +99,16 @@ void SavedState::remember() {
     for (uint32_t i = 0; i < program.globalCount; ++i) {
         const GlobalDesc& data = program.globals[i];
         std::string initial;
+        data_.add(data, keyOf(data));
         if (data.kind != kVariable && data.kind != kPersistent) continue;
         if (!known.try_emplace(data.address, true).second) continue;
         if (!valueToSource(data.address, *data.type, initial)) continue; // handles are made anew
-        if (namesInterrupts(*data.type)) continue;
-        (data.kind == kPersistent ? persistents_ : variables_).emplace_back(&data, std::move(initial));
+        Rows& rows = namesInterrupts(*data.type) ? interruptNumbers_
+                     : data.kind == kPersistent  ? persistents_
+                                                 : variables_;
+        rows.emplace_back(&data, std::move(initial));
     }
+    data_.sort();
 }
 
 const Task* SavedState::ownerOf(const GlobalDesc& data) const {
@@ -110,25 +129,54 @@ std::string SavedState::keyOf(const GlobalDesc& data) const {
 
 // ---- Writing -------------------------------------------------------------------------------------------------------
 
+StateImage::TaskImage SavedState::presentTask(Task& task) const {
+    StateImage::TaskImage state;
+    if (const auto found = earlier_.find(&task); task.isReentering() && found != earlier_.end())
+        return found->second;
+    const SourcePlace place = task.place();
+    state.cycles = task.cyclesDone();
+    if (task.endedByItself()) {
+        state.pointer = StateImage::Pointer::Ended;
+    } else if (!place.module.empty() && task.state() != TaskState::Finished) {
+        state.pointer = StateImage::Pointer::Inside;
+        state.place = fmt::format("{}:{}", place.module, place.line);
+        CallChain chain;
+        state.refusal = takeChain(task, data_, chain);
+        if (!state.refusal.empty()) return state;
+        state.chain = std::move(chain);
+        state.interruptsEnabled = task.interrupts().enabled();
+        for (SavedInterrupt& interrupt : task.interrupts().saved()) {
+            const RoutineEntry* trap = trapAt(interrupt.trap);
+            state.interrupts.push_back(
+                {std::move(interrupt), trap == nullptr ? "" : trap->module, trap == nullptr ? "" : trap->name});
+        }
+    }
+    return state;
+}
+
+const RoutineEntry* SavedState::trapAt(EntryFunction function) const {
+    for (const RoutineEntry* entry : controller_.tables().routines())
+        if (function != nullptr && reinterpret_cast<EntryFunction>(entry->address) == function) return entry;
+    return nullptr;
+}
+
 StateImage SavedState::present() const {
     StateImage image;
-    for (const auto& task : controller_.tasks()) {
-        StateImage::TaskImage& state = image.tasks[upperCase(task->name())];
-        const SourcePlace place = task->place();
-        if (task->endedByItself())
-            state.pointer = StateImage::Pointer::Ended;
-        else if (!place.module.empty() && task->state() != TaskState::Finished)
-            state = {StateImage::Pointer::Inside, fmt::format("{}:{}", place.module, place.line)};
-    }
+    for (const auto& task : controller_.tasks())
+        image.tasks[upperCase(task->name())] = presentTask(*task);
     const auto add = [this](const Rows& rows, std::map<std::string, StateImage::Datum>& out) {
         for (const auto& [data, initial] : rows) {
             std::string value;
-            if (valueToSource(data->address, *data->type, value))
+            if (valueToImage(data->address, *data->type, 1, value))
                 out[keyOf(*data)] = {describeType(*data->type), initial, std::move(value)};
         }
     };
     add(persistents_, image.persistents);
     add(variables_, image.variables);
+    add(interruptNumbers_, image.interruptNumbers);
+    image.path = controller_.motion().remainingPath();
+    for (const auto& [name, keeper] : controller_.service<StateKeepers>().keepers)
+        image.kept[name] = keeper.save().dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     IoSystem& io = controller_.io();
     for (SignalId id = 0; id < static_cast<SignalId>(io.size()); ++id)
         if (io.config(id).store) image.signals[upperCase(io.config(id).name)] = io.value(id);
@@ -144,16 +192,29 @@ StateImage SavedState::present() const {
 }
 
 void SavedState::write() {
-    if (folder_.empty()) return;
+    if (!folder_.empty()) write(present());
+}
+
+void SavedState::write(const StateImage& image) {
     written_ = std::chrono::steady_clock::now();
-    const std::string problem = rapid::config::replaceFile(path(), writeImage(present()));
+    controller_.panel().flush(); // what was shown before is not shown again by the run that goes on from here
+    const std::string problem = rapid::config::replaceFile(path(), writeImage(image));
     if (!problem.empty() && !failed_) controller_.log().write(EventId::StateNotWritten, nullptr, {problem});
     failed_ = !problem.empty();
 }
 
 void SavedState::keepFresh() {
-    if (folder_.empty() || std::chrono::steady_clock::now() - written_ < std::chrono::seconds(1)) return;
-    write();
+    if (folder_.empty()) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - written_ < kPeriod || now - tried_ < kRetryPeriod) return;
+    tried_ = now;
+    const auto reenters = [](const auto& task) { return task->isReentering(); };
+    if (std::any_of(controller_.tasks().begin(), controller_.tasks().end(), reenters)) return;
+    const StateImage image = present();
+    const auto lost = [](const auto& task) { return !task.second.refusal.empty(); };
+    const bool anyLost = std::any_of(image.tasks.begin(), image.tasks.end(), lost);
+    if (anyLost && now - written_ < 2 * kPeriod && controller_.debugger().available()) return;
+    write(image);
 }
 
 // ---- Reading -------------------------------------------------------------------------------------------------------
@@ -176,25 +237,92 @@ void SavedState::restore() {
     restoreData(persistents_, image.persistents);
     restoreTasks(image);
     restoreSurroundings(image);
+    bool moves = false;
+    for (const auto& task : controller_.tasks()) {
+        if (!task->isReentering()) continue;
+        restoreInterrupts(*task, earlier_.at(task.get()));
+        moves = moves || task->isMotionTask();
+    }
+    if (moves) restorePath(image);
+}
+
+void SavedState::restoreInterrupts(Task& task, const StateImage::TaskImage& image) {
+    const auto& again = controller_.service<StateKeepers>().orderAgain;
+    for (const StateImage::Interrupt& saved : image.interrupts) {
+        SavedInterrupt what = saved.what;
+        const RoutineEntry* trap =
+            saved.routine.empty() ? nullptr : controller_.findRoutine(saved.routine, saved.module, task);
+        what.trap = trap == nullptr ? nullptr : reinterpret_cast<EntryFunction>(trap->address);
+        task.interrupts().restore(what);
+        const bool lost = what.trap == nullptr && !saved.routine.empty();
+        const bool ordered =
+            !what.ordered || (again && again(task, what.number, what.single, what.safe, what.order));
+        if (lost || !ordered)
+            controller_.log().write(EventId::InterruptLost, &task, {std::to_string(what.number), saved.routine});
+        if (what.asleep) task.interrupts().sleep(what.number);
+    }
+    if (!image.interruptsEnabled) task.interrupts().disable();
+}
+
+void SavedState::restorePath(const StateImage& image) {
+    for (const auto& [name, keeper] : controller_.service<StateKeepers>().keepers) {
+        const auto found = image.kept.find(name);
+        if (found == image.kept.end()) continue;
+        const std::string problem = loadKept(keeper, found->second);
+        if (!problem.empty()) controller_.log().write(EventId::StateMisfit, nullptr, {name});
+    }
+    controller_.motion().continuePath(image.path);
 }
 
 void SavedState::restoreTasks(const StateImage& image) {
     Rows kept; // variables of shared modules get their initial values once, when the program is loaded
     for (const auto& row : variables_)
         if (ownerOf(*row.first) == nullptr) kept.push_back(row);
+    bool goesOn = false;
     for (const auto& task : controller_.tasks()) {
         const auto found = image.tasks.find(upperCase(task->name()));
-        if (found == image.tasks.end()) continue;
-        if (found->second.pointer == StateImage::Pointer::Inside && task->kind() != TaskKind::SemiStatic)
-            controller_.log().write(EventId::PointerLost, task.get(), {task->name(), found->second.place});
-        // SEMISTATIC tasks start from the beginning at every power on (manual 1.20).
-        if (found->second.pointer != StateImage::Pointer::Ended || task->kind() == TaskKind::SemiStatic)
-            continue;
-        task->keepVariables();
+        if (found == image.tasks.end() || !restorePointer(*task, found->second)) continue;
+        goesOn = goesOn || (task->kind() == TaskKind::Normal && task->isReentering());
         for (const auto& row : variables_)
             if (ownerOf(*row.first) == task.get()) kept.push_back(row);
     }
+    // The run that was interrupted goes on: what was over in it stays over.
+    for (const auto& task : controller_.tasks()) {
+        const auto found = image.tasks.find(upperCase(task->name()));
+        if (!goesOn || found == image.tasks.end() || task->kind() != TaskKind::Normal) continue;
+        task->setCyclesDone(found->second.cycles);
+        if (found->second.pointer == StateImage::Pointer::Ended) task->stayEnded();
+    }
     restoreData(kept, image.variables);
+    Rows numbers;
+    for (const auto& row : interruptNumbers_) {
+        const Task* owner = ownerOf(*row.first);
+        if (owner != nullptr && owner->isReentering()) numbers.push_back(row);
+    }
+    restoreData(numbers, image.interruptNumbers);
+}
+
+/// Where the task begins. True when its variables keep their values.
+bool SavedState::restorePointer(Task& task, const StateImage::TaskImage& image) {
+    // SEMISTATIC tasks start from the beginning at every power on (manual 1.20).
+    if (image.pointer == StateImage::Pointer::Main || task.kind() == TaskKind::SemiStatic) return false;
+    if (controller_.options().ppToMain && task.kind() == TaskKind::Normal) return false;
+    if (image.pointer == StateImage::Pointer::Ended) {
+        task.keepVariables();
+        return true;
+    }
+    std::string why = image.refusal;
+    if (image.chain) {
+        reentries_.push_back(std::make_unique<Reentry>(controller_, *image.chain, image.place, data_));
+        why = reentries_.back()->begin(task);
+    }
+    if (task.isReentering()) {
+        earlier_[&task] = image;
+        controller_.log().write(EventId::PointerKept, &task, {task.name(), image.place});
+        return true;
+    }
+    controller_.log().write(EventId::PointerLost, &task, {task.name(), image.place, why});
+    return false;
 }
 
 /// A value is taken over where name and type still fit. An initial value edited since then wins: the user meant it.
@@ -210,7 +338,7 @@ void SavedState::restoreData(const Rows& rows, const std::map<std::string, State
         else if (saved.initial != initial &&
                  saved.value != initial) // the same when it was written there by --save
             edited.push_back(name);
-        else if (saved.initial == initial && !sourceToValue(saved.value, row->address, *row->type))
+        else if (saved.initial == initial && !imageToValue(saved.value, row->address, *row->type, 1))
             misfits.push_back(name);
     }
     if (!edited.empty()) controller_.log().write(EventId::StateEdited, nullptr, {listed(edited)});

@@ -3,11 +3,16 @@
 // (--state=DIR), so that it survives the end of the process. Read once at the start, written at the end, when the
 // program stops, and every second meanwhile; the file is replaced in one step.
 
+#include "runtime/debug/call_chain.h"
+#include "runtime/debug/reentry.h"
+#include "runtime/host/motion_driver.h"
 #include "runtime/log/event_log.h"
 
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,11 +29,20 @@ struct StateImage {
     enum class Pointer : uint8_t {
         Main,  ///< at main, variables to be initialised
         Ended, ///< main returned: the next start is one after a cycle
-        Inside ///< between statements of the program; compiled code cannot be entered there again
+        Inside ///< in the program
+    };
+    struct Interrupt {
+        SavedInterrupt what;
+        std::string module, routine; ///< of its trap; "" = none is connected
     };
     struct TaskImage {
         Pointer pointer = Pointer::Main;
-        std::string place; ///< "Main:12"
+        std::string place;              ///< "Main:12"
+        uint64_t cycles = 0;            ///< how often main has returned
+        std::optional<CallChain> chain; ///< Inside: how to go on there; none:
+        std::string refusal;            ///< why that is not possible
+        std::vector<Interrupt> interrupts;
+        bool interruptsEnabled = true;
     };
     struct Datum {
         std::string type;    ///< with all components, as describeType
@@ -38,6 +52,9 @@ struct StateImage {
     std::map<std::string, TaskImage> tasks;
     std::map<std::string, Datum> persistents; ///< by keyOf
     std::map<std::string, Datum> variables;
+    std::map<std::string, Datum> interruptNumbers; ///< intnum variables: of use to a task that goes on alone
+    MotionDriver::EarlierPath path;
+    std::map<std::string, std::string> kept;       ///< of StateKeepers, JSON
     std::map<std::string, double> signals; ///< those that keep their value over a power failure (Store)
     std::vector<double> axes;              ///< robot, then external axes; degrees, mm
     std::string robot;
@@ -65,7 +82,8 @@ class SavedState {
     void restore();
     /// Writes the state as it is now. Every task must stand between two instructions.
     void write();
-    /// To be called often between slices: writes when the last time was a second ago.
+    /// To be called often between slices: writes when the last time was a second ago. While a task stands where no later
+    /// process could go on, it waits for a better moment, for a further second at most.
     void keepFresh();
 
   private:
@@ -74,7 +92,13 @@ class SavedState {
     void putAside(const std::string& why);
     void remember();
     StateImage present() const;
+    StateImage::TaskImage presentTask(Task& task) const;
+    void write(const StateImage& image);
     void restoreTasks(const StateImage& image);
+    const RoutineEntry* trapAt(EntryFunction function) const;
+    void restorePath(const StateImage& image);
+    void restoreInterrupts(Task& task, const StateImage::TaskImage& image);
+    bool restorePointer(Task& task, const StateImage::TaskImage& image);
     void restoreData(const Rows& rows, const std::map<std::string, StateImage::Datum>& data);
     void restoreSurroundings(const StateImage& image);
     std::string keyOf(const GlobalDesc& data) const;
@@ -84,8 +108,11 @@ class SavedState {
     std::string folder_;
     int lock_ = -1;
     bool failed_ = false; // writing failed, which was reported
-    Rows persistents_, variables_;
-    std::chrono::steady_clock::time_point written_{};
+    Rows persistents_, variables_, interruptNumbers_;
+    DataIndex data_;
+    std::vector<std::unique_ptr<Reentry>> reentries_;
+    std::map<const Task*, StateImage::TaskImage> earlier_; ///< of tasks that have not got back there yet
+    std::chrono::steady_clock::time_point written_{}, tried_{};
 };
 
 } // namespace rt

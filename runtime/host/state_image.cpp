@@ -1,5 +1,7 @@
 // The state file as text: JSON, versioned. What is read comes from a disk and may be anything.
 
+#include "runtime/host/chain_image.h"
+#include "runtime/host/path_image.h"
 #include "runtime/host/saved_state.h"
 
 #include <fmt/format.h>
@@ -37,6 +39,27 @@ Json jsonOf(const Event& event) {
         {"task", event.task},         {"module", event.place.module}, {"routine", event.place.routine},
         {"file", event.place.file},   {"line", event.place.line},     {"column", event.place.column},
         {"errno", event.errorNumber}, {"errorName", event.errorName}, {"arguments", event.arguments}};
+}
+
+Json jsonOf(const StateImage::TaskImage& task) {
+    Json json = {{"pointer", kPointers[static_cast<std::size_t>(task.pointer)].first},
+                 {"place", task.place},
+                 {"cycles", task.cycles}};
+    if (task.pointer != StateImage::Pointer::Inside) return json;
+    if (!task.chain) {
+        json["refusal"] = task.refusal;
+        return json;
+    }
+    json["chain"] = jsonOf(*task.chain);
+    json["interruptsEnabled"] = task.interruptsEnabled;
+    json["interrupts"] = Json::array();
+    for (const StateImage::Interrupt& interrupt : task.interrupts) {
+        Json row = jsonOf(interrupt.what);
+        row["module"] = interrupt.module;
+        row["routine"] = interrupt.routine;
+        json["interrupts"].push_back(std::move(row));
+    }
+    return json;
 }
 
 // at(), get() and whole() throw what readImage catches.
@@ -83,6 +106,14 @@ StateImage::TaskImage taskFrom(const Json& json) {
     for (const auto& [name, pointer] : kPointers)
         if (word == name) task.pointer = pointer;
     json.at("place").get_to(task.place);
+    if (json.contains("refusal")) json.at("refusal").get_to(task.refusal);
+    if (json.contains("cycles")) whole(json.at("cycles"), task.cycles);
+    if (!json.contains("chain")) return task;
+    task.chain = chainFrom(json.at("chain"));
+    json.at("interruptsEnabled").get_to(task.interruptsEnabled);
+    for (const Json& row : json.at("interrupts"))
+        task.interrupts.push_back({interruptFrom(row), row.at("module").get<std::string>(),
+                                   row.at("routine").get<std::string>()});
     return task;
 }
 
@@ -92,6 +123,17 @@ StateImage imageFrom(const Json& json) {
         image.tasks[name] = taskFrom(task);
     image.persistents = dataFrom(json.at("persistents"));
     image.variables = dataFrom(json.at("variables"));
+    if (json.contains("motion")) {
+        const Json& motion = json.at("motion");
+        image.interruptNumbers = dataFrom(json.at("interruptNumbers"));
+        for (const Json& move : motion.at("path"))
+            image.path.moves.push_back(moveFrom(move));
+        if (motion.contains("awaited")) image.path.awaited = moveFrom(motion.at("awaited"));
+        if (motion.contains("begun")) image.path.begun = poseFrom(motion.at("begun"));
+        motion.at("stopMove").get_to(image.path.stopMove);
+        for (const auto& [name, kept] : json.at("kept").items())
+            image.kept[name] = kept.dump();
+    }
     json.at("signals").get_to(image.signals);
     json.at("robot").get_to(image.robot);
     json.at("axes").get_to(image.axes);
@@ -130,15 +172,25 @@ std::string describeType(const TypeDesc& type) {
 std::string writeImage(const StateImage& image) {
     Json tasks = Json::object(), events = Json::array();
     for (const auto& [name, task] : image.tasks)
-        tasks[name] = {{"pointer", kPointers[static_cast<std::size_t>(task.pointer)].first},
-                       {"place", task.place}};
+        tasks[name] = jsonOf(task);
     for (const Event& event : image.events)
         events.push_back(jsonOf(event));
+    Json path = Json::array(), kept = Json::object();
+    for (const motion::MoveCommand& move : image.path.moves)
+        path.push_back(jsonOf(move));
+    Json motion = {{"path", path}, {"stopMove", image.path.stopMove}};
+    if (image.path.awaited) motion["awaited"] = jsonOf(*image.path.awaited);
+    if (image.path.begun) motion["begun"] = jsonOf(*image.path.begun);
+    for (const auto& [name, text] : image.kept)
+        kept[name] = Json::parse(text, nullptr, false);
     const Json json = {{"format", kFormat},
                        {"version", kVersion},
                        {"tasks", tasks},
                        {"persistents", jsonOf(image.persistents)},
                        {"variables", jsonOf(image.variables)},
+                       {"interruptNumbers", jsonOf(image.interruptNumbers)},
+                       {"motion", motion},
+                       {"kept", kept},
                        {"signals", image.signals},
                        {"robot", image.robot},
                        {"axes", image.axes},

@@ -123,16 +123,30 @@ void shareOut(const std::vector<PathTrigger>& triggers, double first, double sec
     }
 }
 
+/// How far along the arc from `start` a point of it lies, 0 to 1; more when it lies on the other part of the circle.
+double partAt(const CartesianCurve& arc, const Pose& start, const Pose& point) {
+    const Vec3 from = start.pos - arc.centre(), via = point.pos - arc.centre();
+    constexpr double kDegrees = 57.29577951308232;
+    double angle = std::atan2(dot(arc.axis(), cross(from, via)), dot(from, via)) * kDegrees;
+    if (angle <= 0) angle += 360;
+    return angle / arc.sweepDeg();
+}
+
 } // namespace
+
+MoveCommand restOfCircle(const MoveCommand& command, const Pose& start, const Pose& here) {
+    const auto arc = CartesianCurve::arc(start, command.circlePoint, command.target.pose);
+    if (!arc) return command;
+    const double part = partAt(*arc, start, here);
+    MoveCommand rest = command;
+    if (part > 0 && part < 1) rest.circlePoint = arc->at((1 + part) / 2);
+    return rest;
+}
 
 std::vector<MoveCommand> splitAtCirclePoint(const MoveCommand& command, const Pose& start) {
     const auto arc = CartesianCurve::arc(start, command.circlePoint, command.target.pose);
     if (!arc) return {};
-    const Vec3 from = start.pos - arc->centre(), via = command.circlePoint.pos - arc->centre();
-    constexpr double kDegrees = 57.29577951308232;
-    double angle = std::atan2(dot(arc->axis(), cross(from, via)), dot(from, via)) * kDegrees;
-    if (angle <= 0) angle += 360;
-    const double part = angle / arc->sweepDeg();
+    const double part = partAt(*arc, start, command.circlePoint);
     if (!(part > 0 && part < 1)) return {};
     std::vector<MoveCommand> halves{command, command};
     halves[0].target.pose = arc->at(part);

@@ -148,4 +148,9 @@ char* Fibre::stackLimit() const {
     return impl_->bottom() + kNativeReserve;
 }
 
+bool Fibre::owns(const void* address) const {
+    const auto* at = static_cast<const char*>(address);
+    return at >= impl_->bottom() && at < impl_->bottom() + impl_->size();
+}
+
 } // namespace rt

@@ -26,6 +26,8 @@ class Fibre {
     bool finished() const;
     /// Lowest address that compiled routines may use: a reserve for natives lies below.
     char* stackLimit() const;
+    /// The address lies on this stack.
+    bool owns(const void* address) const;
 
   private:
     struct Impl;

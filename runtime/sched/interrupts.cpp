@@ -9,7 +9,7 @@
 namespace rt {
 
 const RoutineDesc kTrapBoundary = {"(interrupt)", "", "", nullptr, 0, 0, 0, 0, 0, nullptr, 0,
-                                   nullptr,       0,  0,  nullptr, 0, 0, 0, {}};
+                                   nullptr,       0,  0,  nullptr, 0, 0, 0, {}, 0};
 
 bool InterruptTable::deliverable() const {
     return enabled_ && !running_ && !queue_.empty() && !task_.isStepwise();
@@ -33,7 +33,8 @@ bool InterruptTable::isOrdered(int number) const {
     return found != defined_.end() && found->second.ordered;
 }
 
-bool InterruptTable::order(int number, std::function<void()> disarm, bool single, bool safe) {
+bool InterruptTable::order(int number, std::function<void()> disarm, bool single, bool safe,
+                           InterruptOrder what) {
     const auto found = defined_.find(number);
     if (found == defined_.end()) return false;
     Definition& definition = found->second;
@@ -43,7 +44,20 @@ bool InterruptTable::order(int number, std::function<void()> disarm, bool single
     definition.safe = safe;
     definition.asleep = false;
     definition.ordered = true;
+    definition.what = std::move(what);
     return true;
+}
+
+std::vector<SavedInterrupt> InterruptTable::saved() const {
+    std::vector<SavedInterrupt> all;
+    for (const auto& [number, d] : defined_)
+        all.push_back({number, d.trap.function, d.single, d.safe, d.asleep, d.ordered, d.what});
+    return all;
+}
+
+void InterruptTable::restore(const SavedInterrupt& interrupt) {
+    defined_[interrupt.number].trap.function = interrupt.trap;
+    lastNumber_ = std::max(lastNumber_, interrupt.number);
 }
 
 bool InterruptTable::remove(int number) {

@@ -10,6 +10,8 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace rt {
 
@@ -19,6 +21,22 @@ class Task;
 struct Trap {
     EntryFunction function = nullptr;
     const RoutineDesc* routine = nullptr; ///< for events; may be null
+};
+
+/// What an interrupt was ordered for, in words that a later process understands (--state): the instruction and its
+/// arguments. Empty `kind`: nobody can order it again.
+struct InterruptOrder {
+    std::string kind;            ///< "ISignalDI" ...
+    std::string object;          ///< signal, persistent
+    std::vector<double> numbers; ///< further arguments
+};
+
+/// A connected interrupt as it is kept between two processes.
+struct SavedInterrupt {
+    int number = 0;
+    EntryFunction trap = nullptr; ///< null: none is connected
+    bool single = false, safe = false, asleep = false, ordered = false;
+    InterruptOrder order;
 };
 
 class InterruptTable {
@@ -48,7 +66,11 @@ class InterruptTable {
     /// Orders a connected interrupt: `disarm` is called when the order ends (IDelete, program reset, \Single
     /// after the first occurrence, end of the task). The source calls post(number) whenever its condition
     /// becomes true. An order that is still in force is replaced. False when the number is not defined.
-    bool order(int number, std::function<void()> disarm, bool single = false, bool safe = false);
+    bool order(int number, std::function<void()> disarm, bool single = false, bool safe = false,
+               InterruptOrder what = {});
+    /// All that are connected; what a later process puts back. Those restored keep their numbers; they are not ordered yet.
+    std::vector<SavedInterrupt> saved() const;
+    void restore(const SavedInterrupt& interrupt);
     /// IDelete. False when the number is not defined.
     bool remove(int number);
     /// Every definition disappears (program reset).
@@ -90,6 +112,7 @@ class InterruptTable {
         bool safe = false;
         bool asleep = false;
         bool ordered = false;
+        InterruptOrder what;
     };
     struct Occurrence {
         int number = 0;

@@ -14,6 +14,8 @@ class StepHook {
     virtual int32_t beforeStatement(Task& task, Frame* at) = 0;
     /// An error in a statement that is executed backwards cannot be handled (manual 1.21).
     virtual bool isBackward(const Task& task) const = 0;
+    /// An error while this hook leads a task back to where an earlier process stood (Task::reenter). A negative status.
+    virtual Status failed(Task&) { return kUnwind; }
 
   protected:
     ~StepHook() = default;

@@ -19,6 +19,19 @@
 namespace rt {
 namespace {
 
+/// The task stands somewhere as long as this lives.
+class StandingHere {
+  public:
+    StandingHere(Standing& place, Standing here) : place_(place), before_(std::exchange(place, here)) {}
+    ~StandingHere() { place_ = before_; }
+    StandingHere(const StandingHere&) = delete;
+    StandingHere& operator=(const StandingHere&) = delete;
+
+  private:
+    Standing& place_;
+    Standing before_;
+};
+
 TaskKind kindFrom(const char* type) {
     if (type != nullptr && std::strcmp(type, "STATIC") == 0) return TaskKind::Static;
     if (type != nullptr && std::strcmp(type, "SEMISTATIC") == 0) return TaskKind::SemiStatic;
@@ -42,7 +55,7 @@ Task::~Task() {
 // ---- Cycles --------------------------------------------------------------------------------------------------------
 
 void Task::fibreMain() {
-    while (pendingUnwind_ != Unwind::Abandon) {
+    while (pendingUnwind_ != Unwind::Abandon && !stayEnded_) {
         if (!runCycle()) break;
     }
     pendingUnwind_ = Unwind::None;
@@ -78,9 +91,11 @@ bool Task::runCycle() {
     const EntryFunction entry = entryOverride_ != nullptr ? entryOverride_ : desc_.entry;
     entryOverride_ = nullptr;
     backwardCaller_ = nullptr;
+    if (status == kOk && nextGuide_ != nullptr) beginReentry();
     if (status == kOk && entry != nullptr) status = entry(this, nullptr);
     if (status > 0) (void)raiseAt(nullptr, status); // no routine took it, and none reported it
     frame = nullptr;
+    endReentry();
     retries_.clear();
     jumps_.clear();
     raiseToCaller_ = false;
@@ -187,6 +202,7 @@ void Task::countAgain(Time& deadline, Time span, uint64_t& starts) const {
 }
 
 Status Task::waitFor(const WaitSpec& spec, WaitResult& result) {
+    const StandingHere standing(standing_, Standing::InWait);
     flushHandledWarning();
     Time deadline = spec.deadline;
     const Time span = deadline == kNever ? 0 : std::max<Time>(deadline - now(), 0);
@@ -222,6 +238,7 @@ Status Task::waitFor(const WaitSpec& spec, WaitResult& result) {
 }
 
 Status Task::waitExternal(int fd, short pollEvents, Time deadline, WaitResult& result) {
+    const StandingHere standing(standing_, Standing::InWait);
     flushHandledWarning();
     const Time span = deadline == kNever ? 0 : std::max<Time>(deadline - now(), 0);
     uint64_t starts = starts_;
@@ -295,6 +312,7 @@ Status Task::safepoint(Frame* at) {
 }
 
 Status Task::safepointOnce(Frame* at) {
+    if (guide_ != nullptr) return kOk; // nothing is executed yet
     frame = at;
     flushHandledWarning();
     budget += stash_;
@@ -311,6 +329,10 @@ Status Task::safepointOnce(Frame* at) {
             status = interrupts_.deliver();
             if (yieldWanted_) forceSafepoint();
         } else if (yieldWanted_) {
+            if (standing_ == Standing::Between && at != nullptr && at->routine->stepping != 0) {
+                forceSafepoint(); // ahead of the next statement, where a later process could go on
+                return kOk;
+            }
             yieldWanted_ = false;
             status = yield();
         }
@@ -321,7 +343,12 @@ Status Task::safepointOnce(Frame* at) {
 
 int32_t Task::step(Frame* at) {
     frame = at;
-    if (--budget < 0) {
+    if (guide_ != nullptr) {
+        const int32_t here = at->statement, next = guide_->beforeStatement(*this, at);
+        if (guide_ != nullptr || next != here) return next;
+    }
+    const StandingHere standing(standing_, Standing::AtStatement);
+    if (budget < 0) {
         if (const Status status = safepoint(at); status < 0) return status;
     }
     if (isUnwinding()) {
@@ -362,6 +389,7 @@ bool Task::ignoredInUndo(const char* instruction) {
 }
 
 Status Task::stopHere(const char* instruction, bool allNormal, StopCause cause) {
+    if (std::exchange(passStop_, false)) return kOk;
     if (const Status status = enterWait(); status < 0) return status;
     if (ignoredInUndo(instruction)) return kOk;
     if (events_.executesStopped()) return requestExit(); // ends the event routine
@@ -370,6 +398,7 @@ Status Task::stopHere(const char* instruction, bool allNormal, StopCause cause) 
     events_.owe(SystemEvent::Stop);
     host_.taskStopped(*this);
     if (allNormal) host_.stopNormalTasks(StopCause::Order);
+    const StandingHere standing(standing_, Standing::BehindStop);
     return suspendStopped();
 }
 
@@ -452,6 +481,7 @@ void Task::moveToMain() {
     if (state_ == TaskState::Finished) return;
     needsReset_ = true;
     entryOverride_ = nullptr;
+    nextGuide_ = nullptr;
     stopCause_ = StopCause::AtMain;
     notePointerMoved(true);
     if (!fibre_->started()) return;

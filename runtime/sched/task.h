@@ -20,6 +20,7 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -63,6 +64,36 @@ enum class StopCause : uint8_t {
 };
 
 enum class WaitResult : uint8_t { Done, Timeout };
+
+/// Where a task is while it does not execute: what a later process has to do with the statement of its innermost frame.
+enum class Standing : uint8_t {
+    Between,     ///< somewhere inside a statement
+    AtStatement, ///< ahead of a statement (stepping profile)
+    InWait,      ///< in an instruction that waits; started again it counts from the beginning
+    BehindStop,  ///< Stop has been executed
+    AtError,     ///< the statement failed; started again it is executed again
+};
+
+/// What a task knows of the errors it is handling. Frames are named by their depth, main's is 0.
+struct ErrorMemory {
+    struct Retries {
+        std::size_t depth = 0;
+        int32_t statement = -1;
+        int number = 0;
+        std::map<int, int> counts;
+    };
+    struct Handled { ///< reported when its handler is left
+        std::size_t depth = 0;
+        int number = 0;
+        std::string text;
+        SourcePlace place;
+    };
+    float errorNumber = 0, interruptNumber = 0;
+    std::string text;
+    SourcePlace place;
+    std::vector<Retries> retries;
+    std::optional<Handled> handled;
+};
 
 /// What a task waits for: until `condition` is true. It is looked at first at once, then whenever one of
 /// `queues` is notified, and every `pollPeriod` when that is not 0. Without a condition any notification ends
@@ -125,6 +156,26 @@ class Task : public TaskCore {
     /// Variables hold what an earlier run left: they are not initialised ahead of main. Before the task runs.
     void keepVariables() { needsReset_ = false; }
     bool keepsVariables() const { return !needsReset_; }
+
+    // ---- What an earlier process left (--state); before the task runs ---------------------------------------
+    /// The task stands inside its program: `entry` (main, or the procedure the program pointer was moved to) is called,
+    /// and `guide` leads from statement to statement until finishReentry() or abandonReentry().
+    void reenter(StepHook& guide, EntryFunction entry);
+    bool isReentering() const { return nextGuide_ != nullptr || guide_ != nullptr; }
+    /// The frames are there again; `behindStop`: the statement to go on with is a Stop that has been executed.
+    void finishReentry(const ErrorMemory& errors, bool behindStop);
+    /// It cannot be entered: the program pointer goes to main. To be returned by the guide.
+    Status abandonReentry();
+    /// Its cycles were over, and the run that goes on is the one in which they were.
+    void stayEnded() { stayEnded_ = true; }
+    void setCyclesDone(uint64_t cycles) { cyclesDone_ = cycles; }
+
+    Standing standing() const { return standing_; }
+    /// Frame records from main on.
+    std::vector<Frame*> frames() const;
+    ErrorMemory errorMemory() const;
+    /// The address lies on the stack of the task.
+    bool ownsAddress(const void* address) const;
 
     // ---- Time and waiting ---------------------------------------------------------------------------------
     /// Virtual time, instructions executed in this slice included.
@@ -250,6 +301,7 @@ class Task : public TaskCore {
     void moveToRoutine(EntryFunction entry);
     /// Stepping profile: who is asked ahead of every statement; null: nobody.
     void setStepHook(StepHook* hook) { stepHook_ = hook; }
+    StepHook* stepHook() const { return stepHook_; }
     /// Interrupts are not handled while the task is stepped (manual 1.11).
     void setStepwise(bool stepwise);
     bool isStepwise() const { return stepwise_; }
@@ -308,6 +360,8 @@ class Task : public TaskCore {
     };
 
     void fibreMain();
+    void beginReentry();
+    void endReentry();
     bool runCycle();
     bool endCycle(Unwind how);
     void standAtMain();
@@ -378,6 +432,13 @@ class Task : public TaskCore {
     std::vector<RetryCount> retries_;
     int32_t lastRetryId_ = 0;
     HandledError handled_;
+
+    static constexpr int32_t kAsksForReentry = 2; // beside what a debugger asks
+    Standing standing_ = Standing::Between;
+    StepHook* nextGuide_ = nullptr; // leads back to where an earlier process stood,
+    StepHook* guide_ = nullptr;     // does so now
+    bool passStop_ = false;     // the next Stop has been executed by an earlier process
+    bool stayEnded_ = false;
 };
 
 static_assert(!std::is_polymorphic_v<Task>, "a Task must begin with its TaskCore: no virtual functions");

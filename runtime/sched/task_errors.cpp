@@ -93,6 +93,7 @@ Status Task::propagateFrom(Frame* handler) {
 Status Task::dispatchError(const ErrorRoute& route, int number) {
     errorNumber = static_cast<float>(number);
     if (unwinding_ == Unwind::Abandon || undoAborted_) return silentStatus();
+    if (guide_ != nullptr) return guide_->failed(*this);
     const bool backward =
         stepHook_ != nullptr && stepHook_->isBackward(*this); // no handler then (manual 1.21)
     if (route.longJump && !backward) return startJump(route.handler, number);
@@ -133,6 +134,7 @@ Status Task::fatal(int eventNumber, std::string argument) {
 
 Status Task::systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where) {
     if (unwinding_ == Unwind::Abandon || undoAborted_) return silentStatus();
+    if (guide_ != nullptr) return guide_->failed(*this);
     EventLog& log = host_.log();
     if (unwinding_ != Unwind::None) {
         abortUndo(std::move(text));
@@ -159,7 +161,9 @@ Status Task::systemHandler(int eventNumber, int number, std::string text, const 
     }
     stop(StopCause::Error);
     host_.taskFailed(*this);
+    const Standing before = std::exchange(standing_, Standing::AtError);
     const Status status = suspendStopped();
+    standing_ = before;
     return status == kOk ? kAgain : status;
 }
 

@@ -39,6 +39,7 @@ struct RunSettings {
     bool summary = false;
     bool noOptimise = false;
     bool stepping = false;    ///< compile for the stepping profile
+    bool noStepping = false;  ///< not even for --state
     bool interactive = false; ///< --step
 };
 
@@ -158,7 +159,9 @@ int run(RunSettings& settings) {
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
     findStimulus(settings);
-    settings.stepping = settings.stepping || settings.interactive || stimulusSteps(settings.options.stimulus);
+    // A later process can go on in the middle of a program of the stepping profile only.
+    settings.stepping = settings.stepping || settings.interactive || stimulusSteps(settings.options.stimulus) ||
+                        (!settings.options.state.empty() && !settings.noStepping);
     ir::Module module;
     const bool lowered = !compilation->sink.hasErrors() &&
                          lowerToIr(*compilation, fs::path(settings.inputs.paths[0]).stem().string(),
@@ -207,7 +210,12 @@ void addRunCommand(CLI::App& app, int& status) {
     command->add_flag("--summary", settings->summary, "Show cycle time and where the files lie");
     command->add_flag("--step", settings->interactive,
                       "Debug in the terminal: stop ahead of the first instruction and take commands (help)");
-    command->add_flag("--stepping", settings->stepping, "Compile for the stepping profile");
+    CLI::Option* stepping =
+        command->add_flag("--stepping", settings->stepping, "Compile for the stepping profile");
+    command
+        ->add_flag("--no-stepping", settings->noStepping,
+                   "With --state: fast code, but a program that is interrupted begins at main in the next run")
+        ->excludes(stepping);
     command->add_flag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
     command->callback([settings, &status] { status = run(*settings); });
 }

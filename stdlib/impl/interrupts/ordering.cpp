@@ -8,7 +8,9 @@
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
 
+#include <array>
 #include <memory>
+#include <string>
 #include <utility>
 
 using namespace rt;
@@ -17,6 +19,10 @@ namespace {
 
 constexpr float kShortestCycle = 0.1F;   // s, ITimer
 constexpr float kShortestSingle = 0.01F; // s, ITimer \Single
+// InterruptOrder::kind
+constexpr const char* kDigital = "ISignalDI";
+constexpr const char* kGroup = "ISignalGI";
+constexpr const char* kTimer = "ITimer";
 
 int numberOf(const float* interrupt) {
     return static_cast<int>(*interrupt);
@@ -31,10 +37,11 @@ struct SignalOrder {
     lib::OrderKind kind;
     float* interrupt;
     bool (*wanted)(double newValue);
+    InterruptOrder again;
 };
 
 /// Posts the interrupt at every change of the signal that `wanted` accepts.
-Status orderSignal(TaskCore* core, const SignalOrder& what) {
+Status orderSignal(TaskCore* core, SignalOrder what) {
     Task& task = taskOf(core);
     IoSystem& io = task.controller().io();
     Status status = kOk;
@@ -46,7 +53,9 @@ Status orderSignal(TaskCore* core, const SignalOrder& what) {
     const uint64_t listener = io.addListener(id, [&task, number, wanted](SignalId, double, double now) {
         if (wanted(now)) task.interrupts().post(number);
     });
-    return lib::orderInterrupt(core, number, what.kind, [&io, listener] { io.removeListener(listener); });
+    what.again.object = io.config(id).name;
+    return lib::orderInterrupt(
+        core, number, what.kind, [&io, listener] { io.removeListener(listener); }, std::move(what.again));
 }
 
 Status orderDigital(TaskCore* task, Handle signal, float value, lib::OrderKind kind, float* interrupt) {
@@ -59,11 +68,12 @@ Status orderDigital(TaskCore* task, Handle signal, float value, lib::OrderKind k
     return orderSignal(task, {signal, kind, interrupt,
                               value == k::high  ? +rises
                               : value == k::low ? +falls
-                                                : +either});
+                                                : +either,
+                              {kDigital, {}, {value}}});
 }
 
 Status orderGroup(TaskCore* task, Handle signal, lib::OrderKind kind, float* interrupt) {
-    return orderSignal(task, {signal, kind, interrupt, [](double) { return true; }});
+    return orderSignal(task, {signal, kind, interrupt, [](double) { return true; }, {kGroup, {}, {}}});
 }
 
 /// A timer that orders itself again until it is disarmed.
@@ -104,9 +114,34 @@ int numberToOrder(TaskCore* task, float* interrupt, Status& status) {
     return number;
 }
 
-Status orderInterrupt(TaskCore* task, int number, OrderKind kind, std::function<void()> disarm) {
-    taskOf(task).interrupts().order(number, std::move(disarm), kind.single || kind.safe, kind.safe);
+Status orderInterrupt(TaskCore* task, int number, OrderKind kind, std::function<void()> disarm,
+                      InterruptOrder what) {
+    taskOf(task).interrupts().order(number, std::move(disarm), kind.single || kind.safe, kind.safe,
+                                    std::move(what));
     return kOk;
+}
+
+bool orderAgain(Task& task, int number, bool single, bool safe, const InterruptOrder& order) {
+    auto interrupt = static_cast<float>(number);
+    std::array<float, kMostArguments> a{};
+    for (std::size_t i = 0; i < a.size() && i < order.numbers.size(); ++i)
+        a[i] = static_cast<float>(order.numbers[i]);
+    Handle signal = IoSystem::handleOf(task.controller().io().find(order.object));
+    const bool flagged = single && !safe;
+    if (order.kind == kTimer) return rt_ITimer(&task, flagged, safe, a[0], &interrupt) == kOk;
+    if (order.kind == kDigital) return rt_ISignalDI(&task, flagged, safe, &signal, a[0], &interrupt) == kOk;
+    if (order.kind == kGroup) return rt_ISignalGI(&task, flagged, safe, &signal, &interrupt) == kOk;
+    if (order.kind == kAnalogOrder)
+        return rt_ISignalAI(&task, flagged, safe, &signal, a[0], a[1], a[2], a[3], a[4] != 0, a[5] != 0,
+                            &interrupt) == kOk;
+    if (order.kind == kErrorOrder)
+        return rt_IError(&task, a[0], a[2] != 0 ? &a[3] : nullptr, a[1], &interrupt) == kOk;
+    if (order.kind != kPersistentOrder) return false;
+    const std::size_t colon = order.object.find(':');
+    const GlobalDesc* data = task.controller().findGlobal(
+        order.object.substr(colon + 1), order.object.substr(0, colon), task);
+    if (colon == std::string::npos || data == nullptr) return false;
+    return rt_IPers(&task, flagged, safe, data->address, data->type, &interrupt) == kOk;
 }
 
 Status unknownInterrupt(TaskCore* task) {
@@ -156,7 +191,8 @@ Status rt_ITimer(TaskCore* task, bool Single, bool SingleSafe, float Time, float
     if (status != kOk) return status;
     const auto timer = std::make_shared<Timer>(Timer{owner, number, fromSeconds(Time), single});
     Timer::arm(timer);
-    return lib::orderInterrupt(task, number, {Single, SingleSafe}, [timer] { timer->disarm(); });
+    return lib::orderInterrupt(
+        task, number, {Single, SingleSafe}, [timer] { timer->disarm(); }, {kTimer, {}, {Time}});
 }
 
 Status rt_IDelete(TaskCore* task, float* Interrupt) {

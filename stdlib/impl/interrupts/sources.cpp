@@ -58,6 +58,14 @@ struct ErrorFilter {
     }
 };
 
+/// A part of a persistent cannot be named to a later process.
+InterruptOrder persistentOrder(const Task& task, const void* data, const TypeDesc* type) {
+    for (const GlobalDesc* row : task.controller().tables().globals())
+        if (row->address == data && row->type == type)
+            return {lib::kPersistentOrder, std::string(row->module) + ":" + row->name, {}};
+    return {};
+}
+
 void assignCut(String* text, std::string_view value) {
     if (text != nullptr) text->assign(lib::cutToString(value));
 }
@@ -77,8 +85,9 @@ Status rt_IPers(TaskCore* core, bool Single, bool SingleSafe, void* Name, const 
     const EventToken watch = scheduler.watchData([&task, number, watched] {
         if (watched->changed()) task.interrupts().post(number);
     });
-    return lib::orderInterrupt(core, number, {Single, SingleSafe},
-                               [&scheduler, watch] { scheduler.unwatchData(watch); });
+    return lib::orderInterrupt(
+        core, number, {Single, SingleSafe}, [&scheduler, watch] { scheduler.unwatchData(watch); },
+        persistentOrder(task, Name, NameType));
 }
 
 Status rt_IError(TaskCore* core, float ErrorDomain, const float* ErrorId, float ErrorType, float* Interrupt) {
@@ -95,7 +104,9 @@ Status rt_IError(TaskCore* core, float ErrorDomain, const float* ErrorId, float 
     const uint64_t listener = log.addListener([&task, number, filter](const Event& event) {
         if (filter.takes(event)) task.interrupts().post(number, std::make_shared<const Event>(event));
     });
-    return lib::orderInterrupt(core, number, {}, [&log, listener] { log.removeListener(listener); });
+    return lib::orderInterrupt(
+        core, number, {}, [&log, listener] { log.removeListener(listener); },
+        {lib::kErrorOrder, {}, {ErrorDomain, ErrorType, filter.number ? 1.0 : 0.0, filter.number.value_or(0)}});
 }
 
 /// A trapdata holds the sequence number of the event; -1 when something else caused the trap.

@@ -5,6 +5,10 @@
 
 #include "stdlib_types.h"
 
+namespace rt {
+struct StateKeepers;
+}
+
 namespace rt::lib {
 
 /// Settings of the robot; one per controller. The defaults are those SYS_RESET restores.
@@ -20,6 +24,8 @@ struct MotionState {
 MotionState& motionState(TaskCore* task);
 /// What SYS_RESET does when the program of a motion task begins anew (manual 1.7): defaults; tool and work object stay.
 void resetSettings(Task& task);
+/// They are kept between two processes (--state).
+void keepSettings(Controller& controller, StateKeepers& kept);
 
 /// kOk, or ERR_NOT_MOVETASK raised: only a task that controls the robot may move it.
 Status requireMotionTask(TaskCore* task);

@@ -1,5 +1,8 @@
+#include "stdlib/impl/interrupts/ordering.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/native_table.h"
+
+#include "runtime/host/state_keepers.h"
 
 namespace rt {
 
@@ -7,6 +10,9 @@ void setUpStandardLibrary(Controller& controller) {
     for (const ErrorEntry& entry : errorTable())
         controller.log().addErrorName(entry.number, entry.name, entry.summary);
     controller.onProgramReset(lib::resetSettings);
+    auto& kept = controller.service<StateKeepers>();
+    kept.orderAgain = lib::orderAgain;
+    lib::keepSettings(controller, kept);
 }
 
 } // namespace rt

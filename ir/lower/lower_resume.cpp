@@ -1,0 +1,143 @@
+// Which instructions a later process can enter again in the middle (--state, manual 1.2.2 "Power on"): the routine in
+// progress is called anew by executing the instruction that called it from its beginning. So what that instruction does
+// ahead of the call must have no effect, and must not be needed behind the call unless nobody else can change it.
+
+#include "frontend/syntax/tree_walk.h"
+#include "ir/lower/routine_lowering.h"
+
+#include <algorithm>
+
+namespace rapid::lower {
+
+using namespace syntax;
+using sema::DataSymbol;
+
+namespace {
+
+/// The data object that an argument hands to its routine by reference; null for anything else.
+const DataSymbol* handedOver(const sema::BoundArg& arg, const sema::Module& module) {
+    if (!arg.param || !arg.value || arg.param->mode == ParamMode::In) return nullptr;
+    const Expr* e = arg.value;
+    for (;;) {
+        if (e->kind == NodeKind::Paren)
+            e = as<ParenExpr>(*e).inner;
+        else if (e->kind == NodeKind::Index)
+            e = as<IndexExpr>(*e).base;
+        else if (e->kind == NodeKind::Component)
+            e = as<ComponentExpr>(*e).base;
+        else
+            break;
+    }
+    const sema::Symbol* symbol = e->kind == NodeKind::Name ? (*module.exprs)[e->id].symbol : nullptr;
+    return symbol && symbol->kind == sema::SymbolKind::Data ? static_cast<const DataSymbol*>(symbol) : nullptr;
+}
+
+} // namespace
+
+/// Goes through an instruction in the order in which it is executed.
+struct RoutineLowering::CallSearch {
+    explicit CallSearch(const sema::Module& in) : module(in) {}
+
+    const sema::Module& module;
+    int routines = 0;         ///< calls of routines of the program
+    int effects = 0;          ///< calls with an effect, those included
+    bool effectAhead = false; ///< a native with an effect is called ahead of the first routine
+    bool changeable = false;  ///< a value that others may change is read ahead of the first routine, beside its arguments
+    std::vector<const DataSymbol*> shared; ///< routine data that are handed over by reference
+
+    void collectShared(const Node& node) {
+        if (const auto found = module.facts->calls.find(&node); found != module.facts->calls.end())
+            for (const sema::BoundArg& arg : found->second.args)
+                if (const DataSymbol* symbol = handedOver(arg, module)) shared.push_back(symbol);
+        forEachChild(node, [this](const Node& child) {
+            if (!isStmt(child.kind)) collectShared(child);
+        });
+    }
+
+    bool isOwn(const Expr& name) const {
+        const sema::ExprInfo& info = (*module.exprs)[name.id];
+        if (info.constant != nullptr) return true;
+        if (!info.symbol || info.symbol->kind != sema::SymbolKind::Data) return false;
+        const auto& symbol = *static_cast<const DataSymbol*>(info.symbol);
+        if (symbol.dataKind == DataKind::Const && symbol.storage != sema::Storage::Parameter) return true;
+        const bool own = symbol.storage == sema::Storage::RoutineData ||
+                         symbol.storage == sema::Storage::LoopVariable ||
+                         (symbol.storage == sema::Storage::Parameter && symbol.mode == ParamMode::In);
+        return own && std::find(shared.begin(), shared.end(), &symbol) == shared.end();
+    }
+
+    /// What is assigned to: its place does not change, but its indices are values.
+    void visitTarget(const Expr& target) {
+        if (target.kind == NodeKind::Component) return visitTarget(*as<ComponentExpr>(target).base);
+        if (target.kind == NodeKind::Paren) return visitTarget(*as<ParenExpr>(target).inner);
+        if (target.kind != NodeKind::Index) return;
+        visitTarget(*as<IndexExpr>(target).base);
+        for (const Expr* index : as<IndexExpr>(target).indices)
+            visit(*index);
+    }
+
+    void visit(const Node& node, bool ofArguments = false) {
+        const auto found = module.facts->calls.find(&node);
+        const sema::RoutineSymbol* callee = found != module.facts->calls.end() ? found->second.routine : nullptr;
+        const bool native = callee != nullptr && callee->native;
+        const bool routine = !native && (found != module.facts->calls.end() ||
+                                         (node.kind == NodeKind::CallStmt && as<CallStmt>(node).lateName));
+        const bool ahead = routines == 0 && !ofArguments;
+        if (ahead && node.kind == NodeKind::Name && !isOwn(static_cast<const Expr&>(node))) changeable = true;
+        forEachChild(node, [&](const Node& child) {
+            if (!isStmt(child.kind)) visit(child, ofArguments || routine);
+        });
+        const bool effect = routine || (native && callee->effects > sema::Effects::Reads);
+        effects += effect ? 1 : 0;
+        if (native && routines == 0) {
+            effectAhead = effectAhead || effect;
+            changeable = changeable || (ahead && callee->effects == sema::Effects::Reads);
+        }
+        routines += routine ? 1 : 0;
+    }
+};
+
+/// `row`: 0, or the number of the condition of an IF.
+uint8_t RoutineLowering::resumeFlags(const Stmt& stmt, size_t row) const {
+    CallSearch search(*module_);
+    search.collectShared(stmt);
+    int earlier = 0; // effects of the conditions ahead, which are evaluated again
+    if (stmt.kind == NodeKind::If) {
+        const auto& branches = as<IfStmt>(stmt).branches;
+        for (size_t i = 0; i <= row && i < branches.size(); ++i) {
+            earlier = search.effects;
+            if (branches[i]->condition) search.visit(*branches[i]->condition);
+        }
+    } else if (stmt.kind == NodeKind::Assign) {
+        search.visitTarget(*as<AssignStmt>(stmt).target);
+        search.visit(*as<AssignStmt>(stmt).value);
+    } else {
+        search.visit(stmt);
+    }
+    const auto found = facts().calls.find(&stmt);
+    const bool polls = found != facts().calls.end() && found->second.routine &&
+                       std::any_of(found->second.routine->params.begin(), found->second.routine->params.end(),
+                                   [](const DataSymbol* param) { return param->deferred; });
+    uint8_t flags = 0;
+    if (earlier == 0 && (search.effects <= 1 || polls)) flags |= ir::kStmtRepeatable;
+    if (earlier == 0 && search.routines == 1 && !search.effectAhead && !search.changeable)
+        flags |= ir::kStmtReenterable;
+    return flags;
+}
+
+/// Tells whether the text of a routine was changed; layout and comments do not count. Never 0.
+uint32_t textHash(const sema::RoutineSymbol& symbol) {
+    const auto& tree = *symbol.module->tree;
+    uint32_t hash = 2166136261U; // FNV-1a
+    const auto mix = [&hash](std::string_view text) {
+        for (const char c : text)
+            hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+    };
+    for (TokenIndex t = symbol.routineDecl->first; t <= symbol.routineDecl->last; ++t) {
+        mix(tree.text(t));
+        mix("\n");
+    }
+    return (hash & 0x7FFFFFFFU) | 1U;
+}
+
+} // namespace rapid::lower

@@ -1,0 +1,134 @@
+#include "runtime/host/path_image.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <stdexcept>
+#include <vector>
+
+namespace rt {
+namespace {
+
+using Json = nlohmann::json;
+
+template <std::size_t N> std::array<double, N> numbersFrom(const Json& json) {
+    const auto numbers = json.get<std::vector<double>>();
+    if (numbers.size() != N) throw std::invalid_argument("another number of numbers");
+    std::array<double, N> result{};
+    std::copy(numbers.begin(), numbers.end(), result.begin());
+    return result;
+}
+
+Json frameJson(const motion::FrameSetup& frames) {
+    return {{"toolHeld", frames.tool.robotHeld},
+            {"tool", jsonOf(frames.tool.tframe)},
+            {"objectHeld", frames.workObject.robotHeld},
+            {"user", jsonOf(frames.workObject.uframe)},
+            {"object", jsonOf(frames.workObject.oframe)},
+            {"displacement", jsonOf(frames.displacement)},
+            {"base", jsonOf(frames.baseFrame)}};
+}
+
+motion::FrameSetup framesFrom(const Json& json) {
+    motion::FrameSetup frames;
+    frames.tool = {json.at("toolHeld").get<bool>(), poseFrom(json.at("tool"))};
+    frames.workObject = {json.at("objectHeld").get<bool>(), poseFrom(json.at("user")), poseFrom(json.at("object"))};
+    frames.displacement = poseFrom(json.at("displacement"));
+    frames.baseFrame = poseFrom(json.at("base"));
+    return frames;
+}
+
+Json settingsJson(const motion::MotionSettings& s) {
+    return {s.velocityPercent,  s.maxTcpSpeed,      s.accelerationPercent, s.rampPercent,
+            s.pathAcceleration, s.pathDeceleration, s.worldAcceleration};
+}
+
+motion::MotionSettings settingsFrom(const Json& json) {
+    const auto n = numbersFrom<7>(json);
+    return {n[0], n[1], n[2], n[3], n[4], n[5], n[6]};
+}
+
+int wholeFrom(const Json& json, int most) {
+    if (!json.is_number_integer()) throw std::invalid_argument("no whole number");
+    const auto number = json.get<int64_t>();
+    if (number < -most || number > most) throw std::invalid_argument("out of range");
+    return static_cast<int>(number);
+}
+
+} // namespace
+
+Json jsonOf(const motion::Pose& pose) {
+    return {pose.pos.x, pose.pos.y, pose.pos.z, pose.rot.w, pose.rot.x, pose.rot.y, pose.rot.z};
+}
+
+motion::Pose poseFrom(const Json& json) {
+    const auto n = numbersFrom<7>(json);
+    return {{n[0], n[1], n[2]}, {n[3], n[4], n[5], n[6]}};
+}
+
+Json jsonOf(const motion::MoveCommand& c) {
+    const motion::ConfData& conf = c.target.conf;
+    return {{"kind", static_cast<int>(c.kind)},
+            {"joints", c.joints.robax},
+            {"jointAxes", c.joints.extax},
+            {"target", jsonOf(c.target.pose)},
+            {"conf", {conf.cf1, conf.cf4, conf.cf6, conf.cfx}},
+            {"targetAxes", c.target.extax},
+            {"circlePoint", jsonOf(c.circlePoint)},
+            {"frames", frameJson(c.frames)},
+            {"speed", {c.speed.vTcp, c.speed.vOri, c.speed.vLeax, c.speed.vReax}},
+            {"duration", c.duration},
+            {"fine", c.zone.finep},
+            {"zone",
+             {c.zone.pzoneTcp, c.zone.pzoneOri, c.zone.pzoneEax, c.zone.zoneOri, c.zone.zoneLeax, c.zone.zoneReax}},
+            {"confJ", c.confJ},
+            {"confL", c.confL},
+            {"concurrent", c.concurrent},
+            {"settings", settingsJson(c.settings)}};
+}
+
+motion::MoveCommand moveFrom(const Json& json) {
+    motion::MoveCommand c;
+    constexpr int kLastKind = static_cast<int>(motion::MoveKind::Circular), kMostTurns = 1000;
+    c.kind = static_cast<motion::MoveKind>(std::abs(wholeFrom(json.at("kind"), kLastKind)));
+    c.joints = {numbersFrom<6>(json.at("joints")), numbersFrom<6>(json.at("jointAxes"))};
+    const Json& conf = json.at("conf");
+    c.target = {poseFrom(json.at("target")),
+                {wholeFrom(conf.at(0), kMostTurns), wholeFrom(conf.at(1), kMostTurns),
+                 wholeFrom(conf.at(2), kMostTurns), wholeFrom(conf.at(3), kMostTurns)},
+                numbersFrom<6>(json.at("targetAxes"))};
+    c.circlePoint = poseFrom(json.at("circlePoint"));
+    c.frames = framesFrom(json.at("frames"));
+    const auto speed = numbersFrom<4>(json.at("speed"));
+    c.speed = {speed[0], speed[1], speed[2], speed[3]};
+    json.at("duration").get_to(c.duration);
+    const auto zone = numbersFrom<6>(json.at("zone"));
+    c.zone = {json.at("fine").get<bool>(), zone[0], zone[1], zone[2], zone[3], zone[4], zone[5]};
+    json.at("confJ").get_to(c.confJ);
+    json.at("confL").get_to(c.confL);
+    json.at("concurrent").get_to(c.concurrent);
+    c.settings = settingsFrom(json.at("settings"));
+    return c;
+}
+
+Json jsonOf(const SavedInterrupt& i) {
+    return {{"number", i.number},         {"single", i.single},       {"safe", i.safe},
+            {"asleep", i.asleep},         {"ordered", i.ordered},     {"kind", i.order.kind},
+            {"object", i.order.object},   {"numbers", i.order.numbers}};
+}
+
+SavedInterrupt interruptFrom(const Json& json) {
+    constexpr int kMostNumbers = 1 << 23;
+    SavedInterrupt i;
+    i.number = wholeFrom(json.at("number"), kMostNumbers);
+    json.at("single").get_to(i.single);
+    json.at("safe").get_to(i.safe);
+    json.at("asleep").get_to(i.asleep);
+    json.at("ordered").get_to(i.ordered);
+    json.at("kind").get_to(i.order.kind);
+    json.at("object").get_to(i.order.object);
+    json.at("numbers").get_to(i.order.numbers);
+    return i;
+}
+
+} // namespace rt

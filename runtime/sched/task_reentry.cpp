@@ -1,0 +1,91 @@
+// Task: what an earlier process left (--state), and what this one leaves.
+
+#include "runtime/sched/event_routines.h"
+#include "runtime/sched/fibre.h"
+#include "runtime/sched/scheduler.h"
+#include "runtime/sched/step_hook.h"
+#include "runtime/sched/task.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rt {
+
+void Task::reenter(StepHook& guide, EntryFunction entry) {
+    keepVariables();
+    nextGuide_ = &guide;
+    entryOverride_ = entry;
+}
+
+void Task::beginReentry() {
+    guide_ = std::exchange(nextGuide_, nullptr);
+    askSteps += kAsksForReentry;
+}
+
+void Task::endReentry() {
+    if (std::exchange(guide_, nullptr) != nullptr) askSteps -= kAsksForReentry;
+    nextGuide_ = nullptr;
+}
+
+void Task::finishReentry(const ErrorMemory& errors, bool behindStop) {
+    endReentry();
+    passStop_ = behindStop;
+    errorNumber = errors.errorNumber;
+    interruptNumber = errors.interruptNumber;
+    errorText_ = errors.text;
+    errorPlace_ = errors.place;
+    errorDetail_.clear();
+    const std::vector<Frame*> chain = frames();
+    retries_.clear();
+    for (const ErrorMemory::Retries& saved : errors.retries) {
+        if (saved.depth >= chain.size()) continue;
+        Frame* const at = chain[saved.depth];
+        at->reserved = ++lastRetryId_;
+        retries_.push_back({at, saved.statement, at->reserved, saved.number, saved.counts});
+    }
+    handled_.frame = nullptr;
+    if (errors.handled && errors.handled->depth < chain.size()) {
+        Frame* const at = chain[errors.handled->depth];
+        handled_ = {at, at->routine, errors.handled->number, errors.handled->text, errors.handled->place, now()};
+    }
+}
+
+Status Task::abandonReentry() {
+    endReentry();
+    needsReset_ = true;
+    unwinding_ = Unwind::ToMain;
+    for (const SystemEvent event : {SystemEvent::Reset, SystemEvent::Start})
+        events_.owe(event);
+    return kUnwindSilent;
+}
+
+std::vector<Frame*> Task::frames() const {
+    std::vector<Frame*> chain;
+    for (Frame* at = frame; at != nullptr; at = at->caller)
+        chain.push_back(at);
+    std::reverse(chain.begin(), chain.end());
+    return chain;
+}
+
+ErrorMemory Task::errorMemory() const {
+    ErrorMemory memory;
+    memory.errorNumber = errorNumber;
+    memory.interruptNumber = interruptNumber;
+    memory.text = errorText_;
+    memory.place = errorPlace_;
+    const std::vector<Frame*> chain = frames();
+    for (std::size_t depth = 0; depth < chain.size(); ++depth) {
+        for (const RetryCount& entry : retries_)
+            if (entry.frame == chain[depth] && entry.id == chain[depth]->reserved)
+                memory.retries.push_back({depth, entry.statement, entry.number, entry.counts});
+        if (handled_.frame == chain[depth] && handled_.routine == chain[depth]->routine)
+            memory.handled = {depth, handled_.number, handled_.text, handled_.place};
+    }
+    return memory;
+}
+
+bool Task::ownsAddress(const void* address) const {
+    return fibre_->owns(address);
+}
+
+} // namespace rt
