@@ -139,7 +139,10 @@ MoveCommand restOfCircle(const MoveCommand& command, const Pose& start, const Po
     if (!arc) return command;
     const double part = partAt(*arc, start, here);
     MoveCommand rest = command;
-    if (part > 0 && part < 1) rest.circlePoint = arc->at((1 + part) / 2);
+    if (!(part > 0 && part < 1)) return rest;
+    rest.circlePoint = arc->at((1 + part) / 2);
+    constexpr double kShortRest = 8; // degrees; the angle between its points would be too small for a circle
+    if ((1 - part) * arc->sweepDeg() < kShortRest) rest.kind = MoveKind::Linear;
     return rest;
 }
 

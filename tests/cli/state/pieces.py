@@ -9,7 +9,7 @@ rapidc, seconds, *rest = sys.argv[1:]
 
 
 def run(*options):
-    done = subprocess.run([rapidc, "run", *rest, *options], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([rapidc, "run", rest[-1], *rest[:-1], *options], capture_output=True, text=True, timeout=120)
     return done.returncode, done.stdout, done.stderr
 
 
