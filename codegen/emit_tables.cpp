@@ -80,8 +80,8 @@ void ModuleEmitter::declareTables() {
     typeDescType_ = make("rt.TypeDesc", {ptr_, ptr_, i8_, i32_, i32_, dims, ptr_, ptr_, ptr_});
     stmtDescType_ = make("rt.StmtDesc", {i32_, i32_, i32_, i32_, i8_, i8_, i8_, i8_, i32_});
     localDescType_ = make("rt.LocalDesc", {ptr_, ptr_, i8_, i8_, i8_, i8_});
-    routineDescType_ = make("rt.RoutineDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i8_,  i8_, i8_, i8_, ptr_,
-                                               i32_, ptr_, i32_, i32_, ptr_, i32_, i8_, i8_, i8_, i8_, i32_});
+    routineDescType_ = make("rt.RoutineDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i8_, i8_, i8_, i8_, ptr_, i32_,
+                                               ptr_, i32_, i32_, ptr_, i32_, i8_, i8_, i8_, i8_, i32_});
     taskDescType_ = make("rt.TaskDesc", {ptr_, ptr_, ptr_, ptr_, i8_});
     globalDescType_ = make("rt.GlobalDesc", {ptr_, ptr_, ptr_, ptr_, i8_, i8_, i32_, ptr_, i32_});
     externalDescType_ = make("rt.ExternalDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i32_});

@@ -162,7 +162,8 @@ void ModuleEmitter::declareRuntime() {
     runtime_.retry = declare("rt_retry", {ptr_, ptr_});
     runtime_.stackOverflow = declare("rt_stackOverflow", {ptr_, ptr_});
     runtime_.step = declare("rt_step", {ptr_, ptr_});
-    runtime_.steppingFrame = llvm::StructType::create(context_, {runtime_.frame, ptr_, i32_}, "rt.SteppingFrame");
+    runtime_.steppingFrame =
+        llvm::StructType::create(context_, {runtime_.frame, ptr_, i32_}, "rt.SteppingFrame");
 }
 
 llvm::Constant* ModuleEmitter::initialValue(const ir::Global& global) {

@@ -120,7 +120,7 @@ class RoutineEmitter {
     llvm::AllocaInst* resultSlots_[8] = {}; ///< for scalar results of natives, by type
     Value *task_ = nullptr, *caller_ = nullptr, *result_ = nullptr;
     llvm::AllocaInst *frame_ = nullptr, *unwinding_ = nullptr;
-    Value* failed_ = nullptr; ///< address: the statement that failed
+    Value* failed_ = nullptr;            ///< address: the statement that failed
     ir::BlockId frameBlock_ = ir::kNone; ///< where the frame record is filled; kNone: only on cold paths
     bool frameInPrologue_ = false;
     ir::BlockId current_ = 0;

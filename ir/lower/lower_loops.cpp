@@ -214,7 +214,8 @@ void RoutineLowering::lowerFloatLoop(const ForStmt& stmt, sema::DataSymbol& vari
     describeLocal(slot.local, variable.type);
     const uint32_t to = b_.addLocal("", t);
     const uint32_t step = b_.addLocal("", t);
-    if (program_.stepping()) { // without a name: nobody sees them, but they are part of what the routine is at
+    if (program_
+            .stepping()) { // without a name: nobody sees them, but they are part of what the routine is at
         describeLocal(to, variable.type);
         describeLocal(step, variable.type);
     }

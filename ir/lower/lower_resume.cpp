@@ -29,7 +29,8 @@ const DataSymbol* handedOver(const sema::BoundArg& arg, const sema::Module& modu
             break;
     }
     const sema::Symbol* symbol = e->kind == NodeKind::Name ? (*module.exprs)[e->id].symbol : nullptr;
-    return symbol && symbol->kind == sema::SymbolKind::Data ? static_cast<const DataSymbol*>(symbol) : nullptr;
+    return symbol && symbol->kind == sema::SymbolKind::Data ? static_cast<const DataSymbol*>(symbol)
+                                                            : nullptr;
 }
 
 } // namespace
@@ -42,7 +43,8 @@ struct RoutineLowering::CallSearch {
     int routines = 0;         ///< calls of routines of the program
     int effects = 0;          ///< calls with an effect, those included
     bool effectAhead = false; ///< a native with an effect is called ahead of the first routine
-    bool changeable = false;  ///< a value that others may change is read ahead of the first routine, beside its arguments
+    bool changeable =
+        false; ///< a value that others may change is read ahead of the first routine, beside its arguments
     std::vector<const DataSymbol*> shared; ///< routine data that are handed over by reference
 
     void collectShared(const Node& node) {
@@ -78,7 +80,8 @@ struct RoutineLowering::CallSearch {
 
     void visit(const Node& node, bool ofArguments = false) {
         const auto found = module.facts->calls.find(&node);
-        const sema::RoutineSymbol* callee = found != module.facts->calls.end() ? found->second.routine : nullptr;
+        const sema::RoutineSymbol* callee =
+            found != module.facts->calls.end() ? found->second.routine : nullptr;
         const bool native = callee != nullptr && callee->native;
         const bool routine = !native && (found != module.facts->calls.end() ||
                                          (node.kind == NodeKind::CallStmt && as<CallStmt>(node).lateName));

@@ -36,7 +36,8 @@ std::string typeOf(const SteppingFrame& frame, uint32_t index) {
     const LocalDesc& desc = frame.routine->locals[index];
     std::string type;
     for (uint32_t k = 0; k < desc.rank; ++k)
-        type += fmt::format("{}{}", k == 0 ? '[' : ',', *static_cast<const int32_t*>(frame.addresses[index + 1 + k]));
+        type += fmt::format("{}{}", k == 0 ? '[' : ',',
+                            *static_cast<const int32_t*>(frame.addresses[index + 1 + k]));
     return type + (desc.rank > 0 ? "]" : "") + describeType(*desc.type);
 }
 
@@ -65,7 +66,8 @@ SavedFrame takeFrame(const std::vector<Frame*>& frames, std::size_t depth, const
     const StmtDesc* statement = statementOf(frame);
     if (statement != nullptr && (statement->flags & kStmtInHandler) != 0) saved.failed = frame.failed;
     for (uint32_t i = 0; i < routine.localCount; i += 1U + routine.locals[i].rank)
-        if (routine.locals[i].type != nullptr) saved.locals.push_back(takeLocal(frame, i, frames, data, task));
+        if (routine.locals[i].type != nullptr)
+            saved.locals.push_back(takeLocal(frame, i, frames, data, task));
     return saved;
 }
 
@@ -95,7 +97,8 @@ std::string refusalAt(const StmtDesc& statement, Standing standing) {
     case Standing::Between: return fmt::format("the instruction in line {} was half done", statement.line);
     case Standing::InWait:
         if (!repeatable)
-            return fmt::format("the instruction in line {} waited after it had called a routine", statement.line);
+            return fmt::format("the instruction in line {} waited after it had called a routine",
+                               statement.line);
         break;
     case Standing::AtStatement:
     case Standing::BehindStop:
@@ -116,12 +119,14 @@ void DataIndex::add(const GlobalDesc& data, std::string key) {
 
 void DataIndex::sort() {
     const auto order = [](const Row& row) { return std::tie(row.begin, row.key); };
-    std::sort(rows_.begin(), rows_.end(), [&order](const Row& a, const Row& b) { return order(a) < order(b); });
+    std::sort(rows_.begin(), rows_.end(),
+              [&order](const Row& a, const Row& b) { return order(a) < order(b); });
 }
 
 const std::string* DataIndex::find(const void* address, uint64_t& offset) const {
     const auto* at = static_cast<const char*>(address);
-    auto next = std::upper_bound(rows_.begin(), rows_.end(), at, [](const char* a, const Row& row) { return a < row.begin; });
+    auto next = std::upper_bound(rows_.begin(), rows_.end(), at,
+                                 [](const char* a, const Row& row) { return a < row.begin; });
     if (next == rows_.begin()) return nullptr;
     const Row& row = *--next;
     offset = static_cast<uint64_t>(at - row.begin);
@@ -196,12 +201,14 @@ std::string takeChain(const Task& task, const DataIndex& data, CallChain& chain)
     }
     for (std::size_t depth = 0; depth < frames.size(); ++depth) {
         const StmtDesc* statement = statementOf(*frames[depth]);
-        if (statement == nullptr || statement->canStart == kCannotStart) return "it stood between two instructions";
+        if (statement == nullptr || statement->canStart == kCannotStart)
+            return "it stood between two instructions";
         const bool innermost = depth + 1 == frames.size();
         if (!innermost && (statement->flags & kStmtReenterable) == 0)
-            return fmt::format("the instruction in line {} of {} calls more than the routine it had come to, or needs "
-                               "data that others may have changed",
-                               statement->line, frames[depth]->routine->name);
+            return fmt::format(
+                "the instruction in line {} of {} calls more than the routine it had come to, or needs "
+                "data that others may have changed",
+                statement->line, frames[depth]->routine->name);
         if (!innermost) continue;
         if (std::string why = refusalAt(*statement, standing); !why.empty()) return why;
     }

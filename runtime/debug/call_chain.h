@@ -18,8 +18,8 @@ struct SavedLocal {
         Value,  ///< `value`
         Absent, ///< optional parameter that is not given
         Object, ///< a parameter that stands for a part of `object`, a named data object
-        Copy,   ///< a parameter that stands for something without a name: an expression, an array of its own; `value`
-        Fresh   ///< a file, a clock ...: made anew
+        Copy, ///< a parameter that stands for something without a name: an expression, an array of its own; `value`
+        Fresh ///< a file, a clock ...: made anew
     };
     Kind kind = Kind::Value;
     std::string type; ///< with all components and dimensions

@@ -22,7 +22,8 @@ std::string Reentry::begin(Task& task) {
             return fmt::format("there is no routine {}:{}", frame.module, frame.routine);
         const RoutineDesc& routine = *entry->desc;
         if (routine.stepping == 0) return "the program is not compiled for the stepping profile now";
-        if (routine.textHash != frame.textHash) return fmt::format("routine {} has been changed", frame.routine);
+        if (routine.textHash != frame.textHash)
+            return fmt::format("routine {} has been changed", frame.routine);
         if (frame.statement < 0 || static_cast<uint32_t>(frame.statement) >= routine.statementCount ||
             routine.statements[frame.statement].canStart == kCannotStart)
             return fmt::format("routine {} has no such instruction", frame.routine);
@@ -57,9 +58,9 @@ int32_t Reentry::beforeStatement(Task& task, Frame* at) {
             return here;
         }
         if (reached_ || statement.canStart != kStartsEarlier || here > target)
-            return giveUp(task, fmt::format("the instruction in line {} did not call {} again",
-                                            at->routine->statements[target].line,
-                                            chain_.frames[depth_].routine));
+            return giveUp(task,
+                          fmt::format("the instruction in line {} did not call {} again",
+                                      at->routine->statements[target].line, chain_.frames[depth_].routine));
         reached_ = here == target;
         return here;
     }

@@ -26,7 +26,8 @@ class Reentry final : public StepHook {
 
   private:
     std::string entered(Task& task, Frame* at);
-    std::string restoreLocal(const SteppingFrame& frame, uint32_t index, const SavedLocal& saved, const Task& task);
+    std::string restoreLocal(const SteppingFrame& frame, uint32_t index, const SavedLocal& saved,
+                             const Task& task);
     Status giveUp(Task& task, const std::string& why);
     const RoutineEntry* find(const SavedFrame& frame, const Task& task) const;
 
@@ -34,10 +35,10 @@ class Reentry final : public StepHook {
     CallChain chain_;
     std::string place_;
     const DataIndex& data_;
-    std::size_t depth_ = 0;     ///< routines entered
-    Frame* current_ = nullptr;  ///< the innermost of them
-    bool jumped_ = false;       ///< it has been sent to its statement, whose own question comes next
-    bool reached_ = false;      ///< and is there
+    std::size_t depth_ = 0;    ///< routines entered
+    Frame* current_ = nullptr; ///< the innermost of them
+    bool jumped_ = false;      ///< it has been sent to its statement, whose own question comes next
+    bool reached_ = false;     ///< and is there
 };
 
 } // namespace rt

@@ -13,8 +13,9 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::pair<const char*, SavedLocal::Kind> kKinds[] = {
-    {"value", SavedLocal::Kind::Value}, {"absent", SavedLocal::Kind::Absent}, {"object", SavedLocal::Kind::Object},
-    {"copy", SavedLocal::Kind::Copy},   {"fresh", SavedLocal::Kind::Fresh},
+    {"value", SavedLocal::Kind::Value},   {"absent", SavedLocal::Kind::Absent},
+    {"object", SavedLocal::Kind::Object}, {"copy", SavedLocal::Kind::Copy},
+    {"fresh", SavedLocal::Kind::Fresh},
 };
 
 template <class Number> Number numberFrom(const Json& json) {
@@ -25,7 +26,11 @@ template <class Number> Number numberFrom(const Json& json) {
 }
 
 Json jsonOf(const SourcePlace& place) {
-    return {{"module", place.module}, {"routine", place.routine}, {"file", place.file}, {"line", place.line}, {"column", place.column}};
+    return {{"module", place.module},
+            {"routine", place.routine},
+            {"file", place.file},
+            {"line", place.line},
+            {"column", place.column}};
 }
 
 SourcePlace placeFrom(const Json& json) {
@@ -88,11 +93,21 @@ Json jsonOf(const ErrorMemory& errors) {
         Json counts = Json::array();
         for (const auto& [number, count] : entry.counts)
             counts.push_back({number, count});
-        retries.push_back({{"depth", entry.depth}, {"statement", entry.statement}, {"number", entry.number}, {"counts", counts}});
+        retries.push_back({{"depth", entry.depth},
+                           {"statement", entry.statement},
+                           {"number", entry.number},
+                           {"counts", counts}});
     }
-    Json json = {{"errno", errors.errorNumber}, {"intno", errors.interruptNumber}, {"text", errors.text}, {"place", jsonOf(errors.place)}, {"retries", retries}};
+    Json json = {{"errno", errors.errorNumber},
+                 {"intno", errors.interruptNumber},
+                 {"text", errors.text},
+                 {"place", jsonOf(errors.place)},
+                 {"retries", retries}};
     if (errors.handled)
-        json["handled"] = {{"depth", errors.handled->depth}, {"number", errors.handled->number}, {"text", errors.handled->text}, {"place", jsonOf(errors.handled->place)}};
+        json["handled"] = {{"depth", errors.handled->depth},
+                           {"number", errors.handled->number},
+                           {"text", errors.handled->text},
+                           {"place", jsonOf(errors.handled->place)}};
     return json;
 }
 
@@ -113,7 +128,8 @@ ErrorMemory errorsFrom(const Json& json) {
     }
     if (!json.contains("handled")) return errors;
     const Json& handled = json.at("handled");
-    errors.handled = {numberFrom<std::size_t>(handled.at("depth")), numberFrom<int>(handled.at("number")), handled.at("text").get<std::string>(), placeFrom(handled.at("place"))};
+    errors.handled = {numberFrom<std::size_t>(handled.at("depth")), numberFrom<int>(handled.at("number")),
+                      handled.at("text").get<std::string>(), placeFrom(handled.at("place"))};
     return errors;
 }
 

@@ -301,7 +301,8 @@ motion::Pose MotionDriver::startOf(const motion::MoveCommand& command) const {
     return system_.toRobTarget(system_.plannedEnd(), command.frames).pose;
 }
 
-void MotionDriver::enqueued(motion::MoveId id, const motion::MoveCommand& command, const motion::Pose& start) {
+void MotionDriver::enqueued(motion::MoveId id, const motion::MoveCommand& command,
+                            const motion::Pose& start) {
     while (!ordered_.empty() && system_.isDone(ordered_.front().id))
         ordered_.pop_front();
     ordered_.push_back({id, command, start});

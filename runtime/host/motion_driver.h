@@ -81,10 +81,11 @@ class MotionDriver {
 
     /// What an earlier process left of its path.
     struct EarlierPath {
-        std::vector<motion::MoveCommand> moves;     ///< to be ordered at once
-        std::optional<motion::MoveCommand> awaited; ///< then the one whose instruction the program executes again
-        std::optional<motion::Pose> begun;          ///< where the first of all these began; it is under way
-        bool stopMove = false;                      ///< StopMove holds the arm
+        std::vector<motion::MoveCommand> moves; ///< to be ordered at once
+        std::optional<motion::MoveCommand>
+            awaited;                       ///< then the one whose instruction the program executes again
+        std::optional<motion::Pose> begun; ///< where the first of all these began; it is under way
+        bool stopMove = false;             ///< StopMove holds the arm
     };
     EarlierPath remainingPath();
     /// From where the arm stands. The next movement the program orders is `awaited`, whatever its arguments are now.

@@ -32,7 +32,8 @@ Json frameJson(const motion::FrameSetup& frames) {
 motion::FrameSetup framesFrom(const Json& json) {
     motion::FrameSetup frames;
     frames.tool = {json.at("toolHeld").get<bool>(), poseFrom(json.at("tool"))};
-    frames.workObject = {json.at("objectHeld").get<bool>(), poseFrom(json.at("user")), poseFrom(json.at("object"))};
+    frames.workObject = {json.at("objectHeld").get<bool>(), poseFrom(json.at("user")),
+                         poseFrom(json.at("object"))};
     frames.displacement = poseFrom(json.at("displacement"));
     frames.baseFrame = poseFrom(json.at("base"));
     return frames;
@@ -80,7 +81,8 @@ Json jsonOf(const motion::MoveCommand& c) {
             {"duration", c.duration},
             {"fine", c.zone.finep},
             {"zone",
-             {c.zone.pzoneTcp, c.zone.pzoneOri, c.zone.pzoneEax, c.zone.zoneOri, c.zone.zoneLeax, c.zone.zoneReax}},
+             {c.zone.pzoneTcp, c.zone.pzoneOri, c.zone.pzoneEax, c.zone.zoneOri, c.zone.zoneLeax,
+              c.zone.zoneReax}},
             {"confJ", c.confJ},
             {"confL", c.confL},
             {"concurrent", c.concurrent},
@@ -112,9 +114,9 @@ motion::MoveCommand moveFrom(const Json& json) {
 }
 
 Json jsonOf(const SavedInterrupt& i) {
-    return {{"number", i.number},         {"single", i.single},       {"safe", i.safe},
-            {"asleep", i.asleep},         {"ordered", i.ordered},     {"kind", i.order.kind},
-            {"object", i.order.object},   {"numbers", i.order.numbers}};
+    return {{"number", i.number},       {"single", i.single},        {"safe", i.safe},
+            {"asleep", i.asleep},       {"ordered", i.ordered},      {"kind", i.order.kind},
+            {"object", i.order.object}, {"numbers", i.order.numbers}};
 }
 
 SavedInterrupt interruptFrom(const Json& json) {

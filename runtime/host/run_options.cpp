@@ -89,10 +89,10 @@ void addRunOptions(CLI::App& app, RunOptions& options, bool withTasks) {
     app.add_option("--signals", options.signals, "write every change of a signal")->type_name("FILE.csv");
     app.add_option("--events", options.events, "write the event log, an object a line")
         ->type_name("FILE.jsonl");
-    app.add_option(
-           "--state", options.state,
-           "folder that keeps the controller's state from run to run: data, events, the robot's position, and where "
-           "a program that was interrupted goes on")
+    app.add_option("--state", options.state,
+                   "folder that keeps the controller's state from run to run: data, events, the robot's "
+                   "position, and where "
+                   "a program that was interrupted goes on")
         ->type_name("DIR");
     app.add_flag("--pp-to-main", options.ppToMain, "with --state: the program begins at main nevertheless");
     app.add_flag("--save", options.save,

@@ -21,10 +21,10 @@ struct RunOptions {
     std::string home;                             ///< "" = an empty folder that is removed at the end
     std::string stimulus, trace, signals, events; ///< paths; "" = not asked for
     bool realtime = false;
-    std::string state;  ///< folder in which the controller's state survives the process; "" = none
+    std::string state;     ///< folder in which the controller's state survives the process; "" = none
     bool ppToMain = false; ///< with `state`: NORMAL tasks begin at main
-    bool save = false;  ///< values of persistents go back into the source files
-    double maxTime = 0; ///< s of virtual time; meant only when hasMaxTime
+    bool save = false;     ///< values of persistents go back into the source files
+    double maxTime = 0;    ///< s of virtual time; meant only when hasMaxTime
     bool hasMaxTime = false;
     uint32_t seed = 1;                 ///< for Rand and nothing else
     int64_t rate = kDefaultRate;       ///< instructions per ms

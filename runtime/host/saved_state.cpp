@@ -147,8 +147,8 @@ StateImage::TaskImage SavedState::presentTask(Task& task) const {
         state.interruptsEnabled = task.interrupts().enabled();
         for (SavedInterrupt& interrupt : task.interrupts().saved()) {
             const RoutineEntry* trap = trapAt(interrupt.trap);
-            state.interrupts.push_back(
-                {std::move(interrupt), trap == nullptr ? "" : trap->module, trap == nullptr ? "" : trap->name});
+            state.interrupts.push_back({std::move(interrupt), trap == nullptr ? "" : trap->module,
+                                        trap == nullptr ? "" : trap->name});
         }
     }
     return state;
@@ -237,13 +237,12 @@ void SavedState::restore() {
     restoreData(persistents_, image.persistents);
     restoreTasks(image);
     restoreSurroundings(image);
-    bool moves = false;
+    if (!earlier_.empty()) restoreKept(image);
     for (const auto& task : controller_.tasks()) {
         if (!task->isReentering()) continue;
         restoreInterrupts(*task, earlier_.at(task.get()));
-        moves = moves || task->isMotionTask();
+        if (task->isMotionTask()) controller_.motion().continuePath(image.path);
     }
-    if (moves) restorePath(image);
 }
 
 void SavedState::restoreInterrupts(Task& task, const StateImage::TaskImage& image) {
@@ -258,20 +257,20 @@ void SavedState::restoreInterrupts(Task& task, const StateImage::TaskImage& imag
         const bool ordered =
             !what.ordered || (again && again(task, what.number, what.single, what.safe, what.order));
         if (lost || !ordered)
-            controller_.log().write(EventId::InterruptLost, &task, {std::to_string(what.number), saved.routine});
+            controller_.log().write(EventId::InterruptLost, &task,
+                                    {std::to_string(what.number), saved.routine});
         if (what.asleep) task.interrupts().sleep(what.number);
     }
     if (!image.interruptsEnabled) task.interrupts().disable();
 }
 
-void SavedState::restorePath(const StateImage& image) {
+void SavedState::restoreKept(const StateImage& image) {
     for (const auto& [name, keeper] : controller_.service<StateKeepers>().keepers) {
         const auto found = image.kept.find(name);
         if (found == image.kept.end()) continue;
         const std::string problem = loadKept(keeper, found->second);
         if (!problem.empty()) controller_.log().write(EventId::StateMisfit, nullptr, {name});
     }
-    controller_.motion().continuePath(image.path);
 }
 
 void SavedState::restoreTasks(const StateImage& image) {

@@ -54,9 +54,9 @@ struct StateImage {
     std::map<std::string, Datum> variables;
     std::map<std::string, Datum> interruptNumbers; ///< intnum variables: of use to a task that goes on alone
     MotionDriver::EarlierPath path;
-    std::map<std::string, std::string> kept;       ///< of StateKeepers, JSON
-    std::map<std::string, double> signals; ///< those that keep their value over a power failure (Store)
-    std::vector<double> axes;              ///< robot, then external axes; degrees, mm
+    std::map<std::string, std::string> kept; ///< of StateKeepers, JSON
+    std::map<std::string, double> signals;   ///< those that keep their value over a power failure (Store)
+    std::vector<double> axes;                ///< robot, then external axes; degrees, mm
     std::string robot;
     std::vector<Event> events;
 };
@@ -96,7 +96,7 @@ class SavedState {
     void write(const StateImage& image);
     void restoreTasks(const StateImage& image);
     const RoutineEntry* trapAt(EntryFunction function) const;
-    void restorePath(const StateImage& image);
+    void restoreKept(const StateImage& image);
     void restoreInterrupts(Task& task, const StateImage::TaskImage& image);
     bool restorePointer(Task& task, const StateImage::TaskImage& image);
     void restoreData(const Rows& rows, const std::map<std::string, StateImage::Datum>& data);

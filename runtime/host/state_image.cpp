@@ -112,8 +112,8 @@ StateImage::TaskImage taskFrom(const Json& json) {
     task.chain = chainFrom(json.at("chain"));
     json.at("interruptsEnabled").get_to(task.interruptsEnabled);
     for (const Json& row : json.at("interrupts"))
-        task.interrupts.push_back({interruptFrom(row), row.at("module").get<std::string>(),
-                                   row.at("routine").get<std::string>()});
+        task.interrupts.push_back(
+            {interruptFrom(row), row.at("module").get<std::string>(), row.at("routine").get<std::string>()});
     return task;
 }
 

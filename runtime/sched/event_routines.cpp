@@ -17,7 +17,7 @@ std::size_t indexOf(SystemEvent event) {
 
 } // namespace
 
-const RoutineDesc kEventBoundary = {"(event)", "",      "", nullptr, 0,       0, 0, 0, 0, nullptr,
+const RoutineDesc kEventBoundary = {"(event)", "",      "", nullptr, 0,       0, 0, 0, 0,  nullptr,
                                     0,         nullptr, 0,  0,       nullptr, 0, 0, 0, {}, 0};
 
 SystemEvent systemEventOf(std::string_view shelf) {

@@ -8,7 +8,7 @@
 
 namespace rt {
 
-const RoutineDesc kTrapBoundary = {"(interrupt)", "", "", nullptr, 0, 0, 0, 0, 0, nullptr, 0,
+const RoutineDesc kTrapBoundary = {"(interrupt)", "", "", nullptr, 0, 0, 0, 0,  0, nullptr, 0,
                                    nullptr,       0,  0,  nullptr, 0, 0, 0, {}, 0};
 
 bool InterruptTable::deliverable() const {

@@ -437,7 +437,7 @@ class Task : public TaskCore {
     Standing standing_ = Standing::Between;
     StepHook* nextGuide_ = nullptr; // leads back to where an earlier process stood,
     StepHook* guide_ = nullptr;     // does so now
-    bool passStop_ = false;     // the next Stop has been executed by an earlier process
+    bool passStop_ = false;         // the next Stop has been executed by an earlier process
     bool stayEnded_ = false;
 };
 

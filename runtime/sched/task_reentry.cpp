@@ -46,7 +46,8 @@ void Task::finishReentry(const ErrorMemory& errors, bool behindStop) {
     handled_.frame = nullptr;
     if (errors.handled && errors.handled->depth < chain.size()) {
         Frame* const at = chain[errors.handled->depth];
-        handled_ = {at, at->routine, errors.handled->number, errors.handled->text, errors.handled->place, now()};
+        handled_ = {at,   at->routine, errors.handled->number, errors.handled->text, errors.handled->place,
+                    now()};
     }
 }
 

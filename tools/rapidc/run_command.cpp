@@ -160,7 +160,8 @@ int run(RunSettings& settings) {
     }
     findStimulus(settings);
     // A later process can go on in the middle of a program of the stepping profile only.
-    settings.stepping = settings.stepping || settings.interactive || stimulusSteps(settings.options.stimulus) ||
+    settings.stepping = settings.stepping || settings.interactive ||
+                        stimulusSteps(settings.options.stimulus) ||
                         (!settings.options.state.empty() && !settings.noStepping);
     ir::Module module;
     const bool lowered = !compilation->sink.hasErrors() &&
@@ -213,8 +214,9 @@ void addRunCommand(CLI::App& app, int& status) {
     CLI::Option* stepping =
         command->add_flag("--stepping", settings->stepping, "Compile for the stepping profile");
     command
-        ->add_flag("--no-stepping", settings->noStepping,
-                   "With --state: fast code, but a program that is interrupted begins at main in the next run")
+        ->add_flag(
+            "--no-stepping", settings->noStepping,
+            "With --state: fast code, but a program that is interrupted begins at main in the next run")
         ->excludes(stepping);
     command->add_flag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
     command->callback([settings, &status] { status = run(*settings); });

@@ -1,13 +1,17 @@
 // Manual 1.12: what programs ask about errors.
 
 #include "runtime/host/controller.h"
+#include "runtime/host/state_keepers.h"
 #include "runtime/sched/error_search.h"
+#include "stdlib/impl/flow/booked_numbers.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib/impl/support/support_natives.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -71,6 +75,18 @@ float numberOf(const Task& owner, std::string_view name) {
 }
 
 } // namespace
+
+namespace rt::lib {
+
+void keepBookedNumbers(Controller& controller, StateKeepers& kept) {
+    kept.keepers["bookedErrors"] = {
+        [&controller] { return nlohmann::json(controller.service<BookedNumbers>().next); },
+        [&controller](const nlohmann::json& json) {
+            controller.service<BookedNumbers>().next = std::max(json.get<int>(), BookedNumbers::kFirst);
+        }};
+}
+
+} // namespace rt::lib
 
 extern "C" {
 

@@ -80,12 +80,11 @@ Status orderAnalog(TaskCore* core, const AnalogOrder& order) {
     const uint64_t listener = io.addListener(id, [&task, number, watch](SignalId, double, double now) {
         if (watch->sample(static_cast<float>(now))) task.interrupts().post(number);
     });
-    return lib::orderInterrupt(
-        core, number, order.kind, [&io, listener] { io.removeListener(listener); },
-        {lib::kAnalogOrder,
-         io.config(id).name,
-         {order.condition, order.high, order.low, order.delta, order.risingOnly ? 1.0 : 0.0,
-          order.fallingOnly ? 1.0 : 0.0}});
+    return lib::orderInterrupt(core, number, order.kind, [&io, listener] { io.removeListener(listener); },
+                               {lib::kAnalogOrder,
+                                io.config(id).name,
+                                {order.condition, order.high, order.low, order.delta,
+                                 order.risingOnly ? 1.0 : 0.0, order.fallingOnly ? 1.0 : 0.0}});
 }
 
 } // namespace

@@ -65,7 +65,9 @@ Status orderDigital(TaskCore* task, Handle signal, float value, lib::OrderKind k
     if (value != k::low && value != k::high && value != k::edge)
         return lib::fail(task, err::ERR_ARGVALERR,
                          "the value that raises the interrupt must be low, high or edge");
-    return orderSignal(task, {signal, kind, interrupt,
+    return orderSignal(task, {signal,
+                              kind,
+                              interrupt,
                               value == k::high  ? +rises
                               : value == k::low ? +falls
                                                 : +either,
@@ -136,10 +138,11 @@ bool orderAgain(Task& task, int number, bool single, bool safe, const InterruptO
                             &interrupt) == kOk;
     if (order.kind == kErrorOrder)
         return rt_IError(&task, a[0], a[2] != 0 ? &a[3] : nullptr, a[1], &interrupt) == kOk;
+    if (order.kind == kTriggerOrder) return orderInterrupt(&task, number, {single, safe}, {}, order) == kOk;
     if (order.kind != kPersistentOrder) return false;
     const std::size_t colon = order.object.find(':');
-    const GlobalDesc* data = task.controller().findGlobal(
-        order.object.substr(colon + 1), order.object.substr(0, colon), task);
+    const GlobalDesc* data =
+        task.controller().findGlobal(order.object.substr(colon + 1), order.object.substr(0, colon), task);
     if (colon == std::string::npos || data == nullptr) return false;
     return rt_IPers(&task, flagged, safe, data->address, data->type, &interrupt) == kOk;
 }
@@ -191,8 +194,8 @@ Status rt_ITimer(TaskCore* task, bool Single, bool SingleSafe, float Time, float
     if (status != kOk) return status;
     const auto timer = std::make_shared<Timer>(Timer{owner, number, fromSeconds(Time), single});
     Timer::arm(timer);
-    return lib::orderInterrupt(
-        task, number, {Single, SingleSafe}, [timer] { timer->disarm(); }, {kTimer, {}, {Time}});
+    return lib::orderInterrupt(task, number, {Single, SingleSafe}, [timer] { timer->disarm(); },
+                               {kTimer, {}, {Time}});
 }
 
 Status rt_IDelete(TaskCore* task, float* Interrupt) {

@@ -106,7 +106,9 @@ Status rt_IError(TaskCore* core, float ErrorDomain, const float* ErrorId, float 
     });
     return lib::orderInterrupt(
         core, number, {}, [&log, listener] { log.removeListener(listener); },
-        {lib::kErrorOrder, {}, {ErrorDomain, ErrorType, filter.number ? 1.0 : 0.0, filter.number.value_or(0)}});
+        {lib::kErrorOrder,
+         {},
+         {ErrorDomain, ErrorType, filter.number ? 1.0 : 0.0, filter.number.value_or(0)}});
 }
 
 /// A trapdata holds the sequence number of the event; -1 when something else caused the trap.

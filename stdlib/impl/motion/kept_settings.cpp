@@ -27,7 +27,8 @@ template <class Record> Json numbersOf(const Record& record) {
 
 template <class Record> void readNumbers(const Json& json, Record& record) {
     const auto numbers = json.get<std::vector<float>>();
-    if (numbers.size() * sizeof(float) != sizeof(Record)) throw std::invalid_argument("another number of numbers");
+    if (numbers.size() * sizeof(float) != sizeof(Record))
+        throw std::invalid_argument("another number of numbers");
     std::memcpy(&record, numbers.data(), sizeof(Record));
 }
 

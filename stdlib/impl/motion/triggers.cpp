@@ -120,7 +120,8 @@ Status defineOutput(TaskCore* task, Handle* variable, TriggerDefinition trigger,
 Status orderByPlace(TaskCore* task, float* interrupt, TriggerDefinition& trigger) {
     Status status = kOk;
     trigger.interrupt = lib::numberToOrder(task, interrupt, status);
-    return status != kOk ? status : lib::orderInterrupt(task, trigger.interrupt, {}, {});
+    return status != kOk ? status
+                         : lib::orderInterrupt(task, trigger.interrupt, {}, {}, {lib::kTriggerOrder, {}, {}});
 }
 
 } // namespace

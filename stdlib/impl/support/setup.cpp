@@ -1,3 +1,4 @@
+#include "stdlib/impl/flow/booked_numbers.h"
 #include "stdlib/impl/interrupts/ordering.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/native_table.h"
@@ -13,6 +14,7 @@ void setUpStandardLibrary(Controller& controller) {
     auto& kept = controller.service<StateKeepers>();
     kept.orderAgain = lib::orderAgain;
     lib::keepSettings(controller, kept);
+    lib::keepBookedNumbers(controller, kept);
 }
 
 } // namespace rt
