@@ -9,10 +9,59 @@ using namespace rt;
 
 namespace {
 
+CallChain sampleChain() {
+    CallChain chain;
+    SavedFrame frame;
+    frame.module = "Main";
+    frame.routine = "main";
+    frame.textHash = 4711;
+    frame.statement = 5;
+    frame.failed = 2;
+    frame.locals.push_back({SavedLocal::Kind::Value, "num", "0.25", "", 0});
+    frame.locals.push_back({SavedLocal::Kind::Object, "[2]num", "", "0:1", 8});
+    frame.locals.push_back({SavedLocal::Kind::Absent, "string", "", "", 0});
+    chain.frames.push_back(frame);
+    chain.behindStop = true;
+    chain.errors.errorNumber = 1003;
+    chain.errors.text = "why";
+    ErrorMemory::Retries retries;
+    retries.statement = 2;
+    retries.number = 1003;
+    retries.counts = {{1003, 2}};
+    chain.errors.retries.push_back(retries);
+    ErrorMemory::Handled handled;
+    handled.number = 1003;
+    chain.errors.handled = handled;
+    return chain;
+}
+
 StateImage sample() {
     StateImage image;
-    image.tasks["T_ROB1"] = {StateImage::Pointer::Inside, "Main:12"};
-    image.tasks["T_IO"] = {StateImage::Pointer::Ended, ""};
+    StateImage::TaskImage& robot = image.tasks["T_ROB1"];
+    robot.pointer = StateImage::Pointer::Inside;
+    robot.place = "Main:12";
+    robot.cycles = 2;
+    robot.chain = sampleChain();
+    robot.interruptsEnabled = false;
+    StateImage::Interrupt interrupt;
+    interrupt.what.number = 3;
+    interrupt.what.ordered = true;
+    interrupt.what.order = {"ITimer", "", {0.5}};
+    interrupt.module = "Main";
+    interrupt.routine = "onTime";
+    robot.interrupts.push_back(interrupt);
+    image.tasks["T_IO"].pointer = StateImage::Pointer::Ended;
+    StateImage::TaskImage& lost = image.tasks["T_LOST"];
+    lost.pointer = StateImage::Pointer::Inside;
+    lost.refusal = "a reason";
+    motion::MoveCommand move;
+    move.kind = motion::MoveKind::Linear;
+    move.target.pose.pos = {1, 2, 1.0 / 3};
+    move.zone.finep = false;
+    image.path.moves.push_back(move);
+    image.path.begun = motion::Pose{{4, 5, 6}, {1, 0, 0, 0}};
+    image.path.stopMove = true;
+    image.kept["settings"] = "[1,2]";
     image.persistents["COUNT"] = {"num", "0", "17"};
     image.persistents["T_ROB1/MAIN/NAME"] = {"string", "\"\"", "\"gr\xC3\xBCn \\0A\""};
     image.variables["T_ROB1/MAIN/LIST"] = {"[2,2]num", "[[0,0],[0,0]]", "[[1,2],[3,4]]"};
@@ -40,6 +89,16 @@ TEST_CASE("a state reads back as it was written", "[state]") {
     CHECK(again.tasks.at("T_ROB1").pointer == StateImage::Pointer::Inside);
     CHECK(again.tasks.at("T_ROB1").place == "Main:12");
     CHECK(again.tasks.at("T_IO").pointer == StateImage::Pointer::Ended);
+    CHECK(again.tasks.at("T_LOST").refusal == "a reason");
+    CHECK_FALSE(again.tasks.at("T_LOST").chain);
+    REQUIRE(again.path.moves.size() == 1);
+    CHECK(again.path.moves[0].kind == motion::MoveKind::Linear);
+    CHECK(again.path.moves[0].target.pose == sample().path.moves[0].target.pose);
+    CHECK_FALSE(again.path.moves[0].zone.finep);
+    CHECK_FALSE(again.path.awaited);
+    CHECK(again.path.begun == sample().path.begun);
+    CHECK(again.path.stopMove);
+    CHECK(again.kept.at("settings") == "[1,2]");
     CHECK(again.persistents.at("COUNT").value == "17");
     CHECK(again.persistents.at("T_ROB1/MAIN/NAME").value == "\"gr\xC3\xBCn \\0A\"");
     CHECK(again.variables.at("T_ROB1/MAIN/LIST").type == "[2,2]num");
@@ -49,6 +108,38 @@ TEST_CASE("a state reads back as it was written", "[state]") {
     CHECK(again.events[0].sequence == 41);
     CHECK(again.events[0].place.line == 12);
     CHECK(again.events[0].arguments == std::vector<std::string>{"a", "b"});
+}
+
+TEST_CASE("a call chain and its interrupts read back as they were written", "[state]") {
+    StateImage again;
+    REQUIRE(readImage(writeImage(sample()), again).empty());
+    const StateImage::TaskImage& robot = again.tasks.at("T_ROB1");
+    CHECK(robot.cycles == 2);
+    CHECK_FALSE(robot.interruptsEnabled);
+    REQUIRE(robot.interrupts.size() == 1);
+    CHECK(robot.interrupts[0].what.number == 3);
+    CHECK(robot.interrupts[0].what.order.kind == "ITimer");
+    CHECK(robot.interrupts[0].what.order.numbers == std::vector<double>{0.5});
+    CHECK(robot.interrupts[0].routine == "onTime");
+    REQUIRE(robot.chain);
+    REQUIRE(robot.chain->frames.size() == 1);
+    const SavedFrame& frame = robot.chain->frames[0];
+    CHECK(frame.routine == "main");
+    CHECK(frame.textHash == 4711);
+    CHECK(frame.statement == 5);
+    CHECK(frame.failed == 2);
+    REQUIRE(frame.locals.size() == 3);
+    CHECK(frame.locals[0].value == "0.25");
+    CHECK(frame.locals[1].kind == SavedLocal::Kind::Object);
+    CHECK(frame.locals[1].object == "0:1");
+    CHECK(frame.locals[1].offset == 8);
+    CHECK(frame.locals[2].kind == SavedLocal::Kind::Absent);
+    CHECK(robot.chain->behindStop);
+    CHECK(robot.chain->errors.errorNumber == 1003);
+    REQUIRE(robot.chain->errors.retries.size() == 1);
+    CHECK(robot.chain->errors.retries[0].counts.at(1003) == 2);
+    REQUIRE(robot.chain->errors.handled);
+    CHECK(robot.chain->errors.handled->number == 1003);
 }
 
 TEST_CASE("no part of a state file is a state file", "[state]") {
