@@ -109,6 +109,8 @@ uint8_t RoutineLowering::resumeFlags(const Stmt& stmt, size_t row) const {
         const auto& branches = as<IfStmt>(stmt).branches;
         for (size_t i = 0; i <= row && i < branches.size(); ++i) {
             earlier = search.effects;
+            search.changeable =
+                false; // what the conditions ahead decide is noticed when it is another branch now
             if (branches[i]->condition) search.visit(*branches[i]->condition);
         }
     } else if (stmt.kind == NodeKind::Assign) {
