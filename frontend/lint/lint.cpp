@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace rapid::lint {
@@ -55,12 +56,16 @@ namespace {
 /// Places of errors by file: what contains one is not judged.
 class Errors {
   public:
-    explicit Errors(const diag::Sink& sink) {
-        for (const diag::Diagnostic& d : sink.all())
+    explicit Errors(const diag::Sink& sink) : sink_(sink) {}
+    /// Takes in what has been reported since.
+    void update() {
+        if (!sink_.hasErrors()) return;
+        for (; seen_ < sink_.all().size(); ++seen_) {
+            const diag::Diagnostic& d = sink_.all()[seen_];
             if (d.severity == diag::Severity::Error && d.file) places_[d.file.get()].insert(d.range.begin);
-        any_ = sink.hasErrors();
+        }
     }
-    bool any() const { return any_; }
+    bool any() const { return sink_.hasErrors(); }
     bool in(const SyntaxTree& tree) const { return places_.count(tree.source.get()) > 0; }
     bool in(const SyntaxTree& tree, SourceRange range) const {
         const auto file = places_.find(tree.source.get());
@@ -70,14 +75,15 @@ class Errors {
     }
 
   private:
+    const diag::Sink& sink_;
+    size_t seen_ = 0;
     std::map<const SourceFile*, std::set<uint32_t>> places_;
-    bool any_ = false;
 };
 
 /// Files that several tasks load: what one task does not use, another one may.
 class SharedFiles {
   public:
-    explicit SharedFiles(const sema::CheckedProgram& program) {
+    void find(const sema::CheckedProgram& program) {
         if (program.tasks.size() < 2) return;
         std::map<std::string, const Task*> owners;
         for (const auto& task : program.tasks)
@@ -97,15 +103,23 @@ class TaskLint {
   public:
     TaskLint(const sema::CheckedProgram& program, const Task& task, const Predefined& predefined,
              const Errors& errors, const SharedFiles& shared, Reporter& reporter)
-        : program_(program), task_(task), predefined_(predefined), errors_(errors), shared_(shared),
-          reporter_(reporter), complete_(task.entryRoutine && !task.incomplete && !errors.any()) {}
+        : task_(task), predefined_(predefined), errors_(errors), shared_(shared), reporter_(reporter),
+          walker_(program, task, predefined, reporter, facts_) {}
 
-    void run() {
-        Walker walker(program_, task_, predefined_, reporter_, facts_);
-        for (const Module* module : task_.modules)
-            for (const RoutineSymbol* routine : module->routines)
-                if (!errors_.in(*module->tree, module->tree->range(*routine->routineDecl)))
-                    walker.routine(*routine);
+    /// Everything that needs the inside of the routines.
+    void file(std::span<Module* const> modules) {
+        for (const Module* module : modules) {
+            for (const RoutineSymbol* routine : module->routines) {
+                if (isWrong(*routine)) continue;
+                walker_.routine(*routine);
+                routineData(*routine);
+            }
+        }
+        interruptsOfRoutines();
+    }
+
+    void finish() {
+        complete_ = task_.entryRoutine && !task_.incomplete && !errors_.any();
         suspicions();
         interrupts();
         for (const Module* module : task_.modules)
@@ -113,9 +127,15 @@ class TaskLint {
     }
 
   private:
+    bool isWrong(const RoutineSymbol& routine) const {
+        const SyntaxTree& tree = *routine.module->tree;
+        return errors_.in(tree, tree.range(*routine.routineDecl));
+    }
     void suspicions();
     std::unordered_map<const RoutineSymbol*, uint8_t> wholeConduct() const;
     void interrupts();
+    void interruptsOfRoutines();
+    void routineData(const RoutineSymbol& routine);
     void declarations(const Module& module);
     bool mayBeUsedElsewhere(const Symbol& symbol) const;
     void data(const DataSymbol& data);
@@ -127,14 +147,14 @@ class TaskLint {
                                 args);
     }
 
-    const sema::CheckedProgram& program_;
     const Task& task_;
     const Predefined& predefined_;
     const Errors& errors_;
     const SharedFiles& shared_;
     Reporter& reporter_;
     TaskFacts facts_;
-    bool complete_; ///< all modules are there and free of errors
+    Walker walker_;
+    bool complete_ = false; ///< all modules are there and free of errors
 };
 
 /// What the routines do, together with all that they call: from the callees to the callers.
@@ -195,6 +215,20 @@ void TaskLint::interrupts() {
     }
 }
 
+/// What routines keep in data of their own is no concern of other files, which may forget these symbols.
+void TaskLint::interruptsOfRoutines() {
+    const auto isOwn = [](const Symbol* symbol) {
+        return symbol->kind == SymbolKind::Data && static_cast<const DataSymbol*>(symbol)->routine != nullptr;
+    };
+    std::vector<InterruptUse> others;
+    for (const InterruptUse& use : facts_.interrupts)
+        if (!isOwn(use.interrupt)) others.push_back(use);
+    std::erase_if(facts_.interrupts, [&](const InterruptUse& use) { return !isOwn(use.interrupt); });
+    interrupts();
+    facts_.interrupts = std::move(others);
+    std::erase_if(facts_.connected, isOwn);
+}
+
 /// Whether something that is not known here may use it: another module, an operator, an event.
 bool TaskLint::mayBeUsedElsewhere(const Symbol& symbol) const {
     if (errors_.in(*symbol.module->tree) || shared_.has(*symbol.module->tree)) return true;
@@ -247,12 +281,15 @@ void TaskLint::routine(const RoutineSymbol& routine) {
                  (!proc || routine.isLocal || takesArguments)) // operators and events call PROCs
             report(Code::UnusedRoutine, routine, {proc ? "procedure" : "function", routine.name});
     }
-    if (errors_.in(*routine.module->tree, routine.module->tree->range(*routine.routineDecl))) return;
+    if (isWrong(routine)) return;
     for (const DataSymbol* param : routine.params) {
         hiding(*param, "parameter");
         if (!param->used && !facts_.callsByName && !routine.routineDecl->body.empty())
             report(Code::UnusedParameter, *param, {param->name, routine.name});
     }
+}
+
+void TaskLint::routineData(const RoutineSymbol& routine) {
     for (const DataSymbol* data : routine.data) {
         const bool loop = data->storage == sema::Storage::LoopVariable;
         const bool constant = data->dataKind == DataKind::Const;
@@ -298,14 +335,48 @@ void TaskLint::hiding(const Symbol& symbol, const char* kind) {
 
 } // namespace
 
-void lint(const sema::CheckedProgram& program, const WarningLevels& levels, diag::Sink& sink) {
-    if (!levels.anyLint()) return;
-    const Errors errors(sink);
-    const Predefined predefined(program);
-    Reporter reporter(levels, sink, program.tasks.size() > 1);
-    const SharedFiles shared(program);
+struct Lint::State {
+    State(const WarningLevels& levels, diag::Sink& sink, bool severalTasks)
+        : isOn(levels.anyLint()), errors(sink), reporter(levels, sink, severalTasks) {}
+    bool isOn;
+    Errors errors;
+    Reporter reporter;
+    SharedFiles shared; ///< known at the end
+    std::optional<Predefined> predefined;
+    std::map<const Task*, std::unique_ptr<TaskLint>> tasks;
+
+    TaskLint& at(const sema::CheckedProgram& program, const Task& task) {
+        if (!predefined) predefined.emplace(program);
+        std::unique_ptr<TaskLint>& found = tasks[&task];
+        if (!found) found = std::make_unique<TaskLint>(program, task, *predefined, errors, shared, reporter);
+        return *found;
+    }
+};
+
+Lint::Lint(const WarningLevels& levels, diag::Sink& sink, bool severalTasks)
+    : state_(std::make_unique<State>(levels, sink, severalTasks)) {}
+
+Lint::~Lint() = default;
+
+void Lint::file(const sema::CheckedProgram& program, const Task& task, std::span<Module* const> modules) {
+    if (!state_->isOn) return;
+    state_->errors.update();
+    state_->at(program, task).file(modules);
+}
+
+void Lint::finish(const sema::CheckedProgram& program) {
+    if (!state_->isOn) return;
+    state_->errors.update();
+    state_->shared.find(program);
     for (const auto& task : program.tasks)
-        TaskLint(program, *task, predefined, errors, shared, reporter).run();
+        state_->at(program, *task).finish();
+}
+
+void lint(const sema::CheckedProgram& program, const WarningLevels& levels, diag::Sink& sink) {
+    Lint all(levels, sink, program.tasks.size() > 1);
+    for (const auto& task : program.tasks)
+        all.file(program, *task, task->modules);
+    all.finish(program);
 }
 
 } // namespace rapid::lint

@@ -185,6 +185,7 @@ class Analyzer {
     bool sameStructure(const Type& left, const Type& right);
     void declareModules();
     void checkModules(std::span<Module* const> modules);
+    void finishFile(std::span<Module* const> modules);
     void listSignals();
     void dropFacts(std::span<const size_t> files);
     void renewFacts(const TaskFile& file, std::shared_ptr<FileSymbols> symbols);
@@ -276,7 +277,9 @@ class Analyzer {
     void checkIndex(const syntax::Expr& index, int32_t dimension, int64_t& value);
 
     // ---- folding (fold.cpp)
-    ConstValue* newConst() { return facts().arena.make<ConstValue>(); }
+    /// Where the values are kept that are being worked out.
+    Arena& valueArena() { return context_.routine ? facts().inner : facts().values; }
+    ConstValue* newConst() { return valueArena().make<ConstValue>(); }
     void warnDivision(const syntax::BinaryExpr& e);
     void foldBinary(const syntax::BinaryExpr& e);
     bool foldArithmetic(const syntax::BinaryExpr& e, double a, double b, bool isDnum, double& out);

@@ -55,7 +55,7 @@ void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex nam
     BoundCall& call = facts().calls[&node];
     call.routine = &routine;
     call.module = context_.module;
-    call.args = facts().arena.makeArray<BoundArg>(routine.params.size());
+    call.args = facts().inner.makeArray<BoundArg>(routine.params.size());
     for (size_t i = 0; i < routine.params.size(); ++i)
         call.args[i].param = routine.params[i];
     if (routine.incomplete) {
@@ -318,7 +318,7 @@ void Analyzer::lateCall(const CallStmt& stmt) {
     }
     BoundCall& call = facts().calls[&stmt];
     call.module = context_.module;
-    call.args = facts().arena.makeArray<BoundArg>(stmt.args.size());
+    call.args = facts().inner.makeArray<BoundArg>(stmt.args.size());
     size_t count = 0;
     for (const Argument* arg : stmt.args) {
         if (arg->argKind == ArgKind::Placeholder) {

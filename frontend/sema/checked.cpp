@@ -9,4 +9,16 @@ ExprInfo* ExprTable::makeChunk() {
     return chunk.data();
 }
 
+void FileFacts::dropInner() {
+    exprs.clear();
+    calls.clear();
+    loopVariables.clear();
+    references.clear();
+    locals.clear();
+    labels.clear();
+    inner.clear();
+    used = {}; // some are gone
+    assigned = {};
+}
+
 } // namespace rapid::sema

@@ -6,6 +6,8 @@
 #include "frontend/sema/node_map.h"
 #include "frontend/sema/symbols.h"
 
+#include <algorithm>
+
 namespace rapid::sema {
 
 /// Facts about one expression, by Expr::id in its tree.
@@ -25,7 +27,7 @@ struct ExprInfo {
 class ExprTable {
   public:
     ExprTable(uint32_t count, const Type* unknown, Arena& arena)
-        : arena_(arena), chunks_(arena.makeArray<ExprInfo*>((count + kPerChunk - 1) / kPerChunk)) {
+        : arena_(arena), chunks_((count + kPerChunk - 1) / kPerChunk, nullptr) {
         none_.type.type = unknown;
     }
     const ExprInfo& operator[](uint32_t id) const {
@@ -37,13 +39,15 @@ class ExprTable {
         if (!chunk) chunk = makeChunk();
         return chunk[id % kPerChunk];
     }
+    /// Forgets everything; the memory goes with the arena.
+    void clear() { std::fill(chunks_.begin(), chunks_.end(), nullptr); }
 
   private:
     static constexpr uint32_t kPerChunk = 64;
     ExprInfo* makeChunk();
 
     Arena& arena_;
-    std::span<ExprInfo*> chunks_;
+    std::vector<ExprInfo*> chunks_;
     ExprInfo none_; ///< not checked: the type that fits everything
 };
 
@@ -83,7 +87,9 @@ struct FileSymbols {
 struct FileFacts {
     FileFacts(const syntax::SyntaxTree& tree, const Type* unknown, std::shared_ptr<FileSymbols> own,
               uint32_t number)
-        : symbols(std::move(own)), stamp(number), exprs(tree.exprCount, unknown, arena) {}
+        : symbols(std::move(own)), stamp(number), exprs(tree.exprCount, unknown, inner) {}
+    /// Forgets what nobody needs who neither reports nor lowers what is inside the routines.
+    void dropInner();
     std::shared_ptr<FileSymbols> symbols;
     uint32_t stamp = 0; ///< no two checks of files have the same
     /// The outcome hangs on what others do not declare, or on how they use it: unknown names, signals known by use.
@@ -91,14 +97,15 @@ struct FileFacts {
     std::vector<Symbol*> used; ///< symbols that this file refers to; some more than once
     std::vector<DataSymbol*> assigned;
     std::vector<std::pair<DataSymbol*, syntax::TokenIndex>>
-        signals; ///< configured objects it names, in order
-    Arena arena; ///< constants and arguments, too
+        signals;  ///< configured objects it names, in order
+    Arena values; ///< parts of the values of module data
+    Arena inner;  ///< all that follows; values inside routines and arguments, too
     ExprTable exprs;
-    NodeMap<syntax::Node, BoundCall> calls{arena}; ///< CallStmt and CallExpr
-    NodeMap<syntax::ForStmt, DataSymbol*> loopVariables{arena};
-    NodeMap<syntax::Node, Symbol*> references{arena}; ///< ConnectStmt -> trap; GotoStmt -> label
-    Store<DataSymbol> locals{arena};                  ///< data and loop variables of routines
-    Store<LabelSymbol> labels{arena};
+    NodeMap<syntax::Node, BoundCall> calls{inner}; ///< CallStmt and CallExpr
+    NodeMap<syntax::ForStmt, DataSymbol*> loopVariables{inner};
+    NodeMap<syntax::Node, Symbol*> references{inner}; ///< ConnectStmt -> trap; GotoStmt -> label
+    Store<DataSymbol> locals{inner};                  ///< data and loop variables of routines
+    Store<LabelSymbol> labels{inner};
 };
 
 struct Module {

@@ -175,9 +175,21 @@ void Analyzer::checkModules(std::span<Module* const> modules) {
         for (DataSymbol* data : module->data)
             ensureValue(*data);
     }
+    for (size_t first = 0, end = 0; first < modules.size(); first = end) {
+        for (; end < modules.size() && modules[end]->facts == modules[first]->facts; ++end)
+            for (RoutineSymbol* routine : modules[end]->routines)
+                checkRoutine(*routine);
+        finishFile(modules.subspan(first, end - first));
+    }
+}
+
+void Analyzer::finishFile(std::span<Module* const> modules) {
+    if (options_.onFile) options_.onFile(program_, *task_, modules);
+    if (!options_.forgetRoutines) return;
     for (Module* module : modules)
         for (RoutineSymbol* routine : module->routines)
-            checkRoutine(*routine);
+            routine->data = {};
+    modules.front()->facts->dropInner();
 }
 
 void Analyzer::finishTask() {

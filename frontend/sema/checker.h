@@ -3,6 +3,7 @@
 
 #include "frontend/sema/checked.h"
 
+#include <functional>
 #include <optional>
 
 namespace rapid::sema {
@@ -34,6 +35,11 @@ struct CheckOptions {
     /// RobotWare options of the controller, e.g. "623-1 Multitasking", when a backup tells them; else unknown.
     std::optional<std::vector<std::string>> robotWareOptions;
     std::span<const LibraryText> library;
+    /// Called by check() for each file of a task, with its modules, as soon as everything in it is checked.
+    std::function<void(const CheckedProgram&, const Task&, std::span<Module* const>)> onFile;
+    /// What is known of the inside of a file's routines is forgotten after onFile: the expressions, calls, data and
+    /// labels of FileFacts. For who only wants the diagnostics: half the memory, and it stays in the cache.
+    bool forgetRoutines = false;
 };
 
 /// Parses and checks. Always returns a program; `sink` tells whether it may be lowered.

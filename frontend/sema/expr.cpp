@@ -27,7 +27,7 @@ Typed Analyzer::expr(const Expr& e, const DataType* want, ConstValue* slot) {
     case NodeKind::StringLiteral: {
         const Typed t = result(e, program_.string);
         ConstValue* value = slot ? slot : newConst();
-        value->setText(decodeStringLiteral(context_.tree->text(e.first)), facts().arena);
+        value->setText(decodeStringLiteral(context_.tree->text(e.first)), valueArena());
         t.info->constant = value;
         return t;
     }
@@ -140,7 +140,7 @@ Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstVal
     const std::vector<Type::Component>& components = want->type->base()->components;
     const size_t count = e.elements().size();
     ConstValue* value = slot ? slot : newConst();
-    const std::span<ConstValue> members = facts().arena.makeArray<ConstValue>(count);
+    const std::span<ConstValue> members = valueArena().makeArray<ConstValue>(count);
     bool constant = true;
     bool wrong = false;
     DataType member = {

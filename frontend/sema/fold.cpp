@@ -45,9 +45,9 @@ bool compare(BinaryOp op, double a, double b) {
 ConstValue Analyzer::owned(const ConstValue& value) {
     ConstValue copy = value;
     if (!keeps_) return copy;
-    if (value.kind == ConstValue::Kind::String) copy.setText(value.text(), facts().arena);
+    if (value.kind == ConstValue::Kind::String) copy.setText(value.text(), valueArena());
     if (value.kind == ConstValue::Kind::Aggregate) {
-        const std::span<ConstValue> members = facts().arena.makeArray<ConstValue>(value.members().size());
+        const std::span<ConstValue> members = valueArena().makeArray<ConstValue>(value.members().size());
         for (size_t i = 0; i < members.size(); ++i)
             members[i] = owned(value.members()[i]);
         copy.setMembers(members);
@@ -152,7 +152,7 @@ void Analyzer::foldBinary(const BinaryExpr& e) {
             return;
         }
         ConstValue* value = newConst();
-        value->setText(std::string(a->text()) += b->text(), facts().arena);
+        value->setText(std::string(a->text()) += b->text(), valueArena());
         out.constant = value;
         return;
     }

@@ -93,7 +93,7 @@ ConstValue literalValue(const DataType& want, const SyntaxTree& tree, const Aggr
 
 void DataSymbol::readLiteral() const {
     literal_ = false;
-    value_ = literalValue(type, *module->tree, as<AggregateExpr>(*init), module->facts->arena);
+    value_ = literalValue(type, *module->tree, as<AggregateExpr>(*init), module->facts->values);
 }
 
 } // namespace rapid::sema

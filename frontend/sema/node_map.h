@@ -35,6 +35,11 @@ template <class N, class T> class NodeMap {
     Iterator begin() const { return {slots_.data(), slots_.data() + slots_.size()}; }
     Iterator end() const { return {slots_.data() + slots_.size(), slots_.data() + slots_.size()}; }
     size_t size() const { return count_; }
+    /// Forgets everything; the memory of the entries goes with the arena.
+    void clear() {
+        slots_ = {};
+        count_ = 0;
+    }
 
     Iterator find(const N* node) const {
         if (slots_.empty()) return end();

@@ -40,6 +40,8 @@ struct Session::State {
         : options(given), library(given.library.begin(), given.library.end()) {
         options.library = library;
         options.requireMain = false;
+        options.onFile = nullptr;
+        options.forgetRoutines = false;
     }
 
     CheckOptions options;

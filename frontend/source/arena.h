@@ -62,12 +62,16 @@ class Arena {
 template <class T> class Store {
   public:
     explicit Store(Arena& arena) : arena_(arena) {}
-    ~Store() {
-        for (size_t i = 0; i < size_; ++i)
-            (*this)[i].~T();
-    }
+    ~Store() { clear(); }
     Store(const Store&) = delete;
     Store& operator=(const Store&) = delete;
+    /// Ends all objects; their memory goes with the arena.
+    void clear() {
+        for (size_t i = 0; i < size_; ++i)
+            (*this)[i].~T();
+        chunks_ = {};
+        size_ = 0;
+    }
 
     template <class... Args> T& emplace_back(Args&&... args) {
         if (size_ % kPerChunk == 0)

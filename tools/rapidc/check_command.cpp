@@ -75,6 +75,7 @@ void addCheckCommand(CLI::App& app, int& status) {
         ->add_option("--config", settings->inputs.configFiles, "EIO, SYS, MOC, SIO or PROC parameters (.cfg)")
         ->allow_extra_args(false);
     settings->inputs.lint = true;
+    settings->inputs.onlyDiagnostics = true;
     addWarningOption(*command, settings->inputs);
     command->add_option("--format", settings->format, "human, json or sarif")
         ->check(CLI::IsMember({"human", "json", "sarif"}));

@@ -21,6 +21,7 @@
 #include <set>
 #include <sstream>
 #include <unistd.h>
+#include <unordered_set>
 
 namespace rapidc {
 
@@ -126,32 +127,40 @@ void checkRobot(Compilation& compilation, const std::string& option) {
                                 {robot, "name one of the known models with --robot to run the program"});
 }
 
-void reportUnimplemented(Compilation& compilation) {
-    std::vector<std::string_view> missing;
-    for (const rt::NativeEntry& entry : rt::nativeTable())
-        if (!entry.isImplemented()) missing.push_back(entry.name);
-    std::sort(missing.begin(), missing.end());
-    const auto isMissing = [&](const sema::RoutineSymbol& routine) {
-        return routine.native &&
-               std::binary_search(missing.begin(), missing.end(), std::string_view(routine.name));
-    };
-    bool anyUsed = false;
-    for (const sema::Module* module : compilation.program->predefinedModules)
-        for (const sema::RoutineSymbol* routine : module->routines)
-            anyUsed = anyUsed || (routine->used && isMissing(*routine));
-    if (!anyUsed) return;
-    for (const auto& task : compilation.program->tasks) {
-        const sema::FileFacts* previous = nullptr;
-        for (const sema::Module* module : task->modules) {
-            if (std::exchange(previous, module->facts) == module->facts)
-                continue; // modules of one file share them
-            for (const auto& [node, call] : module->facts->calls)
-                if (call.routine && isMissing(*call.routine))
-                    compilation.sink.report(diag::Code::BuiltinNotImplemented, module->tree->source,
-                                            module->tree->range(*node), {call.routine->name});
-        }
+/// Reports calls of built-ins that are declared only.
+class UnimplementedCalls {
+  public:
+    explicit UnimplementedCalls(diag::Sink& sink) : sink_(sink) {
+        for (const rt::NativeEntry& entry : rt::nativeTable())
+            if (!entry.isImplemented()) names_.insert(entry.name);
     }
-}
+
+    /// The modules of one file.
+    void report(const sema::CheckedProgram& program, std::span<sema::Module* const> modules) {
+        if (!known_) findRoutines(program);
+        if (std::none_of(routines_.begin(), routines_.end(),
+                         [](const auto* routine) { return routine->used; }))
+            return;
+        const rapid::syntax::SyntaxTree& tree = *modules.front()->tree; // they share the facts, too
+        for (const auto& [node, call] : modules.front()->facts->calls)
+            if (call.routine && routines_.contains(call.routine))
+                sink_.report(diag::Code::BuiltinNotImplemented, tree.source, tree.range(*node),
+                             {call.routine->name});
+    }
+
+  private:
+    void findRoutines(const sema::CheckedProgram& program) {
+        for (const sema::Module* module : program.predefinedModules)
+            for (const sema::RoutineSymbol* routine : module->routines)
+                if (routine->native && names_.contains(routine->name)) routines_.insert(routine);
+        known_ = true;
+    }
+
+    diag::Sink& sink_;
+    std::unordered_set<std::string_view> names_;
+    bool known_ = false;
+    std::unordered_set<const sema::RoutineSymbol*> routines_;
+};
 
 /// The warnings that are wanted: by the project file beside or above the first input, then by the command line.
 void readWarningLevels(const Inputs& inputs, Compilation& compilation) {
@@ -167,14 +176,29 @@ void readWarningLevels(const Inputs& inputs, Compilation& compilation) {
     }
 }
 
-void judge(Compilation& compilation) {
-    const rapid::lint::WarningLevels& levels = compilation.warningLevels;
+void checkDirectives(Compilation& compilation) {
     std::set<std::string> seen; // several tasks may load a file
     for (const sema::TaskInput& task : compilation.tasks)
         for (const auto& file : task.files)
             if (seen.insert(file->path()).second) rapid::lint::checkDirectives(file, compilation.sink);
-    rapid::lint::lint(*compilation.program, levels, compilation.sink);
-    rapid::lint::applyLevels(levels, compilation.sink);
+}
+
+/// Checks all tasks and looks at each file as soon as it is checked.
+void judge(Compilation& compilation, bool onlyDiagnostics) {
+    diag::Sink& sink = compilation.sink;
+    UnimplementedCalls unimplemented(sink);
+    rapid::lint::Lint lint(compilation.warningLevels, sink, compilation.tasks.size() > 1);
+    sema::CheckOptions options = compilation.options;
+    options.forgetRoutines = onlyDiagnostics;
+    options.onFile = [&](const sema::CheckedProgram& program, const sema::Task& task,
+                         std::span<sema::Module* const> modules) {
+        unimplemented.report(program, modules);
+        lint.file(program, task, modules);
+    };
+    compilation.program = sema::check(compilation.tasks, options, sink);
+    checkDirectives(compilation);
+    lint.finish(*compilation.program);
+    rapid::lint::applyLevels(compilation.warningLevels, sink);
 }
 
 } // namespace
@@ -236,10 +260,8 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     options.library = compilation->library;
     compilation->tasks = std::move(project.tasks);
     if (!project.isBackup) configureTasks(*compilation, typesTold);
-    compilation->program = sema::check(compilation->tasks, options, compilation->sink);
+    judge(*compilation, inputs.onlyDiagnostics);
     readTaskSettings(*compilation, project.sharedFiles);
-    reportUnimplemented(*compilation);
-    judge(*compilation);
     return compilation;
 }
 
