@@ -15,6 +15,7 @@ void lint(const sema::CheckedProgram& program, const WarningLevels& levels, diag
 /// The same in steps, while a program is being checked: what is inside the routines of a file is looked at once.
 class Lint {
   public:
+    /// Refers to both until it ends.
     Lint(const WarningLevels& levels, diag::Sink& sink, bool severalTasks);
     ~Lint();
     Lint(const Lint&) = delete;

@@ -234,7 +234,11 @@ LineColumn SourceFile::lineColumn(uint32_t offset) const {
     offset = std::min(offset, static_cast<uint32_t>(text_.size()));
     const auto next = std::upper_bound(lineStarts_.begin(), lineStarts_.end(), offset);
     const auto line = static_cast<uint32_t>(next - lineStarts_.begin());
-    return {line, charactersBefore(offset) - charactersBefore(lineStarts_[line - 1]) + 1};
+    const uint32_t start = lineStarts_[line - 1];
+    const bool near = offset - start < kCharacterBlock;
+    return {line, (near ? countCharacters(text_, start, offset)
+                        : charactersBefore(offset) - charactersBefore(start)) +
+                      1};
 }
 
 uint32_t SourceFile::charactersBefore(uint32_t offset) const {

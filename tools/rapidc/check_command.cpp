@@ -53,14 +53,14 @@ int check(const CheckSettings& settings) {
             fmt::print(stderr, "rapidc check: {}\n", problem);
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
-    const auto sorted = compilation->sink.sorted();
+    const rapid::diag::Sink& sink = compilation->sink;
     if (settings.format == "json")
-        fmt::print("{}", rapid::diag::renderJson(sorted));
+        fmt::print("{}", rapid::diag::renderJson(sink.sorted()));
     else if (settings.format == "sarif")
-        fmt::print("{}", rapid::diag::renderSarif(sorted, std::filesystem::current_path().string()));
+        fmt::print("{}", rapid::diag::renderSarif(sink.sorted(), std::filesystem::current_path().string()));
     else
         printDiagnostics(*compilation, true);
-    return compilation->sink.hasErrors() ? 1 : 0;
+    return sink.hasErrors() ? 1 : 0;
 }
 
 } // namespace

@@ -303,12 +303,18 @@ bool isReport(const diag::Diagnostic& diagnostic) {
 void printDiagnostics(const Compilation& compilation, bool withReport) {
     const bool colour = isatty(STDERR_FILENO) != 0;
     const auto sorted = compilation.sink.sorted();
+    constexpr size_t kPiece = size_t{1} << 16; // stderr has no buffer
+    std::string text;
     size_t warnings = 0;
     for (const diag::Diagnostic& diagnostic : sorted) {
         if (!withReport && isReport(diagnostic)) continue;
         warnings += diagnostic.severity == diag::Severity::Warning ? 1u : 0u;
-        fmt::print(stderr, "{}", diag::renderText(diagnostic, colour));
+        text += diag::renderText(diagnostic, colour);
+        if (text.size() < kPiece) continue;
+        fmt::print(stderr, "{}", text);
+        text.clear();
     }
+    fmt::print(stderr, "{}", text);
     const size_t errors = compilation.sink.errorCount();
     auto plural = [](size_t n, const char* word) {
         return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s");
