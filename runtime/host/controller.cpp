@@ -240,7 +240,6 @@ void Controller::actionStart() {
     }
     backgroundStopped_ = false;
     if (!std::exchange(motorsOn_, true)) log_.write(EventId::MotorsOn, nullptr);
-    motion_->programStart();
     for (const auto& task : tasks_) {
         if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished) continue;
         const bool atMain = task->stopCause() == StopCause::AtMain;
@@ -249,6 +248,15 @@ void Controller::actionStart() {
         oweStart(*task);
         task->resume();
     }
+    // The robot goes on when the RESTART routines have done what they are there for (StepBwdPath).
+    const auto restarts = [](const auto& task) {
+        return task->isMotionTask() && !task->isStopped() && task->events().concerns(SystemEvent::Restart);
+    };
+    if (std::none_of(tasks_.begin(), tasks_.end(), restarts)) motion_->programStart();
+}
+
+void Controller::eventRoutinesEnded(Task& task, SystemEvent event) {
+    if (event == SystemEvent::Restart && task.isMotionTask() && !task.isStopped()) motion_->programStart();
 }
 
 void Controller::actionPpToMain() {

@@ -128,6 +128,7 @@ class Controller final : public TaskHost {
     bool startToCome() const override { return startsToCome_ > 0 || debugger_.hasClient(); }
     void taskStopped(Task& task) override;
     void taskExited(Task& task) override;
+    void eventRoutinesEnded(Task& task, SystemEvent event) override;
     void programReset(Task& task) override;
     int retryLimit() const override { return settings_.noOfRetry; }
     /// NORMAL tasks stop; when a STATIC or SEMISTATIC task failed, its TrustLevel decides (manual 1.20).

@@ -284,6 +284,18 @@ bool MotionDriver::pathInterrupted() {
     return brokenPath_ != 0;
 }
 
+Status MotionDriver::stepBack(Task& task, double mm, double mmPerSecond, bool& possible) {
+    possible = false;
+    if (!system().isStopRequested()) return kOk;
+    if (const Status status = waitZeroSpeed(task); status != kOk) return status;
+    system().returnToPath();
+    refresh();
+    if (const Status status = waitZeroSpeed(task); status != kOk) return status;
+    possible = system().stepBack(mm, mmPerSecond);
+    refresh();
+    return waitZeroSpeed(task);
+}
+
 void MotionDriver::clearPath() {
     advance(scheduler_.now());
     interrupted_ = {};

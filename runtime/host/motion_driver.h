@@ -76,6 +76,9 @@ class MotionDriver {
     void emergencyStop(bool powerFailure);
     /// A power failure interrupted a path, and that path is not finished yet (PFRestart).
     bool pathInterrupted();
+    /// StepBwdPath: back on the path while the robot is held there; returns when it stands. `possible` is false when there
+    /// is nothing more to step back on.
+    Status stepBack(Task& task, double mm, double mmPerSecond, bool& possible);
     /// ClearPath, program pointer moved.
     void clearPath();
 

@@ -81,7 +81,7 @@ std::optional<TimeNs> MotionSystem::Impl::releaseTime() const {
 
 std::optional<TimeNs> MotionSystem::Impl::nextEvent() const {
     const Stretch& current = stretch();
-    if (isCoasting) return std::max(current.end, now);
+    if (isCoasting || isExcursion) return std::max(current.end, now);
     if (current.move == nullptr) return {};
     const bool isOver = queue.empty() || queue.front() != current.move;
     if (isOver) return {};
@@ -117,6 +117,7 @@ void MotionSystem::Impl::finishStretch() {
         report(MotionEventKind::Reached, move.get(), now);
         queue.pop_front();
         lastDone = move->id;
+        if (move->plan.limits().speed > 0) finished = move;
         reached.emplace_back(move->id, now);
         if (reached.size() > 64) reached.pop_front();
     }
@@ -132,6 +133,7 @@ void MotionSystem::Impl::handleEventsNow() {
         if (!isHeld()) resume();
         return;
     }
+    if (isExcursion) return finishExcursion();
     const std::shared_ptr<Move> move = queue.front();
     for (Move* with : movesWithTriggers()) {
         for (Trigger& trigger : with->triggers) {

@@ -57,7 +57,7 @@ void MotionSystem::Impl::startNext() {
 bool MotionSystem::Impl::replaceProfile(bool toStop) {
     const std::shared_ptr<Move> move = queue.front();
     if (!(move->plan.limits().speed > 0)) return false; // a pause has no path
-    const bool isRunning = stretch().move == move;      // else it has been put aside meanwhile
+    const bool isRunning = isOnFront();                 // else it has been put aside meanwhile
     const ProfileState state = isRunning ? profileState(now) : ProfileState{move->pausedAt, 0, 0, 0};
     bool isFeasible = true;
     Profile profile = toStop ? Profile::brake(state, move->plan.limits())
@@ -70,7 +70,7 @@ bool MotionSystem::Impl::replaceProfile(bool toStop) {
 }
 
 void MotionSystem::Impl::hold() {
-    if (isOnPath() && !isBraking && stretch().profile.end() > 0) replaceProfile(true);
+    if (isOnPath() && !isBraking && !isExcursion && stretch().profile.end() > 0) replaceProfile(true);
 }
 
 /// All moves from this one on. Who asks for one that was cleared long ago is told that it is done.
@@ -108,11 +108,39 @@ void MotionSystem::Impl::resume() {
 }
 
 void MotionSystem::Impl::goOn() {
-    if (isHeld() || isCoasting) return;
+    if (isHeld() || isCoasting || isExcursion) return;
     const bool isUnfinished = !queue.empty() && queue.front()->isStarted;
     if (!isUnfinished) return startNext();
-    const bool isInterrupted = isBraking || stretch().move != queue.front();
+    const bool isInterrupted = isBraking || !isOnFront();
     if (isInterrupted && !isAbandoned) replaceProfile(false);
+}
+
+void MotionSystem::Impl::stepBackOnFront(double from, double mm, double mmPerSecond) {
+    const std::shared_ptr<Move>& move = queue.front();
+    const PlannedMotion& plan = move->plan;
+    const double to = plan.parameterAtDistance(plan.distanceAt(from) - mm);
+    ProfileLimits limits = plan.limits();
+    double mmPerUnit = 0; // of the parameter, at its highest
+    constexpr int kSamples = 32;
+    for (int i = 0; i <= kSamples; ++i)
+        mmPerUnit = std::max(mmPerUnit, plan.sampleAt({to + (from - to) * i / kSamples, 1, 0, 0}).tcpSpeed);
+    if (mmPerUnit > 0) limits.speed = std::min(limits.speed, mmPerSecond / mmPerUnit);
+    begin(move, Profile::restToRest(0, from - to, limits));
+    stretches.back().backFrom = from;
+    isExcursion = true;
+}
+
+void MotionSystem::Impl::finishExcursion() {
+    isExcursion = false;
+    const bool isBack = stretch().backFrom >= 0;
+    if (!queue.empty() && isBack) {
+        queue.front()->pausedAt = stretch().backFrom - stretch().profile.end();
+        isBraking = true; // it has not come to its end
+    }
+    if (!queue.empty() && !isBack) queue.pop_front(); // it has returned to the path
+    isStopAnnounced = true;
+    report(MotionEventKind::Stopped, queue.empty() ? nullptr : queue.front().get(), now);
+    if (!isHeld()) goOn();
 }
 
 /// Puts a joint move in front of the queue if the arm does not stand where the first move goes on.
@@ -141,7 +169,12 @@ MotionState MotionSystem::Impl::stateAt(TimeNs time) const {
     const Stretch& at = after == stretches.begin() ? stretches.front() : *(after - 1);
     if (at.coast != nullptr) return at.coast->at(toSeconds(time - at.start), kinematics);
     if (at.move == nullptr) return at.still;
-    MotionState state = at.move->plan.sampleAt(at.profile.at(toSeconds(time - at.start)));
+    ProfileState along = at.profile.at(toSeconds(time - at.start));
+    if (at.backFrom >= 0) along.s = at.backFrom - along.s;
+    MotionState state = at.move->plan.sampleAt(along);
+    if (at.backFrom >= 0)
+        for (double& speed : state.jointSpeed)
+            speed = -speed;
     state.move = at.move->id;
     state.tag = at.move->tag;
     state.moving = time >= at.start && time < at.end;

@@ -81,7 +81,14 @@ Expected<MoveId, MotionError> MotionSystem::enqueue(const MoveCommand& command) 
 void MotionSystem::clear() {
     Impl& s = *impl_;
     s.carried.clear();
+    s.finished = nullptr;
     if (s.queue.empty()) return;
+    if (s.isExcursion) { // it comes to its end
+        s.noteCleared(s.queue.front()->id);
+        s.queue.clear();
+        s.isBraking = false;
+        return;
+    }
     if (s.isHalted) { // what remains is not the arm's any more
         s.noteCleared(s.queue.front()->id);
         s.queue.clear();
@@ -109,12 +116,45 @@ void MotionSystem::rearmTriggers() {
         trigger.fired = false;
 }
 
+void MotionSystem::returnToPath() {
+    Impl& s = *impl_;
+    if (!s.isHalted || s.isCoasting) return;
+    s.isHalted = false;
+    if (s.queue.empty() || !s.queue.front()->isStarted) return;
+    s.orderReturnToPath();
+    if (!s.queue.front()->isReturn) return; // it stands there
+    s.queue.front()->isStarted = true;
+    s.begin(s.queue.front(), s.queue.front()->plan.profile());
+    s.isExcursion = true;
+}
+
+bool MotionSystem::stepBack(double mm, double mmPerSecond) {
+    Impl& s = *impl_;
+    if (!s.isHeld() || s.isMoving() || s.isHalted) return false;
+    const bool isBegun = !s.queue.empty() && s.queue.front()->isStarted;
+    const bool isReturn = isBegun && s.queue.front()->isReturn;
+    if (isReturn && !s.queue.front()->isRetraced) return false;
+    const double from = isBegun ? s.pausedAt() : 0;
+    if (from > 1e-9) {
+        s.stepBackOnFront(from, mm, mmPerSecond);
+        return true;
+    }
+    if (isReturn || s.finished == nullptr) return false;
+    const auto before = std::make_shared<Move>(*s.finished);
+    before->isReturn = before->isRetraced = before->isReleased = true;
+    before->triggers.clear();
+    s.queue.push_front(before);
+    s.stepBackOnFront(1, mm, mmPerSecond);
+    return true;
+}
+
 bool MotionSystem::storePath() {
     Impl& s = *impl_;
     if (s.isMoving()) return false;
     if (!std::exchange(s.isHalted, false) && !s.queue.empty() && s.queue.front()->isStarted) {
-        s.queue.front()->pausedAt = s.profileState(s.now).s;
+        s.queue.front()->pausedAt = s.pausedAt();
     }
+    s.finished = nullptr;
     s.levels.push_back(
         {std::exchange(s.queue, {}), std::exchange(s.carried, {}), s.isStopRequested, s.isBraking});
     s.isStopRequested = false;
@@ -128,6 +168,7 @@ bool MotionSystem::restorePath() {
     if (s.isMoving() || !s.queue.empty() || s.levels.empty()) return false;
     Level level = std::move(s.levels.back());
     s.levels.pop_back();
+    s.finished = nullptr;
     s.queue = std::move(level.queue);
     s.carried = std::move(level.carried);
     s.isStopRequested = level.isStopRequested;
@@ -140,6 +181,7 @@ bool MotionSystem::restorePath() {
 bool MotionSystem::placeAt(const JointTarget& joints) {
     Impl& s = *impl_;
     if (!s.queue.empty() || s.isMoving()) return false;
+    s.finished = nullptr;
     Stretch still;
     still.start = s.now;
     still.end = s.now;
@@ -170,7 +212,8 @@ void MotionSystem::stop() {
 void MotionSystem::halt() {
     Impl& s = *impl_;
     stop();
-    const bool onPath = s.isOnPath() && s.stretch().move->plan.limits().speed > 0; // not in a pause
+    const bool onPath =
+        s.isOnPath() && !s.isExcursion && s.stretch().move->plan.limits().speed > 0; // not in a pause
     if (!onPath) return;
     s.isStopAnnounced = false;
     s.coastNow();

@@ -94,6 +94,14 @@ class MotionSystem {
     /// Goes on from where stop() left the path.
     void start();
     bool isStopRequested() const; ///< between stop() and start()
+    /// Takes an arm that halt() left beside its path back to it, axis by axis, and holds it there. While it stands still
+    /// between halt() and start(); otherwise nothing happens.
+    void returnToPath();
+    /// Moves the arm, stopped and standing on its path, back along it by `mm` of TCP path, at most at `mmPerSecond` and the
+    /// programmed speed; a Stopped event follows, start() goes on from there. At most to the beginning of the interrupted
+    /// move; from its beginning, within the move before. False when there is nothing more to step back on, or the arm is
+    /// not standing so.
+    bool stepBack(double mm, double mmPerSecond);
     /// The triggers of the interrupted move fire again on what remains of its path; those whose place is passed, at once
     /// when it goes on (restart after a power failure, manual 2.3). The arm stands still.
     void rearmTriggers();

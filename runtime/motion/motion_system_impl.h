@@ -28,8 +28,9 @@ struct Move {
     uint64_t tag = 0;
     bool isFlyBy = false;
     bool isConcurrent = false;
-    bool isReturn = false; // back to an interrupted path, on behalf of the move that goes on there
-    double zone = 0;       // mm, the largest
+    bool isReturn = false;   // back to an interrupted path, on behalf of the move that goes on there
+    bool isRetraced = false; // ... the rest of a finished move on which the arm has stepped back
+    double zone = 0;         // mm, the largest
     std::vector<Trigger> triggers;
     PlannedMotion plan;
     bool isStarted = false;
@@ -52,6 +53,7 @@ struct Stretch {
     TimeNs end = 0;
     std::shared_ptr<const Move> move;
     Profile profile;
+    double backFrom = -1;               // >= 0: backwards from this parameter, by as much as the profile says
     MotionState still;                  // without a move
     std::shared_ptr<const Coast> coast; // without a move: braking off the path
 };
@@ -67,8 +69,9 @@ struct MotionSystem::Impl {
     bool isBraking = false;   // the current stretch ends before the end of the path
     bool isAbandoned = false; // ... and the rest of its move has been thrown away
     bool isStopAnnounced = true;
-    bool isHalted = false;   // off the path: the first move goes on at its pausedAt
-    bool isCoasting = false; // braking there
+    bool isHalted = false;    // off the path: the first move goes on at its pausedAt
+    bool isCoasting = false;  // braking there
+    bool isExcursion = false; // moves although it is held: back on its path or back to it
 
     std::deque<std::shared_ptr<Move>> queue; // the first may be in progress
     std::vector<Trigger> carried;            // of a finished move, for the one that begins next
@@ -77,6 +80,7 @@ struct MotionSystem::Impl {
     std::vector<MotionEvent> events;
     MoveId nextId = 1;
     MoveId lastDone = 0;
+    std::shared_ptr<const Move> finished;          // the move before, as long as the arm may step back on it
     std::deque<std::pair<MoveId, MoveId>> cleared; // first and last of each range, the most recent
     std::deque<std::pair<MoveId, TimeNs>> reached; // the most recent
 
@@ -104,6 +108,14 @@ struct MotionSystem::Impl {
     std::vector<Move*> movesWithTriggers() const;
     void passTriggersOn(const Move& move);
     std::optional<TimeNs> releaseTime() const;
+    /// The front of the queue is being run, or was until it stopped.
+    bool isOnFront() const {
+        return !queue.empty() && stretch().move == queue.front() && stretch().backFrom < 0;
+    }
+    /// Profile parameter at which the begun front of the queue goes on.
+    double pausedAt() const { return isOnFront() ? profileState(now).s : queue.front()->pausedAt; }
+    void stepBackOnFront(double from, double mm, double mmPerSecond);
+    void finishExcursion();
     bool happensNow(std::optional<TimeNs> time) const { return time && *time <= now; }
     void handleEventsNow();
     void finishStretch();

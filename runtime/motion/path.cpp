@@ -345,6 +345,16 @@ void MotionPath::tcpRatesAt(double s, double& mm, double& deg) const {
     deg = robot::angleBetween(from.rot, to.rot) / (2 * kStep);
 }
 
+double MotionPath::distanceAt(double s) const {
+    if (nodes_.size() < 2 || s <= 0) return 0;
+    if (s >= 1) return length();
+    const auto after = std::upper_bound(nodes_.begin(), nodes_.end(), s,
+                                        [](double value, const PathNode& n) { return value < n.s; });
+    const auto before = after - 1;
+    const double share = (s - before->s) / (after->s - before->s);
+    return before->distance + share * (after->distance - before->distance);
+}
+
 double MotionPath::parameterAtDistance(double mm) const {
     if (nodes_.size() < 2 || mm <= 0) return 0;
     if (mm >= length()) return 1;

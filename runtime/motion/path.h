@@ -81,6 +81,8 @@ class MotionPath {
     double length() const { return nodes_.empty() ? 0 : nodes_.back().distance; }
     /// Path parameter at which the TCP has travelled this many mm (clamped).
     double parameterAtDistance(double mm) const;
+    /// The reverse: mm of TCP path from the start to s.
+    double distanceAt(double s) const;
     const CartesianCurve& curve() const { return curve_; }
     const JointTarget& start() const { return start_; }
     const JointTarget& end() const { return end_; }

@@ -69,6 +69,8 @@ class PlannedMotion {
     MotionState sampleAt(const ProfileState& state) const;
     /// u at which the TCP has travelled this many mm (clamped).
     double parameterAtDistance(double mm) const;
+    /// The reverse: mm of TCP path from the start to u.
+    double distanceAt(double u) const { return path_.distanceAt(warp_.at(u).s); }
     /// Time at which the TCP has travelled this many mm (clamped), at 100 % override.
     double timeAtDistance(double mm) const { return profile_.timeAt(parameterAtDistance(mm)); }
 

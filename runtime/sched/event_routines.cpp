@@ -49,6 +49,10 @@ bool EventRoutines::owed() const {
     return runsWhileStopped(owed_.front()) || !task_.isStopped();
 }
 
+bool EventRoutines::concerns(SystemEvent event) const {
+    return running_ == event || std::find(owed_.begin(), owed_.end(), event) != owed_.end();
+}
+
 Status EventRoutines::runOwed() {
     while (owed() && !task_.isUnwinding()) {
         const SystemEvent event = owed_.front();
@@ -74,6 +78,7 @@ Status EventRoutines::run(SystemEvent event) {
         if (status != kOk) break;
     }
     running_ = outer;
+    task_.eventRoutinesEnded(event);
     task_.frame = interrupted;
     task_.errorNumber = errorNumber;
     return status > 0 ? task_.raiseAt(&boundary, status) : status;

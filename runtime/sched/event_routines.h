@@ -43,6 +43,8 @@ class EventRoutines {
     void owe(SystemEvent event);
     /// Events that the task has still to deal with in its present state.
     bool owed() const;
+    /// Its routines are to run or run now.
+    bool concerns(SystemEvent event) const;
     /// Runs them on the present fibre. Negative: the task is being unwound.
     Status runOwed();
 

@@ -208,10 +208,11 @@ Status Task::waitFor(const WaitSpec& spec, WaitResult& result) {
     const Time span = deadline == kNever ? 0 : std::max<Time>(deadline - now(), 0);
     uint64_t starts = starts_;
     Time nextPoll = spec.pollPeriod > 0 ? addTime(now(), spec.pollPeriod) : kNever;
-    for (bool first = true;; first = false) {
+    bool notified = false; // of what is waited for here: a trap routine that waits has notifications of its own
+    for (;;) {
         if (const Status status = enterWait(); status < 0) return status;
         countAgain(deadline, span, starts);
-        if (spec.condition ? spec.condition() : !first && notified_) {
+        if (spec.condition ? spec.condition() : notified) {
             result = WaitResult::Done;
             return kOk;
         }
@@ -229,6 +230,7 @@ Status Task::waitFor(const WaitSpec& spec, WaitResult& result) {
         const EventToken timer =
             wakeAt == kNever ? 0 : scheduler_.at(wakeAt, [this] { scheduler_.makeReady(*this); });
         const Status status = block();
+        notified = notified_;
         scheduler_.cancel(timer);
         for (WaitQueue* queue : waitingOn_)
             queue->remove(*this);

@@ -122,6 +122,8 @@ class TaskHost {
     virtual void taskStopped(Task&) {}
     /// The variables of the task have got their initial values because its program begins anew.
     virtual void programReset(Task&) {}
+    /// The routines of this event have ended or were unwound.
+    virtual void eventRoutinesEnded(Task&, SystemEvent) {}
     /// The task executed EXIT and will not go on by itself.
     virtual void taskExited(Task&) {}
     virtual void stopNormalTasks(StopCause cause) = 0;
@@ -319,6 +321,7 @@ class Task : public TaskCore {
     bool mustStand() const { return isStopped() && !events_.executesStopped(); }
     /// The event routine in progress ends here, with its UNDO handlers: at once / was ended so.
     void endEventRoutine();
+    void eventRoutinesEnded(SystemEvent event) { host_.eventRoutinesEnded(*this, event); }
     bool takeEventEnd();
     /// Can be given the processor: not waiting and not stopped, or being unwound.
     bool runnable() const;

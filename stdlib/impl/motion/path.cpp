@@ -6,6 +6,8 @@
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
 
+#include <algorithm>
+
 using namespace rt;
 
 namespace {
@@ -70,6 +72,24 @@ Status rt_ClearPath(TaskCore* task) {
 Status rt_IsStopMoveAct(TaskCore* task, bool* result, bool, bool) {
     *result = driverOf(task).isStopMoveActive();
     return kOk;
+}
+
+/// At StepLength / StepTime, at most 250 mm/s. A step ends at the beginning of the movement it began in; the next one may go
+/// on in the movement before.
+Status rt_StepBwdPath(TaskCore* task, float StepLength, float StepTime) {
+    constexpr double kFastest = 250; // mm/s
+    if (const Status status = lib::requireMotionTask(task)) return status;
+    if (!(StepLength > 0) || !(StepTime > 0))
+        return lib::fail(task, err::ERR_ARGVALERR, "StepBwdPath: length and time must be above 0");
+    bool possible = false;
+    const double speed = std::min(kFastest, static_cast<double>(StepLength) / static_cast<double>(StepTime));
+    if (const Status status = driverOf(task).stepBack(taskOf(task), StepLength, speed, possible))
+        return status;
+    if (possible) return kOk;
+    return lib::fail(
+        task, err::ERR_BWDLIMIT,
+        "there is no path to step back on: the robot must have been stopped on its path, and goes back no "
+        "further than the beginning of the movement before the one that was stopped");
 }
 
 Status rt_PathLevel(TaskCore*, float* result) {

@@ -20,7 +20,7 @@ using Actions = std::vector<PathAction>;
 
 namespace {
 
-constexpr std::size_t kMostTriggers = 25; // in a triggdata array
+constexpr int kMostTriggers = 25; // in a triggdata array
 
 /// The triggers of TriggL and its like: Trigg_1 and \T2 to \T8, or an array.
 struct TriggerArguments {
@@ -38,7 +38,7 @@ Status addTrigger(TaskCore* task, Handle variable, const char* name, Actions& ac
             fmt::format("the trigger of argument {} has no contents; define it with TriggIO, TriggEquip, "
                         "TriggInt or TriggCheckIO first",
                         name));
-    actions.push_back(lib::actionOf(task, *definition));
+    lib::addActions(task, *definition, actions);
     return kOk;
 }
 
@@ -48,14 +48,17 @@ Status addArray(TaskCore* task, const TriggerArguments& args, Actions& actions) 
         if (other != nullptr)
             return lib::fail(task, err::ERR_ARGVALERR,
                              "\\T2 to \\T8 cannot be combined with an array of triggers");
+    int count = 0;
     for (int32_t i = 0; i < args.arraySize; ++i) {
         const lib::TriggerDefinition* definition = lib::triggerStore(task).find(args.array[i]);
-        if (definition != nullptr) actions.push_back(lib::actionOf(task, *definition));
+        if (definition == nullptr) continue;
+        lib::addActions(task, *definition, actions);
+        ++count;
     }
-    if (actions.size() <= kMostTriggers) return kOk;
+    if (count <= kMostTriggers) return kOk;
     return lib::fail(
         task, err::ERR_ARGVALERR,
-        fmt::format("the array has {} triggers; a movement takes at most {}", actions.size(), kMostTriggers));
+        fmt::format("the array has {} triggers; a movement takes at most {}", count, kMostTriggers));
 }
 
 Status collect(TaskCore* task, const TriggerArguments& args, Actions& actions) {
@@ -102,7 +105,7 @@ Status addOutput(TaskCore* task, const NamedOutput& output, Actions& actions) {
     trigger.place.fromStart = output.start;
     trigger.place.lag = output.lag;
     if (const Status status = lib::checkOutput(task, trigger.signal, trigger.value)) return status;
-    actions.push_back(lib::actionOf(task, trigger));
+    lib::addActions(task, trigger, actions);
     return kOk;
 }
 

@@ -14,6 +14,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <memory>
 
 using namespace rt;
 using lib::TriggerDefinition;
@@ -37,10 +38,11 @@ double signalValue(const void* data, const TypeDesc* type) {
     }
 }
 
-void setOutput(Task& task, const TriggerDefinition& trigger) {
+/// `wanted`, unless the trigger is inhibited.
+void setOutput(Task& task, const TriggerDefinition& trigger, double wanted) {
     IoSystem& io = task.controller().io();
     const bool inhibited = trigger.inhibit != nullptr && *trigger.inhibit;
-    const double value = inhibited ? signalValue(trigger.inhibitValue, trigger.inhibitType) : trigger.value;
+    const double value = inhibited ? signalValue(trigger.inhibitValue, trigger.inhibitType) : wanted;
     if (io.set(trigger.signal, value) == IoResult::Ok) return;
     task.report(EventId::TriggerValue, {io.config(io.idOf(trigger.signal)).name, formatDnum(value)});
 }
@@ -54,10 +56,47 @@ void checkSignal(Task& task, const TriggerDefinition& trigger) {
 }
 
 void execute(Task& task, const TriggerDefinition& trigger) {
-    if (trigger.kind == TriggerDefinition::Kind::Output) return setOutput(task, trigger);
+    if (trigger.kind == TriggerDefinition::Kind::Output) return setOutput(task, trigger, trigger.value);
     if (trigger.inhibit != nullptr && *trigger.inhibit) return;
     if (trigger.kind == TriggerDefinition::Kind::Check) return checkSignal(task, trigger);
     task.interrupts().post(trigger.interrupt);
+}
+
+/// A ramp is a flight of this many equal steps, each at its own place of the path.
+constexpr int kRampSteps = 50;
+
+/// The place of a step that lies `mm` behind the trigger's.
+motion::PathTrigger behind(motion::PathTrigger place, double mm) {
+    if (place.fromStart || place.nextMove) {
+        place.amount += mm;
+        return place;
+    }
+    place.amount -= mm;
+    if (place.amount >= 0) return place;
+    place.amount = -place.amount; // past the end of the movement
+    place.nextMove = true;
+    return place;
+}
+
+/// The first step notes the value from which the ramp starts.
+void addRamp(Task* owner, const TriggerDefinition& ramp, std::vector<PathAction>& actions) {
+    const auto from = std::make_shared<double>(0);
+    const auto start = [owner, ramp, from] {
+        const IoSystem& io = owner->controller().io();
+        *from = io.value(io.idOf(ramp.signal));
+    };
+    actions.push_back({ramp.place, 0, start});
+    for (int i = 1; i <= kRampSteps; ++i) {
+        const double share = static_cast<double>(i) / kRampSteps;
+        PathAction step{ramp.place, 0, [owner, ramp, from, share] {
+                            setOutput(*owner, ramp, *from + share * (ramp.value - *from));
+                        }};
+        if (ramp.rampInTime)
+            step.delay = fromSeconds(share * ramp.rampLength);
+        else
+            step.place = behind(ramp.place, share * ramp.rampLength);
+        actions.push_back(std::move(step));
+    }
 }
 
 /// Where a trigger is, as the instructions that define one say it.
@@ -140,9 +179,11 @@ const TriggerDefinition* TriggerStore::find(Handle handle) const {
                : definitions_[static_cast<std::size_t>(handle) - 1];
 }
 
-PathAction actionOf(TaskCore* task, const TriggerDefinition& definition) {
+void addActions(TaskCore* task, const TriggerDefinition& definition, std::vector<PathAction>& actions) {
     Task* const owner = &taskOf(task);
-    return {definition.place, definition.delay, [owner, definition] { execute(*owner, definition); }};
+    if (definition.kind == TriggerDefinition::Kind::Ramp) return addRamp(owner, definition, actions);
+    actions.push_back(
+        {definition.place, definition.delay, [owner, definition] { execute(*owner, definition); }});
 }
 
 Status checkOutput(TaskCore* task, Handle signal, double value) {
@@ -192,6 +233,23 @@ Status rt_TriggEquip(TaskCore* task, Handle* TriggData, float Distance, bool Sta
     return defineOutput(
         task, TriggData, trigger,
         {DOp, GOp, AOp, ProcID, SetValue, SetDvalue, Inhib, InhibSetValue, InhibSetValueType});
+}
+
+Status rt_TriggRampAO(TaskCore* task, Handle* TriggData, float Distance, bool Start, bool Next,
+                      float EquipLag, Handle* AOutput, float SetValue, float RampLength, bool Time,
+                      bool* Inhib, void* InhibSetValue, const TypeDesc* InhibSetValueType, const float*) {
+    TriggerDefinition trigger;
+    trigger.kind = TriggerDefinition::Kind::Ramp;
+    if (!(RampLength >= 0) || !std::isfinite(RampLength))
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "the length of a ramp must be in mm (in s with \\Time), not negative");
+    trigger.rampLength = RampLength;
+    trigger.rampInTime = Time;
+    if (const Status status = setPlace(task, trigger, {Distance, Start, Next, false, EquipLag}))
+        return status;
+    return defineOutput(
+        task, TriggData, trigger,
+        {nullptr, nullptr, AOutput, nullptr, &SetValue, nullptr, Inhib, InhibSetValue, InhibSetValueType});
 }
 
 Status rt_TriggInt(TaskCore* task, Handle* TriggData, float Distance, bool Start, bool Next, bool Time,

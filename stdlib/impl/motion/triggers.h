@@ -14,6 +14,7 @@ struct TriggerDefinition {
     enum class Kind : uint8_t {
         Output,    ///< TriggIO, TriggEquip: sets `signal` to `value`
         Interrupt, ///< TriggInt
+        Ramp,      ///< TriggRampAO: brings `signal` to `value` along `rampLength`
         Check,     ///< TriggCheckIO: the interrupt occurs unless `signal` stands in `relation` to `value`
     };
     Kind kind = Kind::Output;
@@ -21,6 +22,8 @@ struct TriggerDefinition {
     Time delay = 0; ///< \DODelay
     Handle signal = 0;
     double value = 0;
+    double rampLength = 0; ///< mm of path, or s
+    bool rampInTime = false;
     float relation = 0;
     bool stopMove = false;
     int interrupt = 0;
@@ -48,8 +51,8 @@ inline TriggerStore& triggerStore(TaskCore* task) {
     return taskOf(task).local<TriggerStore>();
 }
 
-/// What the driver is to do for this trigger.
-PathAction actionOf(TaskCore* task, const TriggerDefinition& definition);
+/// Adds what the driver is to do for this trigger.
+void addActions(TaskCore* task, const TriggerDefinition& definition, std::vector<PathAction>& actions);
 
 /// An output can be set to this value by a program (ERR_AO_LIM, ERR_GO_LIM ...).
 Status checkOutput(TaskCore* task, Handle signal, double value);

@@ -275,6 +275,89 @@ TEST_CASE("after a power failure triggers fire again on the rest of the path", "
     CHECK(places[2] == Approx(90).margin(1e-4));
 }
 
+TEST_CASE("stopped on its path the arm steps back on it", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    const Vec3 from = system.current().tcp.pos;
+    const auto place = [&] { return norm(system.current().tcp.pos - from); };
+    const auto settle = [&] {
+        while (const auto next = system.nextEventTime()) {
+            system.advanceTo(*next);
+            CHECK(system.current().tcpSpeed < 110);
+        }
+        system.takeEvents();
+    };
+    REQUIRE(system.enqueue(lineFrom(system, 0, 0, -50)).hasValue());
+    REQUIRE(system.enqueue(lineFrom(system, 0, 0, -150)).hasValue());
+    system.advanceTo(*system.reachTime(1) + 500'000'000);
+    CHECK_FALSE(system.stepBack(10, 50)); // it moves
+    system.stop();
+    settle();
+    const double stopped = place();
+    REQUIRE(stopped > 70);
+    const TimeNs before = system.now();
+    REQUIRE(system.stepBack(20, 10));
+    settle();
+    CHECK(place() == Approx(stopped - 20).margin(1e-6));
+    CHECK(system.now() - before > 2'000'000'000); // 20 mm at 10 mm/s, and ramps
+    REQUIRE(system.stepBack(1000, 100));
+    settle();
+    CHECK(place() == Approx(50).margin(1e-6)); // to the beginning of the move
+    REQUIRE(system.stepBack(30, 100));
+    settle();
+    CHECK(place() == Approx(20).margin(1e-6)); // on the move before
+    REQUIRE(system.stepBack(1000, 100));
+    settle();
+    CHECK(place() == Approx(0).margin(1e-6));
+    CHECK_FALSE(system.stepBack(1, 100));
+    CHECK(system.status(1) == MoveStatus::Done);
+    CHECK(system.status(2) == MoveStatus::Moving);
+    system.start();
+    std::vector<MotionEvent> events;
+    run(system, &events);
+    CHECK(place() == Approx(200).margin(1e-6));
+    CHECK(timeOf(events, MotionEventKind::Reached, 2) > 0);
+    CHECK(std::none_of(events.begin(), events.end(), [](const MotionEvent& e) { return e.move == 1; }));
+    CHECK(system.isIdle());
+}
+
+TEST_CASE("a finished move is stepped back on and run to its end again", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    const Vec3 from = system.current().tcp.pos;
+    REQUIRE(system.enqueue(lineFrom(system, 0, 0, -50)).hasValue());
+    std::vector<MotionEvent> events;
+    run(system, &events);
+    system.advanceTo(system.now() + 1'000'000'000);
+    system.stop();
+    REQUIRE(system.stepBack(20, 50));
+    run(system, &events);
+    CHECK(norm(system.current().tcp.pos - from) == Approx(30).margin(1e-6));
+    system.start();
+    run(system, &events);
+    CHECK(norm(system.current().tcp.pos - from) == Approx(50).margin(1e-6));
+    CHECK(system.isIdle());
+}
+
+TEST_CASE("an arm off its path returns to it and is held there", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    const Vec3 from = system.current().tcp.pos;
+    REQUIRE(system.enqueue(lineFrom(system, 0, 0, -150)).hasValue());
+    system.advanceTo(500'000'000);
+    system.halt();
+    while (const auto next = system.nextEventTime())
+        system.advanceTo(*next);
+    CHECK_FALSE(system.stepBack(10, 50)); // not on the path
+    system.returnToPath();
+    while (const auto next = system.nextEventTime())
+        system.advanceTo(*next);
+    const double held = norm(system.current().tcp.pos - from);
+    REQUIRE(system.stepBack(10, 50));
+    system.clear(); // comes to its end and is idle
+    while (const auto next = system.nextEventTime())
+        system.advanceTo(*next);
+    CHECK(norm(system.current().tcp.pos - from) == Approx(held - 10).margin(1e-6));
+    CHECK(system.isIdle());
+}
+
 TEST_CASE("the triggers of a circle in two parts stay where they are", "[motion][path]") {
     MoveCommand circle;
     circle.kind = MoveKind::Circular;
