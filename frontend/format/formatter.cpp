@@ -132,7 +132,8 @@ class Formatter {
         const TokenPlan& plan = plan_[t];
         if (plan.has(kVerbatim)) return;
         const TokenKind kind = tree_.tokens[t].kind;
-        const bool keyword = (isKeyword(kind) || isPlaceholder(kind)) && !plan.has(kNoKeyword);
+        const bool keyword = (isKeyword(kind) || isPlaceholder(kind)) && !plan.has(kNoKeyword) &&
+                             lowerCase(tree_.text(t)) == lowerCase(tokenText(kind)); // misspelt ones stay
         if (keyword || plan.has(kUpperWord)) {
             const std::string word = keyword ? std::string(tokenText(kind)) : "TASK";
             if (settings_.keywords == KeywordCase::Upper) replace(tree_.range(t), word);

@@ -338,6 +338,9 @@ TEST_CASE("modules with mistakes are refused, or formatted around them", "[forma
     CHECK(formatText(text, request) == "MODULE m\n   VAR num a;\nPROC p()\n  a := ;\n IF a THEN\nENDPROC\n"
                                        "   PROC q()\n      a;\n   ENDPROC\nENDMODULE\n");
     CHECK(formatText("hello", request).starts_with("refused"));
+    // A misspelt word that touches another declaration.
+    CHECK(formatText("MODULE m\nVAR num h <CSE>\n;NDMODULE\n", request) ==
+          "MODULE m\nVAR num h <CSE>\n;\nNDMODULE\n");
     // The end of the file ends a line.
     CHECK(formatText("MODULE m\nPROC p()\n a := ;\nEND", request) == "MODULE m\nPROC p()\n a := ;\nEND\n");
     // A mistake at the end of the line of another declaration.
