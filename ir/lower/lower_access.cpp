@@ -14,13 +14,23 @@ void RoutineLowering::checkPresent(const Slot& slot) {
     b_.check(b_.binary(Op::INe, b_.param(slot.param), b_.nullPtr()), program_.errorNumber("ERR_NOTPRES"));
 }
 
+void RoutineLowering::readSystemVariable(const DataSymbol& symbol, ir::ValueId address) {
+    const std::string name = foldCase(symbol.name);
+    if (name == "errno" || name == "intno") {
+        const auto kind = name == "intno" ? ir::SysvarKind::Intno : ir::SysvarKind::Errno;
+        b_.store(ir::kF32, b_.sysvar(kind), address);
+        return;
+    }
+    b_.callNative(program_.support("rt_systemData", ir::NativeClass::Plain, ir::kVoid, {ir::kPtr, ir::kPtr}),
+                  {address, b_.globalAddr(program_.stringGlobal(symbol.name))});
+}
+
 RoutineLowering::Place RoutineLowering::placeOf(const DataSymbol& symbol) {
     Place p;
     p.type = symbol.type;
     if (symbol.storage == Storage::SystemVariable) {
-        p.addr = tempAddr(ir::kF32);
-        const bool intno = foldCase(symbol.name) == "intno";
-        b_.store(ir::kF32, b_.sysvar(intno ? ir::SysvarKind::Intno : ir::SysvarKind::Errno), p.addr);
+        p.addr = tempAddr(program_.irType(symbol.type));
+        readSystemVariable(symbol, p.addr);
         return p;
     }
     const Slot* slot = findSlot(symbol);

@@ -132,6 +132,8 @@ class RoutineLowering {
     Place place(const Expr& expr);
     Place reference(const Expr& expr); ///< the object itself, even where a signal stands for its value
     Place placeOf(const sema::DataSymbol& symbol);
+    /// Copies the present value of ERRNO, C_MOTSET ... to `address`.
+    void readSystemVariable(const sema::DataSymbol& symbol, ValueId address);
     Place elementPlace(const syntax::IndexExpr& expr);
     ValueId lowerIndex(const Expr& index, ValueId dim, int32_t knownDim, bool& safe);
     ValueId dimValue(const Place& p, int k);

@@ -40,6 +40,8 @@ Json save(const MotionState& s) {
               m.pathDeceleration, m.worldAcceleration}},
             {"confJ", s.confJ},
             {"confL", s.confL},
+            {"singWrist", s.singWrist},
+            {"singLockAxis4", s.singLockAxis4},
             {"displacement", {d.pos.x, d.pos.y, d.pos.z, d.rot.w, d.rot.x, d.rot.y, d.rot.z}},
             {"axisOffsets", s.axisOffsets},
             {"toolHeld", s.tool.robhold},
@@ -64,6 +66,8 @@ MotionState load(const Json& json) {
     s.settings = {m[0], m[1], m[2], m[3], m[4], m[5], m[6]};
     json.at("confJ").get_to(s.confJ);
     json.at("confL").get_to(s.confL);
+    json.at("singWrist").get_to(s.singWrist);
+    json.at("singLockAxis4").get_to(s.singLockAxis4);
     const auto d = numbers(json.at("displacement"), 7);
     s.displacement = {{d[0], d[1], d[2]}, {d[3], d[4], d[5], d[6]}};
     const auto offsets = numbers(json.at("axisOffsets"), s.axisOffsets.size());

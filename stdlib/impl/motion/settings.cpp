@@ -153,6 +153,9 @@ Status rt_EOffsOn(TaskCore* task, const data::Robtarget* ExeP, const data::Robta
 Status rt_SingArea(TaskCore* task, bool Wrist, bool LockAxis4, bool Off) {
     if (Wrist + LockAxis4 + Off > 1)
         return lib::fail(task, err::ERR_ARGVALERR, "SingArea takes one of \\Wrist, \\LockAxis4 and \\Off");
+    lib::MotionState& state = lib::motionState(task);
+    state.singWrist = Wrist;
+    state.singLockAxis4 = LockAxis4;
     return kOk;
 }
 

@@ -15,6 +15,7 @@ namespace rt::lib {
 struct MotionState {
     motion::MotionSettings settings;
     bool confJ = true, confL = true;
+    bool singWrist = false, singLockAxis4 = false; ///< SingArea; kept for C_MOTSET
     motion::Pose displacement;          ///< program displacement (PDisp...), in the object frame
     motion::ExternalAxes axisOffsets{}; ///< EOffs..., deg or mm
     data::Tooldata tool{true, {{0, 0, 0}, {1, 0, 0, 0}}, {0.001F, {0, 0, 0.001F}, {1, 0, 0, 0}, 0, 0, 0}};

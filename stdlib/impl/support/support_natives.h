@@ -39,6 +39,10 @@ rt::Status rt_waitUntilPoll(rt::TaskCore* task, bool* again, bool InPos, const f
 /// \InPos of WaitUntil: before the condition is looked at. Does nothing when `inPos` is false.
 rt::Status rt_waitInPos(rt::TaskCore* task, bool inPos);
 
+/// Copies what a system variable of the controller (C_MOTSET, C_PROGDISP, ROB_ID; manual 1.7, 1.8) is now to `data`, which has
+/// room for its type.
+rt::Status rt_systemData(rt::TaskCore* task, void* data, const rt::String* name);
+
 /// %name% and other calls whose target is found by name when they are executed: "procedure" or "module:procedure". `kind` is
 /// a rt::RoutineKind, `result` where a function's value goes. Raises ERR_REFUNKPRC (ERR_REFUNKFUN) when there is none, and
 /// ERR_CALLPROC when it is no routine of that kind or the arguments do not fit.
