@@ -208,7 +208,8 @@ Status Task::waitFor(const WaitSpec& spec, WaitResult& result) {
     const Time span = deadline == kNever ? 0 : std::max<Time>(deadline - now(), 0);
     uint64_t starts = starts_;
     Time nextPoll = spec.pollPeriod > 0 ? addTime(now(), spec.pollPeriod) : kNever;
-    bool notified = false; // of what is waited for here: a trap routine that waits has notifications of its own
+    bool notified =
+        false; // of what is waited for here: a trap routine that waits has notifications of its own
     for (;;) {
         if (const Status status = enterWait(); status < 0) return status;
         countAgain(deadline, span, starts);

@@ -16,8 +16,8 @@ struct MotionState {
     motion::MotionSettings settings;
     bool confJ = true, confL = true;
     bool singWrist = false, singLockAxis4 = false; ///< SingArea; kept for C_MOTSET
-    motion::Pose displacement;          ///< program displacement (PDisp...), in the object frame
-    motion::ExternalAxes axisOffsets{}; ///< EOffs..., deg or mm
+    motion::Pose displacement;                     ///< program displacement (PDisp...), in the object frame
+    motion::ExternalAxes axisOffsets{};            ///< EOffs..., deg or mm
     data::Tooldata tool{true, {{0, 0, 0}, {1, 0, 0, 0}}, {0.001F, {0, 0, 0.001F}, {1, 0, 0, 0}, 0, 0, 0}};
     data::Wobjdata workObject{false, true, {}, {{0, 0, 0}, {1, 0, 0, 0}}, {{0, 0, 0}, {1, 0, 0, 0}}};
     int concurrentMoves = 0; ///< \Conc moves in succession
