@@ -39,16 +39,6 @@ motion::FrameSetup framesFrom(const Json& json) {
     return frames;
 }
 
-Json settingsJson(const motion::MotionSettings& s) {
-    return {s.velocityPercent,  s.maxTcpSpeed,      s.accelerationPercent, s.rampPercent,
-            s.pathAcceleration, s.pathDeceleration, s.worldAcceleration};
-}
-
-motion::MotionSettings settingsFrom(const Json& json) {
-    const auto n = numbersFrom<7>(json);
-    return {n[0], n[1], n[2], n[3], n[4], n[5], n[6]};
-}
-
 int wholeFrom(const Json& json, int most) {
     if (!json.is_number_integer()) throw std::invalid_argument("no whole number");
     const auto number = json.get<int64_t>();
@@ -65,6 +55,16 @@ Json jsonOf(const motion::Pose& pose) {
 motion::Pose poseFrom(const Json& json) {
     const auto n = numbersFrom<7>(json);
     return {{n[0], n[1], n[2]}, {n[3], n[4], n[5], n[6]}};
+}
+
+Json jsonOf(const motion::MotionSettings& s) {
+    return {s.velocityPercent,  s.maxTcpSpeed,      s.accelerationPercent, s.rampPercent,
+            s.pathAcceleration, s.pathDeceleration, s.worldAcceleration};
+}
+
+motion::MotionSettings settingsFrom(const Json& json) {
+    const auto n = numbersFrom<7>(json);
+    return {n[0], n[1], n[2], n[3], n[4], n[5], n[6]};
 }
 
 Json jsonOf(const motion::MoveCommand& c) {
@@ -86,7 +86,7 @@ Json jsonOf(const motion::MoveCommand& c) {
             {"confJ", c.confJ},
             {"confL", c.confL},
             {"concurrent", c.concurrent},
-            {"settings", settingsJson(c.settings)}};
+            {"settings", jsonOf(c.settings)}};
 }
 
 motion::MoveCommand moveFrom(const Json& json) {

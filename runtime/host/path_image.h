@@ -14,6 +14,8 @@ nlohmann::json jsonOf(const motion::MoveCommand& command);
 motion::MoveCommand moveFrom(const nlohmann::json& json);
 nlohmann::json jsonOf(const motion::Pose& pose);
 motion::Pose poseFrom(const nlohmann::json& json);
+nlohmann::json jsonOf(const motion::MotionSettings& settings);
+motion::MotionSettings settingsFrom(const nlohmann::json& json);
 /// Without the trap routine, whose address means nothing to another process.
 nlohmann::json jsonOf(const SavedInterrupt& interrupt);
 SavedInterrupt interruptFrom(const nlohmann::json& json);

@@ -3,6 +3,7 @@
 
 #include "stdlib/impl/motion/state.h"
 
+#include "runtime/host/path_image.h"
 #include "runtime/host/state_keepers.h"
 
 #include <nlohmann/json.hpp>
@@ -33,16 +34,12 @@ template <class Record> void readNumbers(const Json& json, Record& record) {
 }
 
 Json save(const MotionState& s) {
-    const motion::MotionSettings& m = s.settings;
-    const motion::Pose& d = s.displacement;
-    return {{"settings",
-             {m.velocityPercent, m.maxTcpSpeed, m.accelerationPercent, m.rampPercent, m.pathAcceleration,
-              m.pathDeceleration, m.worldAcceleration}},
+    return {{"settings", jsonOf(s.settings)},
             {"confJ", s.confJ},
             {"confL", s.confL},
             {"singWrist", s.singWrist},
             {"singLockAxis4", s.singLockAxis4},
-            {"displacement", {d.pos.x, d.pos.y, d.pos.z, d.rot.w, d.rot.x, d.rot.y, d.rot.z}},
+            {"displacement", jsonOf(s.displacement)},
             {"axisOffsets", s.axisOffsets},
             {"toolHeld", s.tool.robhold},
             {"tool", numbersOf(s.tool.tframe)},
@@ -54,24 +51,17 @@ Json save(const MotionState& s) {
             {"object", numbersOf(s.workObject.oframe)}};
 }
 
-std::vector<double> numbers(const Json& json, std::size_t count) {
-    auto values = json.get<std::vector<double>>();
-    if (values.size() != count) throw std::invalid_argument("another number of numbers");
-    return values;
-}
-
 MotionState load(const Json& json) {
     MotionState s;
-    const auto m = numbers(json.at("settings"), 7);
-    s.settings = {m[0], m[1], m[2], m[3], m[4], m[5], m[6]};
+    s.settings = settingsFrom(json.at("settings"));
     json.at("confJ").get_to(s.confJ);
     json.at("confL").get_to(s.confL);
     json.at("singWrist").get_to(s.singWrist);
     json.at("singLockAxis4").get_to(s.singLockAxis4);
-    const auto d = numbers(json.at("displacement"), 7);
-    s.displacement = {{d[0], d[1], d[2]}, {d[3], d[4], d[5], d[6]}};
-    const auto offsets = numbers(json.at("axisOffsets"), s.axisOffsets.size());
-    std::copy(offsets.begin(), offsets.end(), s.axisOffsets.begin());
+    s.displacement = poseFrom(json.at("displacement"));
+    const Json& offsets = json.at("axisOffsets");
+    if (offsets.size() != s.axisOffsets.size()) throw std::invalid_argument("another number of numbers");
+    offsets.get_to(s.axisOffsets);
     json.at("toolHeld").get_to(s.tool.robhold);
     readNumbers(json.at("tool"), s.tool.tframe);
     readNumbers(json.at("load"), s.tool.tload);
