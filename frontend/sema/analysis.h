@@ -101,7 +101,8 @@ class Analyzer {
 
     // ---- the steps of checkTask(), for a Session (checker.cpp, recheck.cpp)
     void startTask(const TaskInput& input);
-    void readFiles(const TaskInput& input);
+    /// `declare`: the modules of each file at once, while its tree is in the cache.
+    void readFiles(const TaskInput& input, bool declare);
     void checkFiles();
     void finishTask();
     TaskScope leaveTask();
@@ -183,7 +184,8 @@ class Analyzer {
 
     // ---- tasks (checker.cpp)
     bool sameStructure(const Type& left, const Type& right);
-    void declareModules();
+    void readFile(const std::shared_ptr<const SourceFile>& file);
+    void declareModules(std::span<Module* const> modules);
     void checkModules(std::span<Module* const> modules);
     void finishFile(std::span<Module* const> modules);
     void listSignals();

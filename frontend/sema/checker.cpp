@@ -106,31 +106,36 @@ void Analyzer::startTask(const TaskInput& input) {
     declareConfiguration();
 }
 
-void Analyzer::readFiles(const TaskInput& input) {
+void Analyzer::readFiles(const TaskInput& input, bool declare) {
     std::unordered_set<std::string_view> paths;
     for (const auto& file : input.files) {
         if (!paths.insert(file->path()).second) {
             sink_.report(Code::SameFileTwice, nullptr, {}, {file->path()});
             continue;
         }
-        const size_t errorsBefore = sink_.errorCount();
-        program_.trees.push_back(parse(file, sink_));
-        const SyntaxTree& tree = *program_.trees.back();
-        FileFacts& facts = *program_.facts.emplace_back(std::make_unique<FileFacts>(
-            tree, program_.errorType, std::make_shared<FileSymbols>(), ++lastStamp_));
-        TaskFile& entry = files_.emplace_back();
-        entry.slot = program_.trees.size() - 1;
-        entry.broken = sink_.errorCount() > errorsBefore;
-        if (entry.broken) brokenTrees_.push_back(&tree);
-        for (const ModuleDecl* decl : tree.modules) {
-            entry.modules.push_back(addModule(tree, *decl, false, facts));
-            task_->modules.push_back(entry.modules.back());
-        }
+        readFile(file);
+        if (declare) declareModules(files_.back().modules);
     }
 }
 
-void Analyzer::declareModules() {
-    for (Module* module : task_->modules) {
+void Analyzer::readFile(const std::shared_ptr<const SourceFile>& file) {
+    const size_t errorsBefore = sink_.errorCount();
+    program_.trees.push_back(parse(file, sink_));
+    const SyntaxTree& tree = *program_.trees.back();
+    FileFacts& facts = *program_.facts.emplace_back(
+        std::make_unique<FileFacts>(tree, program_.errorType, std::make_shared<FileSymbols>(), ++lastStamp_));
+    TaskFile& entry = files_.emplace_back();
+    entry.slot = program_.trees.size() - 1;
+    entry.broken = sink_.errorCount() > errorsBefore;
+    if (entry.broken) brokenTrees_.push_back(&tree);
+    for (const ModuleDecl* decl : tree.modules) {
+        entry.modules.push_back(addModule(tree, *decl, false, facts));
+        task_->modules.push_back(entry.modules.back());
+    }
+}
+
+void Analyzer::declareModules(std::span<Module* const> modules) {
+    for (Module* module : modules) {
         enterModule(module);
         const NameId name = interner_.intern(module->name);
         Module* other = moduleNames_.find(name);
@@ -146,20 +151,20 @@ void Analyzer::declareModules() {
         collect(*module);
     }
     duplicateModule_ = false;
-    checkModuleNames(task_->modules);
 }
 
 void Analyzer::checkTask(const TaskInput& input) {
     startTask(input);
-    readFiles(input);
-    declareModules();
+    readFiles(input, true);
+    checkModuleNames(task_->modules);
     if (leaveOut(input)) return;
     checkModules(task_->modules);
     finishTask();
 }
 
 void Analyzer::checkFiles() {
-    declareModules();
+    declareModules(task_->modules);
+    checkModuleNames(task_->modules);
     checkModules(task_->modules);
 }
 
@@ -170,15 +175,15 @@ void Analyzer::checkModules(std::span<Module* const> modules) {
     for (Module* module : modules)
         for (RoutineSymbol* routine : module->routines)
             resolveSignature(*routine);
-    for (Module* module : modules) {
-        enterModule(module);
-        for (DataSymbol* data : module->data)
-            ensureValue(*data);
-    }
+    // File by file: what concerns one of them stays in the cache.
     for (size_t first = 0, end = 0; first < modules.size(); first = end) {
-        for (; end < modules.size() && modules[end]->facts == modules[first]->facts; ++end)
+        for (; end < modules.size() && modules[end]->facts == modules[first]->facts; ++end) {
+            enterModule(modules[end]);
+            for (DataSymbol* data : modules[end]->data)
+                ensureValue(*data);
             for (RoutineSymbol* routine : modules[end]->routines)
                 checkRoutine(*routine);
+        }
         finishFile(modules.subspan(first, end - first));
     }
 }

@@ -85,7 +85,7 @@ void Session::State::openTask(TaskInput input) {
     SessionTask& task = tasks.emplace_back();
     task.input = std::move(input);
     analyzer->startTask(task.input);
-    analyzer->readFiles(task.input);
+    analyzer->readFiles(task.input, false);
     for (const TaskFile& file : analyzer->files()) {
         task.files.emplace_back();
         task.files.back().source = program->trees[file.slot]->source;

@@ -4,6 +4,7 @@
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/pipeline.h"
 
+#include "frontend/source/heap.h"
 #include "runtime/host/run_options.h"
 
 #include <CLI/CLI.hpp>
@@ -43,6 +44,7 @@ void fixFiles(const Inputs& inputs) {
 }
 
 int check(const CheckSettings& settings) {
+    rapid::putHeapOnHugePages();
     if (settings.fix) fixFiles(settings.inputs);
     // Kept to the end of the process: taking a large program apart takes as long as parsing it.
     static std::unique_ptr<Compilation> kept;
