@@ -17,6 +17,9 @@
 namespace rt {
 namespace {
 
+/// Traps of background tasks have this long after the end of the last NORMAL task.
+constexpr Time kTimeForTraps = 10 * kSecond;
+
 SchedulerOptions schedulerOptions(const RunOptions& options) {
     SchedulerOptions result;
     result.rate = options.rate;
@@ -97,9 +100,22 @@ bool Controller::runOver() {
     for (const auto& task : tasks_) {
         if (!isNormal(task) || task->state() == TaskState::Finished) continue;
         const bool stoppedForGood = task->isStopped() && !task->hasWorkWhileStopped() && !startToCome();
-        if (!stoppedForGood) return false;
+        if (!stoppedForGood) {
+            programsEnded_ = kNever;
+            return false;
+        }
     }
-    return motion_->isSettled();
+    return motion_->isSettled() && !backgroundAtWork();
+}
+
+/// What the end of the last program raised in a background task (an error that it logs, a signal) is dealt with before the
+/// run ends.
+bool Controller::backgroundAtWork() {
+    if (programsEnded_ == kNever) programsEnded_ = scheduler_.now();
+    if (powerOff_ || scheduler_.now() - programsEnded_ >= kTimeForTraps) return false;
+    return std::any_of(tasks_.begin(), tasks_.end(), [](const auto& task) {
+        return !isNormal(task) && !task->isStopped() && task->interrupts().isAtWork();
+    });
 }
 
 bool Controller::stoppedByError() const {
@@ -126,7 +142,7 @@ ExitStatus Controller::finish(RunEnd end) {
     if (const int signal = StopSignals::received(); signal != 0) {
         log_.write(EventId::RunInterrupted, nullptr, {StopSignals::name(signal), whereTasksAre("is")});
         status = ExitStatus::Interrupted;
-    } else if (end == RunEnd::Deadlock) {
+    } else if (end == RunEnd::Deadlock && programsEnded_ == kNever) {
         log_.write(EventId::NothingPending, nullptr, {whereTasksAre("waits")});
         status = options_.hasMaxTime ? ExitStatus::MaxTimeReached : ExitStatus::StoppedByError;
     } else if (end == RunEnd::MaxTime) {

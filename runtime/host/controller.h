@@ -156,6 +156,7 @@ class Controller final : public TaskHost {
     void scheduleStimulus();
     void perform(const StimulusItem& item);
     bool runOver();
+    bool backgroundAtWork();
     bool isStart(const StimulusItem& item) const;
     ExitStatus finish(RunEnd end);
     std::string whereTasksAre(const char* verb) const;
@@ -189,6 +190,7 @@ class Controller final : public TaskHost {
     bool backgroundStopped_ = false; // one with SysStop has, and there was no start since
     bool motorsOn_ = true;
     bool powerOff_ = false;
+    Time programsEnded_ = kNever; // when the last NORMAL task came to its end
     std::unique_ptr<ModuleSaver> saver_;
     std::unique_ptr<SavedState> state_;
 };

@@ -90,6 +90,8 @@ class InterruptTable {
 
     /// Something is to be delivered now.
     bool deliverable() const;
+    /// A trap routine executes, or will as soon as the task can.
+    bool isAtWork() const { return running_ || deliverable(); }
     /// Runs the traps of all queued interrupts on the current fibre; negative when a trap unwinds the task.
     Status deliver();
     /// The task has been stopped: queued interrupts are thrown away, safe ones stay.

@@ -44,6 +44,9 @@ enum class TaskKind : uint8_t { Normal, Static, SemiStatic };
 struct SourcePlace {
     std::string module, routine, file;
     uint32_t line = 0, column = 0; ///< from 1; 0 = not known
+
+    /// "Module/routine:line", as programs get it (ERRSTR_CONTEXT, ReadErrData).
+    std::string reference() const;
 };
 
 enum class TaskState : uint8_t {

@@ -19,6 +19,10 @@ constexpr std::size_t kMaxCalls = 24;
 
 } // namespace
 
+std::string SourcePlace::reference() const {
+    return fmt::format("{}/{}:{}", module, routine, line);
+}
+
 SourcePlace Task::place() const {
     for (const Frame* at = frame; at != nullptr; at = at->caller) {
         if (at->routine != &kTrapBoundary && at->routine != &kEventBoundary) return placeOf(at);
@@ -144,6 +148,7 @@ Status Task::systemHandler(int eventNumber, int number, std::string text, const 
     event.number = eventNumber;
     event.type = EventType::Error;
     event.title = eventText(static_cast<EventId>(eventNumber)).title;
+    event.arguments = {name_, where.reference(), text};
     event.text = std::move(text);
     event.time = now();
     event.task = name_;
@@ -291,6 +296,7 @@ void Task::writeHandledWarning() {
     event.type = EventType::Warning;
     event.title = eventText(EventId::HandledError).title;
     event.text = formatEventText(EventId::HandledError, {handled_.text, handled_.routine->name});
+    event.arguments = {name_, handled_.place.reference(), handled_.text, handled_.routine->name};
     event.time = handled_.time;
     event.task = name_;
     event.place = handled_.place;

@@ -46,9 +46,7 @@ bool isEventNumber(float id) {
 /// ERRSTR_TASK and ERRSTR_CONTEXT are filled in.
 std::string argumentText(const Task& owner, std::string_view text) {
     if (text == "\\task") return owner.name();
-    const SourcePlace place = owner.place();
-    return text == "\\context" ? fmt::format("{}/{}:{}", place.module, place.routine, place.line)
-                               : std::string(text);
+    return text == "\\context" ? owner.place().reference() : std::string(text);
 }
 
 /// The first argument is the title, the others are lines of the text.

@@ -1,7 +1,8 @@
 // Manual 1.11: interrupts from analog signals. Every change of the signal is a sample. A sample counts when its value
 // meets the condition and is further from the reference value than DeltaValue; it is the new reference then, whatever
 // its direction, and raises the interrupt unless \DPos or \DNeg asks for the other direction. The first reference is
-// the value at the time of the order, which by itself raises nothing.
+// the value at the time of the order. With a DeltaValue of 0 that value is a sample itself: "the first time the signal is
+// between 0.5 and 1.5" is now when it is there already. It has no direction.
 
 #include "stdlib/impl/interrupts/ordering.h"
 #include "stdlib/impl/io/signals.h"
@@ -42,6 +43,10 @@ struct Watch {
         if (condition == k::AIO_OUTSIDE) return value < order.low || value > order.high;
         return true; // AIO_ALWAYS
     }
+    /// True when the value at the time of the order raises it.
+    bool first() const {
+        return order.delta == 0 && !order.risingOnly && !order.fallingOnly && meets(reference);
+    }
     /// True when this sample raises the interrupt.
     bool sample(float value) {
         const float change = value - reference;
@@ -80,11 +85,13 @@ Status orderAnalog(TaskCore* core, const AnalogOrder& order) {
     const uint64_t listener = io.addListener(id, [&task, number, watch](SignalId, double, double now) {
         if (watch->sample(static_cast<float>(now))) task.interrupts().post(number);
     });
-    return lib::orderInterrupt(core, number, order.kind, [&io, listener] { io.removeListener(listener); },
-                               {lib::kAnalogOrder,
-                                io.config(id).name,
-                                {order.condition, order.high, order.low, order.delta,
-                                 order.risingOnly ? 1.0 : 0.0, order.fallingOnly ? 1.0 : 0.0}});
+    status = lib::orderInterrupt(core, number, order.kind, [&io, listener] { io.removeListener(listener); },
+                                 {lib::kAnalogOrder,
+                                  io.config(id).name,
+                                  {order.condition, order.high, order.low, order.delta,
+                                   order.risingOnly ? 1.0 : 0.0, order.fallingOnly ? 1.0 : 0.0}});
+    if (status == kOk && watch->first()) task.interrupts().post(number);
+    return status;
 }
 
 } // namespace

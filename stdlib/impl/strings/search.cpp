@@ -6,6 +6,8 @@
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,9 +31,9 @@ bool readPosition(float value, size_t low, size_t high, size_t& out) {
 }
 
 Status badPosition(TaskCore* task, float position, size_t length) {
-    return lib::fail(task, err::ERR_ARGVALERR,
-                     "position " + std::to_string(position) + " is outside the string, which has " +
-                         std::to_string(length) + " characters");
+    return lib::fail(
+        task, err::ERR_ARGVALERR,
+        fmt::format("position {} is outside the string, which has {} characters", position, length));
 }
 
 /// Rank of a character under an ordering: its first place in it; characters not listed come after, by code point.

@@ -51,7 +51,7 @@ class Binder {
             if (number == routine_.paramCount)
                 return args[i].parameter != nullptr
                            ? fmt::format("it has no optional parameter '{}'", args[i].parameter->view())
-                           : fmt::format("it takes fewer arguments than the {} given", i + 1);
+                           : fmt::format("it takes fewer arguments than the {} given", count);
             if (taken_[number])
                 return fmt::format("parameter '{}' is given twice", routine_.params[number].name);
             taken_[number] = true;
