@@ -262,7 +262,7 @@ void RoutineEmitter::emitLeave() {
     b_.SetInsertPoint(unwind);
     b_.CreateStore(status, unwinding_);
     if (!frameInPrologue_) fillFrame();
-    markUndo();
+    markFrame(rt::kFrameInUndo);
     b_.CreateBr(blockOf(routine_.undoHandler));
     b_.SetInsertPoint(pass);
     returnStatus(b_.CreateSelect(b_.CreateICmpEQ(status, number(rt::kJumpPast)), number(rt::kJump), status));

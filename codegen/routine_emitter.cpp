@@ -1,5 +1,6 @@
 #include "codegen/routine_emitter.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "ir/core/op_info.h"
@@ -62,7 +63,46 @@ void RoutineEmitter::analyse() {
         for (ir::BlockId succ : ir::successors(routine_, b))
             work.push_back(succ);
     }
+    findRetried();
     findFrameBlock();
+}
+
+bool RoutineEmitter::isEmpty(ir::BlockId id) const {
+    const ir::Block& block = routine_.blocks[id];
+    return block.insts.size() == 1 && routine_.insts[block.insts.back()].op == ir::Op::Br;
+}
+
+/// Where statements begin that RETRY may execute again.
+void RoutineEmitter::findRetried() {
+    const auto isRetry = [&](ir::BlockId b) {
+        return routine_.insts[routine_.blocks[b].insts.back()].op == ir::Op::Retry;
+    };
+    if (std::none_of(cfg_.order.begin(), cfg_.order.end(), isRetry)) return;
+    // A handler with a list takes errors of trap routines, too, which run at safepoints anywhere.
+    const bool anywhere = !routine_.errorFilter.empty() || !routine_.errorFilterGlobals.empty();
+    std::vector<bool> fails(routine_.statements.size(), anywhere);
+    for (ir::BlockId b : cfg_.order)
+        for (ir::ValueId id : routine_.blocks[b].insts)
+            if (const ir::Inst& inst = routine_.insts[id]; inst.stmt < fails.size())
+                fails[inst.stmt] = fails[inst.stmt] || ir::mayRaise(module_, inst);
+    beginsRetried_.assign(routine_.blocks.size(), false);
+    for (size_t s = 0; s < fails.size(); ++s) {
+        ir::BlockId start = routine_.statements[s].start;
+        if (!fails[s] || !routine_.statements[s].handled || start == ir::kNone) continue;
+        beginsRetried_[start] = true;
+        // A loop goes back to the block behind.
+        if (isEmpty(start)) beginsRetried_[routine_.insts[routine_.blocks[start].insts[0]].target[0]] = true;
+    }
+}
+
+/// A statement that is entered other than by RETRY has not failed yet: its RETRYs are counted anew.
+void RoutineEmitter::enterStatement(const ir::Inst& jump) {
+    if (beginsRetried_.empty() || (beginsRetried_[current_] && isEmpty(current_))) return;
+    const auto begins = [&](ir::BlockId target) { return target != ir::kNone && beginsRetried_[target]; };
+    if (begins(jump.target[0]) || begins(jump.target[1]) ||
+        std::any_of(jump.cases.begin(), jump.cases.end(),
+                    [&](const ir::SwitchCase& entry) { return begins(entry.target); }))
+        markFrame(0);
 }
 
 /// The frame record is filled where all calls are still ahead, but no earlier: a routine that returns before its first
@@ -189,8 +229,9 @@ void RoutineEmitter::fillFrame() {
     if (routine_.errorHandler != ir::kNone || unwinding_ || routine_.stepping) fill(3, b_.getInt32(0));
 }
 
-void RoutineEmitter::markUndo() {
-    b_.CreateStore(b_.getInt32(static_cast<uint32_t>(rt::kFrameInUndo)),
+/// What the runtime counts RETRYs by.
+void RoutineEmitter::markFrame(int32_t content) {
+    b_.CreateStore(b_.getInt32(static_cast<uint32_t>(content)),
                    b_.CreateStructGEP(m_.runtime().frame, frame_, 3))
         ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().frame);
 }
@@ -231,6 +272,7 @@ void RoutineEmitter::instruction(ir::ValueId id) {
 }
 
 void RoutineEmitter::terminator(const ir::Inst& inst) {
+    enterStatement(inst);
     switch (inst.op) {
     case ir::Op::Br: b_.CreateBr(blockOf(inst.target[0])); return;
     case ir::Op::CondBr:

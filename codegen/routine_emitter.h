@@ -30,7 +30,10 @@ class RoutineEmitter {
     void enterFrame();
     void fillFrame();
     void fillAddresses();
-    void markUndo();
+    void findRetried();
+    bool isEmpty(ir::BlockId id) const;
+    void enterStatement(const ir::Inst& jump);
+    void markFrame(int32_t content);
     void returnFromUndo(llvm::Value* status);
     void block(ir::BlockId id);
     void instruction(ir::ValueId id);
@@ -112,6 +115,7 @@ class RoutineEmitter {
     llvm::IRBuilder<> b_;
     ir::Cfg cfg_;
     std::vector<bool> inUndo_;
+    std::vector<bool> beginsRetried_; ///< by block; empty: the routine has no RETRY
     std::vector<BasicBlock*> blocks_;
     std::vector<Value*> values_;
     std::vector<llvm::AllocaInst*> spills_; ///< of values that handlers may need in other blocks
