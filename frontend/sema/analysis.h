@@ -249,6 +249,7 @@ class Analyzer {
     Typed binaryChain(const syntax::BinaryExpr& e, const DataType* want);
     Typed combine(const syntax::BinaryExpr& e, Typed left, Typed right);
     Typed arithmetic(const syntax::BinaryExpr& e, Typed left, Typed right);
+    void checkIntegerOperands(const syntax::BinaryExpr& e);
     Typed vectorArithmetic(const syntax::BinaryExpr& e, Typed left, Typed right);
     Typed comparison(const syntax::BinaryExpr& e, Typed left, Typed right);
     Typed equality(const syntax::BinaryExpr& e, Typed left, Typed right);
@@ -294,6 +295,8 @@ class Analyzer {
     Typed functionCall(const syntax::CallExpr& e);
     void reportNotAFunction(const syntax::CallExpr& e, const Symbol& symbol);
     /// `isLast`: nothing follows that would have to stand before it.
+    bool reportAssignmentBelow(const syntax::Argument& arg);
+    bool namesOptional(const RoutineSymbol& routine, const syntax::Argument& arg);
     size_t matchUnmarked(const RoutineSymbol& routine, const syntax::Argument& arg, bool isLast);
     size_t namedParameter(const RoutineSymbol& routine, NameId name);
     size_t namedOptional(const RoutineSymbol& routine, NameId name);
@@ -324,6 +327,7 @@ class Analyzer {
     bool reportEqualAsAssign(const BoundArg& bound);
     void judgeValue(const RoutineSymbol& routine, const BoundArg& bound, Typed t);
     void checkAccess(const RoutineSymbol& routine, const BoundArg& bound, const Place& place);
+    bool isDotForComma(const syntax::Expr& e);
     void reportAccess(const RoutineSymbol& routine, const BoundArg& bound, const Symbol* symbol,
                       std::string found);
     static const char* missingClass(ParamClass accepts, const DataType& found);
@@ -361,7 +365,10 @@ class Analyzer {
     void reportNotCallable(const Symbol& symbol, syntax::TokenIndex name);
     void returnStmt(const syntax::ReturnStmt& s);
     void raiseStmt(const syntax::RaiseStmt& s);
+    bool reportConnectSwapped(const syntax::ConnectStmt& s);
     void connectStmt(const syntax::ConnectStmt& s);
+    bool reportLabelWithoutColon(const syntax::CallStmt& s);
+    bool isLineOfText(const syntax::CallStmt& s);
     void connectTarget(const syntax::Expr& target);
     void labelStmt(const syntax::LabelStmt& s);
     void placeholder(const syntax::Node& node);
@@ -432,6 +439,7 @@ class Analyzer {
     unsigned loopDepth_ = 0;
     bool breakSeen_ = false;
     bool returnSeen_ = false;
+    bool nonValueReported_ = false;         ///< of the operand that was looked at last
     bool broken_ = false;                   ///< an instruction could not be read
     bool presenceOnly_ = false;             ///< a name is looked at for its presence, not for its value
     std::vector<OptionalUse> optionalUses_; ///< by index of the parameter

@@ -103,6 +103,14 @@ const DataSymbol* Analyzer::leftOut(const BoundCall& call) {
     return params[out];
 }
 
+// "MoveL p10.v100, fine, tool0;": no component is named so, but data is.
+bool Analyzer::isDotForComma(const Expr& e) {
+    if (e.kind != NodeKind::Component) return false;
+    const auto& part = as<ComponentExpr>(e);
+    return isName(part.name) && info(e).type.type->kind == TypeKind::Error &&
+           info(*part.base).type.type->kind == TypeKind::Record && asData(lookup(idOf(part.name)));
+}
+
 // Arguments of the wrong type, and those that are missing. Two that have changed places, or one that is missing in the
 // middle, are one mistake.
 void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t firstMismatch, bool missing) {
@@ -110,11 +118,16 @@ void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t fi
                                       mismatches_.end());
     mismatches_.resize(firstMismatch);
     const RoutineSymbol& routine = *call.routine;
+    const bool dotForComma = std::any_of(call.args.begin(), call.args.end(), [&](const BoundArg& a) {
+        return a.argument && a.value && isDotForComma(*a.value);
+    });
+    if (dotForComma) return; // the arguments behind it have moved
     if (std::exchange(shapeReported_, false)) missing = false;
     if (missing && !wrong.empty()) {
         if (const DataSymbol* lost = leftOut(call)) {
-            noteDeclared(report(Code::MissingArgument, range(name), {text(name), "'" + lost->name + "'"}),
-                         routine);
+            noteDeclared(
+                report(Code::MissingArgument, range(name), {text(name), "argument '" + lost->name + "'"}),
+                routine);
             return;
         }
     }

@@ -138,11 +138,25 @@ bool Analyzer::matchArguments(BoundCall& call, TokenIndex name, std::span<Argume
             index = matchUnmarked(routine, *arg, args.back() == arg);
         } else if (arg->value && arg->value->kind == NodeKind::ErrorExpr) {
             continue;
+        } else if (namesOptional(routine, *arg)) {
+            const SourceRange at = range(*arg);
+            const TokenIndex option = as<NameExpr>(*arg->value).name;
+            report(Code::OptionalWithoutBackslash, at, {text(name), text(option)})
+                .fix({at.begin, at.begin}, "\\",
+                     routine.params[namedOptional(routine, idOf(option))]->isSwitch);
+            complete = false;
+            continue;
+        } else if (reportAssignmentBelow(*arg)) {
+            complete = false;
+            continue;
         } else if (!std::exchange(tooMany, true)) {
             const auto given = std::count_if(
                 args.begin(), args.end(), [](const Argument* a) { return a->argKind == ArgKind::Required; });
             report(Code::TooManyArguments, range(*arg),
-                   {text(name), counted(requiredSlots(routine), "required argument"), std::to_string(given)});
+                   {text(name),
+                    routine.params.empty() ? "no arguments"
+                                           : counted(requiredSlots(routine), "required argument"),
+                    std::to_string(given)});
         }
         if (index != kNoParam && call.args[index].argument) {
             report(Code::DuplicateArgument, range(*arg), {routine.params[index]->name});
@@ -172,6 +186,19 @@ bool Analyzer::matchArguments(BoundCall& call, TokenIndex name, std::span<Argume
     return complete && !tooMany;
 }
 
+// "routine a, <new line> x := 1;": an assignment below a comma that should have been a semicolon.
+bool Analyzer::reportAssignmentBelow(const Argument& arg) {
+    if (arg.name == kNoToken || arg.name == 0 || !asData(lookup(idOf(arg.name)))) return false;
+    const SourceRange comma = range(arg.name - 1);
+    const std::string_view between =
+        context_.tree->source->text().substr(comma.end, range(arg.name).begin - comma.end);
+    if (context_.tree->tokens[arg.name - 1].kind != TokenKind::Comma ||
+        between.find('\n') == std::string_view::npos)
+        return false;
+    report(Code::UnexpectedToken, comma, {"','", "';'"}).fix(comma, ";");
+    return true;
+}
+
 // The parameter of a required argument; its name, if written, must be that of the parameter in turn.
 size_t Analyzer::matchRequired(BoundCall& call, const Argument& arg, size_t slot, bool isLast) {
     const RoutineSymbol& routine = *call.routine;
@@ -182,6 +209,12 @@ size_t Analyzer::matchRequired(BoundCall& call, const Argument& arg, size_t slot
     for (size_t i = slot; i < end; ++i)
         if (routine.params[i]->nameId == name) return i;
     if (const size_t i = matchUnmarked(routine, arg, isLast); i != kNoParam) return i;
+    const Type* type = routine.params[slot]->type.type;
+    if (type->kind == TypeKind::Bool && asData(lookup(name))) { // "WaitUntil a := 1;"
+        report(Code::AssignmentInCondition, range(arg.name + 1)).fix(range(arg.name + 1), "=");
+        return kNoParam;
+    }
+    if (reportAssignmentBelow(arg)) return kNoParam;
     report(Code::ArgumentName, range(arg.name), {routine.name, text(arg.name), routine.params[slot]->name});
     return slot;
 }
@@ -202,6 +235,13 @@ size_t Analyzer::namedParameter(const RoutineSymbol& routine, NameId name) {
     }
     const DataSymbol* param = wideNames_.find(name);
     return param ? param->index : kNoParam;
+}
+
+// An undeclared name that is that of an optional parameter: "routine a, Switch;".
+bool Analyzer::namesOptional(const RoutineSymbol& routine, const Argument& arg) {
+    if (arg.name != kNoToken || !arg.value || arg.value->kind != NodeKind::Name) return false;
+    const TokenIndex name = as<NameExpr>(*arg.value).name;
+    return isName(name) && !lookup(idOf(name)) && namedOptional(routine, idOf(name)) != kNoParam;
 }
 
 // The optional parameter of a name, or kNoParam.
@@ -282,6 +322,7 @@ size_t Analyzer::chooseAlternative(BoundCall& call, const Argument& arg, size_t 
 void Analyzer::reportMissing(const BoundCall& call, TokenIndex name) {
     const RoutineSymbol& routine = *call.routine;
     std::string missing;
+    size_t count = 0;
     for (size_t i = nextRequired(routine, 0); i < routine.params.size();) {
         const size_t end = alternativesEnd(routine, i);
         bool given = false;
@@ -290,11 +331,12 @@ void Analyzer::reportMissing(const BoundCall& call, TokenIndex name) {
             given = given || call.args[k].argument;
             names += (k == i ? "'" : " or '") + routine.params[k]->name + "'";
         }
-        if (!given) missing += (missing.empty() ? "" : ", ") + names;
+        if (!given) missing += (count++ == 0 ? "" : ", ") + names;
         i = nextRequired(routine, end);
     }
     if (missing.empty()) return;
-    noteDeclared(report(Code::MissingArgument, range(name), {text(name), missing}), routine);
+    const std::string what = (count == 1 ? "argument " : "arguments ") + missing;
+    noteDeclared(report(Code::MissingArgument, range(name), {text(name), what}), routine);
 }
 
 void Analyzer::checkExclusive(const BoundCall& call) {

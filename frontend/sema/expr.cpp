@@ -94,6 +94,7 @@ Typed Analyzer::placeValue(const Expr& e) {
     default: return {&out};
     }
     report(Code::NonValueInExpression, range(e), {text(e), type.name});
+    nonValueReported_ = true;
     return errorExpr(e);
 }
 

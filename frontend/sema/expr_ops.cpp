@@ -2,6 +2,8 @@
 
 #include "frontend/sema/analysis.h"
 
+#include <cmath>
+
 namespace rapid::sema {
 
 using namespace syntax;
@@ -57,7 +59,7 @@ Typed Analyzer::binaryChain(const BinaryExpr& top, const DataType* want) {
             const Typed right = expr(*e.right);
             left = combine(e, expr(*leaf, &right.info->type), right);
         } else {
-            if (first) left = expr(*leaf, numeric);
+            if (first) nonValueReported_ = false, left = expr(*leaf, numeric);
             // One aggregate without a type is enough.
             if (left.isError() && withoutParens(*e.left).kind == NodeKind::Aggregate &&
                 withoutParens(*e.right).kind == NodeKind::Aggregate) {
@@ -67,7 +69,9 @@ Typed Analyzer::binaryChain(const BinaryExpr& top, const DataType* want) {
                 continue;
             }
             // The partner of a comparison gives an aggregate its type.
-            const Typed right = expr(*e.right, equal ? &left.info->type : numeric);
+            const bool said = first && std::exchange(nonValueReported_, false) && isPlaceExpr(*e.right);
+            if (said) visitLoose(*e.right); // "clock1 = clock2" is one mistake
+            const Typed right = said ? left : expr(*e.right, equal ? &left.info->type : numeric);
             left = combine(e, left, right);
         }
         first = false;
@@ -104,9 +108,25 @@ Typed Analyzer::combine(const BinaryExpr& e, Typed left, Typed right) {
     return errorExpr(e);
 }
 
+namespace {
+
+/// What helps where one side is a text.
+std::string textRemedy(BinaryOp op, Typed left, Typed right) {
+    const bool texts[] = {left.isScalar(TypeKind::String), right.isScalar(TypeKind::String)};
+    if (texts[0] && texts[1])
+        return op >= BinaryOp::Lt && op <= BinaryOp::Ge ? ": compare texts by StrOrder" : "";
+    if (op != BinaryOp::Add || (!texts[0] && !texts[1])) return {};
+    const Typed other = texts[0] ? right : left;
+    if (other.isScalar(TypeKind::Num)) return ": make a text of the number with NumToStr";
+    if (other.isScalar(TypeKind::Dnum)) return ": make a text of the number with DnumToStr";
+    return ": make a text of the value with ValToStr";
+}
+
+} // namespace
+
 Typed Analyzer::operatorError(const BinaryExpr& e, Typed left, Typed right) {
     report(Code::OperatorTypes, range(e.opToken),
-           {text(e.opToken), typeName(*left.info), typeName(*right.info)});
+           {text(e.opToken), typeName(*left.info), typeName(*right.info), textRemedy(e.op, left, right)});
     return errorExpr(e);
 }
 
@@ -138,7 +158,19 @@ Typed Analyzer::arithmetic(const BinaryExpr& e, Typed left, Typed right) {
     }
     const Typed t = result(e, left.base(), flex);
     foldBinary(e);
+    if (e.op == BinaryOp::IntDiv || e.op == BinaryOp::Mod) checkIntegerOperands(e);
     return t;
+}
+
+// DIV and MOD of data and a fraction (manual 1.3.1); two constants are judged when they are folded.
+void Analyzer::checkIntegerOperands(const BinaryExpr& e) {
+    const ConstValue *a = info(*e.left).constant, *b = info(*e.right).constant;
+    if ((a != nullptr) == (b != nullptr)) return;
+    const Expr& known = a ? *e.left : *e.right;
+    const ConstValue& value = a ? *a : *b;
+    if (value.kind == ConstValue::Kind::Number && std::isfinite(value.number) &&
+        value.number != std::floor(value.number))
+        report(Code::IntegerOperands, range(known), {text(e.opToken)});
 }
 
 // Strings, vectors and rotations.

@@ -161,11 +161,17 @@ bool Analyzer::reportNonConstant(const Expr& e) {
     case NodeKind::Index:
     case NodeKind::Component: {
         const Expr* root = &e;
-        while (root->kind != NodeKind::Name)
+        const Expr* open = nullptr; // an index whose value is not known
+        while (root->kind != NodeKind::Name) {
+            if (root->kind == NodeKind::Index)
+                for (const Expr* index : as<IndexExpr>(*root).indices)
+                    if (!info(*index).constant) open = index;
             root = root->kind == NodeKind::Index ? as<IndexExpr>(*root).base : as<ComponentExpr>(*root).base;
+        }
         const Symbol* symbol = info(*root).symbol;
         const DataSymbol* data = asData(const_cast<Symbol*>(symbol));
-        if (!data || (data->dataKind == DataKind::Const && e.kind != NodeKind::Index)) return false;
+        if (!data) return false;
+        if (data->dataKind == DataKind::Const) return open && reportNonConstant(*open);
         report(Code::NotConstant, range(*root), {text(*root), describe(*data)});
         return true;
     }

@@ -181,7 +181,7 @@ void Analyzer::resolveParameter(RoutineSymbol& routine, const ParamDecl& decl) {
         if (decl.rank == 255)
             placeholder(decl);
         else
-            report(Code::TooManyDimensions, range(decl), {std::to_string(decl.rank)});
+            report(Code::TooManyDimensions, range(decl.name + 8), {std::to_string(decl.rank)}); // "{*,*,*,*"
         symbol.type.type = program_.errorType;
     }
     if (decl.mode == ParamMode::In && isHandle(*symbol.type.type) && isReal(*symbol.type.type))

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace rapid::sema {
 
 using namespace syntax;
@@ -281,6 +283,34 @@ bool Analyzer::isCallWord(const CallStmt& s) {
     return routine && routine->routineKind == RoutineKind::Proc;
 }
 
+// "again;" in a routine with "GOTO again;"
+bool Analyzer::reportLabelWithoutColon(const CallStmt& s) {
+    const std::span<const Token> tokens = context_.tree->tokens;
+    if (!s.args.empty() || !context_.routine->routineDecl || tokens[s.last].kind != TokenKind::Semicolon)
+        return false;
+    const NameId name = idOf(s.name);
+    const RoutineDecl& routine = *context_.routine->routineDecl;
+    bool wanted = false;
+    for (TokenIndex i = routine.first; i < routine.last && !wanted; ++i)
+        wanted = tokens[i].kind == TokenKind::KwGoto && isName(i + 1) && idOf(i + 1) == name;
+    if (!wanted || labelNames_.find(name)) return false;
+    report(Code::UnexpectedToken, range(s.last), {"';'", "':' behind a label"}).fix(range(s.last), ":");
+    LabelSymbol& symbol = fill(facts().labels.emplace_back(), SymbolKind::Label, s, s.name, false);
+    symbol.routine = context_.routine;
+    labels_.push_back({name, block_, part_, &s, &symbol});
+    labelNames_.set(name, &symbol);
+    return true;
+}
+
+// Two words in a line without a semicolon, neither of which is known: said by the parser.
+bool Analyzer::isLineOfText(const CallStmt& s) {
+    if (context_.tree->tokens[s.last].kind == TokenKind::Semicolon || s.args.empty()) return false;
+    return std::all_of(s.args.begin(), s.args.end(), [&](const Argument* arg) {
+        return arg->value && arg->value->kind == NodeKind::Name && isName(as<NameExpr>(*arg->value).name) &&
+               !lookup(idOf(as<NameExpr>(*arg->value).name));
+    });
+}
+
 bool Analyzer::callStmt(const CallStmt& s) {
     if (s.lateName) {
         lateCall(s);
@@ -299,6 +329,8 @@ bool Analyzer::callStmt(const CallStmt& s) {
         else if (isCallWord(s)) {
             report(Code::ForeignSpelling, range(s.name), {text(s.name), "the name of the procedure"})
                 .fix({range(s.name).begin, range(s.args[0]->first).begin}, "");
+            return true;
+        } else if (isLineOfText(s) || reportLabelWithoutColon(s)) {
             return true;
         } else if (reportUnknown(Code::UnknownProcedure, s.name, name, Wanted::Procedure) == Meant::Keyword) {
             broken_ = true; // and its arguments are none

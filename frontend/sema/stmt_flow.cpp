@@ -20,6 +20,7 @@ void Analyzer::returnStmt(const ReturnStmt& s) {
     if (routine.routineKind != RoutineKind::Func) {
         if (!s.value) return;
         visitLoose(*s.value);
+        if (s.value->kind == NodeKind::ErrorExpr) return;
         report(Code::ReturnValueUnexpected, range(*s.value),
                {routine.name, routine.routineKind == RoutineKind::Proc ? "procedure" : "trap routine"});
         return;
@@ -72,7 +73,20 @@ void Analyzer::checkListedError(const Expr& e) {
     if (!mayBeErrorNumber(e)) report(Code::ListedErrorNumber, range(e), {text(e)});
 }
 
+// "CONNECT trap WITH interrupt;"
+bool Analyzer::reportConnectSwapped(const ConnectStmt& s) {
+    if (!s.target || s.target->kind != NodeKind::Name || !isName(s.trap)) return false;
+    const TokenIndex first = as<NameExpr>(*s.target).name;
+    const RoutineSymbol* trap = isName(first) ? asRoutine(lookup(idOf(first))) : nullptr;
+    if (!trap || trap->routineKind != RoutineKind::Trap || !asData(lookup(idOf(s.trap)))) return false;
+    report(Code::ArgumentsSwapped, range(first), {"interrupt", "trap routine", "CONNECT"})
+        .fixes.push_back(
+            {"let them change places", {{range(first), text(s.trap)}, {range(s.trap), text(first)}}});
+    return true;
+}
+
 void Analyzer::connectStmt(const ConnectStmt& s) {
+    if (reportConnectSwapped(s)) return;
     if (s.target) connectTarget(*s.target);
     if (!isName(s.trap)) return;
     const NameId name = idOf(s.trap);

@@ -21,6 +21,25 @@ constexpr Word kInstructionWords[] = {{"goto", "GOTO"},   {"return", "RETURN"}, 
                                       {"endif", "ENDIF"}, {"endwhile", "ENDWHILE"}, {"endfor", "ENDFOR"}};
 constexpr Word kValueWords[] = {{"true", "TRUE"}, {"false", "FALSE"}};
 
+/// What programmers of other languages write for a predefined name.
+struct ForeignName {
+    std::string_view folded, meant;
+};
+constexpr ForeignName kForeignNames[] = {
+    {"int", "num"},           {"integer", "num"},       {"float", "num"},         {"real", "num"},
+    {"double", "dnum"},       {"number", "num"},        {"boolean", "bool"},      {"char", "string"},
+    {"str", "string"},        {"text", "string"},       {"wait", "WaitTime"},     {"sleep", "WaitTime"},
+    {"delay", "WaitTime"},    {"pause", "WaitTime"},    {"print", "TPWrite"},     {"println", "TPWrite"},
+    {"echo", "TPWrite"},      {"msgbox", "UIMsgBox"},   {"strtonum", "StrToVal"}, {"stringtonum", "StrToVal"},
+    {"valtonum", "StrToVal"}, {"len", "StrLen"},        {"length", "StrLen"},     {"substr", "StrPart"},
+    {"strsub", "StrPart"},    {"tostring", "ValToStr"}, {"sqr", "Pow"},           {"power", "Pow"},
+    {"movep", "MoveJ"},       {"linear", "MoveL"}};
+
+/// A name of one or two letters is near to everything of that length.
+bool near(std::string_view written, unsigned distance) {
+    return written.size() > 2 && distance < written.size();
+}
+
 /// "'a', 'b' or 'c'"; of many the first few.
 std::string listed(const std::vector<std::string>& names) {
     constexpr size_t kShown = 3;
@@ -103,6 +122,11 @@ Analyzer::Suggestion Analyzer::suggestion(NameId name, Wanted wanted) {
     if (comparisonsLeft_ < names) return {};
     comparisonsLeft_ -= names;
     const std::string_view written = interner_.folded(name);
+    for (const ForeignName& foreign : kForeignNames) {
+        if (foreign.folded != written) continue;
+        const Symbol* meant = at(predefined_, interner_.intern(foreign.meant));
+        if (meant && isWanted(*meant, wanted)) return {meant->name, false};
+    }
     unsigned limit = suggestionLimit(written.size());
     // The nearest scope first: on equal distance it wins, and within a scope the first in the alphabet.
     Suggestion best;
@@ -147,7 +171,7 @@ Analyzer::Suggestion Analyzer::suggestion(NameId name, Wanted wanted) {
         for (const Symbol* symbol : predefined_)
             considerSymbol(symbol);
     }
-    return limit < written.size() ? best : Suggestion();
+    return near(written, limit) ? best : Suggestion();
 }
 
 const Type::Component* Analyzer::nearComponent(const Type& record, std::string_view name) {
@@ -162,7 +186,7 @@ const Type::Component* Analyzer::nearComponent(const Type& record, std::string_v
         best = &c;
         limit = distance;
     }
-    return best && limit < name.size() ? best : nullptr;
+    return best && near(name, limit) ? best : nullptr;
 }
 
 const DataSymbol* Analyzer::nearOptional(const RoutineSymbol& routine, NameId name) {
@@ -178,7 +202,7 @@ const DataSymbol* Analyzer::nearOptional(const RoutineSymbol& routine, NameId na
         best = param;
         limit = distance;
     }
-    return best && limit < written.size() ? best : nullptr;
+    return best && near(written, limit) ? best : nullptr;
 }
 
 } // namespace rapid::sema

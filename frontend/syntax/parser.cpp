@@ -124,11 +124,21 @@ bool Parser::endsBrokenString(const LexError& error, const LexError* before) con
     return next == std::string_view::npos || kAfterString.find(text[next]) != std::string_view::npos;
 }
 
+/// A backslash behind the end of the line's last whole string: what is wrong there is the missing '"'.
+bool Parser::isInBrokenString(const LexResult& lexed, const LexError& escape) {
+    return std::any_of(lexed.errors.begin(), lexed.errors.end(), [&](const LexError& e) {
+        return e.code == Code::UnterminatedString && e.range.begin <= escape.range.begin &&
+               escape.range.end <= e.range.end;
+    });
+}
+
 void Parser::reportLexErrors(const LexResult& lexed) {
     const LexError* before = nullptr;
     for (const LexError& error : lexed.errors) {
         const LexError* last = std::exchange(before, &error);
         if (error.code == Code::BadNumber) continue; // said where the number is read
+        if (error.code == Code::ForeignSpelling && error.args[0] == "==") continue; // so is what it means
+        if (error.code == Code::BadStringEscape && isInBrokenString(lexed, error)) continue;
         if (endsBrokenString(error, last)) {
             before = nullptr;
             continue;

@@ -2,6 +2,10 @@
 
 #include "frontend/syntax/parser_impl.h"
 
+#include <fmt/format.h>
+
+#include <utility>
+
 namespace rapid::syntax {
 
 using diag::Code;
@@ -20,6 +24,7 @@ Stmt* Parser::parseIf() {
     const bool isBlock = hidden || kind() == K::KwThen || kind() == K::Colon || kind() == K::LeftBrace ||
                          (kind() == K::KwDo && startsLine(pos_ + 1));
     if (isBlock || findOnLine(pos_, K::KwThen, found)) return parseIfBlocks(opening, condition, hidden);
+    if (isBlockByMargin(opening)) return parseIfBlocks(opening, condition, true);
 
     auto* node = make<CompactIfStmt>(NodeKind::CompactIf);
     node->first = opening;
@@ -29,10 +34,11 @@ Stmt* Parser::parseIf() {
         compactIf_ = opening;
         compactIfEnd_ = startsLine(pos_) ? pos_ - 1 : kNoToken;
         const K k = kind();
-        const bool canStart =
-            k == K::PlaceVar || k == K::PlaceSmt || !kListStops.has(k) || k == K::Identifier;
+        const bool canStart = k == K::PlaceVar || k == K::PlaceSmt || k == K::Identifier ||
+                              (!kListStops.has(k) && k != K::Semicolon);
         if (canStart && (!startsExpr(k) || isName(k) || k == K::PlaceVar)) {
             node->body = parseStmt();
+            if (kind() == K::KwElse) parseElseOfCompact(opening);
             return finish(node);
         }
         if (kind() != K::Error)
@@ -44,7 +50,48 @@ Stmt* Parser::parseIf() {
     return finish(node);
 }
 
-/// `headRead`: THEN has been lost in a comment.
+/// THEN is missing where the line ends with the condition (and perhaps ';'), and what follows further to the right is
+/// closed by an ENDIF, ELSE or ELSEIF below the IF.
+bool Parser::isBlockByMargin(TokenIndex opening) {
+    if (panic_) return false;
+    const TokenIndex first = kind() == K::Semicolon ? pos_ + 1 : pos_;
+    if (!startsLine(first) || startsLine(pos_) != (first == pos_) || !startsLine(opening)) return false;
+    countEndifs();
+    if (first == pos_ && missingEndifs_ >= 0) return false; // they are all of other blocks
+    const uint32_t margin = columnOf(opening);
+    constexpr TokenIndex kSearch = 2000;
+    for (TokenIndex i = first; i < first + kSearch && i < last_; ++i) {
+        if (!startsLine(i) || columnOf(i) > margin) continue;
+        constexpr TokenSet kOfIf = {K::KwEndif, K::KwElse, K::KwElseif};
+        if (i == first || columnOf(i) != margin || !kOfIf.has(kindAt(i))) return false;
+        ++missingEndifs_;
+        const SourceRange place = first == pos_ ? endOf(pos_ - 1) : tree_.range(pos_);
+        diag::Diagnostic* diagnostic = reportAt(Code::MissingBlockWord, place, {describe(pos_), "THEN"});
+        fix(diagnostic, place, " THEN");
+        note(diagnostic, i, fmt::format("this {} belongs to a block, which begins with THEN", describe(i)));
+        pos_ = first;
+        return true;
+    }
+    return false;
+}
+
+/// `IF a b := 1; ELSE b := 2;`: the ELSE stands in the line of an IF without THEN, or below it, and in no other IF.
+void Parser::parseElseOfCompact(TokenIndex opening) {
+    const bool below = startsLine(pos_);
+    if (blockOpening_ != kNoToken && kindAt(blockOpening_) == K::KwIf) return; // it may be of that one
+    if (below && (!startsLine(opening) || columnOf(pos_) != columnOf(opening))) return;
+    note(report(Code::StrayKeyword, pos_, {describe(pos_), "IF ... THEN"}), opening,
+         "this IF has no THEN, so it ends with one instruction");
+    if (below) {
+        parseOrphan();
+        return;
+    }
+    take();
+    if (!kListStops.has(kind()) || kind() == K::Identifier) parseStmt();
+    if (kind() == K::KwEndif && !startsLine(pos_)) take();
+}
+
+/// `headRead`: THEN has been lost in a comment, or its absence reported.
 Stmt* Parser::parseIfBlocks(TokenIndex opening, Expr* condition, bool headRead) {
     const Restore restore(blockOpening_);
     blockOpening_ = opening;
@@ -98,19 +145,23 @@ Stmt* Parser::parseIfBlocks(TokenIndex opening, Expr* condition, bool headRead) 
     return finish(node);
 }
 
+/// How many ENDIF the routine lacks; below 0: it has too many.
+void Parser::countEndifs() {
+    if (std::exchange(endifsCounted_, true)) return;
+    constexpr TokenSet kStop = {K::KwEndproc, K::KwEndfunc,   K::KwEndtrap, K::KwProc,   K::KwFunc,
+                                K::KwTrap,    K::KwEndmodule, K::KwModule,  K::EndOfFile};
+    missingEndifs_ = 0;
+    for (TokenIndex i = routineStart_; !kStop.has(kindAt(i)); ++i) {
+        TokenIndex then = 0;
+        if (kindAt(i) == K::KwIf && findOnLine(i + 1, K::KwThen, then)) ++missingEndifs_;
+        if (kindAt(i) == K::KwEndif) --missingEndifs_;
+    }
+}
+
 /// "ELSE IF" in one line, in a routine that has fewer ENDIF than this takes: one word is meant.
 bool Parser::isSplitElseif() {
     if (peek() != K::KwIf || startsLine(pos_ + 1)) return false;
-    if (missingEndifs_ < 0) {
-        constexpr TokenSet kStop = {K::KwEndproc, K::KwEndfunc,   K::KwEndtrap, K::KwProc,   K::KwFunc,
-                                    K::KwTrap,    K::KwEndmodule, K::KwModule,  K::EndOfFile};
-        missingEndifs_ = 0;
-        for (TokenIndex i = routineStart_; !kStop.has(kindAt(i)); ++i) {
-            TokenIndex then = 0;
-            if (kindAt(i) == K::KwIf && findOnLine(i + 1, K::KwThen, then)) ++missingEndifs_;
-            if (kindAt(i) == K::KwEndif) --missingEndifs_;
-        }
-    }
+    countEndifs();
     if (missingEndifs_ <= 0) return false;
     --missingEndifs_;
     return true;
@@ -128,6 +179,12 @@ Stmt* Parser::parseFor() {
         node->variable = missingName();
         whole = false;
     } else {
+        if (isName(kind()) && isName(peek()) && !startsLine(pos_ + 1) && peek(2) == K::KwFrom) {
+            fix(report(Code::UnexpectedToken, pos_,
+                       {describe(pos_), "the name of the loop variable, which FOR declares by itself"}),
+                {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");
+            take();
+        }
         node->variable = expectName();
         checkNameLength(node->variable);
     }
@@ -211,8 +268,11 @@ Stmt* Parser::parseTest() {
             continue;
         }
         take();
-        if (!std::exchange(colonGiven_, false) && !accept(K::Colon))
-            fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "':'"}), endOf(pos_ - 1), ":");
+        if (!std::exchange(colonGiven_, false) && !accept(K::Colon)) {
+            const SourceRange place = startsLine(pos_) ? endOf(pos_ - 1) : tree_.range(pos_);
+            fix(reportAt(Code::UnexpectedToken, place, {describe(pos_), "':'"}), endOf(pos_ - 1), ":");
+            if (kind() == K::KwThen && startsLine(pos_ + 1)) take();
+        }
         const StmtList body = parseList(kTestEnds);
         if (!node->hasDefault) node->defaultBody = body;
         node->hasDefault = true;
@@ -239,11 +299,11 @@ TestCase* Parser::parseCase() {
                     endOf(pos_ - 1), ":");
             } else if (kind() != K::Error) {
                 diag::Diagnostic* d = report(Code::UnexpectedToken, pos_, {describe(pos_), "',' or ':'"});
-                if (kind() == K::Semicolon) fix(d, tree_.range(pos_), ":");
+                if (kind() == K::Semicolon || kind() == K::KwThen) fix(d, tree_.range(pos_), ":");
             }
             if (later) {
                 pos_ = found + 1;
-            } else if (accept(K::Semicolon)) { // "CASE 1;"
+            } else if (accept(K::Semicolon) || accept(K::KwThen)) { // "CASE 1;"
             } else if (panic_) {
                 syncStatement();
             }

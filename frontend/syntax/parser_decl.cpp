@@ -98,14 +98,21 @@ Decl* Parser::parseRecord(bool local, TokenIndex first) {
     node->first = first;
     node->local = local;
     const TokenIndex opening = take();
-    node->name = expectName();
+    const bool nameless = isName(kind()) && isName(peek()) && peek(2) == K::Semicolon; // a component already
+    node->name = nameless ? missingName() : expectName();
     checkNameLength(node->name);
     if (panic_ || kind() == K::Semicolon) {
         if (!panic_) unexpected("a component");
         syncStatement();
     }
+    const bool braced = kind() == K::LeftBrace;
+    if (braced) {
+        report(Code::ForeignSpelling, pos_, {"{", "a component: a record ends with ENDRECORD"});
+        take();
+    }
     const size_t mark = components_.size();
     while (kind() != K::KwEndrecord && kind() != K::EndOfFile) {
+        if (braced && accept(K::RightBrace)) break;
         if (kind() == K::Identifier && endsLine(pos_) &&
             (equalsNoCase(textOf(pos_), "END") || meant(pos_, K::KwEndrecord))) {
             retag(pos_, pos_, K::KwEndrecord);
@@ -124,12 +131,17 @@ Decl* Parser::parseRecord(bool local, TokenIndex first) {
         if (pos_ == before) take();
     }
     node->components = drain(components_, mark);
+    if (braced && kindAt(pos_ - 1) == K::RightBrace) {
+        accept(K::KwEndrecord);
+        return finish(node);
+    }
     if (node->components.empty() && kind() == K::KwEndrecord && !options_.declarations)
         report(Code::EmptyRecord, node->name == kNoToken ? opening : node->name,
                {std::string(textOf(node->name))});
     // An END word of a routine below RECORD was meant as its end.
     constexpr TokenSet kWrong = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
     if (kWrong.has(kind()) && startsLine(pos_) && columnOf(pos_) == indentOf(opening)) wrongEnd_ = pos_;
+    if (kind() == K::KwEndmodule && startsDecl(pos_ + 1) && peek() != K::KwModule) wrongEnd_ = pos_;
     closeBlock(K::KwEndrecord, opening);
     return finish(node);
 }
@@ -156,7 +168,9 @@ RecordComponent* Parser::parseComponent() {
         report(Code::ComponentArray, pos_, {std::string(textOf(node->name))});
         panic_ = true;
     }
-    endStatement();
+    endStatement(kind() == K::Comma                          ? "';': a component has one name"
+                 : kind() == K::Assign || kind() == K::Equal ? "';': a component has no initial value"
+                                                             : "';'");
     return finish(node);
 }
 
@@ -190,7 +204,7 @@ Decl* Parser::parseRoutine(bool local, TokenIndex first) {
     const TokenSet outer = enclosing_;
     enclosing_ = TokenSet();
     routineStart_ = pos_;
-    missingEndifs_ = -1;
+    endifsCounted_ = false;
     plainError_ = false;
     blockOpening_ = kNoToken;
     compactIf_ = kNoToken;
@@ -267,11 +281,13 @@ void Parser::parseParameters(RoutineDecl* routine) {
         const TokenIndex opening = take();
         typeMissed_ = false;
         uint32_t group = 0;
-        while (!panic_ && (kind() != K::RightParen || group > 0)) {
+        const bool missed = startsLine(pos_) && bodyBeginsHere();
+        while (!missed && !panic_ && (kind() != K::RightParen || group > 0)) {
+            if (kind() == K::Slash) takeSlashAsBackslash();
             if (group > 0 && !accept(K::Comma) && kind() != K::Backslash) break;
             parseParameterGroup(group++);
         }
-        expectClosing(K::RightParen, opening, true);
+        expectClosing(K::RightParen, opening, !missed);
     }
     routine->params = drain(params_, mark);
     if (!panic_) return;
@@ -343,6 +359,16 @@ ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
         unexpected("a parameter");
         return finish(node);
     }
+    if (node->mode != ParamMode::In && isContextual(pos_, "SWITCH") && isName(peek())) {
+        fix(report(Code::UnexpectedToken, pos_ - 1,
+                   {describe(pos_ - 1), "'switch', which takes no access mode"}),
+            {tree_.range(pos_ - 1).begin, tree_.range(pos_).begin}, "");
+        node->mode = ParamMode::In;
+        node->isSwitch = true;
+        take();
+        node->name = expectName(true);
+        return finish(node);
+    }
     constexpr TokenSet kModes = {K::KwVar, K::KwPers, K::KwInout};
     if (node->mode != ParamMode::In && kModes.has(kind()) && isName(peek()) &&
         isName(peek(2))) { // "VAR PERS num x"
@@ -394,6 +420,9 @@ void Parser::parseDimensions(ParamDecl* param) {
     constexpr uint8_t kMostStars = 254;
     if (accept(K::PlaceDim)) {
         param->rank = kPlaceholderRank;
+    } else if (kind() == K::RightBrace) {
+        fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "'*'"}), endOf(opening), "*");
+        param->rank = 1;
     } else {
         do {
             const bool isSize = kind() == K::NumLiteral || isName(kind());
@@ -464,7 +493,7 @@ bool Parser::parseNested(const RoutineDecl* routine) {
     const TokenIndex start = routineStart_;
     if (Decl* decl = parseModuleDecl()) decls_.push_back(decl);
     routineStart_ = start;
-    missingEndifs_ = -1;
+    endifsCounted_ = false;
     enclosing_ = TokenSet();
     return true;
 }

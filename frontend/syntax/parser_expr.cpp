@@ -95,6 +95,8 @@ Expr* Parser::parseBinary(int minPrecedence) {
         node->first = left->first;
         node->op = op.op;
         node->opToken = take();
+        if (node->op == BinaryOp::Eq && textOf(node->opToken) == "==")
+            fix(report(Code::ForeignSpelling, node->opToken, {"==", "'='"}), tree_.range(node->opToken), "=");
         if (node->op == BinaryOp::Mul && kind() == K::Star && !panic_) {
             reportAt(Code::ForeignSpelling, {tree_.range(node->opToken).begin, tree_.range(pos_).end},
                      {"**", "function Pow"});
@@ -225,6 +227,8 @@ Expr* Parser::parsePrimary() {
     }
     default: break;
     }
+    if (kind() == K::LeftBrace && !inHead_ && startsExpr(peek()) && !startsLine(pos_)) // x := {1, 2}
+        return parseForeignAggregate(pos_, K::RightBrace);
     if (atReservedName()) {
         report(Code::ReservedWordAsName, pos_, {std::string(tokenText(kind()))});
         auto* node = makeExpr<ErrorExpr>(NodeKind::ErrorExpr);
@@ -244,12 +248,36 @@ bool Parser::atReservedName() const {
     return isKeyword(kind()) && !startsLine(pos_) && !startsLine(pos_ + 1) && kAfter.has(peek());
 }
 
+void Parser::reportBadNumber(TokenIndex token) {
+    const std::string text(textOf(token).substr(0, 40));
+    const char last = text.back(), prefix = static_cast<char>(text.size() > 1 ? text[1] | 32 : 0);
+    const size_t letter = text.find_first_not_of("0123456789.");
+    std::string expected;
+    if (text[0] == '0' && prefix == 'x') {
+        expected = "hexadecimal digits (0 to 9, A to F) after '0x'";
+    } else if (text[0] == '0' && prefix == 'o') {
+        expected = "octal digits (0 to 7) after '0o'";
+    } else if (text[0] == '0' && prefix == 'b') {
+        expected = "binary digits (0 and 1) after '0b'";
+    } else if (text.find("..") != std::string::npos) {
+        expected = "single numbers: there are no ranges";
+    } else if (letter == std::string::npos) {
+        expected = "a number with one decimal point";
+    } else if (letter + 1 == text.size() && (last | 32) == 'e') {
+        expected = "digits after the exponent 'E'";
+        if ((kind() == K::Plus || kind() == K::Minus) && !startsExpr(peek())) take(); // "1E+"
+    } else {
+        expected = "a number without '" + text.substr(letter) + "' behind it";
+    }
+    report(Code::BadNumber, token, {text, expected});
+}
+
 Expr* Parser::parseNumber() {
     auto* node = makeExpr<NumLiteralExpr>(NodeKind::NumLiteral);
     const TokenIndex token = take();
     const NumberValue number = numberValue(textOf(token));
     if (!number.valid)
-        report(Code::BadNumber, token, {std::string(textOf(token).substr(0, 40))});
+        reportBadNumber(token);
     else if (!number.inRange)
         report(Code::NumberTooLarge, token, {std::string(textOf(token).substr(0, 40))});
     node->value = number.value;
@@ -264,8 +292,7 @@ Expr* Parser::parseParen() {
     node->inner = parseExpr();
     ++height_;
     if (kind() == K::Comma && !panic_) {
-        parseForeignAggregate(opening);
-        return errorExpr();
+        return parseForeignAggregate(opening, K::RightParen);
     }
     expectClosing(K::RightParen, opening, false);
     return finish(node);
@@ -346,6 +373,7 @@ Expr* Parser::parsePostfix(Expr* base) {
             reported = true;
         }
         const uint32_t baseHeight = height_;
+        bool partIndexed = false;
         if (kind() == K::Dot) {
             auto* node = makeExpr<ComponentExpr>(NodeKind::Component);
             node->first = base->first;
@@ -357,7 +385,8 @@ Expr* Parser::parsePostfix(Expr* base) {
         } else {
             const Nest nest(*this);
             if (!nest) return tooDeepExpr();
-            if (base->kind != NodeKind::Name && !reported) {
+            partIndexed = base->kind != NodeKind::Name;
+            if (partIndexed && !reported) {
                 report(Code::IndexOnPart, pos_);
                 reported = true;
             }
@@ -365,6 +394,11 @@ Expr* Parser::parsePostfix(Expr* base) {
             height_ = std::max(baseHeight, height_) + 1;
         }
         if (height_ > kMaxDepth) return tooDeepExpr();
+        if (partIndexed) { // which type it has is not known
+            auto* broken = makeExpr<ErrorExpr>(NodeKind::ErrorExpr);
+            broken->first = base->first;
+            base = finish(broken);
+        }
     }
 }
 
@@ -400,9 +434,10 @@ std::span<Argument*> Parser::parseArguments(bool procedure) {
             args_.push_back(parseOptionalArgument());
         } else if (kind() == K::Comma) {
             if (first) {
-                unexpected("an argument");
+                if (!procedure || !commaWasSemicolon()) unexpected("an argument");
                 break;
             }
+            if (procedure && peek() == K::Identifier && instructionAfterComma()) break;
             take();
             args_.push_back(kind() == K::Backslash ? parseOptionalArgument()
                                                    : parseRequiredArgument(procedure));
@@ -416,6 +451,29 @@ std::span<Argument*> Parser::parseArguments(bool procedure) {
     }
     height_ = height + 1;
     return drain(args_, mark);
+}
+
+/// "MoveL p10; v100, fine, tool0;": the semicolon before the name was meant as a comma. No instruction begins with a name
+/// and a comma.
+bool Parser::commaWasSemicolon() {
+    const TokenIndex semicolon = pos_ - 2;
+    if (pos_ < 3 || kindAt(semicolon) != K::Semicolon || startsLine(pos_ - 1) || stmts_.empty()) return false;
+    Stmt* before = stmts_.back();
+    if (before->kind != NodeKind::CallStmt || before->last != semicolon) return false;
+    fix(report(Code::UnexpectedToken, semicolon, {"';'", "','"}), tree_.range(semicolon), ",");
+    before->broken = true; // the rest of its arguments stands here
+    panic_ = true;
+    return true;
+}
+
+/// At a comma that ends its line: what stands below is an instruction of its own, so ';' was meant.
+bool Parser::instructionAfterComma() {
+    constexpr TokenSet kNoArgument = {K::Identifier, K::NumLiteral, K::StringLiteral};
+    if (!kNoArgument.has(peek(2)) || !startsLine(pos_ + 1) || startsLine(pos_ + 2)) return false;
+    fix(report(Code::UnexpectedToken, pos_, {"','", "';'"}), tree_.range(pos_), ";");
+    tokens_[pos_].kind = K::Semicolon;
+    tree_.retagged = true;
+    return true;
 }
 
 Argument* Parser::parseRequiredArgument(bool procedure) {

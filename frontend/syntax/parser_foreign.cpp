@@ -221,6 +221,25 @@ bool Parser::parseForeignParameter(ParamDecl* node) {
     return true;
 }
 
+/// In a line below '(': an instruction or a declaration with its semicolon, and no parameter.
+bool Parser::bodyBeginsHere() const {
+    constexpr TokenSet kNoParameter = {K::Assign, K::Semicolon, K::NumLiteral, K::StringLiteral,
+                                       K::LeftBrace};
+    constexpr TokenSet kEndOfData = {K::Semicolon, K::Assign};
+    if (isName(kind())) return kNoParameter.has(peek());
+    if (kind() == K::KwVar || kind() == K::KwPers) return kEndOfData.has(peek(3));
+    return isKeyword(kind()) && kind() != K::KwInout;
+}
+
+/// `num a /num b`
+void Parser::takeSlashAsBackslash() {
+    if (!isName(peek())) return;
+    fix(report(Code::ForeignSpelling, pos_, {"/", "'\\' before an optional parameter"}), tree_.range(pos_),
+        "\\");
+    tokens_[pos_].kind = K::Backslash;
+    tree_.retagged = true;
+}
+
 /// IN, REF, OUT ... before a parameter: reported and left out.
 void Parser::dropForeignMode(ParamDecl* node) {
     if (options_.declarations || !isName(peek()) || !isName(peek(2))) return;
@@ -250,20 +269,49 @@ void Parser::dropForeignMode(ParamDecl* node) {
 
 // ---- Lists and comments ----------------------------------------------------------------------------------------
 
-/// `(1, 2, 3)` as a value, at its first comma.
-void Parser::parseForeignAggregate(TokenIndex opening) {
+/// `(1, 2, 3)` and `{1, 2, 3}` as a value, before or behind its first member.
+Expr* Parser::parseForeignAggregate(TokenIndex opening, K closing) {
+    auto* node = makeExpr<ErrorExpr>(NodeKind::ErrorExpr);
+    node->first = opening;
     diag::Diagnostic* diagnostic =
-        report(Code::ForeignSpelling, opening, {"(", "'[' around the values of a record or an array"});
+        report(Code::ForeignSpelling, opening,
+               {std::string(textOf(opening)), "'[' around the values of a record or an array"});
     const size_t reported = sink_.all().size();
     take();
-    parseExprList(K::RightParen, opening);
+    parseExprList(closing, opening);
     if (diagnostic && !panic_ && sink_.all().size() == reported)
         diagnostic->fixes.push_back({"put the values between '[' and ']'",
                                      {{tree_.range(opening), "["}, {tree_.range(pos_ - 1), "]"}}});
+    height_ = 1;
+    return finish(node);
 }
 
-/// "REM text", "-- text": the line is skipped.
+/// Four words or more in a line, and nothing between them that an instruction has.
+bool Parser::isProse() const {
+    constexpr TokenSet kOfBlocks = {K::KwThen, K::KwDo, K::KwFrom, K::KwWith, K::KwEndif, K::KwElse};
+    constexpr TokenIndex kFewest = 4;
+    if (!startsLine(pos_) || isBasicType(textOf(pos_ + 1))) return false;
+    TokenIndex i = pos_;
+    while (i < last_ && (i == pos_ || !startsLine(i)) &&
+           (kindAt(i) == K::Identifier || (isKeyword(kindAt(i)) && !kOfBlocks.has(kindAt(i)))))
+        ++i;
+    const bool ends =
+        startsLine(i) || ((kindAt(i) == K::Dot || kindAt(i) == K::Question) && startsLine(i + 1));
+    return ends && i - pos_ >= kFewest;
+}
+
+/// "REM text", "-- text", and text with nothing before it: the line is skipped.
 bool Parser::skipForeignComment() {
+    if (kind() == K::Identifier && isProse()) {
+        const SourceRange words{tree_.range(pos_).begin, tree_.range(pos_ + 1).end};
+        const auto shown = std::string(tree_.source->text().substr(words.begin, words.end - words.begin));
+        fix(reportAt(Code::ForeignSpelling, words, {shown, "an instruction, or '!' before a comment"}),
+            {words.begin, words.begin}, "! ", false);
+        do
+            take();
+        while (!startsLine(pos_) && kind() != K::EndOfFile);
+        return true;
+    }
     const bool dashes = kind() == K::Minus && peek() == K::Minus;
     if (!dashes) {
         if (!isContextual(pos_, "REM") || startsLine(pos_ + 1) || kindAt(pos_ + 1) == K::Semicolon)

@@ -143,12 +143,14 @@ class Parser {
     void reportTooDeep();
     void reportLexErrors(const LexResult& lexed);
     bool endsBrokenString(const LexError& error, const LexError* before) const;
+    static bool isInBrokenString(const LexResult& lexed, const LexError& escape);
     bool startsMisspeltModule() const;
     void fixEscapes(diag::Diagnostic& diagnostic) const;
     void checkNameLength(TokenIndex name);
 
     // ---- Recovery (parser_recovery.cpp)
     void endStatement(std::string_view expected = "';'");
+    bool reportDecimalComma();
     void syncStatement();
     bool startsAfresh() const;
     bool continuesBlock() const;
@@ -166,6 +168,8 @@ class Parser {
     TokenIndex missingName();
     void expectClosing(K closing, TokenIndex opening, bool inList);
     void closeBlock(K end, TokenIndex opening, bool whole = true);
+    TokenIndex outerOpenerOf(K word) const;
+    bool standsInside() const;
     bool handleStray(const TokenSet& own);
     bool atReservedName() const;
     void abandonRoutine();
@@ -204,7 +208,10 @@ class Parser {
     DataDecl* parseMoreNames();
     bool parseForeignParameter(ParamDecl* node);
     void dropForeignMode(ParamDecl* node);
-    void parseForeignAggregate(TokenIndex opening);
+    bool bodyBeginsHere() const;
+    void takeSlashAsBackslash();
+    Expr* parseForeignAggregate(TokenIndex opening, K closing);
+    bool isProse() const;
     bool skipForeignComment();
 
     // ---- Expressions (parser_expr.cpp)
@@ -213,6 +220,7 @@ class Parser {
     Expr* parseNot(int minPrecedence);
     Expr* parseSigned(int minPrecedence);
     Expr* parsePrimary();
+    void reportBadNumber(TokenIndex token);
     Expr* parseNumber();
     Expr* parseLoneNumber();
     Expr* parseNamed(bool allowCall);
@@ -228,6 +236,8 @@ class Parser {
     Expr* tooDeepExpr();
     std::span<Expr*> parseExprList(K closing, TokenIndex opening);
     std::span<Argument*> parseArguments(bool procedure);
+    bool commaWasSemicolon();
+    bool instructionAfterComma();
     Argument* parseRequiredArgument(bool procedure);
     Argument* parseOptionalArgument();
     static bool startsExpr(K k);
@@ -239,6 +249,7 @@ class Parser {
     Stmt* parseStmtUnguarded();
     Stmt* parseNamedStmt();
     Stmt* parseAssignment(Expr* target, TokenIndex first);
+    Stmt* parseColonAssignment();
     Stmt* parseLabel();
     Stmt* parseCallStmt();
     bool parseParenthesisedCall(CallStmt* call);
@@ -248,6 +259,9 @@ class Parser {
 
     // ---- Blocks (parser_blocks.cpp)
     Stmt* parseIf();
+    void countEndifs();
+    bool isBlockByMargin(TokenIndex opening);
+    void parseElseOfCompact(TokenIndex opening);
     Stmt* parseIfBlocks(TokenIndex opening, Expr* condition, bool headRead);
     Stmt* parseLateMore();
     Stmt* parseFor();
@@ -328,17 +342,18 @@ class Parser {
     TokenIndex headReported_ = kNoToken; ///< a THEN or DO whose IF, FOR or WHILE is broken
     TokenIndex compactIf_ = kNoToken;    ///< the last IF without THEN
     TokenIndex compactIfEnd_ =
-        kNoToken;                      ///< the end of its condition, when its instruction is on another line
-    int missingEndifs_ = -1;           ///< of the routine; -1: not counted yet
-    TokenIndex routineStart_ = 0;      ///< its first token
-    bool inCondition_ = false;         ///< between IF and THEN
-    bool inHead_ = false;              ///< between IF, FOR or WHILE and the block
-    bool typeMissed_ = false;          ///< a parameter of the header without a data type has been reported
-    uint32_t braces_ = 0;              ///< open blocks that began with '{'
-    const DataDecl* moreOf_ = nullptr; ///< a declaration that goes on with another name, at its comma
-    bool inLateName_ = false;          ///< between the '%' of a late-bound call
-    bool colonGiven_ = false;          ///< a DEFAULT that was written ELSE
-    bool plainError_ = false;          ///< the routine has an ERROR handler without a list
+        kNoToken;           ///< the end of its condition, when its instruction is on another line
+    int missingEndifs_ = 0; ///< of the routine, once they are counted
+    bool endifsCounted_ = false;
+    TokenIndex routineStart_ = 0;        ///< its first token
+    bool inCondition_ = false;           ///< between IF and THEN
+    bool inHead_ = false;                ///< between IF, FOR or WHILE and the block
+    bool typeMissed_ = false;            ///< a parameter of the header without a data type has been reported
+    uint32_t braces_ = 0;                ///< open blocks that began with '{'
+    const DataDecl* moreOf_ = nullptr;   ///< a declaration that goes on with another name, at its comma
+    bool inLateName_ = false;            ///< between the '%' of a late-bound call
+    bool colonGiven_ = false;            ///< a DEFAULT that was written ELSE
+    bool plainError_ = false;            ///< the routine has an ERROR handler without a list
     TokenIndex blockOpening_ = kNoToken; ///< the word that opened the innermost block
 
     // Scratch space, shared by all levels of the recursion.

@@ -81,9 +81,16 @@ void Parser::fixParentheses(diag::Diagnostic* diagnostic, const Node& operand) {
     diagnostic->fixes.push_back(std::move(both));
 }
 
-/// `=` where `:=` belongs.
+/// `=`, `==` or `=:` where `:=` belongs; the parser then stands at the last token of it.
 void Parser::reportEqual() {
-    fix(report(Code::EqualInAssignment, pos_), tree_.range(pos_), ":=");
+    const bool turned = peek() == K::Colon && tree_.range(pos_).end == tree_.range(pos_ + 1).begin;
+    const SourceRange sign{tree_.range(pos_).begin, tree_.range(turned ? pos_ + 1 : pos_).end};
+    if (turned || textOf(pos_) == "==") {
+        fix(reportAt(Code::ForeignSpelling, sign, {turned ? "=:" : "==", "':='"}), sign, ":=");
+        if (turned) take();
+    } else {
+        fix(report(Code::EqualInAssignment, pos_), sign, ":=");
+    }
 }
 
 void Parser::unexpected(std::string_view expected) {
@@ -228,22 +235,47 @@ bool Parser::endsLine(TokenIndex last) const {
     return startsLine(last + 1) && (isName(next) || (!startsExpr(next) && next != K::Backslash));
 }
 
+/// "1,5" where a value ends.
+bool Parser::reportDecimalComma() {
+    if (kind() != K::Comma || kindAt(pos_ - 1) != K::NumLiteral || peek() != K::NumLiteral) return false;
+    const SourceRange whole = tree_.range(pos_ - 1), decimals = tree_.range(pos_ + 1),
+                      comma = tree_.range(pos_);
+    if (whole.end != comma.begin || comma.end != decimals.begin) return false;
+    const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+    const std::string_view text = textOf(pos_ - 1);
+    if (!std::all_of(text.begin(), text.end(), isDigit)) return false;
+    const std::string_view shown = tree_.source->text().substr(whole.begin, decimals.end - whole.begin);
+    fix(reportAt(Code::ForeignSpelling, {whole.begin, decimals.end},
+                 {std::string(shown), "'.' before decimals"}),
+        comma, ".");
+    return true;
+}
+
 // ---- Finding the way back --------------------------------------------------------------------------------------
 
 void Parser::endStatement(std::string_view expected) {
     if (accept(K::Semicolon)) {
+        constexpr TokenSet kClosing = {K::RightParen, K::RightBracket, K::RightBrace};
+        if (panic_ && kClosing.has(kind()) && !startsLine(pos_)) return syncStatement(); // "Abs(n;);"
         panic_ = false;
         return;
     }
     if (!panic_ && kind() != K::Error) {
         if (startsAfresh()) {
-            fix(reportAt(Code::MissingSemicolon, endOf(pos_ - 1), {describe(pos_ - 1)}), endOf(pos_ - 1),
-                ";");
+            diag::Diagnostic* missing =
+                reportAt(Code::MissingSemicolon, endOf(pos_ - 1), {describe(pos_ - 1)});
+            const bool twoWords = pos_ > 1 && kindAt(pos_ - 1) == K::Identifier &&
+                                  kindAt(pos_ - 2) == K::Identifier && startsLine(pos_ - 2);
+            fix(missing, endOf(pos_ - 1), ";", !twoWords);
+            if (twoWords) note(missing, pos_ - 2, "if this is a remark, put '!' before it");
             if (kLineWords.has(kind()) || looksLikeStatement(pos_)) return;
         } else if (kind() == K::Equal) {
             reportEqual();
-        } else {
-            reportAfterExpr(Code::UnexpectedToken, {describe(pos_), std::string(expected)});
+        } else if (!reportDecimalComma()) {
+            diag::Diagnostic* d =
+                reportAfterExpr(Code::UnexpectedToken, {describe(pos_), std::string(expected)});
+            if ((kind() == K::Colon || kind() == K::Comma) && startsLine(pos_ + 1))
+                fix(d, tree_.range(pos_), ";");
         }
     }
     syncStatement();
@@ -390,6 +422,47 @@ void Parser::abandonRoutine() {
                                 TokenKind::KwModule,  TokenKind::KwEndmodule, TokenKind::EndOfFile};
     while (!kStop.has(kind()))
         take();
+}
+
+/// The opener of the innermost block around this one that a word belongs to; kNoToken when there is none.
+TokenIndex Parser::outerOpenerOf(K word) const {
+    struct Family {
+        TokenSet words;
+        K opener, closer;
+    };
+    static constexpr Family kFamilies[] = {{kIfEnds, K::KwIf, K::KwEndif},
+                                           {kTestEnds, K::KwTest, K::KwEndtest},
+                                           {{K::KwEndfor}, K::KwFor, K::KwEndfor},
+                                           {{K::KwEndwhile}, K::KwWhile, K::KwEndwhile}};
+    for (const Family& family : kFamilies) {
+        if (!family.words.has(word)) continue;
+        uint32_t closed = 0;
+        for (TokenIndex i = blockOpening_; i-- > routineStart_;) {
+            TokenIndex then = 0;
+            if (kindAt(i) == family.closer) ++closed;
+            if (kindAt(i) != family.opener ||
+                (family.opener == K::KwIf && !findOnLine(i + 1, K::KwThen, then)))
+                continue;
+            if (closed-- == 0) return i;
+        }
+    }
+    return kNoToken;
+}
+
+/// At a word that a block further out waits for: by its margin it stands in this block all the same, and below the outer
+/// one there is such a word again.
+bool Parser::standsInside() const {
+    if (blockOpening_ == kNoToken || !startsLine(pos_) || !startsLine(blockOpening_)) return false;
+    const TokenIndex outer = outerOpenerOf(kind());
+    if (outer == kNoToken || !startsLine(outer)) return false;
+    const uint32_t margin = columnOf(outer);
+    if (columnOf(pos_) < columnOf(blockOpening_) || columnOf(blockOpening_) <= margin) return false;
+    const TokenSet family = kIfEnds.has(kind())     ? kIfEnds
+                            : kTestEnds.has(kind()) ? kTestEnds
+                                                    : TokenSet{kind()};
+    for (TokenIndex i = pos_ + 1; i < last_; ++i)
+        if (startsLine(i) && columnOf(i) <= margin) return columnOf(i) == margin && family.has(kindAt(i));
+    return false;
 }
 
 /// A word that ends a list of instructions, but neither this one nor one around it. Returns true when it is taken as

@@ -30,11 +30,12 @@ StmtList Parser::parseList(const TokenSet& own, bool braced) {
                 const bool closes =
                     equalsNoCase(textOf(pos_), foreignCloser_.substr(0, foreignCloser_.find(' ')));
                 if (!closes && mayBeMisspelt(textOf(pos_)[0]) && retagMisspelt(own)) continue;
+            } else if (peek() == K::Assign && isKeyword(k)) { // a reserved word as the name of data
             } else if (k == K::KwLocal) {
                 if (peek() == K::KwProc || peek() == K::KwFunc || peek() == K::KwTrap ||
                     peek() == K::KwRecord || peek() == K::KwAlias)
                     break;
-            } else if (outer.has(k) || handleStray(own)) {
+            } else if (outer.has(k) ? !standsInside() || handleStray(own) : handleStray(own)) {
                 break;
             }
         } else if (k == K::RightBrace && braces_ > 0) {
@@ -60,7 +61,7 @@ Stmt* Parser::parseStmt() {
 
 Stmt* Parser::parseStmtUnguarded() {
     const TokenIndex first = pos_;
-    if ((peek() == K::Colon || peek() == K::Assign) && isKeyword(kind()) && kind() != K::KwDefault) {
+    if ((peek() == K::Assign || (peek() == K::Colon && kind() != K::KwDefault)) && isKeyword(kind())) {
         report(Code::ReservedWordAsName, pos_, {std::string(tokenText(kind()))});
         take();
         if (kind() == K::Assign) return parseAssignment(errorExpr(), first);
@@ -180,7 +181,12 @@ Stmt* Parser::parseNamedStmt() {
         if (findOnLine(pos_ + 2, K::KwThen, then)) break; // the word IF is missing
         return parseAssignment(parseNamed(false), first);
     }
-    case K::Colon: return parseLabel();
+    case K::Colon: {
+        constexpr TokenSet kNoInstruction = {K::Equal,   K::NumLiteral, K::StringLiteral, K::KwTrue,
+                                             K::KwFalse, K::Minus,      K::LeftBracket};
+        if (!kNoInstruction.has(peek(2)) || startsLine(first + 2)) return parseLabel();
+        return parseColonAssignment();
+    }
     case K::Identifier:
         if (retagOpener()) return parseStmtUnguarded();
         if (skipForeignComment()) return errorStmt(first);
@@ -246,6 +252,22 @@ Stmt* Parser::parseAssignment(Expr* target, TokenIndex first) {
     endStatement();
     node->broken = unreadable_ > unreadable;
     return finish(node);
+}
+
+/// `n : = 1;`, `n : 1;`
+Stmt* Parser::parseColonAssignment() {
+    const TokenIndex name = pos_;
+    auto* target = makeExpr<NameExpr>(NodeKind::Name);
+    target->name = take();
+    finish(target);
+    const bool split = peek() == K::Equal;
+    const SourceRange sign{tree_.range(pos_).begin, tree_.range(split ? pos_ + 1 : pos_).end};
+    const std::string_view shown = tree_.source->text().substr(sign.begin, sign.end - sign.begin);
+    fix(reportAt(Code::ForeignSpelling, sign, {std::string(shown), "':='"}), sign, ":=");
+    if (split) take();
+    tokens_[pos_].kind = K::Assign;
+    tree_.retagged = true;
+    return parseAssignment(target, name);
 }
 
 Stmt* Parser::parseLabel() {

@@ -18,18 +18,34 @@ struct ForeignWord {
     std::string_view word;
     TokenKind keyword;
 };
-constexpr ForeignWord kForeignWords[] = {
-    {"NEXT", TokenKind::KwEndfor},          {"WEND", TokenKind::KwEndwhile},
-    {"ENDDO", TokenKind::KwEndwhile},       {"ENDDO", TokenKind::KwEndfor},
-    {"DONE", TokenKind::KwEndwhile},        {"DONE", TokenKind::KwEndfor},
-    {"ENDSWITCH", TokenKind::KwEndtest},    {"ENDSELECT", TokenKind::KwEndtest},
-    {"ENDCASE", TokenKind::KwEndtest},      {"ELIF", TokenKind::KwElseif},
-    {"FUNCTION", TokenKind::KwFunc},        {"ENDFUNCTION", TokenKind::KwEndfunc},
-    {"PROCEDURE", TokenKind::KwProc},       {"SUB", TokenKind::KwProc},
-    {"ENDPROCEDURE", TokenKind::KwEndproc}, {"ENDSUB", TokenKind::KwEndproc},
-    {"SWITCH", TokenKind::KwTest},          {"SELECT", TokenKind::KwTest},
-    {"OTHERWISE", TokenKind::KwDefault},    {"CONSTANT", TokenKind::KwConst},
-    {"STRUCT", TokenKind::KwRecord},        {"ENDSTRUCT", TokenKind::KwEndrecord}};
+constexpr ForeignWord kForeignWords[] = {{"NEXT", TokenKind::KwEndfor},
+                                         {"WEND", TokenKind::KwEndwhile},
+                                         {"ENDDO", TokenKind::KwEndwhile},
+                                         {"ENDDO", TokenKind::KwEndfor},
+                                         {"DONE", TokenKind::KwEndwhile},
+                                         {"DONE", TokenKind::KwEndfor},
+                                         {"ENDSWITCH", TokenKind::KwEndtest},
+                                         {"ENDSELECT", TokenKind::KwEndtest},
+                                         {"ENDCASE", TokenKind::KwEndtest},
+                                         {"ELIF", TokenKind::KwElseif},
+                                         {"FUNCTION", TokenKind::KwFunc},
+                                         {"ENDFUNCTION", TokenKind::KwEndfunc},
+                                         {"PROCEDURE", TokenKind::KwProc},
+                                         {"SUB", TokenKind::KwProc},
+                                         {"ENDPROCEDURE", TokenKind::KwEndproc},
+                                         {"ENDSUB", TokenKind::KwEndproc},
+                                         {"SWITCH", TokenKind::KwTest},
+                                         {"SELECT", TokenKind::KwTest},
+                                         {"OTHERWISE", TokenKind::KwDefault},
+                                         {"CONSTANT", TokenKind::KwConst},
+                                         {"VOID", TokenKind::KwProc},
+                                         {"BY", TokenKind::KwStep},
+                                         {"PERSISTENT", TokenKind::KwPers},
+                                         {"VARIABLE", TokenKind::KwVar},
+                                         {"PRIVATE", TokenKind::KwLocal},
+                                         {"STATIC", TokenKind::KwLocal},
+                                         {"STRUCT", TokenKind::KwRecord},
+                                         {"ENDSTRUCT", TokenKind::KwEndrecord}};
 
 /// Blocks of other languages that RAPID writes in another way. WHILE is what closes DO.
 struct ForeignBlock {
@@ -218,6 +234,13 @@ bool Parser::retagDecl() {
     if (line2 || a == K::EndOfFile) return retagIfMeant(K::KwEndmodule);
     constexpr TokenSet kDeclWords = {K::KwVar,  K::KwPers, K::KwConst,  K::KwProc,
                                      K::KwFunc, K::KwTrap, K::KwRecord, K::KwAlias};
+    if (kDeclWords.has(a) && (isContextual(pos_, "GLOBAL") || isContextual(pos_, "PUBLIC"))) {
+        fix(report(Code::ForeignSpelling, pos_,
+                   {std::string(textOf(pos_)), describe(pos_ + 1) + ": what is not LOCAL is global"}),
+            {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");
+        take();
+        return true;
+    }
     if (kDeclWords.has(a)) return retagIfMeant(K::KwLocal);
     if (!isName(a)) return false;
     if (b == K::LeftParen && !line3) return retagIfMeant(K::KwProc);

@@ -60,7 +60,7 @@ TEST_CASE("what a missing module may declare is a warning that names the module,
     add("9:22", "stopped");
     add("14:5", "countr", "; did you mean 'counter'?");
     expected.push_back(
-        "RAP4002 at 15:5: call of 'MoveL' lacks the required argument 'Speed', 'Zone', 'Tool'");
+        "RAP4002 at 15:5: call of 'MoveL' lacks the required arguments 'Speed', 'Zone', 'Tool'");
     Messages found = checked->messages();
     REQUIRE(found.size() == expected.size() + 1); // the 5 is no robtarget
     for (size_t i = 0; i < expected.size(); ++i) {

@@ -90,7 +90,7 @@ const std::vector<Case> kBodies = {
     {"ELSE not last", "IF a THEN\nELSE\n  x := 1;\nELSEIF b THEN\n  x := 2;\nENDIF", "RAP1213@6:1"},
     {"instruction before CASE", "TEST x\n  y := 1;\nCASE 1:\n  y := 2;\nENDTEST", "RAP1212@4:3"},
     {"colon missing after CASE", "TEST x\nCASE 1\n  y := 1;\nENDTEST", "RAP1101@4:7"},
-    {"colon missing after DEFAULT", "TEST x\nDEFAULT\n  y := 1;\nENDTEST", "RAP1101@5:3"},
+    {"colon missing after DEFAULT", "TEST x\nDEFAULT\n  y := 1;\nENDTEST", "RAP1101@4:8"},
 
     // ---- expressions and calls
     {"operand missing", "x := 1 + ;", "RAP1101@3:10"},
@@ -134,7 +134,7 @@ const std::vector<Case> kBodies = {
     {"string not closed", "TPWrite \"hello;\ny := 1;", "RAP1006@3:9"},
     {"string not closed inside parentheses", "x := f(\"hello);\ny := 1;", "RAP1006@3:8"},
     {"string with a bad escape", "TPWrite \"a\\q\";", "RAP1007@3:11"},
-    {"text without a comment mark", "this is a sentence for the reader\ny := 1;", "RAP1101@3:9"},
+    {"text without a comment mark", "this is a sentence for the reader\ny := 1;", "RAP1112@3:1"},
     {"text that ends in a full stop", "See if the robot moves.\ny := 1;", "RAP1101@3:5"},
 
     // ---- routines
