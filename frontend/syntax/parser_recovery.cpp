@@ -266,7 +266,7 @@ void Parser::endStatement(std::string_view expected) {
                 reportAt(Code::MissingSemicolon, endOf(pos_ - 1), {describe(pos_ - 1)});
             const bool twoWords = pos_ > 1 && kindAt(pos_ - 1) == K::Identifier &&
                                   kindAt(pos_ - 2) == K::Identifier && startsLine(pos_ - 2);
-            fix(missing, endOf(pos_ - 1), ";", !twoWords);
+            fix(missing, endOf(pos_ - 1), ";");
             if (twoWords) note(missing, pos_ - 2, "if this is a remark, put '!' before it");
             if (kLineWords.has(kind()) || looksLikeStatement(pos_)) return;
         } else if (kind() == K::Equal) {
