@@ -1,10 +1,13 @@
 #include "runtime/debug/call_chain.h"
 
+#include "runtime/host/controller.h"
 #include "runtime/host/saved_state.h"
+#include "runtime/host/state_keepers.h"
 #include "runtime/sched/error_search.h"
 #include "runtime/value/value_text.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -21,6 +24,46 @@ bool hasHandles(const TypeDesc& type) {
     for (uint32_t i = 0; i < parts; ++i)
         if (hasHandles(*type.fields[i])) return true;
     return false;
+}
+
+/// Who keeps the objects behind a handle or an array of handles; null: nobody.
+const StateKeepers::HandleKeeper* keeperOf(const TypeDesc& type, const StateKeepers& keepers) {
+    const TypeDesc& element = type.kind == DescKind::Array ? *type.fields[0] : type;
+    const auto found =
+        element.kind == DescKind::Handle ? keepers.handles.find(element.baseName) : keepers.handles.end();
+    return found == keepers.handles.end() ? nullptr : &found->second;
+}
+
+bool handlesToImage(const void* data, const TypeDesc& type, uint64_t count, const StateKeepers& keepers,
+                    std::string& text) {
+    const StateKeepers::HandleKeeper* keeper = keeperOf(type, keepers);
+    if (keeper == nullptr) return false;
+    nlohmann::json list = nlohmann::json::array();
+    std::vector<Handle> handles(count * type.size / sizeof(Handle));
+    std::memcpy(handles.data(), data, handles.size() * sizeof(Handle));
+    for (const Handle handle : handles)
+        list.push_back(keeper->textOf(handle));
+    text = "@" + list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return true;
+}
+
+bool imageToHandles(const std::string& text, void* data, const TypeDesc& type, uint64_t count,
+                    const StateKeepers& keepers) {
+    const StateKeepers::HandleKeeper* keeper = keeperOf(type, keepers);
+    if (keeper == nullptr || text.empty() || text.front() != '@') return false;
+    std::vector<Handle> handles;
+    try {
+        for (const std::string& object :
+             nlohmann::json::parse(text.substr(1)).get<std::vector<std::string>>()) {
+            handles.push_back(object.empty() ? 0 : keeper->make(object));
+            if (!object.empty() && handles.back() == 0) return false;
+        }
+    } catch (const std::exception&) {
+        return false;
+    }
+    if (handles.size() * sizeof(Handle) != count * type.size) return false;
+    std::memcpy(data, handles.data(), handles.size() * sizeof(Handle));
+    return true;
 }
 
 /// Elements of an array whose dimensions are known at run time; 1 for anything else.
@@ -135,8 +178,9 @@ const std::string* DataIndex::find(const void* address, uint64_t& offset) const 
 
 // ---- Values --------------------------------------------------------------------------------------------------------
 
-bool valueToImage(const void* data, const TypeDesc& type, uint64_t count, std::string& text) {
-    if (hasHandles(type)) return false;
+bool valueToImage(const void* data, const TypeDesc& type, uint64_t count, const StateKeepers& keepers,
+                  std::string& text) {
+    if (hasHandles(type)) return handlesToImage(data, type, count, keepers, text);
     if (count == 1 && valueToSource(data, type, text)) return true;
     text = "#";
     const auto* bytes = static_cast<const unsigned char*>(data);
@@ -145,8 +189,9 @@ bool valueToImage(const void* data, const TypeDesc& type, uint64_t count, std::s
     return true;
 }
 
-bool imageToValue(const std::string& text, void* data, const TypeDesc& type, uint64_t count) {
-    if (hasHandles(type)) return false;
+bool imageToValue(const std::string& text, void* data, const TypeDesc& type, uint64_t count,
+                  const StateKeepers& keepers) {
+    if (hasHandles(type)) return imageToHandles(text, data, type, count, keepers);
     if (text.empty() || text.front() != '#') return count == 1 && sourceToValue(text, data, type);
     if (text.size() != 1 + 2 * count * type.size) return false;
     std::vector<unsigned char> bytes(count * type.size);
@@ -182,7 +227,8 @@ SavedLocal takeLocal(const SteppingFrame& frame, uint32_t index, const std::vect
         saved.offset = 0;
         saved.kind = SavedLocal::Kind::Copy;
     }
-    if (!valueToImage(address, *desc.type, elementsOf(frame, index), saved.value))
+    const StateKeepers& keepers = task.controller().service<StateKeepers>();
+    if (!valueToImage(address, *desc.type, elementsOf(frame, index), keepers, saved.value))
         saved.kind = SavedLocal::Kind::Fresh;
     return saved;
 }

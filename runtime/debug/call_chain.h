@@ -11,6 +11,7 @@
 namespace rt {
 
 class Controller;
+struct StateKeepers;
 
 /// One parameter or variable of a routine in progress.
 struct SavedLocal {
@@ -19,7 +20,7 @@ struct SavedLocal {
         Absent, ///< optional parameter that is not given
         Object, ///< a parameter that stands for a part of `object`, a named data object
         Copy, ///< a parameter that stands for something without a name: an expression, an array of its own; `value`
-        Fresh ///< a file, a clock ...: made anew
+        Fresh ///< a file, a socket ...: made anew
     };
     Kind kind = Kind::Value;
     std::string type; ///< with all components and dimensions
@@ -66,9 +67,12 @@ std::string takeChain(const Task& task, const DataIndex& data, CallChain& chain)
 SavedLocal takeLocal(const SteppingFrame& frame, uint32_t index, const std::vector<Frame*>& frames,
                      const DataIndex& data, const Task& task);
 
-/// Any value as text: as in a declaration, or its bytes ("#...") where it has no literal. False for types without values.
-bool valueToImage(const void* data, const TypeDesc& type, uint64_t count, std::string& text);
+/// Any value as text: as in a declaration, its bytes ("#...") where it has no literal, or what its handles name ("@[...]").
+/// False for types without values whose objects nobody keeps.
+bool valueToImage(const void* data, const TypeDesc& type, uint64_t count, const StateKeepers& keepers,
+                  std::string& text);
 /// The reverse; all or nothing.
-bool imageToValue(const std::string& text, void* data, const TypeDesc& type, uint64_t count);
+bool imageToValue(const std::string& text, void* data, const TypeDesc& type, uint64_t count,
+                  const StateKeepers& keepers);
 
 } // namespace rt

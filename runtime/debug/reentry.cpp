@@ -1,6 +1,7 @@
 #include "runtime/debug/reentry.h"
 
 #include "runtime/host/controller.h"
+#include "runtime/host/state_keepers.h"
 #include "runtime/io/text_util.h"
 
 #include <fmt/format.h>
@@ -116,7 +117,9 @@ std::string Reentry::restoreLocal(const SteppingFrame& frame, uint32_t index, co
     uint64_t elements = 1;
     for (uint32_t k = 0; k < desc.rank; ++k)
         elements *= static_cast<uint64_t>(*static_cast<const int32_t*>(frame.addresses[index + 1 + k]));
-    return imageToValue(saved.value, address, *desc.type, elements) ? "" : differs("has no such value");
+    const auto& keepers = controller_.service<StateKeepers>();
+    return imageToValue(saved.value, address, *desc.type, elements, keepers) ? ""
+                                                                             : differs("has no such value");
 }
 
 Status Reentry::failed(Task& task) {

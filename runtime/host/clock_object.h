@@ -23,6 +23,12 @@ class ClockObject {
     }
     Time elapsed(Time now) const { return kept_ + (running_ ? now - started_ : 0); }
     bool running() const { return running_; }
+    /// The clock of an earlier process: no time passes in between.
+    void restore(Time elapsed, bool running, Time now) {
+        kept_ = elapsed;
+        started_ = now;
+        running_ = running;
+    }
 
   private:
     Time kept_ = 0, started_ = 0;

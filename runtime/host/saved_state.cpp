@@ -102,7 +102,10 @@ void SavedState::remember() {
         data_.add(data, keyOf(data));
         if (data.kind != kVariable && data.kind != kPersistent) continue;
         if (!known.try_emplace(data.address, true).second) continue;
-        if (!valueToSource(data.address, *data.type, initial)) continue; // handles are made anew
+        // Variables of handles begin without an object. Where nobody keeps what they name, it is made anew.
+        if (!valueToSource(data.address, *data.type, initial) &&
+            !valueToImage(data.address, *data.type, 1, controller_.service<StateKeepers>(), initial))
+            continue;
         Rows& rows = namesInterrupts(*data.type) ? interruptNumbers_
                      : data.kind == kPersistent  ? persistents_
                                                  : variables_;
@@ -137,7 +140,9 @@ StateImage::TaskImage SavedState::presentTask(Task& task) const {
     state.cycles = task.cyclesDone();
     if (task.endedByItself()) {
         state.pointer = StateImage::Pointer::Ended;
-    } else if (!place.module.empty() && task.state() != TaskState::Finished) {
+    } else if (task.state() == TaskState::Finished) {
+        state.pointer = StateImage::Pointer::Exited;
+    } else if (!place.module.empty()) {
         state.pointer = StateImage::Pointer::Inside;
         state.place = fmt::format("{}:{}", place.module, place.line);
         CallChain chain;
@@ -145,6 +150,7 @@ StateImage::TaskImage SavedState::presentTask(Task& task) const {
         if (!state.refusal.empty()) return state;
         state.chain = std::move(chain);
         state.interruptsEnabled = task.interrupts().enabled();
+        state.queuedInterrupts = task.interrupts().queuedSafe();
         for (SavedInterrupt& interrupt : task.interrupts().saved()) {
             const RoutineEntry* trap = trapAt(interrupt.trap);
             state.interrupts.push_back({std::move(interrupt), trap == nullptr ? "" : trap->module,
@@ -164,10 +170,11 @@ StateImage SavedState::present() const {
     StateImage image;
     for (const auto& task : controller_.tasks())
         image.tasks[upperCase(task->name())] = presentTask(*task);
-    const auto add = [this](const Rows& rows, std::map<std::string, StateImage::Datum>& out) {
+    const auto& keepers = controller_.service<StateKeepers>();
+    const auto add = [this, &keepers](const Rows& rows, std::map<std::string, StateImage::Datum>& out) {
         for (const auto& [data, initial] : rows) {
             std::string value;
-            if (valueToImage(data->address, *data->type, 1, value))
+            if (valueToImage(data->address, *data->type, 1, keepers, value))
                 out[keyOf(*data)] = {describeType(*data->type), initial, std::move(value)};
         }
     };
@@ -175,7 +182,7 @@ StateImage SavedState::present() const {
     add(variables_, image.variables);
     add(interruptNumbers_, image.interruptNumbers);
     image.path = controller_.motion().remainingPath();
-    for (const auto& [name, keeper] : controller_.service<StateKeepers>().keepers)
+    for (const auto& [name, keeper] : keepers.keepers)
         image.kept[name] = keeper.save().dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     IoSystem& io = controller_.io();
     for (SignalId id = 0; id < static_cast<SignalId>(io.size()); ++id)
@@ -261,6 +268,8 @@ void SavedState::restoreInterrupts(Task& task, const StateImage::TaskImage& imag
                                     {std::to_string(what.number), saved.routine});
         if (what.asleep) task.interrupts().sleep(what.number);
     }
+    for (const int number : image.queuedInterrupts)
+        task.interrupts().queueAgain(number);
     if (!image.interruptsEnabled) task.interrupts().disable();
 }
 
@@ -290,7 +299,9 @@ void SavedState::restoreTasks(const StateImage& image) {
         const auto found = image.tasks.find(upperCase(task->name()));
         if (!goesOn || found == image.tasks.end() || task->kind() != TaskKind::Normal) continue;
         task->setCyclesDone(found->second.cycles);
-        if (found->second.pointer == StateImage::Pointer::Ended) task->stayEnded();
+        const StateImage::Pointer pointer = found->second.pointer;
+        if (pointer == StateImage::Pointer::Ended || pointer == StateImage::Pointer::Exited)
+            task->stayEnded();
     }
     restoreData(kept, image.variables);
     Rows numbers;
@@ -304,7 +315,9 @@ void SavedState::restoreTasks(const StateImage& image) {
 /// Where the task begins. True when its variables keep their values.
 bool SavedState::restorePointer(Task& task, const StateImage::TaskImage& image) {
     // SEMISTATIC tasks start from the beginning at every power on (manual 1.20).
-    if (image.pointer == StateImage::Pointer::Main || task.kind() == TaskKind::SemiStatic) return false;
+    if (image.pointer == StateImage::Pointer::Main || image.pointer == StateImage::Pointer::Exited ||
+        task.kind() == TaskKind::SemiStatic)
+        return false;
     if (controller_.options().ppToMain && task.kind() == TaskKind::Normal) return false;
     if (image.pointer == StateImage::Pointer::Ended) {
         task.keepVariables();
@@ -326,6 +339,7 @@ bool SavedState::restorePointer(Task& task, const StateImage::TaskImage& image) 
 
 /// A value is taken over where name and type still fit. An initial value edited since then wins: the user meant it.
 void SavedState::restoreData(const Rows& rows, const std::map<std::string, StateImage::Datum>& data) {
+    const auto& keepers = controller_.service<StateKeepers>();
     std::vector<std::string> edited, misfits;
     for (const auto& [row, initial] : rows) {
         const auto found = data.find(keyOf(*row));
@@ -337,7 +351,7 @@ void SavedState::restoreData(const Rows& rows, const std::map<std::string, State
         else if (saved.initial != initial &&
                  saved.value != initial) // the same when it was written there by --save
             edited.push_back(name);
-        else if (saved.initial == initial && !imageToValue(saved.value, row->address, *row->type, 1))
+        else if (saved.initial == initial && !imageToValue(saved.value, row->address, *row->type, 1, keepers))
             misfits.push_back(name);
     }
     if (!edited.empty()) controller_.log().write(EventId::StateEdited, nullptr, {listed(edited)});

@@ -27,9 +27,10 @@ struct GlobalDesc;
 struct StateImage {
     /// Where the program pointer of a task was.
     enum class Pointer : uint8_t {
-        Main,  ///< at main, variables to be initialised
-        Ended, ///< main returned: the next start is one after a cycle
-        Inside ///< in the program
+        Main,   ///< at main, variables to be initialised
+        Ended,  ///< main returned: the next start is one after a cycle
+        Inside, ///< in the program
+        Exited  ///< EXIT: the next start is from main, but not in the run that goes on
     };
     struct Interrupt {
         SavedInterrupt what;
@@ -42,6 +43,7 @@ struct StateImage {
         std::optional<CallChain> chain; ///< Inside: how to go on there; none:
         std::string refusal;            ///< why that is not possible
         std::vector<Interrupt> interrupts;
+        std::vector<int> queuedInterrupts; ///< those that a stop leaves in the queue
         bool interruptsEnabled = true;
     };
     struct Datum {

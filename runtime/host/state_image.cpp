@@ -23,6 +23,7 @@ constexpr std::pair<const char*, StateImage::Pointer> kPointers[] = {
     {"main", StateImage::Pointer::Main},
     {"ended", StateImage::Pointer::Ended},
     {"inside", StateImage::Pointer::Inside},
+    {"exited", StateImage::Pointer::Exited},
 };
 
 Json jsonOf(const Data& data) {
@@ -52,6 +53,7 @@ Json jsonOf(const StateImage::TaskImage& task) {
     }
     json["chain"] = jsonOf(*task.chain);
     json["interruptsEnabled"] = task.interruptsEnabled;
+    json["queuedInterrupts"] = task.queuedInterrupts;
     json["interrupts"] = Json::array();
     for (const StateImage::Interrupt& interrupt : task.interrupts) {
         Json row = jsonOf(interrupt.what);
@@ -111,6 +113,8 @@ StateImage::TaskImage taskFrom(const Json& json) {
     if (!json.contains("chain")) return task;
     task.chain = chainFrom(json.at("chain"));
     json.at("interruptsEnabled").get_to(task.interruptsEnabled);
+    for (const Json& queued : json.value("queuedInterrupts", Json::array()))
+        whole(queued, task.queuedInterrupts.emplace_back());
     for (const Json& row : json.at("interrupts"))
         task.interrupts.push_back(
             {interruptFrom(row), row.at("module").get<std::string>(), row.at("routine").get<std::string>()});

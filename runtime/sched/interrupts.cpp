@@ -56,8 +56,22 @@ std::vector<SavedInterrupt> InterruptTable::saved() const {
 }
 
 void InterruptTable::restore(const SavedInterrupt& interrupt) {
-    defined_[interrupt.number].trap.function = interrupt.trap;
+    Definition& definition = defined_[interrupt.number];
+    definition.trap.function = interrupt.trap;
+    definition.single = interrupt.single;
+    definition.safe = interrupt.safe;
     lastNumber_ = std::max(lastNumber_, interrupt.number);
+}
+
+std::vector<int> InterruptTable::queuedSafe() const {
+    std::vector<int> numbers;
+    for (const Occurrence& occurrence : queue_)
+        if (isSafe(occurrence.number)) numbers.push_back(occurrence.number);
+    return numbers;
+}
+
+void InterruptTable::queueAgain(int number) {
+    if (isSafe(number) && queue_.size() < kMaxQueued) queue_.push_back({number, nullptr});
 }
 
 bool InterruptTable::remove(int number) {

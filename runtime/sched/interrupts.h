@@ -71,6 +71,9 @@ class InterruptTable {
     /// All that are connected; what a later process puts back. Those restored keep their numbers; they are not ordered yet.
     std::vector<SavedInterrupt> saved() const;
     void restore(const SavedInterrupt& interrupt);
+    /// The safe ones in the queue, in their order (a stop and a power failure leave these alone); and back.
+    std::vector<int> queuedSafe() const;
+    void queueAgain(int number);
     /// IDelete. False when the number is not defined.
     bool remove(int number);
     /// Every definition disappears (program reset).

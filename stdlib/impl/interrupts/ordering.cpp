@@ -2,6 +2,8 @@
 
 #include "stdlib/impl/interrupts/ordering.h"
 #include "stdlib/impl/io/signals.h"
+#include "stdlib/impl/queues/message_queue.h"
+#include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/support_natives.h"
 
@@ -139,12 +141,13 @@ bool orderAgain(Task& task, int number, bool single, bool safe, const InterruptO
     if (order.kind == kErrorOrder)
         return rt_IError(&task, a[0], a[2] != 0 ? &a[3] : nullptr, a[1], &interrupt) == kOk;
     if (order.kind == kTriggerOrder) return orderInterrupt(&task, number, {single, safe}, {}, order) == kOk;
+    if (order.kind == kMessageOrder) {
+        orderMessages(task, number, order.object);
+        return true;
+    }
     if (order.kind != kPersistentOrder) return false;
-    const std::size_t colon = order.object.find(':');
-    const GlobalDesc* data =
-        task.controller().findGlobal(order.object.substr(colon + 1), order.object.substr(0, colon), task);
-    if (colon == std::string::npos || data == nullptr) return false;
-    return rt_IPers(&task, flagged, safe, data->address, data->type, &interrupt) == kOk;
+    const AnyRef data = dataByName(task, order.object);
+    return data.data != nullptr && rt_IPers(&task, flagged, safe, data.data, data.type, &interrupt) == kOk;
 }
 
 Status unknownInterrupt(TaskCore* task) {

@@ -11,6 +11,7 @@ namespace rt::lib {
 inline constexpr const char* kAnalogOrder = "ISignalAI";
 inline constexpr const char* kPersistentOrder = "IPers";
 inline constexpr const char* kErrorOrder = "IError";
+inline constexpr const char* kMessageOrder = "IRMQMessage";
 inline constexpr const char* kTriggerOrder = "TriggInt";
 inline constexpr std::size_t kMostArguments = 6; ///< of InterruptOrder::numbers
 

@@ -1,6 +1,7 @@
 // Manual 1.11: interrupts from persistents and from the event log, and what a trap can ask about its cause.
 
 #include "stdlib/impl/interrupts/ordering.h"
+#include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/support_natives.h"
 #include "stdlib/impl/support/utf8.h"
@@ -58,12 +59,10 @@ struct ErrorFilter {
     }
 };
 
-/// A part of a persistent cannot be named to a later process.
 InterruptOrder persistentOrder(const Task& task, const void* data, const TypeDesc* type) {
-    for (const GlobalDesc* row : task.controller().tables().globals())
-        if (row->address == data && row->type == type)
-            return {lib::kPersistentOrder, std::string(row->module) + ":" + row->name, {}};
-    return {};
+    std::string name = lib::nameOfData(task.controller(), data, type);
+    if (name.empty()) return {};
+    return {lib::kPersistentOrder, std::move(name), {}};
 }
 
 void assignCut(String* text, std::string_view value) {

@@ -1,5 +1,6 @@
 #include "stdlib/impl/io/signals.h"
 
+#include "runtime/host/state_keepers.h"
 #include "runtime/value/value_text.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/support_natives.h"
@@ -55,6 +56,20 @@ Status readSignal(TaskCore* task, Handle handle, double& value) {
 Status checkWhole(TaskCore* task, double value) {
     if (std::trunc(value) == value) return kOk;
     return fail(task, err::ERR_ARGVALERR, "a group takes whole numbers only");
+}
+
+void keepSignalVariables(Controller& controller, StateKeepers& kept) {
+    const IoSystem& io = controller.io();
+    const auto textOf = [&io](Handle handle) {
+        const SignalId id = io.idOf(handle);
+        return id < 0 ? std::string() : io.config(id).name;
+    };
+    const auto make = [&io](const std::string& name) -> Handle {
+        const SignalId id = io.find(name);
+        return id < 0 ? 0 : IoSystem::handleOf(id);
+    };
+    for (const char* type : {"signaldi", "signaldo", "signalai", "signalao", "signalgi", "signalgo"})
+        kept.handles[type] = {textOf, make};
 }
 
 } // namespace rt::lib

@@ -3,6 +3,10 @@
 
 #include "runtime/host/controller.h"
 
+namespace rt {
+struct StateKeepers;
+}
+
 namespace rt::lib {
 
 /// kOk, or the error raised; `handle` is the signal concerned.
@@ -14,5 +18,8 @@ Status readSignal(TaskCore* task, Handle handle, double& value);
 
 /// kOk when a group may get this value as far as it is a whole number; else ERR_ARGVALERR.
 Status checkWhole(TaskCore* task, double value);
+
+/// Signal variables (AliasIO) between two processes (--state): they stand for the signal of the same name.
+void keepSignalVariables(Controller& controller, StateKeepers& kept);
 
 } // namespace rt::lib

@@ -1,6 +1,7 @@
 #include "stdlib/impl/queues/message_queue.h"
 
 #include "runtime/value/value_text.h"
+#include "stdlib/impl/interrupts/ordering.h"
 
 #include <algorithm>
 #include <cctype>
@@ -99,6 +100,18 @@ Handle MessageQueues::keep(Message message) {
 const Message* MessageQueues::kept(Handle handle) const {
     const auto found = kept_.find(handle);
     return found == kept_.end() ? nullptr : &found->second;
+}
+
+void orderMessages(Task& task, int number, const std::string& type) {
+    MessageQueues& queues = MessageQueues::of(task.controller());
+    MessageQueue& own = *queues.find(queues.slotOf(task));
+    const auto disarm = [&own, type, number] {
+        if (const auto order = own.orders.find(type); order != own.orders.end() && order->second == number)
+            own.orders.erase(order);
+    };
+    // Messages wait in the queue while the program is stopped, and so does the interrupt that tells of them.
+    task.interrupts().order(number, disarm, false, true, {kMessageOrder, type, {}});
+    own.orders[type] = number;
 }
 
 const TypeDesc& elementType(const TypeDesc& type) {

@@ -13,6 +13,10 @@
 #include <string_view>
 #include <vector>
 
+namespace rt {
+struct StateKeepers;
+}
+
 namespace rt::lib {
 
 /// Which way a task reads its queue (parameter RmqMode). Open: not configured, either way.
@@ -76,6 +80,11 @@ class MessageQueues {
     std::map<Handle, Message> kept_;
     Handle lastKept_ = 0;
 };
+
+/// IRMQMessage: messages of this type raise the interrupt of the task from now on.
+void orderMessages(Task& task, int number, const std::string& type);
+/// Messages in queues, messages and queues that variables hold, between two processes (--state).
+void keepMessages(Controller& controller, StateKeepers& kept);
 
 /// The type of the elements of an array, the type itself otherwise.
 const TypeDesc& elementType(const TypeDesc& type);

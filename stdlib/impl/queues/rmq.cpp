@@ -214,18 +214,10 @@ Status rt_IRMQMessage(TaskCore* task, void*, const TypeDesc* InterruptDataTypeTy
     InterruptTable& table = taskOf(task).interrupts();
     const int number = static_cast<int>(*Interrupt);
     if (!table.isDefined(number)) return lib::unknownInterrupt(task);
-    MessageQueue& own = ownQueue(task);
-    if (own.mode == QueueMode::Synchronous)
+    if (ownQueue(task).mode == QueueMode::Synchronous)
         return misused(task, "IRMQMessage",
                        "is for tasks in interrupt mode; this one is configured as Synchronous.");
-    const std::string type = lib::elementType(*InterruptDataTypeType).baseName;
-    const auto disarm = [&own, type, number] {
-        if (const auto order = own.orders.find(type); order != own.orders.end() && order->second == number)
-            own.orders.erase(order);
-    };
-    // Messages wait in the queue while the program is stopped, and so does the interrupt that tells of them.
-    table.order(number, disarm, false, true);
-    own.orders[type] = number;
+    lib::orderMessages(taskOf(task), number, lib::elementType(*InterruptDataTypeType).baseName);
     return kOk;
 }
 }

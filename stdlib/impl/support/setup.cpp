@@ -1,6 +1,9 @@
 #include "stdlib/impl/flow/booked_numbers.h"
 #include "stdlib/impl/interrupts/ordering.h"
+#include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/motion/state.h"
+#include "stdlib/impl/queues/message_queue.h"
+#include "stdlib/impl/time/clocks.h"
 #include "stdlib/native_table.h"
 
 #include "runtime/host/state_keepers.h"
@@ -15,6 +18,9 @@ void setUpStandardLibrary(Controller& controller) {
     kept.orderAgain = lib::orderAgain;
     lib::keepSettings(controller, kept);
     lib::keepBookedNumbers(controller, kept);
+    lib::keepClocks(controller, kept);
+    lib::keepSignalVariables(controller, kept);
+    lib::keepMessages(controller, kept);
 }
 
 } // namespace rt

@@ -1,10 +1,18 @@
 // Manual 1.14: clocks count virtual time.
 
+#include "stdlib/impl/time/clocks.h"
+
 #include "runtime/host/controller.h"
+#include "runtime/host/state_keepers.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
 
 using namespace rt;
 
@@ -24,6 +32,27 @@ Status checked(TaskCore* task, const ClockObject& clock) {
 }
 
 } // namespace
+
+namespace rt::lib {
+
+void keepClocks(Controller& controller, StateKeepers& kept) {
+    const auto textOf = [&controller](Handle handle) -> std::string {
+        const ClockObject* clock = controller.clocks().find(handle);
+        if (clock == nullptr) return {};
+        return nlohmann::json({clock->elapsed(controller.scheduler().now()), clock->running()}).dump();
+    };
+    const auto make = [&controller](const std::string& text) {
+        const auto json = nlohmann::json::parse(text);
+        const Handle handle = controller.clocks().create();
+        controller.clocks().find(handle)->restore(
+            std::clamp<Time>(json.at(0).get<Time>(), 0, kLongest + kSecond), json.at(1).get<bool>(),
+            controller.scheduler().now());
+        return handle;
+    };
+    kept.handles["clock"] = {textOf, make};
+}
+
+} // namespace rt::lib
 
 extern "C" {
 
