@@ -45,6 +45,10 @@ bool ProgramLowering::uses(std::string_view native) const {
     return natives_.contains("rt_" + std::string(native));
 }
 
+bool ProgramLowering::loads() const {
+    return usedBuiltIn("load") != nullptr || usedBuiltIn("startload") != nullptr;
+}
+
 /// Null when the program does not call it; `name` in lower case.
 const RoutineSymbol* ProgramLowering::usedBuiltIn(std::string_view name) const {
     for (const sema::Module* lib : program_.predefinedModules)
@@ -308,7 +312,7 @@ void ProgramLowering::addTablesOf(uint32_t task, const sema::Module& module, boo
 
 /// Needed when the program is complete: what it asks for by name.
 void ProgramLowering::addTables() {
-    const bool callsByName = natives_.contains("rt_lateCall") || uses("Load") || uses("StartLoad");
+    const bool callsByName = natives_.contains("rt_lateCall") || erases_;
     for (uint32_t task = 0; task < program_.tasks.size(); ++task)
         for (const sema::Module* module : program_.tasks[task]->modules)
             addTablesOf(task, *module, callsByName);

@@ -422,7 +422,8 @@ bool ProgramLowering::run() {
     module_.folder = options_.folder;
     const size_t errorsBefore = sink_.errorCount();
     findNamedParameters();
-    erases_ = usedBuiltIn("erasemodule") != nullptr;
+    // A module that is loaded may call EraseModule, too.
+    erases_ = usedBuiltIn("erasemodule") != nullptr || loads();
     for (uint32_t i = 0; i < program_.tasks.size(); ++i)
         lowerTask(i);
     addTables();

@@ -82,6 +82,7 @@ class ProgramLowering {
     void lowerTask(uint32_t task);
     // lower_named.cpp
     bool uses(std::string_view native) const; ///< some routine calls it; known when all is lowered
+    bool loads() const;                       ///< some routine calls Load or StartLoad
     const sema::RoutineSymbol* usedBuiltIn(std::string_view name) const;
     bool searchesData() const;
     void findNamedParameters();
@@ -117,7 +118,7 @@ class ProgramLowering {
     const UnitOptions* unitOptions_ = nullptr;
     std::unordered_set<const sema::DataSymbol*> namedParams_;
     bool asksForNames_ = false;
-    bool erases_ = false; ///< calls EraseModule
+    bool erases_ = false; ///< calls EraseModule, or loads modules, which may
     std::map<std::pair<uint32_t, const sema::Module*>, uint32_t> goneFlags_;
     ir::TypeId lateRow_ = ir::kVoid;
 };

@@ -220,7 +220,8 @@ std::string toText(const Event& event) {
     if (!event.text.empty()) text += fmt::format("    {}\n", event.text);
     if (!event.task.empty()) {
         const std::string place = placeText(event.place);
-        text += fmt::format("    at {}{}{}\n", event.task, place.empty() ? "" : " ", place);
+        text += place.empty() ? fmt::format("    in task {}\n", event.task)
+                              : fmt::format("    at {} {}\n", event.task, place);
     }
     for (const SourcePlace& call : event.calls)
         text += fmt::format("    called from {}\n", placeText(call));

@@ -3,6 +3,8 @@
 #include "runtime/log/event_log.h"
 #include "runtime/sched/task.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -26,6 +28,11 @@ bool InterruptTable::attach(int number, const Trap& trap) {
     if (found == defined_.end() || found->second.trap.function != nullptr) return false;
     found->second.trap = trap;
     return true;
+}
+
+void InterruptTable::forEachTrap(const std::function<void(Trap&)>& visit) {
+    for (auto& [number, definition] : defined_)
+        visit(definition.trap);
 }
 
 bool InterruptTable::isOrdered(int number) const {
@@ -162,6 +169,9 @@ Status InterruptTable::deliverFirst() {
     const auto found = defined_.find(occurrence.number);
     if (found == defined_.end()) return kOk;
     const Trap trap = found->second.trap;
+    if (!trap.absent.empty())
+        return task_.fatal(static_cast<int>(EventId::TrapUnloaded),
+                           fmt::format("{}: its trap routine is {}", occurrence.number, trap.absent));
     if (trap.function == nullptr)
         return task_.fatal(static_cast<int>(EventId::TrapMissing), std::to_string(occurrence.number));
     // The interrupted code must not see that a trap ran in between: ERRNO and INTNO are its own.

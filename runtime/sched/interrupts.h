@@ -21,6 +21,8 @@ class Task;
 struct Trap {
     EntryFunction function = nullptr;
     const RoutineDesc* routine = nullptr; ///< for events; may be null
+    std::string
+        absent; ///< "Part:onChange": the one that is meant, whose module has left memory; `function` is null
 };
 
 /// What an interrupt was ordered for, in words that a later process understands (--state): the instruction and its
@@ -60,6 +62,8 @@ class InterruptTable {
     int define() { return connect({}); }
     /// Gives a number made by define() its trap routine. False when the number is not defined or has one.
     bool attach(int number, const Trap& trap);
+    /// All trap routines connected with interrupts: modules come and go while a program runs.
+    void forEachTrap(const std::function<void(Trap&)>& visit);
     bool isDefined(int number) const { return defined_.count(number) != 0; }
     /// True when the interrupt has been ordered (ISignalDI, ITimer ...).
     bool isOrdered(int number) const;

@@ -230,7 +230,8 @@ TEST_CASE("an error in a trap goes to the system handler even when main could ha
         InterruptTable& table = taskOf(core).interrupts();
         const int number = table.connect(
             {[](TaskCore* inner, Frame* boundary) -> Status { return fails(inner, boundary, trap, 1, 12); },
-             &trap.desc});
+             &trap.desc,
+             {}});
         table.order(number, {});
         table.post(number);
         return taskOf(core).sleepFor(kSecond);

@@ -275,7 +275,8 @@ TEST_CASE("interrupts are delivered while a task waits and at safepoints", "[sch
                                             " " + formatSeconds(taskOf(inner).now(), 1));
                             return kOk;
                         },
-                        nullptr};
+                        nullptr,
+                        {}};
         const int first = table.connect(trap);
         const int second = table.connect(trap);
         table.order(first, {});
