@@ -2,8 +2,12 @@
 
 #include "runtime/host/rapidc_process.h"
 #include "runtime/host/unit_messages.h"
+#include "runtime/io/io_system.h"
 
 #include <fmt/format.h>
+
+#include <cctype>
+#include <utility>
 
 namespace rt {
 namespace {
@@ -26,11 +30,23 @@ UnitAnswer askForUnit(const std::string& request, std::string& problem) {
     return {};
 }
 
+SignalNames signalsOf(const IoSystem& io) {
+    SignalNames signals;
+    for (SignalId id = 0; id < static_cast<SignalId>(io.size()); ++id) {
+        std::string type = std::string("signal") + signalTypeName(io.config(id).type);
+        for (char& letter : type)
+            letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+        signals.emplace_back(io.config(id).name, std::move(type));
+    }
+    return signals;
+}
+
 } // namespace
 
 CompiledUnit RapidcCompiler::compile(const LoadRequest& request, const ProgramState& state) {
     std::string problem;
-    UnitAnswer answer = askForUnit(writeUnitRequest(sources_, false, request, state), problem);
+    UnitAnswer answer =
+        askForUnit(writeUnitRequest(sources_, false, request, state, signalsOf(io_)), problem);
     if (!problem.empty()) {
         answer.unit.verdict = LoadResult::Verdict::NoCompiler;
         answer.unit.problems = std::move(problem);
@@ -42,7 +58,7 @@ OpenReferences RapidcCompiler::unresolved(const std::string& task, const Program
     std::string problem;
     LoadRequest request;
     request.task = task;
-    UnitAnswer answer = askForUnit(writeUnitRequest(sources_, true, request, state), problem);
+    UnitAnswer answer = askForUnit(writeUnitRequest(sources_, true, request, state, signalsOf(io_)), problem);
     if (!problem.empty()) answer.open.problem = std::move(problem);
     return std::move(answer.open);
 }

@@ -7,16 +7,19 @@
 
 namespace rt {
 
+class IoSystem;
+
 class RapidcCompiler final : public UnitCompiler {
   public:
-    /// `sources`: ProgramDesc::sources; must outlive the compiler.
-    explicit RapidcCompiler(std::string_view sources) : sources_(sources) {}
+    /// `sources`: ProgramDesc::sources; `io`: which signals there are. Both must outlive the compiler.
+    RapidcCompiler(std::string_view sources, const IoSystem& io) : sources_(sources), io_(io) {}
 
     CompiledUnit compile(const LoadRequest& request, const ProgramState& state) override;
     OpenReferences unresolved(const std::string& task, const ProgramState& state) override;
 
   private:
     std::string_view sources_;
+    const IoSystem& io_;
 };
 
 } // namespace rt

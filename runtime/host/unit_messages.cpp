@@ -45,15 +45,10 @@ Json jsonOf(const ProgramTables& tables) {
 } // namespace
 
 std::string writeUnitRequest(std::string_view sources, bool references, const LoadRequest& load,
-                             const ProgramState& state) {
-    Json json{{"sources", binaryJson(sources)},
-              {"references", references},
-              {"task", load.task},
-              {"index", load.taskIndex},
-              {"path", load.path},
-              {"shown", load.shown},
-              {"bytes", binaryJson(load.bytes)},
-              {"memory", jsonOf(state.tables)},
+                             const ProgramState& state, const SignalNames& signals) {
+    Json json{{"sources", binaryJson(sources)},  {"references", references}, {"task", load.task},
+              {"index", load.taskIndex},         {"path", load.path},        {"shown", load.shown},
+              {"bytes", binaryJson(load.bytes)}, {"signals", signals},       {"memory", jsonOf(state.tables)},
               {"files", Json::array()}};
     for (const LoadedFile& file : state.files)
         json["files"].push_back({file.task, file.path, file.shown, binaryJson(file.bytes)});
@@ -68,6 +63,7 @@ std::unique_ptr<UnitRequest> readUnitRequest(std::string_view bytes) try {
     request->load = {json.at("task").get<std::string>(), json.at("index").get<int32_t>(),
                      json.at("path").get<std::string>(), json.at("shown").get<std::string>(),
                      bytesOf(json.at("bytes"))};
+    request->signals = json.at("signals").get<SignalNames>();
     for (const Json& row : json.at("files"))
         request->files.push_back({row.at(0).get<int32_t>(), row.at(1).get<std::string>(),
                                   row.at(2).get<std::string>(), bytesOf(row.at(3))});

@@ -9,8 +9,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace rt {
+
+/// Configured signals: name, and the type of its variables ("signaldo").
+using SignalNames = std::vector<std::pair<std::string, std::string>>;
 
 /// The request as its receiver has it: the tables hold names, no addresses.
 struct UnitRequest {
@@ -18,6 +23,7 @@ struct UnitRequest {
     bool references =
         false; ///< only the open references of the task are asked for; the file to be loaded is empty
     LoadRequest load;
+    SignalNames signals; ///< of the running controller
     ProgramTables tables;
     std::deque<LoadedFile> files;
 
@@ -30,7 +36,7 @@ struct UnitRequest {
 };
 
 std::string writeUnitRequest(std::string_view sources, bool references, const LoadRequest& load,
-                             const ProgramState& state);
+                             const ProgramState& state, const SignalNames& signals);
 /// Null when the bytes are none.
 std::unique_ptr<UnitRequest> readUnitRequest(std::string_view bytes);
 

@@ -26,6 +26,11 @@ int compileUnit() {
     std::string problem;
     const auto sources = unpack(request->sources, problem);
     if (!sources) return fail(problem);
+    // Those the executable was built with, and what it was given since by --config.
+    sources->options.signals.clear();
+    for (const auto& [name, type] : request->signals)
+        sources->options.signals.push_back({name, type});
+    sources->options.configurationKnown = sources->options.configurationKnown || !request->signals.empty();
     SourceCompiler compiler(*sources);
     const rt::ProgramState state{request->tables, request->files};
     rt::UnitAnswer answer;

@@ -31,8 +31,9 @@ constexpr Time kLoadingPerKib = kSecond / 1000;
 std::string written(const String& directory, const String* file) {
     std::string text(directory.view());
     if (file == nullptr) return text;
-    if (!text.empty() && text.back() != '/' && text.back() != ':') text += '/';
-    return text + std::string(file->view());
+    const std::string_view name = file->view();
+    if (!text.empty() && text.back() != '/' && name.substr(0, 1) != "/") text += '/';
+    return text + std::string(name);
 }
 
 bool hostPath(TaskCore* task, const String& directory, const String* file, std::string& path) {
@@ -76,7 +77,7 @@ std::string joined(const std::vector<std::string>& lines) {
 
 /// In a built executable the installed rapidc compiles.
 struct RapidcLoader {
-    explicit RapidcLoader(std::string_view sources) : compiler(sources), loader(compiler) {}
+    RapidcLoader(std::string_view sources, const IoSystem& io) : compiler(sources, io), loader(compiler) {}
     RapidcCompiler compiler;
     UnitLoader loader;
 };
@@ -87,7 +88,8 @@ ModuleLoader* loaderOf(Controller& controller) {
     const ProgramDesc& program = controller.program();
     if (all.loader == nullptr && program.sources != nullptr) {
         auto& own = controller.service<std::unique_ptr<RapidcLoader>>();
-        own = std::make_unique<RapidcLoader>(std::string_view(program.sources, program.sourcesSize));
+        own = std::make_unique<RapidcLoader>(std::string_view(program.sources, program.sourcesSize),
+                                             controller.io());
         all.loader = &own->loader;
     }
     return all.loader;

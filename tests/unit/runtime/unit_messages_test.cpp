@@ -15,7 +15,7 @@ std::string request(const ProgramTables& tables, const std::deque<LoadedFile>& f
     load.path = "/home/x/part.modx";
     load.shown = "HOME:/part.modx";
     load.bytes = "MODULE Part\r\n! \xe4\nENDMODULE"; // ISO 8859-1
-    return writeUnitRequest("sources \xff", false, load, {tables, files});
+    return writeUnitRequest("sources \xff", false, load, {tables, files}, {{"doOne", "signaldo"}});
 }
 
 std::string answer() {
@@ -57,6 +57,7 @@ TEST_CASE("a request to compile a module comes across", "[units]") {
     REQUIRE(read);
     CHECK(read->sources == "sources \xff");
     CHECK_FALSE(read->references);
+    CHECK(read->signals == SignalNames{{"doOne", "signaldo"}});
     CHECK(read->load.task == "T_ROB1");
     CHECK(read->load.taskIndex == 2);
     CHECK(read->load.shown == "HOME:/part.modx");
