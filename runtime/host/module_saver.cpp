@@ -78,6 +78,28 @@ std::string ModuleSaver::defaultDestination(const std::string& source) const {
     return controller_.home().resolve(fs::path(source).filename().string(), path) ? path : std::string();
 }
 
+/// A file may belong to several tasks, each of which has an object of its own (TASK PERS, LOCAL PERS): it can hold one value.
+void ModuleSaver::tellOthers(const Declared& saved, const std::string& value) const {
+    const GlobalDesc& data = *saved.data;
+    const auto taskOf = [this](const GlobalDesc& row) {
+        return row.task < 0 ? std::string("all tasks")
+                            : controller_.tasks()[static_cast<std::size_t>(row.task)]->name();
+    };
+    for (const Declared& other : declared_) {
+        const GlobalDesc& row = *other.data;
+        std::string text;
+        if (row.address == data.address || std::strcmp(row.name, data.name) != 0 ||
+            std::strcmp(row.module, data.module) != 0 || hostPath(row.file) != hostPath(data.file) ||
+            !valueToSource(row.address, *row.type, text) || text == value)
+            continue;
+        controller_.log().write(
+            EventId::ValueNotSaved, nullptr,
+            {fmt::format("{}.{} is {} in {}, which is saved, and {} in {}, which is not, because both tasks "
+                         "use one file; give each task a file of its own",
+                         data.module, data.name, value, taskOf(data), text, taskOf(row))});
+    }
+}
+
 std::vector<ModuleSaver::Declared*> ModuleSaver::changedIn(const std::string& source, int32_t task,
                                                            ModuleText& text) {
     std::vector<Declared*> rows;
@@ -89,6 +111,7 @@ std::vector<ModuleSaver::Declared*> ModuleSaver::changedIn(const std::string& so
         if (!belongsTo(data, task) || hostPath(data.file) != source || !hasChanged(declared, value)) continue;
         if (!named.insert({data.module, data.name}).second) continue;
         rows.push_back(&declared);
+        tellOthers(declared, value);
         text.values.push_back({data.module, data.name, value});
     }
     return rows;

@@ -43,6 +43,7 @@ class ModuleSaver {
         std::string bytes;
     };
     bool hasChanged(const Declared& declared, std::string& text) const;
+    void tellOthers(const Declared& saved, const std::string& value) const;
     void remember(const GlobalDesc& data);
     void addUnit(const LoadedModule& module, ModuleText& text) const;
     std::string defaultDestination(const std::string& source) const;
