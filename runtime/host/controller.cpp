@@ -170,10 +170,13 @@ bool Controller::cyclesLeft(const Task& task) const {
 
 void Controller::taskStopped(Task& task) {
     debugger_.noteStop(task, StopReason::Stop);
+    if (task.isMotionTask()) motion_->noteStop();
     if (task.kind() != TaskKind::Normal) backgroundStopped(task);
 }
 
 void Controller::taskExited(Task& task) {
+    if (task.isMotionTask())
+        motion_->clearPath(); // the program pointer is lost, and the path with it (1.2.2)
     if (task.kind() != TaskKind::Normal) backgroundStopped(task);
 }
 

@@ -76,10 +76,18 @@ void MotionDriver::advance(Time time) {
         const std::vector<motion::MotionEvent> events = system_.takeEvents();
         for (const motion::MotionEvent& event : events)
             handle(event);
-        if (!events.empty()) changed_.notifyAll();
+        if (!events.empty()) {
+            changed_.notifyAll();
+            tell(ArmNews::Event);
+        }
         reached = step >= time && events.empty();
     }
     advancing_ = false;
+}
+
+void MotionDriver::tell(ArmNews news) {
+    for (const auto& listener : listeners_)
+        listener(news);
 }
 
 void MotionDriver::handle(const motion::MotionEvent& event) {
@@ -261,18 +269,20 @@ void MotionDriver::startMove() {
 }
 
 void MotionDriver::programStop() {
-    programStop_ = true;
+    if (!std::exchange(programStop_, true)) tell(ArmNews::StopOnPath);
     applyStops();
 }
 
 void MotionDriver::programStart() {
     programStop_ = false;
+    tell(ArmNews::Start);
     applyStops();
 }
 
 void MotionDriver::emergencyStop(bool powerFailure) {
-    programStop_ = true;
     advance(scheduler_.now());
+    programStop_ = true;
+    tell(ArmNews::MotorsOff);
     if (powerFailure) brokenPath_ = system_.isIdle() ? 0 : system_.lastOrdered();
     system_.halt();
     if (powerFailure) system_.rearmTriggers();

@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rt {
@@ -32,6 +33,14 @@ struct PathAction {
     motion::PathTrigger place; ///< its id is given by the driver
     Time delay = 0; ///< after the place has been passed; a negative lag of `place` is such a delay, too
     std::function<void()> act; ///< called by the scheduler, not on a task's fibre
+};
+
+/// What happens to the arm, for those who accompany it (TriggSpeed, TriggStopProc).
+enum class ArmNews : uint8_t {
+    Event,      ///< a movement has begun or ended, the arm has come to a stand
+    StopOnPath, ///< the program stops; the arm is about to brake on its path, or stands
+    MotorsOff,  ///< the arm is about to brake beside its path
+    Start       ///< the program starts again
 };
 
 class MotionDriver {
@@ -64,12 +73,16 @@ class MotionDriver {
 
     /// Notified after every motion event.
     WaitQueue& changed() { return changed_; }
+    /// Called for the life of the driver, not on a task's fibre.
+    void addListener(std::function<void(ArmNews)> listener) { listeners_.push_back(std::move(listener)); }
 
     /// StopMove / StartMove, and the controller's stop / start. The arm moves when neither holds it.
     void stopMove();
     void startMove();
     bool isStopMoveActive() const { return stopMove_; }
     void programStop();
+    /// The program stops by itself, with the arm standing still.
+    void noteStop() { tell(ArmNews::StopOnPath); }
     void programStart();
     /// The motors go off: the arm leaves its path; programStart() brings it back first. `powerFailure`: notes that a path
     /// was interrupted.
@@ -136,6 +149,7 @@ class MotionDriver {
     void handle(const motion::MotionEvent& event);
     void schedule();
     void applyStops();
+    void tell(ArmNews news);
 
     Scheduler& scheduler_;
     motion::MotionSystem system_;
@@ -163,6 +177,7 @@ class MotionDriver {
     EarlierPath earlier_;        // what is left to be taken over
     bool backward_ = false;
     std::function<Status(Task&)> circlePointStop_;
+    std::vector<std::function<void(ArmNews)>> listeners_;
     bool advancing_ = false;
 };
 

@@ -161,7 +161,7 @@ extern "C" {
 
 Status rt_connect(TaskCore* task, float* interrupt, void* trap) {
     InterruptTable& table = taskOf(task).interrupts();
-    const Trap routine{reinterpret_cast<EntryFunction>(trap), nullptr};
+    const Trap routine{reinterpret_cast<EntryFunction>(trap), nullptr, {}};
     if (table.attach(numberOf(interrupt), routine)) return kOk; // ordered before it was connected
     if (table.isDefined(numberOf(interrupt)))
         return lib::fail(task, err::ERR_ALRDYCNT,

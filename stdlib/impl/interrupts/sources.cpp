@@ -59,8 +59,8 @@ struct ErrorFilter {
     }
 };
 
-InterruptOrder persistentOrder(const Task& task, const void* data, const TypeDesc* type) {
-    std::string name = lib::nameOfData(task.controller(), data, type);
+InterruptOrder persistentOrder(const Task& task, const void* data) {
+    std::string name = lib::nameOfData(task.controller(), data);
     if (name.empty()) return {};
     return {lib::kPersistentOrder, std::move(name), {}};
 }
@@ -86,7 +86,7 @@ Status rt_IPers(TaskCore* core, bool Single, bool SingleSafe, void* Name, const 
     });
     return lib::orderInterrupt(
         core, number, {Single, SingleSafe}, [&scheduler, watch] { scheduler.unwatchData(watch); },
-        persistentOrder(task, Name, NameType));
+        persistentOrder(task, Name));
 }
 
 Status rt_IError(TaskCore* core, float ErrorDomain, const float* ErrorId, float ErrorType, float* Interrupt) {

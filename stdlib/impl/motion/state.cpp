@@ -1,6 +1,7 @@
 #include "stdlib/impl/motion/state.h"
 
 #include "stdlib/impl/math/convert.h"
+#include "stdlib/impl/motion/speed_outputs.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib_constants.h"
@@ -20,6 +21,8 @@ void resetSettings(Task& task) {
     defaults.tool = state.tool;
     defaults.workObject = state.workObject;
     state = defaults;
+    endSpeedOutputs(task.controller());
+    endStopSupervision(task.controller());
 }
 
 Status requireMotionTask(TaskCore* task) {

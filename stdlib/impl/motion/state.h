@@ -25,7 +25,9 @@ struct MotionState {
 MotionState& motionState(TaskCore* task);
 /// What SYS_RESET does when the program of a motion task begins anew (manual 1.7): defaults; tool and work object stay.
 void resetSettings(Task& task);
-/// They are kept between two processes (--state).
+/// The program begins anew: TriggStopProc supervises no more.
+void endStopSupervision(Controller& controller);
+/// The settings are kept between two processes (--state).
 void keepSettings(Controller& controller, StateKeepers& kept);
 
 /// kOk, or ERR_NOT_MOVETASK raised: only a task that controls the robot may move it.

@@ -30,20 +30,30 @@ struct TriggerArguments {
     std::array<const Handle*, 7> others;
 };
 
-Status addTrigger(TaskCore* task, Handle variable, const char* name, Actions& actions) {
+/// The output of a TriggSpeed must be able to follow the programmed speed.
+Status checkScale(TaskCore* task, const lib::TriggerDefinition& trigger, const data::Speeddata& speed) {
+    if (trigger.kind != lib::TriggerDefinition::Kind::Speed) return kOk;
+    // As a num: 0.1 times 100 is 10.
+    return lib::checkOutput(task, trigger.signal, static_cast<float>(trigger.value) * speed.v_tcp);
+}
+
+Status addTrigger(TaskCore* task, Handle variable, const char* name, const data::Speeddata& speed,
+                  Actions& actions) {
     const lib::TriggerDefinition* definition = lib::triggerStore(task).find(variable);
     if (definition == nullptr)
         return lib::fail(
             task, err::ERR_ARGVALERR,
             fmt::format("the trigger of argument {} has no contents; define it with TriggIO, TriggEquip, "
-                        "TriggInt or TriggCheckIO first",
+                        "TriggSpeed, TriggRampAO, TriggInt or TriggCheckIO first",
                         name));
+    if (const Status status = checkScale(task, *definition, speed)) return status;
     lib::addActions(task, *definition, actions);
     return kOk;
 }
 
 /// Elements without contents are passed over.
-Status addArray(TaskCore* task, const TriggerArguments& args, Actions& actions) {
+Status addArray(TaskCore* task, const TriggerArguments& args, const data::Speeddata& speed,
+                Actions& actions) {
     for (const Handle* other : args.others)
         if (other != nullptr)
             return lib::fail(task, err::ERR_ARGVALERR,
@@ -52,6 +62,7 @@ Status addArray(TaskCore* task, const TriggerArguments& args, Actions& actions) 
     for (int32_t i = 0; i < args.arraySize; ++i) {
         const lib::TriggerDefinition* definition = lib::triggerStore(task).find(args.array[i]);
         if (definition == nullptr) continue;
+        if (const Status status = checkScale(task, *definition, speed)) return status;
         lib::addActions(task, *definition, actions);
         ++count;
     }
@@ -61,14 +72,14 @@ Status addArray(TaskCore* task, const TriggerArguments& args, Actions& actions) 
         fmt::format("the array has {} triggers; a movement takes at most {}", count, kMostTriggers));
 }
 
-Status collect(TaskCore* task, const TriggerArguments& args, Actions& actions) {
+Status collect(TaskCore* task, const TriggerArguments& args, const data::Speeddata& speed, Actions& actions) {
     static constexpr std::array<const char*, 7> kNames{"\\T2", "\\T3", "\\T4", "\\T5",
                                                        "\\T6", "\\T7", "\\T8"};
-    if (args.first == nullptr) return addArray(task, args, actions);
-    if (const Status status = addTrigger(task, *args.first, "Trigg_1", actions)) return status;
+    if (args.first == nullptr) return addArray(task, args, speed, actions);
+    if (const Status status = addTrigger(task, *args.first, "Trigg_1", speed, actions)) return status;
     for (std::size_t i = 0; i < args.others.size(); ++i) {
         if (args.others[i] == nullptr) continue;
-        if (const Status status = addTrigger(task, *args.others[i], kNames[i], actions)) return status;
+        if (const Status status = addTrigger(task, *args.others[i], kNames[i], speed, actions)) return status;
     }
     return kOk;
 }
@@ -76,7 +87,7 @@ Status collect(TaskCore* task, const TriggerArguments& args, Actions& actions) {
 Status moveWithTriggers(TaskCore* task, motion::MoveCommand command, const lib::MoveArguments& arguments,
                         const TriggerArguments& triggers) {
     Actions actions;
-    if (const Status status = collect(task, triggers, actions)) return status;
+    if (const Status status = collect(task, triggers, *arguments.speed, actions)) return status;
     return lib::orderMove(task, std::move(command), arguments, std::move(actions));
 }
 

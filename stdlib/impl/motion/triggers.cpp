@@ -6,6 +6,7 @@
 #include "runtime/value/value_text.h"
 #include "stdlib/impl/interrupts/ordering.h"
 #include "stdlib/impl/io/signals.h"
+#include "stdlib/impl/motion/speed_outputs.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/relation.h"
 
@@ -39,10 +40,14 @@ double signalValue(const void* data, const TypeDesc* type) {
 }
 
 /// `wanted`, unless the trigger is inhibited.
+double valueAtPlace(const TriggerDefinition& trigger, double wanted) {
+    const bool inhibited = trigger.inhibit != nullptr && *trigger.inhibit;
+    return inhibited ? signalValue(trigger.inhibitValue, trigger.inhibitType) : wanted;
+}
+
 void setOutput(Task& task, const TriggerDefinition& trigger, double wanted) {
     IoSystem& io = task.controller().io();
-    const bool inhibited = trigger.inhibit != nullptr && *trigger.inhibit;
-    const double value = inhibited ? signalValue(trigger.inhibitValue, trigger.inhibitType) : wanted;
+    const double value = valueAtPlace(trigger, wanted);
     if (io.set(trigger.signal, value) == IoResult::Ok) return;
     task.report(EventId::TriggerValue, {io.config(io.idOf(trigger.signal)).name, formatDnum(value)});
 }
@@ -57,6 +62,10 @@ void checkSignal(Task& task, const TriggerDefinition& trigger) {
 
 void execute(Task& task, const TriggerDefinition& trigger) {
     if (trigger.kind == TriggerDefinition::Kind::Output) return setOutput(task, trigger, trigger.value);
+    if (trigger.kind == TriggerDefinition::Kind::Speed)
+        return lib::followSpeed(
+            task.controller(), trigger.signal,
+            {valueAtPlace(trigger, trigger.value), fromSeconds(trigger.dipLag), trigger.errorSignal});
     if (trigger.inhibit != nullptr && *trigger.inhibit) return;
     if (trigger.kind == TriggerDefinition::Kind::Check) return checkSignal(task, trigger);
     task.interrupts().post(trigger.interrupt);
@@ -99,6 +108,8 @@ void addRamp(Task* owner, const TriggerDefinition& ramp, std::vector<PathAction>
     }
 }
 
+constexpr float kLongestExtension = -0.1F; // s, ScaleLag of TriggSpeed
+
 /// Where a trigger is, as the instructions that define one say it.
 struct Place {
     float distance = 0;
@@ -138,8 +149,10 @@ struct OutputArguments {
 Status defineOutput(TaskCore* task, Handle* variable, TriggerDefinition trigger,
                     const OutputArguments& args) {
     if (args.process != nullptr)
-        return taskOf(task).fatal(static_cast<int>(EventId::NotImplemented),
-                                  "\\ProcID of TriggIO and TriggEquip");
+        return taskOf(task).fatal(
+            static_cast<int>(EventId::NotImplemented),
+            "\\ProcID of TriggIO and TriggEquip, which addresses a process of ABB's own "
+            "application software (arc, spot, dispense),");
     const Handle* signal = args.digital != nullptr ? args.digital
                            : args.group != nullptr ? args.group
                                                    : args.analog;
@@ -250,6 +263,39 @@ Status rt_TriggRampAO(TaskCore* task, Handle* TriggData, float Distance, bool St
     return defineOutput(
         task, TriggData, trigger,
         {nullptr, nullptr, AOutput, nullptr, &SetValue, nullptr, Inhib, InhibSetValue, InhibSetValueType});
+}
+
+Status rt_TriggSpeed(TaskCore* task, Handle* TriggData, float Distance, bool Start, bool Next, float ScaleLag,
+                     Handle* AOp, float ScaleValue, const float* DipLag, Handle* ErrDO, bool* Inhib,
+                     void* InhibSetValue, const TypeDesc* InhibSetValueType, const float*) {
+    TriggerDefinition trigger;
+    trigger.kind = TriggerDefinition::Kind::Speed;
+    if (const Status status = setPlace(task, trigger, {Distance, Start, Next, false, ScaleLag}))
+        return status;
+    if (ScaleLag < kLongestExtension)
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "a negative ScaleLag keeps the output for at most 0.1 s behind the place");
+    if (!std::isfinite(ScaleValue))
+        return lib::fail(task, err::ERR_ARGVALERR, "the scale of an output must be a number");
+    if (DipLag != nullptr && (!(*DipLag >= 0) || !std::isfinite(*DipLag)))
+        return lib::fail(task, err::ERR_DIPLAG_LIM, "\\DipLag must be a time in s, not negative");
+    const IoSystem& io = taskOf(task).controller().io();
+    Status status = kOk;
+    const SignalId output = lib::signalOf(task, *AOp, status);
+    if (status != kOk) return status;
+    if (const IoResult result = io.check(*AOp, io.config(output).minValue, true); result != IoResult::Ok)
+        return lib::ioStatus(task, result, *AOp);
+    if (ErrDO != nullptr)
+        if (const IoResult result = io.check(*ErrDO, 1, true); result != IoResult::Ok)
+            return lib::ioStatus(task, result, *ErrDO);
+    trigger.signal = *AOp;
+    trigger.value = ScaleValue;
+    trigger.dipLag = DipLag != nullptr ? *DipLag : 0;
+    trigger.errorSignal = ErrDO != nullptr ? *ErrDO : 0;
+    trigger.inhibit = Inhib;
+    trigger.inhibitValue = InhibSetValue;
+    trigger.inhibitType = InhibSetValue != nullptr ? InhibSetValueType : nullptr;
+    return define(task, TriggData, trigger);
 }
 
 Status rt_TriggInt(TaskCore* task, Handle* TriggData, float Distance, bool Start, bool Next, bool Time,

@@ -8,6 +8,10 @@
 #include <map>
 #include <vector>
 
+namespace rt {
+struct StateKeepers;
+}
+
 namespace rt::lib {
 
 struct TriggerDefinition {
@@ -15,6 +19,7 @@ struct TriggerDefinition {
         Output,    ///< TriggIO, TriggEquip: sets `signal` to `value`
         Interrupt, ///< TriggInt
         Ramp,      ///< TriggRampAO: brings `signal` to `value` along `rampLength`
+        Speed,     ///< TriggSpeed: `signal` is `value` times the speed of the TCP from here on
         Check,     ///< TriggCheckIO: the interrupt occurs unless `signal` stands in `relation` to `value`
     };
     Kind kind = Kind::Output;
@@ -24,6 +29,8 @@ struct TriggerDefinition {
     double value = 0;
     double rampLength = 0; ///< mm of path, or s
     bool rampInTime = false;
+    double dipLag = 0;      ///< s
+    Handle errorSignal = 0; ///< 1 while the value does not fit `signal`
     float relation = 0;
     bool stopMove = false;
     int interrupt = 0;
@@ -35,7 +42,7 @@ struct TriggerDefinition {
     friend auto operator<=>(const TriggerDefinition&, const TriggerDefinition&) = default;
 };
 
-/// The definitions of one task. 0, the initial value of a triggdata, is none.
+/// The definitions of a controller. 0, the initial value of a triggdata, is none.
 class TriggerStore {
   public:
     Handle intern(const TriggerDefinition& definition);
@@ -48,11 +55,14 @@ class TriggerStore {
 };
 
 inline TriggerStore& triggerStore(TaskCore* task) {
-    return taskOf(task).local<TriggerStore>();
+    return taskOf(task).controller().service<TriggerStore>();
 }
 
 /// Adds what the driver is to do for this trigger.
 void addActions(TaskCore* task, const TriggerDefinition& definition, std::vector<PathAction>& actions);
+
+/// triggdata variables between two processes (--state).
+void keepTriggers(Controller& controller, StateKeepers& kept);
 
 /// An output can be set to this value by a program (ERR_AO_LIM, ERR_GO_LIM ...).
 Status checkOutput(TaskCore* task, Handle signal, double value);

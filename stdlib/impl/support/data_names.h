@@ -1,5 +1,5 @@
 #pragma once
-// Module data and their parts by name, for what a later process must find again (--state).
+// Module data by name, for what a later process must find again (--state).
 
 #include "runtime/host/controller.h"
 
@@ -7,9 +7,9 @@
 
 namespace rt::lib {
 
-/// "Main:list{5}.trans.x" (elements count from 0 through all dimensions): the persistent, or the part of one, that lies at an address and has this type; "" when none does.
-std::string nameOfData(Controller& controller, const void* data, const TypeDesc* type);
-/// The reverse, as `task` sees it; without data when there is none.
+/// "Main:limit": the module data that lie at an address; "" when none do.
+std::string nameOfData(const Controller& controller, const void* data);
+/// The reverse, as `task` sees it; without data when there are none.
 AnyRef dataByName(const Task& task, const std::string& name);
 
 } // namespace rt::lib

@@ -2,6 +2,7 @@
 #include "stdlib/impl/interrupts/ordering.h"
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/motion/state.h"
+#include "stdlib/impl/motion/triggers.h"
 #include "stdlib/impl/queues/message_queue.h"
 #include "stdlib/impl/time/clocks.h"
 #include "stdlib/native_table.h"
@@ -21,6 +22,7 @@ void setUpStandardLibrary(Controller& controller) {
     lib::keepClocks(controller, kept);
     lib::keepSignalVariables(controller, kept);
     lib::keepMessages(controller, kept);
+    lib::keepTriggers(controller, kept);
 }
 
 } // namespace rt
