@@ -5,6 +5,7 @@
 #include "frontend/lint/walker.h"
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <optional>
 #include <set>
@@ -52,6 +53,16 @@ Predefined::Predefined(const sema::CheckedProgram& program) {
 }
 
 namespace {
+
+/// "dummy", "nUnused": the name says that the data is not meant to be used.
+bool isPlaceholderName(std::string_view name) {
+    const auto has = [&](std::string_view word) {
+        return std::search(name.begin(), name.end(), word.begin(), word.end(), [](char a, char b) {
+                   return std::tolower(static_cast<unsigned char>(a)) == b;
+               }) != name.end();
+    };
+    return has("dummy") || has("unused");
+}
 
 /// Places of errors by file: what contains one is not judged.
 class Errors {
@@ -284,7 +295,8 @@ void TaskLint::routine(const RoutineSymbol& routine) {
     if (isWrong(routine)) return;
     for (const DataSymbol* param : routine.params) {
         hiding(*param, "parameter");
-        if (!param->used && !facts_.callsByName && !routine.routineDecl->body.empty())
+        if (!param->used && !isPlaceholderName(param->name) && !facts_.callsByName &&
+            !routine.routineDecl->body.empty())
             report(Code::UnusedParameter, *param, {param->name, routine.name});
     }
 }

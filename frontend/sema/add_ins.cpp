@@ -16,7 +16,7 @@ constexpr AddInNames kAddIns[] = {
      "recoverymenu recoverymenuwr recoveryposset recoveryposreset setwrprocname mpsavepath mploadpath "
      "mpreadinpath mpoffseaxonpath arcrepl arcadaptlstart arcadaptl arcadaptc arcadaptlend "
      "arcadaptcend arccalclstart arccalcl arccalcc arccalclend arccalccend arcadaptrepl multidata "
-     "adaptdata refdata"},
+     "adaptdata refdata naeresumetype resume_kill resume_skip_* starctopoint"},
     {"Conveyor Tracking",
      "useaccprofile recordprofile waitandrecprof storeprofile loadprofile activateprofile "
      "deactprofile cnvgeninstr cnvsync usereachabletargets getmaxusagetime resetmaxusagetime "
@@ -53,7 +53,8 @@ constexpr AddInNames kAddIns[] = {
      "dagetcurrdata dasetcurrdata dasetupappbehav dastartmanaction dagetappdescr dagetappindex "
      "dagetnumofprocs dagetnumofrob dagetprcdescr daprocml daprocmj dagetfsttimeevt dacheckmmsopt "
      "dagetmp dagetrobotname dagettaskname"},
-    {"Production Manager", "menudata partdata ee_event pmgr* gap_* execengine"},
+    {"Production Manager", "menudata partdata ee_event ee_* pmgr* gap_* execengine robathomepos"},
+    {"Optical Tracking", "optscandata opttrackdata optsearch_* ltapp__*"},
     {"HomePos-Running",
      "smovej smovejdo smovejgo smovejsync smovel smoveldo smovelgo smovelsync ssearchl striggj "
      "striggl scssdeactmovel hr_*"},

@@ -18,8 +18,22 @@ bool looksLikeSignal(std::string_view name) {
     return false;
 }
 
-/// The type of a signal by the habit of naming them: diStart, DO_Clamp, gi1. Empty: the name has another form.
+/// The part of a name that tells the kind of a signal: all of diStart, what follows in PLC_di_Start and sdoStart.
+std::string_view kindOnwards(std::string_view name) {
+    static constexpr std::string_view kKinds[] = {"di", "do", "gi", "go", "ai", "ao"};
+    for (const std::string_view kind : kKinds) {
+        if (name.size() > 3 && name[0] == 's' && name.substr(1).starts_with(kind)) return name.substr(1);
+        const std::string part = "_" + std::string(kind) + "_";
+        if (const size_t at = name.find(part); at != std::string_view::npos && at > 0)
+            return name.substr(at + 1);
+    }
+    return name;
+}
+
+/// The type of a signal by the habit of naming them: diStart, DO_Clamp, gi1, PLC_do_Ready, sdoArcOn. Empty: the name has
+/// another form.
 std::string_view signalTypeByName(std::string_view name) {
+    name = kindOnwards(name);
     if (name.size() < 3) return {};
     const auto lower = [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); };
     const auto isUpper = [](char c) { return c >= 'A' && c <= 'Z'; };

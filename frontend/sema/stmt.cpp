@@ -302,21 +302,13 @@ bool Analyzer::reportLabelWithoutColon(const CallStmt& s) {
     return true;
 }
 
-// Two words in a line without a semicolon, neither of which is known: said by the parser.
+// Words in a line without a semicolon, none of which is known: the parser has missed the semicolon.
 bool Analyzer::isLineOfText(const CallStmt& s) {
-    if (context_.tree->tokens[s.last].kind == TokenKind::Semicolon || s.args.empty()) return false;
-    const bool unknown = std::all_of(s.args.begin(), s.args.end(), [&](const Argument* arg) {
+    if (context_.tree->tokens[s.last].kind == TokenKind::Semicolon) return false;
+    return std::all_of(s.args.begin(), s.args.end(), [&](const Argument* arg) {
         return arg->value && arg->value->kind == NodeKind::Name && isName(as<NameExpr>(*arg->value).name) &&
                !lookup(idOf(as<NameExpr>(*arg->value).name));
     });
-    if (!unknown) return false;
-    sink_.revise([&](diag::Diagnostic& d) { // a semicolon would not make an instruction of it
-        if (d.code == Code::MissingSemicolon && d.file == context_.tree->source &&
-            d.range.begin == range(s).end)
-            d.fixes.clear();
-        return true;
-    });
-    return true;
 }
 
 bool Analyzer::callStmt(const CallStmt& s) {

@@ -130,6 +130,7 @@ void Analyzer::connectTarget(const Expr& target) {
         return;
     }
     markAssigned(root);
+    if (type.type->kind == TypeKind::Error) return; // not declared, which is reported
     if (root.storage == Storage::RoutineData || (parameter && root.mode == ParamMode::In))
         noteDeclared(report(Code::ConnectRoutineData, range(target), {root.name}), root);
 }

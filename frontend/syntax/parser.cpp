@@ -139,7 +139,10 @@ void Parser::reportLexErrors(const LexResult& lexed) {
         if (error.code == Code::BadNumber) continue; // said where the number is read
         if (error.code == Code::ForeignSpelling && error.args[0] == "==") continue; // so is what it means
         if (error.code == Code::BadStringEscape && isInBrokenString(lexed, error)) continue;
-        if (endsBrokenString(error, last)) {
+        if (endsBrokenString(error, last)) { // what stands between the lines is no code
+            for (TokenIndex i = 0; i < last_; ++i)
+                if (tokens_[i].offset >= last->range.end && tokens_[i].offset < error.range.end)
+                    tokens_[i].kind = K::Error;
             before = nullptr;
             continue;
         }
@@ -224,8 +227,9 @@ void Parser::parseModule() {
     parseModuleDecls(node);
     if (!accept(K::KwEndmodule)) {
         ++openModules_;
-        note(report(Code::MissingBlockEnd, pos_, {describe(pos_), "ENDMODULE"}), opening,
-             "MODULE begins here");
+        if (isNewsHere())
+            note(report(Code::MissingBlockEnd, pos_, {describe(pos_), "ENDMODULE"}), opening,
+                 "MODULE begins here");
     }
     tree_.modules.push_back(finish(node));
 }
@@ -379,9 +383,9 @@ Decl* Parser::parseScopedDecl() {
 /// What is no declaration: instructions after an ENDPROC too many, misspelt words. One report up to the next routine.
 Decl* Parser::parseUnknownDecl() {
     auto* node = make<PlaceholderDecl>(NodeKind::ErrorDecl);
-    constexpr TokenSet kRoutineEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
+    constexpr TokenSet kEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
     if (kind() != K::Error && !quietOutside_) {
-        if (kRoutineEnds.has(kind())) {
+        if (kEnds.has(kind())) {
             report(Code::StrayKeyword, pos_, {describe(pos_), std::string(tokenText(kind()).substr(3))});
         } else if (kind() == K::KwEndrecord) {
             report(Code::StrayKeyword, pos_, {describe(pos_), "RECORD"});

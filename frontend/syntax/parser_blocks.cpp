@@ -41,8 +41,9 @@ Stmt* Parser::parseIf() {
             if (kind() == K::KwElse) parseElseOfCompact(opening);
             return finish(node);
         }
+        const SourceRange place = startsLine(pos_) && pos_ > 0 ? endOf(pos_ - 1) : tree_.range(pos_);
         if (kind() != K::Error)
-            report(Code::MissingBlockWord, pos_, {describe(pos_), "THEN or an instruction"});
+            reportAt(Code::MissingBlockWord, place, {describe(pos_), "THEN or an instruction"});
     }
     if (!kListStops.has(kind())) syncStatement();
     panic_ = false;
@@ -119,6 +120,9 @@ Stmt* Parser::parseIfBlocks(TokenIndex opening, Expr* condition, bool headRead) 
             retag(pos_, pos_ + 1, K::KwElseif);
             ++pos_;
         }
+        if (TokenIndex then = 0; kind() == K::KwElse && !startsLine(pos_ + 1) && peek() != K::KwIf &&
+                                 peek() != K::KwThen && findOnLine(pos_ + 1, K::KwThen, then))
+            retag(pos_, pos_, K::KwElseif);
         if (accept(K::KwElse)) {
             takesColonAs("");
             if (kind() == K::KwThen && !startsLine(pos_)) {
@@ -239,8 +243,10 @@ Stmt* Parser::parseTest() {
     const Restore restore(blockOpening_);
     auto* node = make<TestStmt>(NodeKind::Test);
     const TokenIndex opening = blockOpening_ = take();
-    node->subject = parseExpr();
+    bool whole = true;
+    node->subject = parseHeadExpr(whole);
     const size_t mark = cases_.size();
+    if (!whole && !kTestEnds.has(kind())) return finish(node);
     if (!panic_ && !kTestEnds.has(kind()) && !startsLine(pos_) && startsLine(pos_ + 1) &&
         kTestEnds.has(peek())) { // TEST n OF
         fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "CASE"}), tree_.range(pos_), "");
@@ -277,7 +283,7 @@ Stmt* Parser::parseTest() {
         if (!node->hasDefault) node->defaultBody = body;
         node->hasDefault = true;
     }
-    closeBlock(K::KwEndtest, opening);
+    closeBlock(K::KwEndtest, opening, whole);
     node->cases = drain(cases_, mark);
     return finish(node);
 }

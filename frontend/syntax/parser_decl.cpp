@@ -1,4 +1,4 @@
-// Data, types and routines (manual 1.1.5, 1.2).
+// Data and routines (manual 1.1.5, 1.2).
 
 #include "frontend/syntax/parser_impl.h"
 
@@ -9,12 +9,6 @@ namespace rapid::syntax {
 using diag::Code;
 
 namespace {
-
-constexpr TokenSet kRoutineEnds = {TokenKind::KwEndproc,   TokenKind::KwEndfunc, TokenKind::KwEndtrap,
-                                   TokenKind::KwError,     TokenKind::KwUndo,    TokenKind::KwBackward,
-                                   TokenKind::KwProc,      TokenKind::KwFunc,    TokenKind::KwTrap,
-                                   TokenKind::KwRecord,    TokenKind::KwAlias,   TokenKind::KwModule,
-                                   TokenKind::KwEndmodule, TokenKind::PlaceTdn,  TokenKind::PlaceRdn};
 
 constexpr TokenSet kHandlers = {TokenKind::KwBackward, TokenKind::KwError, TokenKind::KwUndo};
 
@@ -42,7 +36,7 @@ bool Parser::isBasicType(std::string_view word) {
     return false;
 }
 
-// ---- Data and types --------------------------------------------------------------------------------------------
+// ---- Data -----------------------------------------------------------------------------------------------------
 
 /// `VAR type name{dims} := value;`, from the word VAR, PERS or CONST; `first` is that of the scope word.
 DataDecl* Parser::parseData(ScopeWord scope, TokenIndex first, bool ofModule) {
@@ -93,99 +87,6 @@ void Parser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) {
     if (!moreOf_) endStatement(node->init ? "';'" : "':=' or ';'");
 }
 
-Decl* Parser::parseRecord(bool local, TokenIndex first) {
-    auto* node = make<RecordDecl>(NodeKind::Record);
-    node->first = first;
-    node->local = local;
-    const TokenIndex opening = take();
-    const bool nameless = isName(kind()) && isName(peek()) && peek(2) == K::Semicolon; // a component already
-    node->name = nameless ? missingName() : expectName();
-    checkNameLength(node->name);
-    if (panic_ || kind() == K::Semicolon) {
-        if (!panic_) unexpected("a component");
-        syncStatement();
-    }
-    const bool braced = kind() == K::LeftBrace;
-    if (braced) {
-        report(Code::ForeignSpelling, pos_, {"{", "a component: a record ends with ENDRECORD"});
-        take();
-    }
-    const size_t mark = components_.size();
-    while (kind() != K::KwEndrecord && kind() != K::EndOfFile) {
-        if (braced && accept(K::RightBrace)) break;
-        if (kind() == K::Identifier && endsLine(pos_) &&
-            (equalsNoCase(textOf(pos_), "END") || meant(pos_, K::KwEndrecord))) {
-            retag(pos_, pos_, K::KwEndrecord);
-            break;
-        }
-        if (startsDecl(pos_) && !dropComponentWord()) break;
-        if (kind() == K::KwEndmodule || kRoutineEnds.has(kind())) break;
-        const TokenIndex before = pos_;
-        if (isName(kind())) {
-            components_.push_back(parseComponent());
-        } else {
-            unexpected("a component or ENDRECORD");
-            take();
-            syncStatement();
-        }
-        if (pos_ == before) take();
-    }
-    node->components = drain(components_, mark);
-    if (braced && kindAt(pos_ - 1) == K::RightBrace) {
-        accept(K::KwEndrecord);
-        return finish(node);
-    }
-    if (node->components.empty() && kind() == K::KwEndrecord && !options_.declarations)
-        report(Code::EmptyRecord, node->name == kNoToken ? opening : node->name,
-               {std::string(textOf(node->name))});
-    // An END word of a routine below RECORD was meant as its end.
-    constexpr TokenSet kWrong = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
-    if (kWrong.has(kind()) && startsLine(pos_) && columnOf(pos_) == indentOf(opening)) wrongEnd_ = pos_;
-    if (kind() == K::KwEndmodule && startsDecl(pos_ + 1) && peek() != K::KwModule) wrongEnd_ = pos_;
-    closeBlock(K::KwEndrecord, opening);
-    return finish(node);
-}
-
-/// "VAR num x;" in a record that is closed by ENDRECORD: the word is reported and left out.
-bool Parser::dropComponentWord() {
-    constexpr TokenSet kDataWords = {K::KwVar, K::KwPers, K::KwConst};
-    if (!kDataWords.has(kind()) || !isName(peek()) || !isName(peek(2))) return false;
-    constexpr TokenIndex kSearch = 200;
-    for (TokenIndex i = pos_ + 1; i < pos_ + kSearch && kindAt(i) != K::KwEndrecord; ++i)
-        if (i + 1 == pos_ + kSearch || kRoutineEnds.has(kindAt(i)) || kindAt(i) == K::EndOfFile) return false;
-    fix(report(Code::ComponentWord, pos_, {describe(pos_)}),
-        {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");
-    take();
-    return true;
-}
-
-RecordComponent* Parser::parseComponent() {
-    auto* node = make<RecordComponent>(NodeKind::RecordComponent);
-    node->type = expectName();
-    node->name = expectName();
-    checkNameLength(node->name);
-    if (!panic_ && kind() == K::LeftBrace) {
-        report(Code::ComponentArray, pos_, {std::string(textOf(node->name))});
-        panic_ = true;
-    }
-    endStatement(kind() == K::Comma                          ? "';': a component has one name"
-                 : kind() == K::Assign || kind() == K::Equal ? "';': a component has no initial value"
-                                                             : "';'");
-    return finish(node);
-}
-
-Decl* Parser::parseAlias(bool local, TokenIndex first) {
-    auto* node = make<AliasDecl>(NodeKind::Alias);
-    node->first = first;
-    node->local = local;
-    take();
-    node->type = expectName();
-    if (!panic_) node->name = expectName();
-    checkNameLength(node->name);
-    endStatement();
-    return finish(node);
-}
-
 // ---- Routines --------------------------------------------------------------------------------------------------
 
 Decl* Parser::parseRoutine(bool local, TokenIndex first) {
@@ -196,7 +97,14 @@ Decl* Parser::parseRoutine(bool local, TokenIndex first) {
                         : kind() == K::KwFunc ? RoutineKind::Func
                                               : RoutineKind::Trap;
     const TokenIndex opening = take();
+    const size_t errorsBefore = errors_;
     parseRoutineHeader(node);
+    constexpr TokenSet kNextRoutine = {K::KwProc, K::KwFunc, K::KwTrap, K::KwEndmodule};
+    const bool beingWritten = kNextRoutine.has(kind() == K::KwLocal ? peek() : kind()) && startsLine(pos_);
+    if (errors_ > errorsBefore && beingWritten) {
+        panic_ = false;
+        return finish(node);
+    }
     if (options_.declarations && isNative()) {
         node->hasBody = false;
         return finish(node);
@@ -344,6 +252,10 @@ ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
         node->name = expectName(true);
         return finish(node);
     }
+    if (startsLine(pos_) && bodyBeginsHere()) {
+        missing("a parameter");
+        return finish(node);
+    }
     if (kind() == K::Identifier) dropForeignMode(node);
     if (accept(K::KwVar)) {
         node->mode = ParamMode::Var;
@@ -356,7 +268,7 @@ ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
         node->mode = ParamMode::Ref;
     }
     if (node->mode == ParamMode::In && !isName(kind())) {
-        unexpected("a parameter");
+        missing("a parameter");
         return finish(node);
     }
     if (node->mode != ParamMode::In && isContextual(pos_, "SWITCH") && isName(peek())) {
@@ -378,6 +290,8 @@ ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
     if (!parseForeignParameter(node)) {
         node->type = expectName();
         dropMisplacedMode(node);
+        if (!panic_ && startsLine(pos_) && isName(kind()) && peek() == K::Assign)
+            missing("the name of the parameter");
         if (!panic_) node->name = expectName(true);
     }
     checkNameLength(node->name);
@@ -586,6 +500,7 @@ void Parser::closeRoutine(RoutineDecl* routine, TokenIndex opening, bool braced)
     const RoutineWords words = wordsOf(routine->routineKind);
     constexpr TokenSet kEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
     if (accept(words.end) || braced) return;
+    if (!isNewsHere()) return;
     const std::string expected(tokenText(words.end));
     diag::Diagnostic* diagnostic = report(Code::MissingBlockEnd, pos_, {describe(pos_), expected});
     note(diagnostic, opening, std::string(words.name) + " begins here");

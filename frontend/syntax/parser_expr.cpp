@@ -143,6 +143,9 @@ bool Parser::takesPercentAsMod() {
 Expr* Parser::parseCondition() {
     Expr* condition = parseExpr();
     if (panic_ || kind() != K::Assign) return condition;
+    TokenIndex found = 0;
+    if (!findOnLine(pos_, K::KwThen, found) && !findOnLine(pos_, K::KwDo, found) && assignmentBelow())
+        return errorExpr();
     fix(report(Code::AssignmentInCondition, pos_), tree_.range(pos_), "=");
     auto* node = makeExpr<BinaryExpr>(NodeKind::Binary);
     node->first = condition->first;
@@ -235,7 +238,7 @@ Expr* Parser::parsePrimary() {
         take();
         return finish(node);
     }
-    unexpected("an expression");
+    missing("an expression");
     return errorExpr();
 }
 
@@ -358,6 +361,14 @@ Expr* Parser::parseCall() {
     node->name = take();
     const TokenIndex opening = take();
     node->args = parseArguments(false);
+    if (kind() == K::Semicolon && !panic_ && !node->args.empty()) { // "f(" and an assignment in the next line
+        const Argument& last = *node->args.back();
+        if (last.argKind == ArgKind::Required && last.name != kNoToken && startsLine(last.first)) {
+            pos_ = last.first;
+            missing("an argument or ')'");
+            node->args = node->args.first(node->args.size() - 1);
+        }
+    }
     expectClosing(K::RightParen, opening, true);
     return finish(node);
 }
@@ -434,7 +445,7 @@ std::span<Argument*> Parser::parseArguments(bool procedure) {
             args_.push_back(parseOptionalArgument());
         } else if (kind() == K::Comma) {
             if (first) {
-                if (!procedure || !commaWasSemicolon()) unexpected("an argument");
+                if (!procedure || !commaWasSemicolon()) missing("an argument");
                 break;
             }
             if (procedure && peek() == K::Identifier && instructionAfterComma()) break;
@@ -522,7 +533,7 @@ Argument* Parser::parseOptionalArgument() {
         } else if (kind() == K::PlaceVar) {
             node->value = parsePrimary();
         } else {
-            unexpected("the name of an optional parameter");
+            missing("the name of an optional parameter");
             node->value = errorExpr();
         }
     }

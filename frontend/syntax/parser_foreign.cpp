@@ -223,8 +223,7 @@ bool Parser::parseForeignParameter(ParamDecl* node) {
 
 /// In a line below '(': an instruction or a declaration with its semicolon, and no parameter.
 bool Parser::bodyBeginsHere() const {
-    constexpr TokenSet kNoParameter = {K::Assign, K::Semicolon, K::NumLiteral, K::StringLiteral,
-                                       K::LeftBrace};
+    constexpr TokenSet kNoParameter = {K::Assign, K::Semicolon, K::NumLiteral, K::StringLiteral};
     constexpr TokenSet kEndOfData = {K::Semicolon, K::Assign};
     if (isName(kind())) return kNoParameter.has(peek());
     if (kind() == K::KwVar || kind() == K::KwPers) return kEndOfData.has(peek(3));

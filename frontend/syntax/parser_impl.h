@@ -41,6 +41,12 @@ inline constexpr TokenSet kListStops = {
     TokenKind::KwAlias,    TokenKind::KwModule,  TokenKind::PlaceTdn,    TokenKind::PlaceRdn,
     TokenKind::PlaceEit,   TokenKind::PlaceCse,  TokenKind::EndOfFile,   TokenKind::KwLocal,
     TokenKind::Identifier};
+/// Words that end the instructions of a routine or of a part of it.
+inline constexpr TokenSet kRoutineEnds = {TokenKind::KwEndproc,   TokenKind::KwEndfunc, TokenKind::KwEndtrap,
+                                          TokenKind::KwError,     TokenKind::KwUndo,    TokenKind::KwBackward,
+                                          TokenKind::KwProc,      TokenKind::KwFunc,    TokenKind::KwTrap,
+                                          TokenKind::KwRecord,    TokenKind::KwAlias,   TokenKind::KwModule,
+                                          TokenKind::KwEndmodule, TokenKind::PlaceTdn,  TokenKind::PlaceRdn};
 /// Words that end a branch.
 inline constexpr TokenSet kIfEnds = {TokenKind::KwEndif, TokenKind::KwElse, TokenKind::KwElseif,
                                      TokenKind::PlaceEit};
@@ -138,6 +144,9 @@ class Parser {
     diag::Diagnostic* reportAfterExpr(diag::Code code, std::initializer_list<std::string> args);
     /// "found X, expected Y" at the current token, and panic.
     void unexpected(std::string_view expected);
+    void missing(std::string_view expected);
+    bool isNewsHere();
+    bool assignmentBelow();
     std::string describe(TokenIndex i) const;
     SourceRange endOf(TokenIndex i) const { return {tree_.range(i).end, tree_.range(i).end}; }
     void reportTooDeep();
@@ -173,6 +182,7 @@ class Parser {
     bool handleStray(const TokenSet& own);
     bool atReservedName() const;
     void abandonRoutine();
+    TokenIndex expectNameHere();
     TokenIndex expectName(bool newerKeywords = false);
 
     // ---- Misspelt keywords (parser_typos.cpp)
@@ -280,7 +290,7 @@ class Parser {
     void skipHead();
     Stmt* errorStmt(TokenIndex first);
 
-    // ---- Declarations (parser_decl.cpp, parser_module.cpp)
+    // ---- Declarations (parser_decl.cpp, parser_types.cpp, parser.cpp)
     void parseModule();
     void parseModuleAttributes(ModuleDecl* module);
     void fixAttributeOrder(TokenIndex first, std::vector<TokenIndex> words);
@@ -345,6 +355,7 @@ class Parser {
         kNoToken;           ///< the end of its condition, when its instruction is on another line
     int missingEndifs_ = 0; ///< of the routine, once they are counted
     bool endifsCounted_ = false;
+    bool endReported_ = false;           ///< that the file ends too early
     TokenIndex routineStart_ = 0;        ///< its first token
     bool inCondition_ = false;           ///< between IF and THEN
     bool inHead_ = false;                ///< between IF, FOR or WHILE and the block

@@ -95,7 +95,42 @@ void Parser::reportEqual() {
 
 void Parser::unexpected(std::string_view expected) {
     if (kind() != K::Error) report(Code::UnexpectedToken, pos_, {describe(pos_), std::string(expected)});
+    endReported_ |= kind() == K::EndOfFile;
     panic_ = true;
+}
+
+/// What the line before lacks at its end; at a token within a line like unexpected().
+void Parser::missing(std::string_view expected) {
+    if (!startsLine(pos_) || pos_ == 0 || kind() == K::Error) return unexpected(expected);
+    reportAt(Code::UnexpectedToken, endOf(pos_ - 1), {describe(pos_), std::string(expected)});
+    endReported_ |= kind() == K::EndOfFile;
+    panic_ = true;
+}
+
+/// Whether it is worth saying that the file ends too early: once.
+bool Parser::isNewsHere() {
+    return kind() != K::EndOfFile || !std::exchange(endReported_, true);
+}
+
+/// At ':=' behind what was read as an operand: it is the target of an instruction of its own, and the line before is
+/// not finished. The parser then stands at this instruction.
+bool Parser::assignmentBelow() {
+    if (panic_ || kind() != K::Assign) return false;
+    TokenIndex first = pos_;
+    for (uint32_t k = 0; k < kSearchTokens && first > 0 && !startsLine(first); ++k)
+        --first;
+    if (first == pos_ || !isName(kindAt(first)) || !startsLine(first)) return false;
+    constexpr TokenSet kBeforeOperand = {
+        K::Assign,  K::Equal,  K::NotEqual, K::Less,  K::LessEqual, K::Greater,   K::GreaterEqual, K::Plus,
+        K::Minus,   K::Star,   K::Slash,    K::KwDiv, K::KwMod,     K::KwAnd,     K::KwOr,         K::KwXor,
+        K::KwNot,   K::Comma,  K::Dot,      K::KwIf,  K::LeftParen, K::LeftBrace, K::LeftBracket,  K::KwFrom,
+        K::KwWhile, K::KwStep, K::KwTest,   K::KwTo,  K::KwElseif,  K::KwReturn,  K::KwRaise};
+    if (first == 0 || !kBeforeOperand.has(kindAt(first - 1))) return false;
+    for (TokenIndex i = first; i < pos_; ++i)
+        if (kindAt(i) == K::Comma || kindAt(i) == K::LeftParen || kindAt(i) == K::Backslash) return false;
+    pos_ = first;
+    missing("an expression");
+    return true;
 }
 
 void Parser::reportTooDeep() {
@@ -260,6 +295,7 @@ void Parser::endStatement(std::string_view expected) {
         panic_ = false;
         return;
     }
+    if (assignmentBelow()) return syncStatement();
     if (!panic_ && kind() != K::Error) {
         if (startsAfresh()) {
             diag::Diagnostic* missing =
@@ -381,7 +417,7 @@ Expr* Parser::parseHeadExpr(bool& whole, HeadPart part) {
 
 void Parser::expectClosing(K closing, TokenIndex opening, bool inList) {
     if (accept(closing)) return;
-    if (panic_) return;
+    if (panic_ || assignmentBelow()) return;
     const std::string text(tokenText(closing));
     const std::string expected = inList ? fmt::format("',' or '{}'", text) : fmt::format("'{}'", text);
     diag::Diagnostic* diagnostic = nullptr;
@@ -407,7 +443,7 @@ void Parser::closeBlock(K end, TokenIndex opening, bool whole) {
     }
     if (abandoned_) return;
     const std::string opened = describe(opening);
-    if (whole)
+    if (whole && isNewsHere())
         note(report(Code::MissingBlockEnd, pos_, {describe(pos_), std::string(tokenText(end))}), opening,
              fmt::format("{} begins here", opened));
     if (wrongEnd_ == pos_) take();
@@ -518,6 +554,13 @@ bool Parser::handleStray(const TokenSet& own) {
     if (opener.starts_with("IF") && compactIf_ != kNoToken)
         note(diagnostic, compactIf_, "this IF has no THEN, so it ends with one instruction");
     return false;
+}
+
+/// A name, unless the next line begins an instruction.
+TokenIndex Parser::expectNameHere() {
+    if (!beginsInstruction()) return expectName();
+    missing("a name");
+    return kNoToken;
 }
 
 TokenIndex Parser::expectName(bool newerKeywords) {

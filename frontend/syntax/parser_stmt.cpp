@@ -178,7 +178,12 @@ Stmt* Parser::parseNamedStmt() {
     case K::Dot: return parseAssignment(parseNamed(false), first);
     case K::Equal: {
         TokenIndex then = 0;
-        if (findOnLine(pos_ + 2, K::KwThen, then)) break; // the word IF is missing
+        if (findOnLine(pos_ + 2, K::KwThen, then)) {
+            const uint32_t at = tree_.range(pos_).begin;
+            fix(reportAt(Code::UnexpectedToken, tree_.range(pos_), {describe(pos_), "IF before a condition"}),
+                {at, at}, "IF ");
+            return parseIfBlocks(first, parseCondition(), false);
+        }
         return parseAssignment(parseNamed(false), first);
     }
     case K::Colon: {
@@ -240,7 +245,7 @@ Stmt* Parser::parseAssignment(Expr* target, TokenIndex first) {
         reportEqual();
         take();
     } else if (!accept(K::Assign) && !panic_) {
-        unexpected("':='");
+        missing("':='");
     }
     const bool valueLost = beginsInstruction() || (!isName(kind()) && !startsExpr(kind()));
     if (valueLost && negatesByComment(";")) {
@@ -357,7 +362,7 @@ Stmt* Parser::parseLateCall() {
 Stmt* Parser::parseGoto() {
     auto* node = make<GotoStmt>(NodeKind::Goto);
     take();
-    node->label = expectName();
+    node->label = expectNameHere();
     endStatement();
     return finish(node);
 }
@@ -381,8 +386,10 @@ Stmt* Parser::parseValueStmt(bool isReturn) {
         result = node;
     }
     result->first = first;
+    if (isReturn && !value && !panic_ && kind() == K::KwEndfunc) missing("an expression");
     endStatement(value ? "';'" : "an expression or ';'");
-    result->broken = unreadable_ > unreadable;
+    const bool unfinished = !value && kindAt(pos_ - 1) != K::Semicolon;
+    result->broken = unfinished || unreadable_ > unreadable;
     return finish(result);
 }
 
@@ -394,15 +401,15 @@ Stmt* Parser::parseConnect() {
     } else if (kind() == K::PlaceVar) {
         node->target = parsePrimary();
     } else {
-        unexpected("an interrupt variable");
+        missing("an interrupt variable");
         node->target = errorExpr();
     }
     if (!panic_) {
         if (kind() == K::Identifier && isName(peek())) retagIfMeant(K::KwWith);
         if (accept(K::KwWith)) {
-            node->trap = expectName();
+            node->trap = expectNameHere();
         } else {
-            unexpected("WITH");
+            missing("WITH");
         }
     }
     endStatement();

@@ -100,6 +100,20 @@ TEST_CASE("nothing is missing: an unknown name is an error", "[sema]") {
     CHECK(checked->codes() == Messages{"RAP2003"});
 }
 
+TEST_CASE("a line of unknown words lacks its semicolon, or an exclamation mark before it", "[sema]") {
+    const std::string text = "MODULE m\n  PROC main()\n    see below\n    Stop;\n  ENDPROC\nENDMODULE\n";
+    const auto checked = testing::checkTexts({text});
+    REQUIRE(checked->messages() == Messages{"RAP1201 at 3:14: missing ';' after 'below'"});
+    REQUIRE(checked->sink.all()[0].notes.size() == 1);
+    CHECK(checked->sink.all()[0].notes[0].message == "if this is a remark, put '!' before it");
+}
+
+TEST_CASE("an interrupt variable that is not declared is one mistake", "[sema]") {
+    const std::string text = "MODULE m\n  PROC main()\n    CONNECT missed WITH onEvent;\n  ENDPROC\n  TRAP "
+                             "onEvent\n    Stop;\n  ENDTRAP\nENDMODULE\n";
+    CHECK(testing::checkTexts({text})->messages() == Messages{"RAP2001 at 3:13: 'missed' is not declared"});
+}
+
 TEST_CASE("a built-in names the RobotWare option that the controller lacks", "[sema]") {
     const std::string text = "MODULE work\n"
                              "  VAR wztemporary zone;\n"

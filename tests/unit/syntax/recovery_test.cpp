@@ -85,7 +85,7 @@ const std::vector<Case> kBodies = {
     {"FROM missing", "FOR i 1 TO 2 DO\n  x := 1;\nENDFOR", "RAP1204@3:7"},
     {":= in FOR", "FOR i := 1 TO 2 DO\n  x := 1;\nENDFOR", "RAP1204@3:7"},
     {"junk before THEN", "IF a b THEN\n  x := 1;\nENDIF\ny := 1;", "RAP1204@3:6"},
-    {"no instruction after IF", "IF a\nENDPROC\nPROC b()", "RAP1204@4:1"},
+    {"no instruction after IF", "IF a\nENDPROC\nPROC b()", "RAP1204@3:5"},
     {"DEFAULT not last", "TEST x\nDEFAULT:\n  y := 1;\nCASE 1:\n  y := 2;\nENDTEST", "RAP1211@6:1"},
     {"ELSE not last", "IF a THEN\nELSE\n  x := 1;\nELSEIF b THEN\n  x := 2;\nENDIF", "RAP1213@6:1"},
     {"instruction before CASE", "TEST x\n  y := 1;\nCASE 1:\n  y := 2;\nENDTEST", "RAP1212@4:3"},
