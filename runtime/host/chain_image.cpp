@@ -1,10 +1,8 @@
 #include "runtime/host/chain_image.h"
 
-#include <nlohmann/json.hpp>
+#include "runtime/host/json_numbers.h"
 
-#include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 namespace rt {
@@ -17,13 +15,6 @@ constexpr std::pair<const char*, SavedLocal::Kind> kKinds[] = {
     {"object", SavedLocal::Kind::Object}, {"copy", SavedLocal::Kind::Copy},
     {"fresh", SavedLocal::Kind::Fresh},
 };
-
-template <class Number> Number numberFrom(const Json& json) {
-    // A float would be cut off, or out of range.
-    if (std::is_integral_v<Number> ? !json.is_number_integer() : !json.is_number())
-        throw std::invalid_argument("no number of this kind");
-    return json.get<Number>();
-}
 
 Json jsonOf(const SourcePlace& place) {
     return {{"module", place.module},

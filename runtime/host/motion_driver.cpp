@@ -127,13 +127,14 @@ void MotionDriver::schedule() {
     const Time next = system_.nextEventTime().value_or(kNever);
     if (next == nextTime_) return;
     scheduler_.cancel(next_);
-    nextTime_ = next;
+    const bool goesOn = std::exchange(nextTime_, next) == kNever;
     next_ = 0;
     if (next == kNever) return;
     next_ = scheduler_.at(next, [this] {
         nextTime_ = kNever;
         refresh();
     });
+    if (goesOn) tell(ArmNews::Event); // also after an override of 0
 }
 
 Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::MoveId& id,

@@ -37,7 +37,7 @@ struct PathAction {
 
 /// What happens to the arm, for those who accompany it (TriggSpeed, TriggStopProc).
 enum class ArmNews : uint8_t {
-    Event,      ///< a movement has begun or ended, the arm has come to a stand
+    Event,      ///< a movement has begun or ended, the arm has come to a stand or goes on
     StopOnPath, ///< the program stops; the arm is about to brake on its path, or stands
     MotorsOff,  ///< the arm is about to brake beside its path
     Start       ///< the program starts again

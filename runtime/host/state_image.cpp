@@ -1,14 +1,13 @@
 // The state file as text: JSON, versioned. What is read comes from a disk and may be anything.
 
 #include "runtime/host/chain_image.h"
+#include "runtime/host/json_numbers.h"
 #include "runtime/host/path_image.h"
 #include "runtime/host/saved_state.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 namespace rt {
@@ -66,10 +65,8 @@ Json jsonOf(const StateImage::TaskImage& task) {
 
 // at(), get() and whole() throw what readImage catches.
 
-/// A float would be cut off, or out of range.
 template <class Integer> void whole(const Json& json, Integer& value) {
-    if (!json.is_number_integer()) throw std::invalid_argument("no whole number");
-    value = static_cast<Integer>(json.get<int64_t>());
+    value = static_cast<Integer>(numberFrom<int64_t>(json));
 }
 
 Data dataFrom(const Json& json) {

@@ -81,6 +81,7 @@ bool Task::runCycle() {
         needsReset_ = false;
         if (desc_.reset != nullptr) status = desc_.reset(this, nullptr);
         if (status == kOk && controller_ != nullptr) status = resetUnits(*controller_, *this);
+        frame = nullptr; // the record of the routine that did it is gone
         if (entryOverride_ == nullptr) host_.programReset(*this);
     }
     if (status == kOk) status = events_.runOwed();

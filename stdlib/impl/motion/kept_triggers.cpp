@@ -3,10 +3,9 @@
 
 #include "stdlib/impl/motion/triggers.h"
 
+#include "runtime/host/json_numbers.h"
 #include "runtime/host/state_keepers.h"
 #include "stdlib/impl/support/data_names.h"
-
-#include <nlohmann/json.hpp>
 
 #include <stdexcept>
 
@@ -68,7 +67,7 @@ Json jsonOf(Controller& controller, const TriggerDefinition& d) {
 
 TriggerDefinition definitionFrom(Controller& controller, const Json& json) {
     TriggerDefinition d;
-    const int kind = json.at("kind").get<int>();
+    const int kind = numberFrom<int>(json.at("kind"));
     if (kind < 0 || kind > static_cast<int>(Kind::Check)) throw std::invalid_argument("no such kind");
     d.kind = static_cast<Kind>(kind);
     json.at("amount").get_to(d.place.amount);
@@ -76,7 +75,7 @@ TriggerDefinition definitionFrom(Controller& controller, const Json& json) {
     json.at("inTime").get_to(d.place.inTime);
     json.at("next").get_to(d.place.nextMove);
     json.at("lag").get_to(d.place.lag);
-    json.at("delay").get_to(d.delay);
+    d.delay = numberFrom<Time>(json.at("delay"));
     d.signal = signalNamed(controller, json.at("signal"));
     json.at("value").get_to(d.value);
     json.at("rampLength").get_to(d.rampLength);
@@ -85,7 +84,7 @@ TriggerDefinition definitionFrom(Controller& controller, const Json& json) {
     d.errorSignal = signalNamed(controller, json.at("error"));
     json.at("relation").get_to(d.relation);
     json.at("stopMove").get_to(d.stopMove);
-    json.at("interrupt").get_to(d.interrupt);
+    d.interrupt = numberFrom<int>(json.at("interrupt"));
     const AnyRef inhibit = dataNamed(controller, json.at("inhibit"));
     if (inhibit.data != nullptr && inhibit.type->kind != DescKind::Bool)
         throw std::invalid_argument("no bool any more");

@@ -45,7 +45,7 @@ class SpeedOutputs {
     void update(Controller& controller) {
         for (const auto& [output, scale] : outputs_)
             set(controller, output, scale);
-        if (outputs_.empty() || tick_ != 0 || controller.motion().isSettled()) return;
+        if (outputs_.empty() || tick_ != 0 || !controller.motion().system().isMoving()) return;
         const Time now = controller.scheduler().now();
         tick_ = controller.scheduler().at((now / kPeriod + 1) * kPeriod, [this, &controller] {
             tick_ = 0;

@@ -4,10 +4,9 @@
 #include "stdlib/impl/queues/message_queue.h"
 
 #include "runtime/debug/call_chain.h"
+#include "runtime/host/json_numbers.h"
 #include "runtime/host/saved_state.h"
 #include "runtime/host/state_keepers.h"
-
-#include <nlohmann/json.hpp>
 
 #include <stdexcept>
 
@@ -15,6 +14,8 @@ namespace rt::lib {
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr uint64_t kLargest = 1 << 20; // bytes, elements of a dimension; far more than a queue takes
 
 Json jsonOf(Controller& controller, const Message& message) {
     std::string value;
@@ -63,12 +64,15 @@ Message messageFrom(Controller& controller, const Json& json) {
     message.element = typeNamed(controller.tables(), json.at("type").get<std::string>(),
                                 json.at("components").get<std::string>());
     if (message.element == nullptr) throw std::invalid_argument("the program has no such type now");
-    json.at("dimensions").get_to(message.dimensions);
     uint64_t elements = 1;
-    for (const int32_t dimension : message.dimensions)
+    for (std::size_t i = 0; i < message.dimensions.size(); ++i) {
+        const auto dimension = numberFrom<int64_t>(json.at("dimensions").at(i));
+        if (dimension < 0 || static_cast<uint64_t>(dimension) > kLargest)
+            throw std::invalid_argument("no message is that large");
+        message.dimensions[i] = static_cast<int32_t>(dimension);
         if (dimension > 0) elements *= static_cast<uint64_t>(dimension);
+    }
     const auto value = json.at("value").get<std::string>();
-    constexpr uint64_t kLargest = 1 << 20; // bytes; far more than a queue takes
     if (elements > kLargest || elements * message.element->size > kLargest)
         throw std::invalid_argument("no message is that large");
     message.bytes.resize(elements * message.element->size);

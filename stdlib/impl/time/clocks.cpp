@@ -3,13 +3,12 @@
 #include "stdlib/impl/time/clocks.h"
 
 #include "runtime/host/controller.h"
+#include "runtime/host/json_numbers.h"
 #include "runtime/host/state_keepers.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <string>
@@ -45,7 +44,7 @@ void keepClocks(Controller& controller, StateKeepers& kept) {
         const auto json = nlohmann::json::parse(text);
         const Handle handle = controller.clocks().create();
         controller.clocks().find(handle)->restore(
-            std::clamp<Time>(json.at(0).get<Time>(), 0, kLongest + kSecond), json.at(1).get<bool>(),
+            std::clamp<Time>(numberFrom<Time>(json.at(0)), 0, kLongest + kSecond), json.at(1).get<bool>(),
             controller.scheduler().now());
         return handle;
     };

@@ -43,6 +43,7 @@ StateImage sample() {
     robot.cycles = 2;
     robot.chain = sampleChain();
     robot.interruptsEnabled = false;
+    robot.queuedInterrupts = {3, 3};
     StateImage::Interrupt interrupt;
     interrupt.what.number = 3;
     interrupt.what.ordered = true;
@@ -51,6 +52,7 @@ StateImage sample() {
     interrupt.routine = "onTime";
     robot.interrupts.push_back(interrupt);
     image.tasks["T_IO"].pointer = StateImage::Pointer::Ended;
+    image.tasks["T_LEFT"].pointer = StateImage::Pointer::Exited;
     StateImage::TaskImage& lost = image.tasks["T_LOST"];
     lost.pointer = StateImage::Pointer::Inside;
     lost.refusal = "a reason";
@@ -89,6 +91,7 @@ TEST_CASE("a state reads back as it was written", "[state]") {
     CHECK(again.tasks.at("T_ROB1").pointer == StateImage::Pointer::Inside);
     CHECK(again.tasks.at("T_ROB1").place == "Main:12");
     CHECK(again.tasks.at("T_IO").pointer == StateImage::Pointer::Ended);
+    CHECK(again.tasks.at("T_LEFT").pointer == StateImage::Pointer::Exited);
     CHECK(again.tasks.at("T_LOST").refusal == "a reason");
     CHECK_FALSE(again.tasks.at("T_LOST").chain);
     REQUIRE(again.path.moves.size() == 1);
@@ -116,6 +119,7 @@ TEST_CASE("a call chain and its interrupts read back as they were written", "[st
     const StateImage::TaskImage& robot = again.tasks.at("T_ROB1");
     CHECK(robot.cycles == 2);
     CHECK_FALSE(robot.interruptsEnabled);
+    CHECK(robot.queuedInterrupts == std::vector<int>{3, 3});
     REQUIRE(robot.interrupts.size() == 1);
     CHECK(robot.interrupts[0].what.number == 3);
     CHECK(robot.interrupts[0].what.order.kind == "ITimer");
