@@ -189,12 +189,16 @@ void RoutineEmitter::prologue() {
     if (addresses_) fillAddresses();
 }
 
-/// Tells the debugger where the locals lie.
+/// Tells the debugger where the locals lie. A loop variable can be looked at ahead of its loop: it is 0 there.
 void RoutineEmitter::fillAddresses() {
     const std::vector<uint32_t> described = describedLocals(routine_);
-    for (uint32_t i = 0; i < described.size(); ++i)
+    for (uint32_t i = 0; i < described.size(); ++i) {
+        const ir::TypeId type = routine_.locals[described[i]].type;
+        if (module_.isScalar(type))
+            b_.CreateStore(llvm::Constant::getNullValue(m_.memoryType(type)), locals_[described[i]]);
         b_.CreateStore(locals_[described[i]],
                        b_.CreateConstInBoundsGEP2_32(addresses_->getAllocatedType(), addresses_, 0, i));
+    }
     b_.CreateStore(addresses_, b_.CreateStructGEP(m_.runtime().steppingFrame, frame_, 1));
 }
 

@@ -244,7 +244,10 @@ void Analyzer::checkAccess(const RoutineSymbol& routine, const BoundArg& bound, 
         reportAccess(routine, bound, &root, std::move(found));
         return;
     }
-    const bool mustBeWhole = mode == ParamMode::Pers || (mode == ParamMode::Inout && persistent);
+    // What takes a persistent of any type (IPers, GetSysData) also takes a component or an element of one.
+    const bool anyPart = mode == ParamMode::Pers && bound.param->accepts == ParamClass::Value;
+    const bool mustBeWhole =
+        !anyPart && (mode == ParamMode::Pers || (mode == ParamMode::Inout && persistent));
     if (mustBeWhole && !place.whole) {
         report(Code::ArgumentNotWhole, range(*bound.value),
                {bound.param->name, routine.name, "'" + root.name + "'"});

@@ -236,7 +236,7 @@ class Task : public TaskCore {
     /// SkipWarn: the error handled last leaves no warning in the event log.
     void skipWarn() { handled_.frame = nullptr; }
     /// RETRYs that remain for the error being handled (RemainingRetries); ResetRetryCount.
-    int remainingRetries() const;
+    int remainingRetries();
     /// Changes with every RETRY of the task.
     int32_t latestRetry() const { return lastRetryId_; }
     void resetRetryCount();
@@ -387,6 +387,7 @@ class Task : public TaskCore {
     /// Code of the stepping profile can execute the faulty statement again.
     bool canExecuteAgain() const;
     std::string describeError(int number) const;
+    RetryCount* nearestRetryCount(const Frame* from);
     RetryCount* retryCountOf(Frame* handler);
     void noteHandled(Frame* handler, int number);
     void flushHandledWarning();

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace rt {
@@ -16,6 +17,19 @@ namespace {
 
 /// Callers listed in an event; an endless recursion has a hundred thousand.
 constexpr std::size_t kMaxCalls = 24;
+
+/// Is `wanted` the frame record `from` or one of its callers'? Records of routines that were compiled into each other lie in
+/// any order within one frame of the machine; beyond, those of callers lie above. So a few callers settle it, however long the
+/// chain is.
+bool isAmongCallers(const Frame* from, const Frame* wanted) {
+    constexpr int kMostMerged = 256;
+    const Frame* highest = from;
+    for (int i = 0; i < kMostMerged; ++i, from = from->caller) {
+        if (from == nullptr || from == wanted) return from == wanted;
+        highest = std::max(highest, from, std::less<>());
+    }
+    return std::less<>()(highest, wanted);
+}
 
 } // namespace
 
@@ -234,12 +248,17 @@ void Task::noteHandled(Frame* handler, int number) {
     entry->number = number;
 }
 
-/// The counts lie in the order of their frames, the innermost last. Those of frames deeper than the handler's belong to
-/// routines that are gone: the stack grows downward.
-Task::RetryCount* Task::retryCountOf(Frame* handler) {
-    while (!retries_.empty() && retries_.back().frame < handler)
+/// The count of the handler at work that is nearest to `from`. The counts lie in the order of calls, the innermost last;
+/// those of routines that have been left are dropped.
+Task::RetryCount* Task::nearestRetryCount(const Frame* from) {
+    while (!retries_.empty() && !isAmongCallers(from, retries_.back().frame))
         retries_.pop_back();
-    return !retries_.empty() && retries_.back().frame == handler ? &retries_.back() : nullptr;
+    return retries_.empty() ? nullptr : &retries_.back();
+}
+
+Task::RetryCount* Task::retryCountOf(Frame* handler) {
+    RetryCount* nearest = nearestRetryCount(handler);
+    return nearest != nullptr && nearest->frame == handler ? nearest : nullptr;
 }
 
 Status Task::retryAt(Frame* handler) {
@@ -262,16 +281,16 @@ Status Task::retryAt(Frame* handler) {
     return kOk;
 }
 
-int Task::remainingRetries() const {
+int Task::remainingRetries() {
     const int limit = host_.retryLimit();
-    if (retries_.empty()) return limit;
-    const RetryCount& entry = retries_.back();
-    const auto found = entry.counts.find(entry.number);
-    return found == entry.counts.end() ? limit : std::max(0, limit - found->second);
+    const RetryCount* entry = nearestRetryCount(frame);
+    if (entry == nullptr) return limit;
+    const auto found = entry->counts.find(entry->number);
+    return found == entry->counts.end() ? limit : std::max(0, limit - found->second);
 }
 
 void Task::resetRetryCount() {
-    if (!retries_.empty()) retries_.back().counts.clear();
+    if (RetryCount* entry = nearestRetryCount(frame)) entry->counts.clear();
 }
 
 /// The warning waits until the handler is left, because SkipWarn in it may take it back.

@@ -325,8 +325,9 @@ bool LineDebugger::tasks(std::string_view) {
         const char* state = task->state() == rt::TaskState::Finished ? "ended"
                             : task->isStopped()                      ? "stopped"
                                                                      : "executing";
-        fmt::print("{}{} {} {}:{}\n", task.get() == task_ ? '*' : ' ', task->name(), state, place.module,
-                   place.line);
+        fmt::print("{}{} {} {}\n", task.get() == task_ ? '*' : ' ', task->name(), state,
+                   place.module.empty() ? "at the beginning"
+                                        : fmt::format("{}:{}", place.module, place.line));
     }
     return false;
 }

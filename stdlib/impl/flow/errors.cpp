@@ -4,6 +4,7 @@
 #include "runtime/host/state_keepers.h"
 #include "runtime/sched/error_search.h"
 #include "stdlib/impl/flow/booked_numbers.h"
+#include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib/impl/support/support_natives.h"
@@ -124,10 +125,15 @@ Status rt_RemainingRetries(TaskCore* task, float* result) {
     return kOk;
 }
 
-/// The variable must hold -1 for a new number to be booked; booked again it keeps its number.
+/// The variable must hold -1 for a new number to be booked; booked again it keeps its number. Events call the error by the
+/// name of the variable.
 Status rt_BookErrNo(TaskCore* task, float* ErrorName) {
-    if (*ErrorName == -1)
-        *ErrorName = static_cast<float>(taskOf(task).controller().service<BookedNumbers>().next++);
+    Controller& controller = taskOf(task).controller();
+    if (*ErrorName == -1) *ErrorName = static_cast<float>(controller.service<BookedNumbers>().next++);
+    const GlobalDesc* data = lib::dataAt(controller, ErrorName);
+    const auto number = static_cast<int>(*ErrorName);
+    if (data != nullptr && data->type->kind == DescKind::Num && number >= BookedNumbers::kFirst)
+        controller.log().addErrorName(number, data->name, "booked by the program");
     return kOk;
 }
 

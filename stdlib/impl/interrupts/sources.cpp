@@ -80,13 +80,16 @@ Status rt_IPers(TaskCore* core, bool Single, bool SingleSafe, void* Name, const 
     Status status = kOk;
     const int number = lib::numberToOrder(core, Interrupt, status);
     if (status != kOk) return status;
-    const auto watched = std::make_shared<WatchedData>(Name, NameType);
+    // Of a part the whole persistent is watched: any change of it counts.
+    const GlobalDesc* data = lib::dataAt(task.controller(), Name);
+    const auto watched = data != nullptr ? std::make_shared<WatchedData>(data->address, data->type)
+                                         : std::make_shared<WatchedData>(Name, NameType);
     const EventToken watch = scheduler.watchData([&task, number, watched] {
         if (watched->changed()) task.interrupts().post(number);
     });
     return lib::orderInterrupt(
         core, number, {Single, SingleSafe}, [&scheduler, watch] { scheduler.unwatchData(watch); },
-        persistentOrder(task, Name));
+        persistentOrder(task, data != nullptr ? data->address : Name));
 }
 
 Status rt_IError(TaskCore* core, float ErrorDomain, const float* ErrorId, float ErrorType, float* Interrupt) {

@@ -1,6 +1,29 @@
 #include "stdlib/impl/support/data_names.h"
 
+#include <algorithm>
+#include <functional>
+
 namespace rt::lib {
+namespace {
+
+constexpr uint8_t kPersistent = 1; // ir::GlobalKind::Persistent
+
+} // namespace
+
+const GlobalDesc* dataAt(const Controller& controller, const void* address) {
+    const auto& rows = controller.tables().globals();
+    const auto found = std::find_if(rows.begin(), rows.end(), [address](const GlobalDesc* row) {
+        const auto* first = static_cast<const char*>(row->address);
+        const std::less<const void*> before;
+        return !before(address, first) && before(address, first + row->type->size);
+    });
+    return found == rows.end() ? nullptr : *found;
+}
+
+bool isPersistent(const Controller& controller, const void* address) {
+    const GlobalDesc* data = dataAt(controller, address);
+    return data != nullptr && data->kind == kPersistent;
+}
 
 std::string nameOfData(const Controller& controller, const void* data) {
     for (const GlobalDesc* row : controller.tables().globals())

@@ -1,5 +1,5 @@
 #pragma once
-// Module data by name, for what a later process must find again (--state).
+// Module data behind an address, and by name for what a later process must find again (--state).
 
 #include "runtime/host/controller.h"
 
@@ -7,6 +7,10 @@
 
 namespace rt::lib {
 
+/// The module data that lie at the address, or that it is a part of. Null when it is other data (of a routine, for instance).
+const GlobalDesc* dataAt(const Controller& controller, const void* address);
+/// The same, and they are a persistent.
+bool isPersistent(const Controller& controller, const void* address);
 /// "Main:limit": the module data that lie at an address; "" when none do.
 std::string nameOfData(const Controller& controller, const void* data);
 /// The reverse, as `task` sees it; without data when there are none.

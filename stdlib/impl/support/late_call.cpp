@@ -2,6 +2,7 @@
 
 #include "runtime/host/controller.h"
 #include "runtime/io/text_util.h"
+#include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/support_natives.h"
 #include "stdlib/impl/support/type_match.h"
@@ -17,8 +18,6 @@ using namespace rt;
 
 namespace {
 
-constexpr uint8_t kPersistent = 1; // ir::GlobalKind::Persistent
-
 bool isIdentifier(std::string_view text) {
     return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) &&
            std::all_of(text.begin(), text.end(),
@@ -27,15 +26,6 @@ bool isIdentifier(std::string_view text) {
 
 /// What absent arguments are described by: no dimensions.
 const TypeDesc kAbsent = {"", "", DescKind::Other, 0, 0, {0, 0, 0}, nullptr, nullptr, nullptr};
-
-bool isPersistent(const Controller& controller, const void* data) {
-    const auto* at = static_cast<const char*>(data);
-    for (const GlobalDesc* global : controller.tables().globals()) {
-        const auto* first = static_cast<const char*>(global->address);
-        if (global->kind == kPersistent && at >= first && at < first + global->type->size) return true;
-    }
-    return false;
-}
 
 /// Matches the arguments of a call to the parameters of a routine: required ones in order, optional ones by name.
 class Binder {
@@ -95,7 +85,7 @@ class Binder {
         if (param.mode != kParamIn && !reference)
             return fmt::format("parameter '{}' needs a variable or persistent", param.name);
         const bool persistent =
-            (param.mode == kParamPers || param.mode == kParamVar) && isPersistent(controller_, arg.data);
+            (param.mode == kParamPers || param.mode == kParamVar) && lib::isPersistent(controller_, arg.data);
         if (param.mode == kParamPers && !persistent)
             return fmt::format("parameter '{}' needs a persistent", param.name);
         if (param.mode == kParamVar && persistent)

@@ -1,6 +1,7 @@
 // Manual 1.6 and 1.17: modes, tasks, types of data.
 
 #include "runtime/host/controller.h"
+#include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/task_asked.h"
 
@@ -16,17 +17,6 @@ namespace {
 
 constexpr double kNumInteger = 8388608;
 constexpr double kDnumInteger = 4503599627370496;
-constexpr uint8_t kPersistent = 1; // ir::GlobalKind::Persistent
-
-/// The data lie in (are, or are a part of) a persistent of the program.
-bool isPersistent(TaskCore* task, const void* data) {
-    const auto* at = static_cast<const char*>(data);
-    for (const GlobalDesc* global : taskOf(task).controller().tables().globals()) {
-        const auto* first = static_cast<const char*>(global->address);
-        if (global->kind == kPersistent && at >= first && at < first + global->type->size) return true;
-    }
-    return false;
-}
 
 } // namespace
 
@@ -48,12 +38,12 @@ Status rt_Type(TaskCore*, String* result, void*, const TypeDesc* DataType, bool 
 }
 
 Status rt_IsPers(TaskCore* task, bool* result, void* DatObj, const TypeDesc*) {
-    *result = isPersistent(task, DatObj);
+    *result = lib::isPersistent(taskOf(task).controller(), DatObj);
     return kOk;
 }
 
 Status rt_IsVar(TaskCore* task, bool* result, void* DatObj, const TypeDesc*) {
-    *result = !isPersistent(task, DatObj);
+    *result = !lib::isPersistent(taskOf(task).controller(), DatObj);
     return kOk;
 }
 
