@@ -93,6 +93,7 @@ bool Task::runCycle() {
     entryOverride_ = nullptr;
     backwardCaller_ = nullptr;
     if (status == kOk && nextGuide_ != nullptr) beginReentry();
+    if (interrupts_.deliverable()) interruptPosted(); // occurred while the last cycle was left
     if (status == kOk && entry != nullptr) status = entry(this, nullptr);
     if (status > 0) (void)raiseAt(nullptr, status); // no routine took it, and none reported it
     frame = nullptr;

@@ -208,11 +208,17 @@ Status Task::landAt(Frame* at, Status status) {
     }
     frame = at;
     errorNumber = static_cast<float>(jump.number);
+    const Status stopped = suspendStopped(); // by an order that came while UNDO handlers ran
+    if (stopped < 0) return stopped;
+    // Interrupts that occurred on the way come ahead of the first instruction of the handler.
+    Status delivered = unwinding_ == Unwind::None && !isStopped() ? kAgain : kOk;
+    while (delivered == kAgain)
+        delivered = interrupts_.deliver();
+    if (delivered != kOk) return landAt(at, delivered);
     errorText_ = jump.text;
     errorPlace_ = jump.place;
     noteHandled(at, jump.number);
-    const Status stopped = suspendStopped(); // by an order that came while UNDO handlers ran
-    return stopped < 0 ? stopped : jump.number;
+    return jump.number;
 }
 
 Status Task::raiseToUserLevel(int number) {
