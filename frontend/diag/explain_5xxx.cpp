@@ -164,7 +164,8 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "  RETURN;\n"
      "ENDPROC"},
     {5030, Kind::Body,
-     "BREAK leaves a loop and CONTINUE begins its next turn; there is none here (manual 1.5).",
+     "BREAK leaves a loop and CONTINUE begins its next turn; there is none here (manual 1.5). The BREAK of older "
+     "programs, which stops for debugging, is DebugBreak since RobotWare 7.1.",
      "BREAK;",
      "WHILE TRUE DO\n"
      "  BREAK;\n"

@@ -79,7 +79,12 @@ bool Analyzer::wholeStatement(const Stmt& s) {
 }
 
 void Analyzer::loopWord(const Stmt& s, const char* word) {
-    if (loopDepth_ == 0) report(Code::OutsideLoop, range(s.first), {word});
+    if (loopDepth_ != 0) return;
+    diag::Diagnostic& d = report(Code::OutsideLoop, range(s.first), {word});
+    if (s.kind == NodeKind::Break)
+        d.fixes.push_back({"write DebugBreak to stop there for debugging, as BREAK did up to RobotWare 7.0",
+                           {{range(s.first), "DebugBreak"}},
+                           false});
 }
 
 bool Analyzer::ifStmt(const IfStmt& s) {
