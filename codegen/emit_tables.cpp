@@ -13,13 +13,14 @@ static_assert(offsetof(rt::TypeDesc, size) == 20 && offsetof(rt::TypeDesc, field
               sizeof(rt::TypeDesc) == 64);
 static_assert(sizeof(rt::StmtDesc) == 24 && offsetof(rt::RoutineDesc, errorFilter) == 40 &&
               offsetof(rt::RoutineDesc, errorVariables) == 56);
+static_assert(offsetof(rt::RoutineDesc, detachedHandler) == 96);
 static_assert(sizeof(rt::LocalDesc) == 24 && offsetof(rt::RoutineDesc, locals) == 72);
 static_assert(offsetof(rt::GlobalDesc, task) == 36 && offsetof(rt::RoutineEntry, address) == 24);
 static_assert(offsetof(rt::RoutineEntry, late) == 40 && sizeof(rt::RoutineEntry) == 64);
 static_assert(sizeof(rt::ParamDesc) == 24 && sizeof(rt::RoutineDataDesc) == 40 &&
               sizeof(rt::ModuleDesc) == 32);
 static_assert(int{rt::kDataLocal} == ir::kDataLocal && int{rt::kDataPredefined} == ir::kDataPredefined);
-static_assert(sizeof(rt::RoutineDesc) == 96 && sizeof(rt::TaskDesc) == 40 && sizeof(rt::GlobalDesc) == 56);
+static_assert(sizeof(rt::RoutineDesc) == 104 && sizeof(rt::TaskDesc) == 40 && sizeof(rt::GlobalDesc) == 56);
 static_assert(sizeof(rt::ExternalDesc) == 40 && sizeof(rt::ProgramDesc) == 176);
 
 static_assert(int{rt::kStmtCallsRoutine} == ir::kStmtCallsRoutine &&
@@ -81,7 +82,7 @@ void ModuleEmitter::declareTables() {
     stmtDescType_ = make("rt.StmtDesc", {i32_, i32_, i32_, i32_, i8_, i8_, i8_, i8_, i32_});
     localDescType_ = make("rt.LocalDesc", {ptr_, ptr_, i8_, i8_, i8_, i8_});
     routineDescType_ = make("rt.RoutineDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i8_, i8_, i8_, i8_, ptr_, i32_,
-                                               ptr_, i32_, i32_, ptr_, i32_, i8_, i8_, i8_, i8_, i32_});
+                                               ptr_, i32_, i32_, ptr_, i32_, i8_, i8_, i8_, i8_, i32_, ptr_});
     taskDescType_ = make("rt.TaskDesc", {ptr_, ptr_, ptr_, ptr_, i8_});
     globalDescType_ = make("rt.GlobalDesc", {ptr_, ptr_, ptr_, ptr_, i8_, i8_, i32_, ptr_, i32_});
     externalDescType_ = make("rt.ExternalDesc", {ptr_, ptr_, ptr_, ptr_, i32_, i32_});
@@ -157,6 +158,8 @@ llvm::Constant* ModuleEmitter::routineDescValue(const ir::Routine& routine) {
         filter.push_back(i32(number));
     for (uint32_t global : routine.errorFilterGlobals)
         variables.push_back(globals_[global]);
+    llvm::Constant* detached =
+        routine.detachedHandler == ir::kNone ? null() : cEntries_[routine.detachedHandler];
     return llvm::ConstantStruct::get(routineDescType_, {text(routine.displayName),
                                                         text(routine.moduleName),
                                                         fileName(routine.file),
@@ -175,9 +178,10 @@ llvm::Constant* ModuleEmitter::routineDescValue(const ir::Routine& routine) {
                                                         i32(routine.line),
                                                         i8(routine.stepping),
                                                         i8(routine.callable),
+                                                        i8(routine.isDetachedHandler),
                                                         i8(0),
-                                                        i8(0),
-                                                        i32(int64_t{routine.textHash})});
+                                                        i32(int64_t{routine.textHash}),
+                                                        detached});
 }
 
 std::vector<uint32_t> describedLocals(const ir::Routine& routine) {
@@ -188,6 +192,12 @@ std::vector<uint32_t> describedLocals(const ir::Routine& routine) {
         for (uint32_t k = 0; k < routine.locals[i].rank; ++k)
             result.push_back(routine.locals[i].dims + k);
     }
+    return result;
+}
+
+std::vector<uint32_t> addressedLocals(const ir::Routine& routine) {
+    std::vector<uint32_t> result = describedLocals(routine);
+    result.insert(result.end(), routine.sharedLocals.begin(), routine.sharedLocals.end());
     return result;
 }
 

@@ -269,6 +269,8 @@ void ModuleEmitter::declareRoutines() {
     };
     for (uint32_t i = 0; i < module_.routines.size(); ++i)
         if (module_.routines[i].exported) exportRoutine(i);
+    for (const ir::Routine& routine : module_.routines)
+        exportRoutine(routine.detachedHandler);
     for (const ir::TaskEntry& task : module_.tasks) {
         exportRoutine(task.entry);
         exportRoutine(task.reset);

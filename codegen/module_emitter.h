@@ -34,6 +34,8 @@ struct RuntimeParts {
 /// The locals that a routine of the stepping profile describes, in the order of their table: numbers in
 /// Routine::locals.
 std::vector<uint32_t> describedLocals(const ir::Routine& routine);
+/// Those, then the ones its detached handler reaches: what SteppingFrame::addresses names.
+std::vector<uint32_t> addressedLocals(const ir::Routine& routine);
 
 class ModuleEmitter {
   public:

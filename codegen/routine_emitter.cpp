@@ -108,7 +108,8 @@ void RoutineEmitter::enterStatement(const ir::Inst& jump) {
 /// The frame record is filled where all calls are still ahead, but no earlier: a routine that returns before its first
 /// call pays nothing. Never inside a loop. Routines with handlers fill it at once, because handlers look at it.
 void RoutineEmitter::findFrameBlock() {
-    bool handlers = routine_.errorHandler != ir::kNone || routine_.undoHandler != ir::kNone;
+    bool handlers = routine_.errorHandler != ir::kNone || routine_.undoHandler != ir::kNone ||
+                    routine_.isDetachedHandler;
     if (handlers || routine_.stepping) {
         frameInPrologue_ = true;
         return;
@@ -138,12 +139,11 @@ void RoutineEmitter::allocate() {
     task_ = function_->getArg(0);
     caller_ = function_->getArg(1);
     if (!module_.isScalar(routine_.result)) result_ = function_->getArg(2);
-    const std::vector<uint32_t> described = describedLocals(routine_);
-    const bool extended = routine_.stepping || !described.empty();
+    const size_t addresses = addressedLocals(routine_).size();
+    const bool extended = routine_.stepping || addresses > 0;
     frame_ = b_.CreateAlloca(extended ? m_.runtime().steppingFrame : m_.runtime().frame, nullptr, "frame");
-    if (!described.empty())
-        addresses_ =
-            b_.CreateAlloca(llvm::ArrayType::get(b_.getPtrTy(), described.size()), nullptr, "addresses");
+    if (addresses > 0)
+        addresses_ = b_.CreateAlloca(llvm::ArrayType::get(b_.getPtrTy(), addresses), nullptr, "addresses");
     llvm::Type* i32 = b_.getInt32Ty();
     if (routine_.errorHandler != ir::kNone)
         failed_ = extended ? b_.CreateStructGEP(m_.runtime().steppingFrame, frame_, 2, "failed")
@@ -189,14 +189,14 @@ void RoutineEmitter::prologue() {
     if (addresses_) fillAddresses();
 }
 
-/// Tells the debugger where the locals lie. A loop variable can be looked at ahead of its loop: it is 0 there.
+/// Tells the debugger, and the handler that runs on top of others, where the locals lie. A loop variable can be looked at ahead of its loop: it is 0 there.
 void RoutineEmitter::fillAddresses() {
-    const std::vector<uint32_t> described = describedLocals(routine_);
-    for (uint32_t i = 0; i < described.size(); ++i) {
-        const ir::TypeId type = routine_.locals[described[i]].type;
+    const std::vector<uint32_t> addressed = addressedLocals(routine_);
+    for (uint32_t i = 0; i < addressed.size(); ++i) {
+        const ir::TypeId type = routine_.locals[addressed[i]].type;
         if (module_.isScalar(type))
-            b_.CreateStore(llvm::Constant::getNullValue(m_.memoryType(type)), locals_[described[i]]);
-        b_.CreateStore(locals_[described[i]],
+            b_.CreateStore(llvm::Constant::getNullValue(m_.memoryType(type)), locals_[addressed[i]]);
+        b_.CreateStore(locals_[addressed[i]],
                        b_.CreateConstInBoundsGEP2_32(addresses_->getAllocatedType(), addresses_, 0, i));
     }
     b_.CreateStore(addresses_, b_.CreateStructGEP(m_.runtime().steppingFrame, frame_, 1));

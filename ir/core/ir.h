@@ -159,6 +159,11 @@ struct Routine {
     /// numbers and as global F32 variables. In errorFilter 999 means all, 0 those of the routine and its calls.
     std::vector<int32_t> errorFilter;
     std::vector<uint32_t> errorFilterGlobals;
+    /// The routine that does on top of others what the error handler would do after they are left; kNone: nobody asks. Its
+    /// one parameter is a table with the addresses of `sharedLocals`.
+    uint32_t detachedHandler = kNone;
+    std::vector<uint32_t> sharedLocals;
+    bool isDetachedHandler = false; ///< of another routine; `propagate` and `handlerend` act for that one
     BlockId undoHandler = kNone; ///< the UNDO part; a `ret` without value in it goes on unwinding
 };
 

@@ -11,7 +11,19 @@ using sema::Storage;
 
 void RoutineLowering::checkPresent(const Slot& slot) {
     if (!slot.optional) return;
-    b_.check(b_.binary(Op::INe, b_.param(slot.param), b_.nullPtr()), program_.errorNumber("ERR_NOTPRES"));
+    b_.check(b_.binary(Op::INe, parameter(slot.param), b_.nullPtr()), program_.errorNumber("ERR_NOTPRES"));
+}
+
+ir::ValueId RoutineLowering::objectAddress(const Slot& slot) {
+    if (slot.kind == Slot::Kind::Local) return b_.localAddr(slot.local);
+    return slot.local == ir::kNone ? parameter(slot.param) : b_.load(ir::kPtr, b_.localAddr(slot.local));
+}
+
+/// Of an optional parameter, to be handed on: null when it is absent.
+ir::ValueId RoutineLowering::addressIfPresent(const Slot& slot) {
+    const ValueId given = parameter(slot.param);
+    if (slot.local == ir::kNone) return given;
+    return b_.select(b_.binary(Op::INe, given, b_.nullPtr()), objectAddress(slot), b_.nullPtr());
 }
 
 void RoutineLowering::readSystemVariable(const DataSymbol& symbol, ir::ValueId address) {
@@ -52,10 +64,9 @@ RoutineLowering::Place RoutineLowering::placeOf(const DataSymbol& symbol) {
         break;
     case Slot::Kind::Pointer:
         checkPresent(*slot);
-        p.addr =
-            slot->local == ir::kNone ? b_.param(slot->param) : b_.load(ir::kPtr, b_.localAddr(slot->local));
-        for (int k = 0; k < symbol.type.rank; ++k)
-            p.dims[k] = b_.param(slot->param + 1 + static_cast<uint32_t>(k));
+        p.addr = objectAddress(*slot);
+        for (int k = 0; k < symbol.type.rank && symbol.type.dims[k] == 0; ++k)
+            p.dims[k] = parameter(slot->param + 1 + static_cast<uint32_t>(k));
         break;
     case Slot::Kind::IntLoop:
         p.addr = tempAddr(ir::kF32);

@@ -50,19 +50,13 @@ void RoutineLowering::pushPointerArgument(const BoundArg& arg, std::vector<Value
 void RoutineLowering::pushConditional(const BoundArg& arg, std::vector<ValueId>& args) {
     const auto* source = static_cast<const DataSymbol*>(info(unparen(*arg.value)).symbol);
     const Slot* slot = findSlot(*source);
-    const ValueId given = b_.param(slot->param);
     if (source->isSwitch) {
-        args.push_back(given);
+        args.push_back(parameter(slot->param));
         return;
     }
-    if (slot->kind == Slot::Kind::Local) {
-        const ValueId present = b_.binary(Op::INe, given, b_.nullPtr());
-        args.push_back(b_.select(present, b_.localAddr(slot->local), b_.nullPtr()));
-    } else {
-        args.push_back(given);
-    }
+    args.push_back(addressIfPresent(*slot));
     for (int k = 0; k < arg.param->type.rank; ++k)
-        args.push_back(b_.param(slot->param + 1 + static_cast<uint32_t>(k)));
+        args.push_back(parameter(slot->param + 1 + static_cast<uint32_t>(k)));
 }
 
 void RoutineLowering::pushAny(const BoundArg& arg, std::vector<ValueId>& args) {
@@ -164,6 +158,11 @@ ir::ValueId RoutineLowering::lowerSpecial(const BoundCall& call, bool& done) {
     done = true;
     if (name == "present") return lowerPresent(call);
     if (name == "dim") return lowerDim(call);
+    if (name == "raisetouser" && region_ == Region::Error &&
+        findArg(call, "Continue")->kind != BoundArg::Kind::Absent) {
+        lowerRaiseToUser(call);
+        return ir::kNone;
+    }
     if (name == "waituntil") {
         lowerWaitUntil(call);
         return ir::kNone;
@@ -177,8 +176,8 @@ ir::ValueId RoutineLowering::lowerPresent(const BoundCall& call) {
     const auto* symbol = static_cast<const DataSymbol*>(info(value).symbol);
     const Slot* slot = symbol ? findSlot(*symbol) : nullptr;
     if (!slot || slot->param == ir::kNone || !symbol->optional) return b_.constBool(true);
-    if (symbol->isSwitch) return b_.param(slot->param);
-    return b_.binary(Op::INe, b_.param(slot->param), b_.nullPtr());
+    if (symbol->isSwitch) return parameter(slot->param);
+    return b_.binary(Op::INe, parameter(slot->param), b_.nullPtr());
 }
 
 ir::ValueId RoutineLowering::lowerDim(const BoundCall& call) {

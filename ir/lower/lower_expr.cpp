@@ -56,7 +56,7 @@ ir::ValueId RoutineLowering::lowerValue(const Expr& outer) {
         const auto* symbol = static_cast<const sema::DataSymbol*>(facts.symbol);
         if (symbol->isSwitch) {
             const Slot* slot = findSlot(*symbol);
-            return b_.param(slot->param);
+            return parameter(slot->param);
         }
         return b_.load(type, placeOf(*symbol).addr);
     }

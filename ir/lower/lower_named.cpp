@@ -57,6 +57,22 @@ const RoutineSymbol* ProgramLowering::usedBuiltIn(std::string_view name) const {
     return nullptr;
 }
 
+/// RaiseToUser \Continue occurs, or may come with a module: code of the stepping profile is ready for that, other code
+/// would have to pay for it.
+bool ProgramLowering::usesContinue() const {
+    const bool loads = unit_ || usedBuiltIn("load") || usedBuiltIn("startload");
+    if (stepping() && loads) return true;
+    const RoutineSymbol* raise = usedBuiltIn("raisetouser");
+    if (!raise) return false;
+    for (const auto& facts : program_.facts)
+        for (const auto& [node, call] : facts->calls)
+            for (const BoundArg& arg : call.args)
+                if (call.routine == raise && arg.kind != BoundArg::Kind::Absent &&
+                    foldCase(arg.param->name) == "continue")
+                    return true;
+    return false;
+}
+
 /// ArgName follows a parameter through the calls that pass it on, so these parameters bring a name along.
 void ProgramLowering::findNamedParameters() {
     const RoutineSymbol* argName = usedBuiltIn("argname");
@@ -85,7 +101,7 @@ ir::ValueId RoutineLowering::argumentName(const BoundArg& arg) {
     if (!root) return b_.nullPtr();
     if (root->storage != Storage::Parameter) return b_.globalAddr(program_.stringGlobal(root->name));
     const Slot* slot = findSlot(*root);
-    return slot && slot->name != ir::kNone ? b_.param(slot->name) : b_.nullPtr();
+    return slot && slot->name != ir::kNone ? parameter(slot->name) : b_.nullPtr();
 }
 
 /// The native gets the name where it expects the parameter; null when there is none.
@@ -129,21 +145,16 @@ void RoutineLowering::lateValue(const BoundArg& arg, ValueId present, std::vecto
     if (arg.kind == BoundArg::Kind::Conditional) {
         const DataSymbol* source = rootSymbol(*arg.value);
         const Slot* slot = findSlot(*source);
-        const ValueId given = b_.param(slot->param);
         if (source->isSwitch) {
-            out.push_back(b_.select(given, present, b_.nullPtr()));
+            out.push_back(b_.select(parameter(slot->param), present, b_.nullPtr()));
             out.push_back(b_.nullPtr());
             return;
         }
-        ValueId data = given;
-        if (slot->kind == Slot::Kind::Local)
-            data = b_.select(b_.binary(ir::Op::INe, given, b_.nullPtr()), b_.localAddr(slot->local),
-                             b_.nullPtr());
-        out.push_back(data);
+        out.push_back(addressIfPresent(*slot));
         Place p;
         p.type = source->type;
         for (int k = 0; k < source->type.rank; ++k)
-            p.dims[static_cast<size_t>(k)] = b_.param(slot->param + 1 + static_cast<uint32_t>(k));
+            p.dims[static_cast<size_t>(k)] = parameter(slot->param + 1 + static_cast<uint32_t>(k));
         out.push_back(typeAddress(p));
         return;
     }

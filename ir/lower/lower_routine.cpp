@@ -180,11 +180,7 @@ void RoutineLowering::lowerParameters() {
         number += 1 + (passing == Passing::Pointer ? param->type.rank : 0u);
         if (program_.passesName(*param)) slot.name = number++;
         if (passing == Passing::Switch) {
-            if (describesData_) {
-                const uint32_t shown = b_.addLocal(param->name, ir::kBool, true);
-                b_.store(ir::kBool, b_.param(slot.param), b_.localAddr(shown));
-                describeLocal(shown, scalarType(program_.program().boolean));
-            }
+            if (describesData_) describeSwitch(*param, slot);
             slots_[param] = slot;
             continue;
         }
@@ -232,21 +228,26 @@ void RoutineLowering::describeLocal(uint32_t local, const sema::DataType& type) 
     if (describesData_) routine_.locals[local].typeDesc = program_.typeDesc(type);
 }
 
+void RoutineLowering::describeSwitch(const DataSymbol& param, const Slot& slot) {
+    const uint32_t shown = b_.addLocal(param.name, ir::kBool, true);
+    b_.store(ir::kBool, parameter(slot.param), b_.localAddr(shown));
+    describeLocal(shown, scalarType(program_.program().boolean));
+}
+
 /// The private copy of an optional parameter: shown only when the parameter is present.
 void RoutineLowering::describeOptional(const DataSymbol& param, const Slot& slot) {
     const uint32_t shown = b_.addLocal(param.name, ir::kPtr, true);
-    const ValueId given = b_.binary(ir::Op::INe, b_.param(slot.param), b_.nullPtr());
-    b_.store(ir::kPtr, b_.select(given, b_.localAddr(slot.local), b_.nullPtr()), b_.localAddr(shown));
+    b_.store(ir::kPtr, addressIfPresent(slot), b_.localAddr(shown));
     routine_.locals[shown].reference = true;
     routine_.locals[shown].typeDesc = program_.typeDesc(param.type);
 }
 
 /// The debugger finds the object by a local that holds its address, and arrays by locals with their dimensions.
-void RoutineLowering::describeReference(const DataSymbol& param, Slot& slot) {
+void RoutineLowering::describeReference(const DataSymbol& param, const Slot& slot) {
     uint32_t shown = slot.local;
     if (shown == ir::kNone) {
         shown = b_.addLocal(param.name, ir::kPtr, true);
-        b_.store(ir::kPtr, b_.param(slot.param), b_.localAddr(shown));
+        b_.store(ir::kPtr, parameter(slot.param), b_.localAddr(shown));
     }
     routine_.locals[shown].reference = true;
     routine_.locals[shown].typeDesc = program_.typeDesc(scalarType(param.type.type));
@@ -255,7 +256,7 @@ void RoutineLowering::describeReference(const DataSymbol& param, Slot& slot) {
     for (uint32_t k = 0; k < param.type.rank; ++k) {
         const uint32_t dim = b_.addLocal("", ir::kI32, true);
         if (k == 0) routine_.locals[shown].dims = dim;
-        b_.store(ir::kI32, b_.param(slot.param + 1 + k), b_.localAddr(dim));
+        b_.store(ir::kI32, parameter(slot.param + 1 + k), b_.localAddr(dim));
     }
 }
 
@@ -303,6 +304,7 @@ ir::Routine RoutineLowering::run() {
     if (hasErrorHandler_) routine_.errorHandler = b_.addBlock("error");
     lowerParameters();
     lowerData();
+    if (needsDetachedHandler()) shareData();
     inInstructions_ = true;
     if (routine_.hasBackward) lowerBackwardHandler();
     lowerList(symbol_.routineDecl->body);
@@ -349,6 +351,11 @@ void RoutineLowering::lowerBackwardHandler() {
 void RoutineLowering::lowerErrorHandler() {
     region_ = Region::Error;
     b_.setBlock(routine_.errorHandler);
+    if (needsDetachedHandler()) lowerTakeDecision();
+    lowerErrorClauses();
+}
+
+void RoutineLowering::lowerErrorClauses() {
     bool lists = false, others = false;
     for (const syntax::ErrorClause* clause : symbol_.routineDecl->errors) {
         const ir::BlockId next = b_.addBlock("clause");

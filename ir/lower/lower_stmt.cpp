@@ -118,7 +118,7 @@ void RoutineLowering::lowerStmt(const Stmt& stmt) {
         if (call.lateName || (found != facts().calls.end() && !found->second.routine))
             return lowerLateCall(call);
         lowerCall(stmt, ir::kNone);
-        if (region_ == Region::Error && isStartMoveRetry(stmt)) b_.retry();
+        if (region_ == Region::Error && isStartMoveRetry(stmt)) lowerRetry();
         return;
     }
     case NodeKind::If: return lowerIf(as<IfStmt>(stmt));
@@ -130,8 +130,8 @@ void RoutineLowering::lowerStmt(const Stmt& stmt) {
     case NodeKind::Raise: return lowerRaise(as<RaiseStmt>(stmt));
     case NodeKind::Connect: return lowerConnect(as<ConnectStmt>(stmt));
     case NodeKind::Exit: startStatement(stmt, ir::StmtKind::Control); return lowerExit();
-    case NodeKind::Retry: startStatement(stmt, ir::StmtKind::Control); return b_.retry();
-    case NodeKind::TryNext: startStatement(stmt, ir::StmtKind::Control); return b_.tryNext();
+    case NodeKind::Retry: startStatement(stmt, ir::StmtKind::Control); return lowerRetry();
+    case NodeKind::TryNext: startStatement(stmt, ir::StmtKind::Control); return lowerTryNext();
     case NodeKind::Break:
         startStatement(stmt, ir::StmtKind::Control);
         if (!loops_.empty()) b_.br(loops_.back().onBreak);
@@ -289,6 +289,7 @@ void RoutineLowering::lowerTest(const TestStmt& stmt) {
 void RoutineLowering::lowerReturn(const ReturnStmt& stmt) {
     startStatement(stmt, ir::StmtKind::Return);
     if (region_ == Region::Undo) return lowerIgnoredInUndo("RETURN");
+    if (body_) return lowerDetachedReturn(stmt);
     if (!stmt.value || symbol_.routineKind != RoutineKind::Func) return b_.ret();
     const ir::TypeId type = program_.irType(symbol_.returnType);
     if (program_.module().isScalar(type)) return b_.ret(lowerValueAs(*stmt.value, symbol_.returnType.type));

@@ -357,12 +357,28 @@ uint32_t ProgramLowering::routineFor(const RoutineSymbol& symbol, uint32_t task)
     return index;
 }
 
+uint32_t ProgramLowering::lowerDetachedHandler(const Pending& routine, const RoutineLowering& body) {
+    const auto index = static_cast<uint32_t>(module_.routines.size());
+    ir::Routine declared = declareRoutine(*this, *routine.symbol, routine.task);
+    declared.name += "$error";
+    declared.params = {{"data", ir::kPtr}};
+    declared.result = ir::kVoid;
+    declared.callable = declared.hasBackward = false;
+    declared.isDetachedHandler = true;
+    module_.routines.push_back(declared);
+    RoutineLowering lowering(*this, *routine.symbol, routine.task, declared);
+    ir::Routine done = lowering.runDetached(body);
+    module_.routines[index] = std::move(done);
+    return index;
+}
+
 void ProgramLowering::drainPending() {
     while (!pending_.empty()) {
         const Pending next = pending_.back();
         pending_.pop_back();
         RoutineLowering lowering(*this, *next.symbol, next.task, module_.routines[next.index]);
         ir::Routine done = lowering.run();
+        if (lowering.needsDetachedHandler()) done.detachedHandler = lowerDetachedHandler(next, lowering);
         done.exported =
             done.exported || module_.routines[next.index].exported; // a CONNECT names it meanwhile
         // Breakpoints and the program pointer reach every routine of the program.
@@ -424,6 +440,7 @@ bool ProgramLowering::run() {
     findNamedParameters();
     // A module that is loaded may call EraseModule, too.
     erases_ = usedBuiltIn("erasemodule") != nullptr || loads();
+    continuesAtUserLevel_ = usesContinue();
     for (uint32_t i = 0; i < program_.tasks.size(); ++i)
         lowerTask(i);
     addTables();
@@ -438,6 +455,7 @@ bool ProgramLowering::runUnit(uint32_t task, const sema::Module& module, const U
     module_.unitTask = static_cast<int32_t>(task);
     const size_t errorsBefore = sink_.errorCount();
     findNamedParameters();
+    continuesAtUserLevel_ = usesContinue();
     for (const DataSymbol* data : module.data)
         globalFor(*data, task);
     for (const RoutineSymbol* routine : module.routines)

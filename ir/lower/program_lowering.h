@@ -19,6 +19,8 @@ enum class Passing : uint8_t {
 
 Passing passingOf(const sema::DataSymbol& param);
 
+class RoutineLowering;
+
 class ProgramLowering {
   public:
     ProgramLowering(const sema::CheckedProgram& program, const Options& options, diag::Sink& sink,
@@ -40,6 +42,9 @@ class ProgramLowering {
     uint32_t goneFlag(const sema::Module& module, uint32_t task);
     /// Some data of other modules may be absent when an instruction is executed.
     bool dataMayBeAbsent() const { return unit_ || erases_; }
+
+    /// RaiseToUser \Continue may execute error handlers of the program.
+    bool continuesAtUserLevel() const { return continuesAtUserLevel_; }
 
     bool stepping() const { return options_.stepping; }
 
@@ -86,6 +91,7 @@ class ProgramLowering {
     const sema::RoutineSymbol* usedBuiltIn(std::string_view name) const;
     bool searchesData() const;
     void findNamedParameters();
+    bool usesContinue() const;
     void addPredefinedData(uint32_t task);
     void addRoutineData(uint32_t task, const sema::Module& module);
     void addSearchTypes();
@@ -96,6 +102,7 @@ class ProgramLowering {
     uint32_t importGlobal(const sema::DataSymbol& symbol, uint32_t task);
     uint32_t makeReset(uint32_t task);
     void drainPending();
+    uint32_t lowerDetachedHandler(const Pending& routine, const RoutineLowering& body);
     bool inSharedModule(const sema::DataSymbol& symbol) const;
     ir::GlobalAlias aliasOf(const sema::DataSymbol& symbol, uint32_t task, uint32_t global);
     uint32_t addGlobal(const sema::DataSymbol& symbol, uint32_t task, bool shared, const std::string& name);
@@ -119,6 +126,7 @@ class ProgramLowering {
     std::unordered_set<const sema::DataSymbol*> namedParams_;
     bool asksForNames_ = false;
     bool erases_ = false; ///< calls EraseModule, or loads modules, which may
+    bool continuesAtUserLevel_ = false;
     std::map<std::pair<uint32_t, const sema::Module*>, uint32_t> goneFlags_;
     ir::TypeId lateRow_ = ir::kVoid;
 };

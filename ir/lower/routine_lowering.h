@@ -22,6 +22,10 @@ class RoutineLowering {
     RoutineLowering(ProgramLowering& program, const sema::RoutineSymbol& symbol, uint32_t task,
                     const ir::Routine& declared);
     ir::Routine run();
+    /// After run(): the routine needs its error handler as a routine of its own as well.
+    bool needsDetachedHandler() const;
+    /// That one, instead of run(). `body` has lowered the routine itself.
+    ir::Routine runDetached(const RoutineLowering& body);
 
   private:
     using Expr = syntax::Expr;
@@ -43,6 +47,16 @@ class RoutineLowering {
         sema::DataType type;
         std::array<ValueId, 3> dims{ir::kNone, ir::kNone, ir::kNone};
     };
+    /// Data that the detached handler reaches: positions in Routine::sharedLocals.
+    struct SharedData {
+        struct Parameter {
+            uint32_t position = 0;
+            ir::TypeId type = ir::kVoid;
+        };
+        std::unordered_map<uint32_t, Parameter> params; ///< by number of the IR parameter, kept in a local
+        std::unordered_map<const sema::DataSymbol*, uint32_t> objects; ///< of Slot::local
+        uint32_t result = ir::kNone, resultLocal = ir::kNone;
+    };
     struct IntRange {
         int64_t lo = 0, hi = 0;
     };
@@ -59,11 +73,26 @@ class RoutineLowering {
     /// Tells the debugger about a local (stepping profile only).
     void describeLocal(uint32_t local, const sema::DataType& type);
     void describeOptional(const sema::DataSymbol& param, const Slot& slot);
-    void describeReference(const sema::DataSymbol& param, Slot& slot);
+    void describeReference(const sema::DataSymbol& param, const Slot& slot);
+    void describeSwitch(const sema::DataSymbol& param, const Slot& slot);
     void lowerErrorHandler();
+    void lowerErrorClauses();
     bool lowerListedNumber(const Expr& number, ir::BlockId body);
     bool hasRetry() const { return hasErrorHandler_; }
     bool mayChangeArguments() const;
+
+    // lower_detached.cpp
+    uint32_t share(uint32_t local);
+    void shareData();
+    void lowerTakeDecision();
+    ValueId sharedAddress(uint32_t position);
+    ValueId parameter(uint32_t number);
+    void bindShared(const sema::DataSymbol& symbol, Slot slot);
+    void endDetached(int32_t decision);
+    void lowerRetry();
+    void lowerTryNext();
+    void lowerDetachedReturn(const syntax::ReturnStmt& stmt);
+    void lowerRaiseToUser(const sema::BoundCall& call);
 
     // lower_stmt.cpp
     void lowerList(syntax::StmtList list);
@@ -141,6 +170,8 @@ class RoutineLowering {
     bool mentions(const Expr& expr, const sema::DataSymbol& target) const;
     bool mayAlias(const Expr& value, const Expr& target) const;
     void checkPresent(const Slot& slot);
+    ValueId objectAddress(const Slot& slot);
+    ValueId addressIfPresent(const Slot& slot);
 
     // lower_call.cpp
     ValueId lowerCall(const syntax::Node& node, ValueId resultAddr); ///< CallExpr or CallStmt
@@ -193,6 +224,8 @@ class RoutineLowering {
     ir::Routine routine_;
     ir::Builder b_;
     std::unordered_map<const sema::DataSymbol*, Slot> slots_;
+    SharedData shared_;
+    const RoutineLowering* body_ = nullptr; ///< detached handler: of its routine
     std::unordered_map<const syntax::Node*, ir::BlockId> labels_;
     std::vector<LoopTargets> loops_;
     std::multimap<ir::TypeId, uint32_t> freeTemps_;

@@ -263,6 +263,7 @@ class ModuleParser {
         routine.stepping = in_.takeWord("stepping");
         routine.hasBackward = in_.takeWord("backward");
         routine.callable = in_.takeWord("callable");
+        routine.isDetachedHandler = in_.takeWord("detached");
         if (in_.takeWord("hash") && !in_.unsignedInt(routine.textHash)) return false;
         if (!in_.type(module_, routine.result) || !in_.punct('(')) return false;
         while (!in_.isPunct(')')) {
@@ -351,6 +352,9 @@ class ModuleParser {
         case Fixup::Slot::TaskEntry: module_.tasks[fixup.index].entry = target; break;
         case Fixup::Slot::TaskReset: module_.tasks[fixup.index].reset = target; break;
         case Fixup::Slot::Named: module_.namedRoutines[fixup.index].routine = target; break;
+        case Fixup::Slot::DetachedHandler:
+            module_.routines[fixup.routine].detachedHandler = target;
+            break;
         case Fixup::Slot::ErrorFilter:
             module_.routines[fixup.routine].errorFilterGlobals[fixup.index] = target;
             break;

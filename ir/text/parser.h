@@ -72,6 +72,7 @@ struct Fixup {
         TaskEntry,
         TaskReset,
         ErrorFilter,
+        DetachedHandler,
         Named
     } slot = Slot::External;
     uint32_t index = 0;
@@ -89,6 +90,7 @@ class RoutineParser {
     bool local();
     bool statement();
     bool handler();
+    bool detachedHandler();
     bool blockHeader();
     bool instruction();
     bool body(Inst& inst);

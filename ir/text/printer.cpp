@@ -139,6 +139,7 @@ class RoutinePrinter {
         if (routine_.stepping) put(out_, " stepping");
         if (routine_.hasBackward) put(out_, " backward");
         if (routine_.callable) put(out_, " callable");
+        if (routine_.isDetachedHandler) put(out_, " detached");
         if (routine_.textHash != 0) put(out_, " hash {}", routine_.textHash);
         put(out_, " {} (", typeName(routine_.result));
         for (size_t i = 0; i < routine_.params.size(); ++i)
@@ -177,6 +178,9 @@ class RoutinePrinter {
             if (!filter.empty()) put(out_, " [{}]", fmt::join(filter, ", "));
             put(out_, "\n");
         }
+        if (routine_.detachedHandler != kNone)
+            put(out_, "  detachedhandler @{} [{}]\n", nameIn(module_.routines, routine_.detachedHandler),
+                fmt::join(routine_.sharedLocals, ", "));
         if (routine_.undoHandler != kNone) put(out_, "  undohandler b{}\n", routine_.undoHandler);
     }
 

@@ -21,11 +21,12 @@ bool RoutineParser::item() {
         if (in_.takeWord("local")) return local();
         if (in_.takeWord("stmt")) return statement();
         if (in_.isWord("errorhandler") || in_.isWord("undohandler")) return handler();
+        if (in_.takeWord("detachedhandler")) return detachedHandler();
     }
     if (in_.peek().kind == TokenKind::Word && in_.peek().text.size() > 1 && in_.peek().text[0] == 'b' &&
         in_.peek().text[1] >= '0' && in_.peek().text[1] <= '9')
         return blockHeader();
-    if (routine_.blocks.empty()) return in_.expected("local, stmt, errorhandler, undohandler or a block");
+    if (routine_.blocks.empty()) return in_.expected("local, stmt, errorhandler, detachedhandler, undohandler or a block");
     return instruction();
 }
 
@@ -88,6 +89,17 @@ bool RoutineParser::handler() {
         if (!in_.punct(']')) return false;
     }
     return in_.endOfLine();
+}
+
+bool RoutineParser::detachedHandler() {
+    Fixup fixup{Fixup::Kind::Routine, {}, in_.peek(), index_, kNone, Fixup::Slot::DetachedHandler, 0};
+    if (!in_.name(fixup.name) || !in_.punct('[')) return false;
+    fixups_.push_back(std::move(fixup));
+    while (!in_.isPunct(']')) {
+        if (!in_.unsignedInt(routine_.sharedLocals.emplace_back())) return false;
+        if (!in_.takePunct(',')) break;
+    }
+    return in_.punct(']') && in_.endOfLine();
 }
 
 bool RoutineParser::blockHeader() {

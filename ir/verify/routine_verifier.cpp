@@ -37,12 +37,26 @@ bool RoutineVerifier::header() {
     if (routine_.errorHandler == kNone &&
         !(routine_.errorFilter.empty() && routine_.errorFilterGlobals.empty()))
         add("error filter without error handler");
+    detachedHandler();
     for (uint32_t global : routine_.errorFilterGlobals) {
         inRange(global, module_.globals.size(), "global in the error filter");
         if (global < module_.globals.size() && module_.globals[global].type != kF32)
             add("global in the error filter is not F32");
     }
     return out_.size() == before;
+}
+
+void RoutineVerifier::detachedHandler() {
+    for (uint32_t local : routine_.sharedLocals)
+        inRange(local, routine_.locals.size(), "shared local");
+    if (routine_.detachedHandler == kNone) return;
+    if (routine_.errorHandler == kNone) add("detached handler without error handler");
+    inRange(routine_.detachedHandler, module_.routines.size(), "detached handler");
+    if (routine_.detachedHandler >= module_.routines.size()) return;
+    const Routine& handler = module_.routines[routine_.detachedHandler];
+    const bool fits = handler.isDetachedHandler && handler.result == kVoid && handler.params.size() == 1 &&
+                      handler.params[0].type == kPtr && handler.errorHandler == kNone;
+    if (!fits) add(fmt::format("{} cannot be its detached handler", handler.name));
 }
 
 void RoutineVerifier::localEntry(const Local& local) {
@@ -130,8 +144,9 @@ void RoutineVerifier::handlers() {
         if (routine_.blocks[block_].insts.empty()) continue;
         inst_ = routine_.blocks[block_].insts.back();
         Op op = routine_.insts[inst_].op;
-        bool handlerOnly =
-            op == Op::Retry || op == Op::TryNext || op == Op::Propagate || op == Op::HandlerEnd;
+        const bool leaves = op == Op::Propagate || op == Op::HandlerEnd;
+        if (leaves && routine_.isDetachedHandler) continue;
+        bool handlerOnly = op == Op::Retry || op == Op::TryNext || leaves;
         bool reached = inBody[block_] || inUndo_[block_];
         if (handlerOnly && reached) add("stands outside the error handler");
         if (handlerOnly && routine_.errorHandler == kNone) add("there is no error handler");

@@ -18,6 +18,7 @@ class RoutineVerifier {
   private:
     void add(const std::string& text); ///< a finding at the current block and instruction
     bool header();
+    void detachedHandler();
     void localEntry(const Local& local);
     void statements();
     bool structure();

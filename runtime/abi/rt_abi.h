@@ -107,9 +107,19 @@ struct LocalDesc {
 
 inline constexpr uint8_t kStmtHandler = 5;
 
+/// How a detached error handler tells to go on.
+enum HandlerDecision : int32_t { kNotDecided, kDecidedRetry, kDecidedTryNext, kDecidedReturn, kDecidedRaise };
+
 /// Numbers with a meaning of their own in RoutineDesc::errorFilter.
 inline constexpr int32_t kAllErrors = 999; ///< every error, wherever it is raised (LONG_JMP_ALL_ERR)
 inline constexpr int32_t kOtherErrors = 0; ///< the others, too, but only when they come to the routine itself
+
+struct Frame;
+struct TaskCore;
+/// The error handler of a routine as a function of its own, for RaiseToUser \Continue: it runs on top of the routines in
+/// progress, `caller` is the innermost of them. `data`: SteppingFrame::addresses from RoutineDesc::localCount on. 0: it has
+/// said how to go on (rt_endDetached); > 0: it raises that error where the routine was called.
+using DetachedHandler = Status (*)(TaskCore* task, Frame* caller, void* const* data);
 
 struct RoutineDesc {
     const char* name; ///< as people see it
@@ -127,15 +137,25 @@ struct RoutineDesc {
     uint32_t errorFilterCount;
     const float* const* errorVariables; ///< further listed numbers, in variables of the program
     uint32_t errorVariableCount;
-    uint32_t localCount;     ///< > 0, or `stepping`: the frame record is a SteppingFrame
+    uint32_t localCount; ///< > 0, or `stepping`, or with detachedHandler: the frame record is a SteppingFrame
     const LocalDesc* locals; ///< in their order; dimensions of arrays have rows without name and type
     uint32_t line;           ///< of its declaration
     uint8_t stepping;        ///< made for the stepping profile
     uint8_t
         callable; ///< a procedure without parameters: the program pointer can be moved to it, the system can call it
-    uint8_t tail[2];
+    uint8_t isDetachedHandler; ///< of another routine, whose name and place it has
+    uint8_t tail[1];
     uint32_t textHash; ///< stepping profile: another number when the source text was changed
+    DetachedHandler detachedHandler; ///< null: the program has no RaiseToUser \Continue, or there is no handler
 };
+
+/// Stands in the chain of frame records where the system calls a routine.
+constexpr RoutineDesc boundary(const char* name) {
+    RoutineDesc desc{};
+    desc.name = name;
+    desc.module = desc.file = "";
+    return desc;
+}
 
 /// Frame record: lies in the stack frame of each routine in progress; the chain is the call stack. The caller's record
 /// is passed down in a register; `statement` is stored before whatever may raise, wait or be preempted.
@@ -147,10 +167,10 @@ struct Frame {
 };
 inline constexpr int32_t kFrameInUndo = -1;
 
-/// Frame record of a routine with described locals (RoutineDesc::localCount > 0), and of each one made for the stepping
-/// profile.
+/// Frame record of a routine with described locals (RoutineDesc::localCount > 0) or a detached handler, and of each one made
+/// for the stepping profile.
 struct SteppingFrame : Frame {
-    void* const* addresses; ///< one per LocalDesc
+    void* const* addresses; ///< one per LocalDesc, then what the detached handler needs
     int32_t failed;         ///< in the error handler: the statement that failed
 };
 

@@ -127,6 +127,7 @@ std::string refusalOf(const Frame& frame) {
     if (&routine == &kTrapBoundary) return "an interrupt routine was at work";
     if (&routine == &kEventBoundary) return "an event routine was at work";
     if (routine.stepping == 0) return "the program was not compiled for the stepping profile (--stepping)";
+    if (routine.isDetachedHandler != 0) return "an error handler of RaiseToUser \\Continue was at work";
     if (frame.reserved == kFrameInUndo) return "an UNDO handler was at work";
     const StmtDesc* statement = statementOf(frame);
     if (statement != nullptr && (statement->flags & kStmtInBackward) != 0) return "it was executed backwards";

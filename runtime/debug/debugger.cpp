@@ -14,8 +14,14 @@
 namespace rt {
 namespace {
 
+/// The handler of RaiseToUser \Continue is as deep as the routine it belongs to: the first one further out that can be
+/// stepped.
 std::size_t depthOf(const Frame* frame) {
     std::size_t depth = 0;
+    if (frame != nullptr && frame->routine->isDetachedHandler != 0)
+        do
+            frame = frame->caller;
+        while (frame != nullptr && frame->routine->noStepIn != 0);
     for (; frame != nullptr; frame = frame->caller)
         ++depth;
     return depth;

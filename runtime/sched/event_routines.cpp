@@ -17,8 +17,7 @@ std::size_t indexOf(SystemEvent event) {
 
 } // namespace
 
-const RoutineDesc kEventBoundary = {"(event)", "",      "", nullptr, 0,       0, 0, 0, 0,  nullptr,
-                                    0,         nullptr, 0,  0,       nullptr, 0, 0, 0, {}, 0};
+constinit const RoutineDesc kEventBoundary = boundary("(event)");
 
 SystemEvent systemEventOf(std::string_view shelf) {
     for (std::size_t i = 1; i < kSystemEvents; ++i) {

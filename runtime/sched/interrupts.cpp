@@ -10,8 +10,7 @@
 
 namespace rt {
 
-const RoutineDesc kTrapBoundary = {"(interrupt)", "", "", nullptr, 0, 0, 0, 0,  0, nullptr, 0,
-                                   nullptr,       0,  0,  nullptr, 0, 0, 0, {}, 0};
+constinit const RoutineDesc kTrapBoundary = boundary("(interrupt)");
 
 bool InterruptTable::deliverable() const {
     return enabled_ && !running_ && !queue_.empty() && !task_.isStepwise();

@@ -100,6 +100,8 @@ bool Task::runCycle() {
     endReentry();
     retries_.clear();
     jumps_.clear();
+    detached_.clear();
+    decision_ = kNotDecided;
     raiseToCaller_ = false;
     flushHandledWarning();
     interrupts_.unwound();

@@ -24,6 +24,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace rt {
@@ -232,7 +233,14 @@ class Task : public TaskCore {
     Status raiseToCaller(int number);
     /// RaiseToUser \BreakOff: to the innermost routine outside NOSTEPIN. Only for the error handler of a NOSTEPIN routine;
     /// elsewhere, and when nothing takes it there, the system handler. Negative.
-    Status raiseToUserLevel(int number);
+    Status breakOffToUser(int number);
+    /// RaiseToUser \Continue: executes the error handler of that routine on top of the present one. 0: `decision` is to be
+    /// carried out by the present routine, RETRY or TRYNEXT. Negative as above, also when that handler leaves its routine.
+    Status continueAtUser(int number, HandlerDecision& decision);
+    /// In that handler: how to go on; it returns to continueAtUser then.
+    void endDetached(HandlerDecision decision) { detached_.back().decision = decision; }
+    /// What the detached handler of the innermost routine decided before the stack was unwound to that routine; once.
+    HandlerDecision takeDecision() { return std::exchange(decision_, kNotDecided); }
     /// SkipWarn: the error handled last leaves no warning in the event log.
     void skipWarn() { handled_.frame = nullptr; }
     /// RETRYs that remain for the error being handled (RemainingRetries); ResetRetryCount.
@@ -349,12 +357,18 @@ class Task : public TaskCore {
         int number = 0; ///< of the error being handled
         std::map<int, int> counts;
     };
+    /// A detached error handler at work.
+    struct Detached {
+        Frame* user = nullptr; ///< whose handler it is
+        HandlerDecision decision = kNotDecided;
+    };
     /// An error on its way to the handler of `target`. More than one only when an UNDO handler on the way makes another.
     struct Jump {
         Frame* target = nullptr;
         int number = 0;
         std::string text;
         SourcePlace place;
+        HandlerDecision decision = kNotDecided; ///< of the handler, which has been executed already
     };
     struct HandledError {
         Frame* frame = nullptr; ///< of the routine whose handler took it; null: nothing to report
@@ -380,7 +394,9 @@ class Task : public TaskCore {
     Status systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where);
     Status raiseOnce(Frame* at, int number);
     Status dispatchError(const ErrorRoute& route, int number);
-    Status startJump(Frame* target, int number);
+    Status startJump(Frame* target, int number, HandlerDecision decision = kNotDecided);
+    Frame* findUserLevel(int number);
+    Status leaveDetached(int number);
     /// What travels up when UNDO handlers are not to run any more.
     Status silentStatus() const { return unwinding_ == Unwind::Jump ? kJumpSilent : kUnwindSilent; }
     void abortUndo(std::string why);
@@ -431,6 +447,8 @@ class Task : public TaskCore {
     uint64_t cyclesDone_ = 0;
 
     std::vector<Jump> jumps_;
+    std::vector<Detached> detached_; // innermost last
+    HandlerDecision decision_ = kNotDecided;
     bool raisedBelow_ = false;   // the error a native returns has been raised by what it called
     bool raiseToCaller_ = false; // the error that comes next leaves the routine although it is its handler's
 

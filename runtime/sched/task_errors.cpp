@@ -93,16 +93,18 @@ Status Task::raiseOnce(Frame* at, int number) {
 }
 
 Status Task::raiseToCaller(int number) {
+    if (frame != nullptr && frame->routine->isDetachedHandler != 0) return passOn(leaveDetached(number));
     raiseToCaller_ = true;
     return number;
 }
 
 Status Task::propagateFrom(Frame* handler) {
     const auto number = static_cast<int>(errorNumber);
+    const bool detached = handler != nullptr && handler->routine->isDetachedHandler != 0;
     Status status = kAgain;
     while (status == kAgain) {
         frame = handler;
-        status = dispatchError(routeFromCall(handler != nullptr ? handler->caller : nullptr, number), number);
+        status = detached ? leaveDetached(number) : dispatchError(routeFromCall(handler != nullptr ? handler->caller : nullptr, number), number);
         if (canExecuteAgain()) break;
     }
     return status;
@@ -189,11 +191,11 @@ Status Task::systemHandler(int eventNumber, int number, std::string text, const 
 // ---- Long jumps ----------------------------------------------------------------------------------------------------
 
 /// The stack is unwound with UNDO to the routine of `target`, which asks landAt.
-Status Task::startJump(Frame* target, int number) {
+Status Task::startJump(Frame* target, int number, HandlerDecision decision) {
     flushHandledWarning();
     handled_.frame = nullptr; // the handler at work passed it on
     if (unwinding_ == Unwind::None) unwinding_ = Unwind::Jump;
-    jumps_.push_back({target, number, errorText_, errorPlace_});
+    jumps_.push_back({target, number, errorText_, errorPlace_, decision});
     return kJump;
 }
 
@@ -217,22 +219,66 @@ Status Task::landAt(Frame* at, Status status) {
     if (delivered != kOk) return landAt(at, delivered);
     errorText_ = jump.text;
     errorPlace_ = jump.place;
-    noteHandled(at, jump.number);
+    if (jump.decision == kNotDecided) noteHandled(at, jump.number);
+    decision_ = jump.decision;
     return jump.number;
 }
 
-Status Task::raiseToUserLevel(int number) {
-    Frame* const from = frame;
-    const bool allowed = from != nullptr && from->routine->noStepIn != 0 && inErrorHandler(*from);
-    Frame* const user = allowed ? userLevelHandler(from, number) : nullptr;
+// ---- RaiseToUser -----------------------------------------------------------------------------------------------------
+
+/// ERRNO is `number` from now on. Null: the system handler is to report it.
+Frame* Task::findUserLevel(int number) {
+    const bool allowed = frame != nullptr && frame->routine->noStepIn != 0 && inErrorHandler(*frame);
     if (static_cast<float>(number) != errorNumber) errorText_ = describeError(number);
     errorNumber = static_cast<float>(number);
-    if (user == nullptr) {
+    handled_.frame = nullptr; // the handler at work passes it on
+    return allowed ? userLevelHandler(frame, number) : nullptr;
+}
+
+Status Task::breakOffToUser(int number) {
+    Frame* const user = findUserLevel(number);
+    if (user == nullptr)
+        return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText_, errorPlace_);
+    (void)startJump(user, number);
+    return kJumpPast;
+}
+
+Status Task::continueAtUser(int number, HandlerDecision& decision) {
+    Frame* const from = frame;
+    Frame* const user = findUserLevel(number);
+    if (user == nullptr)
+        return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText_, errorPlace_);
+    const RoutineDesc& routine = *user->routine;
+    if (routine.detachedHandler == nullptr)
+        return fatal(static_cast<int>(EventId::HandlerNotDetached), routine.name);
+    handled_ = {user, &routine, number, errorText_, errorPlace_, now()};
+    detached_.push_back({user});
+    void* const* data = static_cast<const SteppingFrame*>(user)->addresses + routine.localCount;
+    const Status status = routine.detachedHandler(this, from, data);
+    decision = detached_.back().decision;
+    detached_.pop_back();
+    frame = from;
+    if (status < 0) return status;
+    if (decision == kDecidedRetry || decision == kDecidedTryNext) return kOk;
+    if (decision == kDecidedRaise) handled_.frame = nullptr; // reported when it is handled further out
+    (void)startJump(user, static_cast<int>(errorNumber), decision);
+    return kJumpPast;
+}
+
+/// RAISE in a detached handler: at once to the system handler when nobody further out takes the error. Positive: the handler
+/// returns, and its routine raises the error when the stack has been unwound to it.
+Status Task::leaveDetached(int number) {
+    if (static_cast<float>(number) != errorNumber) {
+        errorPlace_ = place();
+        errorText_ = describeError(number);
+    }
+    errorNumber = static_cast<float>(number);
+    if (routeFromCall(detached_.back().user->caller, number).handler == nullptr) {
         handled_.frame = nullptr;
         return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText_, errorPlace_);
     }
-    (void)startJump(user, number);
-    return kJumpPast;
+    detached_.back().decision = kDecidedRaise;
+    return number;
 }
 
 /// The rest of the UNDO handlers is skipped.
@@ -301,6 +347,8 @@ void Task::resetRetryCount() {
 
 /// The warning waits until the handler is left, because SkipWarn in it may take it back.
 bool Task::insideHandler() const {
+    const auto isHandled = [this](const Detached& handler) { return handler.user == handled_.frame; };
+    if (std::any_of(detached_.begin(), detached_.end(), isHandled)) return true;
     for (const Frame* at = frame; at != nullptr; at = at->caller) {
         if (at != handled_.frame) continue;
         if (at->routine != handled_.routine) return false;

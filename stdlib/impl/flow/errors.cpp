@@ -167,12 +167,18 @@ Status rt_ErrRaise(TaskCore* task, const String* ErrorName, float ErrorId, const
     return owner.frame != nullptr && inErrorHandler(*owner.frame) ? owner.raiseToCaller(raised) : raised;
 }
 
-/// \Continue would need the user's handler to run on top of the routine that failed: refused with an event. Without a
-/// switch the system handler takes over.
+/// \Continue outside an error handler, \BreakOff, or neither: never 0.
 Status rt_RaiseToUser(TaskCore* task, bool Continue, bool BreakOff, const float* ErrorNumber) {
+    int32_t decision = kNotDecided;
+    return rt_raiseToUser(task, &decision, Continue, BreakOff, ErrorNumber);
+}
+
+Status rt_raiseToUser(TaskCore* task, int32_t* result, bool Continue, bool BreakOff,
+                      const float* ErrorNumber) {
     Task& owner = taskOf(task);
-    if (Continue) return owner.fatal(static_cast<int>(EventId::NotImplemented), "RaiseToUser \\Continue");
-    if (!BreakOff) return lib::fail(task, err::ERR_ARGVALERR, "RaiseToUser needs \\BreakOff or \\Continue");
+    // Errors of the instruction itself go to the system handler: it stands in an error handler.
+    if (Continue == BreakOff)
+        return lib::fail(task, err::ERR_ARGVALERR, "RaiseToUser needs \\BreakOff or \\Continue");
     const float number = ErrorNumber ? *ErrorNumber : owner.errorNumber;
     if (!mayBeRaised(owner.controller(), number))
         return lib::fail(
@@ -180,6 +186,20 @@ Status rt_RaiseToUser(TaskCore* task, bool Continue, bool BreakOff, const float*
             fmt::format("RaiseToUser: {} is not an error number; use 1 to 90 or a number booked by "
                         "BookErrNo",
                         number));
-    return owner.raiseToUserLevel(static_cast<int>(number));
+    if (BreakOff) return owner.breakOffToUser(static_cast<int>(number));
+    HandlerDecision decision{};
+    const Status status = owner.continueAtUser(static_cast<int>(number), decision);
+    *result = decision;
+    return status;
+}
+
+Status rt_endDetached(TaskCore* task, int32_t decision) {
+    taskOf(task).endDetached(static_cast<HandlerDecision>(decision));
+    return kOk;
+}
+
+Status rt_takeDecision(TaskCore* task, int32_t* result) {
+    *result = taskOf(task).takeDecision();
+    return kOk;
 }
 }

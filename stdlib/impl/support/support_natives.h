@@ -67,6 +67,14 @@ rt::Status rt_exitProgram(rt::TaskCore* task);
 rt::Status rt_raiseNumber(rt::TaskCore* task, int32_t* result, float number);
 /// RAISE number in an error handler: raises it at the call of the routine. Never returns 0.
 rt::Status rt_raiseToCaller(rt::TaskCore* task, int32_t number);
+/// RaiseToUser in an error handler, with \Continue: kDecidedRetry or kDecidedTryNext, to be carried out by the routine that
+/// calls this. With \BreakOff it never returns 0.
+rt::Status rt_raiseToUser(rt::TaskCore* task, int32_t* result, bool Continue, bool BreakOff,
+                          const float* ErrorNumber);
+/// In a detached error handler, which returns then: how to go on (rt::HandlerDecision).
+rt::Status rt_endDetached(rt::TaskCore* task, int32_t decision);
+/// First thing an error handler asks whose routine has a detached one: kNotDecided, or what that one has decided.
+rt::Status rt_takeDecision(rt::TaskCore* task, int32_t* result);
 /// An instruction that is not allowed in an UNDO handler: a warning.
 rt::Status rt_ignoredInUndo(rt::TaskCore* task, const rt::String* instruction);
 /// A predefined routine was called that is declared only: the task stops with an event, never a silent no-op.
