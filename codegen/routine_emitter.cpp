@@ -108,8 +108,8 @@ void RoutineEmitter::enterStatement(const ir::Inst& jump) {
 /// The frame record is filled where all calls are still ahead, but no earlier: a routine that returns before its first
 /// call pays nothing. Never inside a loop. Routines with handlers fill it at once, because handlers look at it.
 void RoutineEmitter::findFrameBlock() {
-    bool handlers = routine_.errorHandler != ir::kNone || routine_.undoHandler != ir::kNone ||
-                    routine_.isDetachedHandler;
+    bool handlers =
+        routine_.errorHandler != ir::kNone || routine_.undoHandler != ir::kNone || routine_.isDetachedHandler;
     if (handlers || routine_.stepping) {
         frameInPrologue_ = true;
         return;
@@ -189,7 +189,8 @@ void RoutineEmitter::prologue() {
     if (addresses_) fillAddresses();
 }
 
-/// Tells the debugger, and the handler that runs on top of others, where the locals lie. A loop variable can be looked at ahead of its loop: it is 0 there.
+/// Tells the debugger, and the handler that runs on top of others, where the locals lie. A loop variable can be looked at
+/// ahead of its loop: it is 0 there.
 void RoutineEmitter::fillAddresses() {
     const std::vector<uint32_t> addressed = addressedLocals(routine_);
     for (uint32_t i = 0; i < addressed.size(); ++i) {

@@ -163,6 +163,41 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "ERROR (ERR_DIVZERO)\n"
      "  RETURN;\n"
      "ENDPROC"},
+    {5027, Kind::File,
+     "RaiseToUser lets the handler of the user's routine deal with an error of a library: it is executed in the ERROR "
+     "handler of a routine whose module is NOSTEPIN, and goes to the nearest calling routine that is not (manual 1.12). "
+     "Elsewhere use RAISE.",
+     "MODULE m\n"
+     "  PROC grip()\n"
+     "    reg1 := 1 / reg2;\n"
+     "  ERROR\n"
+     "    RaiseToUser \\Continue;\n"
+     "  ENDPROC\n"
+     "ENDMODULE",
+     "MODULE m(NOSTEPIN)\n"
+     "  PROC grip()\n"
+     "    reg1 := 1 / reg2;\n"
+     "  ERROR\n"
+     "    RaiseToUser \\Continue;\n"
+     "  ENDPROC\n"
+     "ENDMODULE"},
+    {5028, Kind::File,
+     "\\Continue: RETRY and TRYNEXT in the user's handler are carried out in this routine. \\BreakOff: this routine is left, "
+     "they are carried out at the call in the user's routine (manual 1.12).",
+     "MODULE m(NOSTEPIN)\n"
+     "  PROC grip()\n"
+     "    reg1 := 1 / reg2;\n"
+     "  ERROR\n"
+     "    RaiseToUser;\n"
+     "  ENDPROC\n"
+     "ENDMODULE",
+     "MODULE m(NOSTEPIN)\n"
+     "  PROC grip()\n"
+     "    reg1 := 1 / reg2;\n"
+     "  ERROR\n"
+     "    RaiseToUser \\BreakOff;\n"
+     "  ENDPROC\n"
+     "ENDMODULE"},
     {5030, Kind::Body,
      "BREAK leaves a loop and CONTINUE begins its next turn; there is none here (manual 1.5). The BREAK of older "
      "programs, which stops for debugging, is DebugBreak since RobotWare 7.1.",

@@ -361,6 +361,7 @@ class Analyzer {
     bool assignsResult(const syntax::Expr& target);
     bool assignable(const Place& place, const syntax::Expr& target);
     bool predefinedCall(const RoutineSymbol& routine, syntax::TokenIndex name);
+    void raiseToUser(const syntax::CallStmt& s);
     bool callStmt(const syntax::CallStmt& s);
     void reportNotCallable(const Symbol& symbol, syntax::TokenIndex name);
     void returnStmt(const syntax::ReturnStmt& s);

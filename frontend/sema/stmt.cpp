@@ -353,7 +353,20 @@ bool Analyzer::callStmt(const CallStmt& s) {
     if (part_ == Part::Undo) callInUndo(*routine, s.name);
     if (movesRobot(*routine) && task_->type != "NORMAL")
         report(Code::MotionInBackgroundTask, range(s.name), {text(s.name), task_->name, task_->type});
+    if (routine->predefined && routine->name == "RaiseToUser") raiseToUser(s);
     return !routine->predefined || predefinedCall(*routine, s.name);
+}
+
+// Anywhere else, and without a switch, the system handler takes over (manual 1.12).
+void Analyzer::raiseToUser(const CallStmt& s) {
+    if (part_ != Part::Error || !context_.routine->noStepIn)
+        report(Code::RaiseToUserPlace, range(s.name), {text(s.name)});
+    const auto isSwitch = [](const BoundArg& arg) {
+        return arg.param->isSwitch && arg.kind != BoundArg::Kind::Absent;
+    };
+    const auto args = facts().calls[&s].args;
+    if (std::none_of(args.begin(), args.end(), isSwitch))
+        report(Code::RaiseToUserSwitch, range(s.name), {text(s.name)});
 }
 
 // Predefined procedures that belong to the flow of control: RETRY in disguise, and those that do not come back.

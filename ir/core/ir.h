@@ -164,7 +164,7 @@ struct Routine {
     uint32_t detachedHandler = kNone;
     std::vector<uint32_t> sharedLocals;
     bool isDetachedHandler = false; ///< of another routine; `propagate` and `handlerend` act for that one
-    BlockId undoHandler = kNone; ///< the UNDO part; a `ret` without value in it goes on unwinding
+    BlockId undoHandler = kNone;    ///< the UNDO part; a `ret` without value in it goes on unwinding
 };
 
 /// What a native routine may do; decides how it is called (see codegen/README.md).

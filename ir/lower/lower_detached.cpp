@@ -115,8 +115,8 @@ void RoutineLowering::bindShared(const DataSymbol& symbol, Slot slot) {
         ValueId address = sharedAddress(body_->shared_.objects.at(&symbol));
         if (!own) address = b_.load(ir::kPtr, address);
         if (slot.optional)
-            address = b_.select(b_.binary(ir::Op::INe, parameter(slot.param), b_.nullPtr()), address,
-                                b_.nullPtr());
+            address =
+                b_.select(b_.binary(ir::Op::INe, parameter(slot.param), b_.nullPtr()), address, b_.nullPtr());
         slot.kind = Slot::Kind::Pointer;
         slot.local = b_.addLocal(symbol.name, ir::kPtr, symbol.storage == sema::Storage::Parameter);
         b_.store(ir::kPtr, address, b_.localAddr(slot.local));

@@ -60,8 +60,7 @@ const RoutineSymbol* ProgramLowering::usedBuiltIn(std::string_view name) const {
 /// RaiseToUser \Continue occurs, or may come with a module: code of the stepping profile is ready for that, other code
 /// would have to pay for it.
 bool ProgramLowering::usesContinue() const {
-    const bool loads = unit_ || usedBuiltIn("load") || usedBuiltIn("startload");
-    if (stepping() && loads) return true;
+    if (stepping() && (unit_ || loads())) return true;
     const RoutineSymbol* raise = usedBuiltIn("raisetouser");
     if (!raise) return false;
     for (const auto& facts : program_.facts)

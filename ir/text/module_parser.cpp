@@ -352,9 +352,7 @@ class ModuleParser {
         case Fixup::Slot::TaskEntry: module_.tasks[fixup.index].entry = target; break;
         case Fixup::Slot::TaskReset: module_.tasks[fixup.index].reset = target; break;
         case Fixup::Slot::Named: module_.namedRoutines[fixup.index].routine = target; break;
-        case Fixup::Slot::DetachedHandler:
-            module_.routines[fixup.routine].detachedHandler = target;
-            break;
+        case Fixup::Slot::DetachedHandler: module_.routines[fixup.routine].detachedHandler = target; break;
         case Fixup::Slot::ErrorFilter:
             module_.routines[fixup.routine].errorFilterGlobals[fixup.index] = target;
             break;

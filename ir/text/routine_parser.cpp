@@ -26,7 +26,8 @@ bool RoutineParser::item() {
     if (in_.peek().kind == TokenKind::Word && in_.peek().text.size() > 1 && in_.peek().text[0] == 'b' &&
         in_.peek().text[1] >= '0' && in_.peek().text[1] <= '9')
         return blockHeader();
-    if (routine_.blocks.empty()) return in_.expected("local, stmt, errorhandler, detachedhandler, undohandler or a block");
+    if (routine_.blocks.empty())
+        return in_.expected("local, stmt, errorhandler, detachedhandler, undohandler or a block");
     return instruction();
 }
 

@@ -145,8 +145,8 @@ struct RoutineDesc {
         callable; ///< a procedure without parameters: the program pointer can be moved to it, the system can call it
     uint8_t isDetachedHandler; ///< of another routine, whose name and place it has
     uint8_t tail[1];
-    uint32_t textHash; ///< stepping profile: another number when the source text was changed
-    DetachedHandler detachedHandler; ///< null: the program has no RaiseToUser \Continue, or there is no handler
+    uint32_t textHash;               ///< stepping profile: another number when the source text was changed
+    DetachedHandler detachedHandler; ///< null: no handler, or no RaiseToUser \Continue in the program
 };
 
 /// Stands in the chain of frame records where the system calls a routine.

@@ -18,8 +18,7 @@ namespace {
 /// stepped.
 std::size_t depthOf(const Frame* frame) {
     std::size_t depth = 0;
-    if (frame != nullptr && frame->routine->isDetachedHandler != 0)
-        do
+    if (frame != nullptr && frame->routine->isDetachedHandler != 0) do
             frame = frame->caller;
         while (frame != nullptr && frame->routine->noStepIn != 0);
     for (; frame != nullptr; frame = frame->caller)

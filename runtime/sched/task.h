@@ -242,7 +242,7 @@ class Task : public TaskCore {
     /// What the detached handler of the innermost routine decided before the stack was unwound to that routine; once.
     HandlerDecision takeDecision() { return std::exchange(decision_, kNotDecided); }
     /// SkipWarn: the error handled last leaves no warning in the event log.
-    void skipWarn() { handled_.frame = nullptr; }
+    void skipWarn();
     /// RETRYs that remain for the error being handled (RemainingRetries); ResetRetryCount.
     int remainingRetries();
     /// Changes with every RETRY of the task.
@@ -371,7 +371,7 @@ class Task : public TaskCore {
         HandlerDecision decision = kNotDecided; ///< of the handler, which has been executed already
     };
     struct HandledError {
-        Frame* frame = nullptr; ///< of the routine whose handler took it; null: nothing to report
+        Frame* frame = nullptr; ///< of the routine whose handler took it
         const RoutineDesc* routine = nullptr;
         int number = 0;
         std::string text;
@@ -408,7 +408,8 @@ class Task : public TaskCore {
     void noteHandled(Frame* handler, int number);
     void flushHandledWarning();
     void writeHandledWarning();
-    bool insideHandler() const;
+    void dropHandled(const Frame* outermost);
+    bool isInside(const HandledError& handled) const;
 
     TaskHost& host_;
     Controller* controller_;
@@ -456,7 +457,7 @@ class Task : public TaskCore {
     SourcePlace errorPlace_;
     std::vector<RetryCount> retries_;
     int32_t lastRetryId_ = 0;
-    HandledError handled_;
+    std::vector<HandledError> handled_; // not reported yet; innermost handler last
 
     static constexpr int32_t kAsksForReentry = 2; // beside what a debugger asks
     Standing standing_ = Standing::Between;

@@ -104,7 +104,10 @@ Status Task::propagateFrom(Frame* handler) {
     Status status = kAgain;
     while (status == kAgain) {
         frame = handler;
-        status = detached ? leaveDetached(number) : dispatchError(routeFromCall(handler != nullptr ? handler->caller : nullptr, number), number);
+        status = detached
+                     ? leaveDetached(number)
+                     : dispatchError(routeFromCall(handler != nullptr ? handler->caller : nullptr, number),
+                                     number);
         if (canExecuteAgain()) break;
     }
     return status;
@@ -121,7 +124,7 @@ Status Task::dispatchError(const ErrorRoute& route, int number) {
         noteHandled(route.handler, number);
         return number;
     }
-    handled_.frame = nullptr; // reported as unhandled instead
+    handled_.clear(); // reported as unhandled instead
     return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText_, errorPlace_);
 }
 
@@ -130,7 +133,7 @@ Status Task::handlerEndAt(Frame* handler) {
     Status status = kAgain;
     while (status == kAgain) {
         frame = handler;
-        handled_.frame = nullptr;
+        handled_.clear();
         const std::string text = formatEventText(EventId::HandlerEnd, {errorText_, place().routine});
         status = systemHandler(static_cast<int>(EventId::HandlerEnd), number, text, errorPlace_);
         if (canExecuteAgain()) break;
@@ -193,7 +196,7 @@ Status Task::systemHandler(int eventNumber, int number, std::string text, const 
 /// The stack is unwound with UNDO to the routine of `target`, which asks landAt.
 Status Task::startJump(Frame* target, int number, HandlerDecision decision) {
     flushHandledWarning();
-    handled_.frame = nullptr; // the handler at work passed it on
+    dropHandled(target); // the handlers at work pass it on
     if (unwinding_ == Unwind::None) unwinding_ = Unwind::Jump;
     jumps_.push_back({target, number, errorText_, errorPlace_, decision});
     return kJump;
@@ -231,7 +234,7 @@ Frame* Task::findUserLevel(int number) {
     const bool allowed = frame != nullptr && frame->routine->noStepIn != 0 && inErrorHandler(*frame);
     if (static_cast<float>(number) != errorNumber) errorText_ = describeError(number);
     errorNumber = static_cast<float>(number);
-    handled_.frame = nullptr; // the handler at work passes it on
+    dropHandled(frame); // the handler at work passes it on
     return allowed ? userLevelHandler(frame, number) : nullptr;
 }
 
@@ -251,7 +254,7 @@ Status Task::continueAtUser(int number, HandlerDecision& decision) {
     const RoutineDesc& routine = *user->routine;
     if (routine.detachedHandler == nullptr)
         return fatal(static_cast<int>(EventId::HandlerNotDetached), routine.name);
-    handled_ = {user, &routine, number, errorText_, errorPlace_, now()};
+    handled_.push_back({user, &routine, number, errorText_, errorPlace_, now()});
     detached_.push_back({user});
     void* const* data = static_cast<const SteppingFrame*>(user)->addresses + routine.localCount;
     const Status status = routine.detachedHandler(this, from, data);
@@ -260,7 +263,7 @@ Status Task::continueAtUser(int number, HandlerDecision& decision) {
     frame = from;
     if (status < 0) return status;
     if (decision == kDecidedRetry || decision == kDecidedTryNext) return kOk;
-    if (decision == kDecidedRaise) handled_.frame = nullptr; // reported when it is handled further out
+    if (decision == kDecidedRaise) dropHandled(user); // reported when it is handled further out
     (void)startJump(user, static_cast<int>(errorNumber), decision);
     return kJumpPast;
 }
@@ -274,7 +277,7 @@ Status Task::leaveDetached(int number) {
     }
     errorNumber = static_cast<float>(number);
     if (routeFromCall(detached_.back().user->caller, number).handler == nullptr) {
-        handled_.frame = nullptr;
+        handled_.clear();
         return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText_, errorPlace_);
     }
     detached_.back().decision = kDecidedRaise;
@@ -292,7 +295,8 @@ void Task::abortUndo(std::string why) {
 
 void Task::noteHandled(Frame* handler, int number) {
     flushHandledWarning();
-    handled_ = {handler, handler->routine, number, errorText_, errorPlace_, now()};
+    dropHandled(handler);
+    handled_.push_back({handler, handler->routine, number, errorText_, errorPlace_, now()});
     RetryCount* entry = retryCountOf(handler);
     if (entry == nullptr) entry = &retries_.emplace_back();
     if (entry->frame != handler || entry->statement != handler->statement || entry->id != handler->reserved)
@@ -315,7 +319,9 @@ Task::RetryCount* Task::retryCountOf(Frame* handler) {
 
 Status Task::retryAt(Frame* handler) {
     frame = handler;
-    writeHandledWarning();
+    while (!handled_.empty() && !isAmongCallers(handler->caller, handled_.back().frame))
+        writeHandledWarning();
+    flushHandledWarning();
     if (undoAborted_ || unwinding_ == Unwind::Abandon) return silentStatus();
     RetryCount* entry = retryCountOf(handler);
     if (entry == nullptr) return kOk;
@@ -346,12 +352,12 @@ void Task::resetRetryCount() {
 }
 
 /// The warning waits until the handler is left, because SkipWarn in it may take it back.
-bool Task::insideHandler() const {
-    const auto isHandled = [this](const Detached& handler) { return handler.user == handled_.frame; };
+bool Task::isInside(const HandledError& handled) const {
+    const auto isHandled = [&handled](const Detached& handler) { return handler.user == handled.frame; };
     if (std::any_of(detached_.begin(), detached_.end(), isHandled)) return true;
     for (const Frame* at = frame; at != nullptr; at = at->caller) {
-        if (at != handled_.frame) continue;
-        if (at->routine != handled_.routine) return false;
+        if (at != handled.frame) continue;
+        if (at->routine != handled.routine) return false;
         const StmtDesc* statement = statementOf(*at);
         return statement != nullptr && !statement->handled;
     }
@@ -359,23 +365,36 @@ bool Task::insideHandler() const {
 }
 
 void Task::flushHandledWarning() {
-    if (handled_.frame != nullptr && !insideHandler()) writeHandledWarning();
+    while (!handled_.empty() && !isInside(handled_.back()))
+        writeHandledWarning();
+}
+
+/// Handlers in this frame and deeper ones have passed their errors on.
+void Task::dropHandled(const Frame* outermost) {
+    const Frame* const caller = outermost != nullptr ? outermost->caller : nullptr;
+    while (!handled_.empty() && !isAmongCallers(caller, handled_.back().frame))
+        handled_.pop_back();
+}
+
+void Task::skipWarn() {
+    flushHandledWarning();
+    if (!handled_.empty()) handled_.pop_back();
 }
 
 void Task::writeHandledWarning() {
-    if (handled_.frame == nullptr) return;
+    const HandledError handled = std::move(handled_.back());
+    handled_.pop_back();
     Event event;
     event.number = static_cast<int>(EventId::HandledError);
     event.type = EventType::Warning;
     event.title = eventText(EventId::HandledError).title;
-    event.text = formatEventText(EventId::HandledError, {handled_.text, handled_.routine->name});
-    event.arguments = {name_, handled_.place.reference(), handled_.text, handled_.routine->name};
-    event.time = handled_.time;
+    event.text = formatEventText(EventId::HandledError, {handled.text, handled.routine->name});
+    event.arguments = {name_, handled.place.reference(), handled.text, handled.routine->name};
+    event.time = handled.time;
     event.task = name_;
-    event.place = handled_.place;
-    event.errorNumber = handled_.number;
-    event.errorName = host_.log().errorName(handled_.number);
-    handled_.frame = nullptr;
+    event.place = handled.place;
+    event.errorNumber = handled.number;
+    event.errorName = host_.log().errorName(handled.number);
     host_.log().write(std::move(event));
 }
 

@@ -43,11 +43,11 @@ void Task::finishReentry(const ErrorMemory& errors, bool behindStop) {
         at->reserved = ++lastRetryId_;
         retries_.push_back({at, saved.statement, at->reserved, saved.number, saved.counts});
     }
-    handled_.frame = nullptr;
+    handled_.clear();
     if (errors.handled && errors.handled->depth < chain.size()) {
         Frame* const at = chain[errors.handled->depth];
-        handled_ = {at,   at->routine, errors.handled->number, errors.handled->text, errors.handled->place,
-                    now()};
+        handled_.push_back(
+            {at, at->routine, errors.handled->number, errors.handled->text, errors.handled->place, now()});
     }
 }
 
@@ -79,8 +79,9 @@ ErrorMemory Task::errorMemory() const {
         for (const RetryCount& entry : retries_)
             if (entry.frame == chain[depth] && entry.id == chain[depth]->reserved)
                 memory.retries.push_back({depth, entry.statement, entry.number, entry.counts});
-        if (handled_.frame == chain[depth] && handled_.routine == chain[depth]->routine)
-            memory.handled = {depth, handled_.number, handled_.text, handled_.place};
+        for (const HandledError& handled : handled_)
+            if (handled.frame == chain[depth] && handled.routine == chain[depth]->routine)
+                memory.handled = {depth, handled.number, handled.text, handled.place};
     }
     return memory;
 }
