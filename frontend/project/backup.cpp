@@ -224,7 +224,8 @@ class BackupLoader {
                     std::find(done.begin(), done.end(), path) != done.end())
                     continue;
                 if (task.listed && !task.listed->modules.empty())
-                    files_.report(Code::UnlistedModule, {path.string(), task.input.name});
+                    report(Code::UnlistedModule, infoFile_, infoFile_.find(">>" + task.listed->folder),
+                           {path.string(), task.input.name});
                 addModule(path, task);
             }
         }
@@ -323,6 +324,11 @@ class BackupLoader {
     void reportTask(const TaskParts& task) {
         const SourceRange place = task.listed ? infoFile_.find(">>" + task.listed->folder) : SourceRange();
         const sema::TaskInput& input = task.input;
+        const bool emptyFolder = !task.configured && input.files.empty() && task.encrypted.empty();
+        if (emptyFolder) {
+            report(Code::TaskLeftOut, infoFile_, place, {input.name, "the backup has no modules of it"});
+            return;
+        }
         if (!task.configured && !parameters_.tasks.empty())
             report(Code::TaskNotConfigured, infoFile_, place, {input.name});
         std::string text = fmt::format("{}{}, entry '{}': {}", input.type,

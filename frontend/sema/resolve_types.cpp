@@ -116,6 +116,7 @@ void Analyzer::resolveSignature(RoutineSymbol& symbol) {
     symbol.progress = Progress::Done;
     enterModule(symbol.module);
     const RoutineDecl& decl = *symbol.routineDecl;
+    symbol.incomplete |= decl.broken;
     if (decl.routineKind == RoutineKind::Func) {
         symbol.returnType.type = resolveType(decl.returnType);
         const Type& type = *symbol.returnType.type;

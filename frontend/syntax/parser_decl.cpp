@@ -192,14 +192,15 @@ void Parser::parseParameters(RoutineDecl* routine) {
         const bool missed = startsLine(pos_) && bodyBeginsHere();
         while (!missed && !panic_ && (kind() != K::RightParen || group > 0)) {
             if (kind() == K::Slash) takeSlashAsBackslash();
-            if (group > 0 && !accept(K::Comma) && kind() != K::Backslash) break;
+            if (group > 0 && !accept(K::Comma) && kind() != K::Backslash && !missesComma()) break;
             parseParameterGroup(group++);
         }
         expectClosing(K::RightParen, opening, !missed);
     }
     routine->params = drain(params_, mark);
     if (!panic_) return;
-    panic_ = false; // the header ends with its line
+    routine->broken = true; // calls are not judged
+    panic_ = false;         // the header ends with its line
     while (kind() != K::EndOfFile && !(startsLine(pos_) && (startsDecl(pos_) || looksLikeStatement(pos_)))) {
         if (kind() == K::RightParen && startsLine(pos_ + 1)) {
             take();

@@ -218,6 +218,7 @@ class Parser {
     DataDecl* parseMoreNames();
     bool parseForeignParameter(ParamDecl* node);
     void dropForeignMode(ParamDecl* node);
+    bool missesComma();
     bool bodyBeginsHere() const;
     void takeSlashAsBackslash();
     Expr* parseForeignAggregate(TokenIndex opening, K closing);

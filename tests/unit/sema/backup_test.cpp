@@ -249,6 +249,18 @@ TEST_CASE("a task of which nothing can be read is left out", "[project][backup]"
     REQUIRE(backup.project.tasks.size() == 1);
 }
 
+TEST_CASE("a folder of a task without a module is one warning", "[project][backup]") {
+    Backup backup;
+    backup.write("BACKINFO/backinfo.txt", ">>TASK1: (T_ROB1,,)\nPROGMOD/main.mod @ \n");
+    backup.write("SYSPAR/SYS.cfg", kSystem);
+    backup.write("RAPID/TASK1/PROGMOD/main.mod", kModule);
+    backup.write("RAPID/TASK7/PROGMOD/readme.txt", "");
+    backup.load();
+    CHECK(backup.codes() == "RAP6053 RAP6057"); // RAP6053: T_BG
+    CHECK(backup.message(diag::Code::TaskLeftOut) ==
+          "task 'TASK7' is left out: the backup has no modules of it");
+}
+
 TEST_CASE("without backinfo.txt the folders are the tasks of CAB_TASKS", "[project][backup]") {
     Backup backup;
     backup.write("SYSPAR/SYS.cfg", kSystem);
