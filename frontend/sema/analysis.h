@@ -440,6 +440,8 @@ class Analyzer {
     unsigned loopDepth_ = 0;
     bool breakSeen_ = false;
     bool returnSeen_ = false;
+    std::unordered_set<NameId> jumpNames_; ///< after GOTO in this routine, once they are asked for
+    bool jumpNamesKnown_ = false;
     bool nonValueReported_ = false;         ///< of the operand that was looked at last
     bool broken_ = false;                   ///< an instruction could not be read
     bool presenceOnly_ = false;             ///< a name is looked at for its presence, not for its value

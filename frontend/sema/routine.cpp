@@ -18,7 +18,7 @@ void Analyzer::checkRoutine(RoutineSymbol& symbol) {
     context_.routine = &symbol;
     const RoutineDecl& decl = *symbol.routineDecl;
     loopDepth_ = 0;
-    breakSeen_ = returnSeen_ = broken_ = false;
+    breakSeen_ = returnSeen_ = broken_ = jumpNamesKnown_ = false;
     block_ = kNoBlock;
     blockParents_.clear();
     labels_.clear();

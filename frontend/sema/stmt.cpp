@@ -293,12 +293,14 @@ bool Analyzer::reportLabelWithoutColon(const CallStmt& s) {
     const std::span<const Token> tokens = context_.tree->tokens;
     if (!s.args.empty() || !context_.routine->routineDecl || tokens[s.last].kind != TokenKind::Semicolon)
         return false;
+    if (!std::exchange(jumpNamesKnown_, true)) {
+        jumpNames_.clear();
+        const RoutineDecl& routine = *context_.routine->routineDecl;
+        for (TokenIndex i = routine.first; i < routine.last; ++i)
+            if (tokens[i].kind == TokenKind::KwGoto && isName(i + 1)) jumpNames_.insert(idOf(i + 1));
+    }
     const NameId name = idOf(s.name);
-    const RoutineDecl& routine = *context_.routine->routineDecl;
-    bool wanted = false;
-    for (TokenIndex i = routine.first; i < routine.last && !wanted; ++i)
-        wanted = tokens[i].kind == TokenKind::KwGoto && isName(i + 1) && idOf(i + 1) == name;
-    if (!wanted || labelNames_.find(name)) return false;
+    if (!jumpNames_.contains(name) || labelNames_.find(name)) return false;
     report(Code::UnexpectedToken, range(s.last), {"';'", "':' behind a label"}).fix(range(s.last), ":");
     LabelSymbol& symbol = fill(facts().labels.emplace_back(), SymbolKind::Label, s, s.name, false);
     symbol.routine = context_.routine;

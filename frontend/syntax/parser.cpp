@@ -124,12 +124,15 @@ bool Parser::endsBrokenString(const LexError& error, const LexError* before) con
     return next == std::string_view::npos || kAfterString.find(text[next]) != std::string_view::npos;
 }
 
-/// A backslash behind the end of the line's last whole string: what is wrong there is the missing '"'.
+/// A backslash in a string that does not end: what is wrong there is the missing '"'. Both stand near in the list.
 bool Parser::isInBrokenString(const LexResult& lexed, const LexError& escape) {
-    return std::any_of(lexed.errors.begin(), lexed.errors.end(), [&](const LexError& e) {
-        return e.code == Code::UnterminatedString && e.range.begin <= escape.range.begin &&
-               escape.range.end <= e.range.end;
-    });
+    constexpr std::ptrdiff_t kNear = 64;
+    const LexError *begin = lexed.errors.data(), *end = begin + lexed.errors.size();
+    return std::any_of(std::max(begin, &escape - std::min(kNear, &escape - begin)),
+                       &escape + std::min(kNear, end - &escape), [&](const LexError& e) {
+                           return e.code == Code::UnterminatedString && e.range.begin <= escape.range.begin &&
+                                  escape.range.end <= e.range.end;
+                       });
 }
 
 void Parser::reportLexErrors(const LexResult& lexed) {
@@ -140,9 +143,11 @@ void Parser::reportLexErrors(const LexResult& lexed) {
         if (error.code == Code::ForeignSpelling && error.args[0] == "==") continue; // so is what it means
         if (error.code == Code::BadStringEscape && isInBrokenString(lexed, error)) continue;
         if (endsBrokenString(error, last)) { // what stands between the lines is no code
-            for (TokenIndex i = 0; i < last_; ++i)
-                if (tokens_[i].offset >= last->range.end && tokens_[i].offset < error.range.end)
-                    tokens_[i].kind = K::Error;
+            Token* between =
+                std::lower_bound(tokens_, tokens_ + last_, last->range.end,
+                                 [](const Token& token, uint32_t offset) { return token.offset < offset; });
+            for (; between < tokens_ + last_ && between->offset < error.range.end; ++between)
+                between->kind = K::Error;
             before = nullptr;
             continue;
         }

@@ -54,13 +54,13 @@ Stmt* Parser::parseIf() {
 /// THEN is missing where the line ends with the condition (and perhaps ';'), and what follows further to the right is
 /// closed by an ENDIF, ELSE or ELSEIF below the IF.
 bool Parser::isBlockByMargin(TokenIndex opening) {
-    if (panic_) return false;
+    if (panic_ || errors_ > kMaxErrorsPerFile) return false;
     const TokenIndex first = kind() == K::Semicolon ? pos_ + 1 : pos_;
     if (!startsLine(first) || startsLine(pos_) != (first == pos_) || !startsLine(opening)) return false;
     countEndifs();
     if (first == pos_ && missingEndifs_ >= 0) return false; // they are all of other blocks
     const uint32_t margin = columnOf(opening);
-    constexpr TokenIndex kSearch = 2000;
+    constexpr TokenIndex kSearch = 500;
     for (TokenIndex i = first; i < first + kSearch && i < last_; ++i) {
         if (!startsLine(i) || columnOf(i) > margin) continue;
         constexpr TokenSet kOfIf = {K::KwEndif, K::KwElse, K::KwElseif};

@@ -35,6 +35,7 @@ constexpr TokenSet kLineWords = kStmtWords | kEndWords | kBlockWords | kDeclWord
 constexpr TokenSet kSearchEnd = kLineWords | TokenSet{TokenKind::Semicolon};
 
 constexpr uint32_t kSearchTokens = 200;
+constexpr TokenIndex kFarTokens = 5000; ///< how far margins are compared
 
 } // namespace
 
@@ -473,7 +474,8 @@ TokenIndex Parser::outerOpenerOf(K word) const {
     for (const Family& family : kFamilies) {
         if (!family.words.has(word)) continue;
         uint32_t closed = 0;
-        for (TokenIndex i = blockOpening_; i-- > routineStart_;) {
+        const TokenIndex end = std::max(routineStart_, blockOpening_ - std::min(blockOpening_, kFarTokens));
+        for (TokenIndex i = blockOpening_; i-- > end;) {
             TokenIndex then = 0;
             if (kindAt(i) == family.closer) ++closed;
             if (kindAt(i) != family.opener ||
@@ -489,6 +491,7 @@ TokenIndex Parser::outerOpenerOf(K word) const {
 /// one there is such a word again.
 bool Parser::standsInside() const {
     if (blockOpening_ == kNoToken || !startsLine(pos_) || !startsLine(blockOpening_)) return false;
+    if (errors_ > kMaxErrorsPerFile) return false;
     const TokenIndex outer = outerOpenerOf(kind());
     if (outer == kNoToken || !startsLine(outer)) return false;
     const uint32_t margin = columnOf(outer);
@@ -496,7 +499,7 @@ bool Parser::standsInside() const {
     const TokenSet family = kIfEnds.has(kind())     ? kIfEnds
                             : kTestEnds.has(kind()) ? kTestEnds
                                                     : TokenSet{kind()};
-    for (TokenIndex i = pos_ + 1; i < last_; ++i)
+    for (TokenIndex i = pos_ + 1; i < last_ && i < pos_ + kFarTokens; ++i)
         if (startsLine(i) && columnOf(i) <= margin) return columnOf(i) == margin && family.has(kindAt(i));
     return false;
 }
