@@ -115,7 +115,8 @@ void Analyzer::connectTarget(const Expr& target) {
     if (!found.root) return;
     DataSymbol& root = *found.root;
     const DataType& type = info(target).type;
-    bool isIntnum = type.rank == 0 && (!intnum_ || type.type->kind == TypeKind::Error);
+    const bool isUnknown = type.type->kind == TypeKind::Error; // not declared, which is reported
+    bool isIntnum = type.rank == 0 && (!intnum_ || isUnknown);
     for (const Type* t = type.type; t && type.rank == 0; t = t->aliasOf)
         isIntnum |= t == intnum_;
     if (!isIntnum) {
@@ -130,7 +131,7 @@ void Analyzer::connectTarget(const Expr& target) {
         return;
     }
     markAssigned(root);
-    if (type.type->kind == TypeKind::Error) return; // not declared, which is reported
+    if (isUnknown) return;
     if (root.storage == Storage::RoutineData || (parameter && root.mode == ParamMode::In))
         noteDeclared(report(Code::ConnectRoutineData, range(target), {root.name}), root);
 }

@@ -146,7 +146,7 @@ ExitStatus Controller::finish(RunEnd end) {
         log_.write(EventId::NothingPending, nullptr, {whereTasksAre("waits")});
         status = options_.hasMaxTime ? ExitStatus::MaxTimeReached : ExitStatus::StoppedByError;
     } else if (end == RunEnd::MaxTime) {
-        log_.write(EventId::MaxTimeReached, nullptr);
+        log_.write(EventId::MaxTimeReached, nullptr, {whereTasksAre("is")});
         status = ExitStatus::MaxTimeReached;
     }
     motion_->finishTrace();
