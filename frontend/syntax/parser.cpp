@@ -1,6 +1,7 @@
 // Files and modules (manual 1.1.3), and the entry point of the parser.
 
 #include "frontend/syntax/parser_impl.h"
+#include "frontend/syntax/tree_walk.h"
 
 #include <fmt/format.h>
 
@@ -90,6 +91,28 @@ void Parser::parseFile(const LexResult& lexed) {
             skipOutsideModule();
         }
     }
+    if (!wentBack_) return;
+    for (ModuleDecl* module : tree_.modules)
+        cutOff(*module);
+}
+
+/// After going back: what was read as the end of an unfinished line but stands below it is no part of it.
+void Parser::cutOff(Node& node) {
+    if (node.kind == NodeKind::Aggregate && as<AggregateExpr>(node).isPlain()) return;
+    if (node.kind == NodeKind::Component && as<ComponentExpr>(node).name > node.last)
+        as<ComponentExpr>(node).name = kNoToken;
+    forEachChild(node, [&](const Node& each) {
+        Node& child = const_cast<Node&>(each); // of the tree that is being made
+        if (child.first <= child.last && child.last > node.last) {
+            if (child.first > node.last) {
+                if (isExpr(child.kind)) child.kind = NodeKind::ErrorExpr;
+                if (child.kind == NodeKind::Argument) as<Argument>(child).name = kNoToken;
+                child.first = node.last + 1;
+            }
+            child.last = node.last;
+        }
+        cutOff(child);
+    });
 }
 
 /// MODUEL name

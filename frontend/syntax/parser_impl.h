@@ -147,6 +147,7 @@ class Parser {
     void missing(std::string_view expected);
     bool isNewsHere();
     bool assignmentBelow();
+    static void cutOff(Node& node);
     std::string describe(TokenIndex i) const;
     SourceRange endOf(TokenIndex i) const { return {tree_.range(i).end, tree_.range(i).end}; }
     void reportTooDeep();
@@ -357,6 +358,7 @@ class Parser {
     int missingEndifs_ = 0; ///< of the routine, once they are counted
     bool endifsCounted_ = false;
     bool endReported_ = false;           ///< that the file ends too early
+    bool wentBack_ = false;              ///< in expressions that were read: their ends are to be cut off
     TokenIndex routineStart_ = 0;        ///< its first token
     bool inCondition_ = false;           ///< between IF and THEN
     bool inHead_ = false;                ///< between IF, FOR or WHILE and the block

@@ -130,6 +130,7 @@ bool Parser::assignmentBelow() {
     for (TokenIndex i = first; i < pos_; ++i)
         if (kindAt(i) == K::Comma || kindAt(i) == K::LeftParen || kindAt(i) == K::Backslash) return false;
     pos_ = first;
+    wentBack_ = true;
     missing("an expression");
     return true;
 }

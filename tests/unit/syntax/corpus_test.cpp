@@ -65,6 +65,34 @@ TEST_CASE("beginnings and gaps of the corpus are read without loss", "[syntax][c
     }
 }
 
+TEST_CASE("trees of modules with mistakes are in order", "[syntax][corpus]") {
+    size_t files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(RAPIDC_SOURCE_DIR "/tests/diag")) {
+        if (!entry.is_regular_file() || entry.path().extension() == ".md") continue;
+        ++files;
+        const test::Parsed parsed =
+            test::parseText(readBytes(entry.path()), false, entry.path().filename().string());
+        INFO(entry.path());
+        for (const syntax::ModuleDecl* module : parsed.tree->modules)
+            checkRanges(*parsed.tree, *module);
+    }
+    CHECK(files >= 200);
+}
+
+TEST_CASE("lines that are being written do not reach into the next instruction", "[syntax][corpus]") {
+    for (const char* line :
+         {"x :=", "x := f(", "x := p.", "x := 1 + a{", "x := 1 + (2 *", "p a, \\b:=", "p a,",
+          "IF (x =", "IF x =", "WHILE (x < 2 +", "TEST x +", "RETURN 1 +", "x := [1, [2,", "x := -",
+          "x := NOT", "FOR i FROM 1 TO", "Incr x{", "x := f(\\b:=", "x := f(1, 2 +"}) {
+        const test::Parsed parsed =
+            test::parseText(test::inProcedure(std::string(line) + "\n  y{1}.z := 1;\n  y := 1;"));
+        INFO(line << "\n" << parsed.shown());
+        CHECK(parsed.sink.hasErrors());
+        for (const syntax::ModuleDecl* module : parsed.tree->modules)
+            checkRanges(*parsed.tree, *module);
+    }
+}
+
 TEST_CASE("each token that is missed costs few diagnostics", "[syntax][corpus]") {
     const std::string text = readBytes(RAPIDC_SOURCE_DIR "/tests/syntax/pallet_cell.modx");
     const test::Parsed whole = test::parseText(text);
