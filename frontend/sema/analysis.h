@@ -294,9 +294,13 @@ class Analyzer {
     // ---- calls (call.cpp: matching; arguments.cpp: judging each argument)
     Typed functionCall(const syntax::CallExpr& e);
     void reportNotAFunction(const syntax::CallExpr& e, const Symbol& symbol);
-    /// `isLast`: nothing follows that would have to stand before it.
+    bool reportMisread(const RoutineSymbol& routine, const syntax::Argument& arg,
+                       syntax::TokenIndex routineName);
+    void reportTooMany(const RoutineSymbol& routine, std::span<syntax::Argument* const> args,
+                       const syntax::Argument& first, syntax::TokenIndex routineName);
     bool reportAssignmentBelow(const syntax::Argument& arg);
     bool namesOptional(const RoutineSymbol& routine, const syntax::Argument& arg);
+    /// `isLast`: nothing follows that would have to stand before it.
     size_t matchUnmarked(const RoutineSymbol& routine, const syntax::Argument& arg, bool isLast);
     size_t namedParameter(const RoutineSymbol& routine, NameId name);
     size_t namedOptional(const RoutineSymbol& routine, NameId name);

@@ -138,25 +138,11 @@ bool Analyzer::matchArguments(BoundCall& call, TokenIndex name, std::span<Argume
             index = matchUnmarked(routine, *arg, args.back() == arg);
         } else if (arg->value && arg->value->kind == NodeKind::ErrorExpr) {
             continue;
-        } else if (namesOptional(routine, *arg)) {
-            const SourceRange at = range(*arg);
-            const TokenIndex option = as<NameExpr>(*arg->value).name;
-            report(Code::OptionalWithoutBackslash, at, {text(name), text(option)})
-                .fix({at.begin, at.begin}, "\\",
-                     routine.params[namedOptional(routine, idOf(option))]->isSwitch);
-            complete = false;
-            continue;
-        } else if (reportAssignmentBelow(*arg)) {
+        } else if (reportMisread(routine, *arg, name)) {
             complete = false;
             continue;
         } else if (!std::exchange(tooMany, true)) {
-            const auto given = std::count_if(
-                args.begin(), args.end(), [](const Argument* a) { return a->argKind == ArgKind::Required; });
-            report(Code::TooManyArguments, range(*arg),
-                   {text(name),
-                    routine.params.empty() ? "no arguments"
-                                           : counted(requiredSlots(routine), "required argument"),
-                    std::to_string(given)});
+            reportTooMany(routine, args, *arg, name);
         }
         if (index != kNoParam && call.args[index].argument) {
             report(Code::DuplicateArgument, range(*arg), {routine.params[index]->name});
@@ -184,6 +170,26 @@ bool Analyzer::matchArguments(BoundCall& call, TokenIndex name, std::span<Argume
         bound.argument = arg;
     }
     return complete && !tooMany;
+}
+
+/// An argument behind the last required one that is something else: an optional one, the next instruction.
+bool Analyzer::reportMisread(const RoutineSymbol& routine, const Argument& arg, TokenIndex routineName) {
+    if (!namesOptional(routine, arg)) return reportAssignmentBelow(arg);
+    const SourceRange at = range(arg);
+    const TokenIndex option = as<NameExpr>(*arg.value).name;
+    report(Code::OptionalWithoutBackslash, at, {text(routineName), text(option)})
+        .fix({at.begin, at.begin}, "\\", routine.params[namedOptional(routine, idOf(option))]->isSwitch);
+    return true;
+}
+
+void Analyzer::reportTooMany(const RoutineSymbol& routine, std::span<Argument* const> args,
+                             const Argument& first, TokenIndex routineName) {
+    const auto given = std::count_if(args.begin(), args.end(),
+                                     [](const Argument* a) { return a->argKind == ArgKind::Required; });
+    report(Code::TooManyArguments, range(first),
+           {text(routineName),
+            routine.params.empty() ? "no arguments" : counted(requiredSlots(routine), "required argument"),
+            std::to_string(given)});
 }
 
 // "routine a, <new line> x := 1;": an assignment below a comma that should have been a semicolon.

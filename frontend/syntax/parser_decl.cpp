@@ -229,35 +229,19 @@ void Parser::parseParameterGroup(uint32_t group) {
     }
 }
 
-ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
-    auto* node = make<ParamDecl>(NodeKind::Param);
-    node->optional = optional;
-    node->group = group;
-    if (kind() == K::PlacePar || kind() == K::PlaceAlt) {
-        if ((kind() == K::PlaceAlt) != optional)
-            report(Code::PlaceholderMisplaced, pos_, {describe(pos_), optional ? "<ALT>" : "<PAR>"});
-        node->placeholder = true;
-        take();
-        return finish(node);
-    }
-    if (isContextual(pos_, "SWITCH") && isName(peek())) {
-        take();
-        node->isSwitch = true;
-        node->name = expectName(true);
-        checkNameLength(node->name);
-        return finish(node);
-    }
-    if (isContextual(pos_, "SWITCH") && (peek() == K::KwContinue || peek() == K::KwBreak)) {
-        take();
-        node->isSwitch = true;
-        node->name = expectName(true);
-        return finish(node);
-    }
-    if (startsLine(pos_) && bodyBeginsHere()) {
-        missing("a parameter");
-        return finish(node);
-    }
-    if (kind() == K::Identifier) dropForeignMode(node);
+/// `switch name`
+bool Parser::parseSwitch(ParamDecl* param) {
+    const bool named = isName(peek()) || peek() == K::KwContinue || peek() == K::KwBreak;
+    if (!isContextual(pos_, "SWITCH") || !named) return false;
+    take();
+    param->isSwitch = true;
+    param->name = expectName(true);
+    checkNameLength(param->name);
+    return true;
+}
+
+/// VAR, PERS or INOUT, and what is wrong there. False: the parameter ends with it.
+bool Parser::parseAccessMode(ParamDecl* node) {
     if (accept(K::KwVar)) {
         node->mode = ParamMode::Var;
     } else if (accept(K::KwPers)) {
@@ -270,17 +254,14 @@ ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
     }
     if (node->mode == ParamMode::In && !isName(kind())) {
         missing("a parameter");
-        return finish(node);
+        return false;
     }
     if (node->mode != ParamMode::In && isContextual(pos_, "SWITCH") && isName(peek())) {
         fix(report(Code::UnexpectedToken, pos_ - 1,
                    {describe(pos_ - 1), "'switch', which takes no access mode"}),
             {tree_.range(pos_ - 1).begin, tree_.range(pos_).begin}, "");
         node->mode = ParamMode::In;
-        node->isSwitch = true;
-        take();
-        node->name = expectName(true);
-        return finish(node);
+        return !parseSwitch(node);
     }
     constexpr TokenSet kModes = {K::KwVar, K::KwPers, K::KwInout};
     if (node->mode != ParamMode::In && kModes.has(kind()) && isName(peek()) &&
@@ -288,6 +269,27 @@ ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
         report(Code::UnexpectedToken, pos_, {describe(pos_), "a data type"});
         take();
     }
+    return true;
+}
+
+ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
+    auto* node = make<ParamDecl>(NodeKind::Param);
+    node->optional = optional;
+    node->group = group;
+    if (kind() == K::PlacePar || kind() == K::PlaceAlt) {
+        if ((kind() == K::PlaceAlt) != optional)
+            report(Code::PlaceholderMisplaced, pos_, {describe(pos_), optional ? "<ALT>" : "<PAR>"});
+        node->placeholder = true;
+        take();
+        return finish(node);
+    }
+    if (parseSwitch(node)) return finish(node);
+    if (startsLine(pos_) && bodyBeginsHere()) {
+        missing("a parameter");
+        return finish(node);
+    }
+    if (kind() == K::Identifier) dropForeignMode(node);
+    if (!parseAccessMode(node)) return finish(node);
     if (!parseForeignParameter(node)) {
         node->type = expectName();
         dropMisplacedMode(node);

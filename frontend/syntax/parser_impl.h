@@ -319,6 +319,8 @@ class Parser {
     void parseRoutineHeader(RoutineDecl* routine);
     void parseParameters(RoutineDecl* routine);
     void parseParameterGroup(uint32_t group);
+    bool parseSwitch(ParamDecl* param);
+    bool parseAccessMode(ParamDecl* param);
     ParamDecl* parseParameter(bool optional, uint32_t group);
     void parseDimensions(ParamDecl* param);
     bool isNative() const;
