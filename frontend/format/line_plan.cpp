@@ -231,7 +231,7 @@ class Leveller {
     uint16_t lineLevel_ = 0;
 };
 
-/// Marks the tokens of declarations in which something of `broken` lies.
+/// Marks the tokens of declarations in which something of `broken` lies, and stray semicolons behind them.
 void markBroken(const SyntaxTree& tree, const std::vector<SourceRange>& broken,
                 std::vector<TokenPlan>& plan) {
     for (const ModuleDecl* module : tree.modules)
@@ -241,7 +241,9 @@ void markBroken(const SyntaxTree& tree, const std::vector<SourceRange>& broken,
             const bool hit = std::any_of(broken.begin(), broken.end(), [&](SourceRange r) {
                 return r.begin <= range.end && r.end >= range.begin;
             });
-            for (TokenIndex t = decl->first; hit && t <= decl->last; ++t)
+            if (!hit) continue;
+            for (TokenIndex t = decl->first; t <= decl->last || tree.tokens[t].kind == TokenKind::Semicolon;
+                 ++t)
                 plan[t].flags |= kVerbatim;
         }
 }

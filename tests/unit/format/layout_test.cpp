@@ -346,5 +346,8 @@ TEST_CASE("modules with mistakes are refused, or formatted around them", "[forma
     // A mistake at the end of the line of another declaration.
     CHECK(formatText("MODULE m\nVAR num n;ENDSUB\nn := a + a;\nPROC  p()\nENDPROC\nENDMODULE\n", request) ==
           "MODULE m\nVAR num n;ENDSUB\nn := a + a;\n   PROC p()\n   ENDPROC\nENDMODULE\n");
+    // A stray semicolon: on the line of the misspelt word it would change what that is.
+    CHECK(formatText("MODULE m\nRECORD r\nnum a;\nEDREORD\n;\nENDMODULE\n", request) ==
+          "MODULE m\nRECORD r\nnum a;\nEDREORD\n;\nENDMODULE\n");
     CHECK(formatText("\xFC\x01\x02", {}, "m.mod") == "refused: the file is encrypted or binary");
 }
