@@ -125,7 +125,7 @@ def checker(rapidc, work, rounds):
         results = ([], [])
         for _ in range(rounds):
             for side, command in enumerate(sides):
-                results[side] += measure(command), measure(command)
+                results[side].extend((measure(command), measure(command)))
         seconds = [min(r[0] for r in side) for side in results]
         medians = [statistics.median(r[0] for r in side) for side in results]
         memory = max(r[1] for r in results[0])
