@@ -96,13 +96,10 @@ void RoutineEmitter::findRetried() {
 }
 
 /// A statement that is entered other than by RETRY has not failed yet: its RETRYs are counted anew.
-void RoutineEmitter::enterStatement(const ir::Inst& jump) {
+void RoutineEmitter::enterStatement() {
     if (beginsRetried_.empty() || (beginsRetried_[current_] && isEmpty(current_))) return;
-    const auto begins = [&](ir::BlockId target) { return target != ir::kNone && beginsRetried_[target]; };
-    if (begins(jump.target[0]) || begins(jump.target[1]) ||
-        std::any_of(jump.cases.begin(), jump.cases.end(),
-                    [&](const ir::SwitchCase& entry) { return begins(entry.target); }))
-        markFrame(0);
+    const std::vector<ir::BlockId> next = ir::successors(routine_, current_);
+    if (std::any_of(next.begin(), next.end(), [&](ir::BlockId b) { return beginsRetried_[b]; })) markFrame(0);
 }
 
 /// The frame record is filled where all calls are still ahead, but no earlier: a routine that returns before its first
@@ -277,7 +274,7 @@ void RoutineEmitter::instruction(ir::ValueId id) {
 }
 
 void RoutineEmitter::terminator(const ir::Inst& inst) {
-    enterStatement(inst);
+    enterStatement();
     switch (inst.op) {
     case ir::Op::Br: b_.CreateBr(blockOf(inst.target[0])); return;
     case ir::Op::CondBr:

@@ -32,7 +32,7 @@ class RoutineEmitter {
     void fillAddresses();
     void findRetried();
     bool isEmpty(ir::BlockId id) const;
-    void enterStatement(const ir::Inst& jump);
+    void enterStatement();
     void markFrame(int32_t content);
     void returnFromUndo(llvm::Value* status);
     void block(ir::BlockId id);

@@ -133,7 +133,7 @@ class Formatter {
         if (plan.has(kVerbatim)) return;
         const TokenKind kind = tree_.tokens[t].kind;
         const bool keyword = (isKeyword(kind) || isPlaceholder(kind)) && !plan.has(kNoKeyword) &&
-                             lowerCase(tree_.text(t)) == lowerCase(tokenText(kind)); // misspelt ones stay
+                             equalsNoCase(tree_.text(t), tokenText(kind)); // misspelt ones stay
         if (keyword || plan.has(kUpperWord)) {
             const std::string word = keyword ? std::string(tokenText(kind)) : "TASK";
             if (settings_.keywords == KeywordCase::Upper) replace(tree_.range(t), word);

@@ -263,8 +263,7 @@ bool Parser::parseAccessMode(ParamDecl* node) {
         node->mode = ParamMode::In;
         return !parseSwitch(node);
     }
-    constexpr TokenSet kModes = {K::KwVar, K::KwPers, K::KwInout};
-    if (node->mode != ParamMode::In && kModes.has(kind()) && isName(peek()) &&
+    if (node->mode != ParamMode::In && kAccessModes.has(kind()) && isName(peek()) &&
         isName(peek(2))) { // "VAR PERS num x"
         report(Code::UnexpectedToken, pos_, {describe(pos_), "a data type"});
         take();
@@ -309,8 +308,7 @@ ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
 
 /// `num VAR x`
 void Parser::dropMisplacedMode(ParamDecl* param) {
-    constexpr TokenSet kModes = {K::KwVar, K::KwPers, K::KwInout};
-    if (panic_ || !kModes.has(kind()) || !isName(peek())) return;
+    if (panic_ || !kAccessModes.has(kind()) || !isName(peek())) return;
     if (diag::Diagnostic* diagnostic = report(Code::ModeAfterType, pos_, {describe(pos_)})) {
         const uint32_t begin = tree_.range(param->first).begin;
         const SourceRange word{tree_.range(pos_).begin, tree_.range(pos_ + 1).begin};

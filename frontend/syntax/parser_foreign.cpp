@@ -223,11 +223,10 @@ bool Parser::parseForeignParameter(ParamDecl* node) {
 
 /// `num a num b`, `num a; num b`: another parameter, whose comma is missing.
 bool Parser::missesComma() {
-    constexpr TokenSet kModes = {K::KwVar, K::KwPers, K::KwInout};
     constexpr TokenSet kAfter = {K::Comma, K::RightParen, K::Backslash, K::Bar, K::LeftBrace, K::Semicolon};
     const bool semicolon = kind() == K::Semicolon;
     TokenIndex type = semicolon ? pos_ + 1 : pos_;
-    if (kModes.has(kindAt(type))) ++type;
+    if (kAccessModes.has(kindAt(type))) ++type;
     if (panic_ || !isName(kindAt(type)) || !isName(kindAt(type + 1)) || !kAfter.has(kindAt(type + 2)) ||
         startsLine(pos_) || startsLine(type))
         return false;

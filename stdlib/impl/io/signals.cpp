@@ -11,11 +11,21 @@
 
 namespace rt::lib {
 
+std::string signalName(const IoSystem& io, Handle handle) {
+    const SignalId id = io.idOf(handle);
+    return id < 0 ? std::string() : io.config(id).name;
+}
+
+Handle signalNamed(const IoSystem& io, const std::string& name) {
+    const SignalId id = io.find(name);
+    return id < 0 ? 0 : IoSystem::handleOf(id);
+}
+
 Status ioStatus(TaskCore* task, IoResult result, Handle handle) {
     if (result == IoResult::Ok) return kOk;
     const IoSystem& io = taskOf(task).controller().io();
     const SignalId id = io.idOf(handle);
-    const std::string name = id < 0 ? std::string() : io.config(id).name;
+    const std::string name = signalName(io, handle);
     switch (result) {
     case IoResult::Ok: return kOk;
     case IoResult::NoSignal:
@@ -60,14 +70,8 @@ Status checkWhole(TaskCore* task, double value) {
 
 void keepSignalVariables(Controller& controller, StateKeepers& kept) {
     const IoSystem& io = controller.io();
-    const auto textOf = [&io](Handle handle) {
-        const SignalId id = io.idOf(handle);
-        return id < 0 ? std::string() : io.config(id).name;
-    };
-    const auto make = [&io](const std::string& name) -> Handle {
-        const SignalId id = io.find(name);
-        return id < 0 ? 0 : IoSystem::handleOf(id);
-    };
+    const auto textOf = [&io](Handle handle) { return signalName(io, handle); };
+    const auto make = [&io](const std::string& name) { return signalNamed(io, name); };
     for (const char* type : {"signaldi", "signaldo", "signalai", "signalao", "signalgi", "signalgo"})
         kept.handles[type] = {textOf, make};
 }

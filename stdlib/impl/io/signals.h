@@ -19,6 +19,11 @@ Status readSignal(TaskCore* task, Handle handle, double& value);
 /// kOk when a group may get this value as far as it is a whole number; else ERR_ARGVALERR.
 Status checkWhole(TaskCore* task, double value);
 
+/// Name of the signal behind a handle; empty when there is none.
+std::string signalName(const IoSystem& io, Handle handle);
+/// 0 when there is no signal of that name.
+Handle signalNamed(const IoSystem& io, const std::string& name);
+
 /// Signal variables (AliasIO) between two processes (--state): they stand for the signal of the same name.
 void keepSignalVariables(Controller& controller, StateKeepers& kept);
 

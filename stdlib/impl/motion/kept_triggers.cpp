@@ -5,6 +5,7 @@
 
 #include "runtime/host/json_numbers.h"
 #include "runtime/host/state_keepers.h"
+#include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/support/data_names.h"
 
 #include <stdexcept>
@@ -15,16 +16,12 @@ namespace {
 using Json = nlohmann::json;
 using Kind = TriggerDefinition::Kind;
 
-Json signalName(Controller& controller, Handle handle) {
-    const SignalId id = controller.io().idOf(handle);
-    return id < 0 ? std::string() : controller.io().config(id).name;
-}
-
-Handle signalNamed(Controller& controller, const Json& json) {
+/// None when there was none.
+Handle signalFrom(Controller& controller, const Json& json) {
     const auto name = json.get<std::string>();
-    const SignalId id = name.empty() ? -1 : controller.io().find(name);
-    if (id < 0 && !name.empty()) throw std::invalid_argument("there is no such signal now");
-    return id < 0 ? 0 : IoSystem::handleOf(id);
+    const Handle signal = name.empty() ? 0 : signalNamed(controller.io(), name);
+    if (signal == 0 && !name.empty()) throw std::invalid_argument("there is no such signal now");
+    return signal;
 }
 
 /// Task and name: modules of several tasks may have the same names.
@@ -52,12 +49,12 @@ Json jsonOf(Controller& controller, const TriggerDefinition& d) {
             {"next", d.place.nextMove},
             {"lag", d.place.lag},
             {"delay", d.delay},
-            {"signal", signalName(controller, d.signal)},
+            {"signal", signalName(controller.io(), d.signal)},
             {"value", d.value},
             {"rampLength", d.rampLength},
             {"rampInTime", d.rampInTime},
             {"dipLag", d.dipLag},
-            {"error", signalName(controller, d.errorSignal)},
+            {"error", signalName(controller.io(), d.errorSignal)},
             {"relation", d.relation},
             {"stopMove", d.stopMove},
             {"interrupt", d.interrupt},
@@ -76,12 +73,12 @@ TriggerDefinition definitionFrom(Controller& controller, const Json& json) {
     json.at("next").get_to(d.place.nextMove);
     json.at("lag").get_to(d.place.lag);
     d.delay = numberFrom<Time>(json.at("delay"));
-    d.signal = signalNamed(controller, json.at("signal"));
+    d.signal = signalFrom(controller, json.at("signal"));
     json.at("value").get_to(d.value);
     json.at("rampLength").get_to(d.rampLength);
     json.at("rampInTime").get_to(d.rampInTime);
     json.at("dipLag").get_to(d.dipLag);
-    d.errorSignal = signalNamed(controller, json.at("error"));
+    d.errorSignal = signalFrom(controller, json.at("error"));
     json.at("relation").get_to(d.relation);
     json.at("stopMove").get_to(d.stopMove);
     d.interrupt = numberFrom<int>(json.at("interrupt"));
