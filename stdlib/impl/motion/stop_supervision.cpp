@@ -58,7 +58,10 @@ class StopSupervision {
 
     void take(Controller& controller, ArmNews news) {
         switch (news) {
-        case ArmNews::Start: stopped_ = false; return;
+        case ArmNews::Start:
+            if (braking_) end(controller); // started before the arm stood
+            stopped_ = false;
+            return;
         case ArmNews::MotorsOff: onPath_ = false; [[fallthrough]];
         case ArmNews::StopOnPath:
             if (std::exchange(stopped_, true)) return;
