@@ -40,7 +40,7 @@ void Walker::read(const Expr& name) {
     const int16_t slot = slots_[data->index];
     if (slot < 0 || assigned_[static_cast<size_t>(slot)]) return;
     assigned_.set(static_cast<size_t>(slot)); // said once
-    pending_.push_back({data, &name});
+    pending_.push_back({data, &name, &name == copied_});
 }
 
 /// A place that is looked at, but whose value does not matter.
@@ -60,7 +60,8 @@ void Walker::subscripts(const Expr& place) {
         expr(*i);
 }
 
-// `n := n + 1` whose result is used later is a copy to work with; without that it was meant for the caller.
+// `n := n + 1` and `p.trans.z := 0` whose result is used later make a copy to work with; without that they were meant for
+// the caller.
 void Walker::inParameter(const DataSymbol& param, const Expr& place, bool fromItself) {
     uint8_t& access = access_[param.index];
     if ((access & kReported) != 0) return;
@@ -83,7 +84,7 @@ void Walker::write(const Expr& place, uint8_t access, bool fromItself) {
     access_[data->index] |= access;
     const bool assignment = (access & (kAssigned | kFromCall)) != 0;
     if (assignment && data->storage == sema::Storage::Parameter && data->mode == ParamMode::In)
-        inParameter(*data, place, fromItself);
+        inParameter(*data, place, fromItself || place.kind == NodeKind::Component);
     else
         access_[data->index] &= static_cast<uint8_t>(~kUpdated); // passed on
     const int16_t slot = slots_[data->index];

@@ -279,6 +279,13 @@ void TaskLint::data(const DataSymbol& data) {
     report(Code::UnusedVariable, data, {kind, data.name});
 }
 
+/// `\switch on | switch off`: a look at one of them tells which it is.
+bool otherAlternativeRead(const RoutineSymbol& routine, const DataSymbol& param) {
+    if (!param.isSwitch) return false;
+    return std::any_of(routine.params.begin(), routine.params.end(),
+                       [&](const DataSymbol* other) { return other->group == param.group && other->used; });
+}
+
 void TaskLint::routine(const RoutineSymbol& routine) {
     const bool proc = routine.routineKind == RoutineKind::Proc;
     const bool trap = routine.routineKind == RoutineKind::Trap;
@@ -295,8 +302,8 @@ void TaskLint::routine(const RoutineSymbol& routine) {
     if (isWrong(routine)) return;
     for (const DataSymbol* param : routine.params) {
         hiding(*param, "parameter");
-        if (!param->used && !isPlaceholderName(param->name) && !facts_.callsByName &&
-            !routine.routineDecl->body.empty())
+        if (!param->used && !otherAlternativeRead(routine, *param) && !isPlaceholderName(param->name) &&
+            !facts_.callsByName && !routine.routineDecl->body.empty())
             report(Code::UnusedParameter, *param, {param->name, routine.name});
     }
 }

@@ -113,9 +113,15 @@ void Walker::errorClause(const ErrorClause& clause) {
                                  calls, facts_.calls.size(), kEnds});
 }
 
+/// `list := empty;` with an array or record that nothing ever assigns: it is there to clear others.
+bool Walker::isEmptyValue(const DataSymbol& data) const {
+    const bool aggregate = data.type.rank > 0 || data.type.type->kind == sema::TypeKind::Record;
+    return aggregate && (access_[data.index] & (kAssigned | kFromCall)) == 0;
+}
+
 void Walker::finish() {
     for (const Pending& p : pending_)
-        usedTooEarly(*p.data, *p.place);
+        if (!p.copied || !isEmptyValue(*p.data)) usedTooEarly(*p.data, *p.place);
     for (const Label& label : labels_)
         if (targets_.count(label.node) == 0) unusedLabel(as<LabelStmt>(*label.node));
     for (const DataSymbol* param : routine_->params)
@@ -231,7 +237,9 @@ void Walker::assign(const AssignStmt& s) {
     const bool own = root && isOwn(*root);
     const uint8_t before = own ? access_[root->index] : uint8_t{0};
     if (own) access_[root->index] &= static_cast<uint8_t>(~kRead);
+    copied_ = s.value->kind == NodeKind::Name ? s.value : nullptr;
     expr(*s.value);
+    copied_ = nullptr;
     const bool fromItself = own && (access_[root->index] & kRead) != 0;
     if (own) access_[root->index] |= before & kRead;
     subscripts(*s.target);

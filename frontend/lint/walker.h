@@ -84,6 +84,7 @@ class Walker {
         return data.routine == routine_ && data.index < access_.size();
     }
     void usedTooEarly(const sema::DataSymbol& data, const Expr& e);
+    bool isEmptyValue(const sema::DataSymbol& data) const;
 
     // ---- expressions.cpp
     void expr(const Expr& e, bool partOfText = false);
@@ -141,8 +142,10 @@ class Walker {
     struct Pending {
         const sema::DataSymbol* data = nullptr;
         const syntax::Expr* place = nullptr;
+        bool copied = false; ///< the whole value is assigned to other data
     };
     std::vector<Pending> pending_; ///< used before assignment, unless the rest of a loop or a handler assigns
+    const syntax::Expr* copied_ = nullptr;        ///< the value of the assignment, if it is a name
     std::vector<const sema::DataSymbol*> writes_; ///< everything written so far, in this order
     unsigned waits_ = 0;                          ///< instructions seen that wait
     unsigned jumps_ = 0;                          ///< and RETURN and GOTO

@@ -186,6 +186,7 @@ class Parser {
     void abandonRoutine();
     TokenIndex expectNameHere();
     TokenIndex expectName(bool newerKeywords = false);
+    void laterUsesAreNames(TokenIndex declared);
 
     // ---- Misspelt keywords (parser_typos.cpp)
     bool meant(TokenIndex i, K word, unsigned limit = 0) const;

@@ -567,6 +567,19 @@ TokenIndex Parser::expectNameHere() {
     return kNoToken;
 }
 
+/// BREAK or CONTINUE names something, as older programs may. Where it cannot be the instruction it is that name, so that
+/// one declaration gives one message.
+void Parser::laterUsesAreNames(TokenIndex declared) {
+    constexpr TokenSet kBeforeValue = {K::Assign, K::Comma, K::LeftParen, K::LeftBracket, K::LeftBrace,
+                                       K::Plus,   K::Minus, K::Equal,     K::NotEqual,    K::KwNot,
+                                       K::KwAnd,  K::KwOr,  K::KwXor,     K::KwReturn,    K::KwTest};
+    const K word = kindAt(declared);
+    tokens_[declared].kind = K::Identifier;
+    for (TokenIndex i = declared + 1; i < last_; ++i)
+        if (kindAt(i) == word && (kindAt(i + 1) != K::Semicolon || kBeforeValue.has(kindAt(i - 1))))
+            tokens_[i].kind = K::Identifier;
+}
+
 TokenIndex Parser::expectName(bool newerKeywords) {
     if (isName(kind())) return take();
     if (kind() == K::NumLiteral && !startsLine(pos_)) { // "1st"
@@ -581,7 +594,13 @@ TokenIndex Parser::expectName(bool newerKeywords) {
                                      K::LeftBrace, K::Comma,  K::RightParen};
     const bool canBeName = !kEndWords.has(kind()) || (kAfterName.has(peek()) && !startsLine(pos_ + 1));
     if (isKeyword(kind()) && canBeName && !startsLine(pos_)) {
-        report(Code::ReservedWordAsName, pos_, {std::string(tokenText(kind()))});
+        diag::Diagnostic* diagnostic =
+            report(Code::ReservedWordAsName, pos_, {std::string(tokenText(kind()))});
+        if (kind() == K::KwBreak || kind() == K::KwContinue) {
+            note(diagnostic, pos_,
+                 "an instruction since RobotWare 7.12: programs of older controllers need another name");
+            laterUsesAreNames(pos_);
+        }
         return take();
     }
     if (startsLine(pos_) && pos_ > 0 && kind() != K::Error) {
