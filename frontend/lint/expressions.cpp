@@ -54,6 +54,7 @@ void Walker::expr(const Expr& e, bool partOfText) {
         return;
     case NodeKind::Call: call(e, as<CallExpr>(e).args); return;
     case NodeKind::Aggregate:
+        if (as<AggregateExpr>(e).isPlain()) return;
         for (const Expr* element : as<AggregateExpr>(e).elements())
             expr(*element);
         return;
@@ -131,7 +132,8 @@ bool Walker::sameText(const Node& a, const Node& b) const {
         if (x.kind == TokenKind::LeftParen && i > 0 && isIdentifier(tree_->tokens[a.first + i - 1].kind))
             return false; // a call
         const std::string_view textX = tree_->text(a.first + i), textY = tree_->text(b.first + i);
-        if (x.kind == TokenKind::StringLiteral ? textX != textY : !equalNames(textX, textY)) return false;
+        const bool exact = x.kind == TokenKind::StringLiteral || x.kind == TokenKind::PlainAggregate;
+        if (exact ? textX != textY : !equalNames(textX, textY)) return false;
     }
     return true;
 }

@@ -31,10 +31,11 @@ class ExprTable {
         none_.type.type = unknown;
     }
     const ExprInfo& operator[](uint32_t id) const {
-        const ExprInfo* chunk = chunks_[id / kPerChunk];
+        const ExprInfo* chunk = id / kPerChunk < chunks_.size() ? chunks_[id / kPerChunk] : nullptr;
         return chunk ? chunk[id % kPerChunk] : none_;
     }
     ExprInfo& at(uint32_t id) {
+        if (id / kPerChunk >= chunks_.size()) chunks_.resize(id / kPerChunk + 1); // elements that were made since
         ExprInfo*& chunk = chunks_[id / kPerChunk];
         if (!chunk) chunk = makeChunk();
         return chunk[id % kPerChunk];

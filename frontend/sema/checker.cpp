@@ -120,7 +120,9 @@ void Analyzer::readFiles(const TaskInput& input, bool declare) {
 
 void Analyzer::readFile(const std::shared_ptr<const SourceFile>& file) {
     const size_t errorsBefore = sink_.errorCount();
-    program_.trees.push_back(parse(file, sink_));
+    ParseOptions parseOptions;
+    parseOptions.wholeAggregates = options_.onlyDiagnostics;
+    program_.trees.push_back(parse(file, sink_, parseOptions));
     const SyntaxTree& tree = *program_.trees.back();
     FileFacts& facts = *program_.facts.emplace_back(
         std::make_unique<FileFacts>(tree, program_.errorType, std::make_shared<FileSymbols>(), ++lastStamp_));
@@ -190,7 +192,7 @@ void Analyzer::checkModules(std::span<Module* const> modules) {
 
 void Analyzer::finishFile(std::span<Module* const> modules) {
     if (options_.onFile) options_.onFile(program_, *task_, modules);
-    if (!options_.forgetRoutines) return;
+    if (!options_.onlyDiagnostics) return;
     for (Module* module : modules)
         for (RoutineSymbol* routine : module->routines)
             routine->data = {};

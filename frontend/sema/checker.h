@@ -37,9 +37,10 @@ struct CheckOptions {
     std::span<const LibraryText> library;
     /// Called by check() for each file of a task, with its modules, as soon as everything in it is checked.
     std::function<void(const CheckedProgram&, const Task&, std::span<Module* const>)> onFile;
-    /// What is known of the inside of a file's routines is forgotten after onFile: the expressions, calls, data and
-    /// labels of FileFacts. For who only wants the diagnostics: half the memory, and it stays in the cache.
-    bool forgetRoutines = false;
+    /// For who only wants the diagnostics: half the memory, and it stays in the cache. Trees come with whole aggregates
+    /// (syntax::ParseOptions), and what is known of the inside of a file's routines is forgotten after onFile: the
+    /// expressions, calls, data and labels of FileFacts.
+    bool onlyDiagnostics = false;
 };
 
 /// Parses and checks. Always returns a program; `sink` tells whether it may be lowered.

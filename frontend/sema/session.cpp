@@ -41,7 +41,7 @@ struct Session::State {
         options.library = library;
         options.requireMain = false;
         options.onFile = nullptr;
-        options.forgetRoutines = false;
+        options.onlyDiagnostics = false;
     }
 
     CheckOptions options;

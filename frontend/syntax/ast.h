@@ -49,7 +49,7 @@ struct Node {
 
 // ---- Expressions (manual 1.3.6) -------------------------------------------------------------------------------
 
-/// `id` numbers the expressions of a tree densely from 0; later stages keep their facts in vectors indexed by it.
+/// `id` numbers the expressions of a tree densely from 0; later stages keep their facts in tables indexed by it.
 struct Expr : Node {
     uint32_t id = 0;
 };
@@ -92,7 +92,7 @@ struct CallExpr : Expr { ///< function call
 struct SyntaxTree;
 
 /// `[a,b]`. Modules full of taught points consist of initial values such as `[[1,-2.5],TRUE,"a"]`: nothing but literals.
-/// The elements of such a plain aggregate are made from its tokens when somebody asks for them; hardly anybody does.
+/// The elements of such a plain aggregate are made from its text when somebody asks for them; hardly anybody does.
 class AggregateExpr : public Expr {
   public:
     std::span<Expr*> elements() const {
@@ -104,9 +104,8 @@ class AggregateExpr : public Expr {
         count_ = static_cast<uint32_t>(elements.size());
         made_ = true;
     }
-    /// Nothing but literals and `[`, `]`, `,` and `-` from `first` to `last`, in order, and the numbers are finite as num.
+    /// Nothing but what a PlainScanner knows from `first` to `last`, in order.
     bool isPlain() const { return plain_; }
-    /// The ids behind its own are kept free for the elements.
     void setPlain(SyntaxTree& tree) {
         tree_ = &tree;
         plain_ = true;
@@ -297,10 +296,13 @@ struct ModuleDecl : Node {
 /// One parsed file: source, tokens, nodes. Some files hold several modules.
 struct SyntaxTree {
     std::shared_ptr<const SourceFile> source;
-    std::span<Token> tokens; ///< in the arena; the last one is EndOfFile
+    /// In the arena; the last one is EndOfFile. Those of a PlainAggregate, once its elements are made, stand behind it,
+    /// with an EndOfFile of their own.
+    std::span<Token> tokens;
+    size_t tokenRoom = 0; ///< for how many there is room in their place; 0 means no more than there are
     Arena arena;
     std::vector<ModuleDecl*> modules;
-    uint32_t exprCount = 0;
+    uint32_t exprCount = 0; ///< it grows when elements of plain aggregates are made
     bool retagged =
         false; ///< some tokens are not what the text alone says, or the text cannot be read: mistakes
 

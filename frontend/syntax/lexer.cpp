@@ -1,6 +1,6 @@
 #include "frontend/syntax/lexer.h"
 #include "frontend/syntax/foreign_characters.h"
-
+#include "frontend/syntax/plain_scanner.h"
 #include "frontend/syntax/token_set.h"
 
 #include <fmt/format.h>
@@ -137,8 +137,9 @@ bool isLatin1Letter(const char* p) {
 /// "'@'" or "U+00A0" for what a screen does not show.
 class Lexer {
   public:
-    explicit Lexer(std::string_view text)
-        : begin_(text.data()), end_(begin_ + text.size()), padding_(findPadding(begin_, end_)), p_(begin_) {}
+    explicit Lexer(std::string_view text, bool wholeAggregates = false)
+        : begin_(text.data()), end_(begin_ + text.size()), padding_(findPadding(begin_, end_)), p_(begin_),
+          wholeAggregates_(wholeAggregates) {}
 
     LexResult run() {
         result_.tokens.reserve(static_cast<size_t>(end_ - begin_) / 3 + 16);
@@ -500,8 +501,24 @@ class Lexer {
         error(diag::Code::BadStringEscape, p_, to, {std::string(slice(p_, to))});
     }
 
+    /// The value of an assignment or of data; false, and nothing is read, where it is something else.
+    bool readPlainAggregate() {
+        if (lastKind() != TokenKind::Assign) return false;
+        const char* start = p_;
+        const char* end = plainAggregateEnd(start);
+        if (!end || end - start > static_cast<std::ptrdiff_t>(kMaxTokenLength)) return false;
+        const char* after = end;
+        while (classAt(after) == CharClass::Space)
+            ++after;
+        if (*after != ';') return false;
+        p_ = end;
+        push(TokenKind::PlainAggregate, start);
+        return true;
+    }
+
     void readPunctuation() {
         const char* start = p_;
+        if (*p_ == '[' && wholeAggregates_ && readPlainAggregate()) return;
         const char c = *p_++;
         TokenKind kind = kSingles[static_cast<size_t>(c)];
         if (*p_ == '=' && (c == ':' || c == '>')) {
@@ -607,6 +624,7 @@ class Lexer {
     const char* padding_; ///< white space and end marks from here on
     const char* p_;
     const char* lastJunk_ = nullptr;
+    bool wholeAggregates_ = false;
     TokenKind before_ = TokenKind::EndOfFile; ///< kind of the token before the first one
     std::vector<std::string> badNames_;       ///< that begin with '_'
     LexResult result_;
@@ -614,8 +632,8 @@ class Lexer {
 
 } // namespace
 
-LexResult lex(std::string_view text) {
-    return Lexer(text).run();
+LexResult lex(std::string_view text, bool wholeAggregates) {
+    return Lexer(text, wholeAggregates).run();
 }
 
 LexResult lexPart(std::string_view text, size_t from, size_t to, TokenKind before) {

@@ -25,8 +25,8 @@ struct LexResult {
 inline constexpr size_t kMaxLexErrors = 64;
 
 /// Splits a text; what cannot be read becomes an Error token with one LexError a line. A NUL must follow the text, as
-/// it does in the text of a SourceFile.
-LexResult lex(std::string_view text);
+/// it does in the text of a SourceFile. `wholeAggregates`: see ParseOptions.
+LexResult lex(std::string_view text, bool wholeAggregates = false);
 
 /// The tokens of a text that begin at `from` or behind it and before `to`, which both are starts of lines; with the
 /// EndOfFile when the text ends before `to`. `before` is the kind of the token before them.

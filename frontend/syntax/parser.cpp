@@ -443,13 +443,13 @@ namespace {
 
 /// The tree with its tokens; a binary file has none but the end.
 std::unique_ptr<SyntaxTree> makeTree(std::shared_ptr<const SourceFile> source, diag::Sink& sink,
-                                     const SyntaxTree* earlier, LexResult& lexed) {
+                                     const ParseOptions& options, LexResult& lexed) {
     auto tree = std::make_unique<SyntaxTree>();
     tree->source = std::move(source);
     const std::string_view text = tree->source->text();
     if (checkEncoding(tree->source, sink)) {
-        if (!earlier || !relex(*tree, *earlier, lexed)) {
-            lexed = lex(text);
+        if (!options.earlier || !relex(*tree, *options.earlier, lexed)) {
+            lexed = lex(text, options.wholeAggregates);
             tree->tokens = tree->arena.copy(lexed.tokens);
         }
         tree->retagged = !lexed.errors.empty();
@@ -461,21 +461,35 @@ std::unique_ptr<SyntaxTree> makeTree(std::shared_ptr<const SourceFile> source, d
     return tree;
 }
 
+std::unique_ptr<SyntaxTree> parseOnce(std::shared_ptr<const SourceFile> source, diag::Sink& sink,
+                                      const ParseOptions& options) {
+    LexResult lexed;
+    auto tree = makeTree(std::move(source), sink, options, lexed);
+    if (!tree->source->isBinary()) Parser(*tree, sink, options).parseFile(lexed);
+    return tree;
+}
+
 } // namespace
 
 std::unique_ptr<SyntaxTree> parse(std::shared_ptr<const SourceFile> source, diag::Sink& sink,
                                   const ParseOptions& options) {
-    LexResult lexed;
-    auto tree = makeTree(std::move(source), sink, options.earlier, lexed);
-    if (!tree->source->isBinary()) Parser(*tree, sink, options).parseFile(lexed);
-    return tree;
+    if (options.wholeAggregates) {
+        diag::Sink own;
+        ParseOptions all = options;
+        all.wholeAggregates = false; // what is said of mistakes needs all tokens
+        auto tree = parseOnce(source, own, options);
+        if (own.hasErrors()) return parseOnce(std::move(source), sink, all);
+        sink.add(own.all());
+        return tree;
+    }
+    return parseOnce(std::move(source), sink, options);
 }
 
 ParsedExpr parseExpression(std::shared_ptr<const SourceFile> source, diag::Sink& sink) {
     LexResult lexed;
     ParsedExpr result;
-    result.tree = makeTree(std::move(source), sink, nullptr, lexed);
     const ParseOptions options;
+    result.tree = makeTree(std::move(source), sink, options, lexed);
     result.expr = Parser(*result.tree, sink, options).parseWholeExpression(lexed);
     return result;
 }

@@ -222,6 +222,9 @@ Expr* Parser::parsePrimary() {
     }
     case K::LeftParen: return parseParen();
     case K::LeftBracket: return parseAggregate();
+    case K::PlainAggregate:
+        if (Expr* whole = parsePlainAggregate()) return whole;
+        break;
     case K::Error: {
         panic_ = true;
         auto* node = makeExpr<ErrorExpr>(NodeKind::ErrorExpr);

@@ -58,7 +58,7 @@ class Parser {
   public:
     Parser(SyntaxTree& tree, diag::Sink& sink, const ParseOptions& options);
     void parseFile(const LexResult& lexed);
-    void parseElements(AggregateExpr& plain);
+    void parseElements(AggregateExpr& plain, TokenIndex opening);
     Expr* parseWholeExpression(const LexResult& lexed);
 
   private:
@@ -245,7 +245,6 @@ class Parser {
     Expr* parseParen();
     Expr* parseAggregate();
     Expr* parsePlainAggregate();
-    bool skipPlainAggregate(TokenIndex& at, uint32_t& count) const;
     Expr* errorExpr();
     Expr* tooDeepExpr();
     std::span<Expr*> parseExprList(K closing, TokenIndex opening);

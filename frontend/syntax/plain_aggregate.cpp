@@ -1,93 +1,64 @@
-// Aggregates of nothing but literals, recognised by their tokens (see AggregateExpr).
+// Aggregates of nothing but literals: their elements are made when somebody asks (see AggregateExpr).
 
 #include "frontend/syntax/parser_impl.h"
+#include "frontend/syntax/plain_scanner.h"
+
+#include <algorithm>
 
 namespace rapid::syntax {
 
+/// A whole initial value `[...]` of literals; null, and nothing is read, if something else stands here.
+Expr* Parser::parsePlainAggregate() {
+    TokenIndex last = pos_;
+    if (kind() == K::LeftBracket) {
+        const char* text = tree_.source->text().data();
+        const char* end = plainAggregateEnd(text + tokens_[pos_].offset);
+        if (!end) return nullptr;
+        while (text + tokens_[last].offset + 1 < end) // its ']' is the last character
+            ++last;
+    } else if (kind() != K::PlainAggregate) {
+        return nullptr;
+    }
+    if (kindAt(last + 1) != K::Semicolon) return nullptr;
+    auto* node = makeExpr<AggregateExpr>(NodeKind::Aggregate);
+    node->setPlain(tree_);
+    pos_ = last + 1;
+    return finish(node);
+}
+
+/// Reads a plain aggregate as any other one; `opening` is its '['.
+void Parser::parseElements(AggregateExpr& plain, TokenIndex opening) {
+    pos_ = opening + 1;
+    plain.setElements(parseExprList(K::RightBracket, opening));
+}
+
 namespace {
 
-constexpr uint32_t kMaxPlainDepth = 32;
-
-/// Digits, perhaps with a dot and a short exponent: valid and, by its length, below the greatest num. Anything else is
-/// for numberValue() to judge.
-bool isPlainNumber(std::string_view text) {
-    constexpr size_t kMaxLength = 12;
-    if (text.size() > kMaxLength) return false;
-    size_t i = 0;
-    while (i < text.size() && text[i] <= '9') // the lexer lets through digits, dots and letters only
-        ++i;
-    if (i == text.size()) return true;
-    if ((text[i] | 0x20) != 'e') return false;
-    std::string_view exponent = text.substr(i + 1);
-    if (exponent.starts_with('-')) return exponent.size() <= 3;
-    if (exponent.starts_with('+')) exponent.remove_prefix(1);
-    return exponent.size() == 1 || (exponent.size() == 2 && exponent[0] <= '2');
+/// The tokens of which a whole aggregate consists, behind all others of the tree; the place of the first.
+TokenIndex appendTokens(SyntaxTree& tree, TokenIndex whole) {
+    const SourceRange range = tree.range(whole);
+    std::vector<Token> parts = lexPart(tree.source->text(), range.begin, range.end, TokenKind::Assign).tokens;
+    parts.push_back({range.end, 0, TokenKind::EndOfFile});
+    const size_t before = tree.tokens.size(), size = before + parts.size();
+    if (size > tree.tokenRoom) {
+        tree.tokenRoom = 2 * size;
+        const std::span<Token> larger = tree.arena.makeArray<Token>(tree.tokenRoom);
+        std::copy(tree.tokens.begin(), tree.tokens.end(), larger.begin());
+        tree.tokens = larger;
+    }
+    tree.tokens = {tree.tokens.data(), size};
+    std::copy(parts.begin(), parts.end(), tree.tokens.begin() + static_cast<std::ptrdiff_t>(before));
+    return static_cast<TokenIndex>(before);
 }
 
 } // namespace
 
-/// Goes from the '[' at `at` behind its ']' and counts the nodes. False when there is anything but plain literals.
-bool Parser::skipPlainAggregate(TokenIndex& at, uint32_t& count) const {
-    uint32_t depth = 0;
-    bool wanted = true; // an element is
-    for (;; ++at) {
-        const K k = tokens_[at].kind;
-        if (k == K::Comma || k == K::RightBracket) {
-            if (wanted) return false;
-            wanted = k == K::Comma;
-            if (k == K::RightBracket && --depth == 0) break;
-            continue;
-        }
-        if (!wanted) return false;
-        ++count;
-        switch (k) {
-        case K::LeftBracket:
-            if (++depth > kMaxPlainDepth) return false;
-            continue;
-        case K::Minus:
-            if (tokens_[at + 1].kind != K::NumLiteral) return false;
-            continue;
-        case K::NumLiteral:
-            if (!isPlainNumber(textOf(at))) return false;
-            break;
-        case K::StringLiteral:
-        case K::KwTrue:
-        case K::KwFalse: break;
-        default: return false;
-        }
-        wanted = false;
-    }
-    ++at;
-    return true;
-}
-
-/// A whole initial value `[...]` of literals; null, and nothing is read, if something else stands here.
-Expr* Parser::parsePlainAggregate() {
-    TokenIndex end = pos_;
-    uint32_t count = 0;
-    if (kind() != K::LeftBracket || !skipPlainAggregate(end, count) || kindAt(end) != K::Semicolon)
-        return nullptr;
-    auto* node = make<AggregateExpr>(NodeKind::Aggregate);
-    node->id = tree_.exprCount;
-    node->setPlain(tree_);
-    tree_.exprCount += count;
-    pos_ = end;
-    return finish(node);
-}
-
-/// Reads a plain aggregate as any other one; the nodes get the ids kept for them.
-void Parser::parseElements(AggregateExpr& plain) {
-    const uint32_t count = std::exchange(tree_.exprCount, plain.id);
-    pos_ = plain.first;
-    const Expr& read = *parseAggregate();
-    tree_.exprCount = count;
-    plain.setElements(as<AggregateExpr>(read).elements());
-}
-
 void AggregateExpr::makeElements() const {
     diag::Sink none; // there is nothing to report
     const ParseOptions options;
-    Parser(*tree_, none, options).parseElements(const_cast<AggregateExpr&>(*this));
+    const bool whole = tree_->tokens[first].kind == TokenKind::PlainAggregate;
+    const TokenIndex opening = whole ? appendTokens(*tree_, first) : first;
+    Parser(*tree_, none, options).parseElements(const_cast<AggregateExpr&>(*this), opening);
 }
 
 } // namespace rapid::syntax

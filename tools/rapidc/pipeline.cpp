@@ -189,7 +189,7 @@ void judge(Compilation& compilation, bool onlyDiagnostics) {
     UnimplementedCalls unimplemented(sink);
     rapid::lint::Lint lint(compilation.warningLevels, sink, compilation.tasks.size() > 1);
     sema::CheckOptions options = compilation.options;
-    options.forgetRoutines = onlyDiagnostics;
+    options.onlyDiagnostics = onlyDiagnostics;
     options.onFile = [&](const sema::CheckedProgram& program, const sema::Task& task,
                          std::span<sema::Module* const> modules) {
         unimplemented.report(program, modules);

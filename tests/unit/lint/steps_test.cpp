@@ -47,7 +47,7 @@ std::string fileByFile(const std::vector<sema::TaskInput>& tasks, size_t& files)
     lint::Lint steps(levels, sink, tasks.size() > 1);
     sema::CheckOptions options;
     options.library = sema::testing::library();
-    options.forgetRoutines = true;
+    options.onlyDiagnostics = true;
     options.onFile = [&](const sema::CheckedProgram& program, const sema::Task& task,
                          std::span<sema::Module* const> modules) {
         steps.file(program, task, modules);
