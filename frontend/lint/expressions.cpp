@@ -39,6 +39,14 @@ const Expr& bare(const Expr& e) {
 
 } // namespace
 
+const ConstValue* Walker::constant(const Expr& e) const {
+    const sema::ExprInfo& known = info(e);
+    if (known.constant || e.kind != NodeKind::Name) return known.constant;
+    const sema::Symbol* symbol = known.symbol; // perhaps a point whose value nobody asked for before
+    const auto* data = symbol && symbol->kind == sema::SymbolKind::Data ? static_cast<const DataSymbol*>(symbol) : nullptr;
+    return data && data->dataKind == DataKind::Const && data->isUnreadLiteral() ? &data->value() : nullptr;
+}
+
 const double* Walker::number(const Expr& e) const {
     const ConstValue* value = constant(e);
     return value && value->kind == ConstValue::Kind::Number ? &value->number : nullptr;

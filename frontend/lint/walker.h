@@ -95,7 +95,7 @@ class Walker {
     void textLength(const syntax::BinaryExpr& e);
     unsigned leastLength(const Expr& e) const;
     const double* number(const Expr& e) const;
-    const sema::ConstValue* constant(const Expr& e) const { return info(e).constant; }
+    const sema::ConstValue* constant(const Expr& e) const;
 
     // ---- calls.cpp
     bool call(const syntax::Node& node, std::span<syntax::Argument* const> args);

@@ -64,7 +64,10 @@ void Analyzer::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
         presenceOnly_ = outer;
     } else {
         const bool any = param.type.type->kind == TypeKind::AnyType;
-        judgeValue(routine, bound, expr(*bound.value, any ? nullptr : &param.type));
+        leaveUnread_ = options_.onlyDiagnostics && bound.value->kind == NodeKind::Name;
+        const Typed t = expr(*bound.value, any ? nullptr : &param.type);
+        leaveUnread_ = false;
+        judgeValue(routine, bound, t);
     }
 }
 

@@ -127,7 +127,8 @@ void Analyzer::initialise(DataSymbol& symbol, const DataDecl& decl) {
     ConstValue* slot = mustFold ? &symbol.valueSlot() : nullptr;
     if (usable && isPlain(init) && isLiteralOf(want, *context_.tree, as<AggregateExpr>(init))) {
         symbol.setLiteral();
-        if (symbol.users > 0) symbol.value(); // files that are not checked again have its address
+        if (symbol.users > 0 && !options_.onlyDiagnostics)
+            symbol.value(); // files that are not checked again have its address
         return;
     }
     if (symbol.dataKind == DataKind::Pers && usable) {

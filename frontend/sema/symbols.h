@@ -124,6 +124,7 @@ struct DataSymbol : Symbol {
     ConstValue& valueSlot() { return value_; }
     /// The value is that of `init`, a plain aggregate of this type; it is read when first asked for.
     void setLiteral() { literal_ = true; }
+    bool isUnreadLiteral() const { return literal_; }
 
     void reset() {
         DataSymbol fresh;
