@@ -57,7 +57,12 @@ TypeSymbol& Analyzer::newType(const Decl& decl, TokenIndex name, bool local) {
 void Analyzer::collect(Module& module) {
     enterModule(&module);
     ModuleScope& scope = *scopes_[module.id];
-    for (const Decl* decl : module.decl->decls) {
+    const std::span<Decl* const> decls = module.decl->decls;
+    for (size_t i = 0; i < decls.size(); ++i) {
+        constexpr size_t kAhead = 8;
+        if (i + kAhead < decls.size() && decls[i + kAhead]->kind == NodeKind::Data)
+            interner_.expect(context_.tree->text(as<DataDecl>(*decls[i + kAhead]).name));
+        const Decl* decl = decls[i];
         switch (decl->kind) {
         case NodeKind::Record:
         case NodeKind::Alias: {

@@ -74,6 +74,10 @@ NameId Interner::intern(std::string_view name) {
     }
 }
 
+void Interner::expect(std::string_view name) const {
+    __builtin_prefetch(&slots_[foldedHash(name) & (slots_.size() - 1)]);
+}
+
 NameId Interner::add(std::string_view name, uint32_t hash, size_t slot) {
     const auto id = static_cast<NameId>(entries_.size());
     entries_.push_back({hash, static_cast<uint32_t>(text_.size()), static_cast<uint32_t>(name.size())});

@@ -18,6 +18,8 @@ class Interner {
   public:
     Interner();
     NameId intern(std::string_view name);
+    /// Begins to load what intern() will look at: a table of many names lies far from the processor.
+    void expect(std::string_view name) const;
     /// The folded (lower-case) spelling.
     std::string_view folded(NameId id) const {
         return {text_.data() + entries_[id].begin, entries_[id].length};
