@@ -66,7 +66,7 @@ class LiteralReader {
         return want == TypeKind::Num || want == TypeKind::Dnum;
     }
 
-    PlainScanner scanner_;
+    PlainScanner<true> scanner_;
     Arena* arena_;
 };
 

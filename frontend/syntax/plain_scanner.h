@@ -9,7 +9,8 @@ namespace rapid::syntax {
 enum class PlainPiece : uint8_t { Open, Close, Comma, Number, String, Bool, Other };
 
 /// A NUL must follow the text. What a plain aggregate cannot hold is PlainPiece::Other, also what is only unusual.
-class PlainScanner {
+/// `known`: somebody went over the text before, there is nothing unusual in it.
+template <bool known> class PlainScanner {
   public:
     /// `at`: where the '[' is.
     explicit PlainScanner(const char* at) : p_(at) {}
@@ -63,6 +64,12 @@ class PlainScanner {
     PlainPiece number() {
         constexpr int kMaxLength = 12;
         const char* p = p_;
+        if constexpr (known) {
+            while (*p != ',' && *p != ']' && *p > ' ' && *p != '!')
+                ++p;
+            p_ = p;
+            return PlainPiece::Number;
+        }
         while (isDigit(*p))
             ++p;
         if (*p == '.') ++p;
@@ -111,7 +118,7 @@ class PlainScanner {
 /// The end of the plain aggregate whose '[' is at `at`, behind its ']'; null when what stands there is none.
 inline const char* plainAggregateEnd(const char* at) {
     constexpr uint32_t kMaxPlainDepth = 32;
-    PlainScanner scanner(at);
+    PlainScanner<false> scanner(at);
     uint32_t depth = 0;
     bool wanted = true; // an element is
     for (;;) {
