@@ -42,9 +42,10 @@ const Expr& bare(const Expr& e) {
 const ConstValue* Walker::constant(const Expr& e) const {
     const sema::ExprInfo& known = info(e);
     if (known.constant || e.kind != NodeKind::Name) return known.constant;
-    const sema::Symbol* symbol = known.symbol; // perhaps a point whose value nobody asked for before
-    const auto* data = symbol && symbol->kind == sema::SymbolKind::Data ? static_cast<const DataSymbol*>(symbol) : nullptr;
-    return data && data->dataKind == DataKind::Const && data->isUnreadLiteral() ? &data->value() : nullptr;
+    // Perhaps a point that was only passed on, so that nobody asked for its value.
+    if (!known.symbol || known.symbol->kind != sema::SymbolKind::Data) return nullptr;
+    const auto& data = static_cast<const DataSymbol&>(*known.symbol);
+    return data.isLiteralConstant() ? &data.value() : nullptr;
 }
 
 const double* Walker::number(const Expr& e) const {

@@ -407,10 +407,10 @@ class Analyzer {
     std::vector<TaskFile> files_;                      ///< of the task
     std::vector<DataSymbol*> assumed_, spareAssumed_;  ///< configured objects known by use; old ones
     const NameMap<Symbol>* earlier_ = nullptr; ///< what the module declared when it was checked before
-    bool keeps_ = false;     ///< facts are kept when other files change: they must not share memory
-    bool entangled_ = false; ///< see TaskScope
+    bool keeps_ = false;       ///< facts are kept when other files change: they must not share memory
+    bool entangled_ = false;   ///< see TaskScope
     bool leaveUnread_ = false; ///< the value of the name that is looked at concerns nobody
-    uint32_t lastStamp_ = 0; ///< of a check of a file
+    uint32_t lastStamp_ = 0;   ///< of a check of a file
     std::vector<Symbol*> routineNames_; ///< by NameId: parameters, data and loop variables of the routine
     std::vector<NameId> declaredInRoutine_;
     NameMap<const Type> signalUses_; ///< undeclared names that stand where a signal is expected

@@ -35,7 +35,8 @@ class ExprTable {
         return chunk ? chunk[id % kPerChunk] : none_;
     }
     ExprInfo& at(uint32_t id) {
-        if (id / kPerChunk >= chunks_.size()) chunks_.resize(id / kPerChunk + 1); // elements that were made since
+        if (id / kPerChunk >= chunks_.size())
+            chunks_.resize(id / kPerChunk + 1); // elements that were made since
         ExprInfo*& chunk = chunks_[id / kPerChunk];
         if (!chunk) chunk = makeChunk();
         return chunk[id % kPerChunk];

@@ -58,7 +58,7 @@ Place Analyzer::namePlace(const NameExpr& e, const Type* handle) {
     if (data->dataKind == DataKind::Const && data->storage != Storage::Parameter &&
         data->storage != Storage::Signal) {
         ensureValue(*data);
-        if (leaveUnread_ && data->isUnreadLiteral()) return place;
+        if (leaveUnread_ && data->isLiteralConstant()) return place;
         const ConstValue& value = data->value();
         if (value.kind != ConstValue::Kind::None) result.constant = &value;
     }

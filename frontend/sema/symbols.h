@@ -123,8 +123,8 @@ struct DataSymbol : Symbol {
     }
     ConstValue& valueSlot() { return value_; }
     /// The value is that of `init`, a plain aggregate of this type; it is read when first asked for.
-    void setLiteral() { literal_ = true; }
-    bool isUnreadLiteral() const { return literal_; }
+    void setLiteral() { literal_ = isLiteral_ = true; }
+    bool isLiteralConstant() const { return isLiteral_ && dataKind == syntax::DataKind::Const; }
 
     void reset() {
         DataSymbol fresh;
@@ -139,7 +139,8 @@ struct DataSymbol : Symbol {
     void readLiteral() const; // literal_value.cpp
 
     mutable ConstValue value_;
-    mutable bool literal_ = false;
+    mutable bool literal_ = false; ///< not read yet
+    bool isLiteral_ = false;
 };
 
 /// How a native may be called; from `effects:` in the declaration.

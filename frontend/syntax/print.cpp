@@ -218,6 +218,13 @@ std::string printTree(const SyntaxTree& tree) {
     return printer.take();
 }
 
+namespace {
+/// What stands behind it was made later (SyntaxTree::tokens).
+bool isEnd(const SyntaxTree& tree, TokenIndex i) {
+    return tree.tokens[i].kind == TokenKind::EndOfFile;
+}
+} // namespace
+
 std::string printTokens(const SyntaxTree& tree) {
     std::string out;
     // Lines and columns are counted along: asking for each would take squared time in a very long line.
@@ -235,6 +242,7 @@ std::string printTokens(const SyntaxTree& tree) {
         const std::string_view text = tree.text(i);
         out += fmt::format("{}:{} {}{}{}\n", at.line, at.column, tokenKindName(tree.tokens[i].kind),
                            text.empty() ? "" : " ", text);
+        if (isEnd(tree, i)) break;
     }
     return out;
 }
@@ -245,6 +253,7 @@ std::string printSource(const SyntaxTree& tree) {
     for (TokenIndex i = 0; i < tree.tokens.size(); ++i) {
         out += gapBefore(tree, i);
         out += tree.text(i);
+        if (isEnd(tree, i)) break;
     }
     return out;
 }

@@ -1,6 +1,6 @@
 // libFuzzer target: any texts as the modules of two tasks go through the whole front end. Modules are divided by a line
 // with FF, tasks by one with FE. A part of the standard library is known. Must not crash or hang; diagnostics must lie
-// within their files.
+// within their files, and be the same for who only wants diagnostics.
 
 #include "frontend/sema/checker.h"
 #include "fuzz_support.h"
@@ -72,9 +72,16 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     options.requireMain = size % 2 != 0;
     options.configurationKnown = size % 3 == 0;
     options.signals = {{"di1", "signaldi"}, {"do1", "signaldo"}, {"go1", "signalgo"}};
-    diag::Sink sink;
-    const auto program = sema::check(tasksOf(bytes), options, sink);
-    fuzz::require(program != nullptr, "no program");
-    fuzz::checkDiagnostics(sink);
+    std::string shown[2];
+    for (const bool only : {false, true}) {
+        options.onlyDiagnostics = only;
+        diag::Sink sink;
+        const auto program = sema::check(tasksOf(bytes), options, sink);
+        fuzz::require(program != nullptr, "no program");
+        fuzz::checkDiagnostics(sink);
+        for (const diag::Diagnostic& d : sink.sorted())
+            shown[only] += renderText(d, false);
+    }
+    fuzz::require(shown[0] == shown[1], "other diagnostics for who only wants them");
     return 0;
 }

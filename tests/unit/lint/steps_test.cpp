@@ -93,3 +93,42 @@ TEST_CASE("warnings are the same file by file as at the end", "[lint]") {
     CHECK(fileByFile(several, seen) == atTheEnd(several));
     CHECK(seen == 4);
 }
+
+TEST_CASE("mistakes are the same for who only wants diagnostics", "[lint]") {
+    std::vector<fs::path> paths;
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(RAPIDC_SOURCE_DIR) / "tests" / "diag"))
+        if (SourceFile::isLegacyFileType(entry.path().string()) || entry.path().extension() == ".modx")
+            paths.push_back(entry.path());
+    REQUIRE(paths.size() > 200);
+    std::sort(paths.begin(), paths.end());
+    for (const fs::path& path : paths) {
+        INFO(path);
+        const auto tasks = tasksOf({std::make_shared<const SourceFile>(
+                                       path.filename().string(), sema::testing::readFile(path.string()))},
+                                   1);
+        size_t seen = 0;
+        CHECK(fileByFile(tasks, seen) == atTheEnd(tasks));
+    }
+}
+
+TEST_CASE("mistakes in lists of literals are the same for who only wants diagnostics", "[lint]") {
+    for (const char* value : {"[1,2,3]", "[1,2]", "[1,2,3,4]", "[1,\"a\",3]", "[1,TRUE,[3]]",
+                              "[[1,2,3],[4,5,6]]", "[1,2,-3.5E2]", "[1,\"a\",\"b\"]"}) {
+        for (const char* type : {"pos", "num", "nothing", "socketdev", "pos{2}", "num{3}", "string"}) {
+            const std::string full = type;
+            const size_t brace = full.find('{');
+            const std::string name = full.substr(0, brace);
+            const std::string dims = brace == std::string::npos ? std::string() : full.substr(brace);
+            std::string text = "MODULE m\n";
+            for (const char* kind : {"CONST", "LOCAL PERS", "VAR"})
+                text += std::string(kind) + " " + name + " d" + std::string(1, kind[0]) + dims +
+                        ":=" + value + ";\n";
+            text += "PROC main()\nVAR " + name + " local" + dims + ":=" + value + ";\nlocal:=" + value +
+                    ";\nlocal:=dC;\nIF local=dC THEN\nlocal:=" + value + ";\nENDIF\nENDPROC\nENDMODULE\n";
+            INFO(text);
+            const auto tasks = tasksOf({std::make_shared<const SourceFile>("m.modx", text)}, 1);
+            size_t seen = 0;
+            CHECK(fileByFile(tasks, seen) == atTheEnd(tasks));
+        }
+    }
+}

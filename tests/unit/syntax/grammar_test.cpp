@@ -40,7 +40,7 @@ TEST_CASE("the grammar uses every keyword and placeholder, and no other", "[synt
     for (auto k = static_cast<int>(syntax::TokenKind::KwAlias);
          k <= static_cast<int>(syntax::TokenKind::PlaceId); ++k) {
         const auto kind = static_cast<syntax::TokenKind>(k);
-        if (kind == syntax::TokenKind::FileHeader) continue;
+        if (kind == syntax::TokenKind::FileHeader || kind == syntax::TokenKind::PlainAggregate) continue;
         INFO(syntax::tokenText(kind));
         CHECK(std::find(words.begin(), words.end(), syntax::tokenText(kind)) != words.end());
     }

@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <functional>
 #include <set>
 
 using namespace rapid;
@@ -15,8 +16,21 @@ using namespace rapid::syntax;
 
 namespace {
 
+test::Parsed parseWhole(std::string text) {
+    test::Parsed result;
+    ParseOptions options;
+    options.wholeAggregates = true;
+    auto source = std::make_shared<const SourceFile>("test.modx", std::move(text));
+    result.tree = parse(std::move(source), result.sink, options);
+    return result;
+}
+
+std::string moduleData(const std::string& value) {
+    return "MODULE m\nCONST robtarget p:=" + value + ";\nCONST num after:=1;\nENDMODULE\n";
+}
+
 test::Parsed parseModuleData(const std::string& value) {
-    return parseText("MODULE m\nCONST robtarget p:=" + value + ";\nCONST num after:=1;\nENDMODULE\n");
+    return parseText(moduleData(value));
 }
 
 const Expr& initOf(const test::Parsed& parsed) {
@@ -72,14 +86,51 @@ TEST_CASE("a plain aggregate has the elements that any other one has", "[syntax]
 }
 
 TEST_CASE("the expressions of a plain aggregate are numbered as all others", "[syntax][tree]") {
-    const test::Parsed parsed = parseModuleData(kPlain[2]);
-    const uint32_t count = parsed.tree->exprCount;
-    std::multiset<uint32_t> ids;
-    collectIds(*parsed.tree->modules[0], ids);
-    CHECK(parsed.tree->exprCount == count);
-    CHECK(ids.size() == count);
-    for (uint32_t id = 0; id < count; ++id)
-        CHECK(ids.count(id) == 1);
+    for (const bool whole : {false, true}) {
+        const test::Parsed parsed = whole ? parseWhole(moduleData(kPlain[2])) : parseModuleData(kPlain[2]);
+        std::multiset<uint32_t> ids;
+        collectIds(*parsed.tree->modules[0], ids);
+        const uint32_t count = parsed.tree->exprCount;
+        CHECK(ids.size() == count);
+        for (uint32_t id = 0; id < count; ++id)
+            CHECK(ids.count(id) == 1);
+    }
+}
+
+TEST_CASE("a plain aggregate that is one token has the same elements", "[syntax][tree]") {
+    for (const char* value : kPlain) {
+        INFO(value);
+        for (const std::string& text :
+             {moduleData(value), inProcedure("VAR pos p:=" + std::string(value) + ";"),
+              inProcedure("p:=" + std::string(value) + " ;")}) {
+            const test::Parsed usual = parseText(text), whole = parseWhole(text);
+            CHECK(whole.codes().empty());
+            CHECK(whole.tree->tokens.size() < usual.tree->tokens.size());
+            CHECK(printSource(*whole.tree) == text);
+            const ModuleDecl& module = *whole.tree->modules.at(0);
+            std::string kinds, wanted;
+            const std::function<void(const SyntaxTree&, const Node&, std::string&)> walk =
+                [&](const SyntaxTree& tree, const Node& node, std::string& out) {
+                    const SourceRange at = tree.range(node);
+                    out += std::string(nodeKindName(node.kind)) + " " + std::to_string(at.begin) + "-" +
+                           std::to_string(at.end) + "\n";
+                    forEachChild(node, [&](const Node& child) { walk(tree, child, out); });
+                };
+            walk(*whole.tree, module, kinds);
+            walk(*usual.tree, *usual.tree->modules.at(0), wanted);
+            CHECK(kinds == wanted);
+            CHECK(printSource(*whole.tree) == text); // also when the elements are made
+        }
+    }
+}
+
+TEST_CASE("a file with mistakes has all its tokens", "[syntax][tree]") {
+    for (const std::string value : {"[1,2] 3", "[[1,2],[3,4]", "[1,2];;VAR", "[1,2]+[3]", "[1,-]", "[\"a]"}) {
+        INFO(value);
+        const test::Parsed usual = parseModuleData(value), whole = parseWhole(moduleData(value));
+        CHECK(whole.codes() == usual.codes());
+        CHECK(printTokens(*whole.tree) == printTokens(*usual.tree));
+    }
 }
 
 TEST_CASE("what is more than literals is no plain aggregate", "[syntax][tree]") {
