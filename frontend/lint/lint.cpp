@@ -91,16 +91,23 @@ class Errors {
     std::map<const SourceFile*, std::set<uint32_t>> places_;
 };
 
-/// Files that several tasks load: what one task does not use, another one may.
+/// Files that several tasks load, and modules of which several tasks have the same copy: what one task does not use,
+/// another one may.
 class SharedFiles {
   public:
     void find(const sema::CheckedProgram& program) {
         if (program.tasks.size() < 2) return;
-        std::map<std::string, const Task*> owners;
+        struct Owner {
+            const Task* task;
+            const std::string* path;
+        };
+        std::unordered_map<std::string_view, Owner> owners; // by text
         for (const auto& task : program.tasks)
-            for (const Module* module : task->modules)
-                if (owners.try_emplace(module->tree->source->path(), task.get()).first->second != task.get())
-                    shared_.insert(module->tree->source->path());
+            for (const Module* module : task->modules) {
+                const SourceFile& file = *module->tree->source;
+                const Owner first = owners.try_emplace(file.text(), task.get(), &file.path()).first->second;
+                if (first.task != task.get()) shared_.insert({*first.path, file.path()});
+            }
     }
     bool has(const SyntaxTree& tree) const {
         return !shared_.empty() && shared_.count(tree.source->path()) > 0;

@@ -43,9 +43,11 @@ bool readTask(std::string_view line, ListedTask& task) {
     return !task.folder.empty() && !task.name.empty();
 }
 
-/// `PROGMOD/main.mod @ main.mod`; what stands behind '@' repeats the name in lower case.
+/// `PROGMOD/main.mod @ main.mod`; what stands behind '@' repeats the name in lower case, or says HIDDEN.
 bool readModule(std::string_view line, ListedModule& module) {
-    std::string path(trimmed(line.substr(0, line.find('@'))));
+    const size_t mark = line.find('@');
+    std::string path(trimmed(line.substr(0, mark)));
+    module.hidden = mark != std::string_view::npos && trimmed(line.substr(mark + 1)).ends_with("HIDDEN");
     std::replace(path.begin(), path.end(), '\\', '/');
     const size_t slash = path.rfind('/');
     if (slash == std::string::npos || slash + 1 == path.size()) return false;
@@ -99,9 +101,9 @@ class InfoReader {
         }
         const std::string_view name = trimmed(text.substr(0, at));
         const std::string_view version = trimmed(text.substr(at + kVersion.size()));
-        if (sameName(name, "RobotWare"))
+        if (sameName(name, "RobotWare") || sameName(name, "RobotControl")) // RobotWare 7 has two parts
             out_.robotWare = std::string(version);
-        else
+        else if (!sameName(name, "RobotOS"))
             out_.addIns.push_back(std::string(name) + " " + std::string(version));
     }
 

@@ -9,8 +9,9 @@ namespace rapid::project {
 
 /// A module that a backup lists: `PROGMOD/main.mod @ `.
 struct ListedModule {
-    std::string folder; ///< "PROGMOD", "SYSMOD"
-    std::string file;   ///< "main.mod"; the file on disk may differ in case
+    std::string folder;  ///< "PROGMOD", "SYSMOD"
+    std::string file;    ///< "main.mod"; the file on disk may differ in case
+    bool hidden = false; ///< RobotWare's own: listed, but not saved
 };
 
 struct ListedTask {

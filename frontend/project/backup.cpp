@@ -126,6 +126,19 @@ class BackupLoader {
         return nullptr;
     }
 
+    bool hasTask(const ConfiguredTask& configured) const {
+        return std::any_of(tasks_.begin(), tasks_.end(),
+                           [&](const TaskParts& task) { return task.configured == &configured; });
+    }
+
+    /// A task that RAPID has no folder of, but HOME a module that is meant for it alone.
+    bool isLoadedFromHome(const ConfiguredTask& task) const {
+        return std::any_of(parameters_.modules.begin(), parameters_.modules.end(),
+                           [&](const ConfiguredModule& module) {
+                               return sameName(module.task, task.name) && !inHome(module.file).empty();
+                           });
+    }
+
     TaskParts& addTask(const std::string& name) {
         TaskParts& task = tasks_.emplace_back();
         task.input.name = name;
@@ -167,7 +180,10 @@ class BackupLoader {
         if (info_.tasks.empty()) sink_.report(Code::BackupWithoutList, nullptr, {}, {folder_.string()});
         for (const fs::path& folder : folders)
             addTask(nameFor(folder)).folder = folder;
-        if (tasks_.empty()) { // RAPID/PROGMOD and RAPID/SYSMOD: one task without a folder of its own
+        for (const ConfiguredTask& task : parameters_.tasks)
+            if (!hasTask(task) && isLoadedFromHome(task)) addTask(task.name);
+        if (tasks_.empty() &&
+            !rapid_.empty()) { // RAPID/PROGMOD and RAPID/SYSMOD: one task without a folder of its own
             addTask(parameters_.tasks.empty() ? "T_ROB1" : parameters_.tasks.front().name).folder = rapid_;
         }
     }
@@ -202,16 +218,34 @@ class BackupLoader {
         task.input.incomplete = true;
     }
 
+    /// The file of a listed module; its ending may have changed since: RobotWare 7.1 made .modx of .mod.
+    static fs::path findListed(const TaskParts& task, const ListedModule& listed) {
+        const fs::path path = findPath(task.folder, listed.folder + "/" + listed.file);
+        if (!path.empty()) return path;
+        for (const fs::path& other : entries(findPath(task.folder, listed.folder)))
+            if (isModule(other) && !isFolder(other) && sameName(other.stem().string(), stemOf(listed.file)))
+                return other;
+        return {};
+    }
+
+    void reportUnsaved(const TaskParts& task, const ListedModule& listed) {
+        const std::string name = listed.folder + "/" + listed.file;
+        const SourceRange place = infoFile_.find(listed.file, ">>" + task.listed->folder);
+        if (listed.hidden)
+            report(Code::SystemModuleNotSaved, infoFile_, place,
+                   {stemOf(listed.file), "task '" + task.input.name + "'", name + ", hidden"});
+        else if (!task.folder.empty() || task.configured) // else the task is left out, which is told
+            report(Code::ListedModuleMissing, infoFile_, place,
+                   {name, task.input.name, (fs::path("RAPID") / task.listed->folder).string()});
+    }
+
     void readModules(TaskParts& task) {
         std::vector<fs::path> done;
         const std::vector<ListedModule> none;
         for (const ListedModule& listed : task.listed ? task.listed->modules : none) {
-            const fs::path path = findPath(task.folder, listed.folder + "/" + listed.file);
+            const fs::path path = findListed(task, listed);
             if (path.empty()) {
-                const std::string name = listed.folder + "/" + listed.file;
-                report(Code::ListedModuleMissing, infoFile_,
-                       infoFile_.find(listed.file, ">>" + task.listed->folder),
-                       {name, task.input.name, (fs::path("RAPID") / task.listed->folder).string()});
+                reportUnsaved(task, listed);
                 addMissing(task, listed.file);
             } else if (std::find(done.begin(), done.end(), path) == done.end()) {
                 addModule(path, task);
@@ -261,6 +295,7 @@ class BackupLoader {
                     addModule(path, task);
                     continue;
                 }
+                if (isLeftOut(task) || isKnownMissing(task, module)) continue; // told already
                 addMissing(task, module.name);
                 lacking.push_back("'" + task.input.name + "'");
             }
@@ -272,6 +307,12 @@ class BackupLoader {
                     fmt::format("{} {}", lacking.size() == 1 ? "task" : "tasks", fmt::join(lacking, ", ")),
                     module.file});
         }
+    }
+
+    static bool isKnownMissing(const TaskParts& task, const ConfiguredModule& module) {
+        return std::any_of(task.notSaved.begin(), task.notSaved.end(), [&](const std::string& file) {
+            return sameName(stemOf(file), module.name) || sameName(stemOf(file), stemOf(module.file));
+        });
     }
 
     static std::string stemOf(const std::string& file) {
@@ -291,10 +332,7 @@ class BackupLoader {
 
     void reportMissingTasks() {
         for (const ConfiguredTask& configured : parameters_.tasks) {
-            const bool found = std::any_of(tasks_.begin(), tasks_.end(), [&](const TaskParts& task) {
-                return task.configured == &configured;
-            });
-            if (!found)
+            if (!hasTask(configured))
                 report(Code::TaskWithoutFolder, sysFile_,
                        sysFile_.find('"' + configured.name + '"', "CAB_TASKS:"), {configured.name});
         }
@@ -321,12 +359,17 @@ class BackupLoader {
         return {};
     }
 
+    static bool isLeftOut(const TaskParts& task) {
+        return !task.configured && task.input.files.empty() && task.encrypted.empty();
+    }
+
     void reportTask(const TaskParts& task) {
         const SourceRange place = task.listed ? infoFile_.find(">>" + task.listed->folder) : SourceRange();
         const sema::TaskInput& input = task.input;
-        const bool emptyFolder = !task.configured && input.files.empty() && task.encrypted.empty();
-        if (emptyFolder) {
-            report(Code::TaskLeftOut, infoFile_, place, {input.name, "the backup has no modules of it"});
+        if (isLeftOut(task)) {
+            std::string reason = "the backup has no modules of it";
+            if (task.listed && !parameters_.tasks.empty()) reason += ", an option of the controller makes it";
+            report(Code::TaskLeftOut, infoFile_, place, {input.name, reason});
             return;
         }
         if (!task.configured && !parameters_.tasks.empty())
@@ -387,7 +430,8 @@ class BackupLoader {
 
 bool isBackup(const fs::path& folder) {
     const fs::path rapid = findEntry(folder, "RAPID");
-    if (rapid.empty() || !isFolder(rapid)) return false;
+    if (rapid.empty() || !isFolder(rapid)) // it may have been lost
+        return !findEntry(findEntry(folder, "BACKINFO"), "backinfo.txt").empty();
     if (!findEntry(folder, "BACKINFO").empty()) return true;
     for (const fs::path& path : entries(rapid)) {
         const std::string name = path.filename().string();

@@ -31,7 +31,7 @@ struct TaskInput {
 struct CheckOptions {
     bool requireMain = false;        ///< build and run: a task without entry routine is an error
     bool configurationKnown = false; ///< some EIO configuration was given: an unknown signal name is an error
-    std::vector<SignalInfo> signals; ///< from the configuration
+    std::vector<SignalInfo> signals; ///< from the configuration; mechanical units as well
     /// RobotWare options of the controller, e.g. "623-1 Multitasking", when a backup tells them; else unknown.
     std::optional<std::vector<std::string>> robotWareOptions;
     std::span<const LibraryText> library;

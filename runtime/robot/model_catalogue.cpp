@@ -46,12 +46,18 @@ bool isMechanicalUnit(const std::string& token) {
            std::all_of(token.begin() + 3, token.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
+/// "TypeB", as in ROB1_1200_0.9_5_TypeB: a later edition of the arm with the same axes.
+bool isEdition(const std::string& token) {
+    return token.size() == 5 && token.rfind("type", 0) == 0;
+}
+
 NameParts takeApart(std::string_view name) {
     NameParts parts;
-    bool isUnitNumber = false; // ROB_1
+    bool isUnitNumber = false; // ROB_1, Type B
     for (std::string token : tokens(name)) {
-        const bool skip = isMechanicalUnit(token) || (isUnitNumber && token.size() == 1);
-        isUnitNumber = token == "rob";
+        const bool skip = isMechanicalUnit(token) || isEdition(token) || token == "type" ||
+                          (isUnitNumber && token.size() == 1);
+        isUnitNumber = token == "rob" || token == "type";
         if (skip) continue;
         for (std::string_view series : {"irb", "crb"}) {
             if (parts.family.empty() && token.rfind(series, 0) == 0) {

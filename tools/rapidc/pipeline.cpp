@@ -40,7 +40,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-/// The configured signals by name and RAPID type; the runtime reads the same files again when the program starts.
+/// The configured signals and mechanical units by name and RAPID type; the runtime reads the same files again when the program starts.
 void readConfiguration(Compilation& compilation, const std::vector<std::string>& files,
                        sema::CheckOptions& options) {
     for (const std::string& path : files) {
@@ -58,6 +58,11 @@ void readConfiguration(Compilation& compilation, const std::vector<std::string>&
             compilation.sink.report(diag::Code::ConfigurationProblem, nullptr, {}, {problem.text()});
         compilation.configNames.push_back(path);
         compilation.configTexts.push_back(bytes.str());
+        if (upper(cfg.domain) == "MOC")
+            for (const char* type : {"ROBOT", "MECHANICAL_UNIT"})
+                for (const rt::CfgSection* section : cfg.find(type))
+                    for (const rt::CfgInstance& unit : section->instances)
+                        options.signals.push_back({unit.text("name"), "mecunit"});
         if (upper(cfg.domain) != "EIO") continue;
         options.configurationKnown = true;
         for (const rt::CfgSection* section : cfg.find("EIO_SIGNAL"))

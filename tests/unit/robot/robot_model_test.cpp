@@ -82,6 +82,8 @@ TEST_CASE("names are found in the spellings people and controllers use", "[robot
     CHECK(nameFor("IRB_120_3_0.58") == "IRB 120-3/0.58");
     CHECK(nameFor("ROB1_120_0.58_3") == "IRB 120-3/0.58");
     CHECK(nameFor("ROB1_1660ID_1.55_4") == "IRB 1660ID-4/1.55");
+    CHECK(nameFor("ROB1_1200_0.9_5_TypeB") == "IRB 1200-5/0.9"); // an edition with the same axes
+    CHECK(nameFor("IRB 4600-40/2.55 Type B") == "IRB 4600-40/2.55");
     CHECK(nameFor("ROB_1_6700_3.20_150") == "IRB 6700-150/3.2");
     CHECK(nameFor("IRB 1200-5") == "IRB 1200-5/0.9");
     CHECK(nameFor("IRB 1200/0.7") == "IRB 1200-7/0.7");

@@ -78,6 +78,9 @@ TEST_CASE("backinfo.txt of RobotWare 5 and 6 is understood", "[project][backup]"
     CHECK(info.systemId == "Cell 7");
     CHECK(info.robotWare == "5.15.03");
     CHECK(info.addIns == std::vector<std::string>{"Tracker 2.1"});
+    CHECK(readBackupInfo(">>PRODUCTS_ID:\nRobotControl Version: 7.8.0\nRobotOS Version: 3.1\n").robotWare ==
+          "7.8.0");
+    CHECK(readBackupInfo(">>PRODUCTS_ID:\nRobotOS Version: 3.1\n").addIns.empty());
     CHECK(info.options == std::vector<std::string>{"616-1 PC Interface", "IRB 2600-20/1.65"});
     REQUIRE(info.tasks.size() == 2);
     CHECK(info.tasks[0].folder == "TASK1");
@@ -172,6 +175,76 @@ TEST_CASE("a task of an option is in backinfo.txt, but not in CAB_TASKS", "[proj
     CHECK(backup.project.tasks.at(1)
               .optional); // without an entry routine it does not stand in the way of a run
     CHECK_FALSE(backup.project.tasks.at(0).optional);
+}
+
+TEST_CASE("a task of an option without modules is one warning", "[project][backup]") {
+    Backup backup;
+    backup.write("BACKINFO/backinfo.txt", ">>TASK1: (T_ROB1,,)\n>>TASK2: (SC_CBC,,)\nSYSMOD/user.sys @ \n");
+    backup.write("SYSPAR/SYS.cfg",
+                 "SYS:CFG_1.0:6:0::\n#\nCAB_TASKS:\n\n      -Name \"T_ROB1\" -Type \"NORMAL\"\n#\n"
+                 "CAB_TASK_MODULES:\n\n      -File \"HOME:/user.sys\" -AllTask \n");
+    backup.write("RAPID/TASK1/PROGMOD/main.mod", kModule);
+    backup.write("RAPID/TASK1/SYSMOD/user.sys", kModule);
+    backup.load();
+    CHECK(backup.codes() == "RAP6057");
+    CHECK(backup.message(diag::Code::TaskLeftOut) ==
+          "task 'SC_CBC' is left out: the backup has no modules of it, an option of the controller makes it");
+    CHECK(backup.project.tasks.size() == 1);
+}
+
+TEST_CASE("a task may live in HOME alone", "[project][backup]") {
+    Backup backup;
+    backup.write("BACKINFO/backinfo.txt", ">>TASK1: (T_ROB1,,)\nPROGMOD/main.mod @ \n");
+    backup.write("SYSPAR/SYS.cfg", std::string(kSystem) + "\n      -Name \"T_LOST\"\n#\nCAB_TASK_MODULES:\n\n"
+                                                          "      -File \"HOME:/bg.mod\" -Task \"T_BG\"\n\n"
+                                                          "      -File \"HOME:/all.sys\" -AllTask \n");
+    backup.write("RAPID/TASK1/PROGMOD/main.mod", kModule);
+    backup.write("HOME/bg.mod", kModule);
+    backup.write("HOME/all.sys", kModule); // does not make a task of T_LOST
+    backup.load();
+    CHECK(backup.codes() == "RAP6053");
+    REQUIRE(backup.project.tasks.size() == 2);
+    CHECK(backup.project.tasks[1].name == "T_BG");
+    CHECK(backup.project.tasks[1].entry == "bgmain");
+    CHECK(backup.modules(1) == "bg.mod all.sys");
+}
+
+TEST_CASE("a module that is missing is told once", "[project][backup]") {
+    Backup backup;
+    backup.write("BACKINFO/backinfo.txt",
+                 ">>TASK1: (T_ROB1,,)\nPROGMOD\\main.mod @ \nSYSMOD\\USER.sys @ user.sys\n"
+                 "SYSMOD\\LINKEDM.sys @ HIDDEN\n");
+    backup.write("SYSPAR/SYS.cfg", "SYS:CFG_1.0:6:0::\n#\nCAB_TASK_MODULES:\n\n"
+                                   "      -File \"HOME:/user.sys\" -ModName \"user\" -AllTask \n");
+    backup.write("RAPID/TASK1/PROGMOD/main.mod", kModule);
+    backup.load();
+    CHECK(backup.codes() == "RAP6055 RAP6059"); // RAP6059: nobody can copy what is hidden
+    CHECK(backup.message(diag::Code::SystemModuleNotSaved).find("'LINKEDM' of task 'T_ROB1'") !=
+          std::string::npos);
+    CHECK(backup.modules(0) == "main.mod ?USER.sys ?LINKEDM.sys");
+}
+
+TEST_CASE("a listed module whose ending has changed is the same module", "[project][backup]") {
+    Backup backup;
+    backup.write("BACKINFO/backinfo.txt", ">>TASK1: (T_ROB1,,)\nPROGMOD/Main.mod @ \nSYSMOD/main.sys @ \n"
+                                          "PROGMOD/Lost.mod @ \n");
+    backup.write("RAPID/TASK1/PROGMOD/Main.modx", kModule);
+    backup.write("RAPID/TASK1/PROGMOD/Lost.txt", "");
+    backup.write("RAPID/TASK1/SYSMOD/Main.sysx", kModule);
+    backup.load();
+    CHECK(backup.codes() == "RAP6055");
+    CHECK(backup.modules(0) == "Main.modx Main.sysx ?Lost.mod");
+}
+
+TEST_CASE("a backup that has lost its RAPID folder still says what was in it", "[project][backup]") {
+    Backup backup;
+    backup.write("BACKINFO/backinfo.txt", ">>SYSTEM_ID:\nCell 7\n>>TASK1: (T_ROB1,,)\nPROGMOD/a.mod @ \n");
+    backup.write("SYSPAR/SYS.cfg",
+                 "SYS:CFG_1.0:6:0::\n#\nCAB_TASKS:\n\n      -Name \"T_ROB1\" -Type \"NORMAL\"\n");
+    backup.load();
+    CHECK(backup.codes() == "RAP6022 RAP6055 RAP6057");
+    CHECK(backup.message(diag::Code::BackupOverview) == "backup of system 'Cell 7': 1 task, 0 signals");
+    CHECK(backup.project.tasks.empty());
 }
 
 TEST_CASE("names in a backup differ in case from the files", "[project][backup]") {
