@@ -38,7 +38,6 @@ void Analyzer::checkRoutine(RoutineSymbol& symbol) {
         context_.constant = false;
     }
     const bool completes = checkPart(Part::Body, decl.body);
-    const bool returned = returnSeen_;
     checkPart(Part::Backward, decl.backward);
     for (const ErrorClause* clause : decl.errors) {
         for (const Expr* number : clause->numbers)
@@ -47,7 +46,7 @@ void Analyzer::checkRoutine(RoutineSymbol& symbol) {
     }
     checkPart(Part::Undo, decl.undo);
     if (decl.routineKind == RoutineKind::Func && completes && !broken_) {
-        if (!returned)
+        if (!returnSeen_) // not even in a handler
             report(Code::FunctionWithoutReturn, range(decl.name), {symbol.name});
         else
             report(Code::FunctionPathWithoutReturn, range(decl.name), {symbol.name});

@@ -11,12 +11,12 @@ using namespace syntax;
 
 void Analyzer::returnStmt(const ReturnStmt& s) {
     const RoutineSymbol& routine = *context_.routine;
-    if (part_ == Part::Body) returnSeen_ = true;
     if (part_ == Part::Undo) {
         if (s.value) visitLoose(*s.value);
         report(Code::IgnoredInUndo, range(s.first), {"RETURN"});
         return;
     }
+    returnSeen_ = true;
     if (routine.routineKind != RoutineKind::Func) {
         if (!s.value) return;
         visitLoose(*s.value);
