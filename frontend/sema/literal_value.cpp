@@ -2,7 +2,7 @@
 
 #include "frontend/sema/checked.h"
 #include "frontend/syntax/lexer.h"
-#include "frontend/syntax/plain_scanner.h"
+#include "frontend/syntax/plain_pieces.h"
 
 namespace rapid::sema {
 
@@ -10,15 +10,14 @@ using namespace syntax;
 
 namespace {
 
-/// Walks along the text of a plain aggregate and the type it shall have.
-class LiteralReader {
+/// Walks along the pieces of a plain aggregate and the type it shall have.
+template <class Pieces> class LiteralReader {
   public:
     /// Without an arena it only looks whether the types are right.
-    LiteralReader(const SyntaxTree& tree, const AggregateExpr& plain, Arena* arena)
-        : scanner_(tree.source->text().data() + tree.range(plain.first).begin), arena_(arena) {}
+    LiteralReader(Pieces pieces, Arena* arena) : pieces_(pieces), arena_(arena) {}
 
     bool read(const DataType& want, ConstValue* value) {
-        const PlainPiece piece = scanner_.next();
+        const PlainPiece piece = pieces_.next();
         if (piece == PlainPiece::Open) return readAggregate(want, value);
         return want.rank == 0 && readAtom(piece, want.type->kind, value);
     }
@@ -40,13 +39,13 @@ class LiteralReader {
         for (size_t i = 0; i < count; ++i) {
             if (!array) member = {components[i].type, 0, {}};
             if (!read(member, value ? &members[i] : nullptr)) return false;
-            if (scanner_.next() != (i + 1 < count ? PlainPiece::Comma : PlainPiece::Close)) return false;
+            if (pieces_.next() != (i + 1 < count ? PlainPiece::Comma : PlainPiece::Close)) return false;
         }
         return true;
     }
 
     bool readAtom(PlainPiece found, TypeKind want, ConstValue* value) {
-        const std::string_view text = scanner_.text();
+        const std::string_view text = pieces_.text();
         if (found == PlainPiece::String) {
             if (value) value->setText(decodeStringLiteral(text), *arena_);
             return want == TypeKind::String;
@@ -61,25 +60,34 @@ class LiteralReader {
             const double rounded =
                 want == TypeKind::Num ? static_cast<double>(static_cast<float>(number)) : number;
             value->kind = ConstValue::Kind::Number;
-            value->number = scanner_.isNegative() ? -rounded : rounded;
+            value->number = pieces_.isNegative() ? -rounded : rounded;
         }
         return want == TypeKind::Num || want == TypeKind::Dnum;
     }
 
-    PlainScanner<true> scanner_;
+    Pieces pieces_;
     Arena* arena_;
 };
+
+bool readLiteral(const DataType& want, const SyntaxTree& tree, const AggregateExpr& plain, Arena* arena,
+                 ConstValue* value) {
+    if (tree.tokens[plain.first].kind == TokenKind::PlainAggregate) {
+        const PlainText<true> pieces(tree.text(plain.first).data());
+        return LiteralReader(pieces, arena).read(want, value);
+    }
+    return LiteralReader(PlainTokens<true>(tree, plain.first), arena).read(want, value);
+}
 
 } // namespace
 
 bool isLiteralOf(const DataType& want, const SyntaxTree& tree, const AggregateExpr& plain) {
-    return LiteralReader(tree, plain, nullptr).read(want, nullptr);
+    return readLiteral(want, tree, plain, nullptr, nullptr);
 }
 
 ConstValue literalValue(const DataType& want, const SyntaxTree& tree, const AggregateExpr& plain,
                         Arena& arena) {
     ConstValue value;
-    LiteralReader(tree, plain, &arena).read(want, &value);
+    readLiteral(want, tree, plain, &arena, &value);
     return value;
 }
 

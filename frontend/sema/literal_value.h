@@ -1,5 +1,5 @@
 #pragma once
-// The value of an aggregate of literals, read from its text. Internal to frontend/sema.
+// The value of an aggregate of literals, read from its text or tokens. Internal to frontend/sema.
 
 #include "frontend/sema/types.h"
 #include "frontend/syntax/ast.h"

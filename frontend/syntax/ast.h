@@ -104,7 +104,7 @@ class AggregateExpr : public Expr {
         count_ = static_cast<uint32_t>(elements.size());
         made_ = true;
     }
-    /// Nothing but what a PlainScanner knows from `first` to `last`, in order.
+    /// Nothing but PlainPieces from `first` to `last`, in order.
     bool isPlain() const { return plain_; }
     void setPlain(SyntaxTree& tree) {
         tree_ = &tree;

@@ -1,6 +1,6 @@
 #include "frontend/syntax/lexer.h"
 #include "frontend/syntax/foreign_characters.h"
-#include "frontend/syntax/plain_scanner.h"
+#include "frontend/syntax/plain_pieces.h"
 #include "frontend/syntax/token_set.h"
 
 #include <fmt/format.h>
@@ -505,8 +505,10 @@ class Lexer {
     bool readPlainAggregate() {
         if (lastKind() != TokenKind::Assign) return false;
         const char* start = p_;
-        const char* end = plainAggregateEnd(start);
-        if (!end || end - start > static_cast<std::ptrdiff_t>(kMaxTokenLength)) return false;
+        PlainText<false> pieces(start);
+        if (!skipPlainAggregate(pieces)) return false;
+        const char* end = pieces.end();
+        if (end - start > static_cast<std::ptrdiff_t>(kMaxTokenLength)) return false;
         const char* after = end;
         while (classAt(after) == CharClass::Space)
             ++after;

@@ -1,7 +1,7 @@
 // Aggregates of nothing but literals: their elements are made when somebody asks (see AggregateExpr).
 
 #include "frontend/syntax/parser_impl.h"
-#include "frontend/syntax/plain_scanner.h"
+#include "frontend/syntax/plain_pieces.h"
 
 #include <algorithm>
 
@@ -11,11 +11,9 @@ namespace rapid::syntax {
 Expr* Parser::parsePlainAggregate() {
     TokenIndex last = pos_;
     if (kind() == K::LeftBracket) {
-        const char* text = tree_.source->text().data();
-        const char* end = plainAggregateEnd(text + tokens_[pos_].offset);
-        if (!end) return nullptr;
-        while (text + tokens_[last].offset + 1 < end) // its ']' is the last character
-            ++last;
+        PlainTokens<false> pieces(tree_, pos_);
+        if (!skipPlainAggregate(pieces)) return nullptr;
+        last = static_cast<TokenIndex>(pieces.end() - tokens_) - 1;
     } else if (kind() != K::PlainAggregate) {
         return nullptr;
     }

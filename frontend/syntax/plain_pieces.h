@@ -1,19 +1,20 @@
 #pragma once
-// Walks over the text of a plain aggregate (AggregateExpr), piece by piece: the one place that knows what is plain.
+// Walks over a plain aggregate (AggregateExpr), piece by piece, as text or as tokens: the one place that knows what is plain.
 
-#include <cstdint>
-#include <string_view>
+#include "frontend/syntax/ast.h"
+
+#include <array>
 
 namespace rapid::syntax {
 
 enum class PlainPiece : uint8_t { Open, Close, Comma, Number, String, Bool, Other };
 
-/// A NUL must follow the text. What a plain aggregate cannot hold is PlainPiece::Other, also what is only unusual.
+/// Over the text: for aggregates that are one token. A NUL must follow the text. What a plain aggregate cannot hold is PlainPiece::Other, also what is only unusual.
 /// `known`: somebody went over the text before, there is nothing unusual in it.
-template <bool known> class PlainScanner {
+template <bool known> class PlainText {
   public:
     /// `at`: where the '[' is.
-    explicit PlainScanner(const char* at) : p_(at) {}
+    explicit PlainText(const char* at) : p_(at) {}
 
     PlainPiece next() {
         skipGap();
@@ -115,32 +116,78 @@ template <bool known> class PlainScanner {
     bool negative_ = false;
 };
 
-/// The end of the plain aggregate whose '[' is at `at`, behind its ']'; null when what stands there is none.
-inline const char* plainAggregateEnd(const char* at) {
+/// Over the tokens, where there are some: they need not be found again.
+template <bool known> class PlainTokens {
+  public:
+    /// `at`: the '['.
+    PlainTokens(const SyntaxTree& tree, TokenIndex at)
+        : text_(tree.source->text().data()), at_(&tree.tokens[at]) {}
+
+    PlainPiece next() {
+        negative_ = at_->kind == TokenKind::Minus;
+        at_ += negative_;
+        last_ = at_++;
+        const PlainPiece piece = kPieces[static_cast<size_t>(last_->kind)];
+        if (piece == PlainPiece::Number) return known || isSmall(text()) ? piece : PlainPiece::Other;
+        return negative_ ? PlainPiece::Other : piece;
+    }
+    /// Behind the last piece.
+    const Token* end() const { return at_; }
+    std::string_view text() const { return {text_ + last_->offset, last_->length}; }
+    bool isNegative() const { return negative_; }
+
+  private:
+    /// A table and no switch: which token comes next is hard to foresee, and a wrong guess costs more than the rest.
+    static constexpr std::array<PlainPiece, 256> kPieces = [] {
+        std::array<PlainPiece, 256> table{};
+        const auto set = [&](TokenKind kind, PlainPiece piece) { table[static_cast<size_t>(kind)] = piece; };
+        table.fill(PlainPiece::Other);
+        set(TokenKind::LeftBracket, PlainPiece::Open);
+        set(TokenKind::RightBracket, PlainPiece::Close);
+        set(TokenKind::Comma, PlainPiece::Comma);
+        set(TokenKind::NumLiteral, PlainPiece::Number);
+        set(TokenKind::StringLiteral, PlainPiece::String);
+        set(TokenKind::KwTrue, PlainPiece::Bool);
+        set(TokenKind::KwFalse, PlainPiece::Bool);
+        return table;
+    }();
+
+    /// Digits, perhaps with a dot and a short exponent, of a number token: below the greatest num.
+    static bool isSmall(std::string_view number) {
+        constexpr size_t kMaxLength = 12;
+        if (number.size() > kMaxLength) return false;
+        size_t i = 0;
+        while (i < number.size() && number[i] <= '9') // the lexer lets through digits, dots and letters only
+            ++i;
+        if (i == number.size()) return true;
+        if ((number[i] | 0x20) != 'e') return false;
+        std::string_view exponent = number.substr(i + 1);
+        if (exponent.starts_with('-')) return exponent.size() <= 3;
+        if (exponent.starts_with('+')) exponent.remove_prefix(1);
+        return exponent.size() == 1 || (exponent.size() == 2 && exponent[0] <= '2');
+    }
+
+    const char* text_;
+    const Token* at_;
+    const Token* last_ = nullptr;
+    bool negative_ = false;
+};
+
+/// Goes behind the ']' of a plain aggregate; false when there is none.
+template <class Pieces> bool skipPlainAggregate(Pieces& pieces) {
     constexpr uint32_t kMaxPlainDepth = 32;
-    PlainScanner<false> scanner(at);
     uint32_t depth = 0;
     bool wanted = true; // an element is
     for (;;) {
-        switch (scanner.next()) {
-        case PlainPiece::Open:
-            if (!wanted || ++depth > kMaxPlainDepth) return nullptr;
-            break;
-        case PlainPiece::Close:
-            if (wanted) return nullptr;
-            if (--depth == 0) return scanner.end();
-            break;
-        case PlainPiece::Comma:
-            if (wanted) return nullptr;
-            wanted = true;
-            break;
-        case PlainPiece::Number:
-        case PlainPiece::String:
-        case PlainPiece::Bool:
-            if (!wanted || depth == 0) return nullptr;
-            wanted = false;
-            break;
-        case PlainPiece::Other: return nullptr;
+        const PlainPiece piece = pieces.next();
+        if (piece == PlainPiece::Comma || piece == PlainPiece::Close) {
+            if (wanted) return false;
+            wanted = piece == PlainPiece::Comma;
+            if (!wanted && --depth == 0) return true;
+        } else {
+            if (!wanted || piece == PlainPiece::Other) return false;
+            wanted = piece == PlainPiece::Open;
+            if (wanted ? ++depth > kMaxPlainDepth : depth == 0) return false;
         }
     }
 }
