@@ -269,6 +269,11 @@ const char* Analyzer::missingClass(ParamClass accepts, const DataType& found) {
     switch (accepts) {
     case ParamClass::Any: break;
     case ParamClass::Value: return unless(isValueType(type), "data of a value type");
+    case ParamClass::ValueOrSignal: {
+        const bool unit = type.base()->name == "mecunit";
+        return unless(isValueType(type) || (scalar && (signal || unit)),
+                      "data of a value type, or a signal variable");
+    }
     case ParamClass::Atomic:
         return unless(scalar && (type.isNumeric() || type.kind == TypeKind::Bool || string),
                       "data of type num, dnum, bool or string");

@@ -94,6 +94,7 @@ uint8_t lintTraitOf(std::string_view word) {
 
 ParamClass classOf(std::string_view words) {
     if (words == "value") return ParamClass::Value;
+    if (words == "value or signal") return ParamClass::ValueOrSignal;
     if (words == "atomic") return ParamClass::Atomic;
     if (words == "numeric") return ParamClass::Numeric;
     if (words == "signal") return ParamClass::Signal;

@@ -92,7 +92,7 @@ enum class Storage : uint8_t {
 };
 
 /// What a parameter of pseudo-type `anytype` takes; from `where:` in the declaration.
-enum class ParamClass : uint8_t { Any, Value, Atomic, Numeric, Signal, SignalOrString, Array };
+enum class ParamClass : uint8_t { Any, Value, ValueOrSignal, Atomic, Numeric, Signal, SignalOrString, Array };
 
 struct DataSymbol : Symbol {
     Storage storage = Storage::ModuleData;

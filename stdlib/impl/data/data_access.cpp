@@ -158,10 +158,27 @@ class Lookup {
 
 using namespace rt;
 
+namespace {
+
+/// A signal variable gets the configured signal of that name, which is no data object.
+bool readSignal(TaskCore* task, const String& name, void* value, const TypeDesc& type) {
+    const std::string_view kind(type.baseName);
+    if (type.kind != DescKind::Handle || !kind.starts_with("signal")) return false;
+    const IoSystem& io = taskOf(task).controller().io();
+    const SignalId id = io.find(name.view());
+    if (id < 0 || !sameName(kind.substr(6), signalTypeName(io.config(id).type))) return false;
+    const Handle handle = IoSystem::handleOf(id);
+    std::memcpy(value, &handle, sizeof handle);
+    return true;
+}
+
+} // namespace
+
 extern "C" {
 
 Status rt_GetDataVal(TaskCore* task, const String* Object, Handle* Block, Handle* TaskRef,
                      const String* TaskName, void* Value, const TypeDesc* ValueType) {
+    if (readSignal(task, *Object, Value, *ValueType)) return kOk;
     DebugVariable object;
     const Status status = lib::Lookup(task, *Object).find(Block, TaskRef, TaskName, object);
     return status != kOk ? status : lib::copyData(task, object, Value, *ValueType, false);
