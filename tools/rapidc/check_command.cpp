@@ -4,6 +4,7 @@
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/pipeline.h"
 
+#include "frontend/project/neighbours.h"
 #include "frontend/source/heap.h"
 #include "runtime/host/run_options.h"
 
@@ -49,6 +50,7 @@ int check(const CheckSettings& settings) {
     // Kept to the end of the process: taking a large program apart takes as long as parsing it.
     static std::unique_ptr<Compilation> kept;
     kept = checkInputs(settings.inputs);
+    rapid::project::noteNeighbours(kept->sink, settings.inputs.paths);
     const Compilation* compilation = kept.get();
     if (!compilation->usageErrors.empty()) {
         for (const std::string& problem : compilation->usageErrors)
