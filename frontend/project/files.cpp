@@ -1,12 +1,10 @@
 #include "frontend/project/files.h"
 
+#include "config/read_file.h"
 #include "config/text_util.h"
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <sys/stat.h>
 
 namespace rapid::project {
@@ -63,24 +61,9 @@ fs::path findPath(const fs::path& folder, std::string_view relative) {
 }
 
 bool FileReader::read(const fs::path& path, std::string& bytes) {
-    errno = 0;
-    std::FILE* file = std::fopen(path.c_str(), "rb");
-    bool good = file != nullptr;
-    if (file) {
-        std::error_code unknown;
-        const auto size = fs::file_size(path, unknown);
-        constexpr size_t kStep = size_t{1} << 16;
-        size_t length = 0;
-        do { // one byte more than expected shows the end; a growing file is read to its end all the same
-            bytes.resize(length + (length == 0 && !unknown ? static_cast<size_t>(size) + 1 : kStep));
-            length += std::fread(bytes.data() + length, 1, bytes.size() - length, file);
-        } while (length == bytes.size());
-        bytes.resize(length);
-        good = std::ferror(file) == 0;
-        std::fclose(file);
-    }
-    if (!good) report(Code::FileUnreadable, {path.string(), errno ? std::strerror(errno) : "reading failed"});
-    return good;
+    const std::string problem = config::readFile(path.string(), bytes);
+    if (!problem.empty()) report(Code::FileUnreadable, {path.string(), problem});
+    return problem.empty();
 }
 
 /// Whether the file, under whatever name, belongs to the task already.

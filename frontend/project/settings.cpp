@@ -1,12 +1,12 @@
 #include "frontend/project/settings.h"
 
+#include "config/read_file.h"
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 namespace rapid::project {
 
@@ -116,14 +116,14 @@ Settings readSettings(std::shared_ptr<const SourceFile> file, diag::Sink& sink) 
 Settings loadSettings(const std::string& input, diag::Sink& sink) {
     const std::string path = findSettings(input);
     if (path.empty()) return {};
-    std::ifstream in(path, std::ios::binary);
-    if (!in) {
-        sink.report(Code::BadProjectFile, nullptr, {}, {fmt::format("'{}' cannot be opened", path)});
+    std::string bytes;
+    if (const std::string problem = config::readFile(path, bytes); !problem.empty()) {
+        sink.report(Code::BadProjectFile, nullptr, {},
+                    {fmt::format("'{}' cannot be read: {}", path, problem)});
         return {};
     }
-    std::stringstream bytes;
-    bytes << in.rdbuf();
-    return readSettings(std::make_shared<const SourceFile>(fs::proximate(path).string(), bytes.str()), sink);
+    return readSettings(std::make_shared<const SourceFile>(fs::proximate(path).string(), std::move(bytes)),
+                        sink);
 }
 
 } // namespace rapid::project

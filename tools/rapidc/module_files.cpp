@@ -1,13 +1,12 @@
 #include "tools/rapidc/module_files.h"
 
+#include "config/read_file.h"
+
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <iterator>
 
 namespace rapidc {
 
@@ -65,13 +64,11 @@ ModuleFiles findModuleFiles(const std::vector<std::string>& inputs) {
 }
 
 std::shared_ptr<const rapid::SourceFile> readModuleFile(const std::string& path, std::string& problem) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        problem = fmt::format("cannot be opened: {}", std::strerror(errno));
-        return nullptr;
-    }
-    return std::make_shared<const rapid::SourceFile>(path,
-                                                     std::string((std::istreambuf_iterator<char>(file)), {}));
+    std::string bytes;
+    const std::string reason = rapid::config::readFile(path, bytes);
+    if (reason.empty()) return std::make_shared<const rapid::SourceFile>(path, std::move(bytes));
+    problem = "cannot be read: " + reason;
+    return nullptr;
 }
 
 } // namespace rapidc

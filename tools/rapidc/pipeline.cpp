@@ -1,5 +1,6 @@
 #include "tools/rapidc/pipeline.h"
 
+#include "config/read_file.h"
 #include "frontend/lint/lint.h"
 #include "frontend/project/project.h"
 #include "frontend/project/system_parameters.h"
@@ -13,13 +14,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fmt/format.h>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <unistd.h>
 #include <unordered_set>
 
@@ -44,20 +42,18 @@ std::string lower(std::string text) {
 void readConfiguration(Compilation& compilation, const std::vector<std::string>& files,
                        sema::CheckOptions& options) {
     for (const std::string& path : files) {
-        std::ifstream in(path, std::ios::binary);
-        if (!in) {
+        std::string bytes;
+        if (const std::string problem = rapid::config::readFile(path, bytes); !problem.empty()) {
             compilation.usageErrors.push_back(
-                fmt::format("cannot read the configuration file '{}': {}", path, std::strerror(errno)));
+                fmt::format("cannot read the configuration file '{}': {}", path, problem));
             continue;
         }
-        std::stringstream bytes;
-        bytes << in.rdbuf();
         std::vector<rt::CfgProblem> problems;
-        const rt::CfgFile cfg = rt::parseCfg(bytes.str(), path, problems);
+        const rt::CfgFile cfg = rt::parseCfg(bytes, path, problems);
         for (const rt::CfgProblem& problem : problems)
             compilation.sink.report(diag::Code::ConfigurationProblem, nullptr, {}, {problem.text()});
         compilation.configNames.push_back(path);
-        compilation.configTexts.push_back(bytes.str());
+        compilation.configTexts.push_back(bytes);
         if (upper(cfg.domain) == "MOC")
             for (const char* type : {"ROBOT", "MECHANICAL_UNIT"})
                 for (const rt::CfgSection* section : cfg.find(type))

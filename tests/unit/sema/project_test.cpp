@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace {
@@ -136,6 +137,15 @@ TEST_CASE("a program file lists its modules", "[project]") {
     CHECK(load({junk})->codes() == Names{"RAP6024"});
     const std::string empty = folder.write("empty.pgf", "<Program></Program>");
     CHECK(load({empty})->codes() == Names{"RAP6024"});
+}
+
+TEST_CASE("a pipe among the modules of a folder is told and not waited for", "[project]") {
+    const Folder folder;
+    folder.write("a.modx", "MODULE a\nENDMODULE\n");
+    REQUIRE(::mkfifo((folder / "b.modx").c_str(), 0600) == 0);
+    const auto loaded = load({folder.path()});
+    CHECK(loaded->codes() == std::vector<std::string>{"RAP6021"});
+    CHECK(loaded->files(0) == std::vector<std::string>{"a.modx"});
 }
 
 TEST_CASE("what cannot be used is named with its remedy", "[project]") {
