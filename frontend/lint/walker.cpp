@@ -244,10 +244,12 @@ void Walker::assign(const AssignStmt& s) {
     if (own) access_[root->index] |= before & kRead;
     subscripts(*s.target);
     const bool fromCall = s.value->kind == NodeKind::Call;
-    write(*s.target, fromCall ? kFromCall : kAssigned, fromItself);
     const bool place = s.value->kind == NodeKind::Name || s.value->kind == NodeKind::Index ||
                        s.value->kind == NodeKind::Component;
-    if (place && sameText(*s.target, *s.value)) report(Code::SelfAssignment, range(s), {text(*s.target)});
+    if (place && sameText(*s.target, *s.value))
+        report(Code::SelfAssignment, range(s), {text(*s.target)}); // and no assignment at all
+    else
+        write(*s.target, fromCall ? kFromCall : kAssigned, fromItself);
 }
 
 bool Walker::ifStmt(const IfStmt& s) {
