@@ -62,8 +62,11 @@ constexpr AddInNames kAddIns[] = {
      "hand_* g_init g_calibrate g_gripin g_gripout g_jogin g_jogout g_moveto g_stop g_getpos "
      "g_vacuumon* g_vacuumoff* g_blowon* g_blowoff* g_setforce g_setmaxspd g_getspd g_iscalibrated "
      "g_getpressure* g_getvac*"},
-    {"PickMaster", "itmsrc itmsrctype itmtgt getitmtgt ackitmtgt nextitmtgttype qstartitmsrc qstopitmsrc "
-                   "flushitmsrc resetitmsrc resetflowcount getqueuelevel"},
+    {"PickMaster",
+     "itmsrc itmsrctype itmtgt getitmtgt ackitmtgt nextitmtgttype qstartitmsrc qstopitmsrc "
+     "flushitmsrc resetitmsrc resetflowcount getqueuelevel itmsrcdata maxnosources noncnvwodata "
+     "noncnvwobjname ppadropwobj ppa_jump_move waitforexeorder remoteipnode pickplacerunning "
+     "safestopexecuted incoordrout"},
     {"Lincoln ArcLink XT", "lincweldmodedata"},
 };
 

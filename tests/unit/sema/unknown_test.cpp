@@ -205,6 +205,25 @@ TEST_CASE("names of well-known add-ins are told from mistakes", "[sema]") {
             "RAP2003 at 9:5: 'BESetup' is not a known procedure or instruction"});
 }
 
+TEST_CASE("data that an add-in's template modules declare may be declared there", "[sema]") {
+    const std::string text = "MODULE m\n"
+                             "  PROC main()\n"
+                             "    FOR i FROM 1 TO MaxNoSources DO\n"
+                             "      IF ItmSrcData{i}.Used PickPlaceRunning:=TRUE;\n"
+                             "    ENDFOR\n"
+                             "    MaxNoSource:=1;\n"
+                             "  ENDPROC\n"
+                             "ENDMODULE\n";
+    const auto checked = testing::checkTexts({text});
+    const auto addIn = [](const char* place, const char* name) {
+        return std::string("RAP2009 at ") + place + ": '" + name +
+               "' is not declared here, it may be declared in the add-in PickMaster";
+    };
+    CHECK(checked->messages() == Messages{addIn("3:21", "MaxNoSources"), addIn("4:10", "ItmSrcData"),
+                                          addIn("4:29", "PickPlaceRunning"),
+                                          "RAP2001 at 6:5: 'MaxNoSource' is not declared"});
+}
+
 TEST_CASE("AliasIO takes a configured signal of the type of its partner", "[sema]") {
     const std::string text = "MODULE m\n"
                              "  VAR signaldo alias_do;\n"
