@@ -22,7 +22,9 @@ namespace rapid {
 
 namespace {
 
-constexpr size_t kBlock = size_t{1} << 14; ///< sizes of blocks are multiples of this
+constexpr size_t kGranule = size_t{1} << 10; ///< sizes of blocks are multiples of this
+constexpr size_t kSmallest = size_t{1} << 11;
+constexpr size_t kLargest = size_t{1} << 14; ///< but for what needs more
 [[maybe_unused]] constexpr size_t kHugePage =
     size_t{1} << 21; ///< alignment and granule of what is taken from the system
 [[maybe_unused]] constexpr size_t kChunk = size_t{1} << 25;
@@ -108,8 +110,10 @@ void giveBlock(char* data, size_t size) {
 } // namespace
 
 void* Arena::allocateInNewBlock(size_t size, size_t align) {
-    const size_t bytes = roundUp(size + align, kBlock);
+    // As much again as there is: thousands of small files have arenas of their own.
+    const size_t bytes = roundUp(std::max(size + align, std::clamp(total_, kSmallest, kLargest)), kGranule);
     blocks_.push_back({takeBlock(bytes), bytes});
+    total_ += bytes;
     const auto begin = reinterpret_cast<uintptr_t>(blocks_.back().data);
     const uintptr_t at = (begin + align - 1) & ~(static_cast<uintptr_t>(align) - 1);
     // Go on where more room is left.
@@ -124,7 +128,7 @@ void Arena::clear() {
     for (const Block& block : blocks_)
         giveBlock(block.data, block.size);
     blocks_.clear();
-    next_ = end_ = 0;
+    next_ = end_ = total_ = 0;
 }
 
 } // namespace rapid

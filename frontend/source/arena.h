@@ -54,6 +54,7 @@ class Arena {
     void* allocateInNewBlock(size_t size, size_t align);
 
     std::vector<Block> blocks_;
+    size_t total_ = 0; ///< bytes of all blocks
     uintptr_t next_ = 0;
     uintptr_t end_ = 0;
 };
