@@ -5,6 +5,7 @@
 #include "frontend/sema/checker.h"
 #include "frontend/sema/names.h"
 
+#include <set>
 #include <unordered_set>
 #include <utility>
 
@@ -184,6 +185,10 @@ class Analyzer {
 
     // ---- tasks (checker.cpp)
     bool sameStructure(const Type& left, const Type& right);
+    std::pair<std::string, std::string> difference(const Type& left, const Type& right,
+                                                   const std::string& where);
+    using DifferentRecords = std::set<std::pair<const Type*, const Type*>>;
+    void checkShared(const DataSymbol& data, const DataSymbol& other, DifferentRecords& told);
     void readFile(const std::shared_ptr<const SourceFile>& file);
     void declareModules(std::span<Module* const> modules);
     void checkModules(std::span<Module* const> modules);

@@ -299,13 +299,54 @@ bool Analyzer::sameStructure(const Type& left, const Type& right) {
     return true;
 }
 
+namespace {
+std::string componentNames(const Type& record) {
+    std::string all;
+    for (const Type::Component& component : record.components)
+        all += (all.empty() ? "" : ", ") + component.name;
+    return all;
+}
+} // namespace
+
+// What is different in two types of one name: "place.x is num" and "place.x is dnum", or the names of the components.
+std::pair<std::string, std::string> Analyzer::difference(const Type& left, const Type& right,
+                                                         const std::string& where) {
+    const Type &a = *left.base(), &b = *right.base();
+    const std::string what = where.empty() ? std::string() : where + " is ";
+    if (interner_.intern(a.name) != interner_.intern(b.name)) return {what + a.name, what + b.name};
+    for (size_t i = 0; i < std::min(a.components.size(), b.components.size()); ++i) {
+        if (interner_.intern(a.components[i].name) != interner_.intern(b.components[i].name)) break;
+        if (!sameStructure(*a.components[i].type, *b.components[i].type))
+            return difference(*a.components[i].type, *b.components[i].type,
+                              (where.empty() ? std::string() : where + ".") + a.components[i].name);
+    }
+    return {what + componentNames(a), what + componentNames(b)};
+}
+
 // A global persistent is one object for all tasks that declare it (manual 1.20).
+void Analyzer::checkShared(const DataSymbol& data, const DataSymbol& other, DifferentRecords& told) {
+    const bool sameTypes = sameStructure(*data.type.type, *other.type.type);
+    if (sameTypes && sameShape(data.type, other.type)) return;
+    std::string own = typeName(data.type), theirs = typeName(other.type);
+    if (own == theirs) { // records of one name
+        if (!told.insert({data.type.type->base(), other.type.type->base()}).second) return;
+        const auto [mine, yours] = difference(*data.type.type, *other.type.type, "");
+        own += " (" + mine + ")";
+        theirs += " (" + yours + ")";
+    }
+    enterModule(data.module);
+    noteDeclared(
+        report(Code::PersConflict, range(data.nameToken), {data.name, std::move(own), std::move(theirs)}),
+        other);
+}
+
 void Analyzer::checkAcrossTasks() {
     constexpr size_t kMaxTasks = 20; // manual 1.20
     if (program_.tasks.size() > kMaxTasks)
         sink_.report(Code::TooManyTasks, nullptr, {}, {std::to_string(program_.tasks.size())});
     NameMap<DataSymbol> shared;
     NameMap<const Task> names;
+    DifferentRecords told;
     const bool several = program_.tasks.size() > 1; // the names of one task are judged already
     for (const auto& task : program_.tasks) {
         const NameId taskName = interner_.intern(task->name);
@@ -318,12 +359,7 @@ void Analyzer::checkAcrossTasks() {
                     shared.set(data->nameId, data);
                     continue;
                 }
-                const std::string own = typeName(data->type), theirs = typeName(other->type);
-                if (sameShape(data->type, other->type) && sameStructure(*data->type.type, *other->type.type))
-                    continue;
-                enterModule(module);
-                noteDeclared(report(Code::PersConflict, range(data->nameToken), {data->name, own, theirs}),
-                             *other);
+                checkShared(*data, *other, told);
             }
         }
     }

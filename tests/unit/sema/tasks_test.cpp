@@ -83,6 +83,28 @@ TEST_CASE("tasks have names of their own but share global persistents", "[sema]"
     CHECK(checked->program->tasks.size() == 2);
 }
 
+TEST_CASE("records of one name that differ between tasks are told by where they differ, once", "[sema]") {
+    const auto shared = [](const std::string& part, const std::string& value) {
+        return "MODULE m\n  RECORD inner\n    " + part +
+               "\n  ENDRECORD\n  RECORD whole\n    num id;\n    inner place;\n" +
+               "  ENDRECORD\n  PERS whole a := [1, [" + value + "]];\n  PERS whole b := [1, [" + value +
+               "]];\n  PERS inner c := [" + value + "];\nENDMODULE\n";
+    };
+    const auto check = [&](const std::string& part, const std::string& value) {
+        return checkTasks({{shared("num x;", "1")}, {shared(part, value)}})->messages();
+    };
+    const std::string start = "RAP6004 at 9:14: global persistent 'a' is ",
+                      end = " in another task: declare both alike, or TASK PERS";
+    CHECK(check("num X;", "1").empty());
+    CHECK(check("dnum x;", "1") ==
+          Messages{start + "'whole (place.x is dnum)', but 'whole (place.x is num)'" + end,
+                   "RAP6004 at 11:14: global persistent 'c' is 'inner (x is dnum)', but 'inner (x is num)'" +
+                       end});
+    CHECK(check("num y;", "1").front() == start + "'whole (place is y)', but 'whole (place is x)'" + end);
+    CHECK(check("num x; num y;", "1, 2").front() ==
+          start + "'whole (place is x, y)', but 'whole (place is x)'" + end);
+}
+
 TEST_CASE("two tasks cannot have one name", "[sema]") {
     CheckOptions options;
     options.library = library();
