@@ -207,7 +207,7 @@ llvm::Constant* ModuleEmitter::tasks() {
         llvm::Constant* reset = llvm::ConstantPointerNull::get(ptr_);
         if (task.reset != ir::kNone) reset = cEntries_[task.reset];
         rows.push_back(
-            llvm::ConstantStruct::get(taskDescType_, {text(task.name), text(task.type), cEntries_[task.entry],
+            llvm::ConstantStruct::get(taskDescType_, {text(task.name), text(task.type), emitStart(task.entry),
                                                       reset, i8(task.motionTask)}));
     }
     return array(taskDescType_, rows, "tasks");

@@ -309,6 +309,21 @@ void ModuleEmitter::emitCEntry(uint32_t index) {
     b.CreateRet(b.CreateExtractValue(call, 0));
 }
 
+/// How the system starts a task: all parameters of the entry routine are optional and absent.
+llvm::Constant* ModuleEmitter::emitStart(uint32_t index) {
+    const ir::Routine& routine = module_.routines[index];
+    if (routine.params.empty()) return cEntries_[index];
+    auto* start = llvm::Function::Create(llvm::FunctionType::get(i32_, {ptr_, ptr_}, false),
+                                         llvm::Function::InternalLinkage, routine.name + "$start", *target_);
+    start->setDoesNotThrow();
+    llvm::IRBuilder<> b(llvm::BasicBlock::Create(context_, "", start));
+    std::vector<llvm::Value*> args{start->getArg(0), start->getArg(1)};
+    for (const ir::Param& param : routine.params)
+        args.push_back(llvm::Constant::getNullValue(memoryType(param.type)));
+    b.CreateRet(b.CreateCall(cEntries_[index], args));
+    return start;
+}
+
 llvm::Constant* ModuleEmitter::emitLateEntry(const ir::NamedRoutine& named) {
     static_assert(sizeof(rt::LateArg) == 24 && offsetof(rt::TypeDesc, dims) == 28);
     const ir::Routine& routine = module_.routines[named.routine];

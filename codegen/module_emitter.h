@@ -75,6 +75,7 @@ class ModuleEmitter {
     void emitSafepointSlow();
     void emitCEntry(uint32_t index);
     /// The entry that takes its arguments out of a table (rt::LateEntry).
+    llvm::Constant* emitStart(uint32_t index);
     llvm::Constant* emitLateEntry(const ir::NamedRoutine& named);
     llvm::Constant* initialValue(const ir::Global& global);
     // emit_tables.cpp

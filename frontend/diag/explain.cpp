@@ -5,13 +5,74 @@
 namespace rapid::diag {
 
 const Explanation* findExplanation(uint16_t number) {
-    for (const auto all : {explanations1xxx(), explanations2xxx(), explanations3xxx(), explanations4xxx(),
-                           explanations5xxx(), explanations6xxx(), explanations7xxx(), explanations8xxx()}) {
+    for (const auto all :
+         {explanations1xxx(), explanations2xxx(), explanations3xxx(), explanations4xxx(), explanations5xxx(),
+          explanations6xxx(), explanationsOfBackups(), explanations7xxx(), explanations8xxx()}) {
         const auto found =
             std::find_if(all.begin(), all.end(), [&](const Explanation& e) { return e.number == number; });
         if (found != all.end()) return &*found;
     }
     return nullptr;
+}
+
+namespace {
+
+constexpr std::string_view kBytes = "bytes ", kLatin1 = "ISO 8859-1";
+
+std::string fromHex(std::string_view digits) {
+    std::string bytes;
+    for (size_t i = 0; i + 1 < digits.size(); i += 3)
+        bytes += static_cast<char>(std::stoi(std::string(digits.substr(i, 2)), nullptr, 16));
+    return bytes;
+}
+
+/// Text of letters below U+0100.
+std::string toLatin1(std::string_view utf8) {
+    std::string bytes;
+    for (size_t i = 0; i < utf8.size(); ++i) {
+        const auto lead = static_cast<unsigned char>(utf8[i]);
+        const bool two = lead >= 0xC2 && lead <= 0xC3 && i + 1 < utf8.size();
+        bytes += two ? static_cast<char>((lead & 3) << 6 | (utf8[++i] & 0x3F)) : utf8[i];
+    }
+    return bytes;
+}
+
+ExampleProject readFiles(std::string_view example) {
+    ExampleProject project;
+    std::string_view form; // of the last file, between parentheses
+    const auto finish = [&] {
+        if (form == kLatin1) project.files.back().bytes = toLatin1(project.files.back().bytes);
+    };
+    while (!example.empty()) {
+        const size_t end = std::min(example.find('\n'), example.size());
+        std::string_view line = example.substr(0, end);
+        example.remove_prefix(std::min(end + 1, example.size()));
+        if (line.starts_with("$ ")) {
+            project.command = std::string(line.substr(2));
+        } else if (line.empty() || line.starts_with("  ")) {
+            line.remove_prefix(std::min<size_t>(line.size(), 2));
+            project.files.back().bytes += std::string(line) + "\n";
+        } else { // NAME: or NAME (FORM):
+            finish();
+            const size_t open = line.find(" (");
+            form = open == std::string_view::npos ? std::string_view()
+                                                  : line.substr(open + 2, line.size() - open - 4);
+            project.files.push_back({std::string(line.substr(0, std::min(open, line.size() - 1))), {}});
+            if (form.starts_with(kBytes)) project.files.back().bytes = fromHex(form.substr(kBytes.size()));
+        }
+    }
+    finish();
+    return project;
+}
+
+} // namespace
+
+ExampleProject exampleProject(ExampleKind kind, std::string_view example) {
+    if (kind == ExampleKind::Files) return readFiles(example);
+    std::string text = std::string(example) + "\n";
+    if (kind == ExampleKind::Body) text = "PROC main()\n" + text + "ENDPROC\n";
+    if (kind != ExampleKind::File) text = "MODULE m\n" + text + "ENDMODULE\n";
+    return {"rapidc check m.modx", {{"m.modx", std::move(text)}}};
 }
 
 } // namespace rapid::diag

@@ -13,16 +13,37 @@ namespace rapid::diag {
 enum class ExampleKind : uint8_t {
     File,   ///< a whole file
     Module, ///< between MODULE and ENDMODULE
-    Body    ///< in a procedure
+    Body,   ///< in a procedure
+    /// Several files and a command, for what no single file can show:
+    ///
+    ///     $ rapidc check cell
+    ///     cell/main.mod:
+    ///       MODULE main
+    ///       ENDMODULE
+    ///     cell/secret.mod (bytes FC 86 41):
+    ///
+    /// What stands in a file is indented by two spaces. `(ISO 8859-1)` names the encoding of a file.
+    Files
 };
 
 struct Explanation {
     uint16_t number = 0;
     ExampleKind kind = ExampleKind::Body;
     std::string_view meaning; ///< sentences: what is wrong, what to do, where the manual says so
-    std::string_view wrong;   ///< causes this diagnostic and no other; empty if it cannot be shown as text
-    std::string_view right;   ///< causes none
+    std::string_view wrong; ///< causes this diagnostic and no other but notes; empty if it would be too long
+    std::string_view right; ///< causes none but notes
 };
+
+/// An example as a user would try it.
+struct ExampleProject {
+    struct File {
+        std::string name; ///< with its folders
+        std::string bytes;
+    };
+    std::string command; ///< "rapidc check main.modx"
+    std::vector<File> files;
+};
+ExampleProject exampleProject(ExampleKind kind, std::string_view example);
 
 /// Explanations of the 1xxx codes, ascending; those of the parser, and so on as in diagnostics.def.
 std::span<const Explanation> explanations1xxx();
@@ -30,7 +51,8 @@ std::span<const Explanation> explanations2xxx();
 std::span<const Explanation> explanations3xxx();
 std::span<const Explanation> explanations4xxx();
 std::span<const Explanation> explanations5xxx();
-std::span<const Explanation> explanations6xxx();
+std::span<const Explanation> explanations6xxx(); ///< but for backups
+std::span<const Explanation> explanationsOfBackups();
 std::span<const Explanation> explanations7xxx(); ///< and 9xxx
 std::span<const Explanation> explanations8xxx();
 

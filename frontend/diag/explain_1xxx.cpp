@@ -16,21 +16,44 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "8859-1, digits "
      "and '_', and begin with a letter (manual 1.1.2).",
      "reg1 := 5 @ 3;", "reg1 := 5 + 3;"},
-    {1002, Kind::File,
+    {1002, Kind::Files,
      "The file contains bytes that no text has. Modules that were encrypted by a controller look like this, "
      "and so do "
      "pictures or archives with a wrong name. Export the module as text.",
-     "", "MODULE m\nENDMODULE"},
-    {1003, Kind::File,
+     R"ex($ rapidc check main.modx
+main.modx (bytes 89 50 4E 47 0D 0A 1A 0A 00 00 00 0D 49 48 44 52):)ex",
+     R"ex($ rapidc check main.modx
+main.modx:
+  MODULE MainModule
+  ENDMODULE)ex"},
+    {1003, Kind::Files,
      "Each character takes two bytes: the file was saved as UTF-16. Controllers of RobotWare 7 read UTF-8 "
      "without a byte "
      "order mark (manual 1.1.3).",
-     "", "MODULE m\nENDMODULE"},
-    {1004, Kind::File,
+     R"ex($ rapidc check main.modx
+main.modx (bytes FF FE 4D 00 4F 00 44 00 55 00 4C 00 45 00 20 00 6D 00):)ex",
+     R"ex($ rapidc check main.modx
+main.modx:
+  MODULE MainModule
+  ENDMODULE)ex"},
+    {1004, Kind::Files,
      "Files named .modx and .sysx are UTF-8 (manual 1.1.3). Renaming a .mod file is not enough: its letters "
      "beyond ASCII "
      "have other bytes. Save the file as UTF-8, or keep the name .mod or .sys, which is read as ISO 8859-1.",
-     "", "MODULE m\n  ! Größe\nENDMODULE"},
+     R"ex($ rapidc check main.modx
+main.modx (ISO 8859-1):
+  MODULE MainModule
+    ! Größe
+  ENDMODULE)ex",
+     R"ex($ rapidc check main.modx old.mod
+main.modx:
+  MODULE MainModule
+    ! Größe
+  ENDMODULE
+old.mod (ISO 8859-1):
+  MODULE old
+    ! Größe
+  ENDMODULE)ex"},
     {1005, Kind::File,
      "The file begins with the bytes EF BB BF. The manual asks for UTF-8 without them (1.1.3); rapidc reads "
      "the file, a "
@@ -77,7 +100,7 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "  ! tools of cell 3\n"
      "ENDMODULE"},
     {1099, Kind::Body,
-     "The file has more than 50 mistakes of lexing and parsing. The first ones are shown; often they are the "
+     "The file has more than 200 mistakes of lexing and parsing, or more than 1,000 errors or warnings in all. The first ones are shown; often they are the "
      "cause of the "
      "others.",
      "", "x := 1;"},

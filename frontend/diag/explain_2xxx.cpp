@@ -78,12 +78,28 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "    count := 1;\n"
      "  ENDPROC\n"
      "ENDMODULE"},
-    {2009, Kind::Body,
+    {2009, Kind::Files,
      "Some modules of the task cannot be read: they are encrypted, were not saved with the backup or "
      "are missing. The name may be declared there, so it cannot be judged.",
-     "",
-     "VAR num count;\n"
-     "count := 1;"},
+     R"ex($ rapidc check cell
+cell/main.mod:
+  MODULE MainModule
+    PROC main()
+      parts := parts + 1;
+    ENDPROC
+  ENDMODULE
+cell/counting.sys (bytes FC 86 41 07 00 9E 22 51):)ex",
+     R"ex($ rapidc check cell
+cell/main.mod:
+  MODULE MainModule
+    PROC main()
+      parts := parts + 1;
+    ENDPROC
+  ENDMODULE
+cell/counting.sys:
+  MODULE counting(SYSMODULE)
+    PERS num parts := 0;
+  ENDMODULE)ex"},
     {2010, Kind::Module,
      "A name may be declared only once in a module, whatever it names: a routine, data and a type "
      "cannot share it, and letter case makes no difference (manual 1.1.5, 1.2.2).",

@@ -167,13 +167,35 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "reg2 := Dim(reg1, 1);",
      "VAR num list{3};\n"
      "reg2 := Dim(list, 1);"},
-    {4020, Kind::Module,
+    {4020, Kind::Files,
      "A signal that the program names is not in the configuration given with --config. Define it "
      "there (type EIO_SIGNAL) or correct the name.",
-     "",
-     "PROC main(VAR signaldo lamp)\n"
-     "  SetDO lamp, 1;\n"
-     "ENDPROC"},
+     R"ex($ rapidc check main.mod --config=EIO.cfg
+main.mod:
+  MODULE MainModule
+    PROC main()
+      SetDO doLamb, 1;
+    ENDPROC
+  ENDMODULE
+EIO.cfg:
+  EIO:CFG_1.0:6:0::
+  #
+  EIO_SIGNAL:
+
+        -Name "doLamp" -SignalType "DO")ex",
+     R"ex($ rapidc check main.mod --config=EIO.cfg
+main.mod:
+  MODULE MainModule
+    PROC main()
+      SetDO doLamp, 1;
+    ENDPROC
+  ENDMODULE
+EIO.cfg:
+  EIO:CFG_1.0:6:0::
+  #
+  EIO_SIGNAL:
+
+        -Name "doLamp" -SignalType "DO")ex"},
     {4021, Kind::Body,
      "Signals are defined by the configuration of the controller (manual 1.9). Without it rapidc "
      "takes the name for a signal of the type that is needed here. Pass the configuration to have "
@@ -207,11 +229,61 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "reg1 := Dim(list, 2);",
      "VAR num list{4};\n"
      "reg1 := Dim(list, 1);"},
-    {4025, Kind::Body,
+    {4025, Kind::Files,
      "The instruction or function belongs to a RobotWare option. The backup lists the options of its "
      "controller, and this one is not among them: the controller does not know the name.",
-     "",
-     "TPWrite \"without options\";"},
+     R"ex($ rapidc check . -W no-builtin-not-implemented
+BACKINFO/backinfo.txt:
+  >>SYSTEM_ID:
+  cell
+  >>PRODUCTS_ID:
+  RobotWare Version: 7.10.0
+
+    623-1 Multitasking
+  >>TASK1: (T_ROB1,,)
+  PROGMOD/main.mod @
+  >>EOF:
+SYSPAR/SYS.cfg:
+  SYS:CFG_1.0:6:0::
+  #
+  CAB_TASKS:
+
+        -Name "T_ROB1" -Type "NORMAL" -MotionTask
+RAPID/TASK1/PROGMOD/main.mod:
+  MODULE MainModule
+    VAR wzstationary cell;
+    VAR shapedata box;
+    PROC main()
+      WZBoxDef \Inside, box, [0,0,0], [500,500,500];
+      WZLimSup \Stat, cell, box;
+    ENDPROC
+  ENDMODULE)ex",
+     R"ex($ rapidc check . -W no-builtin-not-implemented
+BACKINFO/backinfo.txt:
+  >>SYSTEM_ID:
+  cell
+  >>PRODUCTS_ID:
+  RobotWare Version: 7.10.0
+
+    608-1 World Zones
+  >>TASK1: (T_ROB1,,)
+  PROGMOD/main.mod @
+  >>EOF:
+SYSPAR/SYS.cfg:
+  SYS:CFG_1.0:6:0::
+  #
+  CAB_TASKS:
+
+        -Name "T_ROB1" -Type "NORMAL" -MotionTask
+RAPID/TASK1/PROGMOD/main.mod:
+  MODULE MainModule
+    VAR wzstationary cell;
+    VAR shapedata box;
+    PROC main()
+      WZBoxDef \Inside, box, [0,0,0], [500,500,500];
+      WZLimSup \Stat, cell, box;
+    ENDPROC
+  ENDMODULE)ex"},
     {4026, Kind::Module,
      "Arguments without a name belong to the parameters in their order (manual 1.1.5, 1.3.4). Here each of two "
      "arguments has the data type of the other one.",

@@ -145,11 +145,34 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "reg1 := 1;\n"
      "UNDO\n"
      "TPWrite \"undo\";"},
-    {5025, Kind::Body,
+    {5025, Kind::Files,
      "Movement instructions can execute only in a motion task; STATIC and SEMISTATIC tasks run in the "
      "background (manual 1.20).",
-     "",
-     "TPWrite \"watching\";"},
+     R"ex($ rapidc check main.mod --task=T_WATCH:STATIC=watch.mod
+main.mod:
+  MODULE MainModule
+    PROC main()
+    ENDPROC
+  ENDMODULE
+watch.mod:
+  MODULE watch
+    PROC main()
+      MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v100, fine, tool0;
+    ENDPROC
+  ENDMODULE)ex",
+     R"ex($ rapidc check main.mod --task=T_WATCH:STATIC=watch.mod
+main.mod:
+  MODULE MainModule
+    PROC main()
+      MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v100, fine, tool0;
+    ENDPROC
+  ENDMODULE
+watch.mod:
+  MODULE watch
+    PROC main()
+      TPWrite "watching";
+    ENDPROC
+  ENDMODULE)ex"},
     {5026, Kind::Module,
      "The list after ERROR names the errors that the handler is for: error constants, the numbers 1 to 90 "
      "that RAISE takes, or data that got a number from BookErrNo (manual 1.12).",

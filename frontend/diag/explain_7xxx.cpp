@@ -12,11 +12,23 @@ using Kind = ExampleKind;
 
 // clang-format off
 constexpr auto kExplanations = std::to_array<Explanation>({
-    {7004, Kind::Body,
+    {7004, Kind::Files,
      "The instruction or function is predefined and its arguments are checked, but this version of rapidc cannot execute "
      "it: a program that reaches it stops with an event. `rapidc builtins` lists what can be executed.",
-     "",
-     "TPWrite \"ready\";"},
+     R"ex($ rapidc check main.mod
+main.mod:
+  MODULE MainModule
+    PROC main()
+      ArcRefresh;
+    ENDPROC
+  ENDMODULE)ex",
+     R"ex($ rapidc check main.mod
+main.mod:
+  MODULE MainModule
+    PROC main()
+      TPWrite "ready";
+    ENDPROC
+  ENDMODULE)ex"},
     {9001, Kind::Body,
      "rapidc made a mistake while it translated a correct program. Please report it with the program; a change of the "
      "instruction it names may get around it.",

@@ -161,7 +161,9 @@ void checkTables(const Module& module, Findings& out) {
                 continue;
             }
             const Routine& routine = module.routines[index];
-            if (!routine.params.empty() || routine.result != kVoid || !routine.exported)
+            // An entry routine may have optional parameters: it is started without arguments.
+            const bool takesArguments = index == task.reset && !routine.params.empty();
+            if (takesArguments || routine.result != kVoid || !routine.exported)
                 out.push_back(fmt::format("task {}: {} must be exported, without parameters and result",
                                           task.name, routine.name));
         }
