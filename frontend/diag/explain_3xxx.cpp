@@ -121,12 +121,11 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "reg1 := path{2}.x;"},
     {3020, Kind::Body,
      "An aggregate such as [1,2,3] has no type of its own; its context must give it one: assignment, "
-     "initial value, argument, RETURN, or comparison with data (manual 1.3.3). Operators do not.",
+     "initial value, argument, RETURN, comparison or calculation with data (manual 1.3.3).",
      "VAR pos p;\n"
-     "p := p + [0, 0, 100];",
-     "VAR pos p;\n"
-     "VAR pos up := [0, 0, 100];\n"
-     "p := p + up;"},
+     "p := [1, 2, 3] + [0, 0, 100];",
+     "VAR pos p := [1, 2, 3];\n"
+     "p := p + [0, 0, 100];"},
     {3021, Kind::Body,
      "An aggregate has one member for each component of the record or each element of the array "
      "(manual 1.3.3).",

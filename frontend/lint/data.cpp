@@ -60,15 +60,16 @@ void Walker::subscripts(const Expr& place) {
         expr(*i);
 }
 
-// `n := n + 1` and `p.trans.z := 0` whose result is used later make a copy to work with; without that they were meant for
-// the caller.
+// `n := n + 1`, `p.trans.z := 0` and `IF n < 0 n := 0;` whose result is used later make a copy to work with; without that
+// they were meant for the caller.
 void Walker::inParameter(const DataSymbol& param, const Expr& place, bool fromItself) {
     uint8_t& access = access_[param.index];
     if ((access & kReported) != 0) return;
-    if (fromItself) {
-        if (loopDepth_ > 0) return; // the next round reads it
+    const bool seen = fromItself || (access & kRead) != 0;
+    if (seen || branchDepth_ > 0) {
+        if (seen && loopDepth_ > 0) return; // the next round reads it
+        if ((access & kUpdated) == 0) updates_[param.index] = &place;
         access |= kUpdated;
-        updates_[param.index] = &place;
         return;
     }
     access |= kReported;

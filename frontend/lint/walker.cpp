@@ -66,7 +66,7 @@ void Walker::begin(const RoutineSymbol& routine) {
     labelIndex_.clear();
     waits_ = jumps_ = ends_ = errors_ = 0;
     breakSeen_ = false;
-    loopDepth_ = 0;
+    loopDepth_ = branchDepth_ = 0;
     flyBy_ = nullptr;
     list_ = nullptr;
 }
@@ -199,7 +199,7 @@ bool Walker::statement(const Stmt& s) {
         if (compact.condition) expr(*compact.condition);
         const Slots before = assigned_;
         Stmt* body = compact.body;
-        const bool goesOn = !body || list(StmtList(&body, 1));
+        const bool goesOn = !body || branch(StmtList(&body, 1));
         assigned_ = goesOn ? assigned_ | before : before;
         return true;
     }
@@ -252,20 +252,28 @@ void Walker::assign(const AssignStmt& s) {
         write(*s.target, fromCall ? kFromCall : kAssigned, fromItself);
 }
 
+/// Statements that a condition may leave out.
+bool Walker::branch(StmtList body) {
+    ++branchDepth_;
+    const bool goesOn = list(body);
+    --branchDepth_;
+    return goesOn;
+}
+
 bool Walker::ifStmt(const IfStmt& s) {
     Slots merged;
     Slots otherwise; // the way on which no condition so far was TRUE
     bool completes = !s.hasElse;
-    for (const IfBranch* branch : s.branches) {
-        if (branch->condition) expr(*branch->condition);
+    for (const IfBranch* part : s.branches) {
+        if (part->condition) expr(*part->condition);
         otherwise = assigned_;
-        if (list(branch->body)) {
+        if (branch(part->body)) {
             merged |= assigned_;
             completes = true;
         }
         assigned_ = otherwise;
     }
-    if (s.hasElse && list(s.elseBody)) {
+    if (s.hasElse && branch(s.elseBody)) {
         merged |= assigned_;
         completes = true;
     }
@@ -299,15 +307,15 @@ bool Walker::testStmt(const TestStmt& s) {
     const Slots before = assigned_;
     Slots merged;
     bool completes = !s.hasDefault;
-    const auto branch = [&](StmtList body) {
+    const auto way = [&](StmtList body) {
         assigned_ = before;
-        if (!list(body)) return;
+        if (!branch(body)) return;
         merged |= assigned_;
         completes = true;
     };
     for (const TestCase* c : s.cases)
-        branch(c->body);
-    if (s.hasDefault) branch(s.defaultBody);
+        way(c->body);
+    if (s.hasDefault) way(s.defaultBody);
     assigned_ = s.hasDefault ? merged : merged | before;
     if (!s.hasDefault) missingDefault(s);
     return completes;

@@ -47,6 +47,7 @@ class Walker {
     bool statement(const syntax::Stmt& s);
     void unreachable(syntax::StmtList stmts, size_t at);
     void assign(const syntax::AssignStmt& s);
+    bool branch(syntax::StmtList body);
     bool ifStmt(const syntax::IfStmt& s);
     void duplicateConditions(const syntax::IfStmt& s);
     bool testStmt(const syntax::TestStmt& s);
@@ -153,6 +154,7 @@ class Walker {
     unsigned errors_ = 0;                         ///< and what may raise an error, as a way out
     bool breakSeen_ = false;
     unsigned loopDepth_ = 0;
+    unsigned branchDepth_ = 0;
     /// The last movement, when it went to a fly-by point and nothing but short instructions came after it.
     const syntax::Node* flyBy_ = nullptr;
     std::unordered_set<const syntax::Node*> targets_; ///< the labels that GOTO names

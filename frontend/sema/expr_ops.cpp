@@ -33,11 +33,31 @@ Typed Analyzer::unary(const UnaryExpr& e, const DataType* want, ConstValue* slot
         foldUnary(e, slot);
         return t;
     }
-    if (e.op != UnaryOp::Not && scalar && program_.pos && operand.base() == program_.pos)
-        return result(e, program_.pos);
+    if (e.op != UnaryOp::Not && scalar && program_.pos && operand.base() == program_.pos) {
+        const Typed t = result(e, program_.pos);
+        foldUnary(e, slot);
+        return t;
+    }
     report(Code::UnaryOperatorType, range(e.first), {name, typeName(*operand.info)});
     return errorExpr(e);
 }
+
+namespace {
+
+bool isAggregate(const Expr& e) {
+    return withoutParens(e).kind == NodeKind::Aggregate;
+}
+
+/// The partner of a comparison gives an aggregate its type, and so does a vector that something is added to or multiplied
+/// with: `p.trans + [0, 0, 10]`.
+bool givesType(BinaryOp op, const DataType& partner) {
+    if (op == BinaryOp::Eq || op == BinaryOp::Ne) return true;
+    const bool vector = op == BinaryOp::Add || op == BinaryOp::Sub || op == BinaryOp::Mul;
+    return vector && partner.rank == 0 &&
+           (partner.type->kind == TypeKind::Record || partner.type->kind == TypeKind::Error);
+}
+
+} // namespace
 
 // Long chains of operators lean to the left: a loop instead of recursion.
 Typed Analyzer::binaryChain(const BinaryExpr& top, const DataType* want) {
@@ -54,24 +74,23 @@ Typed Analyzer::binaryChain(const BinaryExpr& top, const DataType* want) {
         const BinaryExpr& e = *spine_.back();
         spine_.pop_back();
         const bool equal = e.op == BinaryOp::Eq || e.op == BinaryOp::Ne;
-        if (first && equal && withoutParens(*leaf).kind == NodeKind::Aggregate &&
-            withoutParens(*e.right).kind != NodeKind::Aggregate) {
+        if (first && isAggregate(*leaf) && !isAggregate(*e.right)) {
             const Typed right = expr(*e.right);
-            left = combine(e, expr(*leaf, &right.info->type), right);
+            const DataType* given = givesType(e.op, right.info->type) ? &right.info->type : nullptr;
+            left = combine(e, expr(*leaf, given), right);
         } else {
             if (first) nonValueReported_ = false, left = expr(*leaf, numeric);
             // One aggregate without a type is enough.
-            if (left.isError() && withoutParens(*e.left).kind == NodeKind::Aggregate &&
-                withoutParens(*e.right).kind == NodeKind::Aggregate) {
+            if (left.isError() && isAggregate(*e.left) && isAggregate(*e.right)) {
                 visitLoose(*e.right);
                 left = combine(e, left, left);
                 first = false;
                 continue;
             }
-            // The partner of a comparison gives an aggregate its type.
             const bool said = first && std::exchange(nonValueReported_, false) && isPlaceExpr(*e.right);
             if (said) visitLoose(*e.right); // "clock1 = clock2" is one mistake
-            const Typed right = said ? left : expr(*e.right, equal ? &left.info->type : numeric);
+            const bool typed = equal || (isAggregate(*e.right) && givesType(e.op, left.info->type));
+            const Typed right = said ? left : expr(*e.right, typed ? &left.info->type : numeric);
             left = combine(e, left, right);
         }
         first = false;
@@ -182,27 +201,29 @@ Typed Analyzer::vectorArithmetic(const BinaryExpr& e, Typed left, Typed right) {
         if (t.flex != Flex::None) settle(side, program_.num);
         return t.base() == program_.num;
     };
+    const auto folded = [&](const Type* type) {
+        const Typed t = result(e, type);
+        foldBinary(e);
+        return t;
+    };
     const bool leftPos = pos && left.base() == pos, rightPos = pos && right.base() == pos;
     switch (e.op) {
     case BinaryOp::Add:
-        if (left.isScalar(TypeKind::String) && right.isScalar(TypeKind::String)) {
-            const Typed t = result(e, program_.string);
-            foldBinary(e);
-            return t;
-        }
-        if (leftPos && rightPos) return result(e, pos);
+        if (left.isScalar(TypeKind::String) && right.isScalar(TypeKind::String))
+            return folded(program_.string);
+        if (leftPos && rightPos) return folded(pos);
         break;
     case BinaryOp::Sub:
-        if (leftPos && rightPos) return result(e, pos);
+        if (leftPos && rightPos) return folded(pos);
         break;
     case BinaryOp::Mul:
-        if (leftPos && rightPos) return result(e, pos);
-        if (leftPos && asNum(*e.right, right)) return result(e, pos);
-        if (rightPos && asNum(*e.left, left)) return result(e, pos);
-        if (orient && left.base() == orient && right.base() == orient) return result(e, orient);
+        if (leftPos && rightPos) return folded(pos);
+        if (leftPos && asNum(*e.right, right)) return folded(pos);
+        if (rightPos && asNum(*e.left, left)) return folded(pos);
+        if (orient && left.base() == orient && right.base() == orient) return folded(orient);
         break;
     case BinaryOp::Div:
-        if (leftPos && asNum(*e.right, right)) return result(e, pos);
+        if (leftPos && asNum(*e.right, right)) return folded(pos);
         break;
     default: break;
     }

@@ -2,6 +2,7 @@
 
 #include "frontend/sema/analysis.h"
 
+#include <array>
 #include <cmath>
 
 namespace rapid::sema {
@@ -37,6 +38,45 @@ bool compare(BinaryOp op, double a, double b) {
     case BinaryOp::Gt: return a > b;
     default: return a >= b;
     }
+}
+
+/// The components of a pos or an orient.
+struct Vector {
+    std::array<double, 4> at{};
+    size_t size = 0;
+};
+
+/// False: a component has no value.
+bool components(const ConstValue& value, Vector& out) {
+    for (const ConstValue& member : value.members()) {
+        if (member.kind != ConstValue::Kind::Number || out.size == out.at.size()) return false;
+        out.at[out.size++] = member.number;
+    }
+    return true;
+}
+
+/// Vector product, or linking of rotations; rounds in the same steps as the running program (ir/lower/lower_vector.cpp).
+Vector product(const Vector& a, const Vector& b) {
+    const auto mul = [&](size_t i, size_t j) { return roundTo(false, a.at[i] * b.at[j]); };
+    const auto add = [](double x, double y) { return roundTo(false, x + y); };
+    if (a.size == 3)
+        return {{add(mul(1, 2), -mul(2, 1)), add(mul(2, 0), -mul(0, 2)), add(mul(0, 1), -mul(1, 0))}, 3};
+    const auto sum = [&](double p, double q, double r, double s) { return add(add(add(p, q), r), s); };
+    return {
+        {sum(mul(0, 0), -mul(1, 1), -mul(2, 2), -mul(3, 3)), sum(mul(0, 1), mul(1, 0), mul(2, 3), -mul(3, 2)),
+         sum(mul(0, 2), -mul(1, 3), mul(2, 0), mul(3, 1)), sum(mul(0, 3), mul(1, 2), -mul(2, 1), mul(3, 0))},
+        4};
+}
+
+ConstValue aggregateOf(const Vector& vector, Arena& arena) {
+    const std::span<ConstValue> members = arena.makeArray<ConstValue>(vector.size);
+    for (size_t i = 0; i < vector.size; ++i) {
+        members[i].kind = ConstValue::Kind::Number;
+        members[i].number = vector.at[i];
+    }
+    ConstValue value;
+    value.setMembers(members);
+    return value;
 }
 
 } // namespace
@@ -80,9 +120,17 @@ void Analyzer::foldUnary(const UnaryExpr& e, ConstValue* slot) {
         return;
     }
     ConstValue* value = slot ? slot : newConst();
+    out.constant = value;
+    if (operand->kind == ConstValue::Kind::Aggregate) {
+        Vector vector;
+        if (!components(*operand, vector)) out.constant = nullptr;
+        for (size_t i = 0; i < vector.size && e.op == UnaryOp::Minus; ++i)
+            vector.at[i] = -vector.at[i];
+        *value = aggregateOf(vector, valueArena());
+        return;
+    }
     value->kind = ConstValue::Kind::Number;
     value->number = e.op == UnaryOp::Minus ? -operand->number : operand->number;
-    out.constant = value;
 }
 
 // A routine with an ERROR handler may well mean it.
@@ -153,6 +201,24 @@ void Analyzer::foldBinary(const BinaryExpr& e) {
         }
         ConstValue* value = newConst();
         value->setText(std::string(a->text()) += b->text(), valueArena());
+        out.constant = value;
+        return;
+    }
+    const bool scalars[] = {a->kind == ConstValue::Kind::Number, b->kind == ConstValue::Kind::Number};
+    if (!scalars[0] || !scalars[1]) {
+        Vector left, right;
+        if (!components(*a, left) || !components(*b, right)) return;
+        Vector vector = scalars[0] ? right : left;
+        if (!scalars[0] && !scalars[1] && e.op == BinaryOp::Mul) {
+            vector = product(left, right);
+        } else {
+            for (size_t i = 0; i < vector.size; ++i)
+                if (!foldArithmetic(e, scalars[0] ? a->number : left.at[i],
+                                    scalars[1] ? b->number : right.at[i], false, vector.at[i]))
+                    return;
+        }
+        ConstValue* value = newConst();
+        *value = aggregateOf(vector, valueArena());
         out.constant = value;
         return;
     }
