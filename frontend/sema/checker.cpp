@@ -300,11 +300,15 @@ bool Analyzer::sameStructure(const Type& left, const Type& right) {
 }
 
 namespace {
-std::string componentNames(const Type& record) {
-    std::string all;
-    for (const Type::Component& component : record.components)
-        all += (all.empty() ? "" : ", ") + component.name;
-    return all;
+/// Names of components, but of long records only some, from the first that is different.
+std::string componentNames(const Type& record, size_t different) {
+    constexpr size_t kShown = 6;
+    const size_t count = record.components.size();
+    const size_t begin = count <= kShown ? 0 : std::min(different, count - kShown);
+    std::string all = begin > 0 ? "..." : "";
+    for (size_t i = begin; i < std::min(count, begin + kShown); ++i)
+        all += (all.empty() ? "" : ", ") + record.components[i].name;
+    return all + (begin + kShown < count ? ", ..." : "");
 }
 } // namespace
 
@@ -314,13 +318,14 @@ std::pair<std::string, std::string> Analyzer::difference(const Type& left, const
     const Type &a = *left.base(), &b = *right.base();
     const std::string what = where.empty() ? std::string() : where + " is ";
     if (interner_.intern(a.name) != interner_.intern(b.name)) return {what + a.name, what + b.name};
-    for (size_t i = 0; i < std::min(a.components.size(), b.components.size()); ++i) {
+    size_t i = 0;
+    for (; i < std::min(a.components.size(), b.components.size()); ++i) {
         if (interner_.intern(a.components[i].name) != interner_.intern(b.components[i].name)) break;
         if (!sameStructure(*a.components[i].type, *b.components[i].type))
             return difference(*a.components[i].type, *b.components[i].type,
                               (where.empty() ? std::string() : where + ".") + a.components[i].name);
     }
-    return {what + componentNames(a), what + componentNames(b)};
+    return {what + componentNames(a, i), what + componentNames(b, i)};
 }
 
 // A global persistent is one object for all tasks that declare it (manual 1.20).

@@ -103,6 +103,9 @@ TEST_CASE("records of one name that differ between tasks are told by where they 
     CHECK(check("num y;", "1").front() == start + "'whole (place is y)', but 'whole (place is x)'" + end);
     CHECK(check("num x; num y;", "1, 2").front() ==
           start + "'whole (place is x, y)', but 'whole (place is x)'" + end);
+    const std::string many = "num x; num a; num b; num c; num d; num e; num f; num g; num h;";
+    CHECK(check(many, "1, 2, 3, 4, 5, 6, 7, 8, 9").front() ==
+          start + "'whole (place is ..., a, b, c, d, e, f, ...)', but 'whole (place is x)'" + end);
 }
 
 TEST_CASE("two tasks cannot have one name", "[sema]") {
