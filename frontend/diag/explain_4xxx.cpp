@@ -99,7 +99,8 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "Incr reg1;"},
     {4013, Kind::Module,
      "A persistent is passed to PERS and INOUT parameters as a whole, not as an element or a "
-     "component (manual 1.1.5). Copy the part to a variable and back.",
+     "component (manual 1.1.5). Copy the part to a variable and back. Instructions of RobotWare that "
+     "change a value, such as Incr, take parts.",
      "PERS num list{3} := [1, 2, 3];\n"
      "PROC work(PERS num a)\n"
      "ENDPROC\n"

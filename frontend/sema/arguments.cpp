@@ -249,8 +249,9 @@ void Analyzer::checkAccess(const RoutineSymbol& routine, const BoundArg& bound, 
     }
     // What takes a persistent of any type (IPers, GetSysData) also takes a component or an element of one.
     const bool anyPart = mode == ParamMode::Pers && bound.param->accepts == ParamClass::Value;
-    const bool mustBeWhole =
-        !anyPart && (mode == ParamMode::Pers || (mode == ParamMode::Inout && persistent));
+    // Instructions of RobotWare change parts of persistents, too: "Incr rack{2}.count" (docs/decisions.md, 37).
+    const bool mustBeWhole = !anyPart && (mode == ParamMode::Pers ||
+                                          (mode == ParamMode::Inout && persistent && !routine.predefined));
     if (mustBeWhole && !place.whole) {
         report(Code::ArgumentNotWhole, range(*bound.value),
                {bound.param->name, routine.name, "'" + root.name + "'"});
