@@ -4,6 +4,8 @@
 #include "frontend/syntax/lexer.h"
 #include "frontend/syntax/plain_pieces.h"
 
+#include <algorithm>
+
 namespace rapid::sema {
 
 using namespace syntax;
@@ -17,6 +19,11 @@ template <class Pieces> class LiteralReader {
     LiteralReader(Pieces pieces, Arena* arena) : pieces_(pieces), arena_(arena) {}
 
     bool read(const DataType& want, ConstValue* value) {
+        if (!value && want.rank == 0 && !want.type->base()->literalShape.empty()) {
+            const std::vector<PlainPiece>& shape = want.type->base()->literalShape;
+            return std::all_of(shape.begin(), shape.end(),
+                               [this](PlainPiece p) { return pieces_.next() == p; });
+        }
         const PlainPiece piece = pieces_.next();
         if (piece == PlainPiece::Open) return readAggregate(want, value);
         return want.rank == 0 && readAtom(piece, want.type->kind, value);
@@ -78,7 +85,36 @@ bool readLiteral(const DataType& want, const SyntaxTree& tree, const AggregateEx
     return LiteralReader(PlainTokens<true>(tree, plain.first), arena).read(want, value);
 }
 
+PlainPiece pieceOf(const Type& type) {
+    switch (type.kind) {
+    case TypeKind::Num:
+    case TypeKind::Dnum: return PlainPiece::Number;
+    case TypeKind::Bool: return PlainPiece::Bool;
+    case TypeKind::String: return PlainPiece::String;
+    default: return PlainPiece::Other;
+    }
+}
+
 } // namespace
+
+std::vector<PlainPiece> literalShape(const Type& record) {
+    constexpr uint32_t kMaxParts = 64;
+    std::vector<PlainPiece> shape;
+    if (record.leaves > kMaxParts) return shape;
+    for (const Type::Component& component : record.components) {
+        const Type& type = *component.type->base();
+        shape.push_back(shape.empty() ? PlainPiece::Open : PlainPiece::Comma);
+        if (type.kind == TypeKind::Record) {
+            if (type.literalShape.empty()) return {};
+            shape.insert(shape.end(), type.literalShape.begin(), type.literalShape.end());
+        } else {
+            shape.push_back(pieceOf(type));
+            if (shape.back() == PlainPiece::Other) return {};
+        }
+    }
+    if (!shape.empty()) shape.push_back(PlainPiece::Close);
+    return shape;
+}
 
 bool isLiteralOf(const DataType& want, const SyntaxTree& tree, const AggregateExpr& plain) {
     return readLiteral(want, tree, plain, nullptr, nullptr);

@@ -1,6 +1,7 @@
 // Types of names: records, aliases (manual 1.2.1) and the parameter lists of routines (manual 1.1.5).
 
 #include "frontend/sema/analysis.h"
+#include "frontend/sema/literal_value.h"
 
 #include <algorithm>
 
@@ -99,6 +100,7 @@ void Analyzer::resolveRecord(Type& type, const RecordDecl& decl) {
         leaves = std::min<uint64_t>(leaves + part->leaves, kMaxLeaves + 1);
     }
     type.leaves = static_cast<uint32_t>(std::max<uint64_t>(leaves, 1));
+    type.literalShape = literalShape(type);
 }
 
 void Analyzer::resolveAlias(Type& type, const AliasDecl& decl) {

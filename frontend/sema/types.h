@@ -6,6 +6,10 @@
 #include <string>
 #include <vector>
 
+namespace rapid::syntax {
+enum class PlainPiece : uint8_t;
+}
+
 namespace rapid::sema {
 
 enum class TypeKind : uint8_t {
@@ -35,7 +39,9 @@ struct Type {
         nullptr; ///< aliases: the type named in the ALIAS; kind and components are the base's
     std::vector<Component> components; ///< records
     uint32_t leaves = 1;               ///< atomic parts of a value; stops counting beyond kMaxLeaves
-    bool containsNonValue = false;     ///< records with a non-value component are non-value
+    /// Records of few atomic parts: the pieces of which all literals of the type consist.
+    std::vector<syntax::PlainPiece> literalShape;
+    bool containsNonValue = false; ///< records with a non-value component are non-value
 
     const Type* base() const {
         const Type* t = this;
