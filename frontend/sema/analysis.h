@@ -331,8 +331,12 @@ class Analyzer {
     void judgeConditional(const RoutineSymbol& routine, const BoundArg& bound, const syntax::Expr& e);
     void checkReference(const RoutineSymbol& routine, const BoundArg& bound);
     void judgeReference(const RoutineSymbol& routine, const BoundArg& bound, const Place& place);
-    void reportArguments(const BoundCall& call, syntax::TokenIndex name, size_t firstMismatch, bool missing);
-    const DataSymbol* leftOut(const BoundCall& call);
+    void reportArguments(const BoundCall& call, syntax::TokenIndex name, size_t firstMismatch,
+                         size_t firstDiagnostic, bool missing);
+    bool couldStandFor(const syntax::Expr& value, std::span<const BoundArg> params);
+    std::span<const BoundArg> leftOut(const BoundCall& call, std::vector<const syntax::Expr*>& moved);
+    void takeBack(size_t firstDiagnostic, const std::vector<const syntax::Expr*>& moved);
+    static std::string namesOf(std::span<const BoundArg> alternatives);
     bool reportEqualAsAssign(const BoundArg& bound);
     void judgeValue(const RoutineSymbol& routine, const BoundArg& bound, Typed t);
     void checkAccess(const RoutineSymbol& routine, const BoundArg& bound, const Place& place);

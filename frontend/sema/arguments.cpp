@@ -83,27 +83,58 @@ bool Analyzer::reportEqualAsAssign(const BoundArg& bound) {
     return true;
 }
 
-// The required parameter whose argument is missing in the middle: the arguments behind it fit the parameters after it.
-const DataSymbol* Analyzer::leftOut(const BoundCall& call) {
-    std::vector<const DataSymbol*> params;
-    std::vector<const DataType*> given;
-    for (const BoundArg& bound : call.args) {
-        if (bound.param->optional) continue;
-        if (bound.param->requiredAlternative) return nullptr;
-        params.push_back(bound.param);
-        if (bound.argument && bound.value) given.push_back(&info(*bound.value).type);
+// Whether an argument could stand for one of the parameters, which share a place.
+bool Analyzer::couldStandFor(const Expr& value, std::span<const BoundArg> params) {
+    const DataSymbol* entire =
+        value.kind == NodeKind::Name ? asData(lookup(idOf(as<NameExpr>(value).name))) : nullptr;
+    const DataType& found = info(value).type;
+    const bool unknown = !found.type || found.type->kind == TypeKind::Error;
+    return std::any_of(params.begin(), params.end(), [&](const BoundArg& bound) {
+        const DataSymbol& param = *bound.param;
+        const auto suits = [&](const DataType& type) {
+            return param.type.type->kind == TypeKind::AnyType ? !missingClass(param.accepts, type)
+                                                              : equivalent(type, param.type);
+        };
+        if (!entire) return unknown || suits(found);
+        const bool temporary = entire->storage == Storage::RoutineData ||
+                               (entire->storage == Storage::ModuleData && entire->dataKind != DataKind::Pers);
+        if (param.mode == ParamMode::Pers && temporary) return false;
+        return suits(entire->type) || (!unknown && suits(found));
+    });
+}
+
+// The place of the required parameter whose argument is missing in the middle: the arguments behind it fit the
+// parameters after it. `moved`: these arguments.
+std::span<const BoundArg> Analyzer::leftOut(const BoundCall& call, std::vector<const Expr*>& moved) {
+    std::vector<std::span<const BoundArg>> places;
+    std::vector<const Expr*> given;
+    const RoutineSymbol& routine = *call.routine;
+    for (size_t i = nextRequired(routine, 0); i < routine.params.size();) {
+        const size_t end = alternativesEnd(routine, i);
+        places.push_back(call.args.subspan(i, end - i));
+        for (const BoundArg& bound : places.back())
+            if (bound.argument && bound.value) given.push_back(bound.value);
+        i = nextRequired(routine, end);
     }
-    if (params.size() != given.size() + 1) return nullptr;
-    const auto fit = [&](size_t i, size_t param) {
-        const DataType& want = params[param]->type;
-        return given[i]->type && (want.type->kind == TypeKind::AnyType || equivalent(*given[i], want));
-    };
+    if (places.size() != given.size() + 1) return {};
     size_t out = 0;
-    while (out < given.size() && fit(out, out))
+    while (out < given.size() && couldStandFor(*given[out], places[out]))
         ++out;
     for (size_t i = out; i < given.size(); ++i)
-        if (!fit(i, i + 1)) return nullptr;
-    return params[out];
+        if (!couldStandFor(*given[i], places[i + 1])) return {};
+    moved.assign(given.begin() + static_cast<std::ptrdiff_t>(out), given.end());
+    return places[out];
+}
+
+// What was said about arguments that only stand in the wrong place.
+void Analyzer::takeBack(size_t firstDiagnostic, const std::vector<const Expr*>& moved) {
+    sink_.retract(firstDiagnostic, [&](const diag::Diagnostic& d) {
+        const bool aboutArgument = d.code == Code::ArgumentClass || d.code == Code::ArgumentNotVariable ||
+                                   d.code == Code::ArgumentNotWhole || d.code == Code::ArgumentAlternatives ||
+                                   d.code == Code::NonValueInExpression;
+        return aboutArgument && std::any_of(moved.begin(), moved.end(),
+                                            [&](const Expr* e) { return range(*e) == d.range; });
+    });
 }
 
 // "MoveL p10.v100, fine, tool0;": no component is named so, but data is.
@@ -116,7 +147,8 @@ bool Analyzer::isDotForComma(const Expr& e) {
 
 // Arguments of the wrong type, and those that are missing. Two that have changed places, or one that is missing in the
 // middle, are one mistake.
-void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t firstMismatch, bool missing) {
+void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t firstMismatch,
+                               size_t firstDiagnostic, bool missing) {
     const std::vector<Mismatch> wrong(mismatches_.begin() + static_cast<std::ptrdiff_t>(firstMismatch),
                                       mismatches_.end());
     mismatches_.resize(firstMismatch);
@@ -126,11 +158,12 @@ void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t fi
     });
     if (dotForComma) return; // the arguments behind it have moved
     if (std::exchange(shapeReported_, false)) missing = false;
-    if (missing && !wrong.empty()) {
-        if (const DataSymbol* lost = leftOut(call)) {
-            noteDeclared(
-                report(Code::MissingArgument, range(name), {text(name), "argument '" + lost->name + "'"}),
-                routine);
+    if (missing) {
+        std::vector<const Expr*> moved;
+        if (const auto lost = leftOut(call, moved); !lost.empty()) {
+            takeBack(firstDiagnostic, moved);
+            noteDeclared(report(Code::MissingArgument, range(name), {text(name), "argument " + namesOf(lost)}),
+                         routine);
             return;
         }
     }

@@ -147,6 +147,8 @@ void Analyzer::applyRoutineAttributes(RoutineSymbol& symbol) {
             symbol.option = std::string(value);
         else if (key == "raises")
             symbol.raises = true;
+        else if (key == "confidence")
+            symbol.uncertain = value != "high";
         else if (key == "flow")
             symbol.flow = flowOf(value);
         else if (key == "lint")

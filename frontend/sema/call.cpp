@@ -64,6 +64,7 @@ void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex nam
     }
     const size_t judgedBefore = judged_.size();
     const size_t mismatchesBefore = mismatches_.size();
+    const size_t diagnosticsBefore = sink_.all().size();
     const bool complete = matchArguments(call, name, args);
     const bool mayMiss = complete && endsWell(name, args);
     checkExclusive(call);
@@ -74,7 +75,7 @@ void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex nam
     }
     judged_.resize(judgedBefore);
     if (mayMiss || mismatches_.size() > mismatchesBefore)
-        reportArguments(call, name, mismatchesBefore, mayMiss);
+        reportArguments(call, name, mismatchesBefore, diagnosticsBefore, mayMiss);
 }
 
 // Whether the arguments were read to their end: after a syntax error in a call nothing is said to be missing.
@@ -272,7 +273,8 @@ size_t Analyzer::matchOptional(BoundCall& call, const Argument& arg, TokenIndex)
     const NameId name = idOf(arg.name);
     if (const size_t i = namedParameter(routine, name); i != kNoParam) {
         const DataSymbol& param = *routine.params[i];
-        if (!param.optional)
+        const bool eitherForm = routine.uncertain && param.requiredAlternative && arg.value;
+        if (!param.optional && !eitherForm)
             report(arg.argKind == ArgKind::Conditional ? Code::ConditionalRequired : Code::NotOptional,
                    range(arg.name), {routine.name, param.name});
         return !param.optional && call.args[i].argument ? kNoParam : i; // given once more: one report will do
@@ -325,19 +327,24 @@ size_t Analyzer::chooseAlternative(BoundCall& call, const Argument& arg, size_t 
     return first;
 }
 
+/// "'Value' or 'Dvalue'"
+std::string Analyzer::namesOf(std::span<const BoundArg> alternatives) {
+    std::string names;
+    for (const BoundArg& bound : alternatives)
+        names += (names.empty() ? "'" : " or '") + bound.param->name + "'";
+    return names;
+}
+
 void Analyzer::reportMissing(const BoundCall& call, TokenIndex name) {
     const RoutineSymbol& routine = *call.routine;
     std::string missing;
     size_t count = 0;
     for (size_t i = nextRequired(routine, 0); i < routine.params.size();) {
         const size_t end = alternativesEnd(routine, i);
-        bool given = false;
-        std::string names;
-        for (size_t k = i; k < end; ++k) {
-            given = given || call.args[k].argument;
-            names += (k == i ? "'" : " or '") + routine.params[k]->name + "'";
-        }
-        if (!given) missing += (count++ == 0 ? "" : ", ") + names;
+        const std::span<const BoundArg> place = call.args.subspan(i, end - i);
+        const bool given =
+            std::any_of(place.begin(), place.end(), [](const BoundArg& bound) { return bound.argument; });
+        if (!given) missing += (count++ == 0 ? "" : ", ") + namesOf(place);
         i = nextRequired(routine, end);
     }
     if (missing.empty()) return;

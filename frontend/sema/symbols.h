@@ -177,6 +177,7 @@ struct RoutineSymbol : Symbol {
     Flow flow = Flow::GoesOn;
     uint8_t lintTraits = 0;                      ///< of LintTrait
     bool raises = false;                         ///< natives: it may raise an error
+    bool uncertain = false;                      ///< built-ins: the form of the call is not confirmed
     uint8_t textLength = 0;                      ///< bytes of the text a native returns at least
     const DataSymbol* textLengthParam = nullptr; ///< parameter that tells how many
     std::string option;                          ///< RobotWare option it needs
