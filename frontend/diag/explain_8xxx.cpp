@@ -207,6 +207,17 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "The assignment changes nothing: another name was meant on one side.",
      "reg1 := reg1;",
      "reg1 := reg2;"},
+    {8024, Kind::Module,
+     "The routine asks Present for the parameter, but not on every way to this place, or it got the answer no. An "
+     "optional parameter that was left out must not be used (manual 1.1.5).",
+     "PROC work(\\num level)\n"
+     "  IF Present(level) TPWrite \"level given\";\n"
+     "  reg1 := level;\n"
+     "ENDPROC",
+     "PROC work(\\num level)\n"
+     "  IF NOT Present(level) RETURN;\n"
+     "  reg1 := level;\n"
+     "ENDPROC"},
     {8030, Kind::Body,
      "num has 23 binary digits: most fractions, such as 0.1, are stored rounded, and a calculated "
      "value differs in the last digit (manual 1.2.1). Compare whether the difference is small.",

@@ -33,6 +33,11 @@ bool handlesSignal(const RoutineSymbol& routine) {
     return false;
 }
 
+/// Incr, Add, BitSet ...: chapter 1.15 of the manual.
+bool isCalculation(const RoutineSymbol& routine) {
+    return routine.native && routine.manual == "1.15";
+}
+
 const BoundArg* given(const BoundCall& call, int param) {
     if (param < 0 || static_cast<size_t>(param) >= call.args.size()) return nullptr;
     const BoundArg& arg = call.args[static_cast<size_t>(param)];
@@ -64,7 +69,7 @@ bool Walker::call(const Node& node, std::span<Argument* const> args) {
             movement(*bound);
         else if ((bound->routine->lintTraits & sema::kLintStopPoint) != 0)
             wait(node, *bound);
-        else if (!bound->routine->native)
+        else if (!bound->routine->native || bound->routine->effects == Effects::Waits)
             flyBy_ = nullptr;
     }
     return conduct(*bound);
@@ -99,7 +104,13 @@ void Walker::reference(const BoundCall& call, const BoundArg& arg) {
         if (data && isOwn(*data)) access_[data->index] |= kRead;
         return;
     }
-    write(*arg.value, kRead);
+    const DataSymbol* own = rootOf(*arg.value);
+    const bool counted = own && isOwn(*own) && own->storage == sema::Storage::Parameter &&
+                         own->mode == ParamMode::In && isCalculation(*call.routine);
+    if (counted)
+        write(*arg.value, kAssigned, true); // "Incr n;"
+    else
+        write(*arg.value, kRead);
     if (param->type.type == predefined_.types.intnum) interrupt(call, arg);
 }
 
@@ -119,21 +130,30 @@ void Walker::connect(const ConnectStmt& s) {
     if (const DataSymbol* root = rootOf(*s.target)) facts_.connected.insert(root);
 }
 
+/// GetDataVal, SetDataVal: any of the data may be read and written here.
+void Walker::usesNames() {
+    facts_.dataByName = true;
+    for (uint8_t& access : access_)
+        access |= kMentioned;
+    assigned_.set();
+    written_.set();
+}
+
 /// What the call means for the flow of control; whether the instruction behind it can be reached.
 bool Walker::conduct(const BoundCall& call) {
     const RoutineSymbol& routine = *call.routine;
     if ((routine.lintTraits & sema::kLintCalls) != 0) facts_.callsByName = true;
-    if ((routine.lintTraits & sema::kLintNames) != 0) facts_.dataByName = true;
+    if ((routine.lintTraits & sema::kLintNames) != 0) usesNames();
     if (!routine.native) {
         facts_.calls.push_back(&routine);
         return true;
     }
     if (routine.effects == Effects::Waits || routine.effects == Effects::Motion) ++waits_;
-    // An error may be the way out of a loop; one of a signal is not, unless somebody waits for it.
+    // An error may be the way out of a loop; one of a signal or a calculation is not, unless somebody waits for it.
     const bool acts = routine.effects != Effects::Const && routine.effects != Effects::Pure &&
                       routine.effects != Effects::Reads;
-    if (acts && routine.raises && (!routine_->routineDecl->errors.empty() || !handlesSignal(routine)))
-        ++errors_;
+    const bool unlikely = handlesSignal(routine) || isCalculation(routine);
+    if (acts && routine.raises && (!routine_->routineDecl->errors.empty() || !unlikely)) ++errors_;
     switch (routine.flow) {
     case sema::Flow::GoesOn: return true;
     case sema::Flow::Stops: ++ends_; return true;

@@ -117,9 +117,18 @@ void Walker::comparison(const BinaryExpr& e) {
     const DataSymbol* root = value.kind == NodeKind::Component ? rootOf(other) : nullptr;
     if (root && root->storage == sema::Storage::Parameter) return;
     if (fraction != std::floor(fraction))
-        report(Code::FractionEquality, range(e), {std::string(tree_->text(e.opToken)), text(value)});
+        report(Code::FractionEquality, range(e),
+               {"operator " + std::string(tree_->text(e.opToken)), text(value)});
     else
         judgeSignal(other, value);
+}
+
+void Walker::judgeCase(const Expr& subject, const Expr& value) {
+    const double* found = number(value);
+    if (found && *found != std::floor(*found) && !number(subject))
+        report(Code::FractionEquality, range(value), {"CASE", text(value)});
+    else
+        judgeSignal(subject, value);
 }
 
 /// A digital signal against a constant (also of a CASE).

@@ -2,6 +2,7 @@
 
 #include "frontend/lint/lint.h"
 
+#include "frontend/lint/presence.h"
 #include "frontend/lint/walker.h"
 
 #include <algorithm>
@@ -62,6 +63,25 @@ bool isPlaceholderName(std::string_view name) {
                }) != name.end();
     };
     return has("dummy") || has("unused");
+}
+
+bool equalValues(const sema::ConstValue& a, const sema::ConstValue& b) {
+    if (a.kind != b.kind) return false;
+    switch (a.kind) {
+    case sema::ConstValue::Kind::None: return true;
+    case sema::ConstValue::Kind::Number: return a.number == b.number;
+    case sema::ConstValue::Kind::Bool: return a.boolean == b.boolean;
+    case sema::ConstValue::Kind::String: return a.text() == b.text();
+    case sema::ConstValue::Kind::Aggregate: break;
+    }
+    return std::equal(a.members().begin(), a.members().end(), b.members().begin(), b.members().end(),
+                      equalValues);
+}
+
+/// The predefined data itself, declared once more; of constants with the same value.
+bool isSameData(const DataSymbol& data, const DataSymbol& predefined) {
+    if (data.type.type != predefined.type.type || data.dataKind != predefined.dataKind) return false;
+    return data.dataKind != DataKind::Const || equalValues(data.value(), predefined.value());
 }
 
 /// Places of errors by file: what contains one is not judged.
@@ -130,6 +150,7 @@ class TaskLint {
             for (const RoutineSymbol* routine : module->routines) {
                 if (isWrong(*routine)) continue;
                 walker_.routine(*routine);
+                judgePresence(*routine, reporter_);
                 routineData(*routine);
             }
         }
@@ -352,9 +373,8 @@ void TaskLint::hiding(const Symbol& symbol, const char* kind) {
                                                         : "the predefined instruction";
     }
     // Controllers keep predefined data such as tool0 and reg1 in modules of their own, and backups hold these.
-    if (hidden->kind == SymbolKind::Data && symbol.kind == SymbolKind::Data &&
-        static_cast<const DataSymbol&>(symbol).routine == nullptr &&
-        static_cast<const DataSymbol&>(symbol).type.type == static_cast<const DataSymbol&>(*hidden).type.type)
+    if (hidden->kind == SymbolKind::Data && data && !data->routine &&
+        isSameData(*data, static_cast<const DataSymbol&>(*hidden)))
         return;
     report(Code::HiddenPredefinedName, symbol, {kind, symbol.name, what});
 }

@@ -302,7 +302,7 @@ bool Walker::testStmt(const TestStmt& s) {
     for (const TestCase* c : s.cases)
         for (const Expr* value : c->values) {
             expr(*value);
-            if (s.subject) judgeSignal(*s.subject, *value);
+            if (s.subject) judgeCase(*s.subject, *value);
         }
     const Slots before = assigned_;
     Slots merged;

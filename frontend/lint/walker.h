@@ -92,6 +92,7 @@ class Walker {
     void binary(const syntax::BinaryExpr& e, bool partOfText);
     void comparison(const syntax::BinaryExpr& e);
     void judgeSignal(const Expr& signal, const Expr& value);
+    void judgeCase(const Expr& subject, const Expr& value);
     bool sameText(const syntax::Node& a, const syntax::Node& b) const;
     void textLength(const syntax::BinaryExpr& e);
     unsigned leastLength(const Expr& e) const;
@@ -103,6 +104,7 @@ class Walker {
     void argument(const sema::BoundCall& call, const sema::BoundArg& arg);
     void reference(const sema::BoundCall& call, const sema::BoundArg& arg);
     bool conduct(const sema::BoundCall& call);
+    void usesNames();
     void lateCall(const syntax::CallStmt& s);
     void connect(const syntax::ConnectStmt& s);
     void interrupt(const sema::BoundCall& call, const sema::BoundArg& arg);

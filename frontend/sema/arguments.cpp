@@ -132,8 +132,8 @@ void Analyzer::takeBack(size_t firstDiagnostic, const std::vector<const Expr*>& 
         const bool aboutArgument = d.code == Code::ArgumentClass || d.code == Code::ArgumentNotVariable ||
                                    d.code == Code::ArgumentNotWhole || d.code == Code::ArgumentAlternatives ||
                                    d.code == Code::NonValueInExpression;
-        return aboutArgument && std::any_of(moved.begin(), moved.end(),
-                                            [&](const Expr* e) { return range(*e) == d.range; });
+        return aboutArgument &&
+               std::any_of(moved.begin(), moved.end(), [&](const Expr* e) { return range(*e) == d.range; });
     });
 }
 
@@ -162,8 +162,9 @@ void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t fi
         std::vector<const Expr*> moved;
         if (const auto lost = leftOut(call, moved); !lost.empty()) {
             takeBack(firstDiagnostic, moved);
-            noteDeclared(report(Code::MissingArgument, range(name), {text(name), "argument " + namesOf(lost)}),
-                         routine);
+            noteDeclared(
+                report(Code::MissingArgument, range(name), {text(name), "argument " + namesOf(lost)}),
+                routine);
             return;
         }
     }

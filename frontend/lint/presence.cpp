@@ -1,0 +1,346 @@
+// What is known about optional parameters at each place: conditions with Present tell. Presence never changes while a
+// routine runs, so what is known stays known, but for the places where several ways meet.
+
+#include "frontend/lint/presence.h"
+
+#include "frontend/syntax/tree_walk.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rapid::lint {
+
+using namespace syntax;
+using sema::DataSymbol;
+using sema::RoutineSymbol;
+
+namespace {
+
+class PresenceWalk {
+  public:
+    PresenceWalk(const RoutineSymbol& routine, Reporter& reporter)
+        : routine_(routine), module_(*routine.module), reporter_(reporter),
+          known_(routine.params.size(), Known::Nothing), reported_(routine.params.size(), false) {}
+
+    void run() {
+        list(routine_.routineDecl->body);
+        if (tested_.empty()) return; // the checker speaks of parameters that nobody asks for
+        for (const auto& [param, where] : uses_)
+            if (tested_.count(param->group) > 0) report(*param, *where);
+    }
+
+  private:
+    enum class Known : uint8_t { Nothing, Present, Absent };
+    using State = std::vector<Known>;
+
+    const sema::ExprInfo& info(const Expr& e) const { return (*module_.exprs)[e.id]; }
+
+    const DataSymbol* ownOptional(const Expr& e) const {
+        if (e.kind != NodeKind::Name) return nullptr;
+        const sema::Symbol* symbol = info(e).symbol;
+        if (!symbol || symbol->kind != sema::SymbolKind::Data) return nullptr;
+        const auto* data = static_cast<const DataSymbol*>(symbol);
+        const bool own = data->routine == &routine_ && data->storage == sema::Storage::Parameter;
+        return own && data->optional && !data->isSwitch ? data : nullptr;
+    }
+    /// The parameter that `e` asks for: Present(x). Also of switches, whose alternatives it tells about.
+    const DataSymbol* asked(const Expr& e) const {
+        if (e.kind != NodeKind::Call) return nullptr;
+        const auto found = module_.facts->calls.find(&e);
+        if (found == module_.facts->calls.end() || !found->second.routine) return nullptr;
+        const sema::BoundCall& call = found->second;
+        if (!call.routine->predefined || call.routine->name != "Present" || call.args.empty()) return nullptr;
+        const Expr* value = call.args.front().value;
+        if (!value || value->kind != NodeKind::Name) return nullptr;
+        const sema::Symbol* symbol = info(*value).symbol;
+        if (!symbol || symbol->kind != sema::SymbolKind::Data) return nullptr;
+        const auto* data = static_cast<const DataSymbol*>(symbol);
+        return data->routine == &routine_ && data->index < known_.size() ? data : nullptr;
+    }
+    bool isConstant(const Expr& e, bool value) const {
+        const sema::ConstValue* constant = info(e).constant;
+        return constant && constant->kind == sema::ConstValue::Kind::Bool && constant->boolean == value;
+    }
+
+    /// What is known when `e` is TRUE, or FALSE.
+    void learn(const Expr& e, bool truth) {
+        if (const DataSymbol* param = asked(e)) {
+            known_[param->index] = truth ? Known::Present : Known::Absent;
+        } else if (e.kind == NodeKind::Paren) {
+            learn(*as<ParenExpr>(e).inner, truth);
+        } else if (e.kind == NodeKind::Unary && as<UnaryExpr>(e).op == UnaryOp::Not) {
+            learn(*as<UnaryExpr>(e).operand, !truth);
+        } else if (e.kind == NodeKind::Binary) {
+            const auto& binary = as<BinaryExpr>(e);
+            const bool both = binary.op == (truth ? BinaryOp::And : BinaryOp::Or);
+            if (both) {
+                learn(*binary.left, truth);
+                learn(*binary.right, truth);
+            } else if (binary.op == BinaryOp::Eq || binary.op == BinaryOp::Ne) {
+                const bool equal = (binary.op == BinaryOp::Eq) == truth;
+                if (isConstant(*binary.right, true)) learn(*binary.left, equal);
+                if (isConstant(*binary.right, false)) learn(*binary.left, !equal);
+            }
+        }
+    }
+
+    /// What holds on both ways.
+    static State merged(State a, const State& b) {
+        for (size_t i = 0; i < a.size(); ++i)
+            if (a[i] != b[i]) a[i] = Known::Nothing;
+        return a;
+    }
+
+    void use(const DataSymbol& param, const Expr& e) {
+        const Known known = known_[param.index];
+        const bool passedBy = certain_ && isOpen(param);
+        if (known == Known::Absent || passedBy) uses_.emplace_back(&param, &e);
+    }
+
+    /// Whether nothing is known of the parameter and of those that exclude it.
+    bool isOpen(const DataSymbol& param) const {
+        return std::all_of(routine_.params.begin(), routine_.params.end(), [&](const DataSymbol* other) {
+            return other->group != param.group || known_[other->index] == Known::Nothing;
+        });
+    }
+
+    void expr(const Expr& e) {
+        if (const DataSymbol* param = ownOptional(e)) {
+            use(*param, e);
+            return;
+        }
+        if (const DataSymbol* param = asked(e)) {
+            tested_.insert(param->group);
+            return;
+        }
+        if (e.kind == NodeKind::Call) {
+            arguments(e, as<CallExpr>(e).args);
+            return;
+        }
+        if (e.kind == NodeKind::Binary) {
+            const auto& binary = as<BinaryExpr>(e);
+            expr(*binary.left);
+            if (binary.op != BinaryOp::And && binary.op != BinaryOp::Or) {
+                expr(*binary.right);
+                return;
+            }
+            const State before = known_;
+            const bool outer = std::exchange(certain_, false);
+            learn(*binary.left, binary.op == BinaryOp::And);
+            expr(*binary.right);
+            known_ = before;
+            certain_ = outer;
+            return;
+        }
+        forEachChild(e, [&](const Node& child) {
+            if (isExpr(child.kind)) expr(static_cast<const Expr&>(child));
+        });
+    }
+
+    void arguments(const Node& node, std::span<Argument* const> args) {
+        const auto found = module_.facts->calls.find(&node);
+        const bool looksOnly =
+            found != module_.facts->calls.end() && found->second.routine && found->second.routine->special;
+        for (const Argument* arg : args) {
+            if (!arg->value || arg->argKind == ArgKind::Conditional) continue;
+            if (looksOnly && ownOptional(*arg->value)) continue;
+            expr(*arg->value);
+        }
+    }
+
+    /// A condition of IF or WHILE: what it says is understood, or else nothing behind it is certain.
+    bool isPlain(const Expr& e) const {
+        if (asked(e)) return true;
+        if (e.kind == NodeKind::Paren) return isPlain(*as<ParenExpr>(e).inner);
+        if (e.kind == NodeKind::Unary) return isPlain(*as<UnaryExpr>(e).operand);
+        return false;
+    }
+
+    /// Whether the end of the list is reached.
+    bool list(StmtList stmts) {
+        bool goesOn = true;
+        for (const Stmt* s : stmts) {
+            if (s->kind == NodeKind::Label) {
+                std::fill(known_.begin(), known_.end(), Known::Nothing); // a jump may come from anywhere
+                certain_ = false;
+                goesOn = true;
+            }
+            const bool passes = statement(*s);
+            goesOn = goesOn && passes;
+        }
+        return goesOn;
+    }
+
+    bool branch(StmtList body) {
+        const bool outer = std::exchange(certain_, false);
+        const bool goesOn = list(body);
+        certain_ = outer;
+        return goesOn;
+    }
+
+    bool statement(const Stmt& s) {
+        switch (s.kind) {
+        case NodeKind::If: return ifStmt(as<IfStmt>(s));
+        case NodeKind::CompactIf: {
+            const auto& compact = as<CompactIfStmt>(s);
+            if (!compact.condition || !compact.body) return true;
+            IfBranch branchOf;
+            Stmt* body = compact.body;
+            branchOf.condition = compact.condition;
+            branchOf.body = StmtList(&body, 1);
+            IfBranch* branches[] = {&branchOf};
+            IfStmt whole;
+            whole.branches = branches;
+            return ifStmt(whole);
+        }
+        case NodeKind::While: {
+            const auto& loop = as<WhileStmt>(s);
+            if (!loop.condition) return true;
+            expr(*loop.condition);
+            const State before = known_;
+            learn(*loop.condition, true);
+            branch(loop.body);
+            known_ = before;
+            return true;
+        }
+        case NodeKind::For: {
+            const auto& loop = as<ForStmt>(s);
+            for (const Expr* bound : {loop.from, loop.to, loop.step})
+                if (bound) expr(*bound);
+            const State before = known_;
+            branch(loop.body);
+            known_ = before;
+            return true;
+        }
+        case NodeKind::Test: return testStmt(as<TestStmt>(s));
+        case NodeKind::CallStmt: {
+            const auto& call = as<CallStmt>(s);
+            if (call.lateName) expr(*call.lateName);
+            arguments(s, call.args);
+            return goesOnBehind(s);
+        }
+        case NodeKind::Assign: {
+            const auto& assign = as<AssignStmt>(s);
+            // "bGiven := Present(x);": what depends on it cannot be followed.
+            if (assign.value && mentionsPresent(*assign.value)) {
+                hopeless_ = true;
+                certain_ = false;
+            }
+            break;
+        }
+        default: break;
+        }
+        forEachChild(s, [&](const Node& child) {
+            if (isExpr(child.kind)) expr(static_cast<const Expr&>(child));
+        });
+        switch (s.kind) {
+        case NodeKind::Return:
+        case NodeKind::Raise:
+        case NodeKind::Exit:
+        case NodeKind::Goto:
+        case NodeKind::Break:
+        case NodeKind::Continue:
+        case NodeKind::Retry:
+        case NodeKind::TryNext: return false;
+        default: return true;
+        }
+    }
+
+    bool goesOnBehind(const Stmt& s) const {
+        const auto found = module_.facts->calls.find(&s);
+        if (found == module_.facts->calls.end() || !found->second.routine) return true;
+        const sema::Flow flow = found->second.routine->flow;
+        return flow == sema::Flow::GoesOn || flow == sema::Flow::Stops;
+    }
+
+    bool mentionsPresent(const Expr& e) const {
+        if (asked(e)) return true;
+        bool found = false;
+        forEachChild(e, [&](const Node& child) {
+            if (child.kind == NodeKind::Argument) {
+                const Expr* value = static_cast<const Argument&>(child).value;
+                found = found || (value && mentionsPresent(*value));
+            } else if (isExpr(child.kind)) {
+                found = found || mentionsPresent(static_cast<const Expr&>(child));
+            }
+        });
+        return found;
+    }
+
+    bool ifStmt(const IfStmt& s) {
+        State after;
+        bool completes = false;
+        const auto meet = [&](bool goesOn) {
+            if (!goesOn) return;
+            after = completes ? merged(std::move(after), known_) : known_;
+            completes = true;
+        };
+        const bool outer = certain_;
+        bool understood = true;
+        for (const IfBranch* one : s.branches) {
+            if (one->condition) expr(*one->condition);
+            certain_ = false; // the next condition is evaluated on one of the ways only
+            const State before = known_;
+            if (one->condition) learn(*one->condition, true);
+            const bool goesOn = branch(one->body);
+            if (!goesOn && one->condition && !isPlain(*one->condition)) understood = false;
+            meet(goesOn);
+            known_ = before;
+            if (one->condition) learn(*one->condition, false);
+        }
+        meet(!s.hasElse || branch(s.elseBody));
+        certain_ = outer && understood && !hopeless_;
+        if (completes) known_ = after;
+        return completes;
+    }
+
+    bool testStmt(const TestStmt& s) {
+        if (s.subject) expr(*s.subject);
+        const State before = known_;
+        const bool outer = std::exchange(certain_, false);
+        const bool isTrue = s.subject && isConstant(*s.subject, true);
+        bool leaves = false;
+        for (const TestCase* one : s.cases) {
+            for (const Expr* value : one->values)
+                expr(*value);
+            if (isTrue && one->values.size() == 1) learn(*one->values.front(), true);
+            leaves |= !list(one->body);
+            known_ = before;
+        }
+        const bool last = list(s.defaultBody);
+        known_ = before;
+        certain_ = outer && !leaves && last && !hopeless_;
+        return true;
+    }
+
+    void report(const DataSymbol& param, const Expr& e) {
+        if (reported_[param.index]) return;
+        reported_[param.index] = true;
+        const SyntaxTree& tree = *module_.tree;
+        diag::Diagnostic* d = reporter_.report(Code::OptionalMayBeMissing, tree, tree.range(e), {param.name});
+        if (d)
+            d->notes.push_back(
+                {tree.source, tree.range(param.nameToken), "'" + param.name + "' is declared here"});
+    }
+
+    const RoutineSymbol& routine_;
+    const sema::Module& module_;
+    Reporter& reporter_;
+    State known_; ///< by index of the parameter
+    std::vector<bool> reported_;
+    bool certain_ = true;                 ///< every call of the routine comes here
+    bool hopeless_ = false;               ///< what Present said has been stored
+    std::unordered_set<uint32_t> tested_; ///< groups of alternatives
+    std::vector<std::pair<const DataSymbol*, const Expr*>> uses_;
+};
+
+} // namespace
+
+void judgePresence(const RoutineSymbol& routine, Reporter& reporter) {
+    if (!reporter.isOn(Code::OptionalMayBeMissing) || !routine.routineDecl->errors.empty()) return;
+    const bool any = std::any_of(routine.params.begin(), routine.params.end(),
+                                 [](const DataSymbol* p) { return p->optional && !p->isSwitch; });
+    if (any) PresenceWalk(routine, reporter).run();
+}
+
+} // namespace rapid::lint

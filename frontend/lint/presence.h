@@ -1,0 +1,12 @@
+#pragma once
+// Optional parameters that are used where they may be missing. Internal to frontend/lint.
+
+#include "frontend/lint/facts.h"
+
+namespace rapid::lint {
+
+/// Reports the use of an optional parameter where Present has said no, or where a test by Present, which the routine
+/// has, is passed by (manual 1.1.5). Routines that never ask, and those whose ERROR handler may answer, are left alone.
+void judgePresence(const sema::RoutineSymbol& routine, Reporter& reporter);
+
+} // namespace rapid::lint
