@@ -79,12 +79,30 @@ std::string kebabName(const CatalogueEntry& entry) {
     return out;
 }
 
+namespace {
+
+/// Names and quoted text of any length would hide what a message says.
+void appendShortened(std::string& out, std::string_view argument) {
+    constexpr size_t kLongest = 300;
+    if (argument.size() <= kLongest) {
+        out += argument;
+        return;
+    }
+    size_t end = kLongest;
+    while (end > 0 && (static_cast<unsigned char>(argument[end]) & 0xC0) == 0x80)
+        --end; // not inside a character
+    out += argument.substr(0, end);
+    out += "...";
+}
+
+} // namespace
+
 std::string formatText(std::string_view text, std::span<const std::string> args) {
     std::string out;
     for (size_t i = 0; i < text.size(); ++i) {
         const int n = text[i] == '{' ? placeholderAt(text, i) : -1;
         if (n >= 0 && static_cast<size_t>(n) < args.size()) {
-            out += args[static_cast<size_t>(n)];
+            appendShortened(out, args[static_cast<size_t>(n)]);
             i += 2;
         } else {
             out.push_back(text[i]);

@@ -5,6 +5,7 @@
 #include "frontend/sema/references.h"
 #include "frontend/syntax/lexer.h"
 #include "frontend/syntax/token_set.h"
+#include "frontend/syntax/tree_walk.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -105,7 +106,7 @@ class Renamer {
         if (std::string bad = choose(*before, references); !bad.empty()) return refuse(std::move(bad));
         collectEdits(references);
         if (std::string bad = verify(references); !bad.empty()) return refuse(std::move(bad));
-        noteStrings(*before);
+        noteNamesOfRunTime(*before);
         return std::move(set_);
     }
 
@@ -159,6 +160,9 @@ class Renamer {
     /// The chosen declaration and, for a shared persistent, those of the same name in the other tasks.
     void addTargets(const Symbol& chosen, const std::vector<Reference>& references) {
         oldName_ = sema::foldName(chosen.name);
+        isRoutine_ = chosen.kind == SymbolKind::Routine;
+        isParameter_ = chosen.kind == SymbolKind::Data &&
+                       static_cast<const sema::DataSymbol&>(chosen).storage == sema::Storage::Parameter;
         targets_.insert(siteOf(chosen));
         if (!isSharedPersistent(chosen)) return;
         for (const Reference& reference : references)
@@ -225,17 +229,57 @@ class Renamer {
         return before.size() == after.size() ? "" : "a name would lose its meaning: choose another name";
     }
 
-    /// Strings may name routines and data (late binding, GetDataVal ...).
-    void noteStrings(const sema::CheckedProgram& program) {
-        for (const auto& tree : program.trees)
-            for (TokenIndex t = 0; t < tree->tokens.size(); ++t) {
-                if (tree->tokens[t].kind != TokenKind::StringLiteral || !isUserTree(program, *tree)) continue;
-                if (sema::foldName(decodeStringLiteral(tree->text(t))) != oldName_) continue;
-                std::string note =
-                    fmt::format("{}: the string {} stays as it is", placeOf(*tree, t), tree->text(t));
-                if (std::find(set_.notes.begin(), set_.notes.end(), note) == set_.notes.end())
-                    set_.notes.push_back(std::move(note));
-            }
+    /// Strings may name routines and data (late binding, GetDataVal ...); what is known at run time only is pointed at.
+    void noteNamesOfRunTime(const sema::CheckedProgram& program) {
+        for (const auto& tree : program.trees) {
+            if (!isUserTree(program, *tree)) continue;
+            for (TokenIndex t = 0; t < tree->tokens.size(); ++t)
+                if (tree->tokens[t].kind == TokenKind::StringLiteral && spelt(*tree, t) == oldName_)
+                    note(*tree, t, fmt::format("the string {} stays as it is", tree->text(t)));
+            if (isRoutine_ || isParameter_)
+                for (const ModuleDecl* module : tree->modules)
+                    noteLateCalls(*tree, *module);
+        }
+    }
+
+    static std::string spelt(const SyntaxTree& tree, TokenIndex string) {
+        return sema::foldName(decodeStringLiteral(tree.text(string)));
+    }
+
+    void note(const SyntaxTree& tree, TokenIndex token, std::string_view what) {
+        std::string text = fmt::format("{}: {}", placeOf(tree, token), what);
+        if (std::find(set_.notes.begin(), set_.notes.end(), text) == set_.notes.end())
+            set_.notes.push_back(std::move(text));
+    }
+
+    void noteLateCalls(const SyntaxTree& tree, const Node& node) {
+        if (node.kind == NodeKind::CallStmt) {
+            const auto& call = as<CallStmt>(node);
+            const bool byNumber = call.name != kNoToken &&
+                                  sema::foldName(tree.text(call.name)) == "callbyvar" && !call.args.empty();
+            if (isRoutine_ && call.lateName) noteBeginnings(tree, *call.lateName);
+            if (isRoutine_ && byNumber) noteBeginnings(tree, *call.args.front());
+            if (isParameter_ && call.lateName)
+                for (const Argument* arg : call.args)
+                    if (arg->name != kNoToken && sema::foldName(tree.text(arg->name)) == oldName_)
+                        note(tree, arg->name,
+                             fmt::format("the argument '{}' of a call by name stays as it is",
+                                         tree.text(arg->name)));
+            return;
+        }
+        forEachChild(node, [&](const Node& child) { noteLateCalls(tree, child); });
+    }
+
+    /// `%"proc"+NumToStr(n,0)%`, `CallByVar "proc",n`: "proc1" may be meant.
+    void noteBeginnings(const SyntaxTree& tree, const Node& name) {
+        for (TokenIndex t = name.first; t <= name.last; ++t) {
+            if (tree.tokens[t].kind != TokenKind::StringLiteral) continue;
+            const std::string beginning = spelt(tree, t);
+            if (!beginning.empty() && beginning != oldName_ && oldName_.starts_with(beginning))
+                note(tree, t,
+                     fmt::format("the string {}, with which the old name begins, stays as it is",
+                                 tree.text(t)));
+        }
     }
 
     static bool isUserTree(const sema::CheckedProgram& program, const SyntaxTree& tree) {
@@ -250,6 +294,7 @@ class Renamer {
     std::string path_;
     std::string newName_;
     std::string oldName_; ///< folded
+    bool isRoutine_ = false, isParameter_ = false;
     std::set<Site> targets_;
     EditSet set_;
 };

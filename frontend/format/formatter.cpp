@@ -76,7 +76,7 @@ class Formatter {
             if (!gaps[i].keep) editGap({end, atom.begin}, gaps[i], line, newLine);
             line = newLine;
             if (!atom.isComment && inRange(line)) editWord(atom.token);
-            if (atom.endColumn < atom.column) // a file header
+            if (!atom.isComment && tree_.tokens[atom.token].kind == TokenKind::FileHeader)
                 line +=
                     static_cast<uint32_t>(lineEnds(text_.substr(atom.begin, atom.end - atom.begin)).size());
             end = atom.end;

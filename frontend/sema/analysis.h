@@ -6,6 +6,7 @@
 #include "frontend/sema/names.h"
 
 #include <set>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -281,6 +282,7 @@ class Analyzer {
     static bool isPlaceExpr(const syntax::Expr& e);
     Place namePlace(const syntax::NameExpr& e, const Type* handle);
     Place indexPlace(const syntax::IndexExpr& e, const Type* handle);
+    int findComponent(const Type& record, std::string_view name);
     Place componentPlace(const syntax::ComponentExpr& e, const Type* handle);
     void checkIndex(const syntax::Expr& index, int32_t dimension, int64_t& value);
 
@@ -435,6 +437,8 @@ class Analyzer {
     std::vector<const syntax::Argument*> judged_; ///< arguments judged already to choose an alternative
     const RoutineSymbol* wideRoutine_ = nullptr;  ///< one with very many parameters, and their names
     NameMap<DataSymbol> wideNames_;
+    const Type* wideRecord_ = nullptr; ///< one with very many components, and their names
+    std::unordered_map<std::string, int> wideComponents_;
     /// Declarations being resolved inside each other; more than this nobody writes, and the stack is finite.
     static constexpr unsigned kMaxDepth = 500;
     unsigned depth_ = 0;

@@ -134,6 +134,21 @@ Place Analyzer::indexPlace(const IndexExpr& e, const Type* handle) {
     return place;
 }
 
+// The index of a component, or -1. Records with very many of them get a table.
+int Analyzer::findComponent(const Type& record, std::string_view name) {
+    constexpr size_t kMany = 64;
+    const std::vector<Type::Component>& all = record.base()->components;
+    if (all.size() < kMany) return record.findComponent(name);
+    if (wideRecord_ != record.base()) {
+        wideRecord_ = record.base();
+        wideComponents_.clear();
+        for (size_t i = 0; i < all.size(); ++i)
+            wideComponents_.emplace(foldName(all[i].name), static_cast<int>(i));
+    }
+    const auto found = wideComponents_.find(foldName(name));
+    return found == wideComponents_.end() ? -1 : found->second;
+}
+
 Place Analyzer::componentPlace(const ComponentExpr& e, const Type*) {
     ExprInfo& result = info(e);
     result.type = {program_.errorType, 0, {}};
@@ -155,7 +170,7 @@ Place Analyzer::componentPlace(const ComponentExpr& e, const Type*) {
         return {};
     }
     const std::string_view name = context_.tree->text(e.name);
-    const int component = base.type.type->findComponent(name);
+    const int component = findComponent(*base.type.type, name);
     if (component < 0) {
         const Type::Component* near = nearComponent(*base.type.type, name);
         diag::Diagnostic& d =

@@ -30,6 +30,9 @@ class Collector {
                 if (!type->isLocal) globalTypes_.emplace(foldName(type->name), type);
         for (const Module* module : task.modules) {
             module_ = module;
+            localTypes_.clear();
+            for (const TypeSymbol* type : module->types)
+                if (type->isLocal) localTypes_.emplace(foldName(type->name), type);
             const size_t begin = out_.size();
             declare();
             if (module->decl) visit(*module->decl);
@@ -64,9 +67,7 @@ class Collector {
     void type(TokenIndex token) {
         if (token == kNoToken) return;
         const std::string name = foldName(module_->tree->text(token));
-        for (const TypeSymbol* own : module_->types)
-            if (own->isLocal && foldName(own->name) == name) return add(token, own);
-        for (const TypeTable* table : {&globalTypes_, &predefinedTypes_})
+        for (const TypeTable* table : {&localTypes_, &globalTypes_, &predefinedTypes_})
             if (const auto found = table->find(name); found != table->end()) return add(token, found->second);
     }
 
@@ -108,6 +109,7 @@ class Collector {
     std::vector<Reference>& out_;
     TypeTable predefinedTypes_;
     TypeTable globalTypes_;
+    TypeTable localTypes_; ///< of the module
     const Task* task_ = nullptr;
     const Module* module_ = nullptr;
 };

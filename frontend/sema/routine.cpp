@@ -24,6 +24,7 @@ void Analyzer::checkRoutine(RoutineSymbol& symbol) {
     labels_.clear();
     labelNames_ = {};
     wideRoutine_ = nullptr;
+    wideRecord_ = nullptr;
     partComparisonsLeft_ = kMaxPartComparisons;
     gotos_.clear();
 

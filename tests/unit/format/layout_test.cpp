@@ -292,6 +292,15 @@ TEST_CASE("a range of lines changes these lines only", "[format]") {
     CHECK(
         formatText("MODULE m\nVAR num a;  \nvar num b;  \n VAR num  c;  \nvar num d;\nENDMODULE", request) ==
         "MODULE m\nVAR num a;  \n   VAR num b;\n   VAR num c;\nvar num d;\nENDMODULE");
+    // The lines of the file header count.
+    request.firstLine = request.lastLine = 6;
+    CHECK(formatText("%%%\nVERSION:1\n%%%\nMODULE m\nVAR  num a;\nVAR  num b;\nVAR  num c;\nVAR  num d;\n"
+                     "VAR  num e;\nENDMODULE\n",
+                     request) ==
+          "%%%\nVERSION:1\n%%%\nMODULE m\nVAR  num a;\n   VAR num b;\nVAR  num c;\nVAR  num d;\n"
+          "VAR  num e;\nENDMODULE\n");
+    request.firstLine = 3;
+    request.lastLine = 4;
     // A line that shares an instruction with lines outside keeps its breaks.
     CHECK(formatText("MODULE m\nVAR\nnum b;VAR num c\n;\nVAR num d;\nENDMODULE", request) ==
           "MODULE m\nVAR\n         num b;\n   VAR num c;\nVAR num d;\nENDMODULE");

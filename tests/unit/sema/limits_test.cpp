@@ -38,3 +38,13 @@ TEST_CASE("labels find their like among thousands", "[sema]") {
     const auto checked = checkTexts({text});
     CHECK(checked->codes() == Messages{"RAP2015", "RAP2007"});
 }
+
+TEST_CASE("components find their like among thousands", "[sema]") {
+    std::string text = "MODULE m\n  RECORD wide\n";
+    for (int i = 0; i < 3000; ++i)
+        text += "    num c" + std::to_string(i) + ";\n";
+    text += "  ENDRECORD\n  RECORD other\n    num c2999;\n  ENDRECORD\n  VAR wide w;\n  VAR other o;\n"
+            "  PROC p()\n    w.C2999 := o.c2999;\n    w.c3000 := o.c0;\n    w.c0 := w.c1;\n  ENDPROC\n"
+            "ENDMODULE\n";
+    CHECK(checkTexts({text})->codes() == Messages{"RAP2005", "RAP2005"});
+}

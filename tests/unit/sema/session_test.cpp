@@ -240,6 +240,7 @@ void compareThroughEdits(const std::vector<std::map<std::string, std::string>>& 
         if (heal)
             for (const auto& [path, text] : first)
                 if (now[path] != text) at = now.find(path);
+        const std::string before = at->second;
         at->second = heal ? first.at(at->first) : edit(random, at->second, originals);
         sources[at->first] = std::make_shared<const SourceFile>(at->first, at->second);
         REQUIRE(session.change(sources[at->first]));
@@ -249,7 +250,7 @@ void compareThroughEdits(const std::vector<std::map<std::string, std::string>>& 
         const std::string expected = show(sink.sorted()), found = show(session.diagnostics());
         const std::string facts = show(*program), foundFacts = show(session.program());
         if (expected == found && facts == foundFacts) continue;
-        INFO("seed " << seed << ", step " << step << ", changed " << at->first << "\n" << at->second);
+        INFO("seed " << seed << ", step " << step << ", changed " << at->first << "\n" << at->second << "\nbefore:\n" << before);
         INFO((expected != found ? firstDifference(found, expected) : firstDifference(foundFacts, facts)));
         FAIL("the session and the check of everything do not agree");
     }

@@ -44,6 +44,12 @@ TEST_CASE("braces in a catalogue text are no placeholders", "[diag]") {
     CHECK(diag::formatText("found '{' and {0} and '}'", args) == "found '{' and x and '}'");
 }
 
+TEST_CASE("a message stays readable whatever it quotes", "[diag]") {
+    const std::string args[] = {std::string(299, 'a') + "\xC3\xA4" + std::string(1000000, 'b')};
+    CHECK(diag::formatText("'{0}' is not declared", args) ==
+          "'" + std::string(299, 'a') + "...' is not declared");
+}
+
 TEST_CASE("diagnostics are sorted by place, the limit comes last", "[diag]") {
     diag::Sink sink;
     const auto source = file("abc\ndef\n");
