@@ -59,7 +59,6 @@ Diagnostic& Sink::report(Code code, const std::shared_ptr<const SourceFile>& fil
 }
 
 bool Sink::isOneTooMany(const std::shared_ptr<const SourceFile>& file, SourceRange range, Severity severity) {
-    if (!file) return false;
     Kept& kept = kept_[file.get()];
     const bool error = severity == Severity::Error;
     uint32_t& count = error ? kept.errors : kept.warnings;

@@ -236,10 +236,13 @@ std::string warningSuggestion(std::string_view name) {
 
 void applySettings(const project::Settings& settings, WarningLevels& levels, diag::Sink& sink) {
     // "all" and "lint" first: names say more than groups, and a JSON object has no order.
+    constexpr size_t kMostUnknown = 1000; // more are not shown
+    size_t unknown = 0;
     for (const bool groups : {true, false}) {
         for (const project::Setting& setting : settings.entries) {
             if (setting.section != "warnings") continue;
             if (isGroup(setting.name) != groups) continue;
+            if (unknown > kMostUnknown) return;
             const std::string* text = setting.text();
             const bool known = text && (*text == "off" || *text == "warning" || *text == "error");
             if (!known) {
@@ -250,7 +253,7 @@ void applySettings(const project::Settings& settings, WarningLevels& levels, dia
             const Level level = *text == "off"     ? Level::Off
                                 : *text == "error" ? Level::Error
                                                    : Level::Warning;
-            if (!levels.set(setting.name, level))
+            if (!levels.set(setting.name, level) && unknown++ < kMostUnknown)
                 sink.report(Code::UnknownWarning, settings.file, setting.range,
                             {setting.name, warningSuggestion(setting.name)});
         }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 
 namespace rapid::project {
 
@@ -34,11 +35,14 @@ std::string plural(size_t n, std::string_view word) {
 
 /// A file of the backup that describes it, as a place for diagnostics.
 struct Description {
+    static constexpr size_t kMostSearches = 2000; ///< they take time, and more mistakes are not shown
     std::shared_ptr<const SourceFile> file;
+    mutable size_t searches = 0;
 
     std::string_view text() const { return file ? file->text() : std::string_view(); }
     /// Where `what` stands behind the first `after`; the beginning of the file if it is not there.
     SourceRange find(std::string_view what, std::string_view after = {}) const {
+        if (++searches > kMostSearches) return {};
         const size_t from = text().find(after);
         const size_t at = from == std::string_view::npos ? from : text().find(what, from + after.size());
         if (at == std::string_view::npos) return {};
@@ -240,23 +244,20 @@ class BackupLoader {
     }
 
     void readModules(TaskParts& task) {
-        std::vector<fs::path> done;
+        std::set<fs::path> done;
         const std::vector<ListedModule> none;
         for (const ListedModule& listed : task.listed ? task.listed->modules : none) {
             const fs::path path = findListed(task, listed);
             if (path.empty()) {
                 reportUnsaved(task, listed);
                 addMissing(task, listed.file);
-            } else if (std::find(done.begin(), done.end(), path) == done.end()) {
+            } else if (done.insert(path).second) {
                 addModule(path, task);
-                done.push_back(path);
             }
         }
         for (const char* part : {"PROGMOD", "SYSMOD"}) {
             for (const fs::path& path : entries(findEntry(task.folder, part))) {
-                if (!isModule(path) || isFolder(path) ||
-                    std::find(done.begin(), done.end(), path) != done.end())
-                    continue;
+                if (!isModule(path) || isFolder(path) || done.contains(path)) continue;
                 if (task.listed && !task.listed->modules.empty())
                     report(Code::UnlistedModule, infoFile_, infoFile_.find(">>" + task.listed->folder),
                            {path.string(), task.input.name});

@@ -41,6 +41,9 @@ class Reader {
         } catch (const Json::parse_error& problem) {
             reportSyntax(text, problem.byte);
             return;
+        } catch (const Json::exception&) {
+            report(Code::BadProjectFile, {0, 0}, {"a number in it is too large"});
+            return;
         }
         if (!json.is_object()) {
             report(Code::BadProjectFile, {0, 0}, {"expected an object '{ ... }'"});
@@ -68,8 +71,10 @@ class Reader {
             report(Code::BadSetting, place, {name, "an object '{ ... }'"});
             return;
         }
+        constexpr size_t kMostPlaces = 1000; // looking for them takes time, and more mistakes are not shown
         for (const auto& [key, value] : section.items()) {
-            Setting setting{name, key, false, placeOf(out_.file->text(), key, place.end)};
+            const bool sought = out_.entries.size() < kMostPlaces;
+            Setting setting{name, key, false, sought ? placeOf(out_.file->text(), key, place.end) : place};
             if (value.is_boolean())
                 setting.value = value.get<bool>();
             else if (value.is_number())

@@ -122,6 +122,7 @@ class Analyzer {
     /// Before the first task: all of them, because each can name the others.
     void setTaskNames(std::vector<std::string> names) { taskNames_ = std::move(names); }
     /// What concerns several tasks: persistents they share.
+    void checkSharedModules();
     void checkAcrossTasks();
     bool leaveOut(const TaskInput& input);
 

@@ -4,6 +4,8 @@
 
 #include "frontend/syntax/parser.h"
 
+#include <map>
+
 namespace rapid::sema {
 
 using namespace syntax;
@@ -328,6 +330,32 @@ std::pair<std::string, std::string> Analyzer::difference(const Type& left, const
     return {what + componentNames(a, i), what + componentNames(b, i)};
 }
 
+// The data of a module that is installed shared are one and the same for all tasks (manual 1.2.2).
+void Analyzer::checkSharedModules() {
+    if (options_.sharedModules.empty() || program_.tasks.size() < 2) return;
+    std::map<std::pair<std::string, NameId>, const DataSymbol*> known; // module and name
+    for (const auto& task : program_.tasks) {
+        for (Module* module : task->modules) {
+            const std::string name = foldName(module->name);
+            if (!options_.sharedModules.contains(name)) continue;
+            for (DataSymbol* data : module->data) {
+                const bool everywhere = data->dataKind == DataKind::Pers && data->scope == ScopeWord::None;
+                if (data->dataKind == DataKind::Const || data->scope == ScopeWord::Task || everywhere)
+                    continue;
+                const auto [first, isNew] = known.try_emplace({name, data->nameId}, data);
+                const DataSymbol& other = *first->second;
+                if (isNew ||
+                    (sameShape(data->type, other.type) && sameStructure(*data->type.type, *other.type.type)))
+                    continue;
+                enterModule(module);
+                noteDeclared(
+                    report(Code::SharedDataConflict, range(data->nameToken), {data->name, module->name}),
+                    other);
+            }
+        }
+    }
+}
+
 // A global persistent is one object for all tasks that declare it (manual 1.20).
 void Analyzer::checkShared(const DataSymbol& data, const DataSymbol& other, DifferentRecords& told) {
     const bool sameTypes = sameStructure(*data.type.type, *other.type.type);
@@ -349,6 +377,7 @@ void Analyzer::checkAcrossTasks() {
     constexpr size_t kMaxTasks = 20; // manual 1.20
     if (program_.tasks.size() > kMaxTasks)
         sink_.report(Code::TooManyTasks, nullptr, {}, {std::to_string(program_.tasks.size())});
+    checkSharedModules();
     NameMap<DataSymbol> shared;
     NameMap<const Task> names;
     DifferentRecords told;

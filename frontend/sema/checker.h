@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 
 namespace rapid::sema {
 
@@ -34,6 +35,8 @@ struct CheckOptions {
     std::vector<SignalInfo> signals; ///< from the configuration; mechanical units as well
     /// RobotWare options of the controller, e.g. "623-1 Multitasking", when a backup tells them; else unknown.
     std::optional<std::vector<std::string>> robotWareOptions;
+    /// Modules that are installed once for all tasks (CAB_TASK_MODULES), names in lower case.
+    std::set<std::string> sharedModules;
     std::span<const LibraryText> library;
     /// Called by check() for each file of a task, with its modules, as soon as everything in it is checked.
     std::function<void(const CheckedProgram&, const Task&, std::span<Module* const>)> onFile;

@@ -59,9 +59,19 @@ class Collector {
             for (const DataSymbol* data : routine->data)
                 declare(data);
         }
-        const auto& labels = module_->facts->labels;
-        for (size_t i = 0; i < labels.size(); ++i)
-            if (labels[i].module == module_) declare(&labels[i]);
+        declareLabels();
+    }
+
+    /// Those of a file are kept together.
+    void declareLabels() {
+        if (labelsOf_ != module_->facts) {
+            labelsOf_ = module_->facts;
+            labels_.clear();
+            for (size_t i = 0; i < labelsOf_->labels.size(); ++i)
+                labels_[labelsOf_->labels[i].module].push_back(&labelsOf_->labels[i]);
+        }
+        for (const LabelSymbol* label : labels_[module_])
+            declare(label);
     }
 
     void type(TokenIndex token) {
@@ -110,6 +120,8 @@ class Collector {
     TypeTable predefinedTypes_;
     TypeTable globalTypes_;
     TypeTable localTypes_; ///< of the module
+    const FileFacts* labelsOf_ = nullptr;
+    std::unordered_map<const Module*, std::vector<const LabelSymbol*>> labels_; ///< of this file
     const Task* task_ = nullptr;
     const Module* module_ = nullptr;
 };

@@ -166,11 +166,11 @@ void Parser::reportLexErrors(const LexResult& lexed) {
         if (error.code == Code::ForeignSpelling && error.args[0] == "==") continue; // so is what it means
         if (error.code == Code::BadStringEscape && isInBrokenString(lexed, error)) continue;
         if (endsBrokenString(error, last)) { // what stands between the lines is no code
-            Token* between =
+            const Token* between =
                 std::lower_bound(tokens_, tokens_ + last_, last->range.end,
                                  [](const Token& token, uint32_t offset) { return token.offset < offset; });
             for (; between < tokens_ + last_ && between->offset < error.range.end; ++between)
-                between->kind = K::Error;
+                readAs(static_cast<TokenIndex>(between - tokens_), K::Error);
             before = nullptr;
             continue;
         }

@@ -134,8 +134,7 @@ bool Parser::takesPercentAsMod() {
     const bool before = tree_.range(pos_ - 1).end == sign.begin, after = tokens_[pos_ + 1].offset == sign.end;
     fix(report(Code::ForeignSpelling, pos_, {"%", "MOD"}), sign,
         std::string(before ? " " : "") + "MOD" + (after ? " " : ""));
-    tokens_[pos_].kind = K::KwMod;
-    tree_.retagged = true;
+    readAs(pos_, K::KwMod);
     return true;
 }
 
@@ -485,8 +484,7 @@ bool Parser::instructionAfterComma() {
     constexpr TokenSet kNoArgument = {K::Identifier, K::NumLiteral, K::StringLiteral};
     if (!kNoArgument.has(peek(2)) || !startsLine(pos_ + 1) || startsLine(pos_ + 2)) return false;
     fix(report(Code::UnexpectedToken, pos_, {"','", "';'"}), tree_.range(pos_), ";");
-    tokens_[pos_].kind = K::Semicolon;
-    tree_.retagged = true;
+    readAs(pos_, K::Semicolon);
     return true;
 }
 

@@ -250,8 +250,7 @@ void Parser::takeSlashAsBackslash() {
     if (!isName(peek())) return;
     fix(report(Code::ForeignSpelling, pos_, {"/", "'\\' before an optional parameter"}), tree_.range(pos_),
         "\\");
-    tokens_[pos_].kind = K::Backslash;
-    tree_.retagged = true;
+    readAs(pos_, K::Backslash);
 }
 
 /// IN, REF, OUT ... before a parameter: reported and left out.

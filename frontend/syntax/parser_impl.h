@@ -191,6 +191,11 @@ class Parser {
     // ---- Misspelt keywords (parser_typos.cpp)
     bool meant(TokenIndex i, K word, unsigned limit = 0) const;
     bool isShuffled(TokenIndex i, K word) const;
+    /// Reads a token as something else from now on; relex() keeps no such tokens.
+    void readAs(TokenIndex token, K kind) {
+        tree_.tokens[token].kind = kind;
+        tree_.retagged = true;
+    }
     void retag(TokenIndex first, TokenIndex last, K word);
     bool retagIfMeant(K word);
     bool fitsAsListWord(K word, TokenIndex last) const;
@@ -337,7 +342,7 @@ class Parser {
     SyntaxTree& tree_;
     diag::Sink& sink_;
     const ParseOptions& options_;
-    Token* tokens_ = nullptr; ///< misspelt keywords are retagged
+    const Token* tokens_ = nullptr;
     TokenIndex pos_ = 0;
     TokenIndex last_ = 0; ///< index of EndOfFile
     uint32_t depth_ = 0;

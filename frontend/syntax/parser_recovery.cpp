@@ -529,7 +529,7 @@ bool Parser::handleStray(const TokenSet& own) {
     }
     if (stray == K::KwElse && own.has(K::KwDefault)) { // of TEST
         fix(report(Code::MisspeltKeyword, pos_, {describe(pos_), "DEFAULT:"}), tree_.range(pos_), "DEFAULT:");
-        tokens_[pos_].kind = K::KwDefault;
+        readAs(pos_, K::KwDefault);
         colonGiven_ = true;
         return true;
     }
@@ -574,10 +574,10 @@ void Parser::laterUsesAreNames(TokenIndex declared) {
                                        K::Plus,   K::Minus, K::Equal,     K::NotEqual,    K::KwNot,
                                        K::KwAnd,  K::KwOr,  K::KwXor,     K::KwReturn,    K::KwTest};
     const K word = kindAt(declared);
-    tokens_[declared].kind = K::Identifier;
+    readAs(declared, K::Identifier);
     for (TokenIndex i = declared + 1; i < last_; ++i)
         if (kindAt(i) == word && (kindAt(i + 1) != K::Semicolon || kBeforeValue.has(kindAt(i - 1))))
-            tokens_[i].kind = K::Identifier;
+            readAs(i, K::Identifier);
 }
 
 TokenIndex Parser::expectName(bool newerKeywords) {
@@ -587,7 +587,7 @@ TokenIndex Parser::expectName(bool newerKeywords) {
         return take();
     }
     if (newerKeywords && (kind() == K::KwBreak || kind() == K::KwContinue)) {
-        tokens_[pos_].kind = K::Identifier; // RaiseToUser \Continue is older than the keyword
+        readAs(pos_, K::Identifier); // RaiseToUser \Continue is older than the keyword
         return take();
     }
     constexpr TokenSet kAfterName = {K::Semicolon, K::Assign, K::LeftParen,

@@ -270,8 +270,7 @@ Stmt* Parser::parseColonAssignment() {
     const std::string_view shown = tree_.source->text().substr(sign.begin, sign.end - sign.begin);
     fix(reportAt(Code::ForeignSpelling, sign, {std::string(shown), "':='"}), sign, ":=");
     if (split) take();
-    tokens_[pos_].kind = K::Assign;
-    tree_.retagged = true;
+    readAs(pos_, K::Assign);
     return parseAssignment(target, name);
 }
 

@@ -94,8 +94,7 @@ void Parser::retag(TokenIndex first, TokenIndex last, K word) {
     const auto shown = tree_.source->text().substr(range.begin, range.end - range.begin);
     const std::string spelling(tokenText(word));
     fix(reportAt(Code::MisspeltKeyword, range, {std::string(shown), spelling}), range, spelling);
-    tokens_[last].kind = word;
-    tree_.retagged = true;
+    readAs(last, word);
 }
 
 bool Parser::retagIfMeant(K word) {

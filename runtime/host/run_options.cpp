@@ -71,11 +71,13 @@ void addRunOptions(CLI::App& app, RunOptions& options, bool withTasks) {
                "--task", options.tasks,
                "add a task running INPUT's main; NAME:STATIC= and NAME:SEMISTATIC= give its type; repeatable")
             ->type_name("NAME[:TYPE]=INPUT")
+            ->allow_extra_args(false) // inputs follow
             ->take_all();
     }
     app.add_option("--config", options.configFiles,
                    "EIO, SYS, MOC, SIO or PROC parameters in ABB's text format; repeatable")
         ->type_name("FILE.cfg")
+        ->allow_extra_args(false)
         ->take_all();
     app.add_option("--robot", options.robot, fmt::format("robot model; default \"{}\"", kDefaultRobot))
         ->type_name("MODEL");

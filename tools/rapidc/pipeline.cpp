@@ -71,8 +71,8 @@ void readConfiguration(Compilation& compilation, const std::vector<std::string>&
     }
 }
 
-/// Event routines and shared modules of SYS.cfg, and what a backup holds for all tasks.
-void readTaskSettings(Compilation& compilation, const std::vector<std::string>& sharedFiles) {
+/// Event routines and shared modules of SYS.cfg.
+void readTaskSettings(Compilation& compilation) {
     for (size_t i = 0; i < compilation.configTexts.size(); ++i) {
         std::vector<rt::CfgProblem> ignored;
         const rt::CfgFile cfg = rt::parseCfg(compilation.configTexts[i], compilation.configNames[i], ignored);
@@ -82,8 +82,13 @@ void readTaskSettings(Compilation& compilation, const std::vector<std::string>& 
                 compilation.eventRoutines.insert(lower(hook.text("Routine")));
         for (const rapid::project::ConfiguredModule& module :
              rapid::project::readTaskParameters(compilation.configTexts[i]).modules)
-            if (module.shared) compilation.sharedModules.insert(lower(module.name));
+            if (module.shared) compilation.options.sharedModules.insert(lower(module.name));
     }
+}
+
+/// The modules that are one for all tasks: those of SYS.cfg, and what a backup holds for all of them.
+void findSharedModules(Compilation& compilation, const std::vector<std::string>& sharedFiles) {
+    compilation.sharedModules = compilation.options.sharedModules;
     for (const auto& task : compilation.program->tasks)
         for (const sema::Module* module : task->modules)
             if (std::find(sharedFiles.begin(), sharedFiles.end(), module->tree->source->path()) !=
@@ -261,8 +266,9 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     options.library = compilation->library;
     compilation->tasks = std::move(project.tasks);
     if (!project.isBackup) configureTasks(*compilation, typesTold);
+    readTaskSettings(*compilation);
     judge(*compilation, inputs.onlyDiagnostics);
-    readTaskSettings(*compilation, project.sharedFiles);
+    findSharedModules(*compilation, project.sharedFiles);
     return compilation;
 }
 

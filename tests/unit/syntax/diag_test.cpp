@@ -44,6 +44,15 @@ TEST_CASE("braces in a catalogue text are no placeholders", "[diag]") {
     CHECK(diag::formatText("found '{' and {0} and '}'", args) == "found '{' and x and '}'");
 }
 
+TEST_CASE("mistakes that are in no file are limited, too", "[diag]") {
+    diag::Sink sink;
+    for (int i = 0; i < 1500; ++i)
+        sink.report(Code::FileNotFound, nullptr, {}, {"a"});
+    CHECK(sink.all().size() == 1001);
+    CHECK(sink.all().back().code == Code::TooManyErrors);
+    CHECK(sink.errorCount() == 1500);
+}
+
 TEST_CASE("a message stays readable whatever it quotes", "[diag]") {
     const std::string args[] = {std::string(299, 'a') + "\xC3\xA4" + std::string(1000000, 'b')};
     CHECK(diag::formatText("'{0}' is not declared", args) ==
