@@ -101,7 +101,7 @@ TEST_CASE("tokens that were read as something else are not kept", "[syntax]") {
     for (const std::string wrong : {"TEST n\nCASE 1:\nELSE\n  n := 3;\nENDTEST", "n == 3;", "n := 7 % 3;",
                                     "WHIEL n < 3 DO\nENDWHILE", "RaiseToUser \\Continue;"}) {
         INFO(wrong);
-        const auto earlier = test::parseText(test::inProcedure(wrong));
+        const auto earlier = rapid::test::parseText(rapid::test::inProcedure(wrong));
         CHECK(earlier.tree->retagged);
     }
 }
