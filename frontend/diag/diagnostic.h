@@ -75,6 +75,8 @@ class Sink {
     /// Everything reported so far; the sink is empty then.
     std::vector<Diagnostic> take();
     void add(std::span<const Diagnostic> diagnostics);
+    /// Takes what another one has collected, as if it were reported here.
+    void absorb(Sink& other);
 
   private:
     struct Kept {

@@ -103,6 +103,15 @@ void Sink::add(std::span<const Diagnostic> diagnostics) {
     all_.insert(all_.end(), diagnostics.begin(), diagnostics.end());
 }
 
+void Sink::absorb(Sink& other) {
+    for (Diagnostic& d : other.all_) {
+        if (d.severity == Severity::Error) ++errorCount_;
+        if (d.code == Code::TooManyErrors || !isOneTooMany(d.file, d.range, d.severity))
+            all_.push_back(std::move(d));
+    }
+    other.take();
+}
+
 std::vector<Diagnostic> Sink::sorted() const {
     // A "too many errors" note is about the whole file and stays behind its last error.
     const auto key = [this](size_t i) {

@@ -5,6 +5,7 @@
 #include "frontend/sema/checker.h"
 #include "frontend/sema/names.h"
 
+#include <deque>
 #include <set>
 #include <unordered_map>
 #include <unordered_set>
@@ -141,6 +142,9 @@ class Analyzer {
     std::string text(syntax::TokenIndex token) const { return std::string(context_.tree->text(token)); }
     diag::Diagnostic& report(Code code, SourceRange where, std::initializer_list<std::string> args = {});
     /// Adds "declared here" at the declaration of `symbol`, when it has one in a file of the user.
+    bool isUnclear(SourceRange where) const;
+    bool namesProcedure(std::span<syntax::Argument* const> args);
+    bool hasUnclearLine(const syntax::Node& node) const;
     void noteDeclared(diag::Diagnostic& diagnostic, const Symbol& symbol);
     static std::string typeName(const DataType& type);
     static std::string typeName(const ExprInfo& info) { return typeName(info.type); }
@@ -334,12 +338,24 @@ class Analyzer {
     void judgeConditional(const RoutineSymbol& routine, const BoundArg& bound, const syntax::Expr& e);
     void checkReference(const RoutineSymbol& routine, const BoundArg& bound);
     void judgeReference(const RoutineSymbol& routine, const BoundArg& bound, const Place& place);
-    void reportArguments(const BoundCall& call, syntax::TokenIndex name, size_t firstMismatch,
-                         size_t firstDiagnostic, bool missing);
+    void reportArguments(const BoundCall& call, syntax::TokenIndex name, size_t firstMismatch, bool missing);
     bool couldStandFor(const syntax::Expr& value, std::span<const BoundArg> params);
     std::span<const BoundArg> leftOut(const BoundCall& call, std::vector<const syntax::Expr*>& moved);
-    void takeBack(size_t firstDiagnostic, const std::vector<const syntax::Expr*>& moved);
+    void takeBack(const std::vector<const syntax::Expr*>& moved);
     static std::string namesOf(std::span<const BoundArg> alternatives);
+    bool explainArguments(const BoundCall& call, syntax::TokenIndex name,
+                          std::span<syntax::Argument* const> args);
+    bool explainOrder(const RoutineSymbol& routine, const std::vector<const DataSymbol*>& params,
+                      const std::vector<const syntax::Expr*>& given);
+    bool explainCount(syntax::TokenIndex name, const std::vector<const DataSymbol*>& params,
+                      const std::vector<const syntax::Expr*>& given);
+    bool errorsLieIn(const std::vector<const syntax::Expr*>& given) const;
+    bool couldBe(const syntax::Expr& e, const DataSymbol& param);
+    static bool mayStandFor(const DataSymbol& root, syntax::ParamMode mode);
+    void reportSwapped(const RoutineSymbol& routine, const DataSymbol& one, const DataSymbol& other,
+                       const syntax::Expr& first, const syntax::Expr& second);
+    bool reportMisspeltSeparator(const RoutineSymbol& routine, const syntax::Argument& arg, size_t slot,
+                                 bool isLast);
     bool reportEqualAsAssign(const BoundArg& bound);
     void judgeValue(const RoutineSymbol& routine, const BoundArg& bound, Typed t);
     void checkAccess(const RoutineSymbol& routine, const BoundArg& bound, const Place& place);
@@ -403,6 +419,9 @@ class Analyzer {
     CheckedProgram& program_;
     const CheckOptions& options_;
     diag::Sink& sink_;
+    diag::Sink* collect_ = nullptr;    ///< what is wrong with the arguments of the call being checked
+    std::deque<diag::Sink> callSinks_; ///< one for each call around another
+    size_t callDepth_ = 0;
     Interner interner_;
     Context context_;
     Task* task_ = nullptr;
@@ -449,6 +468,9 @@ class Analyzer {
     size_t partComparisonsLeft_ =
         kMaxPartComparisons; ///< of labels, components and parameters, in the routine
 
+    bool blocksAreUnclear_ = false; ///< an END word of the routine is missing or one too many
+    /// Records and aliases being resolved, with the data type in them that has been reached.
+    std::vector<std::pair<const Type*, syntax::TokenIndex>> resolvingParts_;
     bool muted_ = false; ///< in what could not be read as a whole, which is reported
     diag::Diagnostic unsaid_;
     bool shapeReported_ = false;       ///< an argument of the call has been reported that may hold several

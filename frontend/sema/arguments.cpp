@@ -127,8 +127,8 @@ std::span<const BoundArg> Analyzer::leftOut(const BoundCall& call, std::vector<c
 }
 
 // What was said about arguments that only stand in the wrong place.
-void Analyzer::takeBack(size_t firstDiagnostic, const std::vector<const Expr*>& moved) {
-    sink_.retract(firstDiagnostic, [&](const diag::Diagnostic& d) {
+void Analyzer::takeBack(const std::vector<const Expr*>& moved) {
+    collect_->retract(0, [&](const diag::Diagnostic& d) {
         const bool aboutArgument = d.code == Code::ArgumentClass || d.code == Code::ArgumentNotVariable ||
                                    d.code == Code::ArgumentNotWhole || d.code == Code::ArgumentAlternatives ||
                                    d.code == Code::NonValueInExpression;
@@ -145,10 +145,8 @@ bool Analyzer::isDotForComma(const Expr& e) {
            info(*part.base).type.type->kind == TypeKind::Record && asData(lookup(idOf(part.name)));
 }
 
-// Arguments of the wrong type, and those that are missing. Two that have changed places, or one that is missing in the
-// middle, are one mistake.
-void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t firstMismatch,
-                               size_t firstDiagnostic, bool missing) {
+// Arguments of the wrong type, and those that are missing. One that is missing in the middle is one mistake.
+void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t firstMismatch, bool missing) {
     const std::vector<Mismatch> wrong(mismatches_.begin() + static_cast<std::ptrdiff_t>(firstMismatch),
                                       mismatches_.end());
     mismatches_.resize(firstMismatch);
@@ -161,27 +159,19 @@ void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t fi
     if (missing) {
         std::vector<const Expr*> moved;
         if (const auto lost = leftOut(call, moved); !lost.empty()) {
-            takeBack(firstDiagnostic, moved);
+            takeBack(moved);
             noteDeclared(
                 report(Code::MissingArgument, range(name), {text(name), "argument " + namesOf(lost)}),
                 routine);
             return;
         }
     }
-    if (missing) reportMissing(call, name);
-    if (wrong.size() == 2 && equivalent(wrong[0].found, wrong[1].param->type) &&
-        equivalent(wrong[1].found, wrong[0].param->type)) {
-        const Expr &first = *wrong[0].value, &second = *wrong[1].value;
-        diag::Diagnostic& d = report(Code::ArgumentsSwapped, range(first),
-                                     {wrong[0].param->name, wrong[1].param->name, routine.name});
-        const std::string_view source = context_.tree->source->text();
-        const auto written = [&](const Expr& e) {
-            return std::string(source.substr(range(e).begin, range(e).end - range(e).begin));
-        };
-        d.fixes.push_back(
-            {"let them change places", {{range(first), written(second)}, {range(second), written(first)}}});
-        return;
-    }
+    const bool unknown = std::any_of(call.args.begin(), call.args.end(), [&](const BoundArg& a) {
+        return a.argument && a.value && a.value->kind == NodeKind::Name &&
+               info(*a.value).type.type->kind == TypeKind::Error;
+    });
+    if (missing && !unknown)
+        reportMissing(call, name); // two names that run into one may be one that is not known
     for (const Mismatch& one : wrong)
         report(Code::ArgumentType, range(*one.value),
                {one.param->name, routine.name, typeName(one.found), typeName(one.param->type)});
@@ -261,19 +251,10 @@ void Analyzer::checkAccess(const RoutineSymbol& routine, const BoundArg& bound, 
         if (mode == ParamMode::Pers) reportAccess(routine, bound, &root, describe(root));
         return;
     }
-    const bool constant = root.dataKind == DataKind::Const && !parameter;
     if (root.storage == Storage::SystemVariable && isHandle(*root.type.type))
         return; // passed on, never changed
-    if (constant || root.storage == Storage::SystemVariable || root.storage == Storage::LoopVariable) {
-        reportAccess(routine, bound, &root, describe(root));
-        return;
-    }
     const bool persistent = parameter ? root.mode == ParamMode::Pers : root.dataKind == DataKind::Pers;
-    const bool either = parameter && root.mode == ParamMode::Inout;
-    const bool wrong = mode == ParamMode::Var    ? persistent
-                       : mode == ParamMode::Pers ? !persistent && !either
-                                                 : false;
-    if (wrong) {
+    if (!mayStandFor(root, mode)) {
         std::string found = parameter && root.mode == ParamMode::In    ? "a parameter of mode IN"
                             : parameter && root.mode == ParamMode::Var ? "a parameter of mode VAR"
                             : parameter && persistent                  ? "a parameter of mode PERS"

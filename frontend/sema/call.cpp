@@ -62,9 +62,11 @@ void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex nam
         visitArguments(args);
         return;
     }
+    if (callDepth_ == callSinks_.size()) callSinks_.emplace_back();
+    diag::Sink& own = callSinks_[callDepth_++];
+    diag::Sink* outer = std::exchange(collect_, &own);
     const size_t judgedBefore = judged_.size();
     const size_t mismatchesBefore = mismatches_.size();
-    const size_t diagnosticsBefore = sink_.all().size();
     const bool complete = matchArguments(call, name, args);
     const bool mayMiss = complete && endsWell(name, args);
     checkExclusive(call);
@@ -74,8 +76,15 @@ void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex nam
         if (std::find(begin, judged_.end(), bound.argument) == judged_.end()) checkArgument(routine, bound);
     }
     judged_.resize(judgedBefore);
-    if (mayMiss || mismatches_.size() > mismatchesBefore)
-        reportArguments(call, name, mismatchesBefore, diagnosticsBefore, mayMiss);
+    const bool wrong = own.hasErrors() || mismatches_.size() > mismatchesBefore;
+    if (wrong && explainArguments(call, name, args))
+        mismatches_.resize(mismatchesBefore);
+    else if (mayMiss || mismatches_.size() > mismatchesBefore)
+        reportArguments(call, name, mismatchesBefore, mayMiss);
+    collect_ = outer;
+    --callDepth_;
+    if (own.all().empty()) return;
+    (outer ? *outer : sink_).absorb(own);
 }
 
 // Whether the arguments were read to their end: after a syntax error in a call nothing is said to be missing.
@@ -221,7 +230,7 @@ size_t Analyzer::matchRequired(BoundCall& call, const Argument& arg, size_t slot
         report(Code::AssignmentInCondition, range(arg.name + 1)).fix(range(arg.name + 1), "=");
         return kNoParam;
     }
-    if (reportAssignmentBelow(arg)) return kNoParam;
+    if (reportAssignmentBelow(arg) || reportMisspeltSeparator(routine, arg, slot, isLast)) return kNoParam;
     report(Code::ArgumentName, range(arg.name), {routine.name, text(arg.name), routine.params[slot]->name});
     return slot;
 }

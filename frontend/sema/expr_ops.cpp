@@ -144,6 +144,7 @@ std::string textRemedy(BinaryOp op, Typed left, Typed right) {
 } // namespace
 
 Typed Analyzer::operatorError(const BinaryExpr& e, Typed left, Typed right) {
+    if (context_.tree->text(e.opToken)[0] == '&') return errorExpr(e); // of another language, reported
     report(Code::OperatorTypes, range(e.opToken),
            {text(e.opToken), typeName(*left.info), typeName(*right.info), textRemedy(e.op, left, right)});
     return errorExpr(e);

@@ -171,6 +171,7 @@ Place Analyzer::componentPlace(const ComponentExpr& e, const Type*) {
     }
     const std::string_view name = context_.tree->text(e.name);
     const int component = findComponent(*base.type.type, name);
+    if (component < 0 && base.type.type->base()->unclear) return {}; // it may be among what could not be read
     if (component < 0) {
         const Type::Component* near = nearComponent(*base.type.type, name);
         diag::Diagnostic& d =

@@ -2,6 +2,8 @@
 
 #include "frontend/sema/analysis.h"
 
+#include <algorithm>
+
 namespace rapid::sema {
 
 using namespace syntax;
@@ -19,8 +21,29 @@ std::string Analyzer::text(const Node& node) const {
 }
 
 diag::Diagnostic& Analyzer::report(Code code, SourceRange where, std::initializer_list<std::string> args) {
-    if (muted_) return unsaid_ = diag::Diagnostic();
-    return sink_.report(code, context_.tree->source, where, args);
+    if (muted_ || isUnclear(where)) return unsaid_ = diag::Diagnostic();
+    return (collect_ ? *collect_ : sink_).report(code, context_.tree->source, where, args);
+}
+
+/// In a line that could not be read as a whole: what seems wrong there follows from that.
+bool Analyzer::isUnclear(SourceRange where) const {
+    const std::vector<uint32_t>& lines = context_.tree->unclearLines;
+    if (lines.empty()) return false;
+    const auto after = std::upper_bound(lines.begin(), lines.end(), where.begin);
+    if (after == lines.begin()) return false;
+    const uint32_t begin = *(after - 1);
+    constexpr uint32_t kLongLine =
+        500; // the mistakes of a file in one line have nothing to do with each other
+    if (where.begin - begin > kLongLine) return false;
+    const std::string_view between = context_.tree->source->text().substr(begin, where.begin - begin);
+    return between.find_first_of("\r\n") == std::string_view::npos;
+}
+
+bool Analyzer::hasUnclearLine(const Node& node) const {
+    const std::vector<uint32_t>& lines = context_.tree->unclearLines;
+    const SourceRange whole = range(node);
+    const auto line = std::lower_bound(lines.begin(), lines.end(), whole.begin);
+    return line != lines.end() && *line < whole.end;
 }
 
 void Analyzer::noteDeclared(diag::Diagnostic& diagnostic, const Symbol& symbol) {

@@ -133,8 +133,9 @@ void Analyzer::initialise(DataSymbol& symbol, const DataDecl& decl) {
     }
     if (symbol.dataKind == DataKind::Pers && usable) {
         if (const Expr* culprit = findNonLiteral(init)) {
-            report(Code::NotLiteral, range(*culprit), {symbol.name});
             visitLoose(init);
+            if (info(*culprit).type.type->kind != TypeKind::Error) // not known, which is reported
+                report(Code::NotLiteral, range(*culprit), {symbol.name});
             return;
         }
     }

@@ -60,7 +60,10 @@ const Type* Analyzer::ensureType(TypeSymbol& symbol) {
     if (!symbol.type) symbol.type = &facts().symbols->types.emplace_back();
     if (cycle || depth_ >= kMaxDepth) {
         entangled_ = true;
-        report(cycle ? Code::TypeCycle : Code::TypeTooDeep, range(symbol.nameToken), {symbol.name});
+        TokenIndex at = symbol.nameToken; // the part that leads back to it
+        for (const auto& [whole, part] : resolvingParts_)
+            if (cycle && whole == symbol.type) at = part;
+        noteDeclared(report(cycle ? Code::TypeCycle : Code::TypeTooDeep, range(at), {symbol.name}), symbol);
         symbol.type->kind = TypeKind::Error;
         symbol.progress = Progress::Done;
         context_ = saved;
@@ -89,12 +92,15 @@ const Type* Analyzer::ensureType(TypeSymbol& symbol) {
 void Analyzer::resolveRecord(Type& type, const RecordDecl& decl) {
     NameMap<const RecordComponent> names;
     uint64_t leaves = 0;
+    type.unclear = hasUnclearLine(decl);
     for (const RecordComponent* c : decl.components) {
         if (!isName(c->name)) continue;
         const NameId name = idOf(c->name);
         if (names.find(name)) report(Code::DuplicateComponent, range(c->name), {text(c->name), type.name});
         names.set(name, c);
+        resolvingParts_.emplace_back(&type, c->type);
         const Type* part = resolveType(c->type);
+        resolvingParts_.pop_back();
         type.components.push_back({text(c->name), part});
         if (!isValueType(*part)) type.containsNonValue = true;
         leaves = std::min<uint64_t>(leaves + part->leaves, kMaxLeaves + 1);
@@ -104,7 +110,9 @@ void Analyzer::resolveRecord(Type& type, const RecordDecl& decl) {
 }
 
 void Analyzer::resolveAlias(Type& type, const AliasDecl& decl) {
+    resolvingParts_.emplace_back(&type, decl.type);
     const Type* target = resolveType(decl.type);
+    resolvingParts_.pop_back();
     if (target == &type || type.kind == TypeKind::Error) return; // a cycle, reported
     type.aliasOf = target;
     type.kind = target->kind;

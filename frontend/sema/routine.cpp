@@ -17,6 +17,7 @@ void Analyzer::checkRoutine(RoutineSymbol& symbol) {
     enterModule(symbol.module);
     context_.routine = &symbol;
     const RoutineDecl& decl = *symbol.routineDecl;
+    blocksAreUnclear_ = hasUnclearLine(decl);
     loopDepth_ = 0;
     breakSeen_ = returnSeen_ = broken_ = jumpNamesKnown_ = false;
     block_ = kNoBlock;
@@ -143,6 +144,7 @@ void Analyzer::resolveJumps() {
         }
         target->label->used = true;
         facts().references[jump.node] = target->label;
+        if (blocksAreUnclear_) continue; // where the label belongs is not known
         if (target->part != jump.part)
             noteDeclared(report(Code::GotoOtherPart, range(token), {text(token)}), *target->label);
         else if (!isInside(jump.block, target->block))

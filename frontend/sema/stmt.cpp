@@ -267,7 +267,8 @@ bool Analyzer::assignable(const Place& place, const Expr& target) {
     } else if (root.storage == Storage::LoopVariable) {
         noteDeclared(report(Code::AssignLoopVariable, range(target), {root.name}), root);
     } else if (root.dataKind == DataKind::Const && !parameter) {
-        noteDeclared(report(Code::AssignConstant, range(target), {root.name}), root);
+        if (root.init) // without a value CONST itself is the mistake
+            noteDeclared(report(Code::AssignConstant, range(target), {root.name}), root);
     } else if (!isValueType(type) && type.kind != TypeKind::AnyType) {
         report(Code::AssignNonValue, range(target), {text(target), type.name});
     } else {
@@ -318,6 +319,13 @@ bool Analyzer::isLineOfText(const CallStmt& s) {
     });
 }
 
+bool Analyzer::namesProcedure(std::span<Argument* const> args) {
+    if (args.size() != 1 || !args[0]->value || args[0]->value->kind != NodeKind::Name) return false;
+    const TokenIndex name = as<NameExpr>(*args[0]->value).name;
+    const RoutineSymbol* routine = isName(name) ? asRoutine(lookup(idOf(name))) : nullptr;
+    return routine && routine->routineKind == RoutineKind::Proc;
+}
+
 bool Analyzer::callStmt(const CallStmt& s) {
     if (s.lateName) {
         lateCall(s);
@@ -346,7 +354,7 @@ bool Analyzer::callStmt(const CallStmt& s) {
             lateCall(s);
             return true;
         }
-        visitArguments(s.args);
+        if (!namesProcedure(s.args)) visitArguments(s.args); // "irq IDelete;"
         return true;
     }
     markUsed(*routine);

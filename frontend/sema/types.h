@@ -42,6 +42,7 @@ struct Type {
     /// Records of few atomic parts: the pieces of which all literals of the type consist.
     std::vector<syntax::PlainPiece> literalShape;
     bool containsNonValue = false; ///< records with a non-value component are non-value
+    bool unclear = false;          ///< a record of which a part could not be read
 
     const Type* base() const {
         const Type* t = this;

@@ -303,6 +303,9 @@ struct SyntaxTree {
     Arena arena;
     std::vector<ModuleDecl*> modules;
     uint32_t exprCount = 0; ///< it grows when elements of plain aggregates are made
+    /// Where lines begin in which something could not be read, which is reported; in order. What is wrong with names and
+    /// types there follows from that.
+    std::vector<uint32_t> unclearLines;
     bool retagged =
         false; ///< some tokens are not what the text alone says, or the text cannot be read: mistakes
 

@@ -91,6 +91,7 @@ void Parser::parseFile(const LexResult& lexed) {
             skipOutsideModule();
         }
     }
+    reportBrokenStrings();
     if (!wentBack_) return;
     for (ModuleDecl* module : tree_.modules)
         cutOff(*module);
@@ -161,10 +162,10 @@ bool Parser::isInBrokenString(const LexResult& lexed, const LexError& escape) {
 void Parser::reportLexErrors(const LexResult& lexed) {
     const LexError* before = nullptr;
     for (const LexError& error : lexed.errors) {
-        const LexError* last = std::exchange(before, &error);
         if (error.code == Code::BadNumber) continue; // said where the number is read
         if (error.code == Code::ForeignSpelling && error.args[0] == "==") continue; // so is what it means
         if (error.code == Code::BadStringEscape && isInBrokenString(lexed, error)) continue;
+        const LexError* last = std::exchange(before, &error);
         if (endsBrokenString(error, last)) { // what stands between the lines is no code
             const Token* between =
                 std::lower_bound(tokens_, tokens_ + last_, last->range.end,
@@ -174,6 +175,12 @@ void Parser::reportLexErrors(const LexResult& lexed) {
             before = nullptr;
             continue;
         }
+        if (error.code == Code::UnterminatedString) {
+            ++errors_;
+            brokenStrings_.push_back({error.range, {}});
+            continue;
+        }
+        lexErrors_.push_back(error.range.begin);
         if (++errors_ <= kMaxErrorsPerFile) {
             diag::Diagnostic& d = sink_.report(error.code, tree_.source, error.range, error.args);
             if (error.code == Code::BadStringEscape) fixEscapes(d);
@@ -181,6 +188,17 @@ void Parser::reportLexErrors(const LexResult& lexed) {
         } else if (errors_ == kMaxErrorsPerFile + 1) {
             sink_.report(Code::TooManyErrors, tree_.source, error.range, {"errors"});
         }
+    }
+}
+
+/// At last: what could not be read before such a string tells where a quote may be missing or one too many.
+void Parser::reportBrokenStrings() {
+    for (const BrokenString& string : brokenStrings_) {
+        diag::Diagnostic& d = sink_.report(Code::UnterminatedString, tree_.source, string.range);
+        if (string.doubtful.end != 0)
+            d.notes.push_back(
+                {tree_.source, string.doubtful,
+                 "this stands between two strings: a '\"' may be missing or one too many before it"});
     }
 }
 
@@ -213,6 +231,7 @@ Expr* Parser::parseWholeExpression(const LexResult& lexed) {
     reportLexErrors(lexed);
     Expr* result = parseExpr();
     if (kind() != K::EndOfFile && !panic_) unexpected("the end of the expression");
+    reportBrokenStrings();
     return result;
 }
 
@@ -321,6 +340,10 @@ void Parser::parseModuleDecls(ModuleDecl* module) {
     const size_t mark = decls_.size();
     while (kind() != K::KwEndmodule && kind() != K::KwModule && kind() != K::EndOfFile) {
         if (kind() == K::Identifier && !quietOutside_ && retagDecl()) continue;
+        if (kind() == K::RightBrace && peek() == K::EndOfFile && !quietOutside_) {
+            retag(pos_, pos_, K::KwEndmodule);
+            break;
+        }
         const TokenIndex before = pos_;
         if (kind() == K::Semicolon && !quietOutside_) {
             skipStraySemicolons();
@@ -461,11 +484,40 @@ std::unique_ptr<SyntaxTree> makeTree(std::shared_ptr<const SourceFile> source, d
     return tree;
 }
 
+/// What is reported here leaves open how the line was meant: there is no certain edit, and the text is not just too long or
+/// in the wrong place.
+bool leavesOpen(const diag::Diagnostic& d) {
+    constexpr Code kClear[] = {Code::StringTooLong, Code::NameTooLong, Code::NumberTooLarge,
+                               Code::DeclarationAfterInstruction};
+    const bool certain =
+        std::any_of(d.fixes.begin(), d.fixes.end(), [](const auto& fix) { return fix.certain; });
+    const std::string_view text = d.file->text();
+    if (d.code == Code::MissingBlockEnd && !equalsNoCase(text.substr(d.range.begin, 3), "END")) return false;
+    return d.severity == diag::Severity::Error && !certain &&
+           std::find(std::begin(kClear), std::end(kClear), d.code) == std::end(kClear);
+}
+
+void noteUnclearLines(SyntaxTree& tree, std::span<const diag::Diagnostic> reported) {
+    const std::string_view text = tree.source->text();
+    for (const diag::Diagnostic& d : reported) {
+        if (d.file != tree.source || !leavesOpen(d)) continue;
+        constexpr uint32_t kFar = 500; // in a line that long, what stands before is far from the mistake
+        uint32_t begin = d.range.begin;
+        while (begin > 0 && d.range.begin - begin < kFar && text[begin - 1] != '\n' &&
+               text[begin - 1] != '\r')
+            --begin;
+        tree.unclearLines.push_back(begin);
+    }
+    std::sort(tree.unclearLines.begin(), tree.unclearLines.end());
+}
+
 std::unique_ptr<SyntaxTree> parseOnce(std::shared_ptr<const SourceFile> source, diag::Sink& sink,
                                       const ParseOptions& options) {
     LexResult lexed;
+    const size_t before = sink.all().size();
     auto tree = makeTree(std::move(source), sink, options, lexed);
     if (!tree->source->isBinary()) Parser(*tree, sink, options).parseFile(lexed);
+    noteUnclearLines(*tree, std::span(sink.all()).subspan(before));
     return tree;
 }
 

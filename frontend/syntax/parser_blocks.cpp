@@ -17,15 +17,32 @@ Stmt* Parser::parseIf() {
     inCondition_ = inHead_ = true;
     TokenIndex found = 0;
     const bool hidden = !findOnLine(pos_, K::KwThen, found) && negatesByComment("THEN");
-    Expr* condition = hidden ? errorExpr() : parseCondition();
+    const bool forgotten = !hidden && missesCondition();
+    if (forgotten)
+        fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "a condition after IF"}),
+            {tree_.range(opening).begin, tree_.range(pos_).begin}, "", false);
+    Expr* condition = hidden || forgotten ? errorExpr() : parseCondition();
     inCondition_ = outerCondition.saved();
     inHead_ = outerHead.saved();
+    if (forgotten) return parseCompactIf(opening, condition);
     if (kind() == K::Identifier && endsLine(pos_)) retagIfMeant(K::KwThen);
+    if (kind() == K::KwDo && !panic_ &&
+        kindAt(unmatchedWord(pos_ + 1)) == K::KwEndwhile) { // IF a DO ... ENDWHILE
+        retag(opening, opening, K::KwWhile);
+        return parseWhileBody(opening, condition, true);
+    }
     const bool isBlock = hidden || kind() == K::KwThen || kind() == K::Colon || kind() == K::LeftBrace ||
                          (kind() == K::KwDo && startsLine(pos_ + 1));
     if (isBlock || findOnLine(pos_, K::KwThen, found)) return parseIfBlocks(opening, condition, hidden);
     if (isBlockByMargin(opening)) return parseIfBlocks(opening, condition, true);
+    if (kind() == K::KwCase && startsLine(pos_) && !panic_ && kindAt(opening) == K::KwIf) { // IF n, CASE 1:
+        retag(opening, opening, K::KwTest);
+        return parseTestCases(opening, condition, true);
+    }
+    return parseCompactIf(opening, condition);
+}
 
+Stmt* Parser::parseCompactIf(TokenIndex opening, Expr* condition) {
     auto* node = make<CompactIfStmt>(NodeKind::CompactIf);
     node->first = opening;
     node->condition = condition;
@@ -49,6 +66,15 @@ Stmt* Parser::parseIf() {
     panic_ = false;
     node->body = errorStmt(bodyFirst);
     return finish(node);
+}
+
+/// "IF SetDO do1, 1;", "IF TPWrite "a";": an instruction without THEN, and no condition before it.
+bool Parser::missesCondition() const {
+    constexpr TokenSet kLiterals = {K::NumLiteral, K::StringLiteral, K::KwTrue, K::KwFalse};
+    TokenIndex then = 0;
+    if (!isName(kind()) || startsLine(pos_) || startsLine(pos_ + 1)) return false;
+    const bool call = kLiterals.has(peek()) || (isName(peek()) && peek(2) == K::Comma);
+    return call && !findOnLine(pos_, K::KwThen, then);
 }
 
 /// THEN is missing where the line ends with the condition (and perhaps ';'), and what follows further to the right is
@@ -221,18 +247,33 @@ Stmt* Parser::parseForBody(ForStmt* node, TokenIndex opening, bool whole) {
 
 Stmt* Parser::parseWhile() {
     const Restore restore(blockOpening_);
-    auto* node = make<WhileStmt>(NodeKind::While);
     const TokenIndex opening = blockOpening_ = take();
     bool whole = true;
     TokenIndex found = 0;
     const bool hidden = !findOnLine(pos_, K::KwDo, found) && negatesByComment("DO");
-    node->condition = hidden ? errorExpr() : parseHeadExpr(whole, HeadPart::Condition);
-    if (!panic_ && kind() == K::Semicolon && foreignCloser_ == "WHILE") { // DO ... WHILE condition;
+    Expr* condition = hidden ? errorExpr() : parseHeadExpr(whole, HeadPart::Condition);
+    if (!panic_ && kind() == K::Semicolon && isForeignCloser(opening)) { // DO ... WHILE condition;
         foreignCloser_ = {};
         take();
         return errorStmt(opening);
     }
+    if (!panic_ && kind() == K::KwThen &&
+        kIfEnds.has(kindAt(unmatchedWord(pos_ + 1)))) { // WHILE a THEN ... ENDIF
+        retag(opening, opening, K::KwIf);
+        return parseIfBlocks(opening, condition, false);
+    }
     if (!hidden && kind() != K::LeftBrace) whole = expectHeadWord(K::KwDo, whole);
+    return parseWhileBody(opening, condition, whole);
+}
+
+/// From behind DO, or at a DO that has not been read yet.
+Stmt* Parser::parseWhileBody(TokenIndex opening, Expr* condition, bool whole) {
+    const Restore restore(blockOpening_);
+    blockOpening_ = opening;
+    auto* node = make<WhileStmt>(NodeKind::While);
+    node->first = opening;
+    node->condition = condition;
+    if (kindAt(pos_ - 1) != K::KwDo) accept(K::KwDo);
     bool braced = false;
     node->body = parseBody({K::KwEndwhile}, "DO: the instructions of WHILE end with ENDWHILE", braced);
     closeBracedBlock(K::KwEndwhile, opening, whole, braced);
@@ -241,10 +282,18 @@ Stmt* Parser::parseWhile() {
 
 Stmt* Parser::parseTest() {
     const Restore restore(blockOpening_);
-    auto* node = make<TestStmt>(NodeKind::Test);
     const TokenIndex opening = blockOpening_ = take();
     bool whole = true;
-    node->subject = parseHeadExpr(whole);
+    Expr* subject = parseHeadExpr(whole);
+    return parseTestCases(opening, subject, whole);
+}
+
+Stmt* Parser::parseTestCases(TokenIndex opening, Expr* subject, bool whole) {
+    const Restore restore(blockOpening_);
+    blockOpening_ = opening;
+    auto* node = make<TestStmt>(NodeKind::Test);
+    node->first = opening;
+    node->subject = subject;
     const size_t mark = cases_.size();
     if (!whole && !kTestEnds.has(kind())) return finish(node);
     if (!panic_ && !kTestEnds.has(kind()) && !startsLine(pos_) && startsLine(pos_ + 1) &&
@@ -274,11 +323,7 @@ Stmt* Parser::parseTest() {
             continue;
         }
         take();
-        if (!std::exchange(colonGiven_, false) && !accept(K::Colon)) {
-            const SourceRange place = startsLine(pos_) ? endOf(pos_ - 1) : tree_.range(pos_);
-            fix(reportAt(Code::UnexpectedToken, place, {describe(pos_), "':'"}), endOf(pos_ - 1), ":");
-            if (kind() == K::KwThen && startsLine(pos_ + 1)) take();
-        }
+        expectColonOfDefault();
         const StmtList body = parseList(kTestEnds);
         if (!node->hasDefault) node->defaultBody = body;
         node->hasDefault = true;
@@ -288,28 +333,53 @@ Stmt* Parser::parseTest() {
     return finish(node);
 }
 
+void Parser::expectColonOfDefault() {
+    const bool given = std::exchange(colonGiven_, false);
+    if (accept(K::Colon) || given) return;
+    constexpr TokenSet kForColon = {K::KwThen, K::Equal, K::Assign, K::Comma, K::Semicolon, K::Dot};
+    const bool other = kForColon.has(kind()) && !startsLine(pos_) && startsLine(pos_ + 1);
+    const SourceRange place = startsLine(pos_) ? endOf(pos_ - 1) : tree_.range(pos_);
+    fix(reportAt(Code::UnexpectedToken, place, {describe(pos_), "':'"}),
+        other && kind() != K::KwThen ? tree_.range(pos_) : endOf(pos_ - 1), ":");
+    if (other) take();
+}
+
+/// '=' at the end of the line behind a value of CASE, where the colon stands: an instruction follows, and no operand.
+bool Parser::isEqualForColon() const {
+    constexpr TokenSet kNoOperator = {K::Identifier, K::NumLiteral, K::StringLiteral, K::Assign,
+                                      K::Semicolon};
+    if (!startsLine(pos_ + 1)) return false;
+    return isName(peek()) ? kNoOperator.has(peek(2)) : isKeyword(peek()) && !startsExpr(peek());
+}
+
 TestCase* Parser::parseCase() {
     auto* node = make<TestCase>(NodeKind::TestCase);
     if (take(), tokens_[pos_ - 1].kind == K::KwCase) {
         const size_t mark = exprs_.size();
+        const Restore outer(inCaseValue_);
+        inCaseValue_ = true;
         bool whole = true;
         do
             exprs_.push_back(parseHeadExpr(whole, HeadPart::CaseValue));
         while (whole && !panic_ && accept(K::Comma));
+        inCaseValue_ = outer.saved();
         node->values = drain(exprs_, mark);
         TokenIndex found = 0;
         if (whole && !accept(K::Colon)) {
             const bool later = findOnLine(pos_, K::Colon, found) && !startsLine(found);
+            const bool isForColon = kind() == K::Semicolon || kind() == K::KwThen ||
+                                    ((kind() == K::Equal || kind() == K::Assign) && startsLine(pos_ + 1));
             if (startsLine(pos_) && pos_ > 0) {
                 fix(reportAt(Code::UnexpectedToken, endOf(pos_ - 1), {describe(pos_), "':'"}),
                     endOf(pos_ - 1), ":");
             } else if (kind() != K::Error) {
                 diag::Diagnostic* d = report(Code::UnexpectedToken, pos_, {describe(pos_), "',' or ':'"});
-                if (kind() == K::Semicolon || kind() == K::KwThen) fix(d, tree_.range(pos_), ":");
+                if (isForColon) fix(d, tree_.range(pos_), ":");
             }
             if (later) {
                 pos_ = found + 1;
-            } else if (accept(K::Semicolon) || accept(K::KwThen)) { // "CASE 1;"
+            } else if (isForColon) { // "CASE 1;"
+                take();
             } else if (panic_) {
                 syncStatement();
             }

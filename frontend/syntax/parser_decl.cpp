@@ -13,16 +13,16 @@ namespace {
 constexpr TokenSet kHandlers = {TokenKind::KwBackward, TokenKind::KwError, TokenKind::KwUndo};
 
 struct RoutineWords {
-    TokenKind end;
+    TokenKind word, end;
     std::string_view name;
 };
 RoutineWords wordsOf(RoutineKind kind) {
     switch (kind) {
-    case RoutineKind::Proc: return {TokenKind::KwEndproc, "PROC"};
-    case RoutineKind::Func: return {TokenKind::KwEndfunc, "FUNC"};
-    case RoutineKind::Trap: return {TokenKind::KwEndtrap, "TRAP"};
+    case RoutineKind::Proc: break;
+    case RoutineKind::Func: return {TokenKind::KwFunc, TokenKind::KwEndfunc, "FUNC"};
+    case RoutineKind::Trap: return {TokenKind::KwTrap, TokenKind::KwEndtrap, "TRAP"};
     }
-    return {TokenKind::KwEndproc, "PROC"};
+    return {TokenKind::KwProc, TokenKind::KwEndproc, "PROC"};
 }
 
 } // namespace
@@ -48,6 +48,12 @@ DataDecl* Parser::parseData(ScopeWord scope, TokenIndex first, bool ofModule) {
                      : kind() == K::KwPers ? DataKind::Pers
                                            : DataKind::Const;
     take();
+    if ((kind() == K::KwVar || kind() == K::KwPers || kind() == K::KwConst) && isName(peek()) &&
+        !startsLine(pos_)) {
+        fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "a data type"}),
+            {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "", kind() == kindAt(pos_ - 1));
+        take();
+    }
     const bool foreign = parseForeignData(node);
     if (!foreign) node->type = expectName();
     parseDataTail(node, !foreign, ofModule);
@@ -69,6 +75,7 @@ DataDecl* Parser::parseWordlessData() {
 void Parser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) {
     if (!panic_ && kind() == K::LeftBrace && nameMissing) parseDimensionsOf(node, true);
     if (!panic_ && nameMissing) node->name = expectName();
+    if (node->name != kNoToken && isKeyword(kindAt(node->name))) declareReserved(node->name);
     checkNameLength(node->name);
     if (!panic_) parseDimensionsOf(node, false);
     if (!panic_) {
@@ -98,7 +105,14 @@ Decl* Parser::parseRoutine(bool local, TokenIndex first) {
                                               : RoutineKind::Trap;
     const TokenIndex opening = take();
     const size_t errorsBefore = errors_;
+    if (!options_.declarations) correctRoutineWord(node, opening);
+    routineEnd_ = wordsOf(node->routineKind).end;
     parseRoutineHeader(node);
+    if (!panic_ && kind() == K::RightParen && !startsLine(pos_)) { // PROC name())
+        fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "an instruction or a declaration"}),
+            tree_.range(pos_), "");
+        take();
+    }
     constexpr TokenSet kNextRoutine = {K::KwProc, K::KwFunc, K::KwTrap, K::KwEndmodule};
     const bool beingWritten = kNextRoutine.has(kind() == K::KwLocal ? peek() : kind()) && startsLine(pos_);
     if (errors_ > errorsBefore && beingWritten) {
@@ -124,6 +138,24 @@ Decl* Parser::parseRoutine(bool local, TokenIndex first) {
     abandoned_ = false;
     panic_ = false;
     return finish(node);
+}
+
+/// "FUNC name()" with ENDPROC, "PROC num name()" with ENDFUNC, "TRAP name()" with ENDPROC: header and END word agree, so
+/// what is wrong is the first word.
+void Parser::correctRoutineWord(RoutineDecl* routine, TokenIndex word) {
+    if (panic_ || !isName(kind()) || startsLine(pos_)) return;
+    const bool typed = isName(peek()) && !startsLine(pos_ + 1);
+    const bool list = kindAt(pos_ + (typed ? 2 : 1)) == K::LeftParen;
+    if (!list && (typed || !startsLine(pos_ + 1))) return;
+    const RoutineKind shape = typed ? RoutineKind::Func : list ? RoutineKind::Proc : RoutineKind::Trap;
+    const RoutineWords words = wordsOf(shape);
+    if (shape == routine->routineKind || errors_ > kMaxErrorsPerFile || endOfRoutineBelow() != words.end)
+        return;
+    routine->routineKind = shape;
+    const std::string expected(words.name);
+    diag::Diagnostic* diagnostic = report(Code::MisspeltKeyword, word, {describe(word), expected});
+    fix(diagnostic, tree_.range(word), expected, false);
+    note(diagnostic, pos_, "it ends with " + std::string(tokenText(words.end)));
 }
 
 void Parser::parseRoutineHeader(RoutineDecl* routine) {
@@ -296,6 +328,7 @@ ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
             missing("the name of the parameter");
         if (!panic_) node->name = expectName(true);
     }
+    if (node->name != kNoToken && isKeyword(kindAt(node->name))) declareReserved(node->name);
     checkNameLength(node->name);
     if (!panic_ && (kind() == K::LeftBrace || kind() == K::LeftBracket)) parseDimensions(node);
     if (!panic_ && (kind() == K::Assign || kind() == K::Equal)) {
@@ -431,6 +464,12 @@ void Parser::parseRoutineData() {
             data_.push_back(parseData(k == K::KwLocal ? ScopeWord::Local : ScopeWord::Task, first));
         } else if (k == K::Comma && moreOf_) {
             data_.push_back(parseMoreNames());
+        } else if ((k == K::KwLocal || k == K::KwInout) && isName(peek()) && isName(peek(2)) &&
+                   !startsLine(pos_ + 2)) {
+            fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "VAR before the data of a routine"}),
+                tree_.range(pos_), "VAR", false);
+            readAs(pos_, K::KwVar);
+            data_.push_back(parseData(ScopeWord::None, first));
         } else if (isWordlessData()) {
             data_.push_back(parseWordlessData());
         } else if (k != K::Identifier || !retagData()) {
@@ -505,7 +544,8 @@ void Parser::closeRoutine(RoutineDecl* routine, TokenIndex opening, bool braced)
     const std::string expected(tokenText(words.end));
     diag::Diagnostic* diagnostic = report(Code::MissingBlockEnd, pos_, {describe(pos_), expected});
     note(diagnostic, opening, std::string(words.name) + " begins here");
-    if (!kEnds.has(kind()) && wrongEnd_ != pos_) return;
+    const bool endsModule = kind() == K::KwEndmodule && startsDecl(pos_ + 1) && peek() != K::KwModule;
+    if (!kEnds.has(kind()) && wrongEnd_ != pos_ && !endsModule) return;
     fix(diagnostic, tree_.range(pos_), expected, false);
     take();
 }

@@ -90,6 +90,7 @@ Expr* Parser::parseBinary(int minPrecedence) {
             if (kind() == K::Percent && takesPercentAsMod()) continue;
         }
         if (op.precedence == 0 || op.precedence < minPrecedence || panic_) return left;
+        if (inCaseValue_ && op.op == BinaryOp::Eq && isEqualForColon()) return left;
         const uint32_t leftHeight = height_;
         auto* node = makeExpr<BinaryExpr>(NodeKind::Binary);
         node->first = left->first;
@@ -117,6 +118,8 @@ bool Parser::isMisspeltOperator(const Expr* left) {
     if (left->kind == NodeKind::Name && !startsLine(pos_) && startsExpr(kind()) &&
         meant(left->first, K::KwNot) && isShuffled(left->first, K::KwNot)) {
         TokenIndex then = 0;
+        if (inHead_ && blockOpening_ != kNoToken && kindAt(blockOpening_) == K::KwFor)
+            return false; // a bound
         if (inCondition_ && !findOnLine(pos_, K::KwThen, then)) return false;
         pos_ = left->first;
         retag(pos_, pos_, K::KwNot);
@@ -182,16 +185,23 @@ Expr* Parser::parseSigned(int minPrecedence) {
     diag::Diagnostic* misplaced = nullptr;
     size_t reported = 0;
     if (minPrecedence > kSumLevel) {
-        misplaced = report(Code::SignAfterOperator, pos_, {std::string(textOf(pos_))});
+        if (pos_ == 0 || signReported_ != pos_ - 1)
+            misplaced = report(Code::SignAfterOperator, pos_, {std::string(textOf(pos_))});
+        signReported_ = pos_;
         reported = sink_.all().size();
     }
     auto* node = makeExpr<UnaryExpr>(NodeKind::Unary);
     node->op = kind() == K::Minus ? UnaryOp::Minus : UnaryOp::Plus;
     take();
+    const bool another = kind() == K::Plus || kind() == K::Minus;
+    if (misplaced && !another && node->op == UnaryOp::Plus && kindAt(pos_ - 2) == K::Plus) { // "a" ++ "b"
+        fix(misplaced, tree_.range(pos_ - 1), "");
+        misplaced = nullptr;
+    }
     node->operand = parseBinary(std::max(minPrecedence, kProductLevel));
     ++height_;
     finish(node);
-    if (misplaced && sink_.all().size() == reported) fixParentheses(misplaced, *node);
+    if (misplaced && !another && sink_.all().size() == reported) fixParentheses(misplaced, *node);
     return node;
 }
 
@@ -233,7 +243,11 @@ Expr* Parser::parsePrimary() {
     default: break;
     }
     if (kind() == K::LeftBrace && !inHead_ && startsExpr(peek()) && !startsLine(pos_)) // x := {1, 2}
-        return parseForeignAggregate(pos_, K::RightBrace);
+        return parseForeignAggregate(pos_, closingOf(pos_));
+    if (atReservedName() && reservedNames_.has(kind())) {
+        readAs(pos_, K::Identifier);
+        return parseNamed(true);
+    }
     if (atReservedName()) {
         report(Code::ReservedWordAsName, pos_, {std::string(tokenText(kind()))});
         auto* node = makeExpr<ErrorExpr>(NodeKind::ErrorExpr);
@@ -275,6 +289,7 @@ void Parser::reportBadNumber(TokenIndex token) {
         expected = "a number without '" + text.substr(letter) + "' behind it";
     }
     report(Code::BadNumber, token, {text, expected});
+    badNumber_ = pos_;
 }
 
 Expr* Parser::parseNumber() {
@@ -297,7 +312,8 @@ Expr* Parser::parseParen() {
     node->inner = parseExpr();
     ++height_;
     if (kind() == K::Comma && !panic_) {
-        return parseForeignAggregate(opening, K::RightParen);
+        foreignList_ = opening;
+        return parseForeignAggregate(opening, closingOf(opening));
     }
     expectClosing(K::RightParen, opening, false);
     return finish(node);
@@ -340,6 +356,7 @@ std::span<Expr*> Parser::parseExprList(K closing, TokenIndex opening) {
         Expr* number = parseLoneNumber();
         exprs_.push_back(number ? number : parseExpr());
         height = std::max(height, height_);
+        if (kind() == K::Semicolon) takesSemicolonAsComma(closing);
     } while (!panic_ && accept(K::Comma));
     expectClosing(closing, opening, true);
     height_ = height;
@@ -421,19 +438,63 @@ Expr* Parser::parseIndex(Expr* base) {
     node->first = base->first;
     node->base = base;
     const TokenIndex opening = pos_;
-    const K closing = kind() == K::LeftBracket ? K::RightBracket
-                      : kind() == K::LeftParen ? K::RightParen
-                                               : K::RightBrace;
+    const K closing = kind() == K::LeftBrace ? K::RightBrace : closingOf(opening);
+    const bool foreign = kind() != K::LeftBrace;
     diag::Diagnostic* diagnostic = nullptr;
-    if (closing != K::RightBrace)
-        diagnostic = report(Code::ForeignSpelling, pos_, {std::string(textOf(pos_)), "'{' before an index"});
+    if (foreign)
+        diagnostic = report(Code::ForeignSpelling, pos_,
+                            {std::string(textOf(pos_)), closing == K::RightParen && kind() == K::LeftBracket
+                                                            ? "'(' before the arguments of a function"
+                                                            : "'{' before an index"});
     const size_t reported = sink_.all().size();
     take();
     node->indices = parseExprList(closing, opening);
     if (diagnostic && !panic_ && sink_.all().size() == reported)
         diagnostic->fixes.push_back({"put the index between '{' and '}'",
-                                     {{tree_.range(opening), "{"}, {tree_.range(pos_ - 1), "}"}}});
+                                     {{tree_.range(opening), "{"}, {tree_.range(pos_ - 1), "}"}},
+                                     closing != K::RightParen || kindAt(opening) == K::LeftParen});
     return finish(node);
+}
+
+/// What closes the bracket at `opening`, which another language writes: of its own kind, or the one RAPID has there.
+TokenKind Parser::closingOf(TokenIndex opening) const {
+    const K own = kindAt(opening) == K::LeftBracket ? K::RightBracket
+                  : kindAt(opening) == K::LeftParen ? K::RightParen
+                                                    : K::RightBrace;
+    constexpr TokenSet kOpen = {K::LeftParen, K::LeftBracket, K::LeftBrace};
+    constexpr TokenSet kClose = {K::RightParen, K::RightBracket, K::RightBrace};
+    constexpr TokenIndex kSearch = 200;
+    uint32_t depth = 0;
+    for (TokenIndex i = opening; i < opening + kSearch && kindAt(i) != K::Semicolon; ++i) {
+        if (kOpen.has(kindAt(i))) ++depth;
+        if (kClose.has(kindAt(i)) && --depth == 0) return kindAt(i);
+    }
+    return own;
+}
+
+/// "(a; b)": in a list that goes on in the same line to its closing bracket.
+bool Parser::takesSemicolonAsComma(K closing) {
+    if (panic_ || kind() != K::Semicolon || startsLine(pos_ + 1) ||
+        (!startsExpr(peek()) && peek() != K::Backslash))
+        return false;
+    constexpr TokenSet kOpen = {K::LeftParen, K::LeftBracket, K::LeftBrace};
+    constexpr TokenSet kClose = {K::RightParen, K::RightBracket, K::RightBrace};
+    uint32_t depth = 0;
+    for (TokenIndex i = pos_ + 1; !startsLine(i); ++i) {
+        const K k = kindAt(i);
+        if (kOpen.has(k)) ++depth;
+        if (k == K::Semicolon || (depth == 0 && k == K::Assign && kindAt(pos_ + 1) != K::Backslash))
+            return false;
+        if (!kClose.has(k)) continue;
+        if (depth == 0) {
+            if (k != closing) return false;
+            fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "','"}), tree_.range(pos_), ",");
+            readAs(pos_, K::Comma);
+            return true;
+        }
+        --depth;
+    }
+    return false;
 }
 
 /// The arguments of a call up to what cannot be one; sets height_ to that of the call.
@@ -443,6 +504,7 @@ std::span<Argument*> Parser::parseArguments(bool procedure) {
     bool first = true;
     while (!panic_) {
         height_ = 0;
+        if (!procedure && kind() == K::Semicolon && !first) takesSemicolonAsComma(K::RightParen);
         if (kind() == K::Backslash) {
             args_.push_back(parseOptionalArgument());
         } else if (kind() == K::Comma) {

@@ -101,8 +101,9 @@ bool Parser::negatesByComment(std::string_view ending) {
     uint32_t at = tree_.range(pos_ - 1).end;
     while (at < text.size() && isBlank(text[at]))
         ++at;
-    if (at + 1 >= text.size() || text[at] != '!' || isBlank(text[at + 1]) || text[at + 1] == '!')
-        return false;
+    if (at + 1 >= text.size() || text[at] != '!' || text[at + 1] == '!') return false;
+    const bool inHead = ending != ";";
+    if (isBlank(text[at + 1]) && !inHead) return false;
     std::string_view comment = text.substr(at, text.find_first_of("\r\n", at) - at);
     while (isBlank(comment.back()))
         comment.remove_suffix(1);
@@ -173,11 +174,9 @@ void Parser::parseDimensionsOf(DataDecl* node, bool beforeName) {
         diagnostic =
             report(Code::ForeignSpelling, pos_, {std::string(textOf(pos_)), "'{' before the dimensions"});
     }
+    const K closing = open == K::LeftBrace ? K::RightBrace : closingOf(pos_);
     const TokenIndex opening = take();
     const size_t reported = sink_.all().size();
-    const K closing = open == K::LeftBracket ? K::RightBracket
-                      : open == K::LeftParen ? K::RightParen
-                                             : K::RightBrace;
     node->dims = parseExprList(closing, opening);
     if (diagnostic && !panic_ && sink_.all().size() == reported)
         diagnostic->fixes.push_back({"put the dimensions between '{' and '}'",
@@ -294,7 +293,8 @@ Expr* Parser::parseForeignAggregate(TokenIndex opening, K closing) {
     parseExprList(closing, opening);
     if (diagnostic && !panic_ && sink_.all().size() == reported)
         diagnostic->fixes.push_back({"put the values between '[' and ']'",
-                                     {{tree_.range(opening), "["}, {tree_.range(pos_ - 1), "]"}}});
+                                     {{tree_.range(opening), "["}, {tree_.range(pos_ - 1), "]"}},
+                                     kindAt(opening - 1) != K::LeftParen});
     height_ = 1;
     return finish(node);
 }

@@ -41,6 +41,11 @@ inline constexpr TokenSet kListStops = {
     TokenKind::KwAlias,    TokenKind::KwModule,  TokenKind::PlaceTdn,    TokenKind::PlaceRdn,
     TokenKind::PlaceEit,   TokenKind::PlaceCse,  TokenKind::EndOfFile,   TokenKind::KwLocal,
     TokenKind::Identifier};
+/// Words that no English comment contains.
+inline constexpr TokenSet kEndWords = {TokenKind::KwEndfor,  TokenKind::KwEndfunc,   TokenKind::KwEndif,
+                                       TokenKind::KwEndproc, TokenKind::KwEndmodule, TokenKind::KwEndrecord,
+                                       TokenKind::KwEndtest, TokenKind::KwEndtrap,   TokenKind::KwEndwhile,
+                                       TokenKind::EndOfFile};
 /// Words that end the instructions of a routine or of a part of it.
 inline constexpr TokenSet kRoutineEnds = {TokenKind::KwEndproc,   TokenKind::KwEndfunc, TokenKind::KwEndtrap,
                                           TokenKind::KwError,     TokenKind::KwUndo,    TokenKind::KwBackward,
@@ -157,6 +162,8 @@ class Parser {
     static bool isInBrokenString(const LexResult& lexed, const LexError& escape);
     bool startsMisspeltModule() const;
     void fixEscapes(diag::Diagnostic& diagnostic) const;
+    bool isConsequence(diag::Code code, SourceRange range);
+    void reportBrokenStrings();
     void checkNameLength(TokenIndex name);
 
     // ---- Recovery (parser_recovery.cpp)
@@ -178,15 +185,26 @@ class Parser {
     bool beginsInstruction(bool inCase = false) const;
     TokenIndex missingName();
     void expectClosing(K closing, TokenIndex opening, bool inList);
+    bool atReservedName() const;
+    TokenIndex takeReservedName();
+    void declareReserved(TokenIndex name);
+    void laterUsesAreNames(TokenIndex declared);
+    void abandonRoutine();
+    TokenIndex expectNameHere();
+    TokenIndex expectName(bool newerKeywords = false);
+
+    // ---- END words (parser_ends.cpp)
     void closeBlock(K end, TokenIndex opening, bool whole = true);
     TokenIndex outerOpenerOf(K word) const;
     bool standsInside() const;
     bool handleStray(const TokenSet& own);
-    bool atReservedName() const;
-    void abandonRoutine();
-    TokenIndex expectNameHere();
-    TokenIndex expectName(bool newerKeywords = false);
-    void laterUsesAreNames(TokenIndex declared);
+    TokenIndex unmatchedWord(TokenIndex from) const;
+    bool closesHere(K end) const;
+    K endOfOwn(const TokenSet& own) const;
+    bool retagBrace(const TokenSet& own);
+    K endOfRoutineBelow() const;
+    bool isTestWrittenCase();
+    bool endsRoutineTooEarly() const;
 
     // ---- Misspelt keywords (parser_typos.cpp)
     bool meant(TokenIndex i, K word, unsigned limit = 0) const;
@@ -205,6 +223,10 @@ class Parser {
     bool startsForeignBlock();
     bool endsForeignBlock();
     bool retagCallee(TokenIndex callee);
+    TokenIndex foreignCloser(TokenIndex opening, K closer) const;
+    void noteForeignCloser(diag::Diagnostic* diagnostic, TokenIndex opening, K word);
+    bool isForeignCloser(TokenIndex i) const;
+    bool foreignCloserIs(TokenIndex i) const;
     bool retagDecl();
     bool retagOperator();
     bool isMisspeltOperator(const Expr* left);
@@ -256,6 +278,8 @@ class Parser {
     std::span<Argument*> parseArguments(bool procedure);
     bool commaWasSemicolon();
     bool instructionAfterComma();
+    bool takesSemicolonAsComma(K closing);
+    K closingOf(TokenIndex opening) const;
     Argument* parseRequiredArgument(bool procedure);
     Argument* parseOptionalArgument();
     static bool startsExpr(K k);
@@ -271,7 +295,7 @@ class Parser {
     Stmt* parseLabel();
     Stmt* parseCallStmt();
     bool parseParenthesisedCall(CallStmt* call);
-    bool isBracketTarget(K open, K close) const;
+    bool isBracketTarget() const;
     bool isSplitElseif();
     Stmt* parseLateCall();
 
@@ -285,8 +309,14 @@ class Parser {
     Stmt* parseFor();
     Stmt* parseForBody(ForStmt* node, TokenIndex opening, bool whole);
     Stmt* parseWhile();
+    Stmt* parseWhileBody(TokenIndex opening, Expr* condition, bool whole);
+    Stmt* parseCompactIf(TokenIndex opening, Expr* condition);
+    bool missesCondition() const;
     Stmt* parseTest();
+    Stmt* parseTestCases(TokenIndex opening, Expr* subject, bool whole);
     TestCase* parseCase();
+    void expectColonOfDefault();
+    bool isEqualForColon() const;
 
     // ---- Instructions of one word and an operand (parser_stmt.cpp)
     Stmt* parseGoto();
@@ -323,6 +353,7 @@ class Parser {
     Decl* parseAlias(bool local, TokenIndex first);
     Decl* parseRoutine(bool local, TokenIndex first);
     void parseRoutineHeader(RoutineDecl* routine);
+    void correctRoutineWord(RoutineDecl* routine, TokenIndex word);
     void parseParameters(RoutineDecl* routine);
     void parseParameterGroup(uint32_t group);
     bool parseSwitch(ParamDecl* param);
@@ -352,9 +383,25 @@ class Parser {
     bool quietOutside_ = false;
     bool outsideCommentShown_ = false;
     size_t errors_ = 0;
-    size_t openModules_ = 0;         ///< modules whose ENDMODULE has not been found
-    size_t unreadable_ = 0;          ///< of these: parts of an instruction that could not be read
-    std::string_view foreignCloser_; ///< what ends the block of another language that has been reported
+    /// A string that ends with its line, and the place before it where the line could not be read.
+    struct BrokenString {
+        SourceRange range;
+        SourceRange doubtful;
+    };
+    std::vector<BrokenString> brokenStrings_;
+    std::vector<uint32_t> lexErrors_; ///< where what the lexer has reported begins
+    TokenSet reservedNames_;          ///< words that data was declared with, which is reported
+    std::vector<TokenIndex>
+        foreignClosers_;          ///< END words of other languages whose opening word has been reported
+    K routineEnd_ = K::KwEndproc; ///< the word that ends the routine
+    TokenIndex signReported_ = kNoToken; ///< the last sign that stands behind an operator
+    TokenIndex foreignList_ = 0;         ///< the last bracket that another language has there
+    TokenIndex strayEnd_ = kNoToken;     ///< a word for END that ends nothing, which is reported
+    TokenIndex badNumber_ = kNoToken;    ///< the place behind a number that could not be read
+    bool inCaseValue_ = false;           ///< between CASE and its colon
+    size_t openModules_ = 0;             ///< modules whose ENDMODULE has not been found
+    size_t unreadable_ = 0;              ///< of these: parts of an instruction that could not be read
+    std::string_view foreignCloser_;     ///< what ends the block of another language that has been reported
     diag::Diagnostic* lastOrder_ =
         nullptr;                         ///< module attributes out of order, while nothing else is reported
     TokenSet enclosing_;                 ///< words that end a list further out

@@ -18,11 +18,6 @@ constexpr TokenSet kStmtWords = {
     TokenKind::KwIf,     TokenKind::KwFor,   TokenKind::KwWhile,    TokenKind::KwTest,  TokenKind::KwGoto,
     TokenKind::KwReturn, TokenKind::KwRaise, TokenKind::KwConnect,  TokenKind::KwRetry, TokenKind::KwTrynext,
     TokenKind::KwExit,   TokenKind::KwBreak, TokenKind::KwContinue, TokenKind::PlaceSmt};
-/// Words that no English comment contains.
-constexpr TokenSet kEndWords = {TokenKind::KwEndfor,  TokenKind::KwEndfunc,   TokenKind::KwEndif,
-                                TokenKind::KwEndproc, TokenKind::KwEndmodule, TokenKind::KwEndrecord,
-                                TokenKind::KwEndtest, TokenKind::KwEndtrap,   TokenKind::KwEndwhile,
-                                TokenKind::EndOfFile};
 constexpr TokenSet kBlockWords = {TokenKind::KwElse,     TokenKind::KwElseif, TokenKind::KwCase,
                                   TokenKind::KwDefault,  TokenKind::KwError,  TokenKind::KwUndo,
                                   TokenKind::KwBackward, TokenKind::PlaceEit, TokenKind::PlaceCse};
@@ -35,7 +30,6 @@ constexpr TokenSet kLineWords = kStmtWords | kEndWords | kBlockWords | kDeclWord
 constexpr TokenSet kSearchEnd = kLineWords | TokenSet{TokenKind::Semicolon};
 
 constexpr uint32_t kSearchTokens = 200;
-constexpr TokenIndex kFarTokens = 5000; ///< how far margins are compared
 
 } // namespace
 
@@ -43,10 +37,29 @@ constexpr TokenIndex kFarTokens = 5000; ///< how far margins are compared
 
 diag::Diagnostic* Parser::reportAt(Code code, SourceRange range, std::initializer_list<std::string> args) {
     if (panic_) return nullptr;
-    if (code == Code::UnexpectedToken || code == Code::MissingClosing) ++unreadable_;
+    if (code >= Code::UnexpectedToken && code < Code::MissingSemicolon) ++unreadable_;
+    if (isConsequence(code, range)) return nullptr;
     if (++errors_ <= kMaxErrorsPerFile) return &sink_.report(code, tree_.source, range, args);
     if (errors_ == kMaxErrorsPerFile + 1) sink_.report(Code::TooManyErrors, tree_.source, range, {"errors"});
     return nullptr;
+}
+
+/// Whether the lexer has said it: about this token, or about a string in the line that lacks one of its quotes.
+bool Parser::isConsequence(Code code, SourceRange range) {
+    if (code != Code::UnexpectedToken && code != Code::MissingClosing && code != Code::MissingSemicolon &&
+        code != Code::MissingBlockWord)
+        return false;
+    if (badNumber_ != kNoToken && badNumber_ == pos_) return true;
+    if (std::binary_search(lexErrors_.begin(), lexErrors_.end(), range.begin)) return true;
+    const auto broken =
+        std::lower_bound(brokenStrings_.begin(), brokenStrings_.end(), range.begin,
+                         [](const BrokenString& s, uint32_t at) { return s.range.begin < at; });
+    if (broken == brokenStrings_.end()) return false;
+    const std::string_view text = tree_.source->text();
+    const size_t end = text.find_first_of("\r\n", range.begin);
+    if (end < broken->range.begin) return false;
+    if (broken->doubtful.end == 0) broken->doubtful = range;
+    return true;
 }
 
 diag::Diagnostic* Parser::reportAfterExpr(Code code, std::initializer_list<std::string> args) {
@@ -305,6 +318,7 @@ void Parser::endStatement(std::string_view expected) {
             const bool twoWords = pos_ > 1 && kindAt(pos_ - 1) == K::Identifier &&
                                   kindAt(pos_ - 2) == K::Identifier && startsLine(pos_ - 2);
             fix(missing, endOf(pos_ - 1), ";");
+            if (twoWords) ++unreadable_;
             if (twoWords) note(missing, pos_ - 2, "if this is a remark, put '!' before it");
             if (kLineWords.has(kind()) || looksLikeStatement(pos_)) return;
         } else if (kind() == K::Equal) {
@@ -423,7 +437,8 @@ void Parser::expectClosing(K closing, TokenIndex opening, bool inList) {
     const std::string text(tokenText(closing));
     const std::string expected = inList ? fmt::format("',' or '{}'", text) : fmt::format("'{}'", text);
     diag::Diagnostic* diagnostic = nullptr;
-    if (kind() == K::Error) {
+    if (kind() == K::Error || foreignList_ > opening) { // what was reported in it may have taken the bracket
+        foreignList_ = 0;
         panic_ = true;
         return;
     }
@@ -436,21 +451,6 @@ void Parser::expectClosing(K closing, TokenIndex opening, bool inList) {
     panic_ = true;
 }
 
-/// The END word of a block. A missing one is reported where the text can no longer belong to the block; when its head is
-/// broken, that has been reported.
-void Parser::closeBlock(K end, TokenIndex opening, bool whole) {
-    if (accept(end)) {
-        panic_ = false;
-        return;
-    }
-    if (abandoned_) return;
-    const std::string opened = describe(opening);
-    if (whole && isNewsHere())
-        note(report(Code::MissingBlockEnd, pos_, {describe(pos_), std::string(tokenText(end))}), opening,
-             fmt::format("{} begins here", opened));
-    if (wrongEnd_ == pos_) take();
-}
-
 /// Skips the rest of a routine that is nested too deep.
 void Parser::abandonRoutine() {
     abandoned_ = true;
@@ -460,104 +460,6 @@ void Parser::abandonRoutine() {
                                 TokenKind::KwModule,  TokenKind::KwEndmodule, TokenKind::EndOfFile};
     while (!kStop.has(kind()))
         take();
-}
-
-/// The opener of the innermost block around this one that a word belongs to; kNoToken when there is none.
-TokenIndex Parser::outerOpenerOf(K word) const {
-    struct Family {
-        TokenSet words;
-        K opener, closer;
-    };
-    static constexpr Family kFamilies[] = {{kIfEnds, K::KwIf, K::KwEndif},
-                                           {kTestEnds, K::KwTest, K::KwEndtest},
-                                           {{K::KwEndfor}, K::KwFor, K::KwEndfor},
-                                           {{K::KwEndwhile}, K::KwWhile, K::KwEndwhile}};
-    for (const Family& family : kFamilies) {
-        if (!family.words.has(word)) continue;
-        uint32_t closed = 0;
-        const TokenIndex end = std::max(routineStart_, blockOpening_ - std::min(blockOpening_, kFarTokens));
-        for (TokenIndex i = blockOpening_; i-- > end;) {
-            TokenIndex then = 0;
-            if (kindAt(i) == family.closer) ++closed;
-            if (kindAt(i) != family.opener ||
-                (family.opener == K::KwIf && !findOnLine(i + 1, K::KwThen, then)))
-                continue;
-            if (closed-- == 0) return i;
-        }
-    }
-    return kNoToken;
-}
-
-/// At a word that a block further out waits for: by its margin it stands in this block all the same, and below the outer
-/// one there is such a word again.
-bool Parser::standsInside() const {
-    if (blockOpening_ == kNoToken || !startsLine(pos_) || !startsLine(blockOpening_)) return false;
-    if (errors_ > kMaxErrorsPerFile) return false;
-    const TokenIndex outer = outerOpenerOf(kind());
-    if (outer == kNoToken || !startsLine(outer)) return false;
-    const uint32_t margin = columnOf(outer);
-    if (columnOf(pos_) < columnOf(blockOpening_) || columnOf(blockOpening_) <= margin) return false;
-    const TokenSet family = kIfEnds.has(kind())     ? kIfEnds
-                            : kTestEnds.has(kind()) ? kTestEnds
-                                                    : TokenSet{kind()};
-    for (TokenIndex i = pos_ + 1; i < last_ && i < pos_ + kFarTokens; ++i)
-        if (startsLine(i) && columnOf(i) <= margin) return columnOf(i) == margin && family.has(kindAt(i));
-    return false;
-}
-
-/// A word that ends a list of instructions, but neither this one nor one around it. Returns true when it is taken as
-/// the end of this list all the same.
-bool Parser::handleStray(const TokenSet& own) {
-    struct Pair {
-        K stray;
-        std::string_view opener;
-    };
-    static constexpr Pair kOpeners[] = {
-        {K::KwEndif, "IF ... THEN"},  {K::KwElse, "IF ... THEN"}, {K::KwElseif, "IF ... THEN"},
-        {K::PlaceEit, "IF ... THEN"}, {K::KwEndfor, "FOR"},       {K::KwEndwhile, "WHILE"},
-        {K::KwEndtest, "TEST"},       {K::KwCase, "TEST"},        {K::KwDefault, "TEST"},
-        {K::PlaceCse, "TEST"},        {K::KwEndrecord, "RECORD"},
-    };
-    const K stray = kind();
-    const bool isEnd = kEndWords.has(stray);
-    const bool inBlock =
-        own.has(K::KwEndif) || own.has(K::KwEndfor) || own.has(K::KwEndwhile) || own.has(K::KwEndtest);
-    if (isEnd && inBlock && startsLine(pos_) && blockOpening_ != kNoToken &&
-        columnOf(pos_) == columnOf(blockOpening_)) {
-        wrongEnd_ = pos_;
-        return true;
-    }
-    if (stray == K::KwElse && own.has(K::KwDefault)) { // of TEST
-        fix(report(Code::MisspeltKeyword, pos_, {describe(pos_), "DEFAULT:"}), tree_.range(pos_), "DEFAULT:");
-        readAs(pos_, K::KwDefault);
-        colonGiven_ = true;
-        return true;
-    }
-    constexpr TokenSet kOfIf = {K::KwEndif, K::KwElse, K::KwElseif};
-    if (kOfIf.has(stray) && compactIf_ != kNoToken && compactIfEnd_ != kNoToken &&
-        columnOf(pos_) == columnOf(compactIf_)) { // IF without THEN, its block closed by ENDIF
-        const SourceRange place = endOf(compactIfEnd_);
-        diag::Diagnostic* diagnostic =
-            reportAt(Code::MissingBlockWord, place, {describe(compactIfEnd_ + 1), "THEN"});
-        fix(diagnostic, place, " THEN");
-        note(diagnostic, pos_,
-             fmt::format("this {} belongs to a block, which begins with THEN", describe(pos_)));
-        compactIf_ = kNoToken;
-        return false;
-    }
-    // Followed by the next routine: the end of this one was meant.
-    constexpr TokenSet kNext = {K::KwProc, K::KwFunc, K::KwTrap, K::KwEndmodule, K::KwLocal, K::EndOfFile};
-    if (isEnd && own.has(K::KwEndproc) && kNext.has(peek())) {
-        wrongEnd_ = pos_;
-        return true;
-    }
-    std::string_view opener = "a routine";
-    for (const Pair& pair : kOpeners)
-        if (pair.stray == stray) opener = pair.opener;
-    diag::Diagnostic* diagnostic = report(Code::StrayKeyword, pos_, {describe(pos_), std::string(opener)});
-    if (opener.starts_with("IF") && compactIf_ != kNoToken)
-        note(diagnostic, compactIf_, "this IF has no THEN, so it ends with one instruction");
-    return false;
 }
 
 /// A name, unless the next line begins an instruction.
@@ -580,6 +482,28 @@ void Parser::laterUsesAreNames(TokenIndex declared) {
             readAs(i, K::Identifier);
 }
 
+/// A reserved word in the place of a name. One that data was declared with is meant as that name from then on.
+TokenIndex Parser::takeReservedName() {
+    if (reservedNames_.has(kind())) {
+        readAs(pos_, K::Identifier);
+    } else {
+        diag::Diagnostic* diagnostic =
+            report(Code::ReservedWordAsName, pos_, {std::string(tokenText(kind()))});
+        if (kind() == K::KwBreak || kind() == K::KwContinue) {
+            note(diagnostic, pos_,
+                 "an instruction since RobotWare 7.12: programs of older controllers need another name");
+            laterUsesAreNames(pos_);
+        }
+    }
+    return take();
+}
+
+/// Data with the name of a reserved word, which has been reported: its uses are no further mistakes.
+void Parser::declareReserved(TokenIndex name) {
+    reservedNames_ = reservedNames_ | TokenSet{kindAt(name)};
+    readAs(name, K::Identifier);
+}
+
 TokenIndex Parser::expectName(bool newerKeywords) {
     if (isName(kind())) return take();
     if (kind() == K::NumLiteral && !startsLine(pos_)) { // "1st"
@@ -593,16 +517,7 @@ TokenIndex Parser::expectName(bool newerKeywords) {
     constexpr TokenSet kAfterName = {K::Semicolon, K::Assign, K::LeftParen,
                                      K::LeftBrace, K::Comma,  K::RightParen};
     const bool canBeName = !kEndWords.has(kind()) || (kAfterName.has(peek()) && !startsLine(pos_ + 1));
-    if (isKeyword(kind()) && canBeName && !startsLine(pos_)) {
-        diag::Diagnostic* diagnostic =
-            report(Code::ReservedWordAsName, pos_, {std::string(tokenText(kind()))});
-        if (kind() == K::KwBreak || kind() == K::KwContinue) {
-            note(diagnostic, pos_,
-                 "an instruction since RobotWare 7.12: programs of older controllers need another name");
-            laterUsesAreNames(pos_);
-        }
-        return take();
-    }
+    if (isKeyword(kind()) && canBeName && !startsLine(pos_)) return takeReservedName();
     if (startsLine(pos_) && pos_ > 0 && kind() != K::Error) {
         reportAt(Code::UnexpectedToken, endOf(pos_ - 1), {describe(pos_), "a name"});
         panic_ = true;

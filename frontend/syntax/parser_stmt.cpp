@@ -25,21 +25,23 @@ StmtList Parser::parseList(const TokenSet& own, bool braced) {
     for (;;) {
         const K k = kind();
         if (kListStops.has(k)) {
-            if (k == K::EndOfFile || own.has(k)) break;
+            const bool isName = peek() == K::Assign && isKeyword(k); // a reserved word as the name of data
+            if (k == K::EndOfFile || (own.has(k) && !isName)) break;
             if (k == K::Identifier) {
-                const bool closes =
-                    equalsNoCase(textOf(pos_), foreignCloser_.substr(0, foreignCloser_.find(' ')));
-                if (!closes && mayBeMisspelt(textOf(pos_)[0]) && retagMisspelt(own)) continue;
-            } else if (peek() == K::Assign && isKeyword(k)) { // a reserved word as the name of data
+                if (!isForeignCloser(pos_) && mayBeMisspelt(textOf(pos_)[0]) && retagMisspelt(own)) continue;
+            } else if (isName || isTestWrittenCase()) {
             } else if (k == K::KwLocal) {
                 if (peek() == K::KwProc || peek() == K::KwFunc || peek() == K::KwTrap ||
                     peek() == K::KwRecord || peek() == K::KwAlias)
                     break;
-            } else if (outer.has(k) ? !standsInside() || handleStray(own) : handleStray(own)) {
+            } else if (outer.has(k) && !endsRoutineTooEarly() ? !standsInside() || handleStray(own)
+                                                              : handleStray(own)) {
                 break;
             }
         } else if (k == K::RightBrace && braces_ > 0) {
             if (braced) take();
+            break;
+        } else if (k == K::RightBrace && retagBrace(own)) {
             break;
         }
         const TokenIndex before = pos_;
@@ -62,8 +64,11 @@ Stmt* Parser::parseStmt() {
 Stmt* Parser::parseStmtUnguarded() {
     const TokenIndex first = pos_;
     if ((peek() == K::Assign || (peek() == K::Colon && kind() != K::KwDefault)) && isKeyword(kind())) {
-        report(Code::ReservedWordAsName, pos_, {std::string(tokenText(kind()))});
-        take();
+        takeReservedName();
+        if (kindAt(first) == K::Identifier) {
+            pos_ = first;
+            return parseNamedStmt();
+        }
         if (kind() == K::Assign) return parseAssignment(errorExpr(), first);
         take();
         return errorStmt(first);
@@ -172,6 +177,10 @@ void Parser::skipHead() {
 
 Stmt* Parser::parseNamedStmt() {
     const TokenIndex first = pos_;
+    if (strayEnd_ == pos_) {
+        take();
+        return errorStmt(first);
+    }
     switch (peek()) {
     case K::Assign:
     case K::LeftBrace:
@@ -210,8 +219,7 @@ Stmt* Parser::parseNamedStmt() {
         break;
     case K::LeftBracket:
     case K::LeftParen: {
-        const bool bracket = peek() == K::LeftBracket;
-        if (!isBracketTarget(peek(), bracket ? K::RightBracket : K::RightParen)) break;
+        if (!isBracketTarget()) break;
         auto* name = makeExpr<NameExpr>(NodeKind::Name);
         name->name = take();
         return parseAssignment(parsePostfix(parseIndex(finish(name))), first);
@@ -224,14 +232,16 @@ Stmt* Parser::parseNamedStmt() {
 }
 
 /// `name(1) := ...`, `name[1].x := ...`
-bool Parser::isBracketTarget(K open, K close) const {
+bool Parser::isBracketTarget() const {
+    constexpr TokenSet kOpen = {K::LeftParen, K::LeftBracket, K::LeftBrace};
+    constexpr TokenSet kClose = {K::RightParen, K::RightBracket, K::RightBrace};
     uint32_t depth = 0;
     constexpr TokenIndex kSearch = 500;
     for (TokenIndex i = pos_ + 1; i < pos_ + kSearch; ++i) {
         const K k = kindAt(i);
         if (k == K::Semicolon || k == K::EndOfFile || k == K::Assign) return false;
-        if (k == open) ++depth;
-        if (k == close && --depth == 0) return kindAt(i + 1) == K::Assign || kindAt(i + 1) == K::Dot;
+        if (kOpen.has(k)) ++depth;
+        if (kClose.has(k) && --depth == 0) return kindAt(i + 1) == K::Assign || kindAt(i + 1) == K::Dot;
     }
     return false;
 }
@@ -371,7 +381,9 @@ Stmt* Parser::parseValueStmt(bool isReturn) {
     Expr* value = nullptr;
     const size_t unreadable = unreadable_;
     const TokenIndex first = take();
-    if (kind() != K::Semicolon && startsExpr(kind()) && !calleeEndsHere(first, first) &&
+    const bool valueBelow =
+        isReturn && routineEnd_ == K::KwEndfunc && isName(kind()) && peek() == K::Semicolon;
+    if (kind() != K::Semicolon && startsExpr(kind()) && (valueBelow || !calleeEndsHere(first, first)) &&
         !(startsLine(pos_) && isName(kind()) && (peek() == K::Assign || peek() == K::Colon)))
         value = parseExpr();
     Stmt* result;
@@ -453,7 +465,8 @@ Stmt* Parser::parseLateDecl() {
     }
     const size_t errorsBefore = errors_;
     node->decl = parseData(scope, first);
-    if (!reported && errors_ == errorsBefore) {
+    if (!reported && errors_ == errorsBefore &&
+        node->decl->dataKind != DataKind::Pers) { // PERS is none of a routine
         const TokenIndex name = node->decl->name;
         report(Code::DeclarationAfterInstruction, name == kNoToken ? first : name,
                {std::string(textOf(name))});

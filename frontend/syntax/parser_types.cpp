@@ -11,7 +11,9 @@ Decl* Parser::parseRecord(bool local, TokenIndex first) {
     node->first = first;
     node->local = local;
     const TokenIndex opening = take();
-    const bool nameless = isName(kind()) && isName(peek()) && peek(2) == K::Semicolon; // a component already
+    const size_t errorsBefore = errors_;
+    const bool nameless = isName(kind()) && isName(peek()) && peek(2) == K::Semicolon &&
+                          !startsLine(pos_ + 1); // a component already
     node->name = nameless ? missingName() : expectName();
     checkNameLength(node->name);
     if (panic_ || kind() == K::Semicolon) {
@@ -26,7 +28,13 @@ Decl* Parser::parseRecord(bool local, TokenIndex first) {
     const size_t mark = components_.size();
     while (kind() != K::KwEndrecord && kind() != K::EndOfFile) {
         if (braced && accept(K::RightBrace)) break;
-        if (kind() == K::Identifier && endsLine(pos_) &&
+        if (isContextual(pos_, "END") && !startsLine(pos_ + 1) && endsLine(pos_ + 1) &&
+            (peek() == K::KwRecord || foreignCloserIs(pos_ + 1))) { // "END RECORD"
+            retag(pos_, pos_ + 1, K::KwEndrecord);
+            ++pos_;
+            break;
+        }
+        if (kind() == K::Identifier && (endsLine(pos_) || peek() == K::Semicolon) &&
             (equalsNoCase(textOf(pos_), "END") || meant(pos_, K::KwEndrecord))) {
             retag(pos_, pos_, K::KwEndrecord);
             break;
@@ -48,7 +56,8 @@ Decl* Parser::parseRecord(bool local, TokenIndex first) {
         accept(K::KwEndrecord);
         return finish(node);
     }
-    if (node->components.empty() && kind() == K::KwEndrecord && !options_.declarations)
+    if (node->components.empty() && kind() == K::KwEndrecord && !options_.declarations &&
+        errors_ == errorsBefore)
         report(Code::EmptyRecord, node->name == kNoToken ? opening : node->name,
                {std::string(textOf(node->name))});
     // An END word of a routine below RECORD was meant as its end.

@@ -40,6 +40,11 @@ constexpr ForeignWord kForeignWords[] = {{"NEXT", TokenKind::KwEndfor},
                                          {"CONSTANT", TokenKind::KwConst},
                                          {"VOID", TokenKind::KwProc},
                                          {"BY", TokenKind::KwStep},
+                                         {"INC", TokenKind::KwStep},
+                                         {"INCREMENT", TokenKind::KwStep},
+                                         {"EXCEPT", TokenKind::KwError},
+                                         {"EXCEPTION", TokenKind::KwError},
+                                         {"CATCH", TokenKind::KwError},
                                          {"PERSISTENT", TokenKind::KwPers},
                                          {"VARIABLE", TokenKind::KwVar},
                                          {"PRIVATE", TokenKind::KwLocal},
@@ -50,13 +55,13 @@ constexpr ForeignWord kForeignWords[] = {{"NEXT", TokenKind::KwEndfor},
 /// Blocks of other languages that RAPID writes in another way. WHILE is what closes DO.
 struct ForeignBlock {
     std::string_view word;
-    std::string_view closer; ///< or two, in this order
+    std::string_view closer; ///< "A|B": one of them; "A B": both, in this order
     std::string_view expected;
 };
 constexpr ForeignBlock kForeignBlocks[] = {
-    {"REPEAT", "UNTIL", "WHILE and a condition"},
-    {"DO", "WHILE", "WHILE and a condition before DO"},
-    {"LOOP", "ENDLOOP", "WHILE TRUE DO"},
+    {"REPEAT", "UNTIL|ENDREPEAT", "WHILE and a condition"},
+    {"DO", "WHILE|ENDDO|LOOP|UNTIL", "WHILE and a condition before DO"},
+    {"LOOP", "ENDLOOP|UNTIL|WHILE", "WHILE TRUE DO"},
     {"BEGIN", "END", "an instruction: blocks have no word of their own"},
     {"TRY", "CATCH ENDTRY", "an ERROR handler at the end of the routine"}};
 
@@ -88,13 +93,62 @@ bool Parser::meant(TokenIndex i, K word, unsigned limit) const {
     return editDistance(written, spelling, limit) <= limit;
 }
 
-/// Reports the word and reads it as the keyword it stands for. `last` is the last token of the word.
+/// Reports the word and reads it as the keyword it stands for. `last` is the last token of the word. A word of another
+/// language brings its END word with it: both are one mistake.
 void Parser::retag(TokenIndex first, TokenIndex last, K word) {
     const SourceRange range{tree_.range(first).begin, tree_.range(last).end};
     const auto shown = tree_.source->text().substr(range.begin, range.end - range.begin);
     const std::string spelling(tokenText(word));
-    fix(reportAt(Code::MisspeltKeyword, range, {std::string(shown), spelling}), range, spelling);
+    const auto closed = std::find(foreignClosers_.begin(), foreignClosers_.end(), last);
+    if (closed != foreignClosers_.end()) {
+        foreignClosers_.erase(closed);
+    } else {
+        diag::Diagnostic* diagnostic = reportAt(Code::MisspeltKeyword, range, {std::string(shown), spelling});
+        fix(diagnostic, range, spelling);
+        noteForeignCloser(diagnostic, last, word);
+    }
     readAs(last, word);
+}
+
+/// The END word of another language that closes what the word at `opening` begins: "ENDSWITCH", "END SWITCH". Its last
+/// token, or kNoToken.
+TokenIndex Parser::foreignCloser(TokenIndex opening, K closer) const {
+    const std::string begins = upperCase(textOf(opening)), ends = "END" + begins;
+    const bool known =
+        std::any_of(std::begin(kForeignWords), std::end(kForeignWords),
+                    [&](const auto& foreign) { return foreign.word == ends && foreign.keyword == closer; });
+    if (!known) return kNoToken;
+    uint32_t open = 0;
+    constexpr TokenIndex kFar = 5000;
+    for (TokenIndex i = opening + 1; i < last_ && i < opening + kFar; ++i) {
+        if (kindAt(i) != K::Identifier || !startsLine(i)) continue;
+        const bool twoWords = equalsNoCase(textOf(i), "END") && equalsNoCase(textOf(i + 1), begins);
+        if (equalsNoCase(textOf(i), begins)) ++open;
+        if (!twoWords && !equalsNoCase(textOf(i), ends)) continue;
+        if (open-- == 0) return twoWords ? i + 1 : i;
+    }
+    return kNoToken;
+}
+
+void Parser::noteForeignCloser(diag::Diagnostic* diagnostic, TokenIndex opening, K word) {
+    struct Pair {
+        K opener, closer;
+    };
+    static constexpr Pair kPairs[] = {{K::KwTest, K::KwEndtest},
+                                      {K::KwRecord, K::KwEndrecord},
+                                      {K::KwFunc, K::KwEndfunc},
+                                      {K::KwProc, K::KwEndproc}};
+    const auto* pair =
+        std::find_if(std::begin(kPairs), std::end(kPairs), [&](const Pair& p) { return p.opener == word; });
+    if (!diagnostic || pair == std::end(kPairs)) return;
+    const TokenIndex closer = foreignCloser(opening, pair->closer);
+    if (closer == kNoToken) return;
+    foreignClosers_.push_back(closer);
+    const bool twoWords = equalsNoCase(textOf(closer - 1), "END");
+    const SourceRange range{tree_.range(twoWords ? closer - 1 : closer).begin, tree_.range(closer).end};
+    const std::string spelling(tokenText(pair->closer));
+    note(diagnostic, closer, "and " + spelling + " here");
+    diagnostic->fixes.back().edits.push_back({range, spelling});
 }
 
 bool Parser::retagIfMeant(K word) {
@@ -134,10 +188,26 @@ bool Parser::startsForeignBlock() {
     return false;
 }
 
+/// Is it the END word of a block whose opening word has been reported?
+bool Parser::foreignCloserIs(TokenIndex i) const {
+    return std::find(foreignClosers_.begin(), foreignClosers_.end(), i) != foreignClosers_.end();
+}
+
+/// One of the words that may come next.
+bool Parser::isForeignCloser(TokenIndex i) const {
+    std::string_view closers = foreignCloser_.substr(0, foreignCloser_.find(' '));
+    while (!closers.empty()) {
+        const std::string_view one = closers.substr(0, closers.find('|'));
+        if (equalsNoCase(textOf(i), one)) return true;
+        closers.remove_prefix(std::min(one.size() + 1, closers.size()));
+    }
+    return false;
+}
+
 bool Parser::endsForeignBlock() {
-    const std::string_view closer = foreignCloser_.substr(0, foreignCloser_.find(' '));
-    if (closer.empty() || !equalsNoCase(textOf(pos_), closer)) return false;
-    foreignCloser_.remove_prefix(std::min(closer.size() + 1, foreignCloser_.size()));
+    if (!isForeignCloser(pos_)) return false;
+    const size_t length = foreignCloser_.find(' ');
+    foreignCloser_.remove_prefix(length == std::string_view::npos ? foreignCloser_.size() : length + 1);
     take();
     if (!startsLine(pos_)) syncStatement();
     return true;
@@ -160,14 +230,28 @@ bool Parser::retagMisspelt(const TokenSet& own) {
         return true;
     }
     const bool end = equalsNoCase(text, "END");
+    if (end && next == K::KwIf && own.has(K::KwElseif) &&
+        fitsAsListWord(K::KwElseif, pos_ + 1)) { // "END IF b THEN"
+        retag(pos_, pos_ + 1, K::KwElseif);
+        ++pos_;
+        return true;
+    }
+    constexpr TokenSet kOfRoutines = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
     for (const K word : kWords) {
         if (!own.has(word)) continue;
+        if (end && kOfRoutines.has(word) && word != routineEnd_) continue;
         const std::string_view spelling = tokenText(word);
         TokenIndex last = pos_;
         const bool alone = end && startsLine(pos_ + 1);
         const bool twoWords = end && spelling.starts_with("END");
+        if (alone && !closesHere(word)) {
+            report(Code::StrayKeyword, pos_, {describe(pos_), "a block"});
+            strayEnd_ = pos_;
+            return false;
+        }
         if (twoWords && !alone) {
-            if (!isKeyword(next) || tokenText(next) != spelling.substr(3)) continue;
+            if (!foreignCloserIs(pos_ + 1) && (!isKeyword(next) || tokenText(next) != spelling.substr(3)))
+                continue;
             last = pos_ + 1;
         }
         if (next == K::Colon && (word != K::KwDefault || text.size() > spelling.size())) continue;
@@ -230,6 +314,12 @@ bool Parser::retagDecl() {
     if (kind() != K::Identifier) return false;
     const K a = peek(), b = peek(2);
     const bool line2 = startsLine(pos_ + 1), line3 = startsLine(pos_ + 2);
+    if (isContextual(pos_, "END") && (a == K::EndOfFile || (a == K::KwModule && peek(2) == K::EndOfFile))) {
+        const TokenIndex last = a == K::KwModule ? pos_ + 1 : pos_;
+        retag(pos_, last, K::KwEndmodule);
+        pos_ = last;
+        return true;
+    }
     if (line2 || a == K::EndOfFile) return retagIfMeant(K::KwEndmodule);
     constexpr TokenSet kDeclWords = {K::KwVar,  K::KwPers, K::KwConst,  K::KwProc,
                                      K::KwFunc, K::KwTrap, K::KwRecord, K::KwAlias};

@@ -1,0 +1,177 @@
+// Arguments that do not fit where they stand, but would in another order or with one more or less: one mistake, said once.
+
+#include "frontend/sema/analysis.h"
+
+#include <algorithm>
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+namespace {
+
+constexpr size_t kMostArguments = 16; // of calls that are looked at
+
+} // namespace
+
+/// Whether a parameter of this mode takes the data; the type does not count.
+bool Analyzer::mayStandFor(const DataSymbol& root, ParamMode mode) {
+    const bool parameter = root.storage == Storage::Parameter;
+    if (mode == ParamMode::In || mode == ParamMode::Ref) return true;
+    if (root.storage == Storage::Signal) return mode != ParamMode::Pers;
+    if (root.storage == Storage::SystemVariable || root.storage == Storage::LoopVariable) return false;
+    if (root.dataKind == DataKind::Const && !parameter) return false;
+    const bool persistent = parameter ? root.mode == ParamMode::Pers : root.dataKind == DataKind::Pers;
+    const bool either = parameter && root.mode == ParamMode::Inout;
+    return mode == ParamMode::Var ? !persistent : mode == ParamMode::Pers ? persistent || either : true;
+}
+
+/// Would the argument, which has been checked, fit this parameter?
+bool Analyzer::couldBe(const Expr& e, const DataSymbol& param) {
+    const DataSymbol* data = e.kind == NodeKind::Name ? asData(info(e).symbol) : nullptr;
+    const DataType& found =
+        data ? data->type : info(e).type; // signals and handles have been taken for values
+    const Type& want = *param.type.type;
+    if (found.type->kind == TypeKind::Error) // a name that nothing declares may be a signal
+        return e.kind == NodeKind::Name && handleHint(param);
+    const Expr* base = &e;
+    while (base->kind == NodeKind::Index || base->kind == NodeKind::Component)
+        base = base->kind == NodeKind::Index ? as<IndexExpr>(*base).base : as<ComponentExpr>(*base).base;
+    const DataSymbol* root = base->kind == NodeKind::Name ? asData(info(*base).symbol) : nullptr;
+    const bool byReference = param.mode != ParamMode::In || want.kind == TypeKind::SemiValue;
+    if (byReference && (!root || !mayStandFor(*root, param.mode))) return false;
+    if (want.kind == TypeKind::AnyType) return !missingClass(param.accepts, found);
+    const bool numeric = found.rank == 0 && param.type.rank == 0 && want.isNumeric();
+    if (!byReference && numeric && found.type->kind == TypeKind::SemiValue) return true;
+    if (!byReference && numeric && found.type->isNumeric() && info(e).constant && !root) return true;
+    return equivalent(found, param.type);
+}
+
+/// Whether all that was reported of the call is about its required arguments.
+bool Analyzer::errorsLieIn(const std::vector<const Expr*>& given) const {
+    return std::all_of(collect_->all().begin(), collect_->all().end(), [&](const diag::Diagnostic& d) {
+        if (d.severity != diag::Severity::Error) return true;
+        return std::any_of(given.begin(), given.end(), [&](const Expr* e) {
+            return range(*e).begin <= d.range.begin && d.range.end <= range(*e).end;
+        });
+    });
+}
+
+/// Looks for the one mistake behind what was found wrong with the arguments; then it alone is reported.
+bool Analyzer::explainArguments(const BoundCall& call, TokenIndex name, std::span<Argument* const> args) {
+    const RoutineSymbol& routine = *call.routine;
+    std::vector<const DataSymbol*> params;
+    std::vector<const Expr*> given;
+    for (const DataSymbol* param : routine.params) {
+        if (param->requiredAlternative) return false;
+        if (!param->optional) params.push_back(param);
+    }
+    for (const Argument* arg : args) {
+        if (arg->argKind == ArgKind::Placeholder) return false;
+        if (arg->argKind != ArgKind::Required) continue;
+        if (arg->name != kNoToken || !arg->value || arg->value->kind == NodeKind::ErrorExpr) return false;
+        given.push_back(arg->value);
+    }
+    if (params.empty() || given.empty() || params.size() > kMostArguments ||
+        given.size() > params.size() + 1 || !endsWell(name, args) || !errorsLieIn(given))
+        return false;
+    return params.size() == given.size() ? explainOrder(routine, params, given)
+                                         : explainCount(name, params, given);
+}
+
+void Analyzer::reportSwapped(const RoutineSymbol& routine, const DataSymbol& one, const DataSymbol& other,
+                             const Expr& first, const Expr& second) {
+    const std::string_view source = context_.tree->source->text();
+    const auto written = [&](const Expr& e) {
+        return std::string(source.substr(range(e).begin, range(e).end - range(e).begin));
+    };
+    report(Code::ArgumentsSwapped, range(first), {one.name, other.name, routine.name})
+        .fixes.push_back(
+            {"let them change places", {{range(first), written(second)}, {range(second), written(first)}}});
+}
+
+/// Two that have changed places, or one that stands too early or too late.
+bool Analyzer::explainOrder(const RoutineSymbol& routine, const std::vector<const DataSymbol*>& params,
+                            const std::vector<const Expr*>& given) {
+    const size_t count = params.size();
+    std::vector<size_t> order(count);
+    const auto reset = [&] {
+        for (size_t i = 0; i < count; ++i)
+            order[i] = i;
+    };
+    const auto fits = [&] {
+        for (size_t i = 0; i < count; ++i)
+            if (!couldBe(*given[order[i]], *params[i])) return false;
+        return true;
+    };
+    reset();
+    if (fits()) return false; // what is wrong is another thing
+    const auto dropErrors = [&] {
+        const std::vector<diag::Diagnostic> all = collect_->take();
+        for (const diag::Diagnostic& d : all)
+            if (d.severity != diag::Severity::Error) collect_->add(std::span(&d, 1));
+    };
+    for (size_t i = 0; i < count; ++i) {
+        for (size_t k = i + 1; k < count; ++k) {
+            reset();
+            std::swap(order[i], order[k]);
+            if (!fits()) continue;
+            dropErrors();
+            reportSwapped(routine, *params[i], *params[k], *given[i], *given[k]);
+            return true;
+        }
+    }
+    for (size_t from = 0; from < count; ++from) { // the argument given there belongs to parameter `to`
+        for (size_t to = 0; to < count; ++to) {
+            reset();
+            order.erase(order.begin() + static_cast<std::ptrdiff_t>(from));
+            order.insert(order.begin() + static_cast<std::ptrdiff_t>(to), from);
+            if (from == to || !fits()) continue;
+            dropErrors();
+            const bool late = to < from; // else the one behind it stands too late
+            report(Code::ArgumentOrder, range(*given[late ? from : from + 1]),
+                   {params[late ? to : from]->name, params[late ? from : to]->name});
+            return true;
+        }
+    }
+    return false;
+}
+
+/// One too many before others.
+bool Analyzer::explainCount(TokenIndex name, const std::vector<const DataSymbol*>& params,
+                            const std::vector<const Expr*>& given) {
+    size_t odd = 0;
+    while (odd < params.size() && couldBe(*given[odd], *params[odd]))
+        ++odd;
+    if (odd == params.size()) return false;
+    for (size_t i = odd; i < params.size(); ++i)
+        if (!couldBe(*given[i + 1], *params[i])) return false;
+    collect_->take();
+    report(Code::TooManyArguments, range(*given[odd]),
+           {text(name), counted(params.size(), "required argument"), std::to_string(given.size())});
+    return true;
+}
+
+/// "SetDO do1 := 1;" and "MoveL p10, v100, fine, tool0WObj:=wobj1;": ',' or '\\' is missing, and no parameter is named so.
+bool Analyzer::reportMisspeltSeparator(const RoutineSymbol& routine, const Argument& arg, size_t slot,
+                                       bool isLast) {
+    const std::string_view written = interner_.folded(idOf(arg.name));
+    for (const DataSymbol* param : routine.params) {
+        const std::string_view option = interner_.folded(param->nameId);
+        if (!param->optional || written.size() <= option.size() || !written.ends_with(option)) continue;
+        const size_t rest = written.size() - option.size();
+        if (!asData(lookup(interner_.intern(written.substr(0, rest))))) continue;
+        const uint32_t at = range(arg.name).end - static_cast<uint32_t>(option.size());
+        report(Code::OptionalWithoutBackslash, {at, range(arg.name).end}, {routine.name, param->name})
+            .fix({at, at}, "\\");
+        return true;
+    }
+    const bool another = nextRequired(routine, alternativesEnd(routine, slot)) < routine.params.size();
+    const bool isArgument = asData(lookup(idOf(arg.name))) || handleHint(*routine.params[slot]);
+    if (!isLast || !another || !isArgument) return false;
+    report(Code::UnexpectedToken, range(arg.name + 1), {"':='", "',' before the next argument"})
+        .fix(range(arg.name + 1), ",");
+    return true;
+}
+
+} // namespace rapid::sema
