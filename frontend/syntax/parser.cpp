@@ -162,6 +162,7 @@ bool Parser::isInBrokenString(const LexResult& lexed, const LexError& escape) {
 void Parser::reportLexErrors(const LexResult& lexed) {
     const LexError* before = nullptr;
     for (const LexError& error : lexed.errors) {
+        badNumbers_ |= error.code == Code::BadNumber;
         if (error.code == Code::BadNumber) continue; // said where the number is read
         if (error.code == Code::ForeignSpelling && error.args[0] == "==") continue; // so is what it means
         if (error.code == Code::BadStringEscape && isInBrokenString(lexed, error)) continue;

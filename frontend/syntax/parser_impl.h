@@ -383,6 +383,7 @@ class Parser {
     bool quietOutside_ = false;
     bool outsideCommentShown_ = false;
     size_t errors_ = 0;
+    bool badNumbers_ = false; ///< the lexer has found some
     /// A string that ends with its line, and the place before it where the line could not be read.
     struct BrokenString {
         SourceRange range;

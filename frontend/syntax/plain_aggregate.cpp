@@ -11,6 +11,7 @@ namespace rapid::syntax {
 Expr* Parser::parsePlainAggregate() {
     TokenIndex last = pos_;
     if (kind() == K::LeftBracket) {
+        if (badNumbers_) return nullptr;
         PlainTokens<false> pieces(tree_, pos_);
         if (!skipPlainAggregate(pieces)) return nullptr;
         last = static_cast<TokenIndex>(pieces.end() - tokens_) - 1;
