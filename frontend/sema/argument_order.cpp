@@ -32,7 +32,7 @@ bool Analyzer::couldBe(const Expr& e, const DataSymbol& param) {
     const DataType& found =
         data ? data->type : info(e).type; // signals and handles have been taken for values
     const Type& want = *param.type.type;
-    if (found.type->kind == TypeKind::Error) // a name that nothing declares may be a signal
+    if (!found.type || found.type->kind == TypeKind::Error) // a name that nothing declares may be a signal
         return e.kind == NodeKind::Name && handleHint(param);
     const Expr* base = &e;
     while (base->kind == NodeKind::Index || base->kind == NodeKind::Component)
@@ -72,7 +72,7 @@ bool Analyzer::explainArguments(const BoundCall& call, TokenIndex name, std::spa
         if (arg->name != kNoToken || !arg->value || arg->value->kind == NodeKind::ErrorExpr) return false;
         given.push_back(arg->value);
     }
-    if (params.empty() || given.empty() || params.size() > kMostArguments ||
+    if (params.empty() || given.size() < params.size() || params.size() > kMostArguments ||
         given.size() > params.size() + 1 || !endsWell(name, args) || !errorsLieIn(given))
         return false;
     return params.size() == given.size() ? explainOrder(routine, params, given)

@@ -156,6 +156,11 @@ void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t fi
     });
     if (dotForComma) return; // the arguments behind it have moved
     if (std::exchange(shapeReported_, false)) missing = false;
+    const bool unknown = std::any_of(call.args.begin(), call.args.end(), [&](const BoundArg& a) {
+        return a.argument && a.value && a.value->kind == NodeKind::Name && info(*a.value).type.type &&
+               info(*a.value).type.type->kind == TypeKind::Error;
+    });
+    if (unknown) missing = false; // two names that run into one may be one that is not known
     if (missing) {
         std::vector<const Expr*> moved;
         if (const auto lost = leftOut(call, moved); !lost.empty()) {
@@ -166,12 +171,7 @@ void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t fi
             return;
         }
     }
-    const bool unknown = std::any_of(call.args.begin(), call.args.end(), [&](const BoundArg& a) {
-        return a.argument && a.value && a.value->kind == NodeKind::Name &&
-               info(*a.value).type.type->kind == TypeKind::Error;
-    });
-    if (missing && !unknown)
-        reportMissing(call, name); // two names that run into one may be one that is not known
+    if (missing) reportMissing(call, name);
     for (const Mismatch& one : wrong)
         report(Code::ArgumentType, range(*one.value),
                {one.param->name, routine.name, typeName(one.found), typeName(one.param->type)});
