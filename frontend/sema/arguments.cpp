@@ -157,8 +157,7 @@ void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t fi
     if (dotForComma) return; // the arguments behind it have moved
     if (std::exchange(shapeReported_, false)) missing = false;
     const bool unknown = std::any_of(call.args.begin(), call.args.end(), [&](const BoundArg& a) {
-        return a.argument && a.value && a.value->kind == NodeKind::Name && info(*a.value).type.type &&
-               info(*a.value).type.type->kind == TypeKind::Error;
+        return a.argument && a.value && a.value->kind == NodeKind::Name && !info(*a.value).symbol;
     });
     if (unknown) missing = false; // two names that run into one may be one that is not known
     if (missing) {
