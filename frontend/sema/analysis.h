@@ -451,6 +451,7 @@ class Analyzer {
     std::vector<std::string> missingModules_; ///< their names, as far as they are known
     std::vector<const syntax::SyntaxTree*> brokenTrees_; ///< with syntax errors
     std::unordered_set<NameId> maybeDeclared_;           ///< names in declarations that could not be read
+    std::unordered_set<NameId> unknownRoutines_;         ///< reported in this routine
     std::unordered_set<NameId> reportedNames_;           ///< unknown signals, reported once a task
     std::vector<const syntax::Expr*> bigLiterals_;
     std::vector<const syntax::BinaryExpr*> spine_;

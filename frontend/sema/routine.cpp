@@ -28,6 +28,7 @@ void Analyzer::checkRoutine(RoutineSymbol& symbol) {
     wideRecord_ = nullptr;
     partComparisonsLeft_ = kMaxPartComparisons;
     gotos_.clear();
+    unknownRoutines_.clear();
 
     for (DataSymbol* param : symbol.params)
         declareInRoutine(*param);

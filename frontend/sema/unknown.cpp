@@ -96,6 +96,10 @@ Analyzer::Meant Analyzer::reportUnknown(Code code, TokenIndex token, NameId name
         if (reportedNames_.insert(name).second) reportMayBeDeclared(token, hint);
         return meant;
     }
+    // A routine that is missing is one mistake; a name that looks misspelt is one each time.
+    const bool routine = wanted != Wanted::Data && wanted != Wanted::Type;
+    if (routine && context_.routine && best.name.empty() && !unknownRoutines_.insert(name).second)
+        return meant;
     for (const Module* module : task_ ? task_->modules : std::vector<Module*>()) {
         const Symbol* local = module == context_.module ? nullptr : scopes_[module->id]->names.find(name);
         if (!local || !isWanted(*local, wanted)) continue;
