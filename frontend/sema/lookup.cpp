@@ -115,7 +115,7 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
     if (!type && !mecunit) {
         if (moduleNames_.find(name)) {
             report(Code::NotData, range(token), {text(token), "a module"});
-        } else {
+        } else if (!context_.routine || !context_.routine->incomplete) { // else it may be a parameter
             const char* hint = "";
             if (looksLikeSignal(interner_.folded(name)))
                 hint = options_.configurationKnown

@@ -177,6 +177,7 @@ void Analyzer::resolveParameter(RoutineSymbol& routine, const ParamDecl& decl) {
     symbol.routine = &routine;
     symbol.index = static_cast<uint32_t>(routine.params.size());
     routine.params.push_back(&symbol);
+    routine.incomplete |= !decl.isSwitch && decl.type == kNoToken; // what it takes is not known
     if (decl.isSwitch) {
         symbol.type.type = switchType_;
         if (!decl.optional) {
