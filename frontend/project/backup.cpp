@@ -224,7 +224,7 @@ class BackupLoader {
 
     /// The file of a listed module; its ending may have changed since: RobotWare 7.1 made .modx of .mod.
     static fs::path findListed(const TaskParts& task, const ListedModule& listed) {
-        const fs::path path = findPath(task.folder, listed.folder + "/" + listed.file);
+        fs::path path = findPath(task.folder, listed.folder + "/" + listed.file);
         if (!path.empty()) return path;
         for (const fs::path& other : entries(findPath(task.folder, listed.folder)))
             if (isModule(other) && !isFolder(other) && sameName(other.stem().string(), stemOf(listed.file)))

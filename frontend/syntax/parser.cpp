@@ -92,7 +92,7 @@ void Parser::parseFile(const LexResult& lexed) {
         }
     }
     reportBrokenStrings();
-    if (!wentBack_) return;
+    if (wentBackTo_ == 0) return;
     for (ModuleDecl* module : tree_.modules)
         cutOff(*module);
 }

@@ -414,7 +414,7 @@ class Parser {
     int missingEndifs_ = 0; ///< of the routine, once they are counted
     bool endifsCounted_ = false;
     bool endReported_ = false;           ///< that the file ends too early
-    bool wentBack_ = false;              ///< in expressions that were read: their ends are to be cut off
+    TokenIndex wentBackTo_ = 0;          ///< in an expression that was read: ends are to be cut off; 0: never
     TokenIndex routineStart_ = 0;        ///< its first token
     bool inCondition_ = false;           ///< between IF and THEN
     bool inHead_ = false;                ///< between IF, FOR or WHILE and the block

@@ -139,11 +139,12 @@ bool Parser::assignmentBelow() {
         K::Minus,   K::Star,   K::Slash,    K::KwDiv, K::KwMod,     K::KwAnd,     K::KwOr,         K::KwXor,
         K::KwNot,   K::Comma,  K::Dot,      K::KwIf,  K::LeftParen, K::LeftBrace, K::LeftBracket,  K::KwFrom,
         K::KwWhile, K::KwStep, K::KwTest,   K::KwTo,  K::KwElseif,  K::KwReturn,  K::KwRaise};
-    if (first == 0 || !kBeforeOperand.has(kindAt(first - 1))) return false;
+    if (kindAt(first - 1) == K::LeftBrace && braces_ > 0) return false; // of a block
+    if (first <= wentBackTo_ || !kBeforeOperand.has(kindAt(first - 1)))
+        return false; // never to a place twice
     for (TokenIndex i = first; i < pos_; ++i)
         if (kindAt(i) == K::Comma || kindAt(i) == K::LeftParen || kindAt(i) == K::Backslash) return false;
-    pos_ = first;
-    wentBack_ = true;
+    pos_ = wentBackTo_ = first;
     missing("an expression");
     return true;
 }

@@ -103,7 +103,10 @@ template <bool known> class PlainText {
         constexpr int kMaxLength = 80;
         const char* p = p_ + 1;
         for (;; ++p) {
-            if (*p == '"' && *++p != '"') break;
+            if (*p == '"') {
+                ++p;
+                if (*p != '"') break;
+            }
             if (*p == '\\' || *p == '\0' || *p == '\n' || *p == '\r') return PlainPiece::Other;
         }
         if (p > p_ + kMaxLength + 2) return PlainPiece::Other;

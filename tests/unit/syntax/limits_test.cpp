@@ -86,6 +86,16 @@ TEST_CASE("a million mistakes and lines of megabytes are handled", "[syntax][lim
     CHECK(oneJunk.sink.errorCount() <= 2);
 }
 
+TEST_CASE("the way back from an unfinished line is not taken twice", "[syntax][limits]") {
+    for (const char* body : {"{\na l = z := 1;", "{\n  a l=z:=", "IF x {\na l = z := 1;\n}",
+                             "a{\nb l = z := 1;\nc l = z := 1;"}) {
+        INFO(body);
+        const test::Parsed parsed = parseText(inProcedure(body));
+        CHECK(parsed.sink.hasErrors());
+        CHECK(parsed.sink.errorCount() <= 6);
+    }
+}
+
 TEST_CASE("unfinished texts end with the file", "[syntax][limits]") {
     const std::string text = inProcedure(
         "IF a AND NOT b THEN\n  MoveL [[1,2],[3]], v100\\V:=5, fine, t{1}.x;\nELSE\n"
