@@ -100,7 +100,8 @@ old.mod (ISO 8859-1):
      "  ! tools of cell 3\n"
      "ENDMODULE"},
     {1099, Kind::Body,
-     "The file has more than 200 mistakes of lexing and parsing, or more than 1,000 errors or warnings in all. The first ones are shown; often they are the "
+     "The file has more than 200 mistakes of lexing and parsing, or more than 1,000 errors or warnings in "
+     "all. The first ones are shown; often they are the "
      "cause of the "
      "others.",
      "", "x := 1;"},

@@ -250,7 +250,9 @@ void compareThroughEdits(const std::vector<std::map<std::string, std::string>>& 
         const std::string expected = show(sink.sorted()), found = show(session.diagnostics());
         const std::string facts = show(*program), foundFacts = show(session.program());
         if (expected == found && facts == foundFacts) continue;
-        INFO("seed " << seed << ", step " << step << ", changed " << at->first << "\n" << at->second << "\nbefore:\n" << before);
+        INFO("seed " << seed << ", step " << step << ", changed " << at->first << "\n"
+                     << at->second << "\nbefore:\n"
+                     << before);
         INFO((expected != found ? firstDifference(found, expected) : firstDifference(foundFacts, facts)));
         FAIL("the session and the check of everything do not agree");
     }
