@@ -65,8 +65,8 @@ class Sink {
     }
     /// Calls `keep` for each diagnostic, which may change its severity; removes those for which it returns false.
     void revise(const std::function<bool(Diagnostic&)>& keep);
-    /// Takes back those of the errors from the index `first` in all() on for which `wrong` says so.
-    void retract(size_t first, const std::function<bool(const Diagnostic&)>& wrong);
+    /// Takes back those of the errors for which `wrong` says so.
+    void retract(const std::function<bool(const Diagnostic&)>& wrong);
     bool hasErrors() const { return errorCount_ > 0; }
     size_t errorCount() const { return errorCount_; }
     /// Sorted by file, position, code.

@@ -15,6 +15,10 @@ const Explanation* findExplanation(uint16_t number) {
     return nullptr;
 }
 
+std::string_view exampleLanguage(ExampleKind kind) {
+    return kind == ExampleKind::Files ? "text" : "rapid";
+}
+
 namespace {
 
 constexpr std::string_view kBytes = "bytes ", kLatin1 = "ISO 8859-1";

@@ -34,6 +34,9 @@ struct Explanation {
     std::string_view right; ///< causes none but notes
 };
 
+/// The language of an example in Markdown: "rapid", or "text" where it is more than a module.
+std::string_view exampleLanguage(ExampleKind kind);
+
 /// An example as a user would try it.
 struct ExampleProject {
     struct File {

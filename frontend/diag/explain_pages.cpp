@@ -30,9 +30,8 @@ std::string pageOf(const CatalogueEntry& entry) {
         if (!explanation->wrong.empty())
             out += fmt::format("\nWrong:\n\n```text\n{}\n```\n", explanation->wrong);
         if (!explanation->wrong.empty() && !explanation->right.empty())
-            out +=
-                fmt::format("\nRight:\n\n```{}\n{}\n```\n",
-                            explanation->kind == ExampleKind::Files ? "text" : "rapid", explanation->right);
+            out += fmt::format("\nRight:\n\n```{}\n{}\n```\n", exampleLanguage(explanation->kind),
+                               explanation->right);
     }
     return out + "\n[All diagnostics](README.md)\n";
 }

@@ -86,8 +86,8 @@ class Writer {
         const auto example = [&](const char* title, std::string_view text) {
             if (text.empty()) return;
             help += fmt::format("\n\n{}:\n{}", title, text);
-            markdown += fmt::format("\n\n{}:\n\n```{}\n{}\n```", title,
-                                    explanation->kind == ExampleKind::Files ? "text" : "rapid", text);
+            markdown +=
+                fmt::format("\n\n{}:\n\n```{}\n{}\n```", title, exampleLanguage(explanation->kind), text);
         };
         if (explanation) {
             example("Wrong", explanation->wrong);

@@ -79,16 +79,14 @@ void Sink::revise(const std::function<bool(Diagnostic&)>& keep) {
         all_.begin(), all_.end(), [](const Diagnostic& d) { return d.severity == Severity::Error; }));
 }
 
-void Sink::retract(size_t first, const std::function<bool(const Diagnostic&)>& wrong) {
-    const auto begin = all_.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto end = std::remove_if(begin, all_.end(), [&](const Diagnostic& d) {
+void Sink::retract(const std::function<bool(const Diagnostic&)>& wrong) {
+    std::erase_if(all_, [&](const Diagnostic& d) {
         if (d.severity != Severity::Error || !wrong(d)) return false;
         --errorCount_;
         if (const auto kept = kept_.find(d.file.get()); kept != kept_.end() && kept->second.errors > 0)
             --kept->second.errors;
         return true;
     });
-    all_.erase(end, all_.end());
 }
 
 std::vector<Diagnostic> Sink::take() {

@@ -1,11 +1,12 @@
 #include "frontend/project/neighbours.h"
 
+#include "config/read_file.h"
 #include "frontend/project/files.h"
+#include "frontend/sema/names.h"
 #include "frontend/syntax/ast.h"
 #include "frontend/syntax/parser.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
@@ -29,13 +30,6 @@ bool isUnknown(const Diagnostic& d) {
     return d.file && std::find(std::begin(kCodes), std::end(kCodes), d.code) != std::end(kCodes);
 }
 
-std::string folded(std::string_view name) {
-    std::string lower(name);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    return lower;
-}
-
 fs::path folderOf(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
@@ -57,7 +51,7 @@ class Neighbours {
     const Diagnostic::Note* find(const Diagnostic& unknown) const {
         const SourceRange range = unknown.range;
         const auto found =
-            names_.find(folded(unknown.file->text().substr(range.begin, range.end - range.begin)));
+            names_.find(sema::foldName(unknown.file->text().substr(range.begin, range.end - range.begin)));
         if (found == names_.end()) return nullptr;
         const Diagnostic::Note& note = found->second;
         return folderOf(note.file->path()) == folderOf(unknown.file->path()) ? &note : nullptr;
@@ -81,7 +75,7 @@ class Neighbours {
     void readFile(const fs::path& path) {
         diag::Sink ignored;
         std::string bytes;
-        if (!FileReader(ignored).read(path, bytes)) return;
+        if (!config::readFile(path.string(), bytes).empty()) return;
         const auto source = std::make_shared<const SourceFile>(path.string(), std::move(bytes));
         if (source->isEncrypted()) return;
         const auto tree = syntax::parse(source, ignored);
@@ -114,7 +108,7 @@ class Neighbours {
     void add(const syntax::SyntaxTree& tree, syntax::TokenIndex name) {
         const std::string text(tree.text(name));
         names_.try_emplace(
-            folded(text),
+            sema::foldName(text),
             Diagnostic::Note{tree.source, tree.range(name),
                              fmt::format("'{}' is declared here: check both files together, or the "
                                          "folder",

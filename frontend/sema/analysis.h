@@ -122,8 +122,7 @@ class Analyzer {
     void keepFacts() { keeps_ = true; }
     /// Before the first task: all of them, because each can name the others.
     void setTaskNames(std::vector<std::string> names) { taskNames_ = std::move(names); }
-    /// What concerns several tasks: persistents they share.
-    void checkSharedModules();
+    /// What concerns several tasks: persistents and modules they share.
     void checkAcrossTasks();
     bool leaveOut(const TaskInput& input);
 
@@ -141,10 +140,9 @@ class Analyzer {
     std::string text(const syntax::Node& node) const;
     std::string text(syntax::TokenIndex token) const { return std::string(context_.tree->text(token)); }
     diag::Diagnostic& report(Code code, SourceRange where, std::initializer_list<std::string> args = {});
-    /// Adds "declared here" at the declaration of `symbol`, when it has one in a file of the user.
     bool isUnclear(SourceRange where) const;
-    bool namesProcedure(std::span<syntax::Argument* const> args);
     bool hasUnclearLine(const syntax::Node& node) const;
+    /// Adds "declared here" at the declaration of `symbol`, when it has one in a file of the user.
     void noteDeclared(diag::Diagnostic& diagnostic, const Symbol& symbol);
     static std::string typeName(const DataType& type);
     static std::string typeName(const ExprInfo& info) { return typeName(info.type); }
@@ -195,6 +193,7 @@ class Analyzer {
                                                    const std::string& where);
     using DifferentRecords = std::set<std::pair<const Type*, const Type*>>;
     void checkShared(const DataSymbol& data, const DataSymbol& other, DifferentRecords& told);
+    void checkSharedModules();
     void readFile(const std::shared_ptr<const SourceFile>& file);
     void declareModules(std::span<Module* const> modules);
     void checkModules(std::span<Module* const> modules);
@@ -395,6 +394,7 @@ class Analyzer {
     bool predefinedCall(const RoutineSymbol& routine, syntax::TokenIndex name);
     void raiseToUser(const syntax::CallStmt& s);
     bool callStmt(const syntax::CallStmt& s);
+    bool namesProcedure(std::span<syntax::Argument* const> args);
     void reportNotCallable(const Symbol& symbol, syntax::TokenIndex name);
     void returnStmt(const syntax::ReturnStmt& s);
     void raiseStmt(const syntax::RaiseStmt& s);
@@ -469,7 +469,7 @@ class Analyzer {
     size_t partComparisonsLeft_ =
         kMaxPartComparisons; ///< of labels, components and parameters, in the routine
 
-    bool blocksAreUnclear_ = false; ///< an END word of the routine is missing or one too many
+    bool blocksAreUnclear_ = false; ///< a line of the routine could not be read: perhaps the word of a block
     /// Records and aliases being resolved, with the data type in them that has been reached.
     std::vector<std::pair<const Type*, syntax::TokenIndex>> resolvingParts_;
     bool muted_ = false; ///< in what could not be read as a whole, which is reported

@@ -106,11 +106,7 @@ bool Analyzer::explainOrder(const RoutineSymbol& routine, const std::vector<cons
     };
     reset();
     if (fits()) return false; // what is wrong is another thing
-    const auto dropErrors = [&] {
-        const std::vector<diag::Diagnostic> all = collect_->take();
-        for (const diag::Diagnostic& d : all)
-            if (d.severity != diag::Severity::Error) collect_->add(std::span(&d, 1));
-    };
+    const auto dropErrors = [&] { collect_->retract([](const diag::Diagnostic&) { return true; }); };
     for (size_t i = 0; i < count; ++i) {
         for (size_t k = i + 1; k < count; ++k) {
             reset();

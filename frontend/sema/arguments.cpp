@@ -128,7 +128,7 @@ std::span<const BoundArg> Analyzer::leftOut(const BoundCall& call, std::vector<c
 
 // What was said about arguments that only stand in the wrong place.
 void Analyzer::takeBack(const std::vector<const Expr*>& moved) {
-    collect_->retract(0, [&](const diag::Diagnostic& d) {
+    collect_->retract([&](const diag::Diagnostic& d) {
         const bool aboutArgument = d.code == Code::ArgumentClass || d.code == Code::ArgumentNotVariable ||
                                    d.code == Code::ArgumentNotWhole || d.code == Code::ArgumentAlternatives ||
                                    d.code == Code::NonValueInExpression;

@@ -32,9 +32,7 @@ bool Analyzer::isUnclear(SourceRange where) const {
     const auto after = std::upper_bound(lines.begin(), lines.end(), where.begin);
     if (after == lines.begin()) return false;
     const uint32_t begin = *(after - 1);
-    constexpr uint32_t kLongLine =
-        500; // the mistakes of a file in one line have nothing to do with each other
-    if (where.begin - begin > kLongLine) return false;
+    if (where.begin - begin > SyntaxTree::kUnclearReach) return false;
     const std::string_view between = context_.tree->source->text().substr(begin, where.begin - begin);
     return between.find_first_of("\r\n") == std::string_view::npos;
 }

@@ -306,6 +306,9 @@ struct SyntaxTree {
     /// Where lines begin in which something could not be read, which is reported; in order. What is wrong with names and
     /// types there follows from that.
     std::vector<uint32_t> unclearLines;
+    /// Bytes of a line that count as one in unclearLines: the mistakes of a file in one line have nothing to do with each
+    /// other.
+    static constexpr uint32_t kUnclearReach = 500;
     bool retagged =
         false; ///< some tokens are not what the text alone says, or the text cannot be read: mistakes
 

@@ -502,9 +502,8 @@ void noteUnclearLines(SyntaxTree& tree, std::span<const diag::Diagnostic> report
     const std::string_view text = tree.source->text();
     for (const diag::Diagnostic& d : reported) {
         if (d.file != tree.source || !leavesOpen(d)) continue;
-        constexpr uint32_t kFar = 500; // in a line that long, what stands before is far from the mistake
         uint32_t begin = d.range.begin;
-        while (begin > 0 && d.range.begin - begin < kFar && text[begin - 1] != '\n' &&
+        while (begin > 0 && d.range.begin - begin < SyntaxTree::kUnclearReach && text[begin - 1] != '\n' &&
                text[begin - 1] != '\r')
             --begin;
         tree.unclearLines.push_back(begin);

@@ -13,6 +13,9 @@ using diag::Code;
 namespace {
 
 constexpr TokenIndex kFarTokens = 5000; ///< how far margins and END words are compared
+/// A routine has ended before these.
+constexpr TokenSet kBehindRoutine = {TokenKind::KwProc,   TokenKind::KwFunc,      TokenKind::KwTrap,
+                                     TokenKind::KwModule, TokenKind::KwEndmodule, TokenKind::EndOfFile};
 constexpr TokenSet kBlockEnds = {TokenKind::KwEndif, TokenKind::KwEndfor, TokenKind::KwEndwhile,
                                  TokenKind::KwEndtest};
 
@@ -132,9 +135,8 @@ bool Parser::retagBrace(const TokenSet& own) {
 bool Parser::endsRoutineTooEarly() const {
     constexpr TokenSet kEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap, K::KwEndmodule};
     if (!kEnds.has(kind()) || errors_ > kMaxErrorsPerFile) return false;
-    constexpr TokenSet kStop = {K::KwProc, K::KwFunc, K::KwTrap, K::KwModule, K::KwEndmodule, K::EndOfFile};
     TokenIndex i = pos_ + 1;
-    while (kindAt(i) != routineEnd_ && !kStop.has(kindAt(i)))
+    while (kindAt(i) != routineEnd_ && !kBehindRoutine.has(kindAt(i)))
         ++i;
     return kindAt(i) == routineEnd_;
 }
@@ -155,9 +157,8 @@ bool Parser::isTestWrittenCase() {
 /// The END word of this routine, whatever word began it; EndOfFile if there is none ahead of the next routine.
 TokenKind Parser::endOfRoutineBelow() const {
     constexpr TokenSet kEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
-    constexpr TokenSet kStop = {K::KwProc, K::KwFunc, K::KwTrap, K::KwModule, K::KwEndmodule, K::EndOfFile};
     TokenIndex i = pos_;
-    while (!kEnds.has(kindAt(i)) && !kStop.has(kindAt(i)))
+    while (!kEnds.has(kindAt(i)) && !kBehindRoutine.has(kindAt(i)))
         ++i;
     return kEnds.has(kindAt(i)) ? kindAt(i) : K::EndOfFile;
 }

@@ -1,5 +1,6 @@
 // Examples of explanations that consist of files and a command: each is tried as a user would.
 
+#include "frontend/diag/catalogue.h"
 #include "frontend/diag/explain.h"
 #include "unit/temporary_folder.h"
 
@@ -48,12 +49,8 @@ Outcome attempt(const diag::ExampleProject& project) {
 
 std::vector<const diag::Explanation*> all() {
     std::vector<const diag::Explanation*> found;
-    for (const auto some :
-         {diag::explanations1xxx(), diag::explanations2xxx(), diag::explanations3xxx(),
-          diag::explanations4xxx(), diag::explanations5xxx(), diag::explanations6xxx(),
-          diag::explanationsOfBackups(), diag::explanations7xxx(), diag::explanations8xxx()})
-        for (const diag::Explanation& e : some)
-            found.push_back(&e);
+    for (const diag::CatalogueEntry& entry : diag::catalogue())
+        if (const diag::Explanation* e = diag::findExplanation(entry.number)) found.push_back(e);
     return found;
 }
 
