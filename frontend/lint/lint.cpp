@@ -84,19 +84,19 @@ bool isSameData(const DataSymbol& data, const DataSymbol& predefined) {
     return data.dataKind != DataKind::Const || equalValues(data.value(), predefined.value());
 }
 
-/// Places of errors by file: what contains one is not judged.
+/// Places of errors and of placeholders by file: what contains one is not judged.
 class Errors {
   public:
     explicit Errors(const diag::Sink& sink) : sink_(sink) {}
     /// Takes in what has been reported since.
     void update() {
-        if (!sink_.hasErrors()) return;
         for (; seen_ < sink_.all().size(); ++seen_) {
             const diag::Diagnostic& d = sink_.all()[seen_];
-            if (d.severity == diag::Severity::Error && d.file) places_[d.file.get()].insert(d.range.begin);
+            if ((d.severity == diag::Severity::Error || d.code == diag::Code::Placeholder) && d.file)
+                places_[d.file.get()].insert(d.range.begin);
         }
     }
-    bool any() const { return sink_.hasErrors(); }
+    bool any() const { return sink_.hasErrors() || !places_.empty(); }
     bool in(const SyntaxTree& tree) const { return places_.count(tree.source.get()) > 0; }
     bool in(const SyntaxTree& tree, SourceRange range) const {
         const auto file = places_.find(tree.source.get());

@@ -16,7 +16,7 @@ constexpr AddInNames kAddIns[] = {
      "recoverymenu recoverymenuwr recoveryposset recoveryposreset setwrprocname mpsavepath mploadpath "
      "mpreadinpath mpoffseaxonpath arcrepl arcadaptlstart arcadaptl arcadaptc arcadaptlend "
      "arcadaptcend arccalclstart arccalcl arccalcc arccalclend arccalccend arcadaptrepl multidata "
-     "adaptdata refdata naeresumetype resume_kill resume_skip_* starctopoint"},
+     "adaptdata refdata naeresumetype resume_kill resume_skip_* starctopoint aw_*"},
     {"Conveyor Tracking",
      "useaccprofile recordprofile waitandrecprof storeprofile loadprofile activateprofile "
      "deactprofile cnvgeninstr cnvsync usereachabletargets getmaxusagetime resetmaxusagetime "
@@ -24,19 +24,25 @@ constexpr AddInNames kAddIns[] = {
     {"RobotWare Paint",
      "consolewrite ipssetparam pntproduserlog setbrush setbrushfac paintlsig paintldo paintc "
      "indexlookup ipscommand ipsgetparam paintcommand pntqueueextraget pntqueueextraset pntqueuepeek "
-     "brushdata"},
+     "brushdata err_ips* pw_equip_err"},
     {"RobotWare Spot",
      "setforce calibrate recalctcp indgunmove indgunmovereset openhighlift closehighlift "
      "swsetintspotdata swsetintforcedata swsetintgundata swsetintsimdata swgetcalibdata "
      "swgetfixtipdata spotl spotj spotml spotmj calibl calibj measurewearl swgetcurrtargetname "
      "swgetcurrspotname nutl nutj gundata spotdata forcedata simdata smeqdata"},
-    {"Tool Changing", "tcclosecover tcdropofftool tclocktool tcopencover tcpickuptool tcunlocktool"},
-    {"RobotWare Dispense", "settmsignal syncwwobj displ dispc getsignal getsignaldnum beaddata equipdata"},
+    {"Tool Changing", "tcclosecover tcdropofftool tclocktool tcopencover tcpickuptool tcunlocktool tc_err_*"},
+    {"RobotWare Dispense",
+     "settmsignal syncwwobj displ dispc getsignal getsignaldnum beaddata equipdata err_glueflow"},
     {"Continuous Application Platform",
      "capaptrsetup capaptrsetupai capaptrsetupao capaptrsetuppers capcondsetdo capequidist "
      "capnoprocess caprefresh capsetstopmode capweavesync icap initsuperv ipathpos removesuperv "
-     "setupsuperv capc capl caplatrsetup cssdeactmovel capgetfailsigs capdata captrackdata "
-     "capweavedata capspeeddata"},
+     "setupsuperv capc capl caplatrsetup capgetfailsigs capdata captrackdata capweavedata "
+     "capspeeddata cap_* start_pre pre_started end_pre pre_ended start_main main_started end_main "
+     "main_ended main_motion stop_weavestart weavestart_regain motion_delay startspeed_time "
+     "move_started new_instr at_point at_restartpoint at_errorpoint last_segment process_end_point "
+     "path_end_point process_ended start_post1 post1_started end_post1 post1_ended start_post2 "
+     "post2_started end_post2 post2_ended equidist fly_start fly_end last_instr_ended"},
+    {"SoftMove", "cssact cssdeact cssdeactmovel cssforceoffsetact cssforceoffsetdeact cssoffsettune css_*"},
     {"BullsEye",
      "be_device be_scan be_tooldesign bechecktcp bedebugstate berefpointer besetuptoolj betcpextend "
      "beupdatetcp offstoolxyz offstoolpolar"},
@@ -47,13 +53,19 @@ constexpr AddInNames kAddIns[] = {
      "fcreftorque fcresetdampingtune fcresetlpfiltertune fcspdchgact fcspdchgdeact fcspdchgtunset "
      "fcspdchgtunreset fcsetdampingtune fcsetlpfiltertune fcsupvforce fcsupvorient fcsupvpos "
      "fcsupvreorispeed fcsupvtcpspeed fcsupvtorque fcgetforce fcgetprocessdata fcisforcemode fcloadid "
-     "fcframe fcforcevector fcspeedvector fcprocessdata fcboxvol fccylindervol fcspherevol fcdamping"},
+     "fc_* fcdirections fcframe fcforcevector fcspeedvector fcprocessdata fcboxvol fccylindervol fcspherevol "
+     "fcdamping"},
     {"Discrete Application Platform",
      "daactproc dadeactallproc dadeactproc dadefextsig dadefprocdata dadefprocsig dadefuserdata "
      "dagetcurrdata dasetcurrdata dasetupappbehav dastartmanaction dagetappdescr dagetappindex "
      "dagetnumofprocs dagetnumofrob dagetprcdescr daprocml daprocmj dagetfsttimeevt dacheckmmsopt "
-     "dagetmp dagetrobotname dagettaskname"},
-    {"Production Manager", "menudata partdata ee_event ee_* pmgr* gap_* execengine robathomepos"},
+     "dagetmp dagetrobotname dagettaskname err_da_unkproc"},
+    {"Production Manager",
+     "menudata partdata ee_event ee_* pmgr* gap_* execengine robathomepos op_no_robot op_service "
+     "op_production ct_continuous ct_count_cycles ct_count_cyc_action ct_periodical"},
+    {"RobotWare Machine Tending",
+     "err_mt_* gsopen gsvacuumoff gsbackward gsclose gsvacuumon gsforward gsreset gasetandcheck gaset "
+     "gacheck gacheckclose"},
     {"Optical Tracking", "optscandata opttrackdata optsearch_* ltapp__*"},
     {"HomePos-Running",
      "smovej smovejdo smovejgo smovejsync smovel smoveldo smovelgo smovelsync ssearchl striggj "
@@ -61,12 +73,18 @@ constexpr AddInNames kAddIns[] = {
     {"SmartGripper (YuMi)",
      "hand_* g_init g_calibrate g_gripin g_gripout g_jogin g_jogout g_moveto g_stop g_getpos "
      "g_vacuumon* g_vacuumoff* g_blowon* g_blowoff* g_setforce g_setmaxspd g_getspd g_iscalibrated "
-     "g_getpressure* g_getvac*"},
+     "g_getpressure* g_getvac* err_hand_*"},
     {"PickMaster",
      "itmsrc itmsrctype itmtgt getitmtgt ackitmtgt nextitmtgttype qstartitmsrc qstopitmsrc "
      "flushitmsrc resetitmsrc resetflowcount getqueuelevel itmsrcdata maxnosources noncnvwodata "
-     "noncnvwobjname ppadropwobj ppa_jump_move waitforexeorder remoteipnode pickplacerunning "
+     "noncnvwobjname cnvname err_ppa_timeout ppadropwobj ppa_jump_move waitforexeorder remoteipnode "
+     "pickplacerunning "
      "safestopexecuted incoordrout"},
+    {"PickMaster palletizing (Palletizing PowerPac)",
+     "pm_* pmack* pmcalc* pmcompare* pmdo* pmerrorlog pmget* pmlast* pmload* pmproj* pmreset* pmsearch* "
+     "pmset* pmstart* pmstop* pmwait*"},
+    {"Machine Synchronization", "prx*"},
+    {"Brake Check and SafeMove (service routines)", "brakecheck cyclicbrakecheck"},
     {"Lincoln ArcLink XT", "lincweldmodedata"},
 };
 

@@ -329,6 +329,7 @@ class Analyzer {
     size_t requiredSlots(const RoutineSymbol& routine) const;
     void reportMissing(const BoundCall& call, syntax::TokenIndex name);
     void checkExclusive(const BoundCall& call);
+    void visitArgument(const syntax::Argument& arg);
     void visitArguments(std::span<syntax::Argument* const> args);
     void lateCall(const syntax::CallStmt& stmt);
 

@@ -45,9 +45,17 @@ void Analyzer::reportNotAFunction(const CallExpr& e, const Symbol& symbol) {
     noteDeclared(d, symbol);
 }
 
+// The value of an argument without a parameter to judge it by. `\Arg?Param` asks only whether Param is there.
+void Analyzer::visitArgument(const Argument& arg) {
+    if (!arg.value) return;
+    const bool outer = std::exchange(presenceOnly_, presenceOnly_ || arg.argKind == ArgKind::Conditional);
+    visitLoose(*arg.value);
+    presenceOnly_ = outer;
+}
+
 void Analyzer::visitArguments(std::span<Argument* const> args) {
     for (const Argument* a : args)
-        if (a->value) visitLoose(*a->value);
+        visitArgument(*a);
 }
 
 void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex name,
@@ -159,7 +167,7 @@ bool Analyzer::matchArguments(BoundCall& call, TokenIndex name, std::span<Argume
             index = kNoParam;
         }
         if (index == kNoParam) {
-            if (arg->value) visitLoose(*arg->value);
+            visitArgument(*arg);
             continue;
         }
         if (lastArg && index < last && !std::exchange(orderReported, true)) {
@@ -396,9 +404,7 @@ void Analyzer::lateCall(const CallStmt& stmt) {
         bound.argument = arg;
         if (!arg->value) continue;
         if (arg->argKind == ArgKind::Conditional) {
-            const bool outer = std::exchange(presenceOnly_, true);
-            visitLoose(*arg->value);
-            presenceOnly_ = outer;
+            visitArgument(*arg);
             if (!ownOptional(*arg->value))
                 report(Code::ConditionalNotParameter, range(*arg->value), {text(*arg->value)});
         } else if (isPlaceExpr(*arg->value)) {

@@ -64,7 +64,10 @@ bool Analyzer::wholeStatement(const Stmt& s) {
         breakSeen_ = true;
         return false;
     case NodeKind::Continue: loopWord(s, "CONTINUE"); return false;
-    case NodeKind::PlaceholderStmt: placeholder(s); return true;
+    case NodeKind::PlaceholderStmt:
+        placeholder(s);
+        broken_ = true; // it may stand for the RETURN
+        return true;
     case NodeKind::DeclStmt: { // its place was reported by the parser
         const DataDecl* decl = as<DeclStmt>(s).decl;
         if (!decl || !isName(decl->name)) return true;

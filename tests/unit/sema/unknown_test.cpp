@@ -224,6 +224,32 @@ TEST_CASE("data that an add-in's template modules declare may be declared there"
                                           "RAP2001 at 6:5: 'MaxNoSource' is not declared"});
 }
 
+TEST_CASE("data types, constants and errors of options are told from mistakes", "[sema]") {
+    const std::string text = "MODULE m\n"
+                             "  VAR pm_targetdata goal;\n"
+                             "  PROC main()\n"
+                             "    CSSAct CSS_Z;\n"
+                             "    PmGetGoal goal;\n"
+                             "    CyclicBrakeCheck;\n"
+                             "  ERROR\n"
+                             "    IF ERRNO = AW_WELD_ERR OR ERRNO = CAP_TRACK_ERR RETRY;\n"
+                             "    IF ERRNO = ERR_MT_HOME TRYNEXT;\n"
+                             "  ENDPROC\n"
+                             "ENDMODULE\n";
+    const auto addIn = [](const char* place, const char* name, const char* declaredIn) {
+        return std::string("RAP2009 at ") + place + ": '" + name +
+               "' is not declared here, it may be declared in the add-in " + declaredIn;
+    };
+    const char* const palletizing = "PickMaster palletizing (Palletizing PowerPac)";
+    CHECK(testing::checkTexts({text})->messages() ==
+          Messages{addIn("2:7", "pm_targetdata", palletizing), addIn("4:5", "CSSAct", "SoftMove"),
+                   addIn("4:12", "CSS_Z", "SoftMove"), addIn("5:5", "PmGetGoal", palletizing),
+                   addIn("6:5", "CyclicBrakeCheck", "Brake Check and SafeMove (service routines)"),
+                   addIn("8:16", "AW_WELD_ERR", "RobotWare Arc"),
+                   addIn("8:39", "CAP_TRACK_ERR", "Continuous Application Platform"),
+                   addIn("9:16", "ERR_MT_HOME", "RobotWare Machine Tending")});
+}
+
 TEST_CASE("AliasIO takes a configured signal of the type of its partner", "[sema]") {
     const std::string text = "MODULE m\n"
                              "  VAR signaldo alias_do;\n"
