@@ -344,6 +344,18 @@ cell/counting.sys:
      "exact := reg1;",
      "VAR dnum exact;\n"
      "exact := NumToDnum(reg1);"},
+    {2106, Kind::Body,
+     "Everything that is done with the data or function would be right if its declaration named the other type "
+     "(manual 1.2.1), so it is told once, at the declaration; the notes name the places. Where one use fits the "
+     "declaration, or two of them need different types, each wrong use is reported by itself.",
+     "VAR string count;\n"
+     "count := 5;\n"
+     "WHILE count > 3 DO\n"
+     "ENDWHILE",
+     "VAR num count;\n"
+     "count := 5;\n"
+     "WHILE count > 3 DO\n"
+     "ENDWHILE"},
 });
 // clang-format on
 

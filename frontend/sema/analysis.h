@@ -4,6 +4,7 @@
 
 #include "frontend/sema/checker.h"
 #include "frontend/sema/names.h"
+#include "frontend/sema/one_mistake.h"
 
 #include <deque>
 #include <set>
@@ -65,6 +66,16 @@ struct Mismatch {
     const DataSymbol* param = nullptr;
     const syntax::Expr* value = nullptr;
     DataType found;
+};
+
+/// A name that nothing declares, reported.
+struct UnknownName {
+    const Module* module = nullptr;
+    NameId name = 0;
+    Code code{};
+    SourceRange where;
+    bool looksMisspelt = false;
+    const Symbol* near = nullptr; ///< data or a routine at module level whose name is nearly this one
 };
 
 /// What is being checked now.
@@ -154,10 +165,17 @@ class Analyzer {
     /// Adds the fix that makes `name(e)` of an expression.
     void fixCall(diag::Diagnostic& diagnostic, const syntax::Expr& e, const std::string& name, bool certain);
 
+    // ---- what is told once (repeats.cpp)
+    void gatherUnknown(std::span<Module* const> modules);
+    /// `first`: of the errors reported while the file was checked.
+    void gatherRepeats(std::span<Module* const> modules, size_t first);
+    void tellOnce();
+
     // ---- names that nothing declares (unknown.cpp)
     struct Suggestion {
         std::string name; ///< empty: none is near
         bool isKeyword = false;
+        const Symbol* symbol = nullptr; ///< null: a reserved word
     };
     enum class Meant : uint8_t { Unknown, Keyword };
     void setMissingModules(const TaskInput& input);
@@ -197,7 +215,8 @@ class Analyzer {
     void readFile(const std::shared_ptr<const SourceFile>& file);
     void declareModules(std::span<Module* const> modules);
     void checkModules(std::span<Module* const> modules);
-    void finishFile(std::span<Module* const> modules);
+    /// `said`: how much had been reported before.
+    void finishFile(std::span<Module* const> modules, size_t said);
     void listSignals();
     void dropFacts(std::span<const size_t> files);
     void renewFacts(const TaskFile& file, std::shared_ptr<FileSymbols> symbols);
@@ -454,6 +473,8 @@ class Analyzer {
     std::unordered_set<NameId> maybeDeclared_;           ///< names in declarations that could not be read
     std::unordered_set<NameId> unknownRoutines_;         ///< reported in this routine
     std::unordered_set<NameId> reportedNames_;           ///< unknown signals, reported once a task
+    std::vector<UnknownName> unknownNames_;
+    std::vector<Repeat> repeats_; ///< errors of the files checked so far that one mistake explains
     std::vector<const syntax::Expr*> bigLiterals_;
     std::vector<const syntax::BinaryExpr*> spine_;
     std::vector<const syntax::Argument*> judged_; ///< arguments judged already to choose an alternative

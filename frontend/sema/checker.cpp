@@ -181,6 +181,7 @@ void Analyzer::checkModules(std::span<Module* const> modules) {
             resolveSignature(*routine);
     // File by file: what concerns one of them stays in the cache.
     for (size_t first = 0, end = 0; first < modules.size(); first = end) {
+        const size_t said = sink_.all().size();
         for (; end < modules.size() && modules[end]->facts == modules[first]->facts; ++end) {
             enterModule(modules[end]);
             for (DataSymbol* data : modules[end]->data)
@@ -188,11 +189,14 @@ void Analyzer::checkModules(std::span<Module* const> modules) {
             for (RoutineSymbol* routine : modules[end]->routines)
                 checkRoutine(*routine);
         }
-        finishFile(modules.subspan(first, end - first));
+        finishFile(modules.subspan(first, end - first), said);
     }
+    tellOnce();
 }
 
-void Analyzer::finishFile(std::span<Module* const> modules) {
+void Analyzer::finishFile(std::span<Module* const> modules, size_t said) {
+    if (!unknownNames_.empty()) gatherUnknown(modules);
+    gatherRepeats(modules, said);
     if (options_.onFile) options_.onFile(program_, *task_, modules);
     if (!options_.onlyDiagnostics) return;
     for (Module* module : modules)

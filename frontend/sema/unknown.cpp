@@ -108,6 +108,12 @@ Analyzer::Meant Analyzer::reportUnknown(Code code, TokenIndex token, NameId name
     }
     diag::Diagnostic& d = report(code, range(token), {text(token), hint});
     if (!best.name.empty()) d.fix(range(token), best.name, false);
+    if (&d == &unsaid_) return meant;
+    const DataSymbol* data = asData(const_cast<Symbol*>(best.symbol));
+    const bool passing = data && data->storage == Storage::RoutineData; // known while its routine is checked
+    const bool declared = best.symbol && !best.symbol->predefined && !passing;
+    unknownNames_.push_back(
+        {context_.module, name, code, range(token), !best.name.empty(), declared ? best.symbol : nullptr});
     return meant;
 }
 
@@ -136,19 +142,20 @@ Analyzer::Suggestion Analyzer::suggestion(NameId name, Wanted wanted) {
     Suggestion best;
     std::string_view bestFolded;
     unsigned scope = 0, bestScope = 0;
-    const auto consider = [&](std::string_view folded, std::string_view spelling, bool keyword) {
+    const auto consider = [&](std::string_view folded, std::string_view spelling, bool keyword,
+                              const Symbol* symbol = nullptr) {
         const unsigned distance = editDistance(written, folded, limit);
         if (distance > limit) return;
         const bool equal = !best.name.empty() && distance == limit;
         if (equal && (scope != bestScope || bestFolded <= folded)) return;
-        best = {std::string(spelling), keyword};
+        best = {std::string(spelling), keyword, symbol};
         bestFolded = folded;
         bestScope = scope;
         limit = distance;
     };
     const auto considerSymbol = [&](const Symbol* symbol) {
         if (symbol && symbol->nameId != name && !symbol->name.empty() && isWanted(*symbol, wanted))
-            consider(interner_.folded(symbol->nameId), symbol->name, false);
+            consider(interner_.folded(symbol->nameId), symbol->name, false, symbol);
     };
     if (context_.routine)
         for (const NameId id : declaredInRoutine_)

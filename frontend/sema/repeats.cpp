@@ -1,0 +1,162 @@
+// One mistake, one message: what several errors tell of one mistake is told once, with a note for each place.
+
+#include "frontend/sema/analysis.h"
+#include "frontend/sema/one_mistake.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace rapid::sema {
+
+namespace {
+
+using diag::Diagnostic;
+using Key = std::tuple<const SourceFile*, uint32_t, uint32_t, Code>;
+
+Key keyOf(const Diagnostic& d) {
+    return {d.file.get(), d.range.begin, d.range.end, d.code};
+}
+
+void addNotes(Diagnostic& lead, std::span<const Diagnostic> places, std::string_view words) {
+    constexpr size_t kShown = 20;
+    for (size_t i = 0; i < places.size() && i < kShown; ++i) {
+        std::string text = words.empty() ? places[i].message : std::string(words);
+        if (i + 1 == kShown && places.size() > kShown)
+            text += "; and in " + std::to_string(places.size() - kShown) + " more places";
+        lead.notes.push_back({places[i].file, places[i].range, std::move(text)});
+    }
+}
+
+/// The edits that all members ask for, as one.
+void joinFixes(Diagnostic& lead, std::span<const Diagnostic> others) {
+    if (lead.fixes.empty()) return;
+    Diagnostic::Fix joined = lead.fixes.front();
+    for (const Diagnostic& d : others) {
+        if (d.fixes.empty() || d.fixes.front().message != joined.message) return;
+        joined.edits.insert(joined.edits.end(), d.fixes.front().edits.begin(), d.fixes.front().edits.end());
+        joined.certain &= d.fixes.front().certain;
+    }
+    lead.fixes.front() = std::move(joined);
+}
+
+Diagnostic leadOf(const Repeat& repeat) {
+    if (repeat.declared.empty()) {
+        Diagnostic lead = repeat.members.front();
+        const std::span<const Diagnostic> others = std::span(repeat.members).subspan(1);
+        joinFixes(lead, others);
+        addNotes(lead, others, "the same here");
+        return lead;
+    }
+    const Repeat::Declared& what = repeat.declared.front();
+    diag::Sink sink;
+    Diagnostic& lead = sink.report(Code::DeclaredOtherwise, repeat.members.front().file, what.type,
+                                   {what.name, what.found, what.needed});
+    if (!what.replacement.empty()) lead.fix(what.type, what.replacement, false);
+    addNotes(lead, repeat.members, {});
+    return lead;
+}
+
+/// Those that explain most first. Of two declarations that contradict each other nobody knows which one is wrong.
+void putInOrder(std::vector<Repeat>& repeats) {
+    const auto begin = [](const Repeat& r) { return r.members.front().range.begin; };
+    std::sort(repeats.begin(), repeats.end(), [&](const Repeat& a, const Repeat& b) {
+        if (a.members.size() != b.members.size()) return a.members.size() > b.members.size();
+        if (begin(a) != begin(b)) return begin(a) < begin(b);
+        return !a.declared.empty() && !b.declared.empty() &&
+               a.declared.front().type.begin < b.declared.front().type.begin;
+    });
+    const auto same = [](const Repeat& a, const Repeat& b) {
+        return std::equal(a.members.begin(), a.members.end(), b.members.begin(), b.members.end(),
+                          [](const Diagnostic& x, const Diagnostic& y) { return keyOf(x) == keyOf(y); });
+    };
+    for (size_t i = 0; i + 1 < repeats.size(); ++i)
+        if (same(repeats[i], repeats[i + 1])) {
+            repeats[i].declared.clear();
+            repeats[i + 1].declared.clear();
+        }
+}
+
+} // namespace
+
+// What a name means that is missing in several routines: a declaration at module level, unless routines declare the
+// name each for itself.
+void Analyzer::gatherUnknown(std::span<Module* const> modules) {
+    std::map<std::pair<const Module*, NameId>, size_t> count;
+    for (const UnknownName& unknown : unknownNames_)
+        if (unknown.code == Code::UnknownName) ++count[{unknown.module, unknown.name}];
+    for (const Module* module : modules)
+        for (const RoutineSymbol* routine : module->routines) {
+            const auto drop = [&](const DataSymbol* own) {
+                if (const auto found = count.find({module, own->nameId}); found != count.end())
+                    found->second = 0;
+            };
+            for (const DataSymbol* param : routine->params)
+                drop(param);
+            for (const DataSymbol* data : routine->data)
+                drop(data);
+        }
+    std::erase_if(unknownNames_, [&](const UnknownName& unknown) {
+        return unknown.code == Code::UnknownName && count[{unknown.module, unknown.name}] < 2;
+    });
+}
+
+// While the routines of a file are known: what its errors tell more than once.
+void Analyzer::gatherRepeats(std::span<Module* const> modules, size_t first) {
+    if (sink_.all().size() < first + 2) return;
+    const SourceFile* file = modules.front()->tree->source.get();
+    std::vector<const Diagnostic*> said;
+    for (size_t i = first; i < sink_.all().size(); ++i) {
+        const Diagnostic& d = sink_.all()[i];
+        if (d.file.get() == file && d.severity == diag::Severity::Error) said.push_back(&d);
+    }
+    if (said.size() < 2) return;
+    std::vector<Repeat> found = findRepeats(program_, modules, said);
+    putInOrder(found);
+    for (Repeat& repeat : found) {
+        if (repeat.guard) modules.front()->facts->open = true; // others may use it some day
+        repeats_.push_back(std::move(repeat));
+    }
+}
+
+// When all files are known.
+void Analyzer::tellOnce() {
+    std::vector<Repeat> repeats = std::exchange(repeats_, {});
+    std::erase_if(repeats, [](const Repeat& r) { return r.guard && r.guard->users > 1; });
+    std::map<std::tuple<const Module*, NameId, Code>, Repeat> byName;
+    std::map<Key, Repeat*> unknown;
+    for (const UnknownName& name : std::exchange(unknownNames_, {})) {
+        // A name that looks misspelt is a mistake each time, unless it is the declaration that is misspelt.
+        if (name.looksMisspelt && (!name.near || name.near->users > 0)) continue;
+        unknown[{name.module->tree->source.get(), name.where.begin, name.where.end, name.code}] =
+            &byName[{name.module, name.name, name.code}];
+    }
+    if (unknown.size() > 1)
+        for (const Diagnostic& d : sink_.all())
+            if (const auto found = unknown.find(keyOf(d)); found != unknown.end())
+                found->second->members.push_back(d);
+    for (auto& [key, repeat] : byName) {
+        std::sort(repeat.members.begin(), repeat.members.end(),
+                  [](const Diagnostic& a, const Diagnostic& b) { return a.range.begin < b.range.begin; });
+        repeats.push_back(std::move(repeat));
+    }
+    std::map<Key, std::pair<Diagnostic, bool>> fate; // what stands for it, if anything
+    for (Repeat& repeat : repeats) {
+        std::erase_if(repeat.members, [&](const Diagnostic& d) { return fate.contains(keyOf(d)); });
+        if (repeat.members.size() < 2) continue;
+        for (const Diagnostic& d : repeat.members)
+            fate[keyOf(d)] = {Diagnostic(), false};
+        fate[keyOf(repeat.members.front())] = {leadOf(repeat), true};
+    }
+    if (fate.empty()) return;
+    sink_.revise([&](Diagnostic& d) {
+        const auto found = fate.find(keyOf(d));
+        if (found == fate.end()) return true;
+        if (!found->second.second) return false;
+        d = std::move(found->second.first);
+        found->second.second = false; // were it there twice
+        return true;
+    });
+}
+
+} // namespace rapid::sema
