@@ -44,6 +44,7 @@ constexpr ForeignCharacter kCharacters[] = {{"\u201C", "\""},
 } // namespace
 
 const ForeignCharacter* foreignCharacter(std::string_view text) {
+    if (text.empty() || static_cast<unsigned char>(text[0]) < 0x80) return nullptr;
     for (const ForeignCharacter& character : kCharacters)
         if (text.starts_with(character.utf8)) return &character;
     return nullptr;
