@@ -79,6 +79,9 @@ template <class Pieces> class LiteralReader {
 bool readLiteral(const DataType& want, const SyntaxTree& tree, const AggregateExpr& plain, Arena* arena,
                  ConstValue* value) {
     if (tree.tokens[plain.first].kind == TokenKind::PlainAggregate) {
+        const std::vector<PlainPiece>& wanted = want.type->base()->literalShape;
+        if (!value && want.rank == 0 && plain.shape() != AggregateExpr::kNoShape && !wanted.empty())
+            return tree.shapes[plain.shape()] == wanted;
         const PlainText<true> pieces(tree.text(plain.first).data());
         return LiteralReader(pieces, arena).read(want, value);
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace rapid::sema {
 
@@ -60,17 +61,18 @@ bool equalsFolded(std::string_view name, const char* folded) {
 
 } // namespace
 
-Interner::Interner() : slots_(4096, 0) {}
+Interner::Interner() : slots_(4096) {}
 
 NameId Interner::intern(std::string_view name) {
     const uint32_t hash = foldedHash(name);
-    for (size_t slot = hash & (slots_.size() - 1);; slot = (slot + 1) & (slots_.size() - 1)) {
-        if (slots_[slot] == 0) return add(name, hash, slot);
-        const Entry& entry = entries_[slots_[slot] - 1];
-        if (entry.hash == hash && entry.length == name.size() &&
-            (std::memcmp(name.data(), spelling_.data() + entry.begin, name.size()) == 0 ||
-             equalsFolded(name, text_.data() + entry.begin)))
-            return slots_[slot] - 1;
+    for (size_t i = hash & (slots_.size() - 1);; i = (i + 1) & (slots_.size() - 1)) {
+        const Slot slot = slots_[i];
+        if (slot.record == kFree) return add(name, hash, i);
+        if (slot.hash != hash || wordAt(slot.record + 4) != name.size()) continue;
+        const char* spelling = text_.data() + slot.record + kHead;
+        if (std::memcmp(name.data(), spelling, name.size()) == 0 ||
+            equalsFolded(name, spelling + name.size()))
+            return wordAt(slot.record);
     }
 }
 
@@ -79,27 +81,33 @@ void Interner::expect(std::string_view name) const {
 }
 
 NameId Interner::add(std::string_view name, uint32_t hash, size_t slot) {
-    const auto id = static_cast<NameId>(entries_.size());
-    entries_.push_back({hash, static_cast<uint32_t>(text_.size()), static_cast<uint32_t>(name.size())});
-    spelling_.insert(spelling_.end(), name.begin(), name.end());
+    const auto id = static_cast<NameId>(records_.size());
+    const size_t at = text_.size(), size = name.size();
+    records_.push_back(static_cast<uint32_t>(at));
+    text_.resize(at + kHead + 2 * size);
+    const auto length = static_cast<uint32_t>(size);
+    std::memcpy(text_.data() + at, &id, sizeof id);
+    std::memcpy(text_.data() + at + 4, &length, sizeof length);
+    std::copy(name.begin(), name.end(), text_.data() + at + kHead);
     unsigned char previous = 0;
-    for (const char ch : name) {
-        const auto c = static_cast<unsigned char>(ch);
-        text_.push_back(static_cast<char>(foldByte(c, previous)));
+    for (size_t i = 0; i < size; ++i) {
+        const auto c = static_cast<unsigned char>(name[i]);
+        text_[at + kHead + size + i] = static_cast<char>(foldByte(c, previous));
         previous = c;
     }
-    slots_[slot] = id + 1;
-    if (entries_.size() * 2 > slots_.size()) grow();
+    slots_[slot] = {hash, static_cast<uint32_t>(at)};
+    if (records_.size() * 2 > slots_.size()) grow();
     return id;
 }
 
 void Interner::grow() {
-    slots_.assign(slots_.size() * 2, 0);
-    for (size_t i = 0; i < entries_.size(); ++i) {
-        size_t slot = entries_[i].hash & (slots_.size() - 1);
-        while (slots_[slot] != 0)
-            slot = (slot + 1) & (slots_.size() - 1);
-        slots_[slot] = static_cast<uint32_t>(i + 1);
+    const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(slots_.size() * 2));
+    for (const Slot& slot : old) {
+        if (slot.record == kFree) continue;
+        size_t i = slot.hash & (slots_.size() - 1);
+        while (slots_[i].record != kFree)
+            i = (i + 1) & (slots_.size() - 1);
+        slots_[i] = slot;
     }
 }
 

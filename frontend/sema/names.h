@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,23 +23,31 @@ class Interner {
     void expect(std::string_view name) const;
     /// The folded (lower-case) spelling.
     std::string_view folded(NameId id) const {
-        return {text_.data() + entries_[id].begin, entries_[id].length};
+        const uint32_t length = wordAt(records_[id] + 4);
+        return {text_.data() + records_[id] + kHead + length, length};
     }
-    size_t size() const { return entries_.size(); }
+    size_t size() const { return records_.size(); }
 
   private:
-    struct Entry {
+    static constexpr uint32_t kFree = 0xFFFFFFFFu;
+    static constexpr size_t kHead = 8; ///< bytes of a record before its text
+    struct Slot {
         uint32_t hash = 0;
-        uint32_t begin = 0;
-        uint32_t length = 0;
+        uint32_t record = kFree;
     };
     NameId add(std::string_view name, uint32_t hash, size_t slot);
     void grow();
+    uint32_t wordAt(size_t at) const {
+        uint32_t word = 0;
+        std::memcpy(&word, text_.data() + at, sizeof word);
+        return word;
+    }
 
-    std::vector<char> text_;     ///< folded
-    std::vector<char> spelling_; ///< of the first appearance; most others are the same
-    std::vector<Entry> entries_;
-    std::vector<uint32_t> slots_; ///< entry + 1, 0 = free; size is a power of two
+    /// A record for each name: its number, its length, its spelling where it appeared first (most others are the same),
+    /// and that folded. All that is compared lies together: with many names each place is far from the processor.
+    std::vector<char> text_;
+    std::vector<uint32_t> records_; ///< where they begin, by number
+    std::vector<Slot> slots_;       ///< their number is a power of two
 };
 
 /// Map from names to pointers, made for many small scopes: open addressing, no node allocation.

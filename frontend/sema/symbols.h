@@ -52,18 +52,19 @@ enum class SymbolKind : uint8_t { Type, Data, Routine, Module, Label };
 /// How far a declaration has been worked out; declarations are resolved on demand, in any order.
 enum class Progress : uint8_t { Pending, Active, Done };
 
+/// Projects have hundreds of thousands of symbols: members of one size stand together, here and in DataSymbol.
 struct Symbol {
+    std::string name;                   ///< as declared
+    Module* module = nullptr;           ///< configured objects: where they are named first
+    const syntax::Node* decl = nullptr; ///< null for configured signals
+    uint32_t nameId = 0;                ///< equal for names that differ only in case
+    uint32_t users = 0;                 ///< files that refer to it
+    syntax::TokenIndex nameToken = syntax::kNoToken;
+    uint32_t lastUser = 0; ///< FileFacts::stamp of the file that was counted last
     SymbolKind kind = SymbolKind::Data;
     Progress progress = Progress::Pending; ///< types, and the data type of data
-    std::string name;                      ///< as declared
-    uint32_t nameId = 0;                   ///< equal for names that differ only in case
-    uint32_t users = 0;                    ///< files that refer to it
-    Module* module = nullptr;              ///< configured objects: where they are named first
-    const syntax::Node* decl = nullptr;    ///< null for configured signals
-    syntax::TokenIndex nameToken = syntax::kNoToken;
-    uint32_t lastUser = 0;   ///< FileFacts::stamp of the file that was counted last
-    bool isLocal = false;    ///< LOCAL
-    bool predefined = false; ///< declared in stdlib
+    bool isLocal = false;                  ///< LOCAL
+    bool predefined = false;               ///< declared in stdlib
     bool used = false;
 };
 
@@ -98,23 +99,29 @@ struct DataSymbol : Symbol {
     Storage storage = Storage::ModuleData;
     syntax::DataKind dataKind = syntax::DataKind::Var;
     syntax::ScopeWord scope = syntax::ScopeWord::None;
-    DataType type;
-    const syntax::Expr* init = nullptr;
+    bool assumed = false; ///< a signal or mechanical unit that is known by its use only
     // Parameters
     syntax::ParamMode mode = syntax::ParamMode::In;
     bool optional = false;
     bool isSwitch = false;
-    uint32_t group = 0;               ///< equal for mutually exclusive parameters
     bool requiredAlternative = false; ///< built-ins: `a | b` between required parameters
     bool assigned = false;            ///< some statement writes it, or it is passed on as VAR, INOUT or PERS
     bool deferred = false; ///< parameter of a built-in whose expression is evaluated again and again
     ParamClass accepts = ParamClass::Any; ///< parameters of type `anytype`
     Progress valueProgress = Progress::Pending;
-    RoutineSymbol* routine = nullptr; ///< routine data, parameters, loop variables
-    uint32_t index = 0;               ///< dense per routine (parameters first) or per module
-    uint32_t writers = 0;             ///< files that write it
+
+  private:
+    mutable bool literal_ = false; ///< not read yet
+    bool isLiteral_ = false;
+
+  public:
+    uint32_t group = 0;   ///< parameters: equal for mutually exclusive ones
+    uint32_t index = 0;   ///< dense per routine (parameters first) or per module
+    uint32_t writers = 0; ///< files that write it
     uint32_t lastWriter = 0;
-    bool assumed = false; ///< a signal or mechanical unit that is known by its use only
+    DataType type;
+    const syntax::Expr* init = nullptr;
+    RoutineSymbol* routine = nullptr; ///< routine data, parameters, loop variables
 
     /// CONST, and initial values of VAR and PERS at module level (None = zero).
     const ConstValue& value() const {
@@ -139,9 +146,8 @@ struct DataSymbol : Symbol {
     void readLiteral() const; // literal_value.cpp
 
     mutable ConstValue value_;
-    mutable bool literal_ = false; ///< not read yet
-    bool isLiteral_ = false;
 };
+static_assert(sizeof(void*) != 8 || sizeof(DataSymbol) <= 160);
 
 /// How a native may be called; from `effects:` in the declaration.
 enum class Effects : uint8_t { None, Const, Pure, Reads, Writes, Watches, Waits, Motion };

@@ -7,6 +7,7 @@ namespace rapid::syntax {
 namespace {
 
 constexpr size_t kMaxStringBytes = 80; // manual 1.1.2
+constexpr size_t kMaxPieces = 128;     ///< of aggregates whose shape is noted
 
 constexpr std::array<TokenKind, 128> kSingles = [] {
     std::array<TokenKind, 128> table{};
@@ -216,7 +217,13 @@ bool Lexer::readPlainAggregate() {
     if (lastKind() != TokenKind::Assign) return false;
     const char* start = p_;
     PlainText<false> pieces(start);
-    if (!skipPlainAggregate(pieces)) return false;
+    std::array<PlainPiece, kMaxPieces> shape; // not initialised: this is done for each taught point
+    size_t count = 0;
+    const auto note = [&](PlainPiece piece) {
+        if (count < kMaxPieces) shape[count] = piece;
+        ++count;
+    };
+    if (!skipPlainAggregate(pieces, note)) return false;
     const char* end = pieces.end();
     if (end - start > static_cast<std::ptrdiff_t>(kMaxTokenLength)) return false;
     const char* after = end;
@@ -225,7 +232,23 @@ bool Lexer::readPlainAggregate() {
     if (*after != ';') return false;
     p_ = end;
     push(TokenKind::PlainAggregate, start);
+    if (count <= kMaxPieces) noteShape(std::span(shape.data(), count));
     return true;
+}
+
+void Lexer::noteShape(std::span<const PlainPiece> pieces) {
+    const auto is = [&](const std::vector<PlainPiece>& shape) {
+        return std::equal(pieces.begin(), pieces.end(), shape.begin(), shape.end());
+    };
+    std::vector<WholeAggregate>& noted = result_.aggregates;
+    auto& shapes = result_.shapes;
+    const size_t last = noted.empty() ? 0 : noted.back().shape;
+    size_t at = last;
+    if (shapes.empty() || !is(shapes[last]))
+        at = static_cast<size_t>(std::find_if(shapes.begin(), shapes.end(), is) - shapes.begin());
+    if (at == AggregateExpr::kNoShape) return;
+    if (at == shapes.size()) shapes.emplace_back(pieces.begin(), pieces.end());
+    noted.push_back({static_cast<TokenIndex>(result_.tokens.size() - 1), static_cast<uint8_t>(at)});
 }
 
 void Lexer::readPunctuation() {

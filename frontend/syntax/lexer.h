@@ -16,10 +16,18 @@ struct LexError {
     std::optional<std::string> fix; ///< what certainly belongs in the place of `range`
 };
 
+/// An aggregate that is one token.
+struct WholeAggregate {
+    TokenIndex token = 0;
+    uint8_t shape = 0; ///< place in LexResult::shapes
+};
+
 struct LexResult {
-    std::vector<Token> tokens;    ///< the last one is EndOfFile
-    std::vector<LexError> errors; ///< at most kMaxLexErrors
-    bool hasModule = false;       ///< the word MODULE occurs
+    std::vector<Token> tokens;              ///< the last one is EndOfFile
+    std::vector<LexError> errors;           ///< at most kMaxLexErrors
+    bool hasModule = false;                 ///< the word MODULE occurs
+    std::vector<WholeAggregate> aggregates; ///< of `tokens`, in order; without those of many pieces
+    std::vector<std::vector<PlainPiece>> shapes;
 };
 
 inline constexpr size_t kMaxLexErrors = 64;

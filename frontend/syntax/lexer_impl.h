@@ -144,6 +144,7 @@ class Lexer {
     void reportEscape();
     /// The value of an assignment or of data; false, and nothing is read, where it is something else.
     bool readPlainAggregate();
+    void noteShape(std::span<const PlainPiece> pieces);
     void readPunctuation();
     void readLess();
     /// `%%% VERSION:1 LANGUAGE:ENGLISH %%%` before a module.

@@ -63,6 +63,7 @@ Parser::Parser(SyntaxTree& tree, diag::Sink& sink, const ParseOptions& options)
       last_(static_cast<TokenIndex>(tree.tokens.size()) - 1) {}
 
 void Parser::parseFile(const LexResult& lexed) {
+    lexed_ = &lexed;
     if (!lexed.hasModule && startsMisspeltModule()) {
         reportLexErrors(lexed);
         accept(K::FileHeader);
@@ -475,6 +476,7 @@ std::unique_ptr<SyntaxTree> makeTree(std::shared_ptr<const SourceFile> source, d
         if (!options.earlier || !relex(*tree, *options.earlier, lexed)) {
             lexed = lex(text, options.wholeAggregates);
             tree->tokens = tree->arena.copy(lexed.tokens);
+            tree->shapes = std::move(lexed.shapes);
         }
         tree->retagged = !lexed.errors.empty();
     } else {

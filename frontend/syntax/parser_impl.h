@@ -272,6 +272,7 @@ class Parser {
     Expr* parseParen();
     Expr* parseAggregate();
     Expr* parsePlainAggregate();
+    uint8_t shapeAt(TokenIndex whole);
     Expr* errorExpr();
     Expr* tooDeepExpr();
     std::span<Expr*> parseExprList(K closing, TokenIndex opening);
@@ -425,6 +426,9 @@ class Parser {
     bool colonGiven_ = false;            ///< a DEFAULT that was written ELSE
     bool plainError_ = false;            ///< the routine has an ERROR handler without a list
     TokenIndex blockOpening_ = kNoToken; ///< the word that opened the innermost block
+
+    const LexResult* lexed_ = nullptr;
+    size_t nextAggregate_ = 0; ///< of lexed_->aggregates
 
     // Scratch space, shared by all levels of the recursion.
     std::vector<Expr*> exprs_;

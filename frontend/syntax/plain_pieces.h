@@ -176,13 +176,14 @@ template <bool known> class PlainTokens {
     bool negative_ = false;
 };
 
-/// Goes behind the ']' of a plain aggregate; false when there is none.
-template <class Pieces> bool skipPlainAggregate(Pieces& pieces) {
+/// Goes behind the ']' of a plain aggregate; false when there is none. `note` is called for each piece.
+template <class Pieces, class Note> bool skipPlainAggregate(Pieces& pieces, Note&& note) {
     constexpr uint32_t kMaxPlainDepth = 32;
     uint32_t depth = 0;
     bool wanted = true; // an element is
     for (;;) {
         const PlainPiece piece = pieces.next();
+        note(piece);
         if (piece == PlainPiece::Comma || piece == PlainPiece::Close) {
             if (wanted) return false;
             wanted = piece == PlainPiece::Comma;
