@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 #include <map>
 #include <set>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace rapid::edit {
 
@@ -36,9 +38,12 @@ bool isConfigured(const Symbol& symbol) {
 }
 
 /// Predefined names and configured objects have no place in the files of the program: their name stands for it.
+bool isOutside(const Symbol& symbol) {
+    return symbol.predefined || isConfigured(symbol) || !symbol.module;
+}
+
 Site siteOf(const Symbol& symbol) {
-    if (symbol.predefined || isConfigured(symbol) || !symbol.module)
-        return {sema::foldName(symbol.name), kNoToken};
+    if (isOutside(symbol)) return {sema::foldName(symbol.name), kNoToken};
     return {symbol.module->tree->source->path(), symbol.nameToken};
 }
 
@@ -91,22 +96,60 @@ std::string checkNewName(std::string_view name, const sema::CheckedProgram& prog
     return {};
 }
 
+/// What the names of a program mean, without the program: a large one does not stay in memory while it is checked again.
+class Meanings {
+  public:
+    /// A name and the declaration it means, of which `place` is the file or, outside of the files, the name itself.
+    struct Meaning {
+        TokenIndex token = kNoToken;
+        uint32_t place = 0;
+        TokenIndex declared = kNoToken;
+        bool operator==(const Meaning&) const = default;
+    };
+
+    Meaning of(const Reference& reference) {
+        const Symbol& symbol = *reference.symbol;
+        const bool outside = isOutside(symbol);
+        const void* key = outside ? static_cast<const void*>(&symbol) : symbol.module->tree;
+        const auto [known, isNew] = known_.try_emplace(key, 0);
+        if (isNew) {
+            const std::string name = siteOf(symbol).path;
+            known->second = numbers_.try_emplace(name, static_cast<uint32_t>(numbers_.size())).first->second;
+        }
+        return {reference.token, known->second, outside ? kNoToken : symbol.nameToken};
+    }
+
+    void keep(const std::vector<Reference>& references) {
+        kept_.reserve(references.size());
+        for (const Reference& reference : references)
+            kept_.push_back(of(reference));
+        known_.clear(); // the addresses of the next program are others
+    }
+
+    const std::vector<Meaning>& kept() const { return kept_; }
+
+  private:
+    std::vector<Meaning> kept_;
+    std::unordered_map<std::string, uint32_t> numbers_; ///< of places
+    std::unordered_map<const void*, uint32_t> known_;   ///< the same by tree or symbol
+};
+
 class Renamer {
   public:
     Renamer(const std::vector<sema::TaskInput>& tasks, const sema::CheckOptions& options,
             std::string_view path, std::string_view newName)
         : tasks_(tasks), options_(options), path_(path), newName_(newName) {}
 
-    EditSet run() {
-        diag::Sink sink;
-        const auto before = sema::check(tasks_, options_, sink);
-        if (sink.hasErrors()) return refuse("the program has mistakes: mend them before renaming");
-        if (std::string bad = checkNewName(newName_, *before); !bad.empty()) return refuse(std::move(bad));
-        const auto references = sema::collectReferences(*before);
-        if (std::string bad = choose(*before, references); !bad.empty()) return refuse(std::move(bad));
+    EditSet run(std::unique_ptr<const sema::CheckedProgram> program) {
+        if (std::string bad = checkNewName(newName_, *program); !bad.empty()) return refuse(std::move(bad));
+        auto references = sema::collectReferences(*program);
+        if (std::string bad = choose(*program, references); !bad.empty()) return refuse(std::move(bad));
         collectEdits(references);
-        if (std::string bad = verify(references); !bad.empty()) return refuse(std::move(bad));
-        noteNamesOfRunTime(*before);
+        noteNamesOfRunTime(*program);
+        before_.keep(references);
+        references = {};
+        program.reset();
+        if (std::string bad = verify(); !bad.empty()) return refuse(std::move(bad));
         return std::move(set_);
     }
 
@@ -160,6 +203,7 @@ class Renamer {
     /// The chosen declaration and, for a shared persistent, those of the same name in the other tasks.
     void addTargets(const Symbol& chosen, const std::vector<Reference>& references) {
         oldName_ = sema::foldName(chosen.name);
+        oldPath_ = pathOf(chosen);
         isRoutine_ = chosen.kind == SymbolKind::Routine;
         isParameter_ = chosen.kind == SymbolKind::Data &&
                        static_cast<const sema::DataSymbol&>(chosen).storage == sema::Storage::Parameter;
@@ -191,22 +235,24 @@ class Renamer {
     }
 
     /// Checks the changed program and compares what every name means.
-    std::string verify(const std::vector<Reference>& before) {
-        std::vector<sema::TaskInput> changed = tasks_;
+    std::string verify() {
+        std::unordered_map<std::string, std::shared_ptr<const SourceFile>> sources;
         for (const FileEdits& file : set_.files) {
             auto result = applyEdits(*file.file, file.edits);
             if (!result.ok()) return file.file->path() + ": " + result.problem;
-            const auto source =
+            sources[file.file->path()] =
                 std::make_shared<const SourceFile>(file.file->path(), std::move(result.bytes));
-            for (sema::TaskInput& task : changed)
-                for (auto& old : task.files)
-                    if (old->path() == source->path()) old = source;
         }
+        std::vector<sema::TaskInput> changed = tasks_;
+        for (sema::TaskInput& task : changed)
+            for (auto& file : task.files)
+                if (const auto found = sources.find(file->path()); found != sources.end())
+                    file = found->second;
         diag::Sink sink;
         const auto after = sema::check(changed, options_, sink);
         for (const diag::Diagnostic& diagnostic : sink.sorted())
             if (diagnostic.severity == diag::Severity::Error) return clash(diagnostic);
-        return compare(before, sema::collectReferences(*after));
+        return compare(sema::collectReferences(*after));
     }
 
     std::string clash(const diag::Diagnostic& diagnostic) const {
@@ -217,22 +263,37 @@ class Renamer {
         return fmt::format("'{}' clashes: {}{}", newName_, where, diagnostic.message);
     }
 
-    std::string compare(const std::vector<Reference>& before, const std::vector<Reference>& after) const {
+    std::string compare(const std::vector<Reference>& after) {
+        const auto& before = before_.kept();
         for (size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
-            const Reference &a = before[i], &b = after[i];
-            const bool sameName = a.token == b.token && siteOf(*a.symbol) == siteOf(*b.symbol);
-            if (sameName) continue;
-            const std::string_view name = b.module->tree->text(b.token);
+            const Reference& now = after[i];
+            if (before_.of(now) == before[i]) continue;
+            const std::string_view name = now.module->tree->text(now.token);
             return fmt::format("at {} the name '{}' would mean '{}' instead of '{}': choose another name",
-                               placeOf(*b.module->tree, b.token), name, pathOf(*b.symbol), pathOf(*a.symbol));
+                               placeOf(*now.module->tree, now.token), name, pathOf(*now.symbol),
+                               oldPathOf(before[i], after));
         }
         return before.size() == after.size() ? "" : "a name would lose its meaning: choose another name";
     }
 
+    /// The name of what was meant before: its declaration has only been renamed.
+    std::string oldPathOf(const Meanings::Meaning& meant, const std::vector<Reference>& after) {
+        for (const Reference& reference : after) {
+            const Meanings::Meaning now = before_.of(reference);
+            if (now.place != meant.place || now.declared != meant.declared) continue;
+            return targets_.contains(siteOf(*reference.symbol)) ? oldPath_ : pathOf(*reference.symbol);
+        }
+        return oldPath_;
+    }
+
     /// Strings may name routines and data (late binding, GetDataVal ...); what is known at run time only is pointed at.
     void noteNamesOfRunTime(const sema::CheckedProgram& program) {
+        std::unordered_set<const SyntaxTree*> ofUser;
+        for (const auto& task : program.tasks)
+            for (const sema::Module* module : task->modules)
+                ofUser.insert(module->tree);
         for (const auto& tree : program.trees) {
-            if (!isUserTree(program, *tree)) continue;
+            if (!ofUser.contains(tree.get())) continue;
             for (TokenIndex t = 0; t < tree->tokens.size(); ++t)
                 if (tree->tokens[t].kind == TokenKind::StringLiteral && spelt(*tree, t) == oldName_)
                     note(*tree, t, fmt::format("the string {} stays as it is", tree->text(t)));
@@ -282,18 +343,13 @@ class Renamer {
         }
     }
 
-    static bool isUserTree(const sema::CheckedProgram& program, const SyntaxTree& tree) {
-        return std::any_of(program.tasks.begin(), program.tasks.end(), [&](const auto& task) {
-            return std::any_of(task->modules.begin(), task->modules.end(),
-                               [&](const sema::Module* module) { return module->tree == &tree; });
-        });
-    }
-
     const std::vector<sema::TaskInput>& tasks_;
     const sema::CheckOptions& options_;
     std::string path_;
     std::string newName_;
     std::string oldName_; ///< folded
+    std::string oldPath_;
+    Meanings before_;
     bool isRoutine_ = false, isParameter_ = false;
     std::set<Site> targets_;
     EditSet set_;
@@ -301,9 +357,9 @@ class Renamer {
 
 } // namespace
 
-EditSet rename(const std::vector<sema::TaskInput>& tasks, const sema::CheckOptions& options,
-               std::string_view path, std::string_view newName) {
-    return Renamer(tasks, options, path, newName).run();
+EditSet rename(std::unique_ptr<const sema::CheckedProgram> program, const std::vector<sema::TaskInput>& tasks,
+               const sema::CheckOptions& options, std::string_view path, std::string_view newName) {
+    return Renamer(tasks, options, path, newName).run(std::move(program));
 }
 
 } // namespace rapid::edit

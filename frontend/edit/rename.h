@@ -4,17 +4,20 @@
 #include "frontend/edit/edit_set.h"
 #include "frontend/sema/checker.h"
 
+#include <memory>
+
 namespace rapid::edit {
 
 /// Edits that rename what `path` names in `tasks` to `newName`: declaration, uses, names of arguments. `path` is NAME,
 /// MODULE.NAME, or MODULE.ROUTINE.NAME for a parameter, label or data of a routine, in any case. A file that belongs to
 /// several tasks is edited once; a global persistent is renamed in all tasks that share it.
 ///
-/// The changed text is checked again: each name must mean afterwards what it meant before. Problems: mistakes in the
-/// program; unknown or ambiguous path; a new name that is no identifier, predefined, or would clash with, hide or be
-/// hidden by another declaration; names that come from outside (signals, predefined names, the routine that starts a
-/// task). Strings that spell the old name (late binding) stay as they are and are listed in `notes`.
-EditSet rename(const std::vector<sema::TaskInput>& tasks, const sema::CheckOptions& options,
-               std::string_view path, std::string_view newName);
+/// `program` is what sema::check made of `tasks`, without errors and with all facts. The changed text is checked again:
+/// each name must mean afterwards what it meant before. `program` is given up for that, as two large ones may not fit
+/// into memory. Problems: unknown or ambiguous path; a new name that is no identifier, predefined, or would clash with,
+/// hide or be hidden by another declaration; names that come from outside (signals, predefined names, the routine that
+/// starts a task). Strings that spell the old name (late binding) stay as they are and are listed in `notes`.
+EditSet rename(std::unique_ptr<const sema::CheckedProgram> program, const std::vector<sema::TaskInput>& tasks,
+               const sema::CheckOptions& options, std::string_view path, std::string_view newName);
 
 } // namespace rapid::edit

@@ -82,19 +82,18 @@ int renameName(const EditSettings& settings) {
         printDiagnostics(*compilation);
         return fail("rename", "the program has mistakes: mend them before renaming");
     }
-    const auto set =
-        edit::rename(compilation->tasks, compilation->options, settings.oldName, settings.newName);
+    const auto set = edit::rename(std::move(compilation->program), compilation->tasks, compilation->options,
+                                  settings.oldName, settings.newName);
     return set.ok() ? writeFiles("rename", set, settings.diff) : fail("rename", set.problem);
 }
 
 /// The files of all tasks, each once.
 std::vector<std::shared_ptr<const rapid::SourceFile>> filesOf(const Compilation& compilation) {
     std::vector<std::shared_ptr<const rapid::SourceFile>> files;
+    std::set<std::string_view> seen;
     for (const sema::TaskInput& task : compilation.tasks)
-        for (const auto& file : task.files) {
-            const auto same = [&](const auto& other) { return other->path() == file->path(); };
-            if (std::none_of(files.begin(), files.end(), same)) files.push_back(file);
-        }
+        for (const auto& file : task.files)
+            if (seen.insert(file->path()).second) files.push_back(file);
     return files;
 }
 
