@@ -161,25 +161,32 @@ bool Lexer::readSingleQuote() {
 
 bool Lexer::readTypographic() {
     const char* start = p_;
-    const auto here = [&] { return foreignCharacter(slice(p_, end_).substr(0, kLongestCharacter)); };
-    const ForeignCharacter* found = here();
-    if (!found) return false;
-    if (found->meant == "\"") {
+    const auto found = [this](const char* at) {
+        return foreignCharacter(slice(at, end_).substr(0, kLongestCharacter));
+    };
+    const ForeignCharacter* first = found(p_);
+    if (!first) return false;
+    if (first->meant == "\"") {
         readTypographicQuote();
         return true;
     }
-    const bool space = found->meant == " ";
-    std::string meant;
-    for (const ForeignCharacter* next = found; next && next->meant == found->meant;
-         next = space ? here() : nullptr) {
-        p_ += next->utf8.size();
-        meant += next->meant;
+    const bool space = first->meant == " ";
+    p_ += first->utf8.size();
+    std::string meant(first->meant);
+    while (space) { // web pages mix them with plain ones
+        const char* next = p_;
+        while (*next == ' ')
+            ++next;
+        const ForeignCharacter* more = found(next);
+        if (!more || more->meant != " ") break;
+        meant.append(static_cast<size_t>(next - p_) + 1, ' ');
+        p_ = next + more->utf8.size();
     }
     error(diag::Code::ForeignSpelling, start, p_,
-          {space ? showCharacter(found->utf8) : std::string(found->utf8),
-           space ? "a plain space" : fmt::format("'{}'", found->meant)},
+          {space ? showCharacter(first->utf8) : std::string(first->utf8),
+           space ? "a plain space" : fmt::format("'{}'", first->meant)},
           std::move(meant));
-    if (found->kind != TokenKind::Error) push(found->kind, start);
+    if (first->kind != TokenKind::Error) push(first->kind, start);
     return true;
 }
 

@@ -1,7 +1,7 @@
 // libFuzzer target: what can be read is formatted with some settings. The formatter's own check must never find a
 // change, and formatting again must change nothing; around mistakes, tokens and comments must stay.
 //
-//   rapidc_fuzz_format -dict=tests/fuzz/parser/rapid.dict <own corpus folder> tests/fuzz/parser/corpus
+//   rapidc_fuzz_format -dict=tests/fuzz/dictionaries/rapid.dict <own corpus folder> tests/fuzz/corpus/format
 
 #include "frontend/edit/apply_edits.h"
 #include "frontend/format/formatter.h"

@@ -1,7 +1,7 @@
 // libFuzzer target: any bytes go through lexer and parser, as a file and as declarations of built-ins. Must not crash
 // or hang; the tree must be lossless, its nodes must lie within their parents, and errors must stay within bounds.
 //
-//   rapidc_fuzz_parser -dict=tests/fuzz/parser/rapid.dict <own corpus folder> tests/fuzz/parser/corpus
+//   rapidc_fuzz_parser -dict=tests/fuzz/dictionaries/rapid.dict <own corpus folder> tests/fuzz/corpus/parser
 
 #include "frontend/syntax/parser.h"
 #include "frontend/syntax/tree_walk.h"

@@ -358,5 +358,9 @@ TEST_CASE("modules with mistakes are refused, or formatted around them", "[forma
     // A stray semicolon: on the line of the misspelt word it would change what that is.
     CHECK(formatText("MODULE m\nRECORD r\nnum a;\nEDREORD\n;\nENDMODULE\n", request) ==
           "MODULE m\nRECORD r\nnum a;\nEDREORD\n;\nENDMODULE\n");
+    // What follows an unreadable character is read the same on a line of its own: a space is one.
+    CHECK(formatText("MODULE f;\xC2\x9C"
+                     "ENDMODULE\u00A0",
+                     request) == "MODULE f;\xC2\x9C\nENDMODULE\n");
     CHECK(formatText("\xFC\x01\x02", {}, "m.mod") == "refused: the file is encrypted or binary");
 }

@@ -170,6 +170,35 @@ TEST_CASE("strings", "[syntax][lexer]") {
     CHECK(errorCount("\"\\0\"") == 1);
 }
 
+TEST_CASE("what a character is does not hang on an unreadable one before it", "[syntax][lexer]") {
+    for (const char* text :
+         {"a\u00A0b", "a \u2013 b", "\u201Ctext\u201D x", "\u201Copen", "'text' x", "a & b", "\"a\" & b",
+          "~a", "a ^ b", "a\uFF1B b", "\u00AB a \u00BB b", "_a", "a \u2264 b"}) {
+        INFO(text);
+        CHECK(kinds(std::string("@ ") + text) == "Error " + kinds(text));
+        CHECK(kinds(std::string("@ x ") + text) == "Error Identifier " + kinds(text));
+        if (*text != '_') CHECK(errorCount(std::string("@ ") + text) == 1); // one report for the line
+        CHECK(errorCount(std::string("@\n") + text) == 1 + errorCount(text));
+    }
+    CHECK(kinds("@\u00A0@ x") == "Error Error Identifier");
+    CHECK(errorCount("@ \u201Ctext\u201D @") == 1);
+    CHECK(errorCount("\u201Ctext\u201D @ @") == 2);
+}
+
+TEST_CASE("spaces of web pages are one mistake as long as nothing else stands between them",
+          "[syntax][lexer]") {
+    CHECK(errorCount("\u00A0\u00A0\u00A0a") == 1);
+    CHECK(errorCount("\u00A0 \u00A0  \u2007\u3000 a") == 1);
+    CHECK(errorCount("\u00A0a\u00A0b") == 2);
+    CHECK(errorCount("\u00A0a\n\u00A0b") == 2);
+    const SourceFile file("a.modx", "a \u00A0 \u00A0b");
+    const auto errors = syntax::lex(file.text()).errors;
+    REQUIRE(errors.size() == 1);
+    CHECK(errors[0].range.begin == 2);
+    CHECK(errors[0].range.end == 7);
+    CHECK(errors[0].fix == "   ");
+}
+
 TEST_CASE("the file header is one token", "[syntax][lexer]") {
     CHECK(kinds("%%%\nVERSION:1\nLANGUAGE:ENGLISH\n%%%\nMODULE m") == "FileHeader KwModule Identifier");
     CHECK(kinds("MODULE m ENDMODULE\n%%%\n  VERSION:1\n%%%\nMODULE n") ==

@@ -84,6 +84,13 @@ TEST_CASE("a million mistakes and lines of megabytes are handled", "[syntax][lim
 
     const test::Parsed oneJunk = parseText(inProcedure(repeat("@ x ", 1000000)));
     CHECK(oneJunk.sink.errorCount() <= 2);
+    for (const char* piece :
+         {"\u00A0 x ", "@\u00A0", "'", "' \u201C", "@ ' x ", "@ # x ", "& ", "@ \u2013 ", "\u00A0 @ # "}) {
+        INFO(piece);
+        const test::Parsed foreign = parseText(inProcedure(repeat(piece, 300000)));
+        CHECK(foreign.sink.errorCount() > 0);
+        CHECK(foreign.sink.errorCount() <= 200);
+    }
 }
 
 TEST_CASE("the way back from an unfinished line is not taken twice", "[syntax][limits]") {
