@@ -346,6 +346,8 @@ class Analyzer {
     size_t alternativesEnd(const RoutineSymbol& routine, size_t first) const;
     size_t nextRequired(const RoutineSymbol& routine, size_t from) const;
     size_t requiredSlots(const RoutineSymbol& routine) const;
+    /// Whether a required parameter has none.
+    bool lacksArgument(const BoundCall& call) const;
     void reportMissing(const BoundCall& call, syntax::TokenIndex name);
     void checkExclusive(const BoundCall& call);
     void visitArgument(const syntax::Argument& arg);

@@ -87,8 +87,10 @@ void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex nam
     const bool wrong = own.hasErrors() || mismatches_.size() > mismatchesBefore;
     if (wrong && explainArguments(call, name, args))
         mismatches_.resize(mismatchesBefore);
-    else if (mayMiss || mismatches_.size() > mismatchesBefore)
+    else if ((mayMiss && lacksArgument(call)) || mismatches_.size() > mismatchesBefore)
         reportArguments(call, name, mismatchesBefore, mayMiss);
+    else if (mayMiss)
+        shapeReported_ = false; // of this call
     collect_ = outer;
     --callDepth_;
     if (own.all().empty()) return;
@@ -352,6 +354,21 @@ std::string Analyzer::namesOf(std::span<const BoundArg> alternatives) {
     return names;
 }
 
+static bool isGiven(std::span<const BoundArg> alternatives) {
+    return std::any_of(alternatives.begin(), alternatives.end(),
+                       [](const BoundArg& bound) { return bound.argument; });
+}
+
+bool Analyzer::lacksArgument(const BoundCall& call) const {
+    const RoutineSymbol& routine = *call.routine;
+    for (size_t i = nextRequired(routine, 0); i < routine.params.size();) {
+        const size_t end = alternativesEnd(routine, i);
+        if (!isGiven(call.args.subspan(i, end - i))) return true;
+        i = nextRequired(routine, end);
+    }
+    return false;
+}
+
 void Analyzer::reportMissing(const BoundCall& call, TokenIndex name) {
     const RoutineSymbol& routine = *call.routine;
     std::string missing;
@@ -359,9 +376,7 @@ void Analyzer::reportMissing(const BoundCall& call, TokenIndex name) {
     for (size_t i = nextRequired(routine, 0); i < routine.params.size();) {
         const size_t end = alternativesEnd(routine, i);
         const std::span<const BoundArg> place = call.args.subspan(i, end - i);
-        const bool given =
-            std::any_of(place.begin(), place.end(), [](const BoundArg& bound) { return bound.argument; });
-        if (!given) missing += (count++ == 0 ? "" : ", ") + namesOf(place);
+        if (!isGiven(place)) missing += (count++ == 0 ? "" : ", ") + namesOf(place);
         i = nextRequired(routine, end);
     }
     if (missing.empty()) return;
