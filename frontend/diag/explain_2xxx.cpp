@@ -347,15 +347,21 @@ cell/counting.sys:
     {2106, Kind::Body,
      "Everything that is done with the data or function would be right if its declaration named the other type "
      "(manual 1.2.1), so it is told once, at the declaration; the notes name the places. Where one use fits the "
-     "declaration, or two of them need different types, each wrong use is reported by itself.",
+     "declaration, two of them need different types, or there are fewer than five, each wrong use is reported by itself.",
      "VAR string count;\n"
      "count := 5;\n"
      "WHILE count > 3 DO\n"
-     "ENDWHILE",
+     "  count := count - 1;\n"
+     "  WaitTime count;\n"
+     "ENDWHILE\n"
+     "reg1 := count;",
      "VAR num count;\n"
      "count := 5;\n"
      "WHILE count > 3 DO\n"
-     "ENDWHILE"},
+     "  count := count - 1;\n"
+     "  WaitTime count;\n"
+     "ENDWHILE\n"
+     "reg1 := count;"},
 });
 // clang-format on
 

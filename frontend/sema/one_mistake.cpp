@@ -1,6 +1,6 @@
 // Walks through the uses of all data and functions of a file that has errors, and finds the declarations that none of
-// their uses fits. A single use that fits the declaration, or two that need different types, and nothing is merged:
-// then the uses are wrong, each for itself.
+// their uses fits. A single use that fits the declaration, or two that need different types, or only few uses, and
+// nothing is merged: then the uses are wrong, each for itself.
 
 #include "frontend/sema/one_mistake.h"
 
@@ -17,6 +17,11 @@ using diag::Code;
 using diag::Diagnostic;
 
 namespace {
+
+/// So many uses are hardly wrong each for itself. Fewer are told one by one: a programmer who takes a bool for a number
+/// twice has declared it well.
+constexpr size_t kEnoughUses = 5;
+constexpr size_t kEnoughOfOneKind = 3;
 
 using Said = std::vector<const Diagnostic*>;
 
@@ -86,7 +91,8 @@ class UseWalk {
         for (const auto& [symbol, uses] : uses_)
             if (isWrong(uses)) addDeclared(out, *symbol, uses);
         for (const auto& [key, said] : kinds_)
-            if (said.size() > 1) out.push_back({members(said), {}, guardOf(*std::get<0>(key))});
+            if (said.size() >= kEnoughOfOneKind)
+                out.push_back({members(said), {}, guardOf(*std::get<0>(key))});
         return out;
     }
 
@@ -408,7 +414,7 @@ class UseWalk {
     }
 
     static bool isWrong(const Uses& uses) {
-        if (!uses.contradicted || uses.said.size() < 2) return false;
+        if (!uses.contradicted || uses.said.size() < kEnoughUses) return false;
         if (!uses.needed.type) return *uses.shape && !uses.number;
         return !uses.number || uses.needed.type->isNumeric();
     }
@@ -416,7 +422,7 @@ class UseWalk {
     static void addDeclared(std::vector<Repeat>& out, const Symbol& symbol, const Uses& uses) {
         const TokenIndex token = typeToken(symbol);
         Repeat repeat = {members(uses.said), {}, guardOf(symbol)};
-        if (token == kNoToken || repeat.members.size() < 2) return;
+        if (token == kNoToken || repeat.members.size() < kEnoughUses) return;
         const DataType declared = symbol.kind == SymbolKind::Routine
                                       ? static_cast<const RoutineSymbol&>(symbol).returnType
                                       : static_cast<const DataSymbol&>(symbol).type;
