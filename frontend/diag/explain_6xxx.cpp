@@ -29,7 +29,7 @@ main.mod:
   ENDMODULE)ex"},
     {6002, Kind::Files,
      "The entry routine is called by the system without arguments: it must be a global procedure "
-     "without required parameters (manual 1.1.3).",
+     "without required parameters (manual 1.1.3). rapidc check reports it only if it is no procedure at all.",
      R"ex($ rapidc build main.mod
 main.mod:
   MODULE MainModule

@@ -112,7 +112,7 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "  WaitTime 0.1;\n"
      "ENDWHILE"},
     {8012, Kind::Module,
-     "Nothing in the loop changes its condition: it waits for something outside, and takes all the "
+     "Nothing in the loop (WHILE, or IF with a GOTO back) changes its condition: it waits for something outside, and takes all the "
      "time while it does (manual 5: events instead of polling).",
      "PERS bool ready := FALSE;\n"
      "PROC main()\n"
@@ -208,8 +208,8 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "reg1 := reg1;",
      "reg1 := reg2;"},
     {8024, Kind::Module,
-     "The routine asks Present for the parameter, but not on every way to this place, or it got the answer no. An "
-     "optional parameter that was left out must not be used (manual 1.1.5).",
+     "The routine asks Present for the parameter, but not on every way to this place, or it got the answer no, or the "
+     "condition holds without it as well (Present(x) OR ...). An optional parameter that was left out must not be used (manual 1.1.5).",
      "PROC work(\\num level)\n"
      "  IF Present(level) TPWrite \"level given\";\n"
      "  reg1 := level;\n"

@@ -81,6 +81,12 @@ void Walker::binary(const BinaryExpr& e, bool partOfText) {
         text = info(e).type.type == program_.string;
         if (text && !partOfText) textLength(e);
         break;
+    case BinaryOp::Sub:
+    case BinaryOp::Div:
+    case BinaryOp::IntDiv:
+    case BinaryOp::Mod:
+        if (!number(*e.left)) identical(e);
+        break;
     case BinaryOp::Eq:
     case BinaryOp::Ne:
     case BinaryOp::Lt:
@@ -89,14 +95,16 @@ void Walker::binary(const BinaryExpr& e, bool partOfText) {
     case BinaryOp::Ge: comparison(e); break;
     case BinaryOp::And:
     case BinaryOp::Or:
-    case BinaryOp::Xor:
-        if (e.left->kind == e.right->kind && sameText(*e.left, *e.right))
-            report(Code::IdenticalOperands, range(e), {std::string(tree_->text(e.opToken))});
-        break;
+    case BinaryOp::Xor: identical(e); break;
     default: break;
     }
     expr(*e.left, text);
     expr(*e.right, text);
+}
+
+void Walker::identical(const BinaryExpr& e) {
+    if (e.left->kind == e.right->kind && sameText(*e.left, *e.right))
+        report(Code::IdenticalOperands, range(e), {std::string(tree_->text(e.opToken))});
 }
 
 void Walker::comparison(const BinaryExpr& e) {
@@ -105,8 +113,7 @@ void Walker::comparison(const BinaryExpr& e) {
     const double* right = number(*e.right);
     if (left && right) return;
     if (!left && !right) {
-        if (e.left->kind == e.right->kind && sameText(*e.left, *e.right))
-            report(Code::IdenticalOperands, range(e), {std::string(tree_->text(e.opToken))});
+        identical(e);
         return;
     }
     if (!equality) return;

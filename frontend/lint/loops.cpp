@@ -149,23 +149,39 @@ void Walker::labelStmt(const LabelStmt& s) {
     label.mark.waits = waits_;
     label.mark.exits = exits();
     label.mark.calls = facts_.calls.size();
+    label.mark.writes = writes_.size();
     labelIndex_[&s] = labels_.size();
     labels_.push_back(label);
     assigned_.set(); // a jump may come from anywhere
 }
 
-void Walker::gotoStmt(const GotoStmt& s) {
+const sema::Symbol* Walker::targetOf(const GotoStmt& s) const {
     const auto found = module_->facts->references.find(&s);
-    const sema::Symbol* target = found == module_->facts->references.end() ? nullptr : found->second;
-    if (target) {
-        targets_.insert(target->decl);
-        // A jump back from the end of the same list of instructions: nothing else leads on from here.
-        const auto known = labelIndex_.find(target->decl);
-        const Label* label = known == labelIndex_.end() ? nullptr : &labels_[known->second];
-        if (label && label->list == list_ && isTight(label->mark))
-            suspectLoop(Code::EndlessLoop, s, label->mark);
-    }
+    return found == module_->facts->references.end() ? nullptr : found->second;
+}
+
+/// The label further up in the list of instructions that is being read, when nothing between it and here waits or
+/// leads elsewhere.
+const Walker::Label* Walker::tightLoopOf(const GotoStmt& s) const {
+    const sema::Symbol* target = targetOf(s);
+    const auto known = target ? labelIndex_.find(target->decl) : labelIndex_.end();
+    const Label* label = known == labelIndex_.end() ? nullptr : &labels_[known->second];
+    return label && label->list == list_ && isTight(label->mark) ? label : nullptr;
+}
+
+void Walker::gotoStmt(const GotoStmt& s) {
+    if (const sema::Symbol* target = targetOf(s)) targets_.insert(target->decl);
+    // A jump back from the end of the same list of instructions: nothing else leads on from here.
+    if (const Label* label = tightLoopOf(s)) suspectLoop(Code::EndlessLoop, s, label->mark);
     ++jumps_;
+}
+
+// "again: IF diReady = 0 GOTO again;"
+void Walker::judgeJumpBack(const CompactIfStmt& s) {
+    if (!s.condition || !s.body || s.body->kind != NodeKind::Goto || constant(*s.condition)) return;
+    const Label* label = tightLoopOf(as<GotoStmt>(*s.body));
+    if (label && facts_.calls.size() == label->mark.calls && !changesIn(*s.condition, label->mark))
+        suspectLoop(Code::BusyWait, s, label->mark);
 }
 
 } // namespace rapid::lint

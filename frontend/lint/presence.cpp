@@ -30,7 +30,8 @@ class PresenceWalk {
     }
 
   private:
-    enum class Known : uint8_t { Nothing, Present, Absent };
+    /// Doubtful: the condition asks for it and holds without it all the same, "Present(x) OR ...".
+    enum class Known : uint8_t { Nothing, Present, Absent, Doubtful };
     using State = std::vector<Known>;
 
     const sema::ExprInfo& info(const Expr& e) const { return (*module_.exprs)[e.id]; }
@@ -65,7 +66,7 @@ class PresenceWalk {
     /// What is known when `e` is TRUE, or FALSE.
     void learn(const Expr& e, bool truth) {
         if (const DataSymbol* param = asked(e)) {
-            known_[param->index] = truth ? Known::Present : Known::Absent;
+            settle(*param, truth);
         } else if (e.kind == NodeKind::Paren) {
             learn(*as<ParenExpr>(e).inner, truth);
         } else if (e.kind == NodeKind::Unary && as<UnaryExpr>(e).op == UnaryOp::Not) {
@@ -76,12 +77,28 @@ class PresenceWalk {
             if (both) {
                 learn(*binary.left, truth);
                 learn(*binary.right, truth);
+            } else if (binary.op == BinaryOp::Or) {
+                doubt(*binary.left);
+                doubt(*binary.right);
             } else if (binary.op == BinaryOp::Eq || binary.op == BinaryOp::Ne) {
                 const bool equal = (binary.op == BinaryOp::Eq) == truth;
                 if (isConstant(*binary.right, true)) learn(*binary.left, equal);
                 if (isConstant(*binary.right, false)) learn(*binary.left, !equal);
             }
         }
+    }
+
+    void settle(const DataSymbol& param, bool present) {
+        if (present) // it excludes its alternatives
+            for (const DataSymbol* other : routine_.params)
+                if (other->optional && other->group == param.group) known_[other->index] = Known::Absent;
+        known_[param.index] = present ? Known::Present : Known::Absent;
+    }
+    /// One side of an OR that holds: what it asks for need not be there.
+    void doubt(const Expr& side) {
+        const DataSymbol* param = asked(side);
+        if (!param && side.kind == NodeKind::Unary) param = asked(*as<UnaryExpr>(side).operand);
+        if (param && known_[param->index] == Known::Nothing) known_[param->index] = Known::Doubtful;
     }
 
     /// What holds on both ways.
@@ -94,7 +111,7 @@ class PresenceWalk {
     void use(const DataSymbol& param, const Expr& e) {
         const Known known = known_[param.index];
         const bool passedBy = certain_ && isOpen(param);
-        if (known == Known::Absent || passedBy) uses_.emplace_back(&param, &e);
+        if (known == Known::Absent || known == Known::Doubtful || passedBy) uses_.emplace_back(&param, &e);
     }
 
     /// Whether nothing is known of the parameter and of those that exclude it.
@@ -299,11 +316,15 @@ class PresenceWalk {
         const State before = known_;
         const bool outer = std::exchange(certain_, false);
         const bool isTrue = s.subject && isConstant(*s.subject, true);
+        const bool asks = s.subject && asked(*s.subject);
         bool leaves = false;
         for (const TestCase* one : s.cases) {
             for (const Expr* value : one->values)
                 expr(*value);
-            if (isTrue && one->values.size() == 1) learn(*one->values.front(), true);
+            const Expr* only = one->values.size() == 1 ? one->values.front() : nullptr;
+            if (only && isTrue) learn(*only, true);
+            if (only && asks && (isConstant(*only, true) || isConstant(*only, false)))
+                learn(*s.subject, isConstant(*only, true));
             leaves |= !list(one->body);
             known_ = before;
         }

@@ -197,6 +197,7 @@ bool Walker::statement(const Stmt& s) {
     case NodeKind::CompactIf: {
         const auto& compact = as<CompactIfStmt>(s);
         if (compact.condition) expr(*compact.condition);
+        judgeJumpBack(compact);
         const Slots before = assigned_;
         Stmt* body = compact.body;
         const bool goesOn = !body || branch(StmtList(&body, 1));

@@ -62,6 +62,11 @@ class Walker {
         bool outerBreak = false;
         Slots outerWritten;
     };
+    struct Label {
+        const syntax::Node* node = nullptr;
+        const void* list = nullptr;
+        LoopMark mark;
+    };
     bool whileStmt(const syntax::WhileStmt& s);
     void forStmt(const syntax::ForStmt& s);
     void judgeFor(const syntax::ForStmt& s);
@@ -72,7 +77,10 @@ class Walker {
     void suspectLoop(Code code, const syntax::Node& loop, const LoopMark& mark);
     bool changesIn(const Expr& condition, const LoopMark& mark) const;
     void labelStmt(const syntax::LabelStmt& s);
+    const sema::Symbol* targetOf(const syntax::GotoStmt& s) const;
+    const Label* tightLoopOf(const syntax::GotoStmt& s) const;
     void gotoStmt(const syntax::GotoStmt& s);
+    void judgeJumpBack(const syntax::CompactIfStmt& s);
 
     // ---- data.cpp: reading and writing
     void read(const Expr& name);
@@ -90,6 +98,7 @@ class Walker {
     // ---- expressions.cpp
     void expr(const Expr& e, bool partOfText = false);
     void binary(const syntax::BinaryExpr& e, bool partOfText);
+    void identical(const syntax::BinaryExpr& e);
     void comparison(const syntax::BinaryExpr& e);
     void judgeSignal(const Expr& signal, const Expr& value);
     void judgeCase(const Expr& subject, const Expr& value);
@@ -160,11 +169,6 @@ class Walker {
     /// The last movement, when it went to a fly-by point and nothing but short instructions came after it.
     const syntax::Node* flyBy_ = nullptr;
     std::unordered_set<const syntax::Node*> targets_; ///< the labels that GOTO names
-    struct Label {
-        const syntax::Node* node = nullptr;
-        const void* list = nullptr;
-        LoopMark mark;
-    };
     std::vector<Label> labels_;
     std::unordered_map<const syntax::Node*, size_t> labelIndex_;
     const void* list_ = nullptr; ///< the list of instructions being walked

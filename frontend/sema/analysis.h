@@ -6,6 +6,7 @@
 #include "frontend/sema/names.h"
 #include "frontend/sema/one_mistake.h"
 
+#include <array>
 #include <deque>
 #include <set>
 #include <unordered_map>
@@ -155,8 +156,13 @@ class Analyzer {
     bool hasUnclearLine(const syntax::Node& node) const;
     /// Adds "declared here" at the declaration of `symbol`, when it has one in a file of the user.
     void noteDeclared(diag::Diagnostic& diagnostic, const Symbol& symbol);
+    /// What stands there, and its value where that does not show: "n+1 = 4".
+    std::string valueText(const syntax::Expr& e);
     static std::string typeName(const DataType& type);
     static std::string typeName(const ExprInfo& info) { return typeName(info.type); }
+    /// The names of two types that are not the same: alike, they get their modules' names, "cell:part".
+    std::array<std::string, 2> typeNames(const DataType& found, const DataType& wanted) const;
+    std::string moduleOf(const Type& type) const;
     /// "a constant", "a procedure" ...
     static std::string describe(const Symbol& symbol);
     enum class Wanted : uint8_t { Data, Type, Procedure, Function, Trap };
@@ -185,6 +191,7 @@ class Analyzer {
     void checkOption(const RoutineSymbol& routine, syntax::TokenIndex name);
     Meant reportUnknown(Code code, syntax::TokenIndex token, NameId name, Wanted wanted,
                         std::string_view otherHint = {});
+    bool countedAbove(syntax::TokenIndex token, NameId name);
     void reportMayBeDeclared(syntax::TokenIndex token, const std::string& hint);
     Suggestion suggestion(NameId name, Wanted wanted);
     static std::string didYouMean(std::string_view name);
@@ -261,6 +268,7 @@ class Analyzer {
     void ensureData(DataSymbol& symbol);
     void ensureValue(DataSymbol& symbol);
     uint64_t resolveDimensions(DataSymbol& symbol, const syntax::DataDecl& decl);
+    std::string describeDimension(const syntax::Expr& e, Typed t);
     void initialise(DataSymbol& symbol, const syntax::DataDecl& decl);
     void checkDeclaration(DataSymbol& symbol);
     bool reportNonConstant(const syntax::Expr& expr);

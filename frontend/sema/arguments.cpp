@@ -171,9 +171,10 @@ void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t fi
         }
     }
     if (missing) reportMissing(call, name);
-    for (const Mismatch& one : wrong)
-        report(Code::ArgumentType, range(*one.value),
-               {one.param->name, routine.name, typeName(one.found), typeName(one.param->type)});
+    for (const Mismatch& one : wrong) {
+        const auto names = typeNames(one.found, one.param->type);
+        report(Code::ArgumentType, range(*one.value), {one.param->name, routine.name, names[0], names[1]});
+    }
 }
 
 void Analyzer::judgeValue(const RoutineSymbol& routine, const BoundArg& bound, Typed t) {
@@ -366,7 +367,10 @@ void Analyzer::judgeConditional(const RoutineSymbol& routine, const BoundArg& bo
     }
     const DataSymbol& param = *bound.param;
     if (own->isSwitch != param.isSwitch) {
-        report(Code::ConditionalSwitch, range(e), {param.name, own->name});
+        const auto what = [](const DataSymbol& data) {
+            return data.isSwitch ? "a switch" : "'" + typeName(data.type) + "'";
+        };
+        report(Code::ConditionalSwitch, range(e), {param.name, own->name, what(*own), what(param)});
         return;
     }
     if (param.isSwitch) return;

@@ -247,19 +247,17 @@ void Analyzer::checkEntry(Task& task) {
     const NameId name = interner_.intern(task.entry);
     Symbol* symbol = at(globals_, name);
     RoutineSymbol* routine = asRoutine(symbol);
-    if (routine && routine->routineKind == RoutineKind::Proc &&
-        nextRequired(*routine, 0) >= routine->params.size()) {
+    const bool procedure = routine && routine->routineKind == RoutineKind::Proc;
+    if (procedure && nextRequired(*routine, 0) >= routine->params.size()) {
         task.entryRoutine = routine;
         ++routine->users;
         routine->used = true;
         return;
     }
-    if (!options_.requireMain) return;
-    if (symbol) {
+    if (!options_.requireMain && (!symbol || procedure)) return;
+    if (symbol) { // what is no procedure can be the entry of no task
         enterModule(symbol->module);
-        std::string found = routine && routine->routineKind == RoutineKind::Proc
-                                ? "a procedure with required parameters"
-                                : describe(*symbol);
+        std::string found = procedure ? "a procedure with required parameters" : describe(*symbol);
         report(Code::EntryNotProcedure, range(symbol->nameToken), {symbol->name, std::move(found)});
         return;
     }

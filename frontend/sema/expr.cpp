@@ -153,7 +153,10 @@ Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstVal
         if (!array) member = {components[i].type, 0, {}};
         const Typed t = expr(element, &member, &members[i]);
         const bool fit = fits(element, t, member);
-        if (!fit) report(Code::AggregateMember, range(element), {typeName(*t.info), typeName(member)});
+        if (!fit) {
+            const auto names = typeNames(t.info->type, member);
+            report(Code::AggregateMember, range(element), {names[0], names[1]});
+        }
         wrong |= !fit || t.isError();
         // The first row of an array of unknown size tells the length of the others.
         if (array && i == 0) std::copy_n(t.info->type.dims, member.rank, own.dims + 1);
@@ -254,7 +257,11 @@ std::string Analyzer::numDnumRemedy(Typed t, const DataType& want) const {
 bool Analyzer::condition(const Expr& e, const char* what) {
     const Typed t = expr(e);
     if (t.isError() || t.isScalar(TypeKind::Bool)) return true;
-    report(Code::ConditionNotBool, range(e), {what, typeName(*t.info)});
+    const DataSymbol* data = e.kind == NodeKind::Name ? asData(info(e).symbol) : nullptr;
+    const bool signal = data && data->type.type->kind == TypeKind::SemiValue;
+    report(
+        Code::ConditionNotBool, range(e),
+        {what, typeName(*t.info), signal ? ": compare the signal, " + data->name + " = 1" : std::string()});
     return false;
 }
 

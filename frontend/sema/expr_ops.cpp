@@ -272,9 +272,10 @@ Typed Analyzer::equality(const BinaryExpr& e, Typed left, Typed right) {
         foldBinary(e);
     else if (numeric == Numeric::Mixed)
         report(Code::NumDnumMixed, range(e.opToken), {text(e.opToken)});
-    else if (bool known = true; a.type->base() != b.type->base() || !sameDimensions(a, b, known))
-        report(Code::CompareTypes, range(e.opToken), {text(e.opToken), typeName(a), typeName(b)});
-    else if (!known)
+    else if (bool known = true; a.type->base() != b.type->base() || !sameDimensions(a, b, known)) {
+        const auto names = typeNames(a, b);
+        report(Code::CompareTypes, range(e.opToken), {text(e.opToken), names[0], names[1]});
+    } else if (!known)
         report(Code::CompareArrays, range(e.opToken), {text(e.opToken)});
     else
         foldBinary(e);

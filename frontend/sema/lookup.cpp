@@ -117,7 +117,9 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
             report(Code::NotData, range(token), {text(token), "a module"});
         } else if (!context_.routine || !context_.routine->incomplete) { // else it may be a parameter
             const char* hint = "";
-            if (looksLikeSignal(interner_.folded(name)))
+            if (context_.routine && countedAbove(token, name))
+                hint = "; a loop variable is known only between FOR and ENDFOR";
+            else if (looksLikeSignal(interner_.folded(name)))
                 hint = options_.configurationKnown
                            ? "; if it is a signal, define it in EIO.cfg and pass that with --config"
                            : "; if it is a signal, pass the configuration with --config=EIO.cfg";

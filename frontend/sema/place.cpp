@@ -80,9 +80,9 @@ void Analyzer::checkIndex(const Expr& index, int32_t dimension, int64_t& value) 
     const double number = constant->number;
     const bool integer = number == std::floor(number);
     if (dimension > 0 && (!integer || number < 1 || number > dimension))
-        report(Code::IndexOutOfRange, range(index), {text(index), std::to_string(dimension)});
+        report(Code::IndexOutOfRange, range(index), {valueText(index), std::to_string(dimension)});
     else if (!integer || number < 1)
-        report(Code::IndexBelowOne, range(index), {text(index)});
+        report(Code::IndexBelowOne, range(index), {valueText(index)});
     else if (number < 2e9)
         value = static_cast<int64_t>(number);
 }

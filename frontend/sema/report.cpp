@@ -2,6 +2,8 @@
 
 #include "frontend/sema/analysis.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace rapid::sema {
@@ -60,6 +62,33 @@ std::string Analyzer::typeName(const DataType& type) {
         name += type.dims[i] > 0 ? std::to_string(type.dims[i]) : "*";
     }
     return name + '}';
+}
+
+std::string Analyzer::valueText(const Expr& e) {
+    const ConstValue* value = info(e).constant;
+    const Expr& inner = e.kind == NodeKind::Unary ? *as<UnaryExpr>(e).operand : e;
+    if (inner.kind == NodeKind::NumLiteral || !value || value->kind != ConstValue::Kind::Number)
+        return text(e);
+    return fmt::format("{} = {}", text(e), value->number);
+}
+
+std::array<std::string, 2> Analyzer::typeNames(const DataType& found, const DataType& wanted) const {
+    std::array<std::string, 2> names = {typeName(found), typeName(wanted)};
+    if (foldName(names[0]) != foldName(names[1])) return names;
+    return {moduleOf(*found.type) + names[0], moduleOf(*wanted.type) + names[1]};
+}
+
+/// "cell:" for a type that module "cell" declares, nothing for a predefined one.
+std::string Analyzer::moduleOf(const Type& type) const {
+    for (const Module* module : task_ ? task_->modules : std::vector<Module*>()) {
+        const Symbol* own = nullptr;
+        scopes_[module->id]->names.forEach([&](NameId, const Symbol* symbol) {
+            if (symbol->kind == SymbolKind::Type && static_cast<const TypeSymbol*>(symbol)->type == &type)
+                own = symbol;
+        });
+        if (own) return module->name + ":";
+    }
+    return {};
 }
 
 std::string Analyzer::describe(const Symbol& symbol) {

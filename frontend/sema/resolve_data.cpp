@@ -29,7 +29,7 @@ void Analyzer::ensureData(DataSymbol& symbol) {
     const bool outerMuted = std::exchange(muted_, decl.broken);
     const Type* type = resolveType(decl.type);
     const uint64_t elements = resolveDimensions(symbol, decl);
-    symbol.type.type = type;
+    symbol.type.type = decl.dims.size() > std::size(symbol.type.dims) ? program_.errorType : type;
     if (elements * type->leaves > kMaxLeaves) {
         report(Code::ArrayTooLarge, range(symbol.nameToken), {symbol.name});
         symbol.type.type = program_.errorType;
@@ -58,6 +58,12 @@ void Analyzer::checkDeclaration(DataSymbol& symbol) {
         report(Code::PersNonValue, range(symbol.nameToken), {symbol.name, scope, type.name});
 }
 
+std::string Analyzer::describeDimension(const Expr& e, Typed t) {
+    if (!t.isScalar(TypeKind::Num) && !t.isScalar(TypeKind::Dnum)) return "'" + typeName(*t.info) + "'";
+    const Symbol* symbol = e.kind == NodeKind::Name ? info(e).symbol : nullptr;
+    return symbol ? describe(*symbol) : describeExpr(e);
+}
+
 // Gives the number of elements; it stops counting at kMaxLeaves.
 uint64_t Analyzer::resolveDimensions(DataSymbol& symbol, const DataDecl& decl) {
     if (decl.dims.empty()) return 1;
@@ -76,10 +82,10 @@ uint64_t Analyzer::resolveDimensions(DataSymbol& symbol, const DataDecl& decl) {
         const ConstValue* value = t.info->constant;
         if (!value || value->kind != ConstValue::Kind::Number) {
             if (!t.isError() && e.kind != NodeKind::PlaceholderExpr)
-                report(Code::DimensionNotConstant, range(e));
+                report(Code::DimensionNotConstant, range(e), {describeDimension(e, t)});
         } else if (!(value->number >= 1) || value->number != std::floor(value->number) ||
                    value->number > 2e9) {
-            report(Code::DimensionValue, range(e), {text(e)});
+            report(Code::DimensionValue, range(e), {valueText(e)});
         } else {
             size = static_cast<int32_t>(value->number);
             elements = std::min<uint64_t>(elements * static_cast<uint64_t>(size), kMaxLeaves + 1);
@@ -146,7 +152,8 @@ void Analyzer::initialise(DataSymbol& symbol, const DataDecl& decl) {
     const Typed t = expr(init, &want, slot);
     const bool cycle = symbol.valueProgress == Progress::Done;
     if (!fits(init, t, want)) {
-        report(Code::InitialValueType, range(init), {typeName(*t.info), typeName(want), symbol.name});
+        const auto names = typeNames(t.info->type, want);
+        report(Code::InitialValueType, range(init), {names[0], names[1], symbol.name});
     } else if (mustFold && !t.info->constant && !t.isError() && !cycle) {
         reportNonConstant(init);
     }

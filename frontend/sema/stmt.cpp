@@ -182,7 +182,8 @@ void Analyzer::testValues(const TestStmt& s, Typed subject) {
     std::unordered_set<std::string> seen;
     for (const auto& [value, t] : values) {
         if (!fits(*value, t, type)) {
-            report(Code::TestValueType, range(*value), {typeName(*t.info), typeName(*subject.info)});
+            const auto names = typeNames(t.info->type, subject.info->type);
+            report(Code::TestValueType, range(*value), {names[0], names[1]});
             continue;
         }
         const ConstValue* constant = info(*value).constant;
@@ -235,11 +236,12 @@ void Analyzer::assign(const AssignStmt& s) {
     const Typed value = expr(*s.value, &want);
     if (fits(*s.value, value, want)) return;
     const std::string remedy = numDnumRemedy(value, want);
+    const auto names = typeNames(value.info->type, want);
     if (remedy.empty())
-        report(Code::AssignType, range(*s.value), {typeName(*value.info), typeName(want)});
+        report(Code::AssignType, range(*s.value), {names[0], names[1]});
     else
-        fixCall(report(Code::NumDnumAssign, range(*s.value), {typeName(*value.info), typeName(want), remedy}),
-                *s.value, remedy, remedy == "NumToDnum");
+        fixCall(report(Code::NumDnumAssign, range(*s.value), {names[0], names[1], remedy}), *s.value, remedy,
+                remedy == "NumToDnum");
 }
 
 // "Sum := a + b;" in function Sum, as other languages give back a value.

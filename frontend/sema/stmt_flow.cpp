@@ -34,9 +34,9 @@ void Analyzer::returnStmt(const ReturnStmt& s) {
         return;
     }
     const Typed t = expr(*s.value, &routine.returnType);
-    if (!fits(*s.value, t, routine.returnType))
-        report(Code::ReturnType, range(*s.value),
-               {typeName(*t.info), typeName(routine.returnType), routine.name});
+    if (fits(*s.value, t, routine.returnType)) return;
+    const auto names = typeNames(t.info->type, routine.returnType);
+    report(Code::ReturnType, range(*s.value), {names[0], names[1], routine.name});
 }
 
 void Analyzer::checkErrorNumber(const Expr& e, const char* what) {
@@ -56,7 +56,7 @@ void Analyzer::raiseStmt(const RaiseStmt& s) {
         return;
     }
     checkErrorNumber(*s.value, "RAISE");
-    if (!mayBeErrorNumber(*s.value)) report(Code::RaiseRange, range(*s.value), {text(*s.value)});
+    if (!mayBeErrorNumber(*s.value)) report(Code::RaiseRange, range(*s.value), {valueText(*s.value)});
 }
 
 // A constant is ERR_..., or a number that programs may raise; of others the value shows at run time.
@@ -70,7 +70,7 @@ bool Analyzer::mayBeErrorNumber(const Expr& e) {
 
 void Analyzer::checkListedError(const Expr& e) {
     checkErrorNumber(e, "ERROR");
-    if (!mayBeErrorNumber(e)) report(Code::ListedErrorNumber, range(e), {text(e)});
+    if (!mayBeErrorNumber(e)) report(Code::ListedErrorNumber, range(e), {valueText(e)});
 }
 
 // "CONNECT trap WITH interrupt;"

@@ -32,7 +32,7 @@ constexpr ForeignName kForeignNames[] = {
     {"delay", "WaitTime"},    {"pause", "WaitTime"},    {"print", "TPWrite"},     {"println", "TPWrite"},
     {"echo", "TPWrite"},      {"msgbox", "UIMsgBox"},   {"strtonum", "StrToVal"}, {"stringtonum", "StrToVal"},
     {"valtonum", "StrToVal"}, {"len", "StrLen"},        {"length", "StrLen"},     {"substr", "StrPart"},
-    {"strsub", "StrPart"},    {"tostring", "ValToStr"}, {"sqr", "Pow"},           {"power", "Pow"},
+    {"strsub", "StrPart"},    {"tostring", "ValToStr"}, {"sqr", "Sqrt"},          {"power", "Pow"},
     {"movep", "MoveJ"},       {"linear", "MoveL"}};
 
 /// A name of one or two letters is near to everything of that length.
@@ -79,6 +79,18 @@ bool Analyzer::mayReportUnknown(NameId name) {
         }
     }
     return !maybeDeclared_.contains(name);
+}
+
+// Whether a FOR of this routine, ahead of `token`, counts a variable of that name.
+bool Analyzer::countedAbove(TokenIndex token, NameId name) {
+    const TokenIndex first = context_.routine->decl->first;
+    if (first >= token || comparisonsLeft_ < token - first) return false;
+    comparisonsLeft_ -= token - first;
+    for (TokenIndex i = first; i + 1 < token; ++i)
+        if (context_.tree->tokens[i].kind == TokenKind::KwFor &&
+            context_.tree->tokens[i + 1].kind == TokenKind::Identifier && idOf(i + 1) == name)
+            return true;
+    return false;
 }
 
 Analyzer::Meant Analyzer::reportUnknown(Code code, TokenIndex token, NameId name, Wanted wanted,

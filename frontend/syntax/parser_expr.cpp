@@ -143,19 +143,28 @@ bool Parser::takesPercentAsMod() {
 
 /// A condition; an assignment in it was meant as a comparison.
 Expr* Parser::parseCondition() {
+    const TokenIndex start = pos_;
+    const size_t errorsBefore = errors_;
     Expr* condition = parseExpr();
     if (panic_ || kind() != K::Assign) return condition;
     TokenIndex found = 0;
     if (!findOnLine(pos_, K::KwThen, found) && !findOnLine(pos_, K::KwDo, found) && assignmentBelow())
         return errorExpr();
+    return parseMeantEqual(start, errorsBefore);
+}
+
+/// At ":=" where only "=" can stand: what begins at `start` once more, with the sign that was meant.
+Expr* Parser::parseMeantEqual(TokenIndex start, size_t errorsBefore) {
+    const bool once = errors_ == errorsBefore; // else its mistakes would be told again
     fix(report(Code::AssignmentInCondition, pos_), tree_.range(pos_), "=");
-    auto* node = makeExpr<BinaryExpr>(NodeKind::Binary);
-    node->first = condition->first;
-    node->op = BinaryOp::Eq;
-    node->opToken = take();
-    node->left = condition;
-    node->right = parseExpr();
-    return finish(node);
+    if (once) {
+        readAs(pos_, K::Equal);
+        pos_ = start;
+        return parseExpr();
+    }
+    take();
+    parseExpr();
+    return errorExpr();
 }
 
 /// NOT at the start of a logical term covers the whole term, after AND one relation (manual 1.3.5, 1.3.6).
@@ -254,7 +263,8 @@ Expr* Parser::parsePrimary() {
         take();
         return finish(node);
     }
-    missing("an expression");
+    missing(kind() == K::Percent ? "an expression: only procedures are called by a name in a string"
+                                 : "an expression");
     return errorExpr();
 }
 
@@ -309,7 +319,11 @@ Expr* Parser::parseParen() {
     if (!nest) return tooDeepExpr();
     auto* node = makeExpr<ParenExpr>(NodeKind::Paren);
     const TokenIndex opening = take();
+    const size_t errorsBefore = errors_;
     node->inner = parseExpr();
+    TokenIndex closing = 0;
+    if (kind() == K::Assign && !panic_ && findOnLine(pos_, K::RightParen, closing))
+        node->inner = parseMeantEqual(opening + 1, errorsBefore);
     ++height_;
     if (kind() == K::Comma && !panic_) {
         foreignList_ = opening;

@@ -235,11 +235,25 @@ bool Parser::missesComma() {
     return true;
 }
 
+/// A line that ends with ';' and has what no list of parameters has: a value, a name alone between commas.
+bool Parser::isInstructionLine() const {
+    constexpr TokenSet kValues = {K::NumLiteral, K::StringLiteral, K::Assign, K::LeftBracket};
+    constexpr TokenSet kAlone = {K::Comma, K::Semicolon};
+    bool instruction = peek() == K::Backslash;
+    TokenIndex i = pos_;
+    for (; kindAt(i) != K::EndOfFile && !startsLine(i + 1); ++i) {
+        if (kindAt(i) == K::RightParen) return false;
+        instruction = instruction || kValues.has(kindAt(i)) ||
+                      (kindAt(i) == K::Comma && isName(kindAt(i + 1)) && kAlone.has(kindAt(i + 2)));
+    }
+    return instruction && kindAt(i) == K::Semicolon;
+}
+
 /// In a line below '(': an instruction or a declaration with its semicolon, and no parameter.
 bool Parser::bodyBeginsHere() const {
     constexpr TokenSet kNoParameter = {K::Assign, K::Semicolon, K::NumLiteral, K::StringLiteral};
     constexpr TokenSet kEndOfData = {K::Semicolon, K::Assign};
-    if (isName(kind())) return kNoParameter.has(peek());
+    if (isName(kind())) return kNoParameter.has(peek()) || isInstructionLine();
     if (kind() == K::KwVar || kind() == K::KwPers) return kEndOfData.has(peek(3));
     return isKeyword(kind()) && kind() != K::KwInout;
 }

@@ -249,6 +249,7 @@ class Parser {
     bool parseForeignParameter(ParamDecl* node);
     void dropForeignMode(ParamDecl* node);
     bool missesComma();
+    bool isInstructionLine() const;
     bool bodyBeginsHere() const;
     void takeSlashAsBackslash();
     Expr* parseForeignAggregate(TokenIndex opening, K closing);
@@ -269,6 +270,7 @@ class Parser {
     Expr* parsePostfix(Expr* base);
     Expr* parseIndex(Expr* base);
     Expr* parseCondition();
+    Expr* parseMeantEqual(TokenIndex start, size_t errorsBefore);
     Expr* parseParen();
     Expr* parseAggregate();
     Expr* parsePlainAggregate();

@@ -83,7 +83,10 @@ bool Parser::dropComponentWord() {
 
 RecordComponent* Parser::parseComponent() {
     auto* node = make<RecordComponent>(NodeKind::RecordComponent);
-    node->type = expectName();
+    if (isName(kind()) && peek() == K::Semicolon && !isBasicType(textOf(pos_)))
+        report(Code::MissingDataType, pos_, {std::string(textOf(pos_))});
+    else
+        node->type = expectName();
     node->name = expectName();
     checkNameLength(node->name);
     if (!panic_ && kind() == K::LeftBrace) {

@@ -27,6 +27,10 @@ TEST_CASE("a program that is to run needs one global procedure main", "[sema]") 
 
     const auto function = checkMain({"MODULE m\n  FUNC num Main()\n    RETURN 1;\n  ENDFUNC\nENDMODULE\n"});
     REQUIRE(function->codes() == Messages{"RAP6002"});
+    // rapidc check does not ask for a main, but what is no procedure can be the entry of no task.
+    CHECK(checkTexts({"MODULE m\n  FUNC num Main()\n    RETURN 1;\n  ENDFUNC\nENDMODULE\n"})->codes() ==
+          Messages{"RAP6002"});
+    CHECK(checkTexts({"MODULE m\n  PROC main(num a)\n  ENDPROC\nENDMODULE\n"})->messages().empty());
     const auto required = checkMain({"MODULE m\n  PROC main(num a)\n  ENDPROC\nENDMODULE\n"});
     REQUIRE(
         required->messages() ==
