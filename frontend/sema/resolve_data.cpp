@@ -29,7 +29,9 @@ void Analyzer::ensureData(DataSymbol& symbol) {
     const bool outerMuted = std::exchange(muted_, decl.broken);
     const Type* type = resolveType(decl.type);
     const uint64_t elements = resolveDimensions(symbol, decl);
-    symbol.type.type = decl.dims.size() > std::size(symbol.type.dims) ? program_.errorType : type;
+    // Without its dimensions, or when its line ends in the middle, nothing is said about what is done with it.
+    const bool unclear = elements == 0 || (decl.broken && !decl.init);
+    symbol.type.type = unclear ? program_.errorType : type;
     if (elements * type->leaves > kMaxLeaves) {
         report(Code::ArrayTooLarge, range(symbol.nameToken), {symbol.name});
         symbol.type.type = program_.errorType;
@@ -64,15 +66,16 @@ std::string Analyzer::describeDimension(const Expr& e, Typed t) {
     return symbol ? describe(*symbol) : describeExpr(e);
 }
 
-// Gives the number of elements; it stops counting at kMaxLeaves.
+// Gives the number of elements; it stops counting at kMaxLeaves. 0 when that is not known.
 uint64_t Analyzer::resolveDimensions(DataSymbol& symbol, const DataDecl& decl) {
     if (decl.dims.empty()) return 1;
     if (decl.dims.size() > 3) {
         report(Code::TooManyDimensions, range(*decl.dims[3]), {std::to_string(decl.dims.size())});
         symbol.type.rank = 3; // of any size
-        return 1;
+        return 0;
     }
     uint64_t elements = 1;
+    bool known = true;
     for (size_t i = 0; i < decl.dims.size(); ++i) {
         const Expr& e = *decl.dims[i];
         const bool wasConstant = std::exchange(context_.constant, true);
@@ -81,10 +84,12 @@ uint64_t Analyzer::resolveDimensions(DataSymbol& symbol, const DataDecl& decl) {
         int32_t size = 0; // after an error: any
         const ConstValue* value = t.info->constant;
         if (!value || value->kind != ConstValue::Kind::Number) {
+            known = known && e.kind == NodeKind::PlaceholderExpr;
             if (!t.isError() && e.kind != NodeKind::PlaceholderExpr)
                 report(Code::DimensionNotConstant, range(e), {describeDimension(e, t)});
         } else if (!(value->number >= 1) || value->number != std::floor(value->number) ||
                    value->number > 2e9) {
+            known = false;
             report(Code::DimensionValue, range(e), {valueText(e)});
         } else {
             size = static_cast<int32_t>(value->number);
@@ -93,7 +98,7 @@ uint64_t Analyzer::resolveDimensions(DataSymbol& symbol, const DataDecl& decl) {
         symbol.type.dims[i] = size;
     }
     symbol.type.rank = static_cast<uint8_t>(decl.dims.size());
-    return elements;
+    return known ? elements : 0;
 }
 
 void Analyzer::ensureValue(DataSymbol& symbol) {

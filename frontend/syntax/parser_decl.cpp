@@ -77,9 +77,15 @@ void Parser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) {
     if (!panic_ && nameMissing) node->name = expectName();
     if (node->name != kNoToken && isKeyword(kindAt(node->name))) declareReserved(node->name);
     checkNameLength(node->name);
-    if (!panic_) parseDimensionsOf(node, false);
+    const bool valueFollows = !panic_ && kind() == K::LeftBracket && valueWithoutSign(node->dataKind);
+    if (!panic_ && !valueFollows) parseDimensionsOf(node, false);
     if (!panic_) {
-        if (kind() == K::Equal) {
+        if (valueFollows) {
+            diag::Diagnostic* diagnostic =
+                report(Code::UnexpectedToken, pos_, {describe(pos_), "':=' before the value"});
+            fix(diagnostic, {tree_.range(pos_).begin, tree_.range(pos_).begin}, ":= ");
+            node->init = parseExpr();
+        } else if (kind() == K::Equal) {
             reportEqual();
             take();
             node->init = parseExpr();
@@ -175,7 +181,8 @@ void Parser::parseRoutineHeader(RoutineDecl* routine) {
             accept(K::RightBrace);
         }
     } else if (isName(kind()) && isName(peek()) && !startsLine(pos_ + 1) &&
-               (routine->routineKind == RoutineKind::Proc || isBasicType(textOf(pos_)))) { // PROC num name()
+               (routine->routineKind == RoutineKind::Proc ? !isName(peek(2)) || startsLine(pos_ + 2)
+                                                          : isBasicType(textOf(pos_)))) { // PROC num name()
         fix(report(Code::ReturnTypeUnexpected, pos_,
                    {std::string(textOf(pos_)), std::string(wordsOf(routine->routineKind).name)}),
             {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");

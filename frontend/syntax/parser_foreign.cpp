@@ -162,6 +162,26 @@ bool Parser::parseForeignData(DataDecl* node) {
     return true;
 }
 
+/// At '[' behind the name of data: what it opens cannot be dimensions, so ":=" is missing before it.
+bool Parser::valueWithoutSign(DataKind dataKind) const {
+    constexpr TokenSet kDimension = {K::NumLiteral, K::Identifier};
+    constexpr TokenIndex kMost = 6; // "[n, 2, 3]"
+    bool dimensions = true;
+    TokenIndex i = pos_ + 1;
+    for (uint32_t open = 1; open > 0; ++i) {
+        const K one = kindAt(i);
+        if (one == K::EndOfFile || one == K::Semicolon) return false;
+        if (one == K::LeftBracket) ++open;
+        if (one == K::RightBracket) --open;
+        const bool element = (i - pos_) % 2 == 1;
+        dimensions = dimensions && i - pos_ <= kMost &&
+                     (element ? kDimension.has(one) && textOf(i).find('.') == std::string_view::npos
+                              : one == K::Comma || open == 0);
+    }
+    if (kindAt(i) == K::Assign || kindAt(i) == K::Equal) return false;
+    return !dimensions || dataKind == DataKind::Const;
+}
+
 /// Dimensions in other brackets, or before the name: `num list[10]`, `num{10} list`.
 void Parser::parseDimensionsOf(DataDecl* node, bool beforeName) {
     const K open = kind();
@@ -235,11 +255,26 @@ bool Parser::missesComma() {
     return true;
 }
 
+/// Whether a ')' without '(' comes before anything that no list of parameters has.
+bool Parser::listClosesBelow(TokenIndex from) const {
+    constexpr TokenIndex kSearch = 100;
+    constexpr TokenSet kOfParameters = {K::Identifier, K::Comma,     K::Semicolon,  K::Backslash,
+                                        K::Bar,        K::LeftBrace, K::RightBrace, K::Star,
+                                        K::KwVar,      K::KwPers,    K::KwInout};
+    for (TokenIndex i = from; i < from + kSearch; ++i) {
+        if (kindAt(i) == K::RightParen) return true;
+        if (!kOfParameters.has(kindAt(i))) return false;
+    }
+    return false;
+}
+
 /// A line that ends with ';' and has what no list of parameters has: a value, a name alone between commas.
 bool Parser::isInstructionLine() const {
     constexpr TokenSet kValues = {K::NumLiteral, K::StringLiteral, K::Assign, K::LeftBracket};
     constexpr TokenSet kAlone = {K::Comma, K::Semicolon};
-    bool instruction = peek() == K::Backslash;
+    bool instruction = peek() == K::Backslash || // or "Incr count;"
+                       (isName(peek()) && peek(2) == K::Semicolon && !isBasicType(textOf(pos_)) &&
+                        !listClosesBelow(pos_ + 3));
     TokenIndex i = pos_;
     for (; kindAt(i) != K::EndOfFile && !startsLine(i + 1); ++i) {
         if (kindAt(i) == K::RightParen) return false;

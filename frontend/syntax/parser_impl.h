@@ -249,7 +249,9 @@ class Parser {
     bool parseForeignParameter(ParamDecl* node);
     void dropForeignMode(ParamDecl* node);
     bool missesComma();
+    bool valueWithoutSign(DataKind kind) const;
     bool isInstructionLine() const;
+    bool listClosesBelow(TokenIndex from) const;
     bool bodyBeginsHere() const;
     void takeSlashAsBackslash();
     Expr* parseForeignAggregate(TokenIndex opening, K closing);

@@ -269,7 +269,13 @@ bool Parser::startsAfresh() const {
 /// semicolon is missing, although the second name could be read as an argument.
 bool Parser::calleeEndsHere(TokenIndex callee, TokenIndex calleeEnd) const {
     const TokenIndex next = calleeEnd + 1;
-    if (!isName(kindAt(next)) || !startsLine(next) || !startsLine(callee)) return false;
+    if (!isName(kindAt(next)) || !startsLine(next)) return false;
+    if (!startsLine(callee)) { // "IF diStop = 1 Halt"
+        TokenIndex head = callee;
+        while (head > 0 && !startsLine(head))
+            --head;
+        if (kindAt(head) != K::KwIf || columnOf(next) > columnOf(head)) return false;
+    }
     switch (kindAt(next + 1)) {
     case K::Identifier:
     case K::NumLiteral:
