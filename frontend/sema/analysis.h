@@ -76,7 +76,9 @@ struct UnknownName {
     Code code{};
     SourceRange where;
     bool looksMisspelt = false;
-    const Symbol* near = nullptr; ///< data or a routine at module level whose name is nearly this one
+    /// What is declared with nearly this name; data of routines only while their file is checked.
+    const Symbol* near = nullptr;
+    bool explained = false; ///< by a declaration that lost its name
 };
 
 /// What is being checked now.
@@ -173,6 +175,8 @@ class Analyzer {
 
     // ---- what is told once (repeats.cpp)
     void gatherUnknown(std::span<Module* const> modules);
+    void explainUnknown(const Module& module);
+    bool explainUnknown(const Module& module, SourceRange where, bool routines, size_t lost);
     /// `first`: of the errors reported while the file was checked.
     void gatherRepeats(std::span<Module* const> modules, size_t first);
     void tellOnce();
@@ -251,7 +255,10 @@ class Analyzer {
     void applyRoutineAttributes(RoutineSymbol& symbol);
 
     // ---- types (resolve_types.cpp)
-    const Type* resolveType(syntax::TokenIndex token);
+    /// `data`: the declaration that names it, if it is one of data.
+    const Type* resolveType(syntax::TokenIndex token, const syntax::DataDecl* data = nullptr);
+    TypeSymbol* findType(NameId name) const;
+    bool reportTypeBehindName(const syntax::DataDecl& decl);
     const Type* ensureType(TypeSymbol& symbol);
     void resolveRecord(Type& type, const syntax::RecordDecl& decl);
     void resolveAlias(Type& type, const syntax::AliasDecl& decl);

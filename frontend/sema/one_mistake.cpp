@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <map>
 #include <tuple>
+#include <unordered_map>
 
 namespace rapid::sema {
 
@@ -61,12 +62,26 @@ bool sameType(const DataType& a, const DataType& b) {
     return a.type->base() == b.type->base() && a.rank == b.rank;
 }
 
+/// What the uses of a wrong declaration cause.
+bool isOfUse(Code code) {
+    constexpr Code kAll[] = {
+        Code::ComponentOfNonRecord, Code::UnaryOperatorType, Code::IndexNotArray,      Code::IndexType,
+        Code::OperatorTypes,        Code::NumDnumMixed,      Code::CompareTypes,       Code::ArgumentType,
+        Code::ArgumentNotVariable,  Code::InitialValueType,  Code::AggregateForAtomic, Code::AggregateMember,
+        Code::ForBoundType,         Code::ConditionNotBool,  Code::AssignConstant,     Code::AssignType,
+        Code::NumDnumAssign,        Code::TestValueType,     Code::ReturnType};
+    return std::find(std::begin(kAll), std::end(kAll), code) != std::end(kAll);
+}
+
 class UseWalk {
   public:
     UseWalk(const CheckedProgram& program, const Said& said) : program_(program) {
         for (const Diagnostic* d : said)
-            said_.emplace(std::tuple(d->range.begin, d->range.end, d->code), d);
+            if (isOfUse(d->code)) said_.emplace(std::tuple(d->range.begin, d->range.end, d->code), d);
     }
+
+    /// Whether there is anything to tell once.
+    bool isWorthIt() const { return said_.size() > 1; }
 
     void walk(const Module& module) {
         module_ = &module;
@@ -446,7 +461,7 @@ class UseWalk {
     const Module* module_ = nullptr;
     const RoutineSymbol* routine_ = nullptr;
     std::map<std::tuple<uint32_t, uint32_t, Code>, const Diagnostic*> said_;
-    std::map<const Symbol*, Uses> uses_;
+    std::unordered_map<const Symbol*, Uses> uses_;
     std::map<std::tuple<const Symbol*, Code, ParamMode>, Said> kinds_;
 };
 
@@ -455,6 +470,7 @@ class UseWalk {
 std::vector<Repeat> findRepeats(const CheckedProgram& program, std::span<Module* const> modules,
                                 const Said& said) {
     UseWalk walk(program, said);
+    if (!walk.isWorthIt()) return {};
     for (const Module* module : modules)
         walk.walk(*module);
     return walk.repeats();

@@ -2,12 +2,15 @@
 
 #include "frontend/sema/analysis.h"
 #include "frontend/sema/one_mistake.h"
+#include "frontend/syntax/token_set.h"
 
 #include <algorithm>
 #include <map>
 #include <tuple>
 
 namespace rapid::sema {
+
+using namespace syntax;
 
 namespace {
 
@@ -79,9 +82,97 @@ void putInOrder(std::vector<Repeat>& repeats) {
 
 } // namespace
 
+namespace {
+
+/// A name of which a bracket became part: 'list3' of "list{3}" without its '{'.
+bool ranInto(std::string_view name, std::string_view longer) {
+    const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+    return longer.size() > name.size() && foldName(longer.substr(0, name.size())) == foldName(name) &&
+           std::all_of(longer.begin() + static_cast<std::ptrdiff_t>(name.size()), longer.end(), isDigit);
+}
+
+/// "VAR num := 5;": no word in it can be its name.
+bool lostName(const SyntaxTree& tree, const DataDecl& decl) {
+    if (decl.name != kNoToken || decl.type == kNoToken) return false;
+    for (TokenIndex i = decl.type + 1; i <= decl.last; ++i) {
+        const TokenKind kind = tree.tokens[i].kind;
+        if (kind == TokenKind::Assign || kind == TokenKind::LeftBrace) break;
+        if (kind == TokenKind::Identifier) return false;
+    }
+    return true;
+}
+
+/// What is left of a routine without the first word, or without the first line: up to its END word.
+bool isRestOfRoutine(const SyntaxTree& tree, const Decl& decl) {
+    constexpr TokenSet kEnds = {TokenKind::KwEndproc, TokenKind::KwEndfunc, TokenKind::KwEndtrap};
+    if (decl.kind != NodeKind::ErrorDecl || kEnds.has(tree.tokens[decl.first].kind)) return false;
+    for (TokenIndex i = decl.first; i <= decl.last; ++i)
+        if (kEnds.has(tree.tokens[i].kind)) return true;
+    return false;
+}
+
+} // namespace
+
+// Names in `where` are explained when there are no more of them than declarations that lost their names.
+bool Analyzer::explainUnknown(const Module& module, SourceRange where, bool routines, size_t lost) {
+    if (lost == 0) return true;
+    const auto concerned = [&](const UnknownName& unknown) {
+        const bool data = unknown.code == Code::UnknownName;
+        return unknown.module == &module && !unknown.explained && !unknown.looksMisspelt &&
+               unknown.code != Code::UnknownType && data != routines && unknown.where.begin >= where.begin &&
+               unknown.where.end <= where.end;
+    };
+    std::unordered_set<NameId> names;
+    for (const UnknownName& unknown : unknownNames_)
+        if (concerned(unknown)) names.insert(unknown.name);
+    if (names.size() > lost) return false;
+    for (UnknownName& unknown : unknownNames_)
+        unknown.explained |= concerned(unknown);
+    return true;
+}
+
+// "VAR num := 5;" and "PROC (num n)" are reported: whoever uses what they declare is not to blame.
+void Analyzer::explainUnknown(const Module& module) {
+    const SyntaxTree& tree = *module.tree;
+    for (UnknownName& unknown : unknownNames_)
+        if (unknown.module == &module && unknown.near && unknown.near->users == 0 && unknown.near->decl &&
+            unknown.near->decl->broken && ranInto(interner_.folded(unknown.name), unknown.near->name))
+            unknown.explained = true;
+    size_t lostData = 0, lostRoutines = 0;
+    std::unordered_set<NameId> names; // of routines without their first words
+    for (const Decl* decl : module.decl->decls) {
+        if (decl->kind == NodeKind::Data) lostData += lostName(tree, as<DataDecl>(*decl));
+        if (isRestOfRoutine(tree, *decl)) {
+            if (tree.tokens[decl->first].kind == TokenKind::Identifier &&
+                tree.tokens[decl->first + 1].kind == TokenKind::LeftParen)
+                names.insert(interner_.intern(tree.text(decl->first)));
+            else
+                ++lostRoutines;
+        }
+        if (decl->kind != NodeKind::Routine) continue;
+        const auto& routine = as<RoutineDecl>(*decl);
+        lostRoutines += routine.name == kNoToken;
+        size_t own = 0;
+        for (const DataDecl* data : routine.data)
+            own += lostName(tree, *data);
+        if (!explainUnknown(module, tree.range(*decl), false, own)) lostData += own;
+    }
+    for (UnknownName& unknown : unknownNames_)
+        unknown.explained |= unknown.module == &module && names.contains(unknown.name);
+    const SourceRange whole = tree.range(*module.decl);
+    explainUnknown(module, whole, false, lostData);
+    explainUnknown(module, whole, true, lostRoutines);
+}
+
 // What a name means that is missing in several routines: a declaration at module level, unless routines declare the
 // name each for itself.
 void Analyzer::gatherUnknown(std::span<Module* const> modules) {
+    for (const Module* module : modules)
+        explainUnknown(*module);
+    for (UnknownName& unknown : unknownNames_) { // what is inside of routines is soon forgotten
+        const DataSymbol* data = asData(const_cast<Symbol*>(unknown.near));
+        if (data && data->routine) unknown.near = nullptr;
+    }
     std::map<std::pair<const Module*, NameId>, size_t> count;
     for (const UnknownName& unknown : unknownNames_)
         if (unknown.code == Code::UnknownName) ++count[{unknown.module, unknown.name}];
@@ -97,7 +188,8 @@ void Analyzer::gatherUnknown(std::span<Module* const> modules) {
                 drop(data);
         }
     std::erase_if(unknownNames_, [&](const UnknownName& unknown) {
-        return unknown.code == Code::UnknownName && count[{unknown.module, unknown.name}] < 2;
+        return !unknown.explained && unknown.code == Code::UnknownName &&
+               count[{unknown.module, unknown.name}] < 2;
     });
 }
 
@@ -123,13 +215,15 @@ void Analyzer::gatherRepeats(std::span<Module* const> modules, size_t first) {
 void Analyzer::tellOnce() {
     std::vector<Repeat> repeats = std::exchange(repeats_, {});
     std::erase_if(repeats, [](const Repeat& r) { return r.guard && r.guard->users > 1; });
+    std::map<Key, std::pair<Diagnostic, bool>> fate; // what stands for it, if anything
     std::map<std::tuple<const Module*, NameId, Code>, Repeat> byName;
     std::map<Key, Repeat*> unknown;
     for (const UnknownName& name : std::exchange(unknownNames_, {})) {
+        const Key key = {name.module->tree->source.get(), name.where.begin, name.where.end, name.code};
+        if (name.explained) fate[key] = {Diagnostic(), false};
         // A name that looks misspelt is a mistake each time, unless it is the declaration that is misspelt.
-        if (name.looksMisspelt && (!name.near || name.near->users > 0)) continue;
-        unknown[{name.module->tree->source.get(), name.where.begin, name.where.end, name.code}] =
-            &byName[{name.module, name.name, name.code}];
+        if (name.explained || (name.looksMisspelt && (!name.near || name.near->users > 0))) continue;
+        unknown[key] = &byName[{name.module, name.name, name.code}];
     }
     if (unknown.size() > 1)
         for (const Diagnostic& d : sink_.all())
@@ -140,7 +234,6 @@ void Analyzer::tellOnce() {
                   [](const Diagnostic& a, const Diagnostic& b) { return a.range.begin < b.range.begin; });
         repeats.push_back(std::move(repeat));
     }
-    std::map<Key, std::pair<Diagnostic, bool>> fate; // what stands for it, if anything
     for (Repeat& repeat : repeats) {
         std::erase_if(repeat.members, [&](const Diagnostic& d) { return fate.contains(keyOf(d)); });
         if (repeat.members.size() < 2) continue;

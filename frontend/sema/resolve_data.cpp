@@ -27,7 +27,7 @@ void Analyzer::ensureData(DataSymbol& symbol) {
     if (!symbol.routine) enterModule(symbol.module);
     const auto& decl = as<DataDecl>(*symbol.decl);
     const bool outerMuted = std::exchange(muted_, decl.broken);
-    const Type* type = resolveType(decl.type);
+    const Type* type = resolveType(decl.type, &decl);
     const uint64_t elements = resolveDimensions(symbol, decl);
     // Without its dimensions, or when its line ends in the middle, nothing is said about what is done with it.
     const bool unclear = elements == 0 || (decl.broken && !decl.init);

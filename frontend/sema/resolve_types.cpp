@@ -25,17 +25,38 @@ bool Analyzer::isValueType(const Type& type) {
     return false;
 }
 
+TypeSymbol* Analyzer::findType(NameId name) const {
+    TypeSymbol* found = asType(scopes_[context_.module->id]->names.find(name));
+    if (!found && !context_.module->predefined) found = asType(at(globals_, name));
+    return found ? found : asType(at(predefined_, name));
+}
+
+// "VAR counter num;": nobody is to blame who uses 'counter'.
+bool Analyzer::reportTypeBehindName(const DataDecl& decl) {
+    if (!isName(decl.type) || !isName(decl.name)) return false;
+    const NameId name = idOf(decl.type);
+    if (!findType(idOf(decl.name)) || lookup(name)) return false;
+    diag::Diagnostic& d =
+        report(Code::UnknownType, range(decl.type),
+               {text(decl.type), "; '" + text(decl.name) + "' is one: write it before the name"});
+    d.fixes.push_back({"write the data type first",
+                       {{range(decl.type), text(decl.name)}, {range(decl.name), text(decl.type)}},
+                       true});
+    maybeDeclared_.insert(name);
+    facts().open = true; // others may use it
+    return true;
+}
+
 // A name of data may equal the name of a type (`PROC place(pos pos)`): types are looked for on their own.
-const Type* Analyzer::resolveType(TokenIndex token) {
+const Type* Analyzer::resolveType(TokenIndex token, const DataDecl* data) {
     if (token == kNoToken) return program_.errorType;
     if (context_.tree->tokens[token].kind != TokenKind::Identifier)
         return program_.errorType; // <ID>, reported
     const NameId name = idOf(token);
-    const Symbol* other = scopes_[context_.module->id]->names.find(name);
-    TypeSymbol* found = asType(scopes_[context_.module->id]->names.find(name));
-    if (!found && !context_.module->predefined) found = asType(at(globals_, name));
-    if (!found) found = asType(at(predefined_, name));
+    TypeSymbol* found = findType(name);
     if (!found) {
+        if (data && reportTypeBehindName(*data)) return program_.errorType;
+        const Symbol* other = scopes_[context_.module->id]->names.find(name);
         if (!other) other = lookupOutside(name);
         if (other)
             noteDeclared(report(Code::NotAType, range(token), {text(token), describe(*other)}), *other);

@@ -244,12 +244,29 @@ void Analyzer::assign(const AssignStmt& s) {
                 remedy == "NumToDnum");
 }
 
+namespace {
+
+/// What other languages call what a function gives back.
+bool isWordForResult(std::string_view folded) {
+    return folded == "result" || folded == "ret" || folded == "retval" || folded == "returnvalue";
+}
+
+} // namespace
+
 // "Sum := a + b;" in function Sum, as other languages give back a value.
 bool Analyzer::assignsResult(const Expr& target) {
     if (target.kind != NodeKind::Name || !isName(as<NameExpr>(target).name)) return false;
-    const Symbol* symbol = lookup(idOf(as<NameExpr>(target).name));
-    if (!symbol || symbol != context_.routine || context_.routine->routineKind != RoutineKind::Func)
-        return false;
+    const TokenIndex token = as<NameExpr>(target).name;
+    const NameId name = idOf(token);
+    const Symbol* symbol = lookup(name);
+    if (!context_.routine || context_.routine->routineKind != RoutineKind::Func) return false;
+    if (!symbol && isWordForResult(interner_.folded(name))) {
+        reportUnknown(Code::UnknownName, token, name, Wanted::Data, "; a function gives its value by RETURN");
+        declareUnknown(name);
+        broken_ = true; // as below
+        return true;
+    }
+    if (!symbol || symbol != context_.routine) return false;
     report(Code::FunctionAssigned, range(target), {text(target)});
     broken_ = true; // the missing RETURN is the same mistake
     return true;

@@ -68,8 +68,7 @@ void Analyzer::setMissingModules(const TaskInput& input) {
 // blame. Such a declaration still shows two words in a row, the second of which is the name.
 bool Analyzer::mayReportUnknown(NameId name) {
     if (context_.module) facts().open = true;
-    if (brokenTrees_.empty()) return true;
-    for (const SyntaxTree* tree : std::exchange(brokenTrees_, {nullptr})) {
+    for (const SyntaxTree* tree : std::exchange(brokenTrees_, {})) {
         for (size_t i = 0; tree && i + 1 < tree->tokens.size(); ++i) {
             const TokenKind before = tree->tokens[i].kind;
             const bool declares = before == TokenKind::Identifier || before == TokenKind::KwProc ||
@@ -120,12 +119,11 @@ Analyzer::Meant Analyzer::reportUnknown(Code code, TokenIndex token, NameId name
     }
     diag::Diagnostic& d = report(code, range(token), {text(token), hint});
     if (!best.name.empty()) d.fix(range(token), best.name, false);
-    if (&d == &unsaid_) return meant;
-    const DataSymbol* data = asData(const_cast<Symbol*>(best.symbol));
-    const bool passing = data && data->storage == Storage::RoutineData; // known while its routine is checked
-    const bool declared = best.symbol && !best.symbol->predefined && !passing;
-    unknownNames_.push_back(
-        {context_.module, name, code, range(token), !best.name.empty(), declared ? best.symbol : nullptr});
+    constexpr size_t kMany = 2000; // nobody reads so many messages
+    if (&d == &unsaid_ || unknownNames_.size() >= kMany) return meant;
+    const bool declared = best.symbol && !best.symbol->predefined;
+    unknownNames_.push_back({context_.module, name, code, range(token), !best.name.empty(),
+                             declared ? best.symbol : nullptr, false});
     return meant;
 }
 

@@ -266,6 +266,7 @@ void Parser::parseModule() {
     panic_ = false;
     quietOutside_ = false;
     const TokenIndex opening = take();
+    skipSecond(opening);
     node->name = expectName();
     checkNameLength(node->name);
     if (!panic_ && kind() == K::LeftParen) parseModuleAttributes(node);
@@ -346,6 +347,7 @@ void Parser::parseModuleDecls(ModuleDecl* module) {
             retag(pos_, pos_, K::KwEndmodule);
             break;
         }
+        if (retagLastEnd()) break;
         const TokenIndex before = pos_;
         if (kind() == K::Semicolon && !quietOutside_) {
             skipStraySemicolons();

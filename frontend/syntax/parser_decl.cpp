@@ -77,6 +77,12 @@ void Parser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) {
     if (!panic_ && nameMissing) node->name = expectName();
     if (node->name != kNoToken && isKeyword(kindAt(node->name))) declareReserved(node->name);
     checkNameLength(node->name);
+    if (!panic_ && node->name != kNoToken && kind() == K::Identifier && !startsLine(pos_) &&
+        textOf(pos_) == textOf(node->name)) {
+        fix(report(Code::UnexpectedToken, pos_, {describe(pos_) + " twice", "':=' or ';'"}),
+            {tree_.range(node->name).end, tree_.range(pos_).end}, "");
+        take();
+    }
     const bool valueFollows = !panic_ && kind() == K::LeftBracket && valueWithoutSign(node->dataKind);
     if (!panic_ && !valueFollows) parseDimensionsOf(node, false);
     if (!panic_) {
@@ -110,6 +116,7 @@ Decl* Parser::parseRoutine(bool local, TokenIndex first) {
                         : kind() == K::KwFunc ? RoutineKind::Func
                                               : RoutineKind::Trap;
     const TokenIndex opening = take();
+    skipSecond(opening);
     const size_t errorsBefore = errors_;
     if (!options_.declarations) correctRoutineWord(node, opening);
     routineEnd_ = wordsOf(node->routineKind).end;
@@ -139,11 +146,28 @@ Decl* Parser::parseRoutine(bool local, TokenIndex first) {
     foreignCloser_ = {};
     bool braced = false;
     parseRoutineBody(node, braced);
-    closeRoutine(node, opening, braced);
+    const bool again = isWrittenTwice(*node, opening);
+    if (!again) closeRoutine(node, opening, braced);
     enclosing_ = outer;
     abandoned_ = false;
     panic_ = false;
-    return finish(node);
+    return again ? nullptr : finish(node);
+}
+
+/// A header, and nothing but the same header below it.
+bool Parser::isWrittenTwice(const RoutineDecl& routine, TokenIndex opening) {
+    const TokenIndex end = pos_, again = kind() == K::KwLocal ? pos_ + 1 : pos_;
+    const bool empty = routine.body.empty() && routine.data.empty() && routine.errors.empty() &&
+                       !routine.hasBackward && !routine.hasUndo;
+    if (!empty || panic_ || routine.name == kNoToken || kindAt(again) != kindAt(opening)) return false;
+    for (TokenIndex i = opening; i < end; ++i)
+        if (textOf(i) != textOf(again + i - opening)) return false;
+    const SourceRange both{tree_.range(end - 1).end, tree_.range(again + end - 1 - opening).end};
+    fix(report(Code::UnexpectedToken, again,
+               {"the first line of '" + std::string(textOf(routine.name)) + "' a second time",
+                "its instructions"}),
+        both, "");
+    return true;
 }
 
 /// "FUNC name()" with ENDPROC, "PROC num name()" with ENDFUNC, "TRAP name()" with ENDPROC: header and END word agree, so
@@ -209,6 +233,11 @@ void Parser::parseRoutineHeader(RoutineDecl* routine) {
             reportAt(Code::MissingParameterList, endOf(pos_ - 1), {std::string(textOf(routine->name))});
         fix(diagnostic, kind() == K::Semicolon ? tree_.range(pos_) : endOf(pos_ - 1), "()");
         accept(K::Semicolon);
+    } else if (kind() == K::RightParen && peek() == K::LeftParen && startsLine(pos_ + 2)) {
+        fix(report(Code::UnexpectedToken, pos_, {"')('", "'()'"}),
+            {tree_.range(pos_).begin, tree_.range(pos_ + 1).end}, "()");
+        take();
+        take();
     } else {
         unexpected("'('");
         TokenIndex open = pos_;
@@ -551,7 +580,8 @@ void Parser::closeRoutine(RoutineDecl* routine, TokenIndex opening, bool braced)
     const std::string expected(tokenText(words.end));
     diag::Diagnostic* diagnostic = report(Code::MissingBlockEnd, pos_, {describe(pos_), expected});
     note(diagnostic, opening, std::string(words.name) + " begins here");
-    const bool endsModule = kind() == K::KwEndmodule && startsDecl(pos_ + 1) && peek() != K::KwModule;
+    const bool endsModule = kind() == K::KwEndmodule && (peek() == K::KwEndmodule || startsDecl(pos_ + 1)) &&
+                            peek() != K::KwModule;
     if (!kEnds.has(kind()) && wrongEnd_ != pos_ && !endsModule) return;
     fix(diagnostic, tree_.range(pos_), expected, false);
     take();

@@ -122,6 +122,63 @@ bool Parser::closesHere(K end) const {
            columnOf(pos_) == columnOf(blockOpening_);
 }
 
+/// What is left of an END word that was cut off or written into another one: "EN", "ENDPENDPROC".
+bool Parser::isPieceOf(TokenIndex i, K end) const {
+    if (kindAt(i) != K::Identifier || !startsLine(i) || !startsLine(i + 1)) return false;
+    const std::string_view text = textOf(i), word = tokenText(end);
+    constexpr size_t kLeast = 2;
+    if (text.size() < kLeast) return false;
+    if (text.size() < word.size()) return equalsNoCase(text, word.substr(0, text.size()));
+    return equalsNoCase(text.substr(text.size() - word.size()), word) &&
+           equalsNoCase(text.substr(0, kLeast), word.substr(0, kLeast));
+}
+
+/// Such a piece where the list that is being read ends: before the next routine, or in line with the word that began the
+/// block.
+bool Parser::retagPiece(const TokenSet& own) {
+    const K end = endOfOwn(own);
+    if (panic_ || !own.has(end) || !isPieceOf(pos_, end)) return false;
+    const bool behind = kBehindRoutine.has(peek()) || peek() == K::KwLocal;
+    const bool fits = end == routineEnd_ ? behind
+                                         : blockOpening_ != kNoToken && startsLine(blockOpening_) &&
+                                               columnOf(pos_) == columnOf(blockOpening_) && closesHere(end);
+    if (fits) retag(pos_, pos_, end);
+    return fits;
+}
+
+/// The last word of the file, where ENDMODULE belongs: another END word, or a piece of that one.
+bool Parser::retagLastEnd() {
+    if (peek() != K::EndOfFile || kind() == K::EndOfFile || !startsLine(pos_)) return false;
+    if (isPieceOf(pos_, K::KwEndmodule)) {
+        if (quietOutside_)
+            readAs(pos_, K::KwEndmodule);
+        else
+            retag(pos_, pos_, K::KwEndmodule);
+        return true;
+    }
+    if (!kEndWords.has(kind())) return false;
+    if (!quietOutside_)
+        fix(report(Code::MissingBlockEnd, pos_, {describe(pos_), "ENDMODULE"}), tree_.range(pos_),
+            "ENDMODULE");
+    readAs(pos_, K::KwEndmodule);
+    return true;
+}
+
+/// At ENDMODULE in a routine whose own END word is still to come. Afterwards the list goes on.
+bool Parser::takesEarlyEndmodule() {
+    if (panic_ || abandoned_ || !endsRoutineTooEarly()) return false;
+    const std::string end(tokenText(routineEnd_));
+    if (peek() == routineEnd_ && kindAt(pos_ + 2) == K::EndOfFile) { // the two in the wrong order
+        report(Code::MissingBlockEnd, pos_, {describe(pos_), end});
+        readAs(pos_ + 1, K::KwEndmodule);
+        readAs(pos_, routineEnd_);
+        return true;
+    }
+    report(Code::UnexpectedToken, pos_, {describe(pos_), "an instruction: " + end + " is still to come"});
+    take();
+    return true;
+}
+
 /// '}' alone in a line, where no '{' began the block.
 bool Parser::retagBrace(const TokenSet& own) {
     const K end = endOfOwn(own);
@@ -209,6 +266,12 @@ bool Parser::handleStray(const TokenSet& own) {
     if (isEnd && own.has(K::KwEndproc) && kNext.has(peek())) {
         wrongEnd_ = pos_;
         return true;
+    }
+    if (inBlock && endsRoutineTooEarly() && own.has(kindAt(unmatchedWord(pos_ + 1)))) {
+        report(Code::UnexpectedToken, pos_,
+               {describe(pos_),
+                "an instruction: " + std::string(tokenText(endOfOwn(own))) + " is still to come"});
+        return false;
     }
     if (inBlock && endsRoutineTooEarly()) {
         wrongEnd_ = pos_;

@@ -412,6 +412,11 @@ Expr* Parser::parsePostfix(Expr* base) {
     for (;;) {
         const bool bracket = kind() == K::LeftBracket && base->kind == NodeKind::Name && !startsLine(pos_);
         if ((kind() != K::LeftBrace && kind() != K::Dot && !bracket) || panic_ || isBlockBrace()) return base;
+        if (base->kind == NodeKind::Call && kind() == K::Dot && startsLine(pos_ + 1)) {
+            fix(report(Code::UnexpectedToken, pos_, {"'.'", "';'"}), tree_.range(pos_), ";");
+            readAs(pos_, K::Semicolon);
+            return base;
+        }
         if (base->kind == NodeKind::Call && !reported) {
             report(Code::PartOfCallResult, pos_, {std::string(textOf(pos_))});
             reported = true;

@@ -139,9 +139,11 @@ class Parser {
     }
     void note(diag::Diagnostic* diagnostic, TokenIndex at, std::string message);
     /// The edit that mends what was reported; nothing when it was not shown.
-    static void fix(diag::Diagnostic* diagnostic, SourceRange place, std::string replacement,
-                    bool certain = true) {
-        if (diagnostic) diagnostic->fix(place, std::move(replacement), certain);
+    void fix(diag::Diagnostic* diagnostic, SourceRange place, std::string replacement, bool certain = true) {
+        if (!diagnostic) return;
+        diagnostic->fix(place, std::move(replacement), certain);
+        // The words behind are read as they were meant, unless a line just seems to end too early.
+        if (certain && diagnostic->code != diag::Code::MissingSemicolon) lastUnread_ = kNowhere;
     }
     void fixParentheses(diag::Diagnostic* diagnostic, const Node& operand);
     void reportEqual();
@@ -163,6 +165,7 @@ class Parser {
     bool startsMisspeltModule() const;
     void fixEscapes(diag::Diagnostic& diagnostic) const;
     bool isConsequence(diag::Code code, SourceRange range);
+    bool followsFromLast(diag::Code code, SourceRange range) const;
     void reportBrokenStrings();
     void checkNameLength(TokenIndex name);
 
@@ -191,6 +194,7 @@ class Parser {
     void laterUsesAreNames(TokenIndex declared);
     void abandonRoutine();
     TokenIndex expectNameHere();
+    void skipSecond(TokenIndex word);
     TokenIndex expectName(bool newerKeywords = false);
 
     // ---- END words (parser_ends.cpp)
@@ -202,6 +206,10 @@ class Parser {
     bool closesHere(K end) const;
     K endOfOwn(const TokenSet& own) const;
     bool retagBrace(const TokenSet& own);
+    bool isPieceOf(TokenIndex i, K end) const;
+    bool retagPiece(const TokenSet& own);
+    bool retagLastEnd();
+    bool takesEarlyEndmodule();
     K endOfRoutineBelow() const;
     bool isTestWrittenCase();
     bool endsRoutineTooEarly() const;
@@ -372,6 +380,7 @@ class Parser {
     void parseHandlers(RoutineDecl* routine);
     void parseHandler(RoutineDecl* routine, K previous);
     void closeRoutine(RoutineDecl* routine, TokenIndex opening, bool braced);
+    bool isWrittenTwice(const RoutineDecl& routine, TokenIndex opening);
     static bool isBasicType(std::string_view word);
     bool startsDecl(TokenIndex i) const;
 
@@ -409,8 +418,12 @@ class Parser {
     size_t unreadable_ = 0;              ///< of these: parts of an instruction that could not be read
     std::string_view foreignCloser_;     ///< what ends the block of another language that has been reported
     diag::Diagnostic* lastOrder_ =
-        nullptr;                         ///< module attributes out of order, while nothing else is reported
-    TokenSet enclosing_;                 ///< words that end a list further out
+        nullptr; ///< module attributes out of order, while nothing else is reported
+    static constexpr uint32_t kNowhere = 0xFFFFFFFF;
+    uint32_t lastUnread_ =
+        kNowhere;         ///< where words begin that could not be read, the last that were reported
+    size_t listMark_ = 0; ///< in stmts_: the beginning of the list that is being read
+    TokenSet enclosing_;  ///< words that end a list further out
     TokenIndex wrongEnd_ = kNoToken;     ///< an END word that closes a block of another kind
     TokenIndex headReported_ = kNoToken; ///< a THEN or DO whose IF, FOR or WHILE is broken
     TokenIndex compactIf_ = kNoToken;    ///< the last IF without THEN

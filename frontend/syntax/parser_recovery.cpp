@@ -31,6 +31,20 @@ constexpr TokenSet kSearchEnd = kLineWords | TokenSet{TokenKind::Semicolon};
 
 constexpr uint32_t kSearchTokens = 200;
 
+/// What tells of words that could not be read: the next ones may be misread.
+bool isUnread(Code code) {
+    constexpr Code kAll[] = {Code::UnexpectedToken,           Code::MissingClosing,   Code::MissingSemicolon,
+                             Code::InstructionOutsideRoutine, Code::PartOfCallResult, Code::BadNumber};
+    return std::find(std::begin(kAll), std::end(kAll), code) != std::end(kAll);
+}
+
+/// What is said of words only because others are expected there.
+bool isOnlyUnexpected(Code code) {
+    constexpr Code kAll[] = {Code::UnexpectedToken, Code::ReservedWordAsName, Code::MissingClosing,
+                             Code::MissingSemicolon, Code::InstructionOutsideRoutine};
+    return std::find(std::begin(kAll), std::end(kAll), code) != std::end(kAll);
+}
+
 } // namespace
 
 // ---- Reporting ------------------------------------------------------------------------------------------------
@@ -38,7 +52,8 @@ constexpr uint32_t kSearchTokens = 200;
 diag::Diagnostic* Parser::reportAt(Code code, SourceRange range, std::initializer_list<std::string> args) {
     if (panic_) return nullptr;
     if (code >= Code::UnexpectedToken && code < Code::MissingSemicolon) ++unreadable_;
-    if (isConsequence(code, range)) return nullptr;
+    if (isConsequence(code, range) || followsFromLast(code, range)) return nullptr;
+    if (isUnread(code)) lastUnread_ = range.begin;
     if (++errors_ <= kMaxErrorsPerFile) return &sink_.report(code, tree_.source, range, args);
     if (errors_ == kMaxErrorsPerFile + 1) sink_.report(Code::TooManyErrors, tree_.source, range, {"errors"});
     return nullptr;
@@ -59,6 +74,17 @@ bool Parser::isConsequence(Code code, SourceRange range) {
     const size_t end = text.find_first_of("\r\n", range.begin);
     if (end < broken->range.begin) return false;
     if (broken->doubtful.end == 0) broken->doubtful = range;
+    return true;
+}
+
+/// Whether the words are right behind some that could not be read: in the same line, or in the next one when that begins
+/// with the semicolon of the first.
+bool Parser::followsFromLast(Code code, SourceRange range) const {
+    constexpr uint32_t kNear = 4;
+    if (lastUnread_ == kNowhere || range.begin < lastUnread_ || !isOnlyUnexpected(code)) return false;
+    TokenIndex i = pos_;
+    for (uint32_t k = 0; tokens_[i].offset > lastUnread_; ++k, --i)
+        if (k == kNear || (startsLine(i) && kindAt(i) != K::Semicolon)) return false;
     return true;
 }
 
@@ -467,6 +493,14 @@ void Parser::abandonRoutine() {
                                 TokenKind::KwModule,  TokenKind::KwEndmodule, TokenKind::EndOfFile};
     while (!kStop.has(kind()))
         take();
+}
+
+/// The same reserved word twice in a row.
+void Parser::skipSecond(TokenIndex word) {
+    if (kind() != kindAt(word) || pos_ != word + 1 || startsLine(pos_)) return;
+    fix(report(Code::UnexpectedToken, pos_, {describe(pos_) + " twice", "a name"}),
+        {tree_.range(word).end, tree_.range(pos_).end}, "");
+    take();
 }
 
 /// A name, unless the next line begins an instruction.

@@ -2,6 +2,8 @@
 
 #include "frontend/syntax/parser_impl.h"
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 namespace rapid::syntax {
@@ -22,12 +24,19 @@ StmtList Parser::parseList(const TokenSet& own, bool braced) {
     const TokenSet outer = enclosing_;
     enclosing_ = enclosing_ | own;
     const size_t mark = stmts_.size();
+    const Restore outerMark(listMark_);
+    listMark_ = mark;
     for (;;) {
         const K k = kind();
         if (kListStops.has(k)) {
             const bool isName = peek() == K::Assign && isKeyword(k); // a reserved word as the name of data
-            if (k == K::EndOfFile || (own.has(k) && !isName)) break;
+            if (k == K::EndOfFile) break;
+            if (own.has(k) && !isName) {
+                if (k == K::KwEndmodule && takesEarlyEndmodule()) continue;
+                break;
+            }
             if (k == K::Identifier) {
+                if (mayBeMisspelt(textOf(pos_)[0]) && retagPiece(own)) continue;
                 if (!isForeignCloser(pos_) && mayBeMisspelt(textOf(pos_)[0]) && retagMisspelt(own)) continue;
             } else if (isName || isTestWrittenCase()) {
             } else if (k == K::KwLocal) {
@@ -155,6 +164,10 @@ Stmt* Parser::parseOrphan() {
                           kindAt(blockOpening_) == K::KwIf && indentOf(first) == columnOf(blockOpening_);
     constexpr TokenSet kEnds = {K::KwEndif, K::KwEndfor, K::KwEndwhile, K::KwEndtest};
     do {
+        if (kind() == K::KwElse && peek() == K::KwIf && !startsLine(pos_ + 1)) { // the IF is none of its own
+            take();
+            readAs(pos_, K::KwElseif);
+        }
         const bool hasCondition = kind() == K::KwElseif || kind() == K::KwCase;
         take();
         if (hasCondition) skipHead();
@@ -465,6 +478,13 @@ Stmt* Parser::parseLateDecl() {
     }
     const size_t errorsBefore = errors_;
     node->decl = parseData(scope, first);
+    const auto isLost = [](const Stmt* s) { // perhaps a declaration
+        return s->broken || s->kind == NodeKind::ErrorStmt || s->kind == NodeKind::DeclStmt;
+    };
+    const auto list = std::span(stmts_).subspan(listMark_);
+    reported |=
+        !list.empty() && std::all_of(list.begin(), list.end(), isLost) &&
+        std::any_of(list.begin(), list.end(), [](const Stmt* s) { return s->kind != NodeKind::DeclStmt; });
     if (!reported && errors_ == errorsBefore &&
         node->decl->dataKind != DataKind::Pers) { // PERS is none of a routine
         const TokenIndex name = node->decl->name;
