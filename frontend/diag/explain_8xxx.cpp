@@ -62,7 +62,8 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "  RETURN x / 2;\n"
      "ENDFUNC"},
     {8006, Kind::Body,
-     "A label without GOTO has no effect: it is left over, or a GOTO is missing.",
+     "A label without GOTO has no effect: it is left over, a GOTO is missing, or ':' stands in place of "
+     "the ';' of a call.",
      "again:\n"
      "reg1 := reg1 + 1;",
      "again:\n"

@@ -310,8 +310,8 @@ RAPID/TASK1/PROGMOD/tools.mod:
   ENDMODULE)ex"},
     {6056, Kind::Files,
      "The task's folder holds a module that the list in BACKINFO/backinfo.txt does not name, so it "
-     "was added by hand. rapidc reads it; a controller that restores the backup does not. Add a "
-     "line for it to backinfo.txt.",
+     "was added by hand. rapidc reads it, unless a listed file has the same module; a controller "
+     "that restores the backup reads none of these. Add a line for it to backinfo.txt, or remove it.",
      R"ex($ rapidc check .
 BACKINFO/backinfo.txt:
   >>SYSTEM_ID:

@@ -2,7 +2,10 @@
 
 #include "frontend/lint/walker.h"
 
+#include "frontend/sema/names.h"
+
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace rapid::lint {
 
@@ -134,10 +137,26 @@ void Walker::finish() {
     }
 }
 
+/// Whether a procedure without parameters, which the routine can call, has this name.
+bool Walker::isProcedure(std::string_view name) const {
+    const std::string folded = sema::foldName(name);
+    for (const sema::Module* module : task_.modules)
+        for (const RoutineSymbol* routine : module->routines)
+            if (routine->routineKind == RoutineKind::Proc && routine->params.empty() &&
+                sema::foldName(routine->name) == folded &&
+                (module == module_ || !routine->routineDecl->local))
+                return true;
+    return false;
+}
+
 void Walker::unusedLabel(const LabelStmt& label) {
+    const std::string name(tree_->text(label.name));
+    const bool meansCall = isProcedure(name);
     diag::Diagnostic* d =
-        report(Code::UnusedLabel, tree_->range(label.name), {std::string(tree_->text(label.name))});
-    if (!d) return;
+        report(Code::UnusedLabel, tree_->range(label.name),
+               {name, meansCall ? fmt::format("; to call the procedure '{}', write ';' in place of ':'", name)
+                                : ""});
+    if (!d || meansCall) return;
     // With its line, if there is nothing else on it.
     const SourceFile& file = *tree_->source;
     SourceRange where = range(label);

@@ -43,6 +43,7 @@ class Walker {
     void errorClause(const syntax::ErrorClause& clause);
     void finish();
     void unusedLabel(const syntax::LabelStmt& label);
+    bool isProcedure(std::string_view name) const;
     bool list(syntax::StmtList stmts); ///< whether its end can be reached
     bool statement(const syntax::Stmt& s);
     void unreachable(syntax::StmtList stmts, size_t at);

@@ -1,9 +1,12 @@
 #include "frontend/project/backup.h"
 
 #include "config/cfg_parser.h"
+#include "config/read_file.h"
 #include "config/text_util.h"
 #include "frontend/project/backinfo.h"
 #include "frontend/project/system_parameters.h"
+#include "frontend/syntax/ast.h"
+#include "frontend/syntax/parser.h"
 
 #include <fmt/format.h>
 
@@ -50,6 +53,20 @@ struct Description {
     }
 };
 
+bool hasTaskFolders(const fs::path& folder) {
+    for (const fs::path& path : entries(folder))
+        if (isFolder(path) && taskNumber(path.filename().string()) >= 0 &&
+            (!findEntry(path, "PROGMOD").empty() || !findEntry(path, "SYSMOD").empty()))
+            return true;
+    return false;
+}
+
+/// The folder of the tasks' folders: RAPID, or the folder itself when only the program was kept.
+fs::path rapidIn(const fs::path& folder) {
+    const fs::path rapid = findEntry(folder, "RAPID");
+    return rapid.empty() && hasTaskFolders(folder) ? folder : rapid;
+}
+
 /// One task while it is put together.
 struct TaskParts {
     sema::TaskInput input;
@@ -63,7 +80,7 @@ struct TaskParts {
 class BackupLoader {
   public:
     BackupLoader(const fs::path& folder, FileReader& files, diag::Sink& sink, ProjectInput& out)
-        : folder_(folder), rapid_(findEntry(folder, "RAPID")), files_(files), sink_(sink), out_(out) {}
+        : folder_(folder), rapid_(rapidIn(folder)), files_(files), sink_(sink), out_(out) {}
 
     void load() {
         readDescriptions();
@@ -258,14 +275,41 @@ class BackupLoader {
         for (const char* part : {"PROGMOD", "SYSMOD"}) {
             for (const fs::path& path : entries(findEntry(task.folder, part))) {
                 if (!isModule(path) || isFolder(path) || done.contains(path)) continue;
-                if (task.listed && !task.listed->modules.empty())
-                    report(Code::UnlistedModule, infoFile_, infoFile_.find(">>" + task.listed->folder),
-                           {path.string(), task.input.name});
-                addModule(path, task);
+                if (!task.listed || task.listed->modules.empty() || isReadUnlisted(path, task))
+                    addModule(path, task);
             }
         }
         for (const fs::path& path : sharedModules())
             addModule(path, task);
+    }
+
+    /// A file that backinfo.txt does not list is new, or another version of a listed module: that one counts.
+    bool isReadUnlisted(const fs::path& path, const TaskParts& task) {
+        std::string outcome = "it is read, but a controller would not restore it";
+        const std::string known = listedModuleIn(path, task);
+        if (!known.empty())
+            outcome = fmt::format("it is left out, as a listed file has its module '{}'", known);
+        report(Code::UnlistedModule, infoFile_, infoFile_.find(">>" + task.listed->folder),
+               {path.string(), task.input.name, outcome});
+        return known.empty();
+    }
+
+    /// The first module of a file that has the name of a listed file, as controllers name files by their modules.
+    std::string listedModuleIn(const fs::path& path, const TaskParts& task) {
+        std::string bytes;
+        if (!config::readFile(path.string(), bytes).empty()) return {};
+        const auto source = std::make_shared<const SourceFile>(path.string(), std::move(bytes));
+        diag::Sink ignored;
+        const auto tree = source->isEncrypted() ? nullptr : syntax::parse(source, ignored);
+        if (!tree) return {};
+        for (const syntax::ModuleDecl* module : tree->modules) {
+            const std::string name(tree->text(module->name));
+            const auto& listed = task.listed->modules;
+            if (std::any_of(listed.begin(), listed.end(),
+                            [&](const ListedModule& one) { return sameName(stemOf(one.file), name); }))
+                return name;
+        }
+        return {};
     }
 
     /// Modules that are installed once for all tasks.
@@ -333,9 +377,10 @@ class BackupLoader {
 
     void reportMissingTasks() {
         for (const ConfiguredTask& configured : parameters_.tasks) {
-            if (!hasTask(configured))
-                report(Code::TaskWithoutFolder, sysFile_,
-                       sysFile_.find('"' + configured.name + '"', "CAB_TASKS:"), {configured.name});
+            if (hasTask(configured)) continue;
+            SourceRange place = sysFile_.find("-Name \"" + configured.name + '"', "CAB_TASKS:");
+            if (place.end == 0) place = sysFile_.find('"' + configured.name + '"', "CAB_TASKS:");
+            report(Code::TaskWithoutFolder, sysFile_, place, {configured.name});
         }
     }
 
@@ -432,7 +477,7 @@ class BackupLoader {
 bool isBackup(const fs::path& folder) {
     const fs::path rapid = findEntry(folder, "RAPID");
     if (rapid.empty() || !isFolder(rapid)) // it may have been lost
-        return !findEntry(findEntry(folder, "BACKINFO"), "backinfo.txt").empty();
+        return !findEntry(findEntry(folder, "BACKINFO"), "backinfo.txt").empty() || hasTaskFolders(folder);
     if (!findEntry(folder, "BACKINFO").empty()) return true;
     for (const fs::path& path : entries(rapid)) {
         const std::string name = path.filename().string();

@@ -1,6 +1,7 @@
 #include "frontend/project/neighbours.h"
 
 #include "config/read_file.h"
+#include "config/text_util.h"
 #include "frontend/project/files.h"
 #include "frontend/sema/names.h"
 #include "frontend/syntax/ast.h"
@@ -34,6 +35,15 @@ fs::path folderOf(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
+/// The other folder of a task's modules in a backup: SYSMOD of PROGMOD and the other way round; else empty.
+fs::path partnerOf(const fs::path& folder) {
+    const std::string name = folder.filename().string();
+    const fs::path task = folderOf(folder);
+    if (config::sameName(name, "PROGMOD")) return findEntry(task, "SYSMOD");
+    if (config::sameName(name, "SYSMOD")) return findEntry(task, "PROGMOD");
+    return {};
+}
+
 /// What the modules beside some inputs declare for all modules, by name.
 class Neighbours {
   public:
@@ -43,6 +53,8 @@ class Neighbours {
             if (!fs::is_regular_file(input, error) || !isModule(input)) continue;
             given_.insert(fs::weakly_canonical(input, error));
             folders_.insert(folderOf(input));
+            if (const fs::path partner = partnerOf(folderOf(input)); !partner.empty())
+                folders_.insert(partner);
         }
         for (const fs::path& folder : folders_)
             readFolder(folder);
@@ -54,7 +66,8 @@ class Neighbours {
             names_.find(sema::foldName(unknown.file->text().substr(range.begin, range.end - range.begin)));
         if (found == names_.end()) return nullptr;
         const Diagnostic::Note& note = found->second;
-        return folderOf(note.file->path()) == folderOf(unknown.file->path()) ? &note : nullptr;
+        const fs::path here = folderOf(unknown.file->path()), there = folderOf(note.file->path());
+        return here == there || partnerOf(here) == there ? &note : nullptr;
     }
 
   private:

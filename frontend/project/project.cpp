@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
+#include <set>
 
 namespace rapid::project {
 
@@ -45,8 +47,12 @@ class Loader {
     void report(Code code, std::initializer_list<std::string> args) { files_.report(code, args); }
 
   private:
-    /// The folder itself, or the only folder in it that is a backup while nothing else there is RAPID.
-    static fs::path backupIn(const fs::path& folder) {
+    /// The folder itself, the backup whose RAPID it is, or the only folder in it that is a backup while nothing else
+    /// there is RAPID.
+    static fs::path backupIn(const fs::path& given) {
+        const fs::path folder = given.has_filename() ? given : given.parent_path(); // "RAPID/"
+        const fs::path parent = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
+        if (config::sameName(folder.filename().string(), "RAPID") && isBackup(parent)) return parent;
         if (isBackup(folder)) return folder;
         fs::path found;
         for (const fs::path& path : entries(folder)) {
@@ -61,7 +67,35 @@ class Loader {
     void addBackup(const fs::path& folder) {
         const size_t before = out_.tasks.size();
         loadBackup(folder, files_, sink_, out_);
-        if (out_.tasks.size() == before) report(Code::FolderWithoutModules, {folder.string()});
+        if (out_.tasks.size() == before) report(Code::FolderWithoutModules, {folder.string(), ""});
+    }
+
+    /// Where below a folder the modules are: "; there are some in ...: name one of these".
+    static std::string elsewhere(const fs::path& folder) {
+        constexpr int kMostEntries = 5000, kMostNamed = 3;
+        std::set<std::string> found;
+        std::error_code error;
+        int seen = 0;
+        for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
+             it.increment(error)) {
+            if (++seen > kMostEntries || it.depth() > 8) break;
+            if (isModule(it->path()) && !isFolder(it->path())) found.insert(placeOf(it->path()).string());
+        }
+        if (found.empty()) return {};
+        std::vector<std::string> named(found.begin(), found.end());
+        const bool more = named.size() > kMostNamed;
+        if (more) named.resize(kMostNamed);
+        return fmt::format("; there are some in '{}'{}: name {}", fmt::join(named, "', '"),
+                           more ? " and more" : "", found.size() == 1 ? "that" : "one of these");
+    }
+
+    /// The backup that a module belongs to, or its folder.
+    static fs::path placeOf(const fs::path& module) {
+        fs::path folder = module.parent_path();
+        for (fs::path above = folder; above.has_filename(); above = above.parent_path())
+            if (config::sameName(above.filename().string(), "RAPID") && isBackup(above.parent_path()))
+                return above.parent_path();
+        return folder;
     }
 
     size_t addFiles(const fs::path& folder, sema::TaskInput& task) {
@@ -86,7 +120,7 @@ class Loader {
             for (const fs::path& path : entries(folder))
                 if (isFolder(path) && !config::sameName(path.filename().string(), "SYSPAR"))
                     modules += addFiles(path, task);
-        if (modules == 0) report(Code::FolderWithoutModules, {folder.string()});
+        if (modules == 0) report(Code::FolderWithoutModules, {folder.string(), elsewhere(folder)});
     }
 
     void addParameters(const fs::path& folder) {

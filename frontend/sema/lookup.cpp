@@ -18,14 +18,20 @@ bool looksLikeSignal(std::string_view name) {
     return false;
 }
 
-/// The part of a name that tells the kind of a signal: all of diStart, what follows in PLC_di_Start and sdoStart.
+/// The part of a name that tells the kind of a signal: all of diStart, what follows in PLC_di_Start and sdoStart, the end
+/// of Part_Gi.
 std::string_view kindOnwards(std::string_view name) {
     static constexpr std::string_view kKinds[] = {"di", "do", "gi", "go", "ai", "ao"};
+    const std::string folded = foldName(name);
+    const std::string_view text = folded;
     for (const std::string_view kind : kKinds) {
         if (name.size() > 3 && name[0] == 's' && name.substr(1).starts_with(kind)) return name.substr(1);
         const std::string part = "_" + std::string(kind) + "_";
-        if (const size_t at = name.find(part); at != std::string_view::npos && at > 0)
+        if (const size_t at = text.find(part); at != std::string_view::npos && at > 0)
             return name.substr(at + 1);
+        const bool isWord = name.ends_with("_do") || name.ends_with("_go"); // to_do, let_go
+        if (text.size() > 3 && text.ends_with(part.substr(0, 3)) && !isWord)
+            return name.substr(name.size() - 2);
     }
     return name;
 }
@@ -33,12 +39,15 @@ std::string_view kindOnwards(std::string_view name) {
 /// The type of a signal by the habit of naming them: diStart, DO_Clamp, gi1, PLC_do_Ready, sdoArcOn. Empty: the name has
 /// another form.
 std::string_view signalTypeByName(std::string_view name) {
-    name = kindOnwards(name);
-    if (name.size() < 3) return {};
+    const std::string_view whole = name;
+    name = kindOnwards(whole);
+    const bool isEnd = name.size() == 2 && whole.size() > 3;
+    if (name.size() < 3 && !isEnd) return {};
     const auto lower = [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); };
     const auto isUpper = [](char c) { return c >= 'A' && c <= 'Z'; };
     const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
-    const bool marked = name[2] == '_' || isDigit(name[2]) || (isUpper(name[2]) && !isUpper(name[1]));
+    const bool marked =
+        isEnd || name[2] == '_' || isDigit(name[2]) || (isUpper(name[2]) && !isUpper(name[1]));
     if (!marked) return {};
     static constexpr std::string_view kTypes[] = {"signaldi", "signaldo", "signalgi",
                                                   "signalgo", "signalai", "signalao"};

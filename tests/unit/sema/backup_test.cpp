@@ -30,7 +30,9 @@ class Backup {
         fs::create_directories(path.parent_path());
         std::ofstream(path, std::ios::binary) << text;
     }
-    void load() { loadProject({folder_.path.string()}, {}, project, sink); }
+    void load(const std::string& part = "") {
+        loadProject({(folder_.path / part).string()}, {}, project, sink);
+    }
     std::string codes() const {
         std::vector<std::string> names;
         for (const diag::Diagnostic& d : sink.all())
@@ -285,9 +287,11 @@ TEST_CASE("what backinfo.txt lists and what is there are compared", "[project][b
     Backup backup;
     backup.write("BACKINFO/backinfo.txt", ">>TASK1: (T_ROB1,,)\nPROGMOD/a.mod @ \nPROGMOD/lost.mod @ \n");
     backup.write("RAPID/TASK1/PROGMOD/a.mod", kModule);
-    backup.write("RAPID/TASK1/PROGMOD/b.mod", kModule);
+    backup.write("RAPID/TASK1/PROGMOD/b.mod", "MODULE b\nENDMODULE\n");
+    backup.write("RAPID/TASK1/PROGMOD/old.mod",
+                 "%%%\n VERSION:1\n%%%\nMODULE A\nENDMODULE\n"); // an older a.mod
     backup.load();
-    CHECK(backup.codes() == "RAP6055 RAP6056");
+    CHECK(backup.codes() == "RAP6055 RAP6056 RAP6056");
     CHECK(backup.modules(0) == "a.mod b.mod ?lost.mod");
     CHECK(backup.project.tasks.at(0).type == "NORMAL"); // no SYS.cfg
 }
@@ -377,6 +381,25 @@ TEST_CASE("the motion task comes first, and the robot may be told by the options
     backup.project = {};
     backup.load();
     CHECK(backup.project.robot.empty()); // MOC.cfg tells it
+}
+
+TEST_CASE("the RAPID folder of a backup means the backup, task folders alone are one", "[project][backup]") {
+    Backup backup;
+    backup.write("BACKINFO/backinfo.txt", ">>TASK1: (T_LEFT,,)\n>>TASK2: (T_RIGHT,,)\n");
+    backup.write("RAPID/TASK1/PROGMOD/a.mod", kModule);
+    backup.write("RAPID/TASK2/PROGMOD/b.mod", kModule);
+    for (const char* part : {"RAPID", "RAPID/"}) {
+        backup.project = {};
+        backup.load(part);
+        REQUIRE(backup.project.tasks.size() == 2);
+        CHECK(backup.project.tasks[1].name == "T_RIGHT");
+    }
+    Backup alone;
+    alone.write("task1/ProgMod/a.mod", kModule);
+    alone.write("task2/ProgMod/b.mod", kModule);
+    alone.load();
+    REQUIRE(alone.project.tasks.size() == 2); // not one task that has two modules of one name
+    CHECK(alone.modules(1) == "b.mod");
 }
 
 TEST_CASE("a folder around one backup means the backup", "[project][backup]") {

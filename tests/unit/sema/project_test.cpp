@@ -153,6 +153,8 @@ TEST_CASE("what cannot be used is named with its remedy", "[project]") {
     folder.write("empty/readme.txt", "x");
     CHECK(load({folder / "none.modx"})->codes() == Names{"RAP6020"});
     CHECK(load({folder / "empty"})->codes() == Names{"RAP6022"});
+    folder.write("deep/a/b/c.modx", kModule);
+    CHECK(load({folder / "deep"})->codes() == Names{"RAP6022"}); // which tells where they are
     CHECK(load({folder / "empty/readme.txt"})->codes() == Names{"RAP6023"});
     CHECK(load({})->codes() == Names{"RAP6026"});
     CHECK_FALSE(load({folder / "none.modx"})->ok);

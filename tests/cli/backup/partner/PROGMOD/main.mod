@@ -1,0 +1,5 @@
+MODULE main
+  PROC main()
+    MoveL pHome,v100,fine,tGrip;
+  ENDPROC
+ENDMODULE
