@@ -9,6 +9,8 @@
 
 namespace rapid::diag {
 
+struct CatalogueEntry;
+
 /// Where the examples of an explanation stand.
 enum class ExampleKind : uint8_t {
     File,   ///< a whole file
@@ -61,6 +63,9 @@ std::span<const Explanation> explanations8xxx();
 
 /// Null when there is none for the code.
 const Explanation* findExplanation(uint16_t number);
+
+/// The text of a message with something readable in the place of its arguments.
+std::string messageOf(const CatalogueEntry& entry);
 
 /// What a range of numbers is about: "names and types".
 std::string_view areaOf(uint16_t number);

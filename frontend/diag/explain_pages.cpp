@@ -13,12 +13,15 @@ std::string codeOf(const CatalogueEntry& entry) {
     return fmt::format("RAP{}", entry.number);
 }
 
-/// The text of a message with something readable in the place of its arguments.
+} // namespace
+
 std::string messageOf(const CatalogueEntry& entry) {
     static constexpr std::string_view kArguments[] = {"...", "...", "...", "..."};
     std::vector<std::string> args(std::begin(kArguments), std::end(kArguments));
     return formatText(entry.text, args);
 }
+
+namespace {
 
 std::string pageOf(const CatalogueEntry& entry) {
     std::string out = fmt::format("# {} {}\n\n", codeOf(entry), title(entry));

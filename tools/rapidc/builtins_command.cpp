@@ -3,6 +3,8 @@
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/pipeline.h"
 
+#include "frontend/sema/names.h"
+#include "runtime/host/run_options.h"
 #include "stdlib/native_table.h"
 
 #include <CLI/CLI.hpp>
@@ -18,13 +20,18 @@ struct Row {
     std::string name, kind, chapter, status;
 };
 
+/// The comments above a declaration of the library.
+std::string_view commentsAbove(const rapid::sema::Module& module, const rapid::syntax::Node& decl) {
+    const auto& tree = *module.tree;
+    const uint32_t end = tree.range(decl).begin;
+    const uint32_t begin = decl.first > 0 ? tree.range(decl.first - 1).end : 0;
+    return tree.source->text().substr(begin, end - begin);
+}
+
 /// `manual:` in the `!@` lines above a declaration of the library.
 std::string chapterOf(const rapid::sema::Module& module, const rapid::syntax::Node* decl) {
     if (!decl) return "-";
-    const auto& tree = *module.tree;
-    const uint32_t end = tree.range(*decl).begin;
-    const uint32_t begin = decl->first > 0 ? tree.range(decl->first - 1).end : 0;
-    const std::string_view gap = tree.source->text().substr(begin, end - begin);
+    const std::string_view gap = commentsAbove(module, *decl);
     const size_t at = gap.rfind("manual:");
     if (at == std::string_view::npos) return "-";
     std::string_view rest = gap.substr(at + 7);
@@ -33,13 +40,12 @@ std::string chapterOf(const rapid::sema::Module& module, const rapid::syntax::No
     return std::string(rest.substr(0, stop));
 }
 
-std::vector<Row> collect() {
+std::vector<Row> collect(const rapid::sema::CheckedProgram& program) {
     std::vector<Row> rows;
     for (const rt::NativeEntry& entry : rt::nativeTable())
         rows.push_back({entry.name, entry.kind == rt::NativeKind::Function ? "function" : "instruction",
                         entry.chapter, entry.isImplemented() ? "implemented" : "declared only"});
-    const auto compilation = checkInputs({});
-    for (const rapid::sema::Module* module : compilation->program->predefinedModules) {
+    for (const rapid::sema::Module* module : program.predefinedModules) {
         for (const auto* type : module->types)
             rows.push_back({type->name, "datatype", chapterOf(*module, type->decl), "implemented"});
         for (const auto* data : module->data) {
@@ -54,7 +60,8 @@ std::vector<Row> collect() {
 }
 
 int list(const std::string& format) {
-    const std::vector<Row> rows = collect();
+    const auto compilation = checkInputs({});
+    const std::vector<Row> rows = collect(*compilation->program);
     if (format == "tsv") {
         fmt::print("name\tkind\tchapter\tstatus\n");
         for (const Row& row : rows)
@@ -70,14 +77,71 @@ int list(const std::string& format) {
     return 0;
 }
 
+/// A text of the library without the two kinds of comment marks and without its indentation.
+void printLines(std::string_view text, bool comments) {
+    for (size_t begin = 0; begin < text.size();) {
+        const size_t end = std::min(text.find('\n', begin), text.size());
+        std::string_view line = text.substr(begin, end - begin);
+        begin = end + 1;
+        if (!comments) {
+            line.remove_prefix(std::min<size_t>({line.find_first_not_of(' '), line.size(), 3}));
+            fmt::print("{}\n", line);
+            continue;
+        }
+        line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
+        if (line.starts_with("!! ")) fmt::print("{}\n", line.substr(3));
+    }
+}
+
+const rapid::syntax::Node* findDeclaration(const rapid::sema::Module& module, std::string_view folded) {
+    const auto is = [&](const auto* symbol) { return rapid::sema::foldName(symbol->name) == folded; };
+    for (const auto* type : module.types)
+        if (is(type)) return type->decl;
+    for (const auto* data : module.data)
+        if (is(data)) return data->decl;
+    for (const auto* routine : module.routines)
+        if (is(routine)) return routine->decl;
+    return nullptr;
+}
+
+/// What each name is, what is known of it and how it is declared.
+int describe(const std::vector<std::string>& names) {
+    const auto compilation = checkInputs({});
+    const std::vector<Row> rows = collect(*compilation->program);
+    for (size_t i = 0; i < names.size(); ++i) {
+        const std::string folded = rapid::sema::foldName(names[i]);
+        const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& one) {
+            return rapid::sema::foldName(one.name) == folded;
+        });
+        if (row == rows.end()) {
+            fmt::print(stderr, "rapidc builtins: nothing predefined has the name '{}'\n", names[i]);
+            return static_cast<int>(rt::ExitStatus::BadUsage);
+        }
+        fmt::print("{}{}: {}, {}{}\n", i == 0 ? "" : "\n", row->name, row->kind, row->status,
+                   row->chapter == "-" ? "" : ", manual " + row->chapter);
+        for (const rapid::sema::Module* module : compilation->program->predefinedModules) {
+            const rapid::syntax::Node* decl = findDeclaration(*module, folded);
+            if (!decl) continue;
+            printLines(commentsAbove(*module, *decl), true);
+            const rapid::SourceRange where = module->tree->range(*decl);
+            printLines(module->tree->source->text().substr(where.begin, where.end - where.begin), false);
+        }
+    }
+    return 0;
+}
+
 } // namespace
 
 void addBuiltinsCommand(CLI::App& app, int& status) {
     auto format = std::make_shared<std::string>("human");
+    auto names = std::make_shared<std::vector<std::string>>();
     CLI::App* command =
         app.add_subcommand("builtins", "List everything predefined and what of it is implemented");
-    command->add_option("--format", *format, "human or tsv")->check(CLI::IsMember({"human", "tsv"}));
-    command->callback([format, &status] { status = list(*format); });
+    CLI::Option* some = command->add_option("name", *names, "Say what these are and how they are declared");
+    command->add_option("--format", *format, "human or tsv")
+        ->check(CLI::IsMember({"human", "tsv"}))
+        ->excludes(some);
+    command->callback([=, &status] { status = names->empty() ? list(*format) : describe(*names); });
 }
 
 } // namespace rapidc

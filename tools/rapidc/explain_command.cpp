@@ -45,7 +45,7 @@ int explain(const std::string& code) {
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
     fmt::print("RAP{} {} ({})\n", entry->number, entry->name, rapid::diag::severityName(entry->severity));
-    fmt::print("area: {}\ntext: {}\n", rapid::diag::areaOf(entry->number), entry->text);
+    fmt::print("area: {}\ntext: {}\n", rapid::diag::areaOf(entry->number), rapid::diag::messageOf(*entry));
     if (const rapid::diag::Explanation* explanation = rapid::diag::findExplanation(entry->number)) {
         fmt::print("\n{}\n", explanation->meaning);
         if (!explanation->wrong.empty()) fmt::print("\nwrong:\n{}\n", indented(explanation->wrong));
