@@ -160,8 +160,10 @@ class Renamer {
         return set;
     }
 
+    static std::string foldedPathOf(const Symbol& symbol) { return sema::foldName(pathOf(symbol)); }
+
     bool matches(const Symbol& symbol) const {
-        const std::string full = sema::foldName(pathOf(symbol)), wanted = sema::foldName(path_);
+        const std::string full = foldedPathOf(symbol), wanted = sema::foldName(path_);
         if (full == wanted) return true;
         return wanted.find('.') == std::string::npos && sema::foldName(symbol.name) == wanted;
     }
@@ -185,19 +187,38 @@ class Renamer {
         const Symbol& first = *found.begin()->second;
         const bool shared = std::all_of(found.begin(), found.end(),
                                         [](const auto& entry) { return isSharedPersistent(*entry.second); });
-        if (found.size() > 1 && !shared) {
-            std::string all;
-            for (const auto& [site, symbol] : found)
-                all += (all.empty() ? "" : ", ") + pathOf(*symbol);
-            return fmt::format("'{}' names several things: choose one of {}", path_, all);
-        }
+        // Loops of one routine may have variables of the same name, which no path tells apart.
+        const bool same = std::all_of(found.begin(), found.end(), [&](const auto& entry) {
+            return entry.first.path == found.begin()->first.path &&
+                   foldedPathOf(*entry.second) == foldedPathOf(first);
+        });
+        if (found.size() > 1 && !shared && !same) return severalThings(found);
         for (const auto& task : program.tasks)
             for (const auto& [site, symbol] : found)
                 if (task->entryRoutine && siteOf(*task->entryRoutine) == site)
                     return fmt::format("task {} starts with '{}': it cannot be renamed", task->name,
                                        symbol->name);
         addTargets(first, references);
+        for (const auto& [site, symbol] : found)
+            targets_.insert(site);
         return {};
+    }
+
+    /// Tasks may have modules of the same name: then the files tell them apart.
+    std::string severalThings(const std::map<Site, const Symbol*>& found) const {
+        std::map<std::string, std::set<std::string>> files; // by path
+        for (const auto& [site, symbol] : found)
+            files[pathOf(*symbol)].insert(site.path);
+        std::vector<std::string> all;
+        bool inOneFile = true;
+        for (const auto& [path, places] : files) {
+            for (const std::string& place : places)
+                all.push_back(places.size() == 1 ? path : fmt::format("{} in {}", path, place));
+            inOneFile = inOneFile && places.size() == 1;
+        }
+        return fmt::format("'{}' names several things: {} {}", path_,
+                           inOneFile ? "choose one of" : "name the files of one task; there are",
+                           fmt::join(all, ", "));
     }
 
     /// The chosen declaration and, for a shared persistent, those of the same name in the other tasks.

@@ -10,7 +10,8 @@ namespace rapid::edit {
 
 /// Edits that rename what `path` names in `tasks` to `newName`: declaration, uses, names of arguments. `path` is NAME,
 /// MODULE.NAME, or MODULE.ROUTINE.NAME for a parameter, label or data of a routine, in any case. A file that belongs to
-/// several tasks is edited once; a global persistent is renamed in all tasks that share it.
+/// several tasks is edited once; a global persistent is renamed in all tasks that share it, and variables of one name that
+/// loops of one routine have are renamed together.
 ///
 /// `program` is what sema::check made of `tasks`, without errors and with all facts. The changed text is checked again:
 /// each name must mean afterwards what it meant before. `program` is given up for that, as two large ones may not fit

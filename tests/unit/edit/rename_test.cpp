@@ -81,6 +81,15 @@ TEST_CASE("a local name does not touch the global one it hides", "[edit][rename]
     CHECK_THAT(renameOne(text, "x", "z"), Catch::Contains("several things") && Catch::Contains("m.p.x"));
 }
 
+TEST_CASE("the variables of a routine's loops are renamed together", "[edit][rename]") {
+    const std::string text =
+        "MODULE m\nPROC p()\nFOR i FROM 1 TO 2 DO\nreg1:=i;\nENDFOR\nFOR i FROM 1 TO 2 DO\n"
+        "FOR I FROM 3 TO 4 DO\nreg2:=i;\nENDFOR\nreg3:=i;\nENDFOR\nENDPROC\nENDMODULE\n";
+    CHECK(renameOne(text, "m.p.i", "k") ==
+          "MODULE m\nPROC p()\nFOR k FROM 1 TO 2 DO\nreg1:=k;\nENDFOR\nFOR k FROM 1 TO 2 DO\n"
+          "FOR k FROM 3 TO 4 DO\nreg2:=k;\nENDFOR\nreg3:=k;\nENDFOR\nENDPROC\nENDMODULE\n");
+}
+
 TEST_CASE("routines, parameters, types, labels and traps are renamed", "[edit][rename]") {
     CHECK(renameOne(
               "MODULE m\nFUNC num f(num a\\num b)\nIF Present(b) RETURN a+b;\nRETURN f(1\\b:=2);\nENDFUNC\n"
@@ -110,7 +119,8 @@ TEST_CASE("uses in other modules of the task are renamed, and only in this task"
     const std::string a = "MODULE a\nVAR num x;\nENDMODULE\n",
                       b = "MODULE b\nPROC p()\nx:=1;\nENDPROC\nENDMODULE\n";
     const Renamed out = renameIn({{a, b}, {a, b}}, "a.x", "y");
-    CHECK_THAT(out.problem, Catch::Contains("several things"));
+    CHECK_THAT(out.problem,
+               Catch::Contains("several things") && Catch::Contains("a.x in t0m0.modx, a.x in t1m0"));
     const Renamed one = renameIn({{a, b}}, "x", "y");
     CHECK(one.texts ==
           Texts{"MODULE a\nVAR num y;\nENDMODULE\n", "MODULE b\nPROC p()\ny:=1;\nENDPROC\nENDMODULE\n"});
