@@ -43,8 +43,9 @@ fs::path findEntry(const fs::path& folder, const std::string& name) {
     if (folder.empty()) return {};
     std::error_code error;
     if (fs::exists(folder / name, error)) return folder / name;
-    for (const fs::path& path : entries(folder))
-        if (sameName(path.filename().string(), name)) return path;
+    for (const fs::path& path :
+         entries(folder)) // a backup that was unpacked elsewhere has ISO 8859-1 in names
+        if (sameName(config::toUtf8(path.filename().string()), name)) return path;
     return {};
 }
 

@@ -128,6 +128,14 @@ class Loader {
             if (extensionOf(path) == ".cfg") out_.configFiles.push_back(path.string());
     }
 
+    /// A module that a program file names. An absolute path is one of another machine: its module may lie beside.
+    static fs::path findModule(const fs::path& folder, const std::string& name) {
+        const fs::path found = findPath(folder, name);
+        const bool isAbsolute = name.starts_with('/') || name.find(':') != std::string::npos;
+        if (!found.empty() || !isAbsolute) return found;
+        return findPath(folder, std::string_view(name).substr(name.find_last_of("/\\:") + 1));
+    }
+
     void addProgram(const fs::path& path, sema::TaskInput& task) {
         std::string text;
         if (!files_.read(path, text)) return;
@@ -140,7 +148,7 @@ class Loader {
         if (modules.empty()) report(Code::BadProgramFile, {path.string(), "it names no modules"});
         const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
         for (const std::string& name : modules) {
-            const fs::path found = findPath(folder, name);
+            const fs::path found = findModule(folder, name);
             if (found.empty())
                 report(Code::ProgramModuleMissing, {path.string(), name});
             else

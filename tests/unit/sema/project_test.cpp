@@ -131,6 +131,18 @@ TEST_CASE("a program file lists its modules", "[project]") {
     CHECK(loaded->ok);
     CHECK(loaded->files(0) == Names{"main.mod", "A&B.mod"});
 
+    const std::string moved = folder.write("moved.pgf", "<Program><Module>C:\\Cell\\MAIN.mod</Module>"
+                                                        "<Module>HOME:A&amp;B.mod</Module>"
+                                                        "<Module>pr\xFC"
+                                                        "f.mod</Module></Program>");
+    folder.write("Pr\xFC"
+                 "f.mod",
+                 kModule); // ISO 8859-1
+    CHECK(load({moved})->codes().empty());
+    CHECK(load({moved})->files(0) == Names{"main.mod", "A&B.mod",
+                                           "Pr\xFC"
+                                           "f.mod"});
+
     const std::string missing = folder.write("bad.pgf", "<Program><Module>none.mod</Module></Program>");
     CHECK(load({missing})->codes() == Names{"RAP6025"});
     const std::string junk = folder.write("junk.pgf", "hello");
