@@ -432,6 +432,7 @@ class Analyzer {
     void raiseToUser(const syntax::CallStmt& s);
     bool callStmt(const syntax::CallStmt& s);
     bool namesProcedure(std::span<syntax::Argument* const> args);
+    bool isParenthesised(const syntax::CallStmt& s) const;
     void reportNotCallable(const Symbol& symbol, syntax::TokenIndex name);
     void returnStmt(const syntax::ReturnStmt& s);
     void raiseStmt(const syntax::RaiseStmt& s);

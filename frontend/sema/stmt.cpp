@@ -361,9 +361,11 @@ bool Analyzer::callStmt(const CallStmt& s) {
     Symbol* symbol = lookup(name);
     RoutineSymbol* routine = asRoutine(symbol);
     if (!routine || routine->routineKind != RoutineKind::Proc) {
-        if (symbol)
+        if (symbol && routine && isParenthesised(s)) {
+            // "CRobT();", which has been told
+        } else if (symbol) {
             reportNotCallable(*symbol, s.name);
-        else if (isCallWord(s)) {
+        } else if (isCallWord(s)) {
             report(Code::ForeignSpelling, range(s.name), {text(s.name), "the name of the procedure"})
                 .fix({range(s.name).begin, range(s.args[0]->first).begin}, "");
             return true;
@@ -406,6 +408,13 @@ bool Analyzer::predefinedCall(const RoutineSymbol& routine, TokenIndex name) {
     if (routine.flow == Flow::Retries && part_ != Part::Error)
         report(Code::OutsideErrorHandler, range(name), {text(name)});
     return routine.flow == Flow::GoesOn || routine.flow == Flow::Stops;
+}
+
+/// `name();` and `name(a, b);`, which the parser reports: the parentheses are no part of an argument.
+bool Analyzer::isParenthesised(const CallStmt& s) const {
+    const TokenIndex open = s.name + 1;
+    return context_.tree->tokens[open].kind == TokenKind::LeftParen &&
+           (s.args.empty() || s.args.front()->first != open);
 }
 
 void Analyzer::reportNotCallable(const Symbol& symbol, TokenIndex name) {

@@ -171,6 +171,7 @@ class Parser {
 
     // ---- Recovery (parser_recovery.cpp)
     void endStatement(std::string_view expected = "';'");
+    bool quoteInText() const;
     bool reportDecimalComma();
     void syncStatement();
     bool startsAfresh() const;

@@ -357,13 +357,24 @@ void Parser::endStatement(std::string_view expected) {
         } else if (kind() == K::Equal) {
             reportEqual();
         } else if (!reportDecimalComma()) {
-            diag::Diagnostic* d =
-                reportAfterExpr(Code::UnexpectedToken, {describe(pos_), std::string(expected)});
+            const std::string_view remedy = quoteInText() ? ": a '\"' inside a text is written twice" : "";
+            diag::Diagnostic* d = reportAfterExpr(Code::UnexpectedToken,
+                                                  {describe(pos_), fmt::format("{}{}", expected, remedy)});
             if ((kind() == K::Colon || kind() == K::Comma) && startsLine(pos_ + 1))
                 fix(d, tree_.range(pos_), ";");
         }
     }
     syncStatement();
+}
+
+/// Behind the text "say " of `"say "hi" now"`: a word that stands between two texts without a space.
+bool Parser::quoteInText() const {
+    TokenIndex last = pos_;
+    while (isName(kindAt(last)) && kindAt(last + 1) != K::StringLiteral && !startsLine(last + 1))
+        ++last;
+    return kindAt(pos_ - 1) == K::StringLiteral && kindAt(last + 1) == K::StringLiteral &&
+           tree_.range(pos_ - 1).end == tree_.range(pos_).begin &&
+           tree_.range(last).end == tree_.range(last + 1).begin;
 }
 
 /// Skips to the end of the instruction: its semicolon, or a line that begins like another one.
