@@ -261,3 +261,10 @@ TEST_CASE("AliasIO takes a configured signal of the type of its partner", "[sema
                              "ENDMODULE\n";
     CHECK(testing::checkTexts({text})->codes() == Messages{"RAP4021", "RAP4011"});
 }
+
+TEST_CASE("a function or a trap routine called with parentheses is one message", "[sema]") {
+    const auto checked =
+        testing::checkTexts({"MODULE m\n  PROC main()\n    CRobT();\n    onChange();\n  ENDPROC\n"
+                             "  TRAP onChange\n  ENDTRAP\nENDMODULE\n"});
+    CHECK(checked->codes() == std::vector<std::string>{"RAP1110", "RAP1110"});
+}
