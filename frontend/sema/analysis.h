@@ -381,6 +381,7 @@ class Analyzer {
     static std::string namesOf(std::span<const BoundArg> alternatives);
     bool explainArguments(const BoundCall& call, syntax::TokenIndex name,
                           std::span<syntax::Argument* const> args);
+    bool explainComma(std::span<syntax::Argument* const> args);
     bool explainOrder(const RoutineSymbol& routine, const std::vector<const DataSymbol*>& params,
                       const std::vector<const syntax::Expr*>& given);
     bool explainCount(syntax::TokenIndex name, const std::vector<const DataSymbol*>& params,
@@ -433,6 +434,7 @@ class Analyzer {
     bool callStmt(const syntax::CallStmt& s);
     bool namesProcedure(std::span<syntax::Argument* const> args);
     bool isParenthesised(const syntax::CallStmt& s) const;
+    bool isCutBySemicolon(const Symbol& symbol, syntax::TokenIndex name);
     void reportNotCallable(const Symbol& symbol, syntax::TokenIndex name);
     void returnStmt(const syntax::ReturnStmt& s);
     void raiseStmt(const syntax::RaiseStmt& s);

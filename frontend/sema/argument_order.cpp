@@ -57,6 +57,25 @@ bool Analyzer::errorsLieIn(const std::vector<const Expr*>& given) const {
     });
 }
 
+// "Move p,x;" for "Move p.x;": nothing is named 'x' but a component of what stands before it.
+bool Analyzer::explainComma(std::span<Argument* const> args) {
+    for (size_t i = 0; i + 1 < args.size(); ++i) {
+        const Expr *whole = args[i]->value, *part = args[i + 1]->value;
+        if (!whole || !part || part->kind != NodeKind::Name || args[i + 1]->argKind != ArgKind::Required)
+            continue;
+        const DataType& type = info(*whole).type;
+        if (range(*part).begin != range(*whole).end + 1 || info(*part).type.type->kind != TypeKind::Error ||
+            type.rank > 0 || type.type->kind != TypeKind::Record ||
+            findComponent(*type.type, text(*part)) < 0)
+            continue;
+        collect_->retract([](const diag::Diagnostic&) { return true; });
+        const SourceRange comma{range(*whole).end, range(*part).begin};
+        report(Code::UnexpectedToken, comma, {"','", "'.' before a component"}).fix(comma, ".");
+        return true;
+    }
+    return false;
+}
+
 /// Looks for the one mistake behind what was found wrong with the arguments; then it alone is reported.
 bool Analyzer::explainArguments(const BoundCall& call, TokenIndex name, std::span<Argument* const> args) {
     const RoutineSymbol& routine = *call.routine;

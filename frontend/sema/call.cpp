@@ -85,7 +85,7 @@ void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex nam
     }
     judged_.resize(judgedBefore);
     const bool wrong = own.hasErrors() || mismatches_.size() > mismatchesBefore;
-    if (wrong && explainArguments(call, name, args))
+    if (wrong && (explainComma(args) || explainArguments(call, name, args)))
         mismatches_.resize(mismatchesBefore);
     else if ((mayMiss && lacksArgument(call)) || mismatches_.size() > mismatchesBefore)
         reportArguments(call, name, mismatchesBefore, mayMiss);

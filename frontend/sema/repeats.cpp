@@ -102,6 +102,20 @@ bool lostName(const SyntaxTree& tree, const DataDecl& decl) {
     return true;
 }
 
+/// ENDFOR without its FOR, which declared a variable.
+size_t lostLoops(const SyntaxTree& tree, const RoutineDecl& routine) {
+    size_t open = 0, lost = 0;
+    for (TokenIndex i = routine.first; i <= routine.last; ++i) {
+        if (tree.tokens[i].kind == TokenKind::KwFor) ++open;
+        if (tree.tokens[i].kind != TokenKind::KwEndfor) continue;
+        if (open > 0)
+            --open;
+        else
+            ++lost;
+    }
+    return lost;
+}
+
 /// What is left of a routine without the first word, or without the first line: up to its END word.
 bool isRestOfRoutine(const SyntaxTree& tree, const Decl& decl) {
     constexpr TokenSet kEnds = {TokenKind::KwEndproc, TokenKind::KwEndfunc, TokenKind::KwEndtrap};
@@ -152,7 +166,7 @@ void Analyzer::explainUnknown(const Module& module) {
         if (decl->kind != NodeKind::Routine) continue;
         const auto& routine = as<RoutineDecl>(*decl);
         lostRoutines += routine.name == kNoToken;
-        size_t own = 0;
+        size_t own = lostLoops(tree, routine);
         for (const DataDecl* data : routine.data)
             own += lostName(tree, *data);
         if (!explainUnknown(module, tree.range(*decl), false, own)) lostData += own;

@@ -417,13 +417,39 @@ bool Analyzer::isParenthesised(const CallStmt& s) const {
            (s.args.empty() || s.args.front()->first != open);
 }
 
+// "p;x := 1;" for "p.x := 1;", and "Move p1;v100;" for "Move p1,v100;", where it has been said what is missing.
+bool Analyzer::isCutBySemicolon(const Symbol& symbol, TokenIndex name) {
+    DataSymbol* data = asData(const_cast<Symbol*>(&symbol));
+    if (!data) return false;
+    const auto& all = (collect_ ? *collect_ : sink_).all();
+    const SourceRange own = range(name);
+    if (!all.empty() && all.back().code == Code::MissingArgument &&
+        all.back().file == context_.tree->source && all.back().range.begin < own.begin &&
+        context_.tree->tokens[name - 1].kind == TokenKind::Semicolon) {
+        const std::string_view between =
+            context_.tree->source->text().substr(all.back().range.begin, own.begin - all.back().range.begin);
+        if (between.find('\n') == std::string_view::npos) return true;
+    }
+    ensureData(*data);
+    const SourceRange sign = range(name + 1);
+    const TokenIndex part = name + 2;
+    if (context_.tree->tokens[name + 1].kind != TokenKind::Semicolon || !isName(part) ||
+        sign.begin != own.end || range(part).begin != sign.end || data->type.rank > 0 ||
+        data->type.type->kind != TypeKind::Record || lookup(idOf(part)) ||
+        findComponent(*data->type.type, context_.tree->text(part)) < 0)
+        return false;
+    report(Code::UnexpectedToken, sign, {"';'", "'.' before a component"}).fix(sign, ".");
+    declareUnknown(idOf(part));
+    return true;
+}
+
 void Analyzer::reportNotCallable(const Symbol& symbol, TokenIndex name) {
     const auto* routine = asRoutine(const_cast<Symbol*>(&symbol));
     if (routine && routine->routineKind == RoutineKind::Func)
         noteDeclared(report(Code::FunctionAsInstruction, range(name), {text(name)}), symbol);
     else if (routine)
         noteDeclared(report(Code::TrapCalled, range(name), {text(name)}), symbol);
-    else
+    else if (!isCutBySemicolon(symbol, name))
         noteDeclared(report(Code::NotAProcedure, range(name), {text(name), describe(symbol)}), symbol);
 }
 

@@ -64,9 +64,21 @@ DataDecl* Parser::parseData(ScopeWord scope, TokenIndex first, bool ofModule) {
 /// `num x;`: read as if VAR stood before it.
 DataDecl* Parser::parseWordlessData() {
     auto* node = make<DataDecl>(NodeKind::Data);
-    fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "VAR, PERS or CONST before a data type"}),
-        {tree_.range(pos_).begin, tree_.range(pos_).begin}, "VAR ", false);
+    diag::Diagnostic* diagnostic =
+        report(Code::UnexpectedToken, pos_, {describe(pos_), "VAR, PERS or CONST before a data type"});
     node->type = take();
+    if (kStorageWords.has(kind())) { // "num VAR x;"
+        const SourceRange both{tree_.range(pos_ - 1).begin, tree_.range(pos_).end};
+        const std::string type(textOf(pos_ - 1));
+        node->dataKind = kind() == K::KwVar    ? DataKind::Var
+                         : kind() == K::KwPers ? DataKind::Pers
+                                               : DataKind::Const;
+        fix(diagnostic, both, std::string(tokenText(kind())) + " " + type);
+        take();
+    } else {
+        const uint32_t begin = tree_.range(node->type).begin;
+        fix(diagnostic, {begin, begin}, "VAR ", false);
+    }
     parseDataTail(node, true, false);
     return finish(node);
 }

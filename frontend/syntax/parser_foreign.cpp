@@ -138,8 +138,10 @@ bool Parser::parseForeignFor(ForStmt* node) {
 /// `num x;`, `num x := 1;`: a word is missing before the data type.
 bool Parser::isWordlessData() const {
     constexpr TokenSet kAfter = {K::Semicolon, K::Assign, K::LeftBrace, K::Equal};
-    return kind() == K::Identifier && isBasicType(textOf(pos_)) && isName(peek()) && !startsLine(pos_ + 1) &&
-           kAfter.has(peek(2));
+    const TokenIndex name =
+        kStorageWords.has(peek()) && !startsLine(pos_ + 1) ? pos_ + 2 : pos_ + 1; // "num VAR x;"
+    return kind() == K::Identifier && isBasicType(textOf(pos_)) && isName(kindAt(name)) &&
+           !startsLine(name) && kAfter.has(kindAt(name + 1));
 }
 
 /// Type and name of data that stand in another order, or without a type: `x : num`, `x AS num`, `x := 1`.

@@ -53,6 +53,7 @@ inline constexpr TokenSet kRoutineEnds = {TokenKind::KwEndproc,   TokenKind::KwE
                                           TokenKind::KwRecord,    TokenKind::KwAlias,   TokenKind::KwModule,
                                           TokenKind::KwEndmodule, TokenKind::PlaceTdn,  TokenKind::PlaceRdn};
 /// Words that end a branch.
+inline constexpr TokenSet kStorageWords = {TokenKind::KwVar, TokenKind::KwPers, TokenKind::KwConst};
 inline constexpr TokenSet kAccessModes = {TokenKind::KwVar, TokenKind::KwPers, TokenKind::KwInout};
 inline constexpr TokenSet kIfEnds = {TokenKind::KwEndif, TokenKind::KwElse, TokenKind::KwElseif,
                                      TokenKind::PlaceEit};

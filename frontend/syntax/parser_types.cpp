@@ -70,8 +70,7 @@ Decl* Parser::parseRecord(bool local, TokenIndex first) {
 
 /// "VAR num x;" in a record that is closed by ENDRECORD: the word is reported and left out.
 bool Parser::dropComponentWord() {
-    constexpr TokenSet kDataWords = {K::KwVar, K::KwPers, K::KwConst};
-    if (!kDataWords.has(kind()) || !isName(peek()) || !isName(peek(2))) return false;
+    if (!kStorageWords.has(kind()) || !isName(peek()) || !isName(peek(2))) return false;
     constexpr TokenIndex kSearch = 200;
     for (TokenIndex i = pos_ + 1; i < pos_ + kSearch && kindAt(i) != K::KwEndrecord; ++i)
         if (i + 1 == pos_ + kSearch || kRoutineEnds.has(kindAt(i)) || kindAt(i) == K::EndOfFile) return false;
