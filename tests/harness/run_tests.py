@@ -55,8 +55,10 @@ def write_ctest(path, source, build):
     for name in sorted(cases.discover(source)):
         add(name, [sys.executable, runner, "--source", source, "--build", build, "--one", name], 120)
     corpora = os.path.join(source, "tests", "fuzz", "corpus")
-    for target in sorted(os.listdir(corpora)):
-        add("fuzz/" + target, [os.path.join(build, "rapidc_replay_" + target), os.path.join(corpora, target)], 120)
+    for entry in sorted(os.scandir(corpora), key=lambda entry: entry.name):
+        if entry.is_dir():
+            add("fuzz/" + entry.name, [sys.executable, os.path.join(source, "tests", "harness", "replay.py"),
+                                       os.path.join(build, "rapidc_replay_" + entry.name), entry.path], 240)
     scripts = os.path.join(source, "scripts")
     add("layering", [sys.executable, os.path.join(scripts, "check_layering.py"), "--source", source], 60)
     add("stdlib", [sys.executable, os.path.join(scripts, "check_stdlib.py"), "--rapidc", os.path.join(build, "rapidc")],
