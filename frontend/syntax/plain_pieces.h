@@ -71,12 +71,10 @@ template <bool known> class PlainText {
             p_ = p;
             return PlainPiece::Number;
         }
-        while (isDigit(*p))
-            ++p;
-        if (*p == '.') ++p;
-        while (isDigit(*p))
-            ++p;
-        if (p == p_ || (p == p_ + 1 && *p_ == '.')) return PlainPiece::Other;
+        std::ptrdiff_t dots = 0;
+        for (; isDigit(*p) || *p == '.'; ++p) // one loop: where it ends is hard to foresee
+            dots += *p == '.';
+        if (dots > 1 || p == p_ + dots) return PlainPiece::Other;
         if ((*p | 0x20) == 'e') {
             ++p;
             const bool small = *p == '-';
