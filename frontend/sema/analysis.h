@@ -163,8 +163,7 @@ class Analyzer {
     static std::string typeName(const DataType& type);
     static std::string typeName(const ExprInfo& info) { return typeName(info.type); }
     /// The names of two types that are not the same: alike, they get their modules' names, "cell:part".
-    std::array<std::string, 2> typeNames(const DataType& found, const DataType& wanted) const;
-    std::string moduleOf(const Type& type) const;
+    static std::array<std::string, 2> typeNames(const DataType& found, const DataType& wanted);
     /// "a constant", "a procedure" ...
     static std::string describe(const Symbol& symbol);
     enum class Wanted : uint8_t { Data, Type, Procedure, Function, Trap };

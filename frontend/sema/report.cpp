@@ -72,23 +72,15 @@ std::string Analyzer::valueText(const Expr& e) {
     return fmt::format("{} = {}", text(e), value->number);
 }
 
-std::array<std::string, 2> Analyzer::typeNames(const DataType& found, const DataType& wanted) const {
+/// "cell:" for a type that module "cell" declares, nothing for a predefined one.
+static std::string moduleOf(const Type& type) {
+    return type.module && !type.module->predefined ? type.module->name + ":" : std::string();
+}
+
+std::array<std::string, 2> Analyzer::typeNames(const DataType& found, const DataType& wanted) {
     std::array<std::string, 2> names = {typeName(found), typeName(wanted)};
     if (foldName(names[0]) != foldName(names[1])) return names;
     return {moduleOf(*found.type) + names[0], moduleOf(*wanted.type) + names[1]};
-}
-
-/// "cell:" for a type that module "cell" declares, nothing for a predefined one.
-std::string Analyzer::moduleOf(const Type& type) const {
-    for (const Module* module : task_ ? task_->modules : std::vector<Module*>()) {
-        const Symbol* own = nullptr;
-        scopes_[module->id]->names.forEach([&](NameId, const Symbol* symbol) {
-            if (symbol->kind == SymbolKind::Type && static_cast<const TypeSymbol*>(symbol)->type == &type)
-                own = symbol;
-        });
-        if (own) return module->name + ":";
-    }
-    return {};
 }
 
 std::string Analyzer::describe(const Symbol& symbol) {

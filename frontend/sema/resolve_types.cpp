@@ -97,6 +97,7 @@ const Type* Analyzer::ensureType(TypeSymbol& symbol) {
     if (type.kind == TypeKind::Error) { // not one of the atomic types, which exist beforehand
         type.kind = TypeKind::Record;
         type.name = symbol.name;
+        type.module = symbol.module;
         if (symbol.decl->kind == NodeKind::Record)
             resolveRecord(type, as<RecordDecl>(*symbol.decl));
         else

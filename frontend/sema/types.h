@@ -12,6 +12,8 @@ enum class PlainPiece : uint8_t;
 
 namespace rapid::sema {
 
+struct Module;
+
 enum class TypeKind : uint8_t {
     Error, ///< already reported; compatible with everything
     Num,
@@ -34,7 +36,8 @@ struct Type {
         const Type* type = nullptr;
     };
     TypeKind kind = TypeKind::Error;
-    std::string name; ///< as written in its declaration
+    std::string name;               ///< as written in its declaration
+    const Module* module = nullptr; ///< that declares it; null: predefined
     const Type* aliasOf =
         nullptr; ///< aliases: the type named in the ALIAS; kind and components are the base's
     std::vector<Component> components; ///< records
