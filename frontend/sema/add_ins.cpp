@@ -76,7 +76,8 @@ constexpr AddInNames kAddIns[] = {
      "g_getpressure* g_getvac* err_hand_*"},
     {"PickMaster",
      "itmsrc itmsrctype itmtgt getitmtgt ackitmtgt nextitmtgttype qstartitmsrc qstopitmsrc "
-     "flushitmsrc pick_type place_type pickplace_tune speed_tune resetitmsrc resetflowcount getqueuelevel itmsrcdata maxnosources noncnvwodata "
+     "flushitmsrc pick_type place_type pickplace_tune speed_tune resetitmsrc resetflowcount getqueuelevel "
+     "itmsrcdata maxnosources noncnvwodata "
      "noncnvwobjname cnvname err_ppa_timeout ppadropwobj ppa_jump_move waitforexeorder remoteipnode "
      "pickplacerunning "
      "safestopexecuted incoordrout"},

@@ -124,7 +124,8 @@ int build(BuildSettings& settings) {
 void addBuildCommand(CLI::App& app, int& status) {
     auto settings = std::make_shared<BuildSettings>();
     CLI::App* command = app.add_subcommand("build", "Compile to a native executable");
-    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")->required();
+    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")
+        ->required();
     command->add_option("-o,--output", settings->output, "The executable to write");
     addWarningOption(*command, settings->inputs);
     command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")

@@ -72,7 +72,8 @@ int check(const CheckSettings& settings) {
 void addCheckCommand(CLI::App& app, int& status) {
     auto settings = std::make_shared<CheckSettings>();
     CLI::App* command = app.add_subcommand("check", "Check RAPID modules and report every mistake");
-    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")->required();
+    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")
+        ->required();
     command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")
         ->allow_extra_args(false);
     command

@@ -124,7 +124,8 @@ int emit(EmitSettings& settings) {
 void addEmitCommand(CLI::App& app, int& status) {
     auto settings = std::make_shared<EmitSettings>();
     CLI::App* command = app.add_subcommand("emit", "Show a stage of the compiler");
-    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")->required();
+    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")
+        ->required();
     command->add_option("--as", settings->as, "tokens, tree, symbols, ir, llvm, asm or obj")
         ->check(CLI::IsMember({"tokens", "tree", "symbols", "ir", "llvm", "asm", "obj"}));
     addWarningOption(*command, settings->inputs);

@@ -204,7 +204,8 @@ int run(RunSettings& settings) {
 void addRunCommand(CLI::App& app, int& status) {
     auto settings = std::make_shared<RunSettings>();
     CLI::App* command = app.add_subcommand("run", "Compile in memory and run on the virtual controller");
-    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")->required();
+    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")
+        ->required();
     rt::addRunOptions(*command, settings->options, true);
     addWarningOption(*command, settings->inputs);
     command->add_option("--picture", settings->picture, "Draw the path of the TCP from the trace (SVG)");
