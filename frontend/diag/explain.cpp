@@ -41,6 +41,29 @@ std::string toLatin1(std::string_view utf8) {
     return bytes;
 }
 
+/// Puts the number `n` wherever `sign` stands.
+void number(std::string& line, std::string_view sign, int n) {
+    for (size_t at = 0; (at = line.find(sign, at)) != std::string::npos;)
+        line.replace(at, sign.size(), std::to_string(n));
+}
+
+/// A line of a file, or all for which it stands.
+std::string linesOf(std::string_view line) {
+    constexpr std::string_view kRepeat = "(N = 1 to ";
+    const size_t repeat = line.rfind(kRepeat);
+    if (repeat == std::string_view::npos) return std::string(line) + "\n";
+    const int times = std::stoi(std::string(line.substr(repeat + kRepeat.size())));
+    line = line.substr(0, line.find_last_not_of(' ', repeat - 1) + 1);
+    std::string lines;
+    for (int n = 1; n <= times; ++n) {
+        std::string one(line);
+        number(one, "<N>", n);
+        number(one, "<N+1>", n + 1);
+        lines += one + "\n";
+    }
+    return lines;
+}
+
 ExampleProject readFiles(std::string_view example) {
     ExampleProject project;
     std::string_view form; // of the last file, between parentheses
@@ -55,7 +78,7 @@ ExampleProject readFiles(std::string_view example) {
             project.command = std::string(line.substr(2));
         } else if (line.empty() || line.starts_with("  ")) {
             line.remove_prefix(std::min<size_t>(line.size(), 2));
-            project.files.back().bytes += std::string(line) + "\n";
+            project.files.back().bytes += linesOf(line);
         } else { // NAME: or NAME (FORM):
             finish();
             const size_t open = line.find(" (");

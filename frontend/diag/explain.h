@@ -24,7 +24,8 @@ enum class ExampleKind : uint8_t {
     ///       ENDMODULE
     ///     cell/secret.mod (bytes FC 86 41):
     ///
-    /// What stands in a file is indented by two spaces. `(ISO 8859-1)` names the encoding of a file.
+    /// What stands in a file is indented by two spaces. `(ISO 8859-1)` names the encoding of a file. A line that ends with
+    /// `(N = 1 to 600)` stands for so many; in it, `<N>` and `<N+1>` are their numbers.
     Files
 };
 

@@ -99,12 +99,27 @@ old.mod (ISO 8859-1):
      "MODULE m\n"
      "  ! tools of cell 3\n"
      "ENDMODULE"},
-    {1099, Kind::Body,
+    {1099, Kind::Files,
      "The file has more than 200 mistakes of lexing and parsing, or more than 1,000 errors or warnings in "
      "all. The first ones are shown; often they are the "
      "cause of the "
      "others.",
-     "", "x := 1;"},
+     R"ex($ rapidc check m.modx
+m.modx:
+  MODULE m
+  VAR num x;
+  PROC main()
+    x := ) 1;     (N = 1 to 201)
+  ENDPROC
+  ENDMODULE)ex",
+     R"ex($ rapidc check m.modx
+m.modx:
+  MODULE m
+  VAR num x;
+  PROC main()
+    x := 1;       (N = 1 to 201)
+  ENDPROC
+  ENDMODULE)ex"},
     {1101, Kind::Body,
      "The text does not follow the grammar here. The message says what could stand in this place.",
      "x := 1 + ;", "x := 1 + 2;"},
@@ -134,11 +149,24 @@ old.mod (ISO 8859-1):
     {1108, Kind::Body,
      "An index follows the name of an array. Components of records cannot be arrays (manual 1.2.1, 1.3.2).",
      "x := data.list{1};", "x := list{1};"},
-    {1109, Kind::Body,
+    {1109, Kind::Files,
      "Parentheses, blocks or operators are nested beyond what rapidc reads. Nobody writes this by hand: look "
      "at the program "
      "that made the text.",
-     "", "x := 1;"},
+     R"ex($ rapidc check m.modx
+m.modx:
+  MODULE m
+  VAR num x :=
+    (     (N = 1 to 1200)
+    1
+    )     (N = 1 to 1200)
+    ;
+  ENDMODULE)ex",
+     R"ex($ rapidc check m.modx
+m.modx:
+  MODULE m
+  VAR num x := (1);
+  ENDMODULE)ex"},
     {1110, Kind::Body,
      "The arguments of a procedure or an instruction stand without parentheses (manual 1.1.5). Only function "
      "calls have "

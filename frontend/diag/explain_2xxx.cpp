@@ -317,13 +317,21 @@ cell/counting.sys:
      "A constant has a value, which data of non-value and semi-value types has not (manual 1.2.1).",
      "CONST clock watch := 0;",
      "VAR clock watch;"},
-    {2047, Kind::Module,
+    {2047, Kind::Files,
      "Records and aliases that refer to each other form a chain of hundreds of types. Nobody writes "
      "this by hand: look at what generated the module.",
-     "",
-     "RECORD part\n"
-     "  pos place;\n"
-     "ENDRECORD"},
+     R"ex($ rapidc check m.modx
+m.modx:
+  MODULE m
+  RECORD part<N> part<N+1> inner; ENDRECORD     (N = 1 to 600)
+  RECORD part601 num weight; ENDRECORD
+  ENDMODULE)ex",
+     R"ex($ rapidc check m.modx
+m.modx:
+  MODULE m
+  RECORD part num weight; ENDRECORD
+  RECORD pallet part inner; ENDRECORD
+  ENDMODULE)ex"},
     {2048, Kind::Module,
      "LOCAL and TASK persistents must have an initial value (manual 1.2.2), and data of non-value and "
      "semi-value types cannot have one (manual 1.2.1).",

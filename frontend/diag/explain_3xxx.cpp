@@ -193,12 +193,21 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "CONST string whole := half + half + \"!\";",
      "CONST string half := \"0123456789012345678901234567890123456789\";\n"
      "CONST string whole := half + half;"},
-    {3039, Kind::Module,
+    {3039, Kind::Files,
      "Constants that refer to each other, each to one declared later, form a chain of hundreds. "
      "Declare them in the order in which they are computed.",
-     "",
-     "CONST num a := 1;\n"
-     "CONST num b := a + 1;"},
+     R"ex($ rapidc check m.modx
+m.modx:
+  MODULE m
+  CONST num step<N> := step<N+1> + 1;     (N = 1 to 900)
+  CONST num step901 := 1;
+  ENDMODULE)ex",
+     R"ex($ rapidc check m.modx
+m.modx:
+  MODULE m
+  CONST num step1 := 1;
+  CONST num step<N+1> := step<N> + 1;     (N = 1 to 900)
+  ENDMODULE)ex"},
     {3040, Kind::Module,
      "The initial value must have the type of the data it initialises (manual 1.2.2).",
      "VAR string name := 5;",

@@ -211,11 +211,25 @@ main.mod:
     PROC main()
     ENDPROC
   ENDMODULE)ex"},
-    {6021, Kind::File,
+    {6021, Kind::Files,
      "The file exists but cannot be read; the message of the operating system follows.",
-     "",
-     "MODULE m\n"
-     "ENDMODULE"},
+     R"ex($ rapidc check cell.pgf
+cell.pgf:
+  <?xml version="1.0" encoding="ISO-8859-1" ?>
+  <Program>
+  <Module>main.mod</Module>
+  </Program>
+main.mod/readme.txt:
+  A folder that has the name of the module.)ex",
+     R"ex($ rapidc check cell.pgf
+cell.pgf:
+  <?xml version="1.0" encoding="ISO-8859-1" ?>
+  <Program>
+  <Module>main.mod</Module>
+  </Program>
+main.mod:
+  MODULE main
+  ENDMODULE)ex"},
     {6022, Kind::Files,
      "The folder, and the folders directly in it, have no file with one of the endings of RAPID "
      "modules.",
