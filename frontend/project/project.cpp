@@ -50,8 +50,8 @@ class Loader {
     /// The folder itself, the backup whose RAPID it is, or the only folder in it that is a backup while nothing else
     /// there is RAPID.
     static fs::path backupIn(const fs::path& given) {
-        const fs::path folder = given.has_filename() ? given : given.parent_path(); // "RAPID/"
-        const fs::path parent = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
+        fs::path folder = given.has_filename() ? given : given.parent_path(); // "RAPID/"
+        fs::path parent = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
         if (config::sameName(folder.filename().string(), "RAPID") && isBackup(parent)) return parent;
         if (isBackup(folder)) return folder;
         fs::path found;
@@ -130,7 +130,7 @@ class Loader {
 
     /// A module that a program file names. An absolute path is one of another machine: its module may lie beside.
     static fs::path findModule(const fs::path& folder, const std::string& name) {
-        const fs::path found = findPath(folder, name);
+        fs::path found = findPath(folder, name);
         const bool isAbsolute = name.starts_with('/') || name.find(':') != std::string::npos;
         if (!found.empty() || !isAbsolute) return found;
         return findPath(folder, std::string_view(name).substr(name.find_last_of("/\\:") + 1));
