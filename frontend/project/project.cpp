@@ -51,8 +51,12 @@ class Loader {
     /// there is RAPID.
     static fs::path backupIn(const fs::path& given) {
         fs::path folder = given.has_filename() ? given : given.parent_path(); // "RAPID/"
-        fs::path parent = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
-        if (config::sameName(folder.filename().string(), "RAPID") && isBackup(parent)) return parent;
+        std::error_code unreadable; // then it is no folder, which is told elsewhere
+        const fs::path whole = fs::canonical(folder, unreadable); // "." has a name, too
+        fs::path parent = folder / "..";
+        if (folder.filename() == whole.filename())
+            parent = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
+        if (config::sameName(whole.filename().string(), "RAPID") && isBackup(parent)) return parent;
         if (isBackup(folder)) return folder;
         fs::path found;
         for (const fs::path& path : entries(folder)) {

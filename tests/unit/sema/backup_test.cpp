@@ -388,7 +388,7 @@ TEST_CASE("the RAPID folder of a backup means the backup, task folders alone are
     backup.write("BACKINFO/backinfo.txt", ">>TASK1: (T_LEFT,,)\n>>TASK2: (T_RIGHT,,)\n");
     backup.write("RAPID/TASK1/PROGMOD/a.mod", kModule);
     backup.write("RAPID/TASK2/PROGMOD/b.mod", kModule);
-    for (const char* part : {"RAPID", "RAPID/"}) {
+    for (const char* part : {"RAPID", "RAPID/", "RAPID/.", "RAPID/TASK1/.."}) {
         backup.project = {};
         backup.load(part);
         REQUIRE(backup.project.tasks.size() == 2);
