@@ -360,8 +360,8 @@ class Analyzer {
     size_t alternativesEnd(const RoutineSymbol& routine, size_t first) const;
     size_t nextRequired(const RoutineSymbol& routine, size_t from) const;
     size_t requiredSlots(const RoutineSymbol& routine) const;
-    /// Whether a required parameter has none.
-    bool lacksArgument(const BoundCall& call) const;
+    /// The next required parameter without an argument; as many as there are parameters when each has its own.
+    size_t nextLacking(const BoundCall& call, size_t from) const;
     void reportMissing(const BoundCall& call, syntax::TokenIndex name);
     void checkExclusive(const BoundCall& call);
     void visitArgument(const syntax::Argument& arg);

@@ -87,7 +87,8 @@ void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex nam
     const bool wrong = own.hasErrors() || mismatches_.size() > mismatchesBefore;
     if (wrong && (explainComma(args) || explainArguments(call, name, args)))
         mismatches_.resize(mismatchesBefore);
-    else if ((mayMiss && lacksArgument(call)) || mismatches_.size() > mismatchesBefore)
+    else if ((mayMiss && nextLacking(call, 0) < routine.params.size()) ||
+             mismatches_.size() > mismatchesBefore)
         reportArguments(call, name, mismatchesBefore, mayMiss);
     else if (mayMiss)
         shapeReported_ = false; // of this call
@@ -354,30 +355,26 @@ std::string Analyzer::namesOf(std::span<const BoundArg> alternatives) {
     return names;
 }
 
-static bool isGiven(std::span<const BoundArg> alternatives) {
-    return std::any_of(alternatives.begin(), alternatives.end(),
-                       [](const BoundArg& bound) { return bound.argument; });
-}
-
-bool Analyzer::lacksArgument(const BoundCall& call) const {
+size_t Analyzer::nextLacking(const BoundCall& call, size_t from) const {
     const RoutineSymbol& routine = *call.routine;
-    for (size_t i = nextRequired(routine, 0); i < routine.params.size();) {
+    for (size_t i = nextRequired(routine, from); i < routine.params.size();) {
         const size_t end = alternativesEnd(routine, i);
-        if (!isGiven(call.args.subspan(i, end - i))) return true;
+        const std::span<const BoundArg> place = call.args.subspan(i, end - i);
+        if (std::none_of(place.begin(), place.end(), [](const BoundArg& bound) { return bound.argument; }))
+            return i;
         i = nextRequired(routine, end);
     }
-    return false;
+    return routine.params.size();
 }
 
 void Analyzer::reportMissing(const BoundCall& call, TokenIndex name) {
     const RoutineSymbol& routine = *call.routine;
     std::string missing;
     size_t count = 0;
-    for (size_t i = nextRequired(routine, 0); i < routine.params.size();) {
+    for (size_t i = nextLacking(call, 0); i < routine.params.size();) {
         const size_t end = alternativesEnd(routine, i);
-        const std::span<const BoundArg> place = call.args.subspan(i, end - i);
-        if (!isGiven(place)) missing += (count++ == 0 ? "" : ", ") + namesOf(place);
-        i = nextRequired(routine, end);
+        missing += (count++ == 0 ? "" : ", ") + namesOf(call.args.subspan(i, end - i));
+        i = nextLacking(call, end);
     }
     if (missing.empty()) return;
     const std::string what = (count == 1 ? "argument " : "arguments ") + missing;

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 namespace rapid::sema {
 
@@ -79,10 +81,6 @@ void putInOrder(std::vector<Repeat>& repeats) {
             repeats[i + 1].declared.clear();
         }
 }
-
-} // namespace
-
-namespace {
 
 /// A name of which a bracket became part: 'list3' of "list{3}" without its '{'.
 bool ranInto(std::string_view name, std::string_view longer) {
@@ -229,12 +227,12 @@ void Analyzer::gatherRepeats(std::span<Module* const> modules, size_t first) {
 void Analyzer::tellOnce() {
     std::vector<Repeat> repeats = std::exchange(repeats_, {});
     std::erase_if(repeats, [](const Repeat& r) { return r.guard && r.guard->users > 1; });
-    std::map<Key, std::pair<Diagnostic, bool>> fate; // what stands for it, if anything
+    std::map<Key, std::optional<Diagnostic>> fate; // what stands for it, if anything
     std::map<std::tuple<const Module*, NameId, Code>, Repeat> byName;
     std::map<Key, Repeat*> unknown;
     for (const UnknownName& name : std::exchange(unknownNames_, {})) {
         const Key key = {name.module->tree->source.get(), name.where.begin, name.where.end, name.code};
-        if (name.explained) fate[key] = {Diagnostic(), false};
+        if (name.explained) fate[key] = std::nullopt;
         // A name that looks misspelt is a mistake each time, unless it is the declaration that is misspelt.
         if (name.explained || (name.looksMisspelt && (!name.near || name.near->users > 0))) continue;
         unknown[key] = &byName[{name.module, name.name, name.code}];
@@ -252,16 +250,15 @@ void Analyzer::tellOnce() {
         std::erase_if(repeat.members, [&](const Diagnostic& d) { return fate.contains(keyOf(d)); });
         if (repeat.members.size() < 2) continue;
         for (const Diagnostic& d : repeat.members)
-            fate[keyOf(d)] = {Diagnostic(), false};
-        fate[keyOf(repeat.members.front())] = {leadOf(repeat), true};
+            fate[keyOf(d)] = std::nullopt;
+        fate[keyOf(repeat.members.front())] = leadOf(repeat);
     }
     if (fate.empty()) return;
     sink_.revise([&](Diagnostic& d) {
         const auto found = fate.find(keyOf(d));
         if (found == fate.end()) return true;
-        if (!found->second.second) return false;
-        d = std::move(found->second.first);
-        found->second.second = false; // were it there twice
+        if (!found->second) return false;
+        d = *std::exchange(found->second, std::nullopt); // once, were it there twice
         return true;
     });
 }

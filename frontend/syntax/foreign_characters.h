@@ -14,8 +14,6 @@ struct ForeignCharacter {
     TokenKind kind = TokenKind::Error;
 };
 
-inline constexpr size_t kLongestCharacter = 3; ///< bytes of the longest of them
-
 /// The one at the beginning of `text`; null when there is none.
 const ForeignCharacter* foreignCharacter(std::string_view text);
 

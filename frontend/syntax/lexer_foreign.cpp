@@ -161,9 +161,7 @@ bool Lexer::readSingleQuote() {
 
 bool Lexer::readTypographic() {
     const char* start = p_;
-    const auto found = [this](const char* at) {
-        return foreignCharacter(slice(at, end_).substr(0, kLongestCharacter));
-    };
+    const auto found = [this](const char* at) { return foreignCharacter(slice(at, end_)); };
     const ForeignCharacter* first = found(p_);
     if (!first) return false;
     if (first->meant == "\"") {
@@ -192,9 +190,7 @@ bool Lexer::readTypographic() {
 
 void Lexer::readTypographicQuote() {
     const char* start = p_;
-    const auto quoteAt = [this](const char* at) {
-        return quoteLength(slice(at, end_).substr(0, kLongestCharacter));
-    };
+    const auto quoteAt = [this](const char* at) { return quoteLength(slice(at, end_)); };
     const char* content = start + quoteAt(start);
     const char* close = content;
     while (close < end_ && !isLineEnd(*close) && quoteAt(close) == 0)
@@ -230,7 +226,7 @@ void Lexer::readJunk() {
         while (p_ < end_ && isJunk()) {
             ++p_;
             skipContinuation();
-            if (foreignCharacter(slice(p_, end_).substr(0, kLongestCharacter))) break;
+            if (foreignCharacter(slice(p_, end_))) break;
         }
         if (!quiet_) error(diag::Code::UnexpectedCharacter, start, p_, {showCharacter(slice(start, p_))});
         reported_ = p_;

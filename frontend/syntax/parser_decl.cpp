@@ -48,8 +48,7 @@ DataDecl* Parser::parseData(ScopeWord scope, TokenIndex first, bool ofModule) {
                      : kind() == K::KwPers ? DataKind::Pers
                                            : DataKind::Const;
     take();
-    if ((kind() == K::KwVar || kind() == K::KwPers || kind() == K::KwConst) && isName(peek()) &&
-        !startsLine(pos_)) {
+    if (kStorageWords.has(kind()) && isName(peek()) && !startsLine(pos_)) {
         fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "a data type"}),
             {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "", kind() == kindAt(pos_ - 1));
         take();

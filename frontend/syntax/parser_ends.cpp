@@ -12,7 +12,6 @@ using diag::Code;
 
 namespace {
 
-constexpr TokenIndex kFarTokens = 5000; ///< how far margins and END words are compared
 /// A routine has ended before these.
 constexpr TokenSet kBehindRoutine = {TokenKind::KwProc,   TokenKind::KwFunc,      TokenKind::KwTrap,
                                      TokenKind::KwModule, TokenKind::KwEndmodule, TokenKind::EndOfFile};

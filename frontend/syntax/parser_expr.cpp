@@ -480,13 +480,11 @@ TokenKind Parser::closingOf(TokenIndex opening) const {
     const K own = kindAt(opening) == K::LeftBracket ? K::RightBracket
                   : kindAt(opening) == K::LeftParen ? K::RightParen
                                                     : K::RightBrace;
-    constexpr TokenSet kOpen = {K::LeftParen, K::LeftBracket, K::LeftBrace};
-    constexpr TokenSet kClose = {K::RightParen, K::RightBracket, K::RightBrace};
     constexpr TokenIndex kSearch = 200;
     uint32_t depth = 0;
     for (TokenIndex i = opening; i < opening + kSearch && kindAt(i) != K::Semicolon; ++i) {
-        if (kOpen.has(kindAt(i))) ++depth;
-        if (kClose.has(kindAt(i)) && --depth == 0) return kindAt(i);
+        if (kOpenBrackets.has(kindAt(i))) ++depth;
+        if (kCloseBrackets.has(kindAt(i)) && --depth == 0) return kindAt(i);
     }
     return own;
 }
@@ -496,15 +494,13 @@ bool Parser::takesSemicolonAsComma(K closing) {
     if (panic_ || kind() != K::Semicolon || startsLine(pos_ + 1) ||
         (!startsExpr(peek()) && peek() != K::Backslash))
         return false;
-    constexpr TokenSet kOpen = {K::LeftParen, K::LeftBracket, K::LeftBrace};
-    constexpr TokenSet kClose = {K::RightParen, K::RightBracket, K::RightBrace};
     uint32_t depth = 0;
     for (TokenIndex i = pos_ + 1; !startsLine(i); ++i) {
         const K k = kindAt(i);
-        if (kOpen.has(k)) ++depth;
+        if (kOpenBrackets.has(k)) ++depth;
         if (k == K::Semicolon || (depth == 0 && k == K::Assign && kindAt(pos_ + 1) != K::Backslash))
             return false;
-        if (!kClose.has(k)) continue;
+        if (!kCloseBrackets.has(k)) continue;
         if (depth == 0) {
             if (k != closing) return false;
             fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "','"}), tree_.range(pos_), ",");

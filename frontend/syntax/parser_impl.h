@@ -52,9 +52,14 @@ inline constexpr TokenSet kRoutineEnds = {TokenKind::KwEndproc,   TokenKind::KwE
                                           TokenKind::KwProc,      TokenKind::KwFunc,    TokenKind::KwTrap,
                                           TokenKind::KwRecord,    TokenKind::KwAlias,   TokenKind::KwModule,
                                           TokenKind::KwEndmodule, TokenKind::PlaceTdn,  TokenKind::PlaceRdn};
-/// Words that end a branch.
+inline constexpr TokenSet kOpenBrackets = {TokenKind::LeftParen, TokenKind::LeftBracket,
+                                           TokenKind::LeftBrace};
+inline constexpr TokenSet kCloseBrackets = {TokenKind::RightParen, TokenKind::RightBracket,
+                                            TokenKind::RightBrace};
+inline constexpr TokenIndex kFarTokens = 5000; ///< how far margins and END words are compared
 inline constexpr TokenSet kStorageWords = {TokenKind::KwVar, TokenKind::KwPers, TokenKind::KwConst};
 inline constexpr TokenSet kAccessModes = {TokenKind::KwVar, TokenKind::KwPers, TokenKind::KwInout};
+/// Words that end a branch.
 inline constexpr TokenSet kIfEnds = {TokenKind::KwEndif, TokenKind::KwElse, TokenKind::KwElseif,
                                      TokenKind::PlaceEit};
 inline constexpr TokenSet kTestEnds = {TokenKind::KwEndtest, TokenKind::KwCase, TokenKind::KwDefault,

@@ -246,15 +246,14 @@ Stmt* Parser::parseNamedStmt() {
 
 /// `name(1) := ...`, `name[1].x := ...`
 bool Parser::isBracketTarget() const {
-    constexpr TokenSet kOpen = {K::LeftParen, K::LeftBracket, K::LeftBrace};
-    constexpr TokenSet kClose = {K::RightParen, K::RightBracket, K::RightBrace};
     uint32_t depth = 0;
     constexpr TokenIndex kSearch = 500;
     for (TokenIndex i = pos_ + 1; i < pos_ + kSearch; ++i) {
         const K k = kindAt(i);
         if (k == K::Semicolon || k == K::EndOfFile || k == K::Assign) return false;
-        if (kOpen.has(k)) ++depth;
-        if (kClose.has(k) && --depth == 0) return kindAt(i + 1) == K::Assign || kindAt(i + 1) == K::Dot;
+        if (kOpenBrackets.has(k)) ++depth;
+        if (kCloseBrackets.has(k) && --depth == 0)
+            return kindAt(i + 1) == K::Assign || kindAt(i + 1) == K::Dot;
     }
     return false;
 }
@@ -339,8 +338,6 @@ Stmt* Parser::parseCallStmt() {
 /// `name(a, b);` and `name();`: the arguments of a procedure call stand without parentheses. `name(a);` and
 /// `name(a), b;` are right, since an argument may be in parentheses.
 bool Parser::parseParenthesisedCall(CallStmt* call) {
-    constexpr TokenSet kOpen = {K::LeftParen, K::LeftBracket, K::LeftBrace};
-    constexpr TokenSet kClose = {K::RightParen, K::RightBracket, K::RightBrace};
     constexpr TokenIndex kSearch = 500;
     bool several = peek() == K::RightParen;
     uint32_t depth = 0;
@@ -348,8 +345,8 @@ bool Parser::parseParenthesisedCall(CallStmt* call) {
     for (; i < pos_ + kSearch; ++i) {
         const K k = kindAt(i);
         if (k == K::Semicolon || k == K::EndOfFile) return false;
-        if (kOpen.has(k)) ++depth;
-        if (kClose.has(k) && --depth == 0) break;
+        if (kOpenBrackets.has(k)) ++depth;
+        if (kCloseBrackets.has(k) && --depth == 0) break;
         if (depth == 1 && (k == K::Comma || k == K::Backslash)) several = true;
     }
     if (!several || kindAt(i + 1) != K::Semicolon) return false;

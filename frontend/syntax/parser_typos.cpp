@@ -121,8 +121,7 @@ TokenIndex Parser::foreignCloser(TokenIndex opening, K closer) const {
                     [&](const auto& foreign) { return foreign.word == ends && foreign.keyword == closer; });
     if (!known) return kNoToken;
     uint32_t open = 0;
-    constexpr TokenIndex kFar = 5000;
-    for (TokenIndex i = opening + 1; i < last_ && i < opening + kFar; ++i) {
+    for (TokenIndex i = opening + 1; i < last_ && i < opening + kFarTokens; ++i) {
         if (kindAt(i) != K::Identifier || !startsLine(i)) continue;
         const bool twoWords = equalsNoCase(textOf(i), "END") && equalsNoCase(textOf(i + 1), begins);
         if (equalsNoCase(textOf(i), begins)) ++open;

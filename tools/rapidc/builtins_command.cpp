@@ -4,6 +4,7 @@
 #include "tools/rapidc/pipeline.h"
 
 #include "frontend/sema/names.h"
+#include "frontend/syntax/tree_walk.h"
 #include "runtime/host/run_options.h"
 #include "stdlib/native_table.h"
 
@@ -20,18 +21,10 @@ struct Row {
     std::string name, kind, chapter, status;
 };
 
-/// The comments above a declaration of the library.
-std::string_view commentsAbove(const rapid::sema::Module& module, const rapid::syntax::Node& decl) {
-    const auto& tree = *module.tree;
-    const uint32_t end = tree.range(decl).begin;
-    const uint32_t begin = decl.first > 0 ? tree.range(decl.first - 1).end : 0;
-    return tree.source->text().substr(begin, end - begin);
-}
-
 /// `manual:` in the `!@` lines above a declaration of the library.
 std::string chapterOf(const rapid::sema::Module& module, const rapid::syntax::Node* decl) {
     if (!decl) return "-";
-    const std::string_view gap = commentsAbove(module, *decl);
+    const std::string_view gap = rapid::syntax::gapBefore(*module.tree, decl->first);
     const size_t at = gap.rfind("manual:");
     if (at == std::string_view::npos) return "-";
     std::string_view rest = gap.substr(at + 7);
@@ -77,20 +70,29 @@ int list(const std::string& format) {
     return 0;
 }
 
-/// A text of the library without the two kinds of comment marks and without its indentation.
-void printLines(std::string_view text, bool comments) {
-    for (size_t begin = 0; begin < text.size();) {
-        const size_t end = std::min(text.find('\n', begin), text.size());
-        std::string_view line = text.substr(begin, end - begin);
-        begin = end + 1;
-        if (!comments) {
-            line.remove_prefix(std::min<size_t>({line.find_first_not_of(' '), line.size(), 3}));
-            fmt::print("{}\n", line);
-            continue;
-        }
-        line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
-        if (line.starts_with("!! ")) fmt::print("{}\n", line.substr(3));
+/// Prints the lines of a text as `shown` gives them; nothing for those it answers by nullopt.
+template <class Shown> void printLines(std::string_view text, Shown&& shown) {
+    while (!text.empty()) {
+        const size_t end = std::min(text.find('\n'), text.size());
+        if (const std::optional<std::string_view> line = shown(text.substr(0, end)))
+            fmt::print("{}\n", *line);
+        text.remove_prefix(std::min(end + 1, text.size()));
     }
+}
+
+/// Without the spaces before it, but for those beyond `most`.
+std::string_view outdented(std::string_view line, size_t most) {
+    return line.substr(std::min({line.find_first_not_of(' '), line.size(), most}));
+}
+
+std::optional<std::string_view> documentationLine(std::string_view line) {
+    line = outdented(line, line.size());
+    return line.starts_with("!! ") ? std::optional(line.substr(3)) : std::nullopt;
+}
+
+std::optional<std::string_view> declarationLine(std::string_view line) {
+    constexpr size_t kIndent = 3; // of the library
+    return outdented(line, kIndent);
 }
 
 const rapid::syntax::Node* findDeclaration(const rapid::sema::Module& module, std::string_view folded) {
@@ -122,9 +124,10 @@ int describe(const std::vector<std::string>& names) {
         for (const rapid::sema::Module* module : compilation->program->predefinedModules) {
             const rapid::syntax::Node* decl = findDeclaration(*module, folded);
             if (!decl) continue;
-            printLines(commentsAbove(*module, *decl), true);
+            printLines(rapid::syntax::gapBefore(*module->tree, decl->first), documentationLine);
             const rapid::SourceRange where = module->tree->range(*decl);
-            printLines(module->tree->source->text().substr(where.begin, where.end - where.begin), false);
+            printLines(module->tree->source->text().substr(where.begin, where.end - where.begin),
+                       declarationLine);
         }
     }
     return 0;
