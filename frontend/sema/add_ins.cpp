@@ -24,12 +24,12 @@ constexpr AddInNames kAddIns[] = {
     {"RobotWare Paint",
      "consolewrite ipssetparam pntproduserlog setbrush setbrushfac paintlsig paintldo paintc "
      "indexlookup ipscommand ipsgetparam paintcommand pntqueueextraget pntqueueextraset pntqueuepeek "
-     "brushdata err_ips* pw_equip_err"},
+     "brushdata err_ips* pw_equip_err paint_err"},
     {"RobotWare Spot",
      "setforce calibrate recalctcp indgunmove indgunmovereset openhighlift closehighlift "
      "swsetintspotdata swsetintforcedata swsetintgundata swsetintsimdata swgetcalibdata "
      "swgetfixtipdata spotl spotj spotml spotmj calibl calibj measurewearl swgetcurrtargetname "
-     "swgetcurrspotname nutl nutj gundata spotdata forcedata simdata smeqdata"},
+     "swgetcurrspotname nutl nutj gundata spotdata forcedata simdata smeqdata spotweld_err"},
     {"Tool Changing", "tcclosecover tcdropofftool tclocktool tcopencover tcpickuptool tcunlocktool tc_err_*"},
     {"RobotWare Dispense",
      "settmsignal syncwwobj displ dispc getsignal getsignaldnum beaddata equipdata err_glueflow"},

@@ -100,15 +100,18 @@ bool lostName(const SyntaxTree& tree, const DataDecl& decl) {
     return true;
 }
 
-/// ENDFOR without its FOR, which declared a variable.
+/// ENDFOR without its FOR, which declared a variable. One right below another in the same column was written twice.
 size_t lostLoops(const SyntaxTree& tree, const RoutineDecl& routine) {
+    const auto columnOf = [&](TokenIndex i) { return tree.source->lineColumn(tree.tokens[i].offset).column; };
     size_t open = 0, lost = 0;
     for (TokenIndex i = routine.first; i <= routine.last; ++i) {
         if (tree.tokens[i].kind == TokenKind::KwFor) ++open;
         if (tree.tokens[i].kind != TokenKind::KwEndfor) continue;
+        const bool twice = i > routine.first && tree.tokens[i - 1].kind == TokenKind::KwEndfor &&
+                           columnOf(i - 1) == columnOf(i);
         if (open > 0)
             --open;
-        else
+        else if (!twice)
             ++lost;
     }
     return lost;

@@ -234,6 +234,7 @@ TEST_CASE("data types, constants and errors of options are told from mistakes", 
                              "  ERROR\n"
                              "    IF ERRNO = AW_WELD_ERR OR ERRNO = CAP_TRACK_ERR RETRY;\n"
                              "    IF ERRNO = ERR_MT_HOME TRYNEXT;\n"
+                             "    IF ERRNO = SPOTWELD_ERR OR ERRNO = PAINT_ERR TRYNEXT;\n"
                              "  ENDPROC\n"
                              "ENDMODULE\n";
     const auto addIn = [](const char* place, const char* name, const char* declaredIn) {
@@ -247,7 +248,9 @@ TEST_CASE("data types, constants and errors of options are told from mistakes", 
                    addIn("6:5", "CyclicBrakeCheck", "Brake Check and SafeMove (service routines)"),
                    addIn("8:16", "AW_WELD_ERR", "RobotWare Arc"),
                    addIn("8:39", "CAP_TRACK_ERR", "Continuous Application Platform"),
-                   addIn("9:16", "ERR_MT_HOME", "RobotWare Machine Tending")});
+                   addIn("9:16", "ERR_MT_HOME", "RobotWare Machine Tending"),
+                   addIn("10:16", "SPOTWELD_ERR", "RobotWare Spot"),
+                   addIn("10:40", "PAINT_ERR", "RobotWare Paint")});
 }
 
 TEST_CASE("AliasIO takes a configured signal of the type of its partner", "[sema]") {
