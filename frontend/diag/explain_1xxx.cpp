@@ -167,11 +167,26 @@ m.modx:
   MODULE m
   VAR num x := (1);
   ENDMODULE)ex"},
-    {1110, Kind::Body,
+    {1110, Kind::Files,
      "The arguments of a procedure or an instruction stand without parentheses (manual 1.1.5). Only function "
      "calls have "
      "them.",
-     "Grip(1, 2);", "Grip 1, 2;"},
+     R"ex($ rapidc check m.modx
+m.modx:
+  MODULE m
+  PROC main()
+    TPErase();
+    TPWrite("count", \Num:=3);
+  ENDPROC
+  ENDMODULE)ex",
+     R"ex($ rapidc check m.modx
+m.modx:
+  MODULE m
+  PROC main()
+    TPErase;
+    TPWrite "count", \Num:=3;
+  ENDPROC
+  ENDMODULE)ex"},
     {1111, Kind::Module, "The placeholder stands for another part of the program (manual 1.1.2).",
      "PROC p(<ALT>)\nENDPROC", "PROC p(<PAR>)\nENDPROC"},
     {1112, Kind::Body,

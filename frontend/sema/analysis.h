@@ -433,6 +433,7 @@ class Analyzer {
     bool callStmt(const syntax::CallStmt& s);
     bool namesProcedure(std::span<syntax::Argument* const> args);
     bool isParenthesised(const syntax::CallStmt& s) const;
+    void reportParentheses(const syntax::CallStmt& s);
     bool isCutBySemicolon(const Symbol& symbol, syntax::TokenIndex name);
     void reportNotCallable(const Symbol& symbol, syntax::TokenIndex name);
     void returnStmt(const syntax::ReturnStmt& s);

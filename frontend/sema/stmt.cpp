@@ -361,9 +361,8 @@ bool Analyzer::callStmt(const CallStmt& s) {
     Symbol* symbol = lookup(name);
     RoutineSymbol* routine = asRoutine(symbol);
     if (!routine || routine->routineKind != RoutineKind::Proc) {
-        if (symbol && routine && isParenthesised(s)) {
-            // "CRobT();", which has been told
-        } else if (symbol) {
+        if (!symbol && isParenthesised(s)) reportParentheses(s);
+        if (symbol) {
             reportNotCallable(*symbol, s.name);
         } else if (isCallWord(s)) {
             report(Code::ForeignSpelling, range(s.name), {text(s.name), "the name of the procedure"})
@@ -383,6 +382,7 @@ bool Analyzer::callStmt(const CallStmt& s) {
     }
     markUsed(*routine);
     checkOption(*routine, s.name);
+    if (isParenthesised(s)) reportParentheses(s);
     bindCall(s, *routine, s.name, s.args);
     if (part_ == Part::Undo) callInUndo(*routine, s.name);
     if (movesRobot(*routine) && task_->type != "NORMAL")
@@ -410,11 +410,20 @@ bool Analyzer::predefinedCall(const RoutineSymbol& routine, TokenIndex name) {
     return routine.flow == Flow::GoesOn || routine.flow == Flow::Stops;
 }
 
-/// `name();` and `name(a, b);`, which the parser reports: the parentheses are no part of an argument.
+/// `name();` and `name(a, b);`: the parentheses are no part of an argument.
 bool Analyzer::isParenthesised(const CallStmt& s) const {
     const TokenIndex open = s.name + 1;
     return context_.tree->tokens[open].kind == TokenKind::LeftParen &&
            (s.args.empty() || s.args.front()->first != open);
+}
+
+void Analyzer::reportParentheses(const CallStmt& s) {
+    const SyntaxTree& tree = *context_.tree;
+    const TokenIndex open = s.name + 1, close = s.last - 1;
+    diag::Diagnostic& d = report(Code::CallParentheses, range(open), {text(s.name)});
+    if (tree.tokens[s.last].kind != TokenKind::Semicolon || tree.tokens[close].kind != TokenKind::RightParen) return;
+    const bool spaced = range(open).begin > range(s.name).end || close == open + 1;
+    d.fixes.push_back({"remove the parentheses", {{range(open), spaced ? "" : " "}, {range(close), ""}}});
 }
 
 // "p;x := 1;" for "p.x := 1;", and "Move p1;v100;" for "Move p1,v100;", where it has been said what is missing.

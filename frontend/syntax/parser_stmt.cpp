@@ -335,8 +335,8 @@ Stmt* Parser::parseCallStmt() {
     return finish(node);
 }
 
-/// `name(a, b);` and `name();`: the arguments of a procedure call stand without parentheses. `name(a);` and
-/// `name(a), b;` are right, since an argument may be in parentheses.
+/// `name(a, b);` and `name();`, which is wrong; the checker says so, because it knows whether `name` is a procedure.
+/// `name(a);` and `name(a), b;` are right, since an argument may be in parentheses.
 bool Parser::parseParenthesisedCall(CallStmt* call) {
     constexpr TokenIndex kSearch = 500;
     bool several = peek() == K::RightParen;
@@ -350,12 +350,6 @@ bool Parser::parseParenthesisedCall(CallStmt* call) {
         if (depth == 1 && (k == K::Comma || k == K::Backslash)) several = true;
     }
     if (!several || kindAt(i + 1) != K::Semicolon) return false;
-    diag::Diagnostic* diagnostic = report(Code::CallParentheses, pos_, {std::string(textOf(call->name))});
-    if (diagnostic) {
-        const bool spaced = tree_.range(pos_).begin > tree_.range(pos_ - 1).end || i == pos_ + 1;
-        diagnostic->fixes.push_back(
-            {"remove the parentheses", {{tree_.range(pos_), spaced ? "" : " "}, {tree_.range(i), ""}}});
-    }
     const TokenIndex opening = take();
     call->args = parseArguments(true);
     expectClosing(K::RightParen, opening, true);

@@ -265,9 +265,13 @@ TEST_CASE("AliasIO takes a configured signal of the type of its partner", "[sema
     CHECK(testing::checkTexts({text})->codes() == Messages{"RAP4021", "RAP4011"});
 }
 
-TEST_CASE("a function or a trap routine called with parentheses is one message", "[sema]") {
-    const auto checked =
-        testing::checkTexts({"MODULE m\n  PROC main()\n    CRobT();\n    onChange();\n  ENDPROC\n"
-                             "  TRAP onChange\n  ENDTRAP\nENDMODULE\n"});
-    CHECK(checked->codes() == std::vector<std::string>{"RAP1110", "RAP1110"});
+// Manual 1.1.5: only the parentheses of a procedure can be taken away and leave an instruction.
+TEST_CASE("a call with parentheses is one message, about what is called", "[sema]") {
+    const auto checked = testing::checkTexts(
+        {"MODULE m\n  VAR num n;\n  PROC main()\n    CRobT();\n    onChange();\n    n();\n    own(1, 2);\n"
+         "    two(1, 2);\n    two(\"1\", 2);\n    missing(1, 2);\n  ENDPROC\n  TRAP onChange\n  ENDTRAP\n"
+         "  FUNC num own(num a, num b)\n    RETURN a + b;\n  ENDFUNC\n"
+         "  PROC two(num a, num b)\n  ENDPROC\nENDMODULE\n"});
+    CHECK(checked->codes() == std::vector<std::string>{"RAP2023", "RAP2026", "RAP2021", "RAP2023", "RAP1110",
+                                                       "RAP1110", "RAP4011", "RAP2003", "RAP1110"});
 }
