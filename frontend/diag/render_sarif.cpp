@@ -77,6 +77,7 @@ class Writer {
 
   private:
     static constexpr const char* kRoot = "%SRCROOT%";
+    static constexpr size_t kFingerprintBytes = 1000; ///< of a line: some are made by machines and have millions
 
     static Json rule(Code code) {
         const CatalogueEntry* entry = findEntry(static_cast<uint16_t>(code));
@@ -131,8 +132,8 @@ class Writer {
     std::string fingerprint(const Diagnostic& d) {
         std::string key = codeName(d.code) + '\n';
         if (d.file) {
-            std::string_view line = d.file->lineText(d.file->lineColumn(d.range.begin).line);
-            for (const char c : line)
+            const std::string_view line = d.file->lineText(d.file->lineColumn(d.range.begin).line);
+            for (const char c : line.substr(0, kFingerprintBytes))
                 if (c != ' ' && c != '\t') key.push_back(c);
             key += '\n' + d.file->path();
         } else {

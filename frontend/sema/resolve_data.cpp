@@ -25,6 +25,15 @@ void Analyzer::ensureData(DataSymbol& symbol) {
     symbol.progress = Progress::Active;
     const Context saved = context_;
     if (!symbol.routine) enterModule(symbol.module);
+    if (depth_ > kMaxDepth) { // its dimensions may ask for the dimensions of others
+        entangled_ = true;
+        report(Code::ConstantTooDeep, range(symbol.nameToken), {symbol.name});
+        symbol.type.type = program_.errorType;
+        symbol.progress = Progress::Done;
+        context_ = saved;
+        return;
+    }
+    ++depth_;
     const auto& decl = as<DataDecl>(*symbol.decl);
     const bool outerMuted = std::exchange(muted_, decl.broken);
     const Type* type = resolveType(decl.type, &decl);
@@ -40,6 +49,7 @@ void Analyzer::ensureData(DataSymbol& symbol) {
     if (symbol.predefined) applyDataAttributes(symbol);
     checkDeclaration(symbol);
     muted_ = outerMuted;
+    --depth_;
     context_ = saved;
 }
 

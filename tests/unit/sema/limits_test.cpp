@@ -3,6 +3,7 @@
 #include "sema_testing.h"
 
 #include <catch2/catch.hpp>
+#include <set>
 
 namespace {
 
@@ -47,4 +48,14 @@ TEST_CASE("components find their like among thousands", "[sema]") {
             "  PROC p()\n    w.C2999 := o.c2999;\n    w.c3000 := o.c0;\n    w.c0 := w.c1;\n  ENDPROC\n"
             "ENDMODULE\n";
     CHECK(checkTexts({text})->codes() == Messages{"RAP2005", "RAP2005"});
+}
+
+TEST_CASE("dimensions that stand behind thousands of others are refused", "[sema]") {
+    std::string text = "MODULE m\n";
+    for (int i = 0; i < 30000; ++i)
+        text += "  CONST num c" + std::to_string(i) + "{c" + std::to_string(i + 1) + "{1}}:=[1];\n";
+    text += "  CONST num c30000{1}:=[1];\nENDMODULE\n";
+    const Messages codes = checkTexts({text})->codes();
+    CHECK_FALSE(codes.empty());
+    CHECK(std::set<std::string>(codes.begin(), codes.end()) == std::set<std::string>{"RAP3039"});
 }
