@@ -77,7 +77,8 @@ class Writer {
 
   private:
     static constexpr const char* kRoot = "%SRCROOT%";
-    static constexpr size_t kFingerprintBytes = 1000; ///< of a line: some are made by machines and have millions
+    static constexpr size_t kFingerprintBytes =
+        1000; ///< of a line: some are made by machines and have millions
 
     static Json rule(Code code) {
         const CatalogueEntry* entry = findEntry(static_cast<uint16_t>(code));

@@ -171,12 +171,13 @@ std::string refusal(const SyntaxTree& tree, const std::vector<SourceRange>& erro
     if (errors.empty()) return {};
     if (!keepErrors) return "the file has mistakes";
     for (const SourceRange& error : errors) {
+        const bool atEnd = error.begin >= tree.source->text().size(); // ENDMODULE lacks
         const bool inside =
             std::any_of(tree.modules.begin(), tree.modules.end(), [&](const ModuleDecl* module) {
                 return std::any_of(module->decls.begin(), module->decls.end(), [&](const Decl* decl) {
                     if (decl->first > decl->last) return false;
                     const SourceRange range = tree.range(*decl);
-                    return error.begin <= range.end && error.end >= range.begin;
+                    return atEnd || (error.begin <= range.end && error.end >= range.begin);
                 });
             });
         if (!inside) return "there is a mistake outside of the declarations";

@@ -111,7 +111,7 @@ class BackupLoader {
         infoFile_ = readDescription(findEntry(findEntry(folder_, "BACKINFO"), "backinfo.txt"));
         info_ = readBackupInfo(infoFile_.text());
         const fs::path parameters = findEntry(folder_, "SYSPAR");
-        for (const fs::path& path : entries(parameters)) {
+        for (const fs::path& path : files_.list(parameters)) {
             if (extensionOf(path) != ".cfg") continue;
             out_.configFiles.push_back(path.string());
             const std::string stem = path.stem().string();
@@ -177,7 +177,7 @@ class BackupLoader {
     /// backinfo.txt lists the tasks; without it the folders stand for the tasks of CAB_TASKS in their order.
     void findTasks() {
         std::vector<fs::path> folders;
-        for (const fs::path& path : entries(rapid_)) {
+        for (const fs::path& path : files_.list(rapid_)) {
             const int number = taskNumber(path.filename().string());
             if (!isFolder(path)) continue;
             if (number == 0) sharedFolder_ = path;
@@ -273,7 +273,7 @@ class BackupLoader {
             }
         }
         for (const char* part : {"PROGMOD", "SYSMOD"}) {
-            for (const fs::path& path : entries(findEntry(task.folder, part))) {
+            for (const fs::path& path : files_.list(findEntry(task.folder, part))) {
                 if (!isModule(path) || isFolder(path) || done.contains(path)) continue;
                 if (!task.listed || task.listed->modules.empty() || isReadUnlisted(path, task))
                     addModule(path, task);
@@ -313,10 +313,10 @@ class BackupLoader {
     }
 
     /// Modules that are installed once for all tasks.
-    std::vector<fs::path> sharedModules() const {
+    std::vector<fs::path> sharedModules() {
         std::vector<fs::path> found;
         for (const char* part : {"PROGMOD", "SYSMOD"})
-            for (const fs::path& path : entries(findEntry(sharedFolder_, part)))
+            for (const fs::path& path : files_.list(findEntry(sharedFolder_, part)))
                 if (isModule(path) && !isFolder(path)) found.push_back(path);
         return found;
     }

@@ -30,13 +30,19 @@ bool isFolder(const fs::path& path) {
     return fs::is_directory(path, error);
 }
 
-std::vector<fs::path> entries(const fs::path& folder) {
+namespace {
+std::vector<fs::path> entries(const fs::path& folder, std::error_code& error) {
     std::vector<fs::path> found;
-    std::error_code error;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
         found.push_back(it->path());
     std::sort(found.begin(), found.end());
     return found;
+}
+} // namespace
+
+std::vector<fs::path> entries(const fs::path& folder) {
+    std::error_code ignored;
+    return entries(folder, ignored);
 }
 
 fs::path findEntry(const fs::path& folder, const std::string& name) {
@@ -65,6 +71,14 @@ bool FileReader::read(const fs::path& path, std::string& bytes) {
     const std::string problem = config::readFile(path.string(), bytes);
     if (!problem.empty()) report(Code::FileUnreadable, {path.string(), problem});
     return problem.empty();
+}
+
+std::vector<fs::path> FileReader::list(const fs::path& folder) {
+    std::error_code error;
+    std::vector<fs::path> found = entries(folder, error);
+    if (error && !folder.empty() && unreadable_.insert(folder.string()).second)
+        report(Code::FileUnreadable, {folder.string(), error.message()});
+    return found;
 }
 
 /// Whether the file, under whatever name, belongs to the task already.

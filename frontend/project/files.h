@@ -35,6 +35,11 @@ class FileReader {
     }
     /// The bytes of a file; false when it cannot be read, which is reported.
     bool read(const std::filesystem::path& path, std::string& bytes);
+    /// Entries of a folder, sorted by name; that it cannot be listed is reported, once.
+    std::vector<std::filesystem::path> list(const std::filesystem::path& folder);
+    bool isUnreadable(const std::filesystem::path& folder) const {
+        return unreadable_.contains(folder.string());
+    }
     /// Adds a module to a task. An encrypted one is opaque: it gets a note and becomes one of the task's missing
     /// modules. A file the task has already is reported and left out.
     void addModule(const std::filesystem::path& path, sema::TaskInput& task);
@@ -46,6 +51,7 @@ class FileReader {
     diag::Sink& sink_;
     std::unordered_map<std::string, std::shared_ptr<const SourceFile>> known_; ///< by path
     std::unordered_map<const sema::TaskInput*, std::set<std::pair<dev_t, ino_t>>> identities_;
+    std::set<std::string> unreadable_; ///< folders
 };
 
 } // namespace rapid::project

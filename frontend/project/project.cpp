@@ -104,7 +104,7 @@ class Loader {
 
     size_t addFiles(const fs::path& folder, sema::TaskInput& task) {
         size_t modules = 0;
-        for (const fs::path& path : entries(folder)) {
+        for (const fs::path& path : files_.list(folder)) {
             if (isFolder(path)) continue;
             if (isModule(path)) {
                 files_.addModule(path, task);
@@ -121,14 +121,15 @@ class Loader {
         size_t modules = addFiles(folder, task);
         addParameters(folder);
         if (modules == 0)
-            for (const fs::path& path : entries(folder))
+            for (const fs::path& path : files_.list(folder))
                 if (isFolder(path) && !config::sameName(path.filename().string(), "SYSPAR"))
                     modules += addFiles(path, task);
-        if (modules == 0) report(Code::FolderWithoutModules, {folder.string(), elsewhere(folder)});
+        if (modules == 0 && !files_.isUnreadable(folder))
+            report(Code::FolderWithoutModules, {folder.string(), elsewhere(folder)});
     }
 
     void addParameters(const fs::path& folder) {
-        for (const fs::path& path : entries(findEntry(folder, "SYSPAR")))
+        for (const fs::path& path : files_.list(findEntry(folder, "SYSPAR")))
             if (extensionOf(path) == ".cfg") out_.configFiles.push_back(path.string());
     }
 

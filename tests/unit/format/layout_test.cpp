@@ -352,6 +352,10 @@ TEST_CASE("modules with mistakes are refused, or formatted around them", "[forma
           "MODULE m\nVAR num h <CSE>\n;\nNDMODULE\n");
     // The end of the file ends a line.
     CHECK(formatText("MODULE m\nPROC p()\n a := ;\nEND", request) == "MODULE m\nPROC p()\n a := ;\nEND\n");
+    const std::string unfinished = "MODULE m\nVAR num  a;\nPROC a;d;\n";
+    CHECK(formatText(unfinished, request) == "MODULE m\n   VAR num a;\nPROC a;d;\n");
+    CHECK(formatText(unfinished.substr(0, unfinished.size() - 1), request) ==
+          "MODULE m\n   VAR num a;\nPROC a;d;\n");
     // A mistake at the end of the line of another declaration.
     CHECK(formatText("MODULE m\nVAR num n;ENDSUB\nn := a + a;\nPROC  p()\nENDPROC\nENDMODULE\n", request) ==
           "MODULE m\nVAR num n;ENDSUB\nn := a + a;\n   PROC p()\n   ENDPROC\nENDMODULE\n");

@@ -182,3 +182,20 @@ TEST_CASE("what cannot be used is named with its remedy", "[project]") {
     const std::string nothing = folder.write("zero.modx", "");
     CHECK(load({nothing})->ok);
 }
+
+TEST_CASE("a folder that nobody may list is reported, not taken for an empty one", "[project]") {
+    const Folder folder;
+    folder.write("PROGMOD/a.mod", "MODULE a\nENDMODULE\n");
+    folder.write("SYSMOD/b.sys", "MODULE b\nENDMODULE\n");
+    // Nothing is closed to the superuser.
+    const bool super = ::geteuid() == 0;
+    REQUIRE(::chmod((folder / "SYSMOD").c_str(), 0) == 0);
+    if (super) REQUIRE(::seteuid(65534) == 0);
+    const auto whole = load({folder.path()});
+    const auto closed = load({folder / "SYSMOD"});
+    if (super) REQUIRE(::seteuid(0) == 0);
+    REQUIRE(::chmod((folder / "SYSMOD").c_str(), 0700) == 0);
+    CHECK(whole->codes() == std::vector<std::string>{"RAP6021"});
+    CHECK(whole->files(0) == std::vector<std::string>{"a.mod"});
+    CHECK(closed->codes() == std::vector<std::string>{"RAP6021"});
+}
