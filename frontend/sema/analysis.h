@@ -189,6 +189,7 @@ class Analyzer {
     enum class Meant : uint8_t { Unknown, Keyword };
     void setMissingModules(const TaskInput& input);
     bool mayReportUnknown(NameId name);
+    void mayDeclareTorn(const syntax::SyntaxTree& tree, syntax::TokenIndex word);
     /// Reports `code`, or rather that the name is LOCAL elsewhere or may be declared in a module that is missing.
     /// A built-in whose RobotWare option the controller is known not to have.
     void checkOption(const RoutineSymbol& routine, syntax::TokenIndex name);

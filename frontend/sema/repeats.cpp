@@ -91,7 +91,9 @@ bool ranInto(std::string_view name, std::string_view longer) {
 
 /// "VAR num := 5;": no word in it can be its name.
 bool lostName(const SyntaxTree& tree, const DataDecl& decl) {
-    if (decl.name != kNoToken || decl.type == kNoToken) return false;
+    const bool noName =
+        decl.name == kNoToken || tree.tokens[decl.name].kind == TokenKind::NumLiteral; // "1st"
+    if (!noName || decl.type == kNoToken) return false;
     for (TokenIndex i = decl.type + 1; i <= decl.last; ++i) {
         const TokenKind kind = tree.tokens[i].kind;
         if (kind == TokenKind::Assign || kind == TokenKind::LeftBrace) break;
@@ -166,7 +168,7 @@ void Analyzer::explainUnknown(const Module& module) {
         }
         if (decl->kind != NodeKind::Routine) continue;
         const auto& routine = as<RoutineDecl>(*decl);
-        lostRoutines += routine.name == kNoToken;
+        lostRoutines += routine.name == kNoToken || tree.tokens[routine.name].kind == TokenKind::NumLiteral;
         size_t own = lostLoops(tree, routine);
         for (const DataDecl* data : routine.data)
             own += lostName(tree, *data);

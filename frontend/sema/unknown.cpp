@@ -2,6 +2,7 @@
 
 #include "frontend/sema/add_ins.h"
 #include "frontend/sema/analysis.h"
+#include "frontend/syntax/token_set.h"
 
 #include <filesystem>
 
@@ -19,6 +20,8 @@ constexpr Word kInstructionWords[] = {{"goto", "GOTO"},   {"return", "RETURN"}, 
                                       {"retry", "RETRY"}, {"trynext", "TRYNEXT"},   {"exit", "EXIT"},
                                       {"break", "BREAK"}, {"continue", "CONTINUE"}, {"connect", "CONNECT"},
                                       {"endif", "ENDIF"}, {"endwhile", "ENDWHILE"}, {"endfor", "ENDFOR"}};
+constexpr TokenSet kDeclaring = {TokenKind::KwVar,  TokenKind::KwPers, TokenKind::KwConst, TokenKind::KwProc,
+                                 TokenKind::KwFunc, TokenKind::KwTrap, TokenKind::KwRecord};
 constexpr Word kValueWords[] = {{"true", "TRUE"}, {"false", "FALSE"}};
 
 /// What programmers of other languages write for a predefined name.
@@ -38,6 +41,18 @@ constexpr ForeignName kForeignNames[] = {
 /// A name of one or two letters is near to everything of that length.
 bool near(std::string_view written, unsigned distance) {
     return written.size() > 2 && distance < written.size();
+}
+
+/// A declaration that begins as it should, from its word on.
+bool isWhole(const SyntaxTree& tree, size_t word) {
+    constexpr TokenSet kAfterName = {TokenKind::Semicolon, TokenKind::Assign, TokenKind::LeftBrace,
+                                     TokenKind::LeftParen};
+    const bool named = tree.tokens[word].kind == TokenKind::KwProc;
+    const size_t after = word + (named ? 2 : 3); // one word, or data type and name
+    if (after >= tree.tokens.size() || !kAfterName.has(tree.tokens[after].kind)) return false;
+    for (size_t i = word + 1; i < after; ++i)
+        if (tree.tokens[i].kind != TokenKind::Identifier) return false;
+    return true;
 }
 
 /// "'a', 'b' or 'c'"; of many the first few.
@@ -64,6 +79,37 @@ void Analyzer::setMissingModules(const TaskInput& input) {
         (input.incomplete && !options_.requireMain) || missingModules_.size() > input.missingModules.size();
 }
 
+// "CONST num n Rows:=4;", "PROC my-name()": all words of the line up to the value or the list of parameters, and the names
+// they give together.
+void Analyzer::mayDeclareTorn(const SyntaxTree& tree, TokenIndex word) {
+    constexpr TokenSet kEnd = {TokenKind::Semicolon, TokenKind::Assign, TokenKind::Equal,
+                               TokenKind::LeftBracket, TokenKind::EndOfFile};
+    constexpr TokenIndex kMost = 8;
+    const auto kindAt = [&](TokenIndex i) { return tree.tokens[i].kind; };
+    const bool data = kindAt(word) == TokenKind::KwVar || kindAt(word) == TokenKind::KwPers ||
+                      kindAt(word) == TokenKind::KwConst;
+    const std::string_view text = tree.source->text();
+    std::vector<std::string> names; // that end at the word before
+    const size_t own = tokenText(kindAt(word)).size();
+    if (tree.text(word).size() > own) maybeDeclared_.insert(interner_.intern(tree.text(word).substr(own)));
+    for (TokenIndex i = word + 1; i < word + kMost && !kEnd.has(kindAt(i)); ++i) {
+        const uint32_t gap = tree.range(i - 1).end;
+        if (text.substr(gap, tree.tokens[i].offset - gap).find_first_of("\r\n") != std::string_view::npos)
+            return;
+        if (!data && kindAt(i) == TokenKind::LeftParen) return;
+        if (kindAt(i) != TokenKind::Identifier && kindAt(i) != TokenKind::NumLiteral && !isKeyword(kindAt(i)))
+            continue;
+        std::vector<std::string> longer = {std::string(tree.text(i))};
+        for (const std::string& name : names) {
+            longer.push_back(name + longer.front());
+            longer.push_back(name + "_" + longer.front());
+        }
+        for (const std::string& name : longer)
+            maybeDeclared_.insert(interner_.intern(name));
+        names = std::move(longer);
+    }
+}
+
 // After a syntax error a name may be missing because its declaration could not be read: whoever uses it is not to
 // blame. Such a declaration still shows two words in a row, the second of which is the name.
 bool Analyzer::mayReportUnknown(NameId name) {
@@ -75,6 +121,8 @@ bool Analyzer::mayReportUnknown(NameId name) {
                                   before == TokenKind::KwTrap || before == TokenKind::KwRecord;
             if (declares && tree->tokens[i + 1].kind == TokenKind::Identifier)
                 maybeDeclared_.insert(interner_.intern(tree->text(static_cast<TokenIndex>(i + 1))));
+            if (kDeclaring.has(before) && !isWhole(*tree, i))
+                mayDeclareTorn(*tree, static_cast<TokenIndex>(i));
         }
     }
     return !maybeDeclared_.contains(name);

@@ -342,7 +342,7 @@ bool Parser::startsDecl(TokenIndex i) const {
 void Parser::parseModuleDecls(ModuleDecl* module) {
     const size_t mark = decls_.size();
     while (kind() != K::KwEndmodule && kind() != K::KwModule && kind() != K::EndOfFile) {
-        if (kind() == K::Identifier && !quietOutside_ && retagDecl()) continue;
+        if (kind() == K::Identifier && !quietOutside_ && (retagDecl() || takesRunTogether())) continue;
         if (kind() == K::RightBrace && peek() == K::EndOfFile && !quietOutside_) {
             retag(pos_, pos_, K::KwEndmodule);
             break;

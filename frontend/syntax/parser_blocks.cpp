@@ -219,7 +219,10 @@ Stmt* Parser::parseFor() {
         checkNameLength(node->variable);
     }
     if (!panic_ && (kind() == K::Assign || kind() == K::Equal)) { // FOR i := 1 TO 5 DO
-        fix(report(Code::MissingBlockWord, pos_, {describe(pos_), "FROM"}), tree_.range(pos_), "FROM");
+        diag::Diagnostic* diagnostic = report(Code::MissingBlockWord, pos_, {describe(pos_), "FROM"});
+        const bool before = tree_.range(pos_ - 1).end < tree_.range(pos_).begin;
+        const bool behind = tree_.range(pos_).end < tree_.range(pos_ + 1).begin;
+        fix(diagnostic, tree_.range(pos_), std::string(before ? "" : " ") + "FROM" + (behind ? "" : " "));
         take();
     } else {
         whole = expectHeadWord(K::KwFrom, whole);

@@ -53,8 +53,10 @@ DataDecl* Parser::parseData(ScopeWord scope, TokenIndex first, bool ofModule) {
             {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "", kind() == kindAt(pos_ - 1));
         take();
     }
-    const bool foreign = parseForeignData(node);
-    if (!foreign) node->type = expectName();
+    const bool typed = runTogether_ != kNoToken && runTogether_ + 1 == pos_; // "VARnum x"
+    if (typed) node->type = runTogether_;
+    const bool foreign = !typed && parseForeignData(node);
+    if (!foreign && !typed) node->type = expectName();
     parseDataTail(node, !foreign, ofModule);
     node->broken = unreadable_ > unreadable;
     return finish(node);
@@ -88,13 +90,18 @@ void Parser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) {
     if (!panic_ && nameMissing) node->name = expectName();
     if (node->name != kNoToken && isKeyword(kindAt(node->name))) declareReserved(node->name);
     checkNameLength(node->name);
+    constexpr TokenSet kAfterName = {K::Semicolon, K::Assign, K::LeftBrace, K::Equal};
     if (!panic_ && node->name != kNoToken && kind() == K::Identifier && !startsLine(pos_) &&
         textOf(pos_) == textOf(node->name)) {
         fix(report(Code::UnexpectedToken, pos_, {describe(pos_) + " twice", "':=' or ';'"}),
             {tree_.range(node->name).end, tree_.range(pos_).end}, "");
         take();
     }
-    const bool valueFollows = !panic_ && kind() == K::LeftBracket && valueWithoutSign(node->dataKind);
+    if (kind() != K::Semicolon && kind() != K::Assign) takeTornName(node->name, kAfterName);
+    constexpr TokenSet kLiterals = {K::NumLiteral, K::StringLiteral, K::KwTrue, K::KwFalse};
+    const bool literal = kLiterals.has(kind()) && !startsLine(pos_) && peek() == K::Semicolon;
+    const bool valueFollows =
+        !panic_ && (literal || (kind() == K::LeftBracket && valueWithoutSign(node->dataKind)));
     if (!panic_ && !valueFollows) parseDimensionsOf(node, false);
     if (!panic_) {
         if (valueFollows) {
@@ -199,10 +206,21 @@ void Parser::correctRoutineWord(RoutineDecl* routine, TokenIndex word) {
     note(diagnostic, pos_, "it ends with " + std::string(tokenText(words.end)));
 }
 
+/// "PROC Pick Part()": the two words are no data type and a name.
+bool Parser::isTornRoutineName() {
+    constexpr std::string_view kData = "data";
+    const std::string_view word = textOf(pos_);
+    if (isBasicType(word) || peek(2) != K::LeftParen) return false;
+    const bool isData =
+        word.size() > kData.size() && equalsNoCase(word.substr(word.size() - kData.size()), kData);
+    return !isData || !tornName(pos_ + 1).empty();
+}
+
 void Parser::parseRoutineHeader(RoutineDecl* routine) {
     bool typeMissed = false;
     if (routine->routineKind == RoutineKind::Func) {
-        routine->returnType = expectName();
+        const bool typed = runTogether_ != kNoToken && runTogether_ + 1 == pos_; // "FUNCnum name("
+        routine->returnType = typed ? runTogether_ : expectName();
         if (!panic_ && kind() == K::LeftParen && !startsLine(pos_)) { // FUNC name(...): the type is missing
             routine->name = routine->returnType;
             routine->returnType = kNoToken;
@@ -215,7 +233,7 @@ void Parser::parseRoutineHeader(RoutineDecl* routine) {
                 take();
             accept(K::RightBrace);
         }
-    } else if (isName(kind()) && isName(peek()) && !startsLine(pos_ + 1) &&
+    } else if (isName(kind()) && isName(peek()) && !startsLine(pos_ + 1) && !isTornRoutineName() &&
                (routine->routineKind == RoutineKind::Proc ? !isName(peek(2)) || startsLine(pos_ + 2)
                                                           : isBasicType(textOf(pos_)))) { // PROC num name()
         fix(report(Code::ReturnTypeUnexpected, pos_,
@@ -223,9 +241,12 @@ void Parser::parseRoutineHeader(RoutineDecl* routine) {
             {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");
         take();
     }
-    if (!panic_ && routine->name == kNoToken) routine->name = expectName();
+    if (!panic_ && routine->name == kNoToken)
+        routine->name = runTogether_ != kNoToken && runTogether_ + 1 == pos_ ? runTogether_ : expectName();
     checkNameLength(routine->name);
-    if (routine->routineKind == RoutineKind::Trap) {
+    const bool isTrap = routine->routineKind == RoutineKind::Trap;
+    routine->broken |= takeTornName(routine->name, isTrap ? TokenSet() : TokenSet{K::LeftParen}, isTrap);
+    if (isTrap) {
         if (kind() == K::LeftParen && !panic_) {
             const TokenIndex opening = pos_;
             diag::Diagnostic* diagnostic =

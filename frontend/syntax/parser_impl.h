@@ -247,6 +247,16 @@ class Parser {
     bool isMisspeltOperator(const Expr* left);
     bool takesPercentAsMod();
 
+    // ---- Torn names and words that ran together (parser_words.cpp)
+    std::string_view spellingInFile(std::string_view wanted, TokenIndex exceptFirst, TokenIndex exceptLast);
+    std::string tornName(TokenIndex second);
+    diag::Diagnostic* reportTornName();
+    bool isOnlyHere(TokenIndex second);
+    diag::Diagnostic* reportWord(TokenIndex first, TokenIndex last, const std::string& whole, bool certain);
+    void noteUnclear(uint32_t place);
+    bool takeTornName(TokenIndex name, const TokenSet& after, bool endsLine = false);
+    bool takesRunTogether();
+
     // ---- Spellings of other languages (parser_foreign.cpp)
     bool isBlockBrace() const;
     StmtList parseBody(const TokenSet& own, const std::string& expected, bool& braced);
@@ -372,6 +382,7 @@ class Parser {
     void dropMisplacedMode(ParamDecl* param);
     Decl* parseAlias(bool local, TokenIndex first);
     Decl* parseRoutine(bool local, TokenIndex first);
+    bool isTornRoutineName();
     void parseRoutineHeader(RoutineDecl* routine);
     void correctRoutineWord(RoutineDecl* routine, TokenIndex word);
     void parseParameters(RoutineDecl* routine);
@@ -419,6 +430,8 @@ class Parser {
     TokenIndex signReported_ = kNoToken; ///< the last sign that stands behind an operator
     TokenIndex foreignList_ = 0;         ///< the last bracket that another language has there
     TokenIndex strayEnd_ = kNoToken;     ///< a word for END that ends nothing, which is reported
+    TokenIndex runTogether_ = kNoToken;  ///< the word of a declaration that what follows it has run into
+    size_t searched_ = 0;                ///< words of the file, for names
     TokenIndex badNumber_ = kNoToken;    ///< the place behind a number that could not be read
     bool inCaseValue_ = false;           ///< between CASE and its colon
     size_t openModules_ = 0;             ///< modules whose ENDMODULE has not been found

@@ -45,6 +45,11 @@ bool isOnlyUnexpected(Code code) {
     return std::find(std::begin(kAll), std::end(kAll), code) != std::end(kAll);
 }
 
+/// What is said where a name may have been torn in two.
+bool isTornPlace(Code code) {
+    return code == Code::UnexpectedToken || code == Code::MissingClosing || code == Code::MissingBlockWord;
+}
+
 } // namespace
 
 // ---- Reporting ------------------------------------------------------------------------------------------------
@@ -53,6 +58,8 @@ diag::Diagnostic* Parser::reportAt(Code code, SourceRange range, std::initialize
     if (panic_) return nullptr;
     if (code >= Code::UnexpectedToken && code < Code::MissingSemicolon) ++unreadable_;
     if (isConsequence(code, range) || followsFromLast(code, range)) return nullptr;
+    if (range.begin == tokens_[pos_].offset && isTornPlace(code))
+        if (diag::Diagnostic* torn = reportTornName()) return torn;
     if (isUnread(code)) lastUnread_ = range.begin;
     if (++errors_ <= kMaxErrorsPerFile) return &sink_.report(code, tree_.source, range, args);
     if (errors_ == kMaxErrorsPerFile + 1) sink_.report(Code::TooManyErrors, tree_.source, range, {"errors"});

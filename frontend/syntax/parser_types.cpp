@@ -16,6 +16,7 @@ Decl* Parser::parseRecord(bool local, TokenIndex first) {
                           !startsLine(pos_ + 1); // a component already
     node->name = nameless ? missingName() : expectName();
     checkNameLength(node->name);
+    if (!startsLine(pos_)) takeTornName(node->name, {}, true);
     if (panic_ || kind() == K::Semicolon) {
         if (!panic_) unexpected("a component");
         syncStatement();

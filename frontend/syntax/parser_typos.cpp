@@ -5,7 +5,6 @@
 #include "frontend/syntax/parser_impl.h"
 
 #include <algorithm>
-#include <cctype>
 
 namespace rapid::syntax {
 
@@ -68,12 +67,6 @@ constexpr ForeignBlock kForeignBlocks[] = {
     {"TRY", "CATCH ENDTRY", "an ERROR handler at the end of the routine"}};
 
 constexpr size_t kLongestTypo = 14;
-
-std::string upperCase(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::toupper(c); });
-    return out;
-}
 
 } // namespace
 
@@ -266,6 +259,7 @@ bool Parser::retagMisspelt(const TokenSet& own) {
 
 /// "VRA num x;", "PRES num x := 1;": three names in a row are a declaration.
 bool Parser::retagData() {
+    if (kind() == K::Identifier && isName(peek()) && peek(2) == K::Assign && takesRunTogether()) return true;
     if (kind() != K::Identifier || !isName(peek()) || !isName(peek(2)) || startsLine(pos_ + 2)) return false;
     constexpr TokenSet kAfter = {K::Semicolon, K::Assign, K::LeftBrace, K::Equal};
     if (!kAfter.has(peek(3))) return false;

@@ -64,6 +64,13 @@ std::string_view tokenKindName(TokenKind kind) {
     return kNames[static_cast<size_t>(kind)];
 }
 
+std::string upperCase(std::string_view text) {
+    std::string out(text);
+    for (char& c : out)
+        c = upper(c);
+    return out;
+}
+
 bool equalsNoCase(std::string_view text, std::string_view upperText) {
     if (text.size() != upperText.size()) return false;
     for (size_t i = 0; i < text.size(); ++i)

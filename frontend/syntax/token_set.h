@@ -3,6 +3,8 @@
 
 #include "frontend/syntax/ast.h"
 
+#include <string>
+
 namespace rapid::syntax {
 
 /// A set of token kinds in two machine words.
@@ -41,6 +43,9 @@ std::string_view tokenKindName(TokenKind kind);
 
 /// The keyword that `word` is, in any case; Identifier when it is none.
 TokenKind keywordKind(std::string_view word);
+
+/// The ASCII letters in upper case.
+std::string upperCase(std::string_view text);
 
 /// ASCII comparison without regard to case; `upper` is in upper case.
 bool equalsNoCase(std::string_view text, std::string_view upper);
