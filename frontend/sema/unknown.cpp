@@ -45,8 +45,9 @@ bool near(std::string_view written, unsigned distance) {
 
 /// A declaration that begins as it should, from its word on.
 bool isWhole(const SyntaxTree& tree, size_t word) {
-    constexpr TokenSet kAfterName = {TokenKind::Semicolon, TokenKind::Assign, TokenKind::LeftBrace,
-                                     TokenKind::LeftParen};
+    constexpr TokenSet kAfterName = {TokenKind::Semicolon, TokenKind::Assign,     TokenKind::LeftBrace,
+                                     TokenKind::LeftParen, TokenKind::RightParen, TokenKind::Comma,
+                                     TokenKind::Backslash, TokenKind::Bar};
     const bool named = tree.tokens[word].kind == TokenKind::KwProc;
     const size_t after = word + (named ? 2 : 3); // one word, or data type and name
     if (after >= tree.tokens.size() || !kAfterName.has(tree.tokens[after].kind)) return false;
