@@ -107,7 +107,11 @@ size_t lostLoops(const SyntaxTree& tree, const RoutineDecl& routine) {
     const auto columnOf = [&](TokenIndex i) { return tree.source->lineColumn(tree.tokens[i].offset).column; };
     size_t open = 0, lost = 0;
     for (TokenIndex i = routine.first; i <= routine.last; ++i) {
-        if (tree.tokens[i].kind == TokenKind::KwFor) ++open;
+        if (tree.tokens[i].kind == TokenKind::KwFor) {
+            ++open;
+            const TokenKind next = tree.tokens[i + 1].kind; // no loop variable
+            if (next == TokenKind::NumLiteral || next == TokenKind::KwFrom) ++lost;
+        }
         if (tree.tokens[i].kind != TokenKind::KwEndfor) continue;
         const bool twice = i > routine.first && tree.tokens[i - 1].kind == TokenKind::KwEndfor &&
                            columnOf(i - 1) == columnOf(i);

@@ -131,10 +131,10 @@ Stmt* Parser::parseIfBlocks(TokenIndex opening, Expr* condition, bool headRead) 
     branch->condition = condition;
     bool braced = false;
     const std::string bracesOf = "THEN: the instructions of IF end with ENDIF";
+    bool allWhole = kind() != K::Colon; // "if a:": a language without END words
     if (!headRead && kind() != K::LeftBrace) expectWord(K::KwThen);
     branch->body = parseBody(kIfEnds, bracesOf, braced);
     branches_.push_back(finish(branch));
-    bool allWhole = true;
     const TokenIndex outer = restore.saved();
     while (kind() != K::KwEndif && kIfEnds.has(kind())) {
         // A second ELSE that stands below the IF around this one belongs to that: the ENDIF is missing.
@@ -203,7 +203,13 @@ Stmt* Parser::parseFor() {
     const TokenIndex opening = blockOpening_ = take();
     bool whole = true; // once the head is broken, the rest of it is not missed
     if (parseForeignFor(node)) return parseForBody(node, opening, false);
-    if (kind() == K::KwFrom && peek() != K::KwFrom) {
+    if (takesForeignCounter(node)) return parseForBody(node, opening, false);
+    const bool counterless =
+        kind() == K::NumLiteral && peek() == K::KwTo && !startsLine(pos_); // FOR 1 TO 3 DO
+    if (counterless) {
+        report(Code::UnexpectedToken, pos_, {describe(pos_), "the name of the loop variable, and FROM"});
+        whole = true;
+    } else if (kind() == K::KwFrom && peek() != K::KwFrom) {
         report(Code::UnexpectedToken, pos_, {describe(pos_), "a name"});
     } else if (beginsInstruction()) {
         node->variable = missingName();
@@ -218,7 +224,8 @@ Stmt* Parser::parseFor() {
         node->variable = expectName();
         checkNameLength(node->variable);
     }
-    if (!panic_ && (kind() == K::Assign || kind() == K::Equal)) { // FOR i := 1 TO 5 DO
+    if (counterless) {
+    } else if (!panic_ && (kind() == K::Assign || kind() == K::Equal)) { // FOR i := 1 TO 5 DO
         diag::Diagnostic* diagnostic = report(Code::MissingBlockWord, pos_, {describe(pos_), "FROM"});
         const bool before = tree_.range(pos_ - 1).end < tree_.range(pos_).begin;
         const bool behind = tree_.range(pos_).end < tree_.range(pos_ + 1).begin;
@@ -301,7 +308,8 @@ Stmt* Parser::parseTestCases(TokenIndex opening, Expr* subject, bool whole) {
     if (!whole && !kTestEnds.has(kind())) return finish(node);
     if (!panic_ && !kTestEnds.has(kind()) && !startsLine(pos_) && startsLine(pos_ + 1) &&
         kTestEnds.has(peek())) { // TEST n OF
-        fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "CASE"}), tree_.range(pos_), "");
+        if (!joinLastEdit(Code::MisspeltKeyword, tree_.range(pos_), ""))
+            fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "CASE"}), tree_.range(pos_), "");
         take();
     }
     if (panic_) syncStatement();
@@ -355,6 +363,17 @@ bool Parser::isEqualForColon() const {
     return isName(peek()) ? kNoOperator.has(peek(2)) : isKeyword(peek()) && !startsExpr(peek());
 }
 
+/// `CASE 1;2:`
+bool Parser::takesSemicolonInCase() {
+    TokenIndex colon = 0;
+    if (kind() != K::Semicolon || startsLine(pos_ + 1) || !startsExpr(peek()) ||
+        !findOnLine(pos_ + 1, K::Colon, colon) || !startsLine(colon + 1))
+        return false;
+    fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "','"}), tree_.range(pos_), ",");
+    take();
+    return true;
+}
+
 TestCase* Parser::parseCase() {
     auto* node = make<TestCase>(NodeKind::TestCase);
     if (take(), tokens_[pos_ - 1].kind == K::KwCase) {
@@ -364,7 +383,7 @@ TestCase* Parser::parseCase() {
         bool whole = true;
         do
             exprs_.push_back(parseHeadExpr(whole, HeadPart::CaseValue));
-        while (whole && !panic_ && accept(K::Comma));
+        while (whole && !panic_ && (accept(K::Comma) || takesSemicolonInCase()));
         inCaseValue_ = outer.saved();
         node->values = drain(exprs_, mark);
         TokenIndex found = 0;

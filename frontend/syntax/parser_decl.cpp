@@ -87,6 +87,9 @@ DataDecl* Parser::parseWordlessData() {
 /// What follows the data type: name, dimensions, value, semicolon.
 void Parser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) {
     if (!panic_ && kind() == K::LeftBrace && nameMissing) parseDimensionsOf(node, true);
+    const bool length =
+        !node->dims.empty() && kind() == K::Identifier && equalsNoCase(textOf(node->type), "STRING");
+    if (length && !panic_) node->dims = {}; // string{80} is a text of that length
     if (!panic_ && nameMissing) node->name = expectName();
     if (node->name != kNoToken && isKeyword(kindAt(node->name))) declareReserved(node->name);
     checkNameLength(node->name);
@@ -110,7 +113,9 @@ void Parser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) {
             fix(diagnostic, {tree_.range(pos_).begin, tree_.range(pos_).begin}, ":= ");
             node->init = parseExpr();
         } else if (kind() == K::Equal) {
-            reportEqual();
+            if (node->type != kNoToken || textOf(pos_) != "=" ||
+                !joinLast(Code::MissingDataType, tree_.range(pos_), "and ':=' here"))
+                reportEqual();
             take();
             node->init = parseExpr();
         } else if (accept(K::Assign)) {
@@ -136,6 +141,14 @@ Decl* Parser::parseRoutine(bool local, TokenIndex first) {
     const TokenIndex opening = take();
     skipSecond(opening);
     const size_t errorsBefore = errors_;
+    if (kind() == K::KwLocal && isName(peek()) && !startsLine(pos_)) { // PROC LOCAL name()
+        const SourceRange both{tree_.range(opening).begin, tree_.range(pos_).end};
+        fix(report(Code::UnexpectedToken, pos_,
+                   {"LOCAL", "a name: LOCAL stands before " + describe(opening)}),
+            both, "LOCAL " + describe(opening));
+        node->local = true;
+        take();
+    }
     if (!options_.declarations) correctRoutineWord(node, opening);
     routineEnd_ = wordsOf(node->routineKind).end;
     parseRoutineHeader(node);
@@ -144,6 +157,7 @@ Decl* Parser::parseRoutine(bool local, TokenIndex first) {
             tree_.range(pos_), "");
         take();
     }
+    if (kind() == K::Colon) takesColonAs("");
     constexpr TokenSet kNextRoutine = {K::KwProc, K::KwFunc, K::KwTrap, K::KwEndmodule};
     const bool beingWritten = kNextRoutine.has(kind() == K::KwLocal ? peek() : kind()) && startsLine(pos_);
     if (errors_ > errorsBefore && beingWritten) {
@@ -313,7 +327,8 @@ void Parser::parseParameters(RoutineDecl* routine) {
 
 /// One required parameter or the alternatives of an optional one.
 void Parser::parseParameterGroup(uint32_t group) {
-    bool optional = accept(K::Backslash);
+    const bool marked = switchMarked_ == pos_; // its '\\' has been missed
+    bool optional = accept(K::Backslash) || marked;
     params_.push_back(parseParameter(optional, group));
     while (!panic_ && kind() == K::Bar) {
         if (!optional && !options_.declarations) report(Code::RequiredAlternative, pos_);

@@ -38,7 +38,10 @@ bool Parser::isBlockBrace() const {
 /// A block in braces: `expected` says how RAPID writes it. The list ends at its '}', or as it should.
 StmtList Parser::parseBody(const TokenSet& own, const std::string& expected, bool& braced) {
     if (skipBracedComment() || kind() != K::LeftBrace || panic_) return parseList(own);
-    if (!braced) report(Code::ForeignSpelling, pos_, {"{", expected});
+    if (!braced && !joinLast(Code::ForeignSpelling, tree_.range(pos_), "and no '{', but " + expected))
+        report(Code::ForeignSpelling, pos_, {"{", expected});
+    else if (!braced && !lastReport_->fixes.empty())
+        lastReport_->fixes.front().certain = false; // the braces are still to be mended
     braced = true;
     take();
     ++braces_;
@@ -87,8 +90,14 @@ bool Parser::takesColonAs(std::string_view word) {
         fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "an instruction"}), tree_.range(pos_), "");
     } else {
         const bool spaced = tree_.range(pos_ - 1).end < tree_.range(pos_).begin;
-        fix(report(Code::MissingBlockWord, pos_, {describe(pos_), std::string(word)}), tree_.range(pos_),
-            (spaced ? "" : " ") + std::string(word));
+        const std::string meant = (spaced ? "" : " ") + std::string(word);
+        constexpr TokenSet kEnds = kIfEnds | TokenSet{K::KwEndfor, K::KwEndwhile};
+        const bool closed = kEnds.has(kindAt(unmatchedWord(pos_ + 1)));
+        if (!joinLastEdit(Code::ForeignSpelling, tree_.range(pos_), meant)) // "if a == b:"
+            fix(report(Code::MissingBlockWord, pos_, {describe(pos_), std::string(word)}), tree_.range(pos_),
+                meant, closed);
+        else if (!closed)
+            lastReport_->fixes.front().certain = false;
     }
     take();
     return true;
@@ -130,6 +139,33 @@ bool Parser::parseForeignFor(ForStmt* node) {
     node->from = errorExpr();
     node->to = errorExpr();
     accept(K::KwDo);
+    return true;
+}
+
+/// `FOR VAR num i FROM 1 TO 3 DO`: without the words of a declaration. `for i in range(3):`: true, the head has been read.
+bool Parser::takesForeignCounter(ForStmt* node) {
+    if (panic_) return false;
+    if (kStorageWords.has(kind()) && isName(peek())) {
+        const TokenIndex name = isName(peek(2)) ? pos_ + 2 : pos_ + 1;
+        fix(report(Code::UnexpectedToken, pos_,
+                   {describe(pos_), "the name of the loop variable, which FOR declares by itself"}),
+            {tree_.range(pos_).begin, tree_.range(name).begin}, "");
+        pos_ = name;
+        return false;
+    }
+    if (!isName(kind()) || !isContextual(pos_ + 1, "IN") || startsLine(pos_ + 1)) return false;
+    if (TokenIndex to = 0; findOnLine(pos_ + 2, K::KwTo, to)) { // FOR i IN 1 TO 3 DO
+        retag(pos_ + 1, pos_ + 1, K::KwFrom);
+        return false;
+    }
+    report(Code::ForeignSpelling, pos_ + 1,
+           {std::string(textOf(pos_ + 1)), "a head such as FOR i FROM 1 TO 10 DO"});
+    node->variable = pos_;
+    do
+        take();
+    while (!startsLine(pos_) && kind() != K::EndOfFile);
+    node->from = errorExpr();
+    node->to = errorExpr();
     return true;
 }
 
@@ -251,9 +287,12 @@ bool Parser::missesComma() {
     if (panic_ || !isName(kindAt(type)) || !isName(kindAt(type + 1)) || !kAfter.has(kindAt(type + 2)) ||
         startsLine(pos_) || startsLine(type))
         return false;
-    fix(report(Code::MissingClosing, pos_, {describe(pos_), "',' or ')'"}),
-        semicolon ? tree_.range(pos_) : endOf(pos_ - 1), ",");
+    const bool isSwitch = isContextual(type, "SWITCH");
+    fix(report(Code::MissingClosing, pos_,
+               {describe(pos_), isSwitch ? "'\\' before a switch" : "',' or ')'"}),
+        semicolon ? tree_.range(pos_) : endOf(pos_ - 1), isSwitch ? "\\" : ",");
     if (semicolon) take();
+    if (isSwitch) switchMarked_ = pos_;
     return true;
 }
 
@@ -278,9 +317,11 @@ bool Parser::isInstructionLine() const {
                        (isName(peek()) && peek(2) == K::Semicolon && !isBasicType(textOf(pos_)) &&
                         !listClosesBelow(pos_ + 3));
     TokenIndex i = pos_;
+    uint32_t depth = 0;
     for (; kindAt(i) != K::EndOfFile && !startsLine(i + 1); ++i) {
-        if (kindAt(i) == K::RightParen) return false;
-        instruction = instruction || kValues.has(kindAt(i)) ||
+        if (kindAt(i) == K::LeftParen) ++depth;
+        if (kindAt(i) == K::RightParen && depth-- == 0) return false;
+        instruction = instruction || kValues.has(kindAt(i)) || depth > 0 ||
                       (kindAt(i) == K::Comma && isName(kindAt(i + 1)) && kAlone.has(kindAt(i + 2)));
     }
     return instruction && kindAt(i) == K::Semicolon;

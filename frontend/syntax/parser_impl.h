@@ -151,6 +151,8 @@ class Parser {
         // The words behind are read as they were meant, unless a line just seems to end too early.
         if (certain && diagnostic->code != diag::Code::MissingSemicolon) lastUnread_ = kNowhere;
     }
+    bool joinLast(diag::Code code, SourceRange place, std::string_view message);
+    bool joinLastEdit(diag::Code code, SourceRange place, std::string replacement);
     void fixParentheses(diag::Diagnostic* diagnostic, const Node& operand);
     void reportEqual();
     void reportScopeInside(ScopeWord scope);
@@ -235,6 +237,7 @@ class Parser {
     bool retagMisspelt(const TokenSet& own);
     bool retagData();
     bool retagOpener();
+    bool isEndlessLoop();
     bool startsForeignBlock();
     bool endsForeignBlock();
     bool retagCallee(TokenIndex callee);
@@ -266,6 +269,7 @@ class Parser {
     bool takesColonAs(std::string_view word);
     bool negatesByComment(std::string_view ending);
     bool parseForeignFor(ForStmt* node);
+    bool takesForeignCounter(ForStmt* node);
     bool isWordlessData() const;
     bool parseForeignData(DataDecl* node);
     void parseDimensionsOf(DataDecl* node, bool beforeName);
@@ -347,6 +351,7 @@ class Parser {
     TestCase* parseCase();
     void expectColonOfDefault();
     bool isEqualForColon() const;
+    bool takesSemicolonInCase();
 
     // ---- Instructions of one word and an operand (parser_stmt.cpp)
     Stmt* parseGoto();
@@ -431,6 +436,7 @@ class Parser {
     TokenIndex foreignList_ = 0;         ///< the last bracket that another language has there
     TokenIndex strayEnd_ = kNoToken;     ///< a word for END that ends nothing, which is reported
     TokenIndex runTogether_ = kNoToken;  ///< the word of a declaration that what follows it has run into
+    TokenIndex switchMarked_ = kNoToken; ///< a switch without '\\', which is reported
     size_t searched_ = 0;                ///< words of the file, for names
     TokenIndex badNumber_ = kNoToken;    ///< the place behind a number that could not be read
     bool inCaseValue_ = false;           ///< between CASE and its colon
@@ -441,10 +447,12 @@ class Parser {
         nullptr; ///< module attributes out of order, while nothing else is reported
     static constexpr uint32_t kNowhere = 0xFFFFFFFF;
     uint32_t lastUnread_ =
-        kNowhere;         ///< where words begin that could not be read, the last that were reported
-    size_t listMark_ = 0; ///< in stmts_: the beginning of the list that is being read
-    TokenSet enclosing_;  ///< words that end a list further out
-    TokenIndex wrongEnd_ = kNoToken;     ///< an END word that closes a block of another kind
+        kNowhere; ///< where words begin that could not be read, the last that were reported
+    diag::Diagnostic* lastReport_ = nullptr; ///< what was reported last, while reports_ says that nothing followed
+    size_t reports_ = 0;               ///< of all reports
+    size_t listMark_ = 0;              ///< in stmts_: the beginning of the list that is being read
+    TokenSet enclosing_;               ///< words that end a list further out
+    TokenIndex wrongEnd_ = kNoToken;   ///< an END word that closes a block of another kind
     TokenIndex headReported_ = kNoToken; ///< a THEN or DO whose IF, FOR or WHILE is broken
     TokenIndex compactIf_ = kNoToken;    ///< the last IF without THEN
     TokenIndex compactIfEnd_ =

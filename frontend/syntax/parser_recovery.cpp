@@ -61,7 +61,11 @@ diag::Diagnostic* Parser::reportAt(Code code, SourceRange range, std::initialize
     if (range.begin == tokens_[pos_].offset && isTornPlace(code))
         if (diag::Diagnostic* torn = reportTornName()) return torn;
     if (isUnread(code)) lastUnread_ = range.begin;
-    if (++errors_ <= kMaxErrorsPerFile) return &sink_.report(code, tree_.source, range, args);
+    if (++errors_ <= kMaxErrorsPerFile) {
+        lastReport_ = &sink_.report(code, tree_.source, range, args);
+        reports_ = sink_.all().size();
+        return lastReport_;
+    }
     if (errors_ == kMaxErrorsPerFile + 1) sink_.report(Code::TooManyErrors, tree_.source, range, {"errors"});
     return nullptr;
 }
@@ -99,6 +103,27 @@ diag::Diagnostic* Parser::reportAfterExpr(Code code, std::initializer_list<std::
     if (kind() != K::Question) return report(code, pos_, args);
     if (!panic_) ++unreadable_;
     return report(Code::ForeignSpelling, pos_, {"?", "IF ... THEN ... ELSE ... ENDIF to choose a value"});
+}
+
+/// Part of what has just been reported in the same line, with this code: a note there. False when nothing was.
+bool Parser::joinLast(Code code, SourceRange place, std::string_view message) {
+    if (panic_ || !lastReport_ || reports_ != sink_.all().size() || lastReport_->code != code ||
+        place.begin < lastReport_->range.end)
+        return false;
+    const uint32_t from = lastReport_->range.end;
+    if (tree_.source->text().substr(from, place.begin - from).find_first_of("\r\n") != std::string_view::npos)
+        return false;
+    if (!message.empty()) lastReport_->notes.push_back({tree_.source, place, std::string(message)});
+    return true;
+}
+
+/// The same, with one more edit to its fix.
+bool Parser::joinLastEdit(Code code, SourceRange place, std::string replacement) {
+    if (!lastReport_ || lastReport_->fixes.empty()) return false;
+    const std::string message = replacement.empty() ? "and without this" : "and '" + replacement + "' here";
+    if (!joinLast(code, place, message)) return false;
+    lastReport_->fixes.front().edits.push_back({place, std::move(replacement)});
+    return true;
 }
 
 void Parser::note(diag::Diagnostic* diagnostic, TokenIndex at, std::string message) {
@@ -404,6 +429,7 @@ void Parser::expectWord(K word) {
     if (kind() == word || (!panic_ && kind() == K::Identifier && retagIfMeant(word))) {
         take();
         panic_ = false;
+        if (kind() == K::Colon) takesColonAs("");
         return;
     }
     if (!panic_ && ((word == K::KwDo && kind() == K::KwThen) || (word == K::KwThen && kind() == K::KwDo))) {

@@ -72,7 +72,9 @@ Stmt* Parser::parseStmt() {
 
 Stmt* Parser::parseStmtUnguarded() {
     const TokenIndex first = pos_;
-    if ((peek() == K::Assign || (peek() == K::Colon && kind() != K::KwDefault)) && isKeyword(kind())) {
+    const bool gives = kind() == K::KwReturn || kind() == K::KwRaise;
+    if ((peek() == K::Assign || (peek() == K::Colon && kind() != K::KwDefault)) && isKeyword(kind()) &&
+        (!gives || startsLine(pos_ + 2))) {
         takeReservedName();
         if (kindAt(first) == K::Identifier) {
             pos_ = first;
@@ -240,6 +242,10 @@ Stmt* Parser::parseNamedStmt() {
     default: break;
     }
     if (isTaskDirective(pos_)) return parseLateDecl();
+    if (isEndlessLoop()) {
+        const TokenIndex opening = take();
+        return parseWhileBody(opening, errorExpr(), true);
+    }
     if (endsForeignBlock() || startsForeignBlock()) return errorStmt(first);
     return parseCallStmt();
 }
@@ -385,6 +391,14 @@ Stmt* Parser::parseValueStmt(bool isReturn) {
     Expr* value = nullptr;
     const size_t unreadable = unreadable_;
     const TokenIndex first = take();
+    constexpr TokenSet kSigns = {K::Assign, K::Equal, K::Colon};
+    if (kSigns.has(kind()) && !startsLine(pos_) && startsExpr(peek()) &&
+        !startsLine(pos_ + 1)) { // RETURN = x;
+        fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "a value behind " + describe(first)}),
+            {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin},
+            tree_.range(first).end == tree_.range(pos_).begin ? " " : "");
+        take();
+    }
     const bool valueBelow =
         isReturn && routineEnd_ == K::KwEndfunc && isName(kind()) && peek() == K::Semicolon;
     if (kind() != K::Semicolon && startsExpr(kind()) && (valueBelow || !calleeEndsHere(first, first)) &&

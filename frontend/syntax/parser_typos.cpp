@@ -168,6 +168,16 @@ bool Parser::fitsAsListWord(K word, TokenIndex last) const {
     }
 }
 
+/// LOOP, closed by ENDWHILE.
+bool Parser::isEndlessLoop() {
+    if (panic_ || !isContextual(pos_, "LOOP") || !endsLine(pos_) ||
+        kindAt(unmatchedWord(pos_ + 1)) != K::KwEndwhile)
+        return false;
+    fix(report(Code::ForeignSpelling, pos_, {std::string(textOf(pos_)), "WHILE TRUE DO"}), tree_.range(pos_),
+        "WHILE TRUE DO");
+    return true;
+}
+
 /// REPEAT, LOOP ... at the end of a line: reported; the word that closes the block is then passed over.
 bool Parser::startsForeignBlock() {
     if (!endsLine(pos_)) return false;
