@@ -115,19 +115,19 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "ENDPROC"},
     {4014, Kind::Module,
      "The routine has a parameter for each of several types, but none for the type of the argument.",
-     "PROC main(VAR signalgo code)\n"
+     "PROC send(VAR signalgo code)\n"
      "  SetGO code, \"5\";\n"
      "ENDPROC",
-     "PROC main(VAR signalgo code)\n"
+     "PROC send(VAR signalgo code)\n"
      "  SetGO code, 5;\n"
      "ENDPROC"},
     {4015, Kind::Module,
      "\\a?b passes b on if it is present; b must be an optional parameter of the routine that makes "
      "the call (manual 1.3.4).",
-     "PROC main(num level)\n"
+     "PROC tell(num level)\n"
      "  TPWrite \"\" \\Num?level;\n"
      "ENDPROC",
-     "PROC main(\\num level)\n"
+     "PROC tell(\\num level)\n"
      "  TPWrite \"\" \\Num?level;\n"
      "ENDPROC"},
     {4016, Kind::Module,
@@ -157,10 +157,10 @@ constexpr auto kExplanations = std::to_array<Explanation>({
     {4018, Kind::Module,
      "Present tells whether an optional parameter of the routine itself was given; other data is "
      "always there (manual 1.1.5).",
-     "PROC main(num level)\n"
+     "PROC tell(num level)\n"
      "  IF Present(level) reg1 := level;\n"
      "ENDPROC",
-     "PROC main(\\num level)\n"
+     "PROC tell(\\num level)\n"
      "  IF Present(level) reg1 := level;\n"
      "ENDPROC"},
     {4019, Kind::Body,

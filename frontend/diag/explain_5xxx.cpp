@@ -46,10 +46,10 @@ constexpr auto kExplanations = std::to_array<Explanation>({
     {5005, Kind::Module,
      "A signal is set by instructions: SetDO, Set, Reset, PulseDO, SetGO, SetAO; a signal variable is "
      "connected by AliasIO (manual 1.9).",
-     "PROC main(VAR signaldo lamp)\n"
+     "PROC light(VAR signaldo lamp)\n"
      "  lamp := 1;\n"
      "ENDPROC",
-     "PROC main(VAR signaldo lamp)\n"
+     "PROC light(VAR signaldo lamp)\n"
      "  SetDO lamp, 1;\n"
      "ENDPROC"},
     {5006, Kind::Module,

@@ -327,6 +327,24 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "ERROR\n"
      "  TPWrite \"division by zero\";\n"
      "  TRYNEXT;"},
+    {8045, Kind::Module,
+     "The BACKWARD handler says how a call is executed backwards. Its movements mirror kind and order of those in the "
+     "body; a circular movement keeps the order of its two points. Otherwise the robot takes another path back: a "
+     "linear piece may become a circle (manual 1.21).",
+     "PROC moveTo()\n"
+     "  MoveJ Offs(CRobT(), 0, 0, 9), v500, z10, tool0;\n"
+     "  MoveL CRobT(), v500, fine, tool0;\n"
+     "BACKWARD\n"
+     "  MoveJ CRobT(), v500, z10, tool0;\n"
+     "  MoveL Offs(CRobT(), 0, 0, 9), v500, fine, tool0;\n"
+     "ENDPROC",
+     "PROC moveTo()\n"
+     "  MoveJ Offs(CRobT(), 0, 0, 9), v500, z10, tool0;\n"
+     "  MoveL CRobT(), v500, fine, tool0;\n"
+     "BACKWARD\n"
+     "  MoveL CRobT(), v500, z10, tool0;\n"
+     "  MoveJ Offs(CRobT(), 0, 0, 9), v500, fine, tool0;\n"
+     "ENDPROC"},
 });
 // clang-format on
 

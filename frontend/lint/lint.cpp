@@ -2,7 +2,9 @@
 
 #include "frontend/lint/lint.h"
 
+#include "frontend/lint/backward.h"
 #include "frontend/lint/presence.h"
+#include "frontend/lint/rings.h"
 #include "frontend/lint/walker.h"
 
 #include <algorithm>
@@ -151,6 +153,7 @@ class TaskLint {
                 if (isWrong(*routine)) continue;
                 walker_.routine(*routine);
                 judgePresence(*routine, reporter_);
+                judgeBackward(*routine, reporter_);
                 routineData(*routine);
             }
         }
@@ -163,6 +166,7 @@ class TaskLint {
         interrupts();
         for (const Module* module : task_.modules)
             declarations(*module);
+        rings();
     }
 
   private:
@@ -179,6 +183,8 @@ class TaskLint {
     bool mayBeUsedElsewhere(const Symbol& symbol) const;
     void data(const DataSymbol& data);
     void routine(const RoutineSymbol& routine);
+    bool isOnlyForCallers(const RoutineSymbol& routine) const;
+    void rings();
     void type(const TypeSymbol& type);
     void hiding(const Symbol& symbol, const char* kind);
     diag::Diagnostic* report(Code code, const Symbol& symbol, std::initializer_list<std::string> args) {
@@ -318,14 +324,11 @@ void TaskLint::routine(const RoutineSymbol& routine) {
     const bool proc = routine.routineKind == RoutineKind::Proc;
     const bool trap = routine.routineKind == RoutineKind::Trap;
     hiding(routine, proc ? "procedure" : trap ? "trap routine" : "function");
-    if (!routine.used && !mayBeUsedElsewhere(routine) && &routine != task_.entryRoutine) {
-        const bool takesArguments = std::any_of(routine.params.begin(), routine.params.end(),
-                                                [](const DataSymbol* p) { return !p->optional; });
-        if (trap)
+    if (!routine.used) {
+        if (trap && !mayBeUsedElsewhere(routine))
             report(Code::TrapNotConnected, routine, {routine.name});
-        else if (!facts_.callsByName &&
-                 (!proc || routine.isLocal || takesArguments)) // operators and events call PROCs
-            report(Code::UnusedRoutine, routine, {proc ? "procedure" : "function", routine.name});
+        else if (isOnlyForCallers(routine))
+            report(Code::UnusedRoutine, routine, {proc ? "procedure" : "function", routine.name, ""});
     }
     if (isWrong(routine)) return;
     for (const DataSymbol* param : routine.params) {
@@ -333,6 +336,32 @@ void TaskLint::routine(const RoutineSymbol& routine) {
         if (!param->used && !otherAlternativeRead(routine, *param) && !isPlaceholderName(param->name) &&
             !facts_.callsByName && !routine.routineDecl->body.empty())
             report(Code::UnusedParameter, *param, {param->name, routine.name});
+    }
+}
+
+/// Whether nothing but calls in the modules of the task can start it.
+bool TaskLint::isOnlyForCallers(const RoutineSymbol& routine) const {
+    if (routine.routineKind == RoutineKind::Trap || facts_.callsByName || &routine == task_.entryRoutine)
+        return false;
+    const bool takesArguments = std::any_of(routine.params.begin(), routine.params.end(),
+                                            [](const DataSymbol* p) { return !p->optional; });
+    const bool mayBeStarted = // operators and events call PROCs
+        routine.routineKind == RoutineKind::Proc && !routine.isLocal && !takesArguments;
+    return !mayBeStarted && !mayBeUsedElsewhere(routine);
+}
+
+void TaskLint::rings() {
+    if (facts_.callsByName || !reporter_.isOn(Code::UnusedRoutine)) return;
+    RoutineList roots, candidates; // what is never called at all is told by itself, what it calls is not
+    for (const Module* module : task_.modules)
+        for (const RoutineSymbol* routine : module->routines)
+            (routine->used && isOnlyForCallers(*routine) ? candidates : roots).push_back(routine);
+    for (const RoutineList& ring : ringsOf(facts_, roots, std::move(candidates))) {
+        const RoutineSymbol& first = *ring.front();
+        std::string by = " but by itself";
+        if (ring.size() > 1) by = " but by '" + ring[1]->name + "', and that only from here";
+        report(Code::UnusedRoutine, first,
+               {first.routineKind == RoutineKind::Proc ? "procedure" : "function", first.name, by});
     }
 }
 

@@ -23,16 +23,34 @@ class PresenceWalk {
           known_(routine.params.size(), Known::Nothing), reported_(routine.params.size(), false) {}
 
     void run() {
-        list(routine_.routineDecl->body);
-        if (tested_.empty()) return; // the checker speaks of parameters that nobody asks for
-        for (const auto& [param, where] : uses_)
-            if (tested_.count(param->group) > 0) report(*param, *where);
+        const RoutineDecl& decl = *routine_.routineDecl;
+        list(decl.body);
+        // An ERROR handler may be the answer to a parameter that is missing (ERR_NOTPRES).
+        if (!decl.errors.empty()) std::erase_if(uses_, [](const Use& use) { return use.passedBy; });
+        for (const ErrorClause* clause : decl.errors)
+            handler(clause->body);
+        handler(decl.backward);
+        handler(decl.undo);
+        for (const Use& use : uses_) // the checker speaks of parameters that nobody asks for
+            if (tested_.count(use.param->group) > 0) report(*use.param, *use.place);
     }
 
   private:
     /// Doubtful: the condition asks for it and holds without it all the same, "Present(x) OR ...".
     enum class Known : uint8_t { Nothing, Present, Absent, Doubtful };
     using State = std::vector<Known>;
+    struct Use {
+        const DataSymbol* param;
+        const Expr* place;
+        bool passedBy; ///< nobody has asked on the way to this place
+    };
+
+    /// Where the body was left nobody knows.
+    void handler(StmtList body) {
+        std::fill(known_.begin(), known_.end(), Known::Nothing);
+        certain_ = false;
+        list(body);
+    }
 
     const sema::ExprInfo& info(const Expr& e) const { return (*module_.exprs)[e.id]; }
 
@@ -44,13 +62,17 @@ class PresenceWalk {
         const bool own = data->routine == &routine_ && data->storage == sema::Storage::Parameter;
         return own && data->optional && !data->isSwitch ? data : nullptr;
     }
+    bool isCallOf(const Expr& e, std::string_view name) const {
+        if (e.kind != NodeKind::Call) return false;
+        const auto found = module_.facts->calls.find(&e);
+        const RoutineSymbol* routine = found == module_.facts->calls.end() ? nullptr : found->second.routine;
+        return routine && routine->predefined && routine->name == name;
+    }
     /// The parameter that `e` asks for: Present(x). Also of switches, whose alternatives it tells about.
     const DataSymbol* asked(const Expr& e) const {
-        if (e.kind != NodeKind::Call) return nullptr;
-        const auto found = module_.facts->calls.find(&e);
-        if (found == module_.facts->calls.end() || !found->second.routine) return nullptr;
-        const sema::BoundCall& call = found->second;
-        if (!call.routine->predefined || call.routine->name != "Present" || call.args.empty()) return nullptr;
+        if (!isCallOf(e, "Present")) return nullptr;
+        const sema::BoundCall& call = module_.facts->calls.find(&e)->second;
+        if (call.args.empty()) return nullptr;
         const Expr* value = call.args.front().value;
         if (!value || value->kind != NodeKind::Name) return nullptr;
         const sema::Symbol* symbol = info(*value).symbol;
@@ -111,7 +133,8 @@ class PresenceWalk {
     void use(const DataSymbol& param, const Expr& e) {
         const Known known = known_[param.index];
         const bool passedBy = certain_ && isOpen(param);
-        if (known == Known::Absent || known == Known::Doubtful || passedBy) uses_.emplace_back(&param, &e);
+        if (known == Known::Absent || known == Known::Doubtful || passedBy)
+            uses_.push_back({&param, &e, passedBy});
     }
 
     /// Whether nothing is known of the parameter and of those that exclude it.
@@ -216,7 +239,9 @@ class PresenceWalk {
             expr(*loop.condition);
             const State before = known_;
             learn(*loop.condition, true);
+            const size_t leaves = leaves_;
             branch(loop.body);
+            certain_ = certain_ && leaves == leaves_;
             known_ = before;
             return true;
         }
@@ -225,7 +250,12 @@ class PresenceWalk {
             for (const Expr* bound : {loop.from, loop.to, loop.step})
                 if (bound) expr(*bound);
             const State before = known_;
-            branch(loop.body);
+            // It runs at least once where its bounds are written down.
+            const bool outer = certain_;
+            certain_ = certain_ && runsOnce(loop);
+            const size_t leaves = leaves_;
+            list(loop.body);
+            certain_ = outer && leaves == leaves_ && !hopeless_;
             known_ = before;
             return true;
         }
@@ -258,16 +288,33 @@ class PresenceWalk {
         case NodeKind::Break:
         case NodeKind::Continue:
         case NodeKind::Retry:
-        case NodeKind::TryNext: return false;
+        case NodeKind::TryNext: ++leaves_; return false;
         default: return true;
         }
     }
 
-    bool goesOnBehind(const Stmt& s) const {
+    /// Whether it is written down that the body is carried out.
+    bool runsOnce(const ForStmt& loop) const {
+        const auto* from = numberOf(loop.from);
+        if (!from || !loop.to) return false;
+        const auto* to = numberOf(loop.to);
+        if (!to) return !loop.step && *from <= 1 && isCallOf(*loop.to, "Dim");
+        const auto* step = numberOf(loop.step);
+        if (loop.step && !step) return false;
+        return !step || (*step < 0 ? *from >= *to : *from <= *to);
+    }
+    const double* numberOf(const Expr* e) const {
+        const sema::ConstValue* value = e ? info(*e).constant : nullptr;
+        return value && value->kind == sema::ConstValue::Kind::Number ? &value->number : nullptr;
+    }
+
+    bool goesOnBehind(const Stmt& s) {
         const auto found = module_.facts->calls.find(&s);
         if (found == module_.facts->calls.end() || !found->second.routine) return true;
         const sema::Flow flow = found->second.routine->flow;
-        return flow == sema::Flow::GoesOn || flow == sema::Flow::Stops;
+        const bool goesOn = flow == sema::Flow::GoesOn || flow == sema::Flow::Stops;
+        if (!goesOn) ++leaves_;
+        return goesOn;
     }
 
     bool mentionsPresent(const Expr& e) const {
@@ -349,16 +396,17 @@ class PresenceWalk {
     Reporter& reporter_;
     State known_; ///< by index of the parameter
     std::vector<bool> reported_;
+    size_t leaves_ = 0;                   ///< instructions seen so far that go on elsewhere
     bool certain_ = true;                 ///< every call of the routine comes here
     bool hopeless_ = false;               ///< what Present said has been stored
     std::unordered_set<uint32_t> tested_; ///< groups of alternatives
-    std::vector<std::pair<const DataSymbol*, const Expr*>> uses_;
+    std::vector<Use> uses_;
 };
 
 } // namespace
 
 void judgePresence(const RoutineSymbol& routine, Reporter& reporter) {
-    if (!reporter.isOn(Code::OptionalMayBeMissing) || !routine.routineDecl->errors.empty()) return;
+    if (!reporter.isOn(Code::OptionalMayBeMissing)) return;
     const bool any = std::any_of(routine.params.begin(), routine.params.end(),
                                  [](const DataSymbol* p) { return p->optional && !p->isSwitch; });
     if (any) PresenceWalk(routine, reporter).run();

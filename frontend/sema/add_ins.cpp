@@ -6,34 +6,42 @@ namespace rapid::sema {
 
 namespace {
 
+constexpr std::string_view kOtherRelease = "another release of RobotWare";
+
 struct AddInNames {
-    std::string_view addIn;
-    std::string_view names; ///< lower case, separated by blanks; '*' for any end
+    std::string_view where;
+    std::string_view names;      ///< lower case, separated by blanks; '*' for any end
+    std::string_view types = {}; ///< data types that as names of data would rather be mistakes
 };
 /// Of the options only what the library does not declare.
 constexpr AddInNames kAddIns[] = {
-    {"RobotWare Arc",
+    {"the add-in RobotWare Arc",
      "recoverymenu recoverymenuwr recoveryposset recoveryposreset setwrprocname mpsavepath mploadpath "
      "mpreadinpath mpoffseaxonpath arcrepl arcadaptlstart arcadaptl arcadaptc arcadaptlend "
      "arcadaptcend arccalclstart arccalcl arccalcc arccalclend arccalccend arcadaptrepl multidata "
-     "adaptdata refdata naeresumetype resume_kill resume_skip_* starctopoint aw_*"},
-    {"Conveyor Tracking",
+     "adaptdata refdata naeresumetype resume_kill resume_skip_* starctopoint aw_*",
+     "advseamdata flystartdata"},
+    {"the add-in Conveyor Tracking",
      "useaccprofile recordprofile waitandrecprof storeprofile loadprofile activateprofile "
      "deactprofile cnvgeninstr cnvsync usereachabletargets getmaxusagetime resetmaxusagetime "
-     "cnvpredictreach"},
-    {"RobotWare Paint",
+     "cnvpredictreach err_moc_cnv_*",
+     "cnvcmd"},
+    {"the add-in RobotWare Paint",
      "consolewrite ipssetparam pntproduserlog setbrush setbrushfac paintlsig paintldo paintc "
      "indexlookup ipscommand ipsgetparam paintcommand pntqueueextraget pntqueueextraset pntqueuepeek "
      "brushdata err_ips* pw_equip_err paint_err"},
-    {"RobotWare Spot",
+    {"the add-in RobotWare Spot",
      "setforce calibrate recalctcp indgunmove indgunmovereset openhighlift closehighlift "
      "swsetintspotdata swsetintforcedata swsetintgundata swsetintsimdata swgetcalibdata "
      "swgetfixtipdata spotl spotj spotml spotmj calibl calibj measurewearl swgetcurrtargetname "
-     "swgetcurrspotname nutl nutj gundata spotdata forcedata simdata smeqdata spotweld_err"},
-    {"Tool Changing", "tcclosecover tcdropofftool tclocktool tcopencover tcpickuptool tcunlocktool tc_err_*"},
-    {"RobotWare Dispense",
+     "swgetcurrspotname nutl nutj gundata spotdata forcedata simdata smeqdata spotweld_err",
+     "gunnum smeqtype"},
+    {"the add-in Tool Changing",
+     "tcclosecover tcdropofftool tclocktool tcopencover tcpickuptool tcunlocktool tc_err_*",
+     "standno toolinfo toolno"},
+    {"the add-in RobotWare Dispense",
      "settmsignal syncwwobj displ dispc getsignal getsignaldnum beaddata equipdata err_glueflow"},
-    {"Continuous Application Platform",
+    {"the add-in Continuous Application Platform",
      "capaptrsetup capaptrsetupai capaptrsetupao capaptrsetuppers capcondsetdo capequidist "
      "capnoprocess caprefresh capsetstopmode capweavesync icap initsuperv ipathpos removesuperv "
      "setupsuperv capc capl caplatrsetup capgetfailsigs capdata captrackdata capweavedata "
@@ -41,12 +49,20 @@ constexpr AddInNames kAddIns[] = {
      "main_ended main_motion stop_weavestart weavestart_regain motion_delay startspeed_time "
      "move_started new_instr at_point at_restartpoint at_errorpoint last_segment process_end_point "
      "path_end_point process_ended start_post1 post1_started end_post1 post1_ended start_post2 "
-     "post2_started end_post2 post2_ended equidist fly_start fly_end last_instr_ended"},
-    {"SoftMove", "cssact cssdeact cssdeactmovel cssforceoffsetact cssforceoffsetdeact cssoffsettune css_*"},
-    {"BullsEye",
+     "post2_started end_post2 post2_ended equidist fly_start fly_end last_instr_ended",
+     "capaptrreferencedata caplatrackdata capevent capmvsttim capstopmode captestno flypointdata "
+     "processtimes restartblkdata supervtimeouts supervtype weavestartdata proc_times sup_timeouts"},
+    {"the add-in SoftMove",
+     "cssact cssdeact cssdeactmovel cssforceoffsetact cssforceoffsetdeact cssoffsettune css_*", "cssframe"},
+    {"the add-in BullsEye",
      "be_device be_scan be_tooldesign bechecktcp bedebugstate berefpointer besetuptoolj betcpextend "
-     "beupdatetcp offstoolxyz offstoolpolar"},
-    {"Force Control (Machining FC, Assembly FC)",
+     "beupdatetcp offstoolxyz offstoolpolar besuccess benooverwrite benonamematch benobedatamod bearrayfull "
+     "betoolnotfound betoolnotset beinvalidsignal bealiasset berangelimfail berangesingfail berangetiltfail "
+     "bescanplaneerr bescanradzero bebframe* bebeam* beheightsrcherr besrcherr* benumofscanserr "
+     "bediazeroorless beslicecounterr begetnewtcpmax begettcpdelerr begetgantryerr berefposseterr "
+     "bereftoolseterr berefbeamseterr berefreseterr besetupalready besetupfailed bestartchanged becheckerr "
+     "beskipupdate bestrtningerr beallnotset bequikrefnotdef beconvergerr beinstfwderr beunknownerr"},
+    {"the add-in Force Control (Machining FC, Assembly FC)",
      "fcact fccalib fccondforce fccondorient fccondpos fccondreorispeed fccondtcpspeed fccondtorque "
      "fccondwaitwhile fcdeact fcpress1lstart fcpressc fcpressend fcpressl fcrefcircle fcrefforce "
      "fcrefline fcrefmoveframe fcrefrot fcrefspiral fcrefsprforcecart fcrefstart fcrefstop "
@@ -54,54 +70,68 @@ constexpr AddInNames kAddIns[] = {
      "fcspdchgtunreset fcsetdampingtune fcsetlpfiltertune fcsupvforce fcsupvorient fcsupvpos "
      "fcsupvreorispeed fcsupvtcpspeed fcsupvtorque fcgetforce fcgetprocessdata fcisforcemode fcloadid "
      "fc_* fcdirections fcframe fcforcevector fcspeedvector fcprocessdata fcboxvol fccylindervol fcspherevol "
-     "fcdamping"},
-    {"Discrete Application Platform",
+     "fcdamping",
+     "fccondstatus fclindir fcplane fcrotdir fcspdchgtunetype fcxyznum"},
+    {"the add-in Discrete Application Platform",
      "daactproc dadeactallproc dadeactproc dadefextsig dadefprocdata dadefprocsig dadefuserdata "
      "dagetcurrdata dasetcurrdata dasetupappbehav dastartmanaction dagetappdescr dagetappindex "
      "dagetnumofprocs dagetnumofrob dagetprcdescr daprocml daprocmj dagetfsttimeevt dacheckmmsopt "
-     "dagetmp dagetrobotname dagettaskname err_da_unkproc"},
-    {"Production Manager",
+     "dagetmp dagetrobotname dagettaskname err_da_unkproc",
+     "dadescapp dadescprc daintdata"},
+    {"the add-in Production Manager",
      "menudata partdata ee_event ee_* pmgr* gap_* execengine robathomepos op_no_robot op_service "
      "op_production ct_continuous ct_count_cycles ct_count_cyc_action ct_periodical"},
-    {"RobotWare Machine Tending",
+    {"the add-in RobotWare Machine Tending",
      "err_mt_* gsopen gsvacuumoff gsbackward gsclose gsvacuumon gsforward gsreset gasetandcheck gaset "
      "gacheck gacheckclose"},
-    {"Optical Tracking", "optscandata opttrackdata optsearch_* ltapp__*"},
-    {"HomePos-Running",
+    {"the add-in Optical Tracking", "optscandata opttrackdata optsearch_* ltapp__*"},
+    {"the add-in HomePos-Running",
      "smovej smovejdo smovejgo smovejsync smovel smoveldo smovelgo smovelsync ssearchl striggj "
      "striggl scssdeactmovel hr_*"},
-    {"SmartGripper (YuMi)",
+    {"the add-in SmartGripper (YuMi)",
      "hand_* g_init g_calibrate g_gripin g_gripout g_jogin g_jogout g_moveto g_stop g_getpos "
      "g_vacuumon* g_vacuumoff* g_blowon* g_blowoff* g_setforce g_setmaxspd g_getspd g_iscalibrated "
      "g_getpressure* g_getvac* err_hand_*"},
-    {"PickMaster",
+    {"the add-in PickMaster",
      "itmsrc itmsrctype itmtgt getitmtgt ackitmtgt nextitmtgttype qstartitmsrc qstopitmsrc "
      "flushitmsrc pick_type place_type pickplace_tune speed_tune resetitmsrc resetflowcount getqueuelevel "
      "itmsrcdata maxnosources noncnvwodata "
      "noncnvwobjname cnvname err_ppa_timeout ppadropwobj ppa_jump_move waitforexeorder remoteipnode "
      "pickplacerunning "
      "safestopexecuted incoordrout"},
-    {"PickMaster palletizing (Palletizing PowerPac)",
+    {"the add-in PickMaster palletizing (Palletizing PowerPac)",
      "pm_* pmack* pmcalc* pmcompare* pmdo* pmerrorlog pmget* pmlast* pmload* pmproj* pmreset* pmsearch* "
      "pmset* pmstart* pmstop* pmwait*"},
-    {"Machine Synchronization", "prx*"},
-    {"Brake Check and SafeMove (service routines)", "brakecheck cyclicbrakecheck"},
-    {"Lincoln ArcLink XT", "lincweldmodedata"},
+    {"the add-in Machine Synchronization", "prx*"},
+    {"the add-in Brake Check and SafeMove (service routines)", "brakecheck cyclicbrakecheck"},
+    {"the add-in Lincoln ArcLink XT", "lincweldmodedata"},
+    {"the add-in of the Servo-Robot seam finder", "asfmu_*"},
+    {"the modules of the Volkswagen standard",
+     "moveabs_* movecirc_* movelin_* moveptp_* searchcirc_* searchlin_*"},
+    {kOtherRelease,
+     "ditheract ditherdeact ioctrlaxis_* movepnp err_csv_index err_mod_notloaded err_whl_search sys_err_*",
+     "triggflag tasksatstart searchdata stopmovestartmove_mem"},
 };
+
+/// Whether a list has the name, or unless `whole` a beginning of it.
+bool holds(std::string_view list, std::string_view folded, bool whole) {
+    while (!list.empty()) {
+        const size_t end = std::min(list.find(' '), list.size());
+        std::string_view word = list.substr(0, end);
+        list.remove_prefix(std::min(end + 1, list.size()));
+        const bool prefix = word.ends_with('*');
+        if (prefix) word.remove_suffix(1);
+        if (folded == word || (prefix && !whole && folded.starts_with(word))) return true;
+    }
+    return false;
+}
 
 } // namespace
 
-std::string_view addInOf(std::string_view folded, bool whole) {
-    for (const AddInNames& entry : kAddIns) {
-        for (std::string_view rest = entry.names; !rest.empty();) {
-            const size_t end = std::min(rest.find(' '), rest.size());
-            std::string_view word = rest.substr(0, end);
-            rest.remove_prefix(std::min(end + 1, rest.size()));
-            const bool prefix = word.ends_with('*');
-            if (prefix) word.remove_suffix(1);
-            if (folded == word || (prefix && !whole && folded.starts_with(word))) return entry.addIn;
-        }
-    }
+std::string_view addInOf(std::string_view folded, bool type, bool whole) {
+    for (const AddInNames& entry : kAddIns)
+        if (holds(entry.names, folded, whole) || (type && holds(entry.types, folded, whole)))
+            return entry.where;
     return {};
 }
 

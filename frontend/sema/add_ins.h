@@ -5,7 +5,8 @@
 
 namespace rapid::sema {
 
-/// The option or add-in that declares a name (lower case), or nothing. `whole`: the beginning of a name is not enough.
-std::string_view addInOf(std::string_view folded, bool whole);
+/// Where a name (lower case) may be declared, "the add-in ..." or "another release of RobotWare", or nothing. `type`: it
+/// stands where a data type is expected. `whole`: the beginning of a name is not enough.
+std::string_view addInOf(std::string_view folded, bool type, bool whole);
 
 } // namespace rapid::sema

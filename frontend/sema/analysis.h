@@ -454,6 +454,7 @@ class Analyzer {
         return context_.routine && !context_.routine->routineDecl->errors.empty();
     }
     bool isInside(uint32_t block, uint32_t outer) const;
+    const Symbol* localEntry(const Task& task, NameId name);
     void checkEntry(Task& task);
 
     // ---- state

@@ -243,6 +243,20 @@ void Analyzer::markAssigned(DataSymbol& symbol) {
     file.assigned.push_back(&symbol);
 }
 
+// A LOCAL routine with the name of the entry. Only of a program that is to run, or in which everything else is known:
+// modules that a part of a program consists of may have a LOCAL main of their own, called by name from elsewhere.
+const Symbol* Analyzer::localEntry(const Task& task, NameId name) {
+    const auto isOpen = [](const Module* module) { return module->facts->open; };
+    if (!options_.requireMain &&
+        (incomplete_ || std::any_of(task.modules.begin(), task.modules.end(), isOpen)))
+        return nullptr;
+    for (const Module* module : task.modules) {
+        const Symbol* local = scopes_[module->id]->names.find(name);
+        if (local && (options_.requireMain || !local->used)) return local;
+    }
+    return nullptr;
+}
+
 void Analyzer::checkEntry(Task& task) {
     const NameId name = interner_.intern(task.entry);
     Symbol* symbol = at(globals_, name);
@@ -254,20 +268,18 @@ void Analyzer::checkEntry(Task& task) {
         routine->used = true;
         return;
     }
-    if (!options_.requireMain && (!symbol || procedure)) return;
-    if (symbol) { // what is no procedure can be the entry of no task
+    if (symbol) { // what is no procedure, or wants arguments, can be the entry of no task
         enterModule(symbol->module);
         std::string found = procedure ? "a procedure with required parameters" : describe(*symbol);
         report(Code::EntryNotProcedure, range(symbol->nameToken), {symbol->name, std::move(found)});
         return;
     }
-    for (const Module* module : task.modules) {
-        const Symbol* local = scopes_[module->id]->names.find(name);
-        if (!local) continue;
-        enterModule(const_cast<Module*>(module));
+    if (const Symbol* local = localEntry(task, name)) {
+        enterModule(local->module);
         report(Code::EntryLocal, range(local->nameToken), {task.name, local->name});
         return;
     }
+    if (!options_.requireMain) return;
     if (incomplete_ || !mayReportUnknown(name)) return;
     if (task.modules.empty()) { // why there is none has been told as a rule
         if (!sink_.hasErrors()) sink_.report(Code::NoEntry, nullptr, {}, {task.name, task.entry});

@@ -147,9 +147,11 @@ Analyzer::Meant Analyzer::reportUnknown(Code code, TokenIndex token, NameId name
     const Suggestion best = suggestion(name, wanted);
     const std::string hint = best.name.empty() ? std::string(otherHint) : didYouMean(best.name);
     const Meant meant = best.isKeyword ? Meant::Keyword : Meant::Unknown;
-    if (const std::string_view addIn = addInOf(interner_.folded(name), !best.name.empty()); !addIn.empty()) {
+    if (const std::string_view where =
+            addInOf(interner_.folded(name), wanted == Wanted::Type, !best.name.empty());
+        !where.empty()) {
         if (reportedNames_.insert(name).second)
-            report(Code::MayBeDeclared, range(token), {text(token), "the add-in " + std::string(addIn), ""});
+            report(Code::MayBeDeclared, range(token), {text(token), std::string(where), ""});
         return Meant::Unknown;
     }
     if (incomplete_) {

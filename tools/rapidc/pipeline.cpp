@@ -133,25 +133,40 @@ void checkRobot(Compilation& compilation, const std::string& option) {
                                 {robot, "name one of the known models with --robot to run the program"});
 }
 
-/// Reports calls of built-ins that are declared only.
+/// Reports built-ins that are called but declared only: each once, where it is called first.
 class UnimplementedCalls {
   public:
-    explicit UnimplementedCalls(diag::Sink& sink) : sink_(sink) {
+    UnimplementedCalls() {
         for (const rt::NativeEntry& entry : rt::nativeTable())
             if (!entry.isImplemented()) names_.insert(entry.name);
     }
 
-    /// The modules of one file.
-    void report(const sema::CheckedProgram& program, std::span<sema::Module* const> modules) {
+    /// Takes in the modules of one file, which several tasks may load.
+    void file(const sema::CheckedProgram& program, std::span<sema::Module* const> modules) {
         if (!known_) findRoutines(program);
         if (std::none_of(routines_.begin(), routines_.end(),
                          [](const auto* routine) { return routine->used; }))
             return;
         const rapid::syntax::SyntaxTree& tree = *modules.front()->tree; // they share the facts, too
-        for (const auto& [node, call] : modules.front()->facts->calls)
-            if (call.routine && routines_.contains(call.routine))
-                sink_.report(diag::Code::BuiltinNotImplemented, tree.source, tree.range(*node),
-                             {call.routine->name});
+        if (!seen_.insert(tree.source).second) return;
+        for (const auto& [node, call] : modules.front()->facts->calls) {
+            if (!call.routine || !routines_.contains(call.routine)) continue;
+            Use& use = uses_[call.routine->name];
+            const rapid::SourceRange range = tree.range(*node);
+            if (++use.count == 1) use.file = tree.source;
+            if (use.count == 1 || (use.file == tree.source && range.begin < use.first.begin))
+                use.first = range;
+        }
+    }
+
+    void report(diag::Sink& sink) const {
+        for (const auto& [name, use] : uses_) {
+            const size_t more = use.count - 1;
+            sink.report(
+                diag::Code::BuiltinNotImplemented, use.file, use.first,
+                {name, more == 0 ? std::string()
+                                 : fmt::format(", here and in {} more place{}", more, more == 1 ? "" : "s")});
+        }
     }
 
   private:
@@ -162,9 +177,16 @@ class UnimplementedCalls {
         known_ = true;
     }
 
-    diag::Sink& sink_;
+    struct Use {
+        std::shared_ptr<const rapid::SourceFile> file;
+        rapid::SourceRange first;
+        size_t count = 0;
+    };
+
     std::unordered_set<std::string_view> names_;
     bool known_ = false;
+    std::set<std::shared_ptr<const rapid::SourceFile>> seen_;
+    std::map<std::string, Use> uses_;
     std::unordered_set<const sema::RoutineSymbol*> routines_;
 };
 
@@ -192,17 +214,18 @@ void checkDirectives(Compilation& compilation) {
 /// Checks all tasks and looks at each file as soon as it is checked.
 void judge(Compilation& compilation, bool onlyDiagnostics) {
     diag::Sink& sink = compilation.sink;
-    UnimplementedCalls unimplemented(sink);
+    UnimplementedCalls unimplemented;
     rapid::lint::Lint lint(compilation.warningLevels, sink, compilation.tasks.size() > 1);
     sema::CheckOptions options = compilation.options;
     options.onlyDiagnostics = onlyDiagnostics;
     options.onFile = [&](const sema::CheckedProgram& program, const sema::Task& task,
                          std::span<sema::Module* const> modules) {
-        unimplemented.report(program, modules);
+        unimplemented.file(program, modules);
         lint.file(program, task, modules);
     };
     compilation.program = sema::check(compilation.tasks, options, sink);
     checkDirectives(compilation);
+    unimplemented.report(sink);
     lint.finish(*compilation.program);
     rapid::lint::applyLevels(compilation.warningLevels, sink);
 }

@@ -264,7 +264,7 @@ TEST_CASE("signals are values or handles by their place", "[sema]") {
 TEST_CASE("loop variables, traps and labels are resolved", "[sema]") {
     const auto c = checkTexts({"MODULE m\n"
                                "  VAR intnum i1;\n"
-                               "  PROC main(num a)\n"
+                               "  PROC work(num a)\n"
                                "    VAR num b;\n"
                                "    FOR i FROM 1 TO 3 DO\n"
                                "      FOR i FROM i TO 5 DO\n"
@@ -282,7 +282,7 @@ TEST_CASE("loop variables, traps and labels are resolved", "[sema]") {
     const CheckedProgram& p = *c->program;
     const Task& task = *p.tasks[0];
     const Module& m = *task.modules[0];
-    const RoutineSymbol& main = routine(p, "main");
+    const RoutineSymbol& main = routine(p, "work");
     const auto& outer = syntax::as<syntax::ForStmt>(bodyStmt(main, 0));
     const auto& inner = syntax::as<syntax::ForStmt>(*outer.body[0]);
     DataSymbol* outerVariable = task.modules[0]->facts->loopVariables.at(&outer);

@@ -30,12 +30,12 @@ TEST_CASE("a program that is to run needs one global procedure main", "[sema]") 
     // rapidc check does not ask for a main, but what is no procedure can be the entry of no task.
     CHECK(checkTexts({"MODULE m\n  FUNC num Main()\n    RETURN 1;\n  ENDFUNC\nENDMODULE\n"})->codes() ==
           Messages{"RAP6002"});
-    CHECK(checkTexts({"MODULE m\n  PROC main(num a)\n  ENDPROC\nENDMODULE\n"})->messages().empty());
-    const auto required = checkMain({"MODULE m\n  PROC main(num a)\n  ENDPROC\nENDMODULE\n"});
-    REQUIRE(
-        required->messages() ==
-        Messages{"RAP6002 at 2:8: entry routine 'main' is a procedure with required parameters, expected a "
-                 "global procedure without required parameters"});
+    const std::string required = "MODULE m\n  PROC main(num a)\n  ENDPROC\nENDMODULE\n";
+    const Messages wantsArguments = {
+        "RAP6002 at 2:8: entry routine 'main' is a procedure with required parameters, expected a "
+        "global procedure without required parameters"};
+    CHECK(checkMain({required})->messages() == wantsArguments);
+    CHECK(checkTexts({required})->messages() == wantsArguments);
     const auto local = checkMain({"MODULE m\n  LOCAL PROC main()\n  ENDPROC\nENDMODULE\n"});
     REQUIRE(local->codes() == Messages{"RAP6003"});
     const auto two = checkMain({"MODULE a\n  PROC main()\n  ENDPROC\nENDMODULE\n",
@@ -44,6 +44,26 @@ TEST_CASE("a program that is to run needs one global procedure main", "[sema]") 
     const auto good = checkMain({"MODULE m\n  PROC Main(\\num a)\n  ENDPROC\nENDMODULE\n"});
     CHECK(good->messages().empty());
     CHECK(good->program->tasks[0]->entryRoutine != nullptr);
+}
+
+TEST_CASE("a LOCAL main is told where nothing else can be meant", "[sema]") {
+    const auto codes = [](const std::string& body, const std::string& more = "") {
+        return checkTexts({"MODULE m\n  LOCAL PROC main()\n" + body + "  ENDPROC\n" + more + "ENDMODULE\n"})
+            ->codes();
+    };
+    CHECK(codes("    Stop;\n") == Messages{"RAP6003"});
+    CHECK(codes("    RETURN;\n", "  PROC cycle()\n    main;\n  ENDPROC\n").empty()); // a helper of that name
+    CHECK(codes("    setState;\n") == Messages{"RAP2003"}); // a part of a program, called from another one
+    // The entry of the task has another name.
+    TaskInput task;
+    task.entry = "watch";
+    task.files.push_back(std::make_shared<const SourceFile>(
+        "m.modx", "MODULE m\n  PROC watch()\n  ENDPROC\n  LOCAL PROC main(num a)\n  ENDPROC\nENDMODULE\n"));
+    CheckOptions options;
+    options.library = library();
+    diag::Sink sink;
+    check({task}, options, sink);
+    CHECK(sink.all().empty());
 }
 
 TEST_CASE("placeholders are notes: a program with them can be loaded", "[sema]") {

@@ -253,6 +253,48 @@ TEST_CASE("data types, constants and errors of options are told from mistakes", 
                    addIn("10:40", "PAINT_ERR", "RobotWare Paint")});
 }
 
+TEST_CASE("results of BullsEye, names of other releases, data types only where one is expected", "[sema]") {
+    const std::string text = "MODULE m\n"
+                             "  VAR toolno tool_no;\n"
+                             "  VAR bool found;\n"
+                             "  VAR num result;\n"
+                             "  PROC main()\n"
+                             "    DitherAct \\MechUnit:=ROB_1, 1;\n"
+                             "    DitherDeact;\n"
+                             "    found:=ASFMu_Clear();\n"
+                             "    IF result = BESuccess OR result = BEBeamOriFail result:=BECheckErr;\n"
+                             "    MoveLIN_FB 1;\n"
+                             "    toolno:=1;\n"
+                             "    result:=BESucces;\n"
+                             "    DitherActive;\n"
+                             "  ERROR\n"
+                             "    IF ERRNO = ERR_CSV_INDEX TRYNEXT;\n"
+                             "    IF ERRNO = ERR_MOD_NOTLOADED TRYNEXT;\n"
+                             "    IF ERRNO = ERR_DIVZRO TRYNEXT;\n"
+                             "  ENDPROC\n"
+                             "ENDMODULE\n";
+    const auto declaredIn = [](const char* place, const char* name, const char* where) {
+        return std::string("RAP2009 at ") + place + ": '" + name +
+               "' is not declared here, it may be declared in " + where;
+    };
+    const char* const release = "another release of RobotWare";
+    const char* const seams = "the add-in of the Servo-Robot seam finder";
+    CHECK(testing::checkTexts({text})->messages() ==
+          Messages{declaredIn("2:7", "toolno", "the add-in Tool Changing"),
+                   declaredIn("6:5", "DitherAct", release), declaredIn("7:5", "DitherDeact", release),
+                   declaredIn("8:12", "ASFMu_Clear", seams),
+                   declaredIn("9:17", "BESuccess", "the add-in BullsEye"),
+                   declaredIn("9:39", "BEBeamOriFail", "the add-in BullsEye"),
+                   declaredIn("9:61", "BECheckErr", "the add-in BullsEye"),
+                   declaredIn("10:5", "MoveLIN_FB", "the modules of the Volkswagen standard"),
+                   "RAP2001 at 11:5: 'toolno' is not declared; did you mean 'tool_no'?",
+                   "RAP2001 at 12:13: 'BESucces' is not declared",
+                   "RAP2003 at 13:5: 'DitherActive' is not a known procedure or instruction",
+                   declaredIn("15:16", "ERR_CSV_INDEX", release),
+                   declaredIn("16:16", "ERR_MOD_NOTLOADED", release),
+                   "RAP2001 at 17:16: 'ERR_DIVZRO' is not declared; did you mean 'ERR_DIVZERO'?"});
+}
+
 TEST_CASE("AliasIO takes a configured signal of the type of its partner", "[sema]") {
     const std::string text = "MODULE m\n"
                              "  VAR signaldo alias_do;\n"
