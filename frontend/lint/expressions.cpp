@@ -1,6 +1,7 @@
 // Expressions: what is read, comparisons that cannot be meant, texts that become too long.
 
 #include "frontend/lint/walker.h"
+#include "frontend/syntax/tree_walk.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,13 +29,6 @@ char lower(char c) {
 bool equalNames(std::string_view a, std::string_view b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                       [](char x, char y) { return lower(x) == lower(y); });
-}
-
-const Expr& bare(const Expr& e) {
-    const Expr* inner = &e;
-    while (inner->kind == NodeKind::Paren)
-        inner = as<ParenExpr>(*inner).inner;
-    return *inner;
 }
 
 } // namespace

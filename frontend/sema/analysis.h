@@ -180,6 +180,24 @@ class Analyzer {
     void gatherRepeats(std::span<Module* const> modules, size_t first);
     void tellOnce();
 
+    // ---- how to mend a value that does not fit (remedies.cpp)
+    struct Remedy {
+        std::string words;   ///< the end of a message, ": write 1"; empty: none is known
+        std::string instead; ///< to write for the expression; empty: nothing that is certain to compile
+    };
+    Remedy remedyFor(const syntax::Expr& whole, const DataType& found, const DataType& want);
+    Remedy remedyFor(const RoutineSymbol& routine, const syntax::Expr& e, const DataType& found,
+                     const DataType& want);
+    Remedy numberRemedy(const syntax::Expr& e, const DataType& found, const Type& want);
+    Remedy recordRemedy(const syntax::Expr& e, const DataType& found, const DataType& want);
+    Remedy signalRemedy(const RoutineSymbol& routine, const DataType& found, const DataType& want);
+    std::string namedByNumber(std::string_view number, const Type& want);
+    /// Adds it to what is said about `e`.
+    void offer(diag::Diagnostic& diagnostic, const syntax::Expr& e, const Remedy& remedy);
+    /// "\Num:=" for data of the type of an optional parameter; empty when there is none.
+    std::string optionalFor(const RoutineSymbol& routine, const syntax::Expr& e);
+    std::string optionalFor(const RoutineSymbol& routine, NameId name);
+
     // ---- names that nothing declares (unknown.cpp)
     struct Suggestion {
         std::string name; ///< empty: none is near
@@ -199,6 +217,7 @@ class Analyzer {
     void reportMayBeDeclared(syntax::TokenIndex token, const std::string& hint);
     Suggestion suggestion(NameId name, Wanted wanted);
     static std::string didYouMean(std::string_view name);
+    std::string inSeries(std::string_view written);
     const Type::Component* nearComponent(const Type& record, std::string_view name);
     const DataSymbol* nearOptional(const RoutineSymbol& routine, NameId name);
 
@@ -397,8 +416,9 @@ class Analyzer {
     void judgeValue(const RoutineSymbol& routine, const BoundArg& bound, Typed t);
     void checkAccess(const RoutineSymbol& routine, const BoundArg& bound, const Place& place);
     bool isDotForComma(const syntax::Expr& e);
-    void reportAccess(const RoutineSymbol& routine, const BoundArg& bound, const Symbol* symbol,
-                      std::string found);
+    diag::Diagnostic& reportAccess(const RoutineSymbol& routine, const BoundArg& bound, const Symbol* symbol,
+                                   std::string found);
+    void fixParentheses(diag::Diagnostic& d, const syntax::Expr& e);
     static const char* missingClass(ParamClass accepts, const DataType& found);
     bool checkClass(const RoutineSymbol& routine, const BoundArg& bound, const DataType& type);
     void checkPresent(const BoundArg& bound);

@@ -124,7 +124,14 @@ bool Analyzer::explainOrder(const RoutineSymbol& routine, const std::vector<cons
         return true;
     };
     reset();
-    if (fits()) return false; // what is wrong is another thing
+    // A name that nothing declares is wrong in any order.
+    const auto isInPlace = [&](size_t i) {
+        return couldBe(*given[i], *params[i]) || info(*given[i]).type.type->kind == TypeKind::Error;
+    };
+    bool inOrder = true;
+    for (size_t i = 0; i < count; ++i)
+        inOrder = inOrder && isInPlace(i);
+    if (inOrder) return false; // what is wrong is another thing
     const auto dropErrors = [&] { collect_->retract([](const diag::Diagnostic&) { return true; }); };
     for (size_t i = 0; i < count; ++i) {
         for (size_t k = i + 1; k < count; ++k) {

@@ -1,6 +1,7 @@
 // One argument against its parameter: type, access mode, optional and conditional forms (manual 1.1.5, 1.3.4).
 
 #include "frontend/sema/analysis.h"
+#include "frontend/syntax/tree_walk.h"
 
 namespace rapid::sema {
 
@@ -173,7 +174,10 @@ void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t fi
     if (missing) reportMissing(call, name);
     for (const Mismatch& one : wrong) {
         const auto names = typeNames(one.found, one.param->type);
-        report(Code::ArgumentType, range(*one.value), {one.param->name, routine.name, names[0], names[1]});
+        const Remedy remedy = remedyFor(routine, *one.value, one.found, one.param->type);
+        offer(report(Code::ArgumentType, range(*one.value),
+                     {one.param->name, routine.name, names[0], names[1]}),
+              *one.value, remedy);
     }
 }
 
@@ -205,9 +209,23 @@ void Analyzer::checkReference(const RoutineSymbol& routine, const BoundArg& boun
         reportAccess(routine, bound, nullptr, describeExpr(e));
         return;
     }
+    if (e.kind == NodeKind::Paren && isPlaceExpr(bare(e))) {
+        place(bare(e), handleHint(*bound.param));
+        info(e).type = info(bare(e)).type;
+        fixParentheses(reportAccess(routine, bound, nullptr, describeExpr(e)), e);
+        return;
+    }
     visitLoose(e);
     if (e.kind == NodeKind::PlaceholderExpr || e.kind == NodeKind::ErrorExpr) return;
     reportAccess(routine, bound, nullptr, describeExpr(e));
+}
+
+// "ClkStart(clock1);": what is passed on as it is stands without parentheses.
+void Analyzer::fixParentheses(diag::Diagnostic& d, const Expr& e) {
+    const SourceRange whole = range(e), inner = range(bare(e));
+    const bool spaced = whole.begin > range(e.first - 1).end;
+    d.fixes.push_back({"remove the parentheses",
+                       {{{whole.begin, inner.begin}, spaced ? "" : " "}, {{inner.end, whole.end}, ""}}});
 }
 
 void Analyzer::judgeReference(const RoutineSymbol& routine, const BoundArg& bound, const Place& place) {
@@ -224,8 +242,8 @@ void Analyzer::judgeReference(const RoutineSymbol& routine, const BoundArg& boun
     if (param.mode != ParamMode::In && param.mode != ParamMode::Ref) checkAccess(routine, bound, place);
 }
 
-void Analyzer::reportAccess(const RoutineSymbol& routine, const BoundArg& bound, const Symbol* symbol,
-                            std::string found) {
+diag::Diagnostic& Analyzer::reportAccess(const RoutineSymbol& routine, const BoundArg& bound,
+                                         const Symbol* symbol, std::string found) {
     const char* expected = "data";
     switch (bound.param->mode) {
     case ParamMode::Var: expected = "a variable"; break;
@@ -239,6 +257,7 @@ void Analyzer::reportAccess(const RoutineSymbol& routine, const BoundArg& bound,
     auto& d = report(Code::ArgumentNotVariable, range(*bound.value),
                      {bound.param->name, routine.name, std::move(found), expected});
     if (symbol) noteDeclared(d, *symbol);
+    return d;
 }
 
 // What may be passed on for the callee to change. An INOUT parameter may stand for a variable or for a persistent:

@@ -207,10 +207,15 @@ void Analyzer::reportTooMany(const RoutineSymbol& routine, std::span<Argument* c
                              const Argument& first, TokenIndex routineName) {
     const auto given = std::count_if(args.begin(), args.end(),
                                      [](const Argument* a) { return a->argKind == ArgKind::Required; });
-    report(Code::TooManyArguments, range(first),
-           {text(routineName),
-            routine.params.empty() ? "no arguments" : counted(requiredSlots(routine), "required argument"),
-            std::to_string(given)});
+    diag::Diagnostic& d = report(
+        Code::TooManyArguments, range(first),
+        {text(routineName),
+         routine.params.empty() ? "no arguments" : counted(requiredSlots(routine), "required argument"),
+         std::to_string(given)});
+    const std::string hint = first.value ? optionalFor(routine, *first.value) : std::string();
+    if (hint.empty()) return;
+    d.message += didYouMean(hint + text(*first.value));
+    d.fix({range(first).begin, range(first).begin}, hint, false);
 }
 
 // "routine a, <new line> x := 1;": an assignment below a comma that should have been a semicolon.
@@ -300,10 +305,12 @@ size_t Analyzer::matchOptional(BoundCall& call, const Argument& arg, TokenIndex)
         return !param.optional && call.args[i].argument ? kNoParam : i; // given once more: one report will do
     }
     const DataSymbol* near = nearOptional(routine, name);
-    diag::Diagnostic& d =
-        report(Code::UnknownParameter, range(arg.name),
-               {routine.name, text(arg.name), near ? didYouMean(near->name) : std::string()});
+    const std::string hint = near || arg.value ? std::string() : optionalFor(routine, name);
+    const std::string meant = near ? near->name : hint.empty() ? hint : hint + text(arg.name);
+    diag::Diagnostic& d = report(Code::UnknownParameter, range(arg.name),
+                                 {routine.name, text(arg.name), meant.empty() ? meant : didYouMean(meant)});
     if (near) d.fix(range(arg.name), near->name, false);
+    if (!hint.empty()) d.fix({range(arg.name).begin - 1, range(arg.name).begin}, hint, false);
     return kNoParam;
 }
 

@@ -155,7 +155,8 @@ Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstVal
         const bool fit = fits(element, t, member);
         if (!fit) {
             const auto names = typeNames(t.info->type, member);
-            report(Code::AggregateMember, range(element), {names[0], names[1]});
+            const Remedy remedy = remedyFor(element, t.info->type, member);
+            offer(report(Code::AggregateMember, range(element), {names[0], names[1]}), element, remedy);
         }
         wrong |= !fit || t.isError();
         // The first row of an array of unknown size tells the length of the others.
@@ -259,9 +260,10 @@ bool Analyzer::condition(const Expr& e, const char* what) {
     if (t.isError() || t.isScalar(TypeKind::Bool)) return true;
     const DataSymbol* data = e.kind == NodeKind::Name ? asData(info(e).symbol) : nullptr;
     const bool signal = data && data->type.type->kind == TypeKind::SemiValue;
-    report(
-        Code::ConditionNotBool, range(e),
-        {what, typeName(*t.info), signal ? ": compare the signal, " + data->name + " = 1" : std::string()});
+    const Remedy remedy = signal ? Remedy{": compare the signal, " + data->name + " = 1", data->name + " = 1"}
+                                 : remedyFor(e, t.info->type, {program_.boolean, 0, {}});
+    auto& d = report(Code::ConditionNotBool, range(e), {what, typeName(*t.info), remedy.words});
+    if (!remedy.instead.empty()) d.fix(range(e), remedy.instead, false);
     return false;
 }
 

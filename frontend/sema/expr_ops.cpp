@@ -1,21 +1,13 @@
 // Operators: which operands they take and what they give (manual 1.3.1).
 
 #include "frontend/sema/analysis.h"
+#include "frontend/syntax/tree_walk.h"
 
 #include <cmath>
 
 namespace rapid::sema {
 
 using namespace syntax;
-
-namespace {
-const Expr& withoutParens(const Expr& e) {
-    const Expr* inner = &e;
-    while (inner->kind == NodeKind::Paren)
-        inner = as<ParenExpr>(*inner).inner;
-    return *inner;
-}
-} // namespace
 
 Typed Analyzer::unary(const UnaryExpr& e, const DataType* want, ConstValue* slot) {
     const Typed operand = expr(*e.operand, e.op == UnaryOp::Not ? nullptr : want);
@@ -45,7 +37,7 @@ Typed Analyzer::unary(const UnaryExpr& e, const DataType* want, ConstValue* slot
 namespace {
 
 bool isAggregate(const Expr& e) {
-    return withoutParens(e).kind == NodeKind::Aggregate;
+    return bare(e).kind == NodeKind::Aggregate;
 }
 
 /// The partner of a comparison gives an aggregate its type, and so does a vector that something is added to or multiplied
@@ -274,7 +266,13 @@ Typed Analyzer::equality(const BinaryExpr& e, Typed left, Typed right) {
         report(Code::NumDnumMixed, range(e.opToken), {text(e.opToken)});
     else if (bool known = true; a.type->base() != b.type->base() || !sameDimensions(a, b, known)) {
         const auto names = typeNames(a, b);
-        report(Code::CompareTypes, range(e.opToken), {text(e.opToken), names[0], names[1]});
+        const bool literalLeft = e.left->kind == NodeKind::NumLiteral ||
+                                 e.left->kind == NodeKind::StringLiteral ||
+                                 e.left->kind == NodeKind::BoolLiteral;
+        const Expr& odd = literalLeft ? *e.left : *e.right;
+        const Remedy remedy = literalLeft ? remedyFor(odd, a, b) : remedyFor(odd, b, a);
+        offer(report(Code::CompareTypes, range(e.opToken), {text(e.opToken), names[0], names[1]}), odd,
+              remedy);
     } else if (!known)
         report(Code::CompareArrays, range(e.opToken), {text(e.opToken)});
     else

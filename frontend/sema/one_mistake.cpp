@@ -43,13 +43,6 @@ struct Uses {
     bool number = false;      ///< a number of open type fits it
 };
 
-const Expr& bare(const Expr& e) {
-    const Expr* inner = &e;
-    while (inner->kind == NodeKind::Paren)
-        inner = as<ParenExpr>(*inner).inner;
-    return *inner;
-}
-
 /// A number whose type the context decides.
 bool isOpenNumber(const Expr& e) {
     const Expr* inner = &bare(e);

@@ -168,7 +168,8 @@ void Analyzer::initialise(DataSymbol& symbol, const DataDecl& decl) {
     const bool cycle = symbol.valueProgress == Progress::Done;
     if (!fits(init, t, want)) {
         const auto names = typeNames(t.info->type, want);
-        report(Code::InitialValueType, range(init), {names[0], names[1], symbol.name});
+        const Remedy remedy = remedyFor(init, t.info->type, want);
+        offer(report(Code::InitialValueType, range(init), {names[0], names[1], symbol.name}), init, remedy);
     } else if (mustFold && !t.info->constant && !t.isError() && !cycle) {
         reportNonConstant(init);
     }

@@ -183,7 +183,8 @@ void Analyzer::testValues(const TestStmt& s, Typed subject) {
     for (const auto& [value, t] : values) {
         if (!fits(*value, t, type)) {
             const auto names = typeNames(t.info->type, subject.info->type);
-            report(Code::TestValueType, range(*value), {names[0], names[1]});
+            const Remedy remedy = remedyFor(*value, t.info->type, type);
+            offer(report(Code::TestValueType, range(*value), {names[0], names[1]}), *value, remedy);
             continue;
         }
         const ConstValue* constant = info(*value).constant;
@@ -235,13 +236,15 @@ void Analyzer::assign(const AssignStmt& s) {
     const DataType want = info(*s.target).type;
     const Typed value = expr(*s.value, &want);
     if (fits(*s.value, value, want)) return;
-    const std::string remedy = numDnumRemedy(value, want);
+    const std::string conversion = numDnumRemedy(value, want);
     const auto names = typeNames(value.info->type, want);
-    if (remedy.empty())
-        report(Code::AssignType, range(*s.value), {names[0], names[1]});
-    else
-        fixCall(report(Code::NumDnumAssign, range(*s.value), {names[0], names[1], remedy}), *s.value, remedy,
-                remedy == "NumToDnum");
+    if (!conversion.empty()) {
+        fixCall(report(Code::NumDnumAssign, range(*s.value), {names[0], names[1], conversion}), *s.value,
+                conversion, conversion == "NumToDnum");
+        return;
+    }
+    const Remedy remedy = remedyFor(*s.value, value.info->type, want);
+    offer(report(Code::AssignType, range(*s.value), {names[0], names[1]}), *s.value, remedy);
 }
 
 namespace {
@@ -421,7 +424,8 @@ void Analyzer::reportParentheses(const CallStmt& s) {
     const SyntaxTree& tree = *context_.tree;
     const TokenIndex open = s.name + 1, close = s.last - 1;
     diag::Diagnostic& d = report(Code::CallParentheses, range(open), {text(s.name)});
-    if (tree.tokens[s.last].kind != TokenKind::Semicolon || tree.tokens[close].kind != TokenKind::RightParen) return;
+    if (tree.tokens[s.last].kind != TokenKind::Semicolon || tree.tokens[close].kind != TokenKind::RightParen)
+        return;
     const bool spaced = range(open).begin > range(s.name).end || close == open + 1;
     d.fixes.push_back({"remove the parentheses", {{range(open), spaced ? "" : " "}, {range(close), ""}}});
 }

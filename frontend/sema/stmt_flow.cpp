@@ -36,7 +36,8 @@ void Analyzer::returnStmt(const ReturnStmt& s) {
     const Typed t = expr(*s.value, &routine.returnType);
     if (fits(*s.value, t, routine.returnType)) return;
     const auto names = typeNames(t.info->type, routine.returnType);
-    report(Code::ReturnType, range(*s.value), {names[0], names[1], routine.name});
+    const Remedy remedy = remedyFor(*s.value, t.info->type, routine.returnType);
+    offer(report(Code::ReturnType, range(*s.value), {names[0], names[1], routine.name}), *s.value, remedy);
 }
 
 void Analyzer::checkErrorNumber(const Expr& e, const char* what) {

@@ -36,7 +36,7 @@ constexpr ForeignName kForeignNames[] = {
     {"echo", "TPWrite"},      {"msgbox", "UIMsgBox"},   {"strtonum", "StrToVal"}, {"stringtonum", "StrToVal"},
     {"valtonum", "StrToVal"}, {"len", "StrLen"},        {"length", "StrLen"},     {"substr", "StrPart"},
     {"strsub", "StrPart"},    {"tostring", "ValToStr"}, {"sqr", "Sqrt"},          {"power", "Pow"},
-    {"movep", "MoveJ"},       {"linear", "MoveL"}};
+    {"movep", "MoveJ"},       {"linear", "MoveL"},      {"on", "high"},           {"off", "low"}};
 
 /// A name of one or two letters is near to everything of that length.
 bool near(std::string_view written, unsigned distance) {
@@ -54,6 +54,15 @@ bool isWhole(const SyntaxTree& tree, size_t word) {
     for (size_t i = word + 1; i < after; ++i)
         if (tree.tokens[i].kind != TokenKind::Identifier) return false;
     return true;
+}
+
+/// The number of "v100" or "z50"; -1 of other names.
+long numberInSeries(std::string_view folded) {
+    constexpr size_t kLongest = 6;
+    const bool member = folded.size() > 1 && folded.size() <= kLongest &&
+                        (folded[0] == 'v' || folded[0] == 'z') &&
+                        folded.find_first_not_of("0123456789", 1) == std::string_view::npos;
+    return member ? std::stol(std::string(folded.substr(1))) : -1;
 }
 
 /// "'a', 'b' or 'c'"; of many the first few.
@@ -144,8 +153,15 @@ bool Analyzer::countedAbove(TokenIndex token, NameId name) {
 Analyzer::Meant Analyzer::reportUnknown(Code code, TokenIndex token, NameId name, Wanted wanted,
                                         std::string_view otherHint) {
     if (!mayReportUnknown(name)) return Meant::Unknown;
-    const Suggestion best = suggestion(name, wanted);
-    const std::string hint = best.name.empty() ? std::string(otherHint) : didYouMean(best.name);
+    Suggestion best = suggestion(name, wanted);
+    std::string hint(otherHint);
+    if (!best.name.empty()) hint = didYouMean(best.name);
+    if (wanted == Wanted::Data && (!best.symbol || best.symbol->predefined)) {
+        if (std::string others = inSeries(interner_.folded(name)); !others.empty()) {
+            hint = std::move(others);
+            best = {};
+        }
+    }
     const Meant meant = best.isKeyword ? Meant::Keyword : Meant::Unknown;
     if (const std::string_view where =
             addInOf(interner_.folded(name), wanted == Wanted::Type, !best.name.empty());
@@ -181,6 +197,25 @@ Analyzer::Meant Analyzer::reportUnknown(Code code, TokenIndex token, NameId name
 void Analyzer::reportMayBeDeclared(TokenIndex token, const std::string& hint) {
     const std::string where = missingModules_.empty() ? "a module that is missing" : listed(missingModules_);
     report(Code::MayBeDeclared, range(token), {text(token), where, hint});
+}
+
+// "v110" and "z25": of speeds and zones, the next ones that are predefined.
+std::string Analyzer::inSeries(std::string_view written) {
+    const long wanted = numberInSeries(written);
+    if (wanted < 0 || comparisonsLeft_ < predefined_.size()) return {};
+    comparisonsLeft_ -= predefined_.size();
+    std::string_view below, above;
+    for (const Symbol* symbol : predefined_) {
+        const std::string_view other = symbol ? interner_.folded(symbol->nameId) : std::string_view();
+        const long number = other.starts_with(written[0]) ? numberInSeries(other) : -1;
+        if (number < 0) continue;
+        if (number < wanted && (below.empty() || number > numberInSeries(below))) below = other;
+        if (number > wanted && (above.empty() || number < numberInSeries(above))) above = other;
+    }
+    if (below.empty() && above.empty()) return {};
+    if (below.empty() || above.empty())
+        return "; predefined is '" + std::string(below.empty() ? above : below) + "'";
+    return "; predefined are '" + std::string(below) + "' and '" + std::string(above) + "'";
 }
 
 std::string Analyzer::didYouMean(std::string_view name) {

@@ -263,8 +263,13 @@ Expr* Parser::parsePrimary() {
         take();
         return finish(node);
     }
+    constexpr TokenSet kLogic = {K::KwAnd, K::KwOr, K::KwXor, K::KwNot};
+    constexpr TokenSet kCompares = {K::Equal,     K::NotEqual, K::Less,
+                                    K::LessEqual, K::Greater,  K::GreaterEqual};
+    const bool halfCompared = pos_ > 0 && kLogic.has(kindAt(pos_ - 1)) && kCompares.has(kind());
     missing(kind() == K::Percent ? "an expression: only procedures are called by a name in a string"
-                                 : "an expression");
+            : halfCompared ? "an expression: each comparison names both of its sides, as in n > 1 AND n < 5"
+                           : "an expression");
     return errorExpr();
 }
 
@@ -520,6 +525,7 @@ std::span<Argument*> Parser::parseArguments(bool procedure) {
     while (!panic_) {
         height_ = 0;
         if (!procedure && kind() == K::Semicolon && !first) takesSemicolonAsComma(K::RightParen);
+        if (first) takesSlashAsBackslash();
         if (kind() == K::Backslash) {
             args_.push_back(parseOptionalArgument());
         } else if (kind() == K::Comma) {
@@ -529,6 +535,7 @@ std::span<Argument*> Parser::parseArguments(bool procedure) {
             }
             if (procedure && peek() == K::Identifier && instructionAfterComma()) break;
             take();
+            takesSlashAsBackslash();
             args_.push_back(kind() == K::Backslash ? parseOptionalArgument()
                                                    : parseRequiredArgument(procedure));
         } else if (first && (startsExpr(kind()) || kind() == K::PlaceArg)) {
@@ -541,6 +548,20 @@ std::span<Argument*> Parser::parseArguments(bool procedure) {
     }
     height_ = height + 1;
     return drain(args_, mark);
+}
+
+/// "ConfL/Off;" and "CRobT(/Tool:=tool1)": no argument begins with '/'.
+void Parser::takesSlashAsBackslash() {
+    constexpr TokenSet kAfterName = {K::Assign,     K::Semicolon, K::Comma,
+                                     K::RightParen, K::Backslash, K::Question};
+    if (kind() != K::Slash || !isName(peek()) || !kAfterName.has(peek(2))) return;
+    reportSlash(pos_);
+    readAs(pos_, K::Backslash);
+}
+
+void Parser::reportSlash(TokenIndex slash) {
+    fix(report(Code::ForeignSpelling, slash, {"/", "'\\' before an optional argument"}), tree_.range(slash),
+        "\\");
 }
 
 /// "MoveL p10; v100, fine, tool0;": the semicolon before the name was meant as a comma. No instruction begins with a name
@@ -581,8 +602,7 @@ Argument* Parser::parseRequiredArgument(bool procedure) {
     if (!panic_ && kind() == K::Assign && node->value->kind == NodeKind::Binary) { // "tool0/WObj:=wobj1"
         const auto& slash = as<BinaryExpr>(*node->value);
         if (slash.op == BinaryOp::Div && slash.right->kind == NodeKind::Name) {
-            fix(report(Code::ForeignSpelling, slash.opToken, {"/", "'\\' before an optional argument"}),
-                tree_.range(slash.opToken), "\\");
+            reportSlash(slash.opToken);
             take();
             parseExpr();
             node->value = errorExpr();

@@ -155,6 +155,9 @@ class Parser {
     bool joinLastEdit(diag::Code code, SourceRange place, std::string replacement);
     void fixParentheses(diag::Diagnostic* diagnostic, const Node& operand);
     void reportEqual();
+    void reportSlash(TokenIndex slash);
+    void takesSlashAsBackslash();
+    void skipTrapArguments();
     void reportScopeInside(ScopeWord scope);
     /// "found X, expected Y" where an expression has ended.
     diag::Diagnostic* reportAfterExpr(diag::Code code, std::initializer_list<std::string> args);

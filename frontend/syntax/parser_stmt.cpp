@@ -437,12 +437,26 @@ Stmt* Parser::parseConnect() {
         if (kind() == K::Identifier && isName(peek())) retagIfMeant(K::KwWith);
         if (accept(K::KwWith)) {
             node->trap = expectNameHere();
+            skipTrapArguments();
         } else {
             missing("WITH");
         }
     }
     endStatement();
     return finish(node);
+}
+
+/// "CONNECT i WITH t();": it is named, not called.
+void Parser::skipTrapArguments() {
+    if (panic_ || kind() != K::LeftParen || startsLine(pos_)) return;
+    TokenIndex last = pos_ + 1;
+    constexpr TokenIndex kFarthest = 100;
+    while (kindAt(last) != K::RightParen && last < pos_ + kFarthest && !startsLine(last))
+        ++last;
+    if (kindAt(last) != K::RightParen || kindAt(last + 1) != K::Semicolon) return;
+    const SourceRange whole{tree_.range(pos_).begin, tree_.range(last).end};
+    fix(report(Code::UnexpectedToken, pos_, {"'('", "';': a trap routine is named, not called"}), whole, "");
+    pos_ = last + 1;
 }
 
 Stmt* Parser::parseSimple(NodeKind nodeKind) {

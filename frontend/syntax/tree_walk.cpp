@@ -159,6 +159,13 @@ void forEachChild(const Node& node, const Visit& visit) {
 std::string_view nodeKindName(NodeKind kind) {
     return kNames[static_cast<size_t>(kind)];
 }
+const Expr& bare(const Expr& e) {
+    const Expr* inner = &e;
+    while (inner->kind == NodeKind::Paren)
+        inner = as<ParenExpr>(*inner).inner;
+    return *inner;
+}
+
 bool isExpr(NodeKind kind) {
     return kGroups[static_cast<size_t>(kind)] == Group::Expr;
 }

@@ -13,6 +13,9 @@ void forEachChild(const Node& node, const std::function<void(const Node&)>& visi
 /// "If", "Binary", ...
 std::string_view nodeKindName(NodeKind kind);
 
+/// The expression within parentheses, itself in none.
+const Expr& bare(const Expr& e);
+
 bool isExpr(NodeKind kind);
 bool isStmt(NodeKind kind);
 bool isDecl(NodeKind kind);

@@ -1,0 +1,173 @@
+// What would make a value fit where it stands: the end of a message, and something to write instead.
+
+#include "frontend/sema/analysis.h"
+#include "frontend/syntax/tree_walk.h"
+
+#include <algorithm>
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+namespace {
+
+bool readsAsNumber(std::string_view text) {
+    const bool digits =
+        std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
+    return digits && !text.empty() && text.size() < 12 && std::count(text.begin(), text.end(), '.') < 2 &&
+           text.find_first_of("0123456789") != std::string_view::npos;
+}
+
+bool isPredefined(const Type& type, std::string_view name) {
+    return (!type.base()->module || type.base()->module->predefined) && type.base()->name == name;
+}
+
+} // namespace
+
+// Predefined data that the number stands for: "100" for speeddata is v100.
+std::string Analyzer::namedByNumber(std::string_view number, const Type& want) {
+    for (const char* letter : {"v", "z"}) {
+        const DataSymbol* data = asData(at(predefined_, interner_.intern(letter + std::string(number))));
+        if (data && data->type.rank == 0 && data->type.type->base() == want.base()) return data->name;
+    }
+    return {};
+}
+
+Analyzer::Remedy Analyzer::numberRemedy(const Expr& e, const DataType& found, const Type& want) {
+    const bool literal = e.kind == NodeKind::NumLiteral;
+    switch (want.kind) {
+    case TypeKind::String:
+        if (literal) return {": write a text between double quotes", '"' + text(e) + '"'};
+        return {std::string(": make a text of the number with ") +
+                    (found.type->kind == TypeKind::Dnum ? "DnumToStr" : "NumToStr"),
+                ""};
+    case TypeKind::Bool: {
+        if (!literal) return {": compare it, as in " + text(e) + " <> 0", ""};
+        const std::string value = as<NumLiteralExpr>(e).value == 0 ? "FALSE" : "TRUE";
+        return {": write " + value, value};
+    }
+    case TypeKind::Record: {
+        const std::string name = literal ? namedByNumber(text(e), want) : std::string();
+        if (!name.empty()) return {didYouMean(name), name};
+        break;
+    }
+    default: break;
+    }
+    return {};
+}
+
+// A record of which only a part is wanted, or a target of the other kind.
+Analyzer::Remedy Analyzer::recordRemedy(const Expr& e, const DataType& found, const DataType& want) {
+    if (isPredefined(*found.type, "robtarget") && isPredefined(*want.type, "jointtarget"))
+        return {": CalcJointT gives the joint angles of a robtarget", ""};
+    if (isPredefined(*found.type, "jointtarget") && isPredefined(*want.type, "robtarget"))
+        return {": CalcRobT gives the robtarget of joint angles", ""};
+    const Type::Component* part = nullptr;
+    for (const Type::Component& c : found.type->base()->components) {
+        if (c.type->base() != want.type->base()) continue;
+        if (part) return {};
+        part = &c;
+    }
+    if (!part) return {};
+    if (!isPlaceExpr(e)) return {": only its component '" + part->name + "' is one", ""};
+    std::string name = text(e) + "." + part->name;
+    return {didYouMean(name), name};
+}
+
+/// How to make what was found what is wanted, if there is a usual way.
+Analyzer::Remedy Analyzer::remedyFor(const Expr& whole, const DataType& found, const DataType& want) {
+    const Expr& e = bare(whole);
+    if (!found.type || !want.type || want.rank > 0) return {};
+    if (found.rank > 0) {
+        if (found.type->base() != want.type->base() || !isPlaceExpr(e)) return {};
+        std::string index = "{1";
+        for (uint8_t i = 1; i < found.rank; ++i)
+            index += ",1";
+        return {": choose an element, as in " + text(e) + index + "}", ""};
+    }
+    const TypeKind from = found.type->base()->kind, to = want.type->base()->kind;
+    if (found.type->isNumeric()) {
+        if (to == TypeKind::Num) return {": convert it with DnumToNum", ""};
+        if (to == TypeKind::Dnum) return {": convert it with NumToDnum", ""};
+        return numberRemedy(e, found, *want.type);
+    }
+    if (from == TypeKind::String && want.type->isNumeric()) {
+        const bool literal = e.kind == NodeKind::StringLiteral;
+        const std::string value = literal ? decodeStringLiteral(text(e)) : std::string();
+        if (readsAsNumber(value)) return {": a number stands without quotes", value};
+        return {": StrToVal reads a value from a text", ""};
+    }
+    if (from == TypeKind::Bool && want.type->isNumeric() && e.kind == NodeKind::BoolLiteral) {
+        std::string value = as<BoolLiteralExpr>(e).value ? "1" : "0";
+        return {": write " + value, value};
+    }
+    if (from == TypeKind::String && to == TypeKind::Bool) return {": StrToVal reads a value from a text", ""};
+    if (e.kind == NodeKind::Component && found.rank == 0) { // "p10.trans" where "p10" would do
+        const Expr& record = *as<ComponentExpr>(e).base;
+        const DataType& base = info(record).type;
+        if (base.rank == 0 && base.type && base.type->base() == want.type->base())
+            return {didYouMean(text(record)), text(record)};
+    }
+    if (to == TypeKind::String && isValueType(*found.type)) return {": ValToStr makes a text of it", ""};
+    return from == TypeKind::Record ? recordRemedy(e, found, want) : Remedy();
+}
+
+// For arguments, also another instruction of the same family: WaitDO for WaitDI, MoveAbsJ for MoveL.
+Analyzer::Remedy Analyzer::remedyFor(const RoutineSymbol& routine, const Expr& e, const DataType& found,
+                                     const DataType& want) {
+    if (found.type && routine.predefined && found.rank == 0 && want.rank == 0) {
+        const bool moves = routine.name.starts_with("Move");
+        if (moves && isPredefined(*found.type, "jointtarget") && isPredefined(*want.type, "robtarget"))
+            return {": MoveAbsJ moves to a jointtarget", ""};
+        if (moves && isPredefined(*found.type, "robtarget") && isPredefined(*want.type, "jointtarget"))
+            return {": MoveJ and MoveL move to a robtarget", ""};
+        const Remedy sibling = signalRemedy(routine, found, want);
+        if (!sibling.words.empty()) return sibling;
+    }
+    return remedyFor(e, found, want);
+}
+
+// "SetDO go1, 5;": what ends in the kind of the signal takes it.
+Analyzer::Remedy Analyzer::signalRemedy(const RoutineSymbol& routine, const DataType& found,
+                                        const DataType& want) {
+    constexpr std::string_view kSignal = "signal";
+    const std::string_view have = found.type->base()->name, need = want.type->base()->name;
+    if (found.type->kind != TypeKind::SemiValue || want.type->kind != TypeKind::SemiValue) return {};
+    if (!have.starts_with(kSignal) || !need.starts_with(kSignal)) return {};
+    const std::string kind = foldName(have.substr(kSignal.size())),
+                      other = foldName(need.substr(kSignal.size()));
+    const std::string folded = foldName(routine.name);
+    const size_t where = folded.rfind(other);
+    if (where == std::string::npos || other.size() != kind.size()) return {};
+    const std::string name = folded.substr(0, where) + kind + folded.substr(where + other.size());
+    const RoutineSymbol* sibling = asRoutine(at(predefined_, interner_.intern(name)));
+    if (sibling && sibling->routineKind == routine.routineKind)
+        return {": " + sibling->name + " takes one", ""};
+    const bool sets =
+        folded.starts_with("set") || folded.starts_with("pulse") || folded.starts_with("invert");
+    if (sets && kind.ends_with('i')) return {": an input cannot be set", ""};
+    return {};
+}
+
+void Analyzer::offer(diag::Diagnostic& diagnostic, const Expr& e, const Remedy& remedy) {
+    diagnostic.message += remedy.words;
+    if (!remedy.instead.empty()) diagnostic.fix(range(e), remedy.instead, false);
+}
+
+// "TPWrite text, n;" for "TPWrite text, \Num:=n;": the optional parameter that a value without a place was meant for.
+std::string Analyzer::optionalFor(const RoutineSymbol& routine, const Expr& e) {
+    if (e.kind != NodeKind::Name || !isName(as<NameExpr>(e).name)) return {};
+    return optionalFor(routine, idOf(as<NameExpr>(e).name));
+}
+
+std::string Analyzer::optionalFor(const RoutineSymbol& routine, NameId name) {
+    const DataSymbol* data = asData(lookup(name));
+    if (!data || !data->type.type) return {};
+    for (const DataSymbol* param : routine.params) {
+        if (!param->optional || param->isSwitch || !param->type.type) continue;
+        if (equivalent(data->type, param->type)) return "\\" + param->name + ":=";
+    }
+    return {};
+}
+
+} // namespace rapid::sema

@@ -1,0 +1,137 @@
+// What a message about a value that does not fit says to do, and that doing it makes the program right.
+
+#include "sema_testing.h"
+
+#include "frontend/edit/apply_edits.h"
+
+#include <catch2/catch.hpp>
+
+namespace {
+
+using namespace rapid;
+using namespace rapid::sema;
+
+struct Case {
+    std::string body;    ///< of main; one mistake in it
+    std::string code;    ///< its diagnostic
+    std::string remedy;  ///< how the message ends
+    std::string instead; ///< the line after the fix; empty: none is offered
+};
+
+const std::string kBefore =
+    "MODULE m\n"
+    "  CONST robtarget p10:=[[600,0,500],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+    "  CONST jointtarget jp:=[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+    "  VAR intnum irq;\n"
+    "  VAR clock watch;\n"
+    "  VAR num n;\n"
+    "  VAR num row{3};\n"
+    "  VAR num grid{2,3};\n"
+    "  VAR dnum large;\n"
+    "  VAR string s;\n"
+    "  VAR bool b;\n"
+    "  VAR pos at;\n"
+    "  VAR robtarget target;\n"
+    "  PROC main()\n";
+const std::string kAfter = "\n  ENDPROC\n"
+                           "  TRAP onChange\n  ENDTRAP\n"
+                           "  FUNC num give(string text)\n    RETURN StrLen(text);\n  ENDFUNC\n"
+                           "ENDMODULE\n";
+
+// Manual 1.2 (types), 1.3.1 and 1.3.2 (operators), 1.1.5 (arguments), 3 (instructions and their parameters).
+const Case kCases[] = {
+    {"MoveL p10,100,z50,tool0;", "RAP4011", "; did you mean 'v100'?", "MoveL p10,v100,z50,tool0;"},
+    {"MoveL p10,v100,50,tool0;", "RAP4011", "; did you mean 'z50'?", "MoveL p10,v100,z50,tool0;"},
+    {"MoveL p10,123,z50,tool0;", "RAP4011", "'num', expected 'speeddata'", ""},
+    {"MoveL jp,v100,z50,tool0;", "RAP4011", ": MoveAbsJ moves to a jointtarget", ""},
+    {"MoveAbsJ p10,v100,z50,tool0;", "RAP4011", ": MoveJ and MoveL move to a robtarget", ""},
+    {"target := jp;", "RAP2104", ": CalcRobT gives the robtarget of joint angles", ""},
+    {"WaitTime \"1.5\";", "RAP4011", ": a number stands without quotes", "WaitTime 1.5;"},
+    {"WaitTime \"soon\";", "RAP4011", ": StrToVal reads a value from a text", ""},
+    {"WaitTime large;", "RAP4011", ": convert it with DnumToNum", ""},
+    {"n := \"5\";", "RAP2104", ": a number stands without quotes", "n := 5;"},
+    {"n := TRUE;", "RAP2104", ": write 1", "n := 1;"},
+    {"n := row;", "RAP2104", ": choose an element, as in row{1}", ""},
+    {"n := grid;", "RAP2104", ": choose an element, as in grid{1,1}", ""},
+    {"b := 0;", "RAP2104", ": write FALSE", "b := FALSE;"},
+    {"b := n;", "RAP2104", ": compare it, as in n <> 0", ""},
+    {"s := 5;", "RAP2104", ": write a text between double quotes", "s := \"5\";"},
+    {"s := n + 1;", "RAP2104", ": make a text of the number with NumToStr", ""},
+    {"s := large;", "RAP2104", ": make a text of the number with DnumToStr", ""},
+    {"s := at;", "RAP2104", ": ValToStr makes a text of it", ""},
+    {"at := p10;", "RAP2104", "; did you mean 'p10.trans'?", "at := p10.trans;"},
+    {"at := CRobT();", "RAP2104", ": only its component 'trans' is one", ""},
+    {"target := Offs(p10.trans,0,0,1);", "RAP4011", "; did you mean 'p10'?", "target := Offs(p10,0,0,1);"},
+    {"IF n b := TRUE;", "RAP3007", ": compare it, as in n <> 0", ""},
+    {"IF 1 b := TRUE;", "RAP3007", ": write TRUE", "IF TRUE b := TRUE;"},
+    {"IF n = \"5\" b := TRUE;", "RAP3004", ": a number stands without quotes", "IF n = 5 b := TRUE;"},
+    {"IF \"5\" = n b := TRUE;", "RAP3004", ": a number stands without quotes", "IF 5 = n b := TRUE;"},
+    {"IF b = 1 b := FALSE;", "RAP3004", ": write TRUE", "IF b = TRUE b := FALSE;"},
+    {"n := give(7);", "RAP4011", ": write a text between double quotes", "n := give(\"7\");"},
+    {"TPWrite \"n: \", n;", "RAP4001", "; did you mean '\\Num:=n'?", "TPWrite \"n: \", \\Num:=n;"},
+    {"TPWrite \"n: \"\\n;", "RAP4003", "; did you mean '\\Num:=n'?", "TPWrite \"n: \"\\Num:=n;"},
+    {"target := CRobT(tool0);", "RAP4001", "; did you mean '\\Tool:=tool0'?",
+     "target := CRobT(\\Tool:=tool0);"},
+    {"ClkStart(watch);", "RAP4012", "expected a variable", "ClkStart watch;"},
+    {"ClkStart (watch);", "RAP4012", "expected a variable", "ClkStart watch;"},
+    {"ConfL/Off;", "RAP1112", "expected '\\' before an optional argument", "ConfL\\Off;"},
+    {"target := CRobT(/Tool:=tool0);", "RAP1112", "expected '\\' before an optional argument",
+     "target := CRobT(\\Tool:=tool0);"},
+    {"CONNECT irq WITH onChange();", "RAP1101", ": a trap routine is named, not called",
+     "CONNECT irq WITH onChange;"},
+    {"IF n > 1 AND < 5 b := TRUE;", "RAP1101",
+     ": each comparison names both of its sides, as in n > 1 AND n < 5", ""},
+    {"MoveL p10,v110,z50,tool0;", "RAP2001", "; predefined are 'v100' and 'v150'", ""},
+    {"MoveL p10,v100,z25,tool0;", "RAP2001", "; predefined are 'z20' and 'z30'", ""},
+    {"MoveL p10,v100,z500,tool0;", "RAP2001", "; predefined is 'z200'", ""},
+    {"SetDO doGrip, ON;", "RAP2001", "; did you mean 'high'?", "SetDO doGrip, high;"},
+};
+
+std::vector<diag::Diagnostic> errorsOf(const std::string& body) {
+    std::vector<diag::Diagnostic> errors = testing::checkTexts({kBefore + body + kAfter})->sink.sorted();
+    std::erase_if(errors, [](const diag::Diagnostic& d) { return d.severity != diag::Severity::Error; });
+    return errors;
+}
+
+} // namespace
+
+TEST_CASE("a value that does not fit is one message that says what would", "[sema]") {
+    for (const Case& item : kCases) {
+        INFO(item.body);
+        const std::vector<diag::Diagnostic> errors = errorsOf(item.body);
+        REQUIRE(errors.size() == 1);
+        const diag::Diagnostic& d = errors.front();
+        INFO(d.message);
+        CHECK(diag::codeName(d.code) == item.code);
+        CHECK(d.message.ends_with(item.remedy));
+        REQUIRE(d.fixes.size() == (item.instead.empty() ? 0 : 1));
+        if (item.instead.empty()) continue;
+        const std::string whole = kBefore + item.body + kAfter;
+        CHECK(edit::applyEditsToText(whole, d.fixes.front().edits).bytes == kBefore + item.instead + kAfter);
+        CHECK(errorsOf(item.instead).empty());
+    }
+}
+
+// Inputs and outputs, single signals and groups have instructions of their own (manual 1.8).
+TEST_CASE("a signal of another kind names the instruction that takes it", "[sema]") {
+    const auto messages = [](const std::string& body) {
+        CheckOptions options;
+        options.configurationKnown = true;
+        options.signals = {
+            {"di1", "signaldi"}, {"do1", "signaldo"}, {"go1", "signalgo"}, {"ai1", "signalai"}};
+        return testing::checkTexts({"MODULE m\n  PROC main()\n" + body + "\n  ENDPROC\nENDMODULE\n"}, options)
+            ->messages();
+    };
+    CHECK(messages("WaitDI do1, 1;") ==
+          std::vector<std::string>{"RAP4011 at 3:8: argument 'Signal' of 'WaitDI' is 'signaldo', expected "
+                                   "'signaldi': WaitDO takes one"});
+    CHECK(messages("SetDO go1, 1;") ==
+          std::vector<std::string>{"RAP4011 at 3:7: argument 'Signal' of 'SetDO' is 'signalgo', expected "
+                                   "'signaldo': SetGO takes one"});
+    CHECK(messages("SetDO di1, 1;") ==
+          std::vector<std::string>{"RAP4011 at 3:7: argument 'Signal' of 'SetDO' is 'signaldi', expected "
+                                   "'signaldo': an input cannot be set"});
+    CHECK(messages("WaitDI ai1, 1;") ==
+          std::vector<std::string>{"RAP4011 at 3:8: argument 'Signal' of 'WaitDI' is 'signalai', expected "
+                                   "'signaldi': WaitAI takes one"});
+}
