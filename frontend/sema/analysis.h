@@ -191,6 +191,8 @@ class Analyzer {
     Remedy numberRemedy(const syntax::Expr& e, const DataType& found, const Type& want);
     Remedy recordRemedy(const syntax::Expr& e, const DataType& found, const DataType& want);
     Remedy signalRemedy(const RoutineSymbol& routine, const DataType& found, const DataType& want);
+    static std::string targetRemedy(syntax::BinaryOp op, const DataType& operand);
+    static std::string operatorRemedy(syntax::BinaryOp op, Typed left, Typed right);
     std::string namedByNumber(std::string_view number, const Type& want);
     /// Adds it to what is said about `e`.
     void offer(diag::Diagnostic& diagnostic, const syntax::Expr& e, const Remedy& remedy);
@@ -218,6 +220,8 @@ class Analyzer {
     Suggestion suggestion(NameId name, Wanted wanted);
     static std::string didYouMean(std::string_view name);
     std::string inSeries(std::string_view written);
+    /// "trans.z" for "z", when one part of the parts of a record is named so; empty when none or several are.
+    std::string deeperComponent(const Type& record, std::string_view name);
     const Type::Component* nearComponent(const Type& record, std::string_view name);
     const DataSymbol* nearOptional(const RoutineSymbol& routine, NameId name);
 
@@ -317,6 +321,7 @@ class Analyzer {
     Typed comparison(const syntax::BinaryExpr& e, Typed left, Typed right);
     Typed equality(const syntax::BinaryExpr& e, Typed left, Typed right);
     Typed logic(const syntax::BinaryExpr& e, Typed left, Typed right);
+    bool refusesAggregate(const syntax::BinaryExpr& e, const DataType& partner);
     Typed operatorError(const syntax::BinaryExpr& e, Typed left, Typed right);
     enum class Numeric : uint8_t { Ok, Mixed, NotNumeric };
     Numeric unify(const syntax::BinaryExpr& e, Typed& left, Typed& right, Flex& flex);

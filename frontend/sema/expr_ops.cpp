@@ -68,8 +68,13 @@ Typed Analyzer::binaryChain(const BinaryExpr& top, const DataType* want) {
         const bool equal = e.op == BinaryOp::Eq || e.op == BinaryOp::Ne;
         if (first && isAggregate(*leaf) && !isAggregate(*e.right)) {
             const Typed right = expr(*e.right);
-            const DataType* given = givesType(e.op, right.info->type) ? &right.info->type : nullptr;
-            left = combine(e, expr(*leaf, given), right);
+            if (refusesAggregate(e, right.info->type)) {
+                visitLoose(*leaf);
+                left = errorExpr(e);
+            } else {
+                const DataType* given = givesType(e.op, right.info->type) ? &right.info->type : nullptr;
+                left = combine(e, expr(*leaf, given), right);
+            }
         } else {
             if (first) nonValueReported_ = false, left = expr(*leaf, numeric);
             // One aggregate without a type is enough.
@@ -82,12 +87,30 @@ Typed Analyzer::binaryChain(const BinaryExpr& top, const DataType* want) {
             const bool said = first && std::exchange(nonValueReported_, false) && isPlaceExpr(*e.right);
             if (said) visitLoose(*e.right); // "clock1 = clock2" is one mistake
             const bool typed = equal || (isAggregate(*e.right) && givesType(e.op, left.info->type));
-            const Typed right = said ? left : expr(*e.right, typed ? &left.info->type : numeric);
-            left = combine(e, left, right);
+            if (isAggregate(*e.right) && refusesAggregate(e, left.info->type)) {
+                visitLoose(*e.right);
+                left = errorExpr(e);
+            } else {
+                const Typed right = said ? left : expr(*e.right, typed ? &left.info->type : numeric);
+                left = combine(e, left, right);
+            }
         }
         first = false;
     }
     return left;
+}
+
+// "p10 + [0,0,50]": a record that no operator takes gives the aggregate no type.
+bool Analyzer::refusesAggregate(const BinaryExpr& e, const DataType& partner) {
+    const Type* type = partner.type->base();
+    if (e.op >= BinaryOp::Lt || partner.rank > 0 || type->kind != TypeKind::Record || type == program_.pos ||
+        type == program_.orient)
+        return false;
+    const bool left = isAggregate(*e.left);
+    report(Code::OperatorTypes, range(e.opToken),
+           {text(e.opToken), left ? text(*e.left) : typeName(partner),
+            left ? typeName(partner) : text(*e.right), targetRemedy(e.op, partner)});
+    return true;
 }
 
 Typed Analyzer::combine(const BinaryExpr& e, Typed left, Typed right) {
@@ -119,26 +142,10 @@ Typed Analyzer::combine(const BinaryExpr& e, Typed left, Typed right) {
     return errorExpr(e);
 }
 
-namespace {
-
-/// What helps where one side is a text.
-std::string textRemedy(BinaryOp op, Typed left, Typed right) {
-    const bool texts[] = {left.isScalar(TypeKind::String), right.isScalar(TypeKind::String)};
-    if (texts[0] && texts[1])
-        return op >= BinaryOp::Lt && op <= BinaryOp::Ge ? ": compare texts by StrOrder" : "";
-    if (op != BinaryOp::Add || (!texts[0] && !texts[1])) return {};
-    const Typed other = texts[0] ? right : left;
-    if (other.isScalar(TypeKind::Num)) return ": make a text of the number with NumToStr";
-    if (other.isScalar(TypeKind::Dnum)) return ": make a text of the number with DnumToStr";
-    return ": make a text of the value with ValToStr";
-}
-
-} // namespace
-
 Typed Analyzer::operatorError(const BinaryExpr& e, Typed left, Typed right) {
     if (context_.tree->text(e.opToken)[0] == '&') return errorExpr(e); // of another language, reported
     report(Code::OperatorTypes, range(e.opToken),
-           {text(e.opToken), typeName(*left.info), typeName(*right.info), textRemedy(e.op, left, right)});
+           {text(e.opToken), typeName(*left.info), typeName(*right.info), operatorRemedy(e.op, left, right)});
     return errorExpr(e);
 }
 

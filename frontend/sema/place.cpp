@@ -173,11 +173,13 @@ Place Analyzer::componentPlace(const ComponentExpr& e, const Type*) {
     const int component = findComponent(*base.type.type, name);
     if (component < 0 && base.type.type->base()->unclear) return {}; // it may be among what could not be read
     if (component < 0) {
-        const Type::Component* near = nearComponent(*base.type.type, name);
+        std::string meant = deeperComponent(*base.type.type, name);
+        if (const Type::Component* near = nearComponent(*base.type.type, name); near && meant.empty())
+            meant = near->name;
         diag::Diagnostic& d =
             report(Code::UnknownComponent, range(e.name),
-                   {text(e.name), base.type.type->name, near ? didYouMean(near->name) : std::string()});
-        if (near) d.fix(range(e.name), near->name, false);
+                   {text(e.name), base.type.type->name, meant.empty() ? meant : didYouMean(meant)});
+        if (!meant.empty()) d.fix(range(e.name), meant, false);
         return {};
     }
     const auto index = static_cast<size_t>(component);

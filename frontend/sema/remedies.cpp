@@ -149,6 +149,26 @@ Analyzer::Remedy Analyzer::signalRemedy(const RoutineSymbol& routine, const Data
     return {};
 }
 
+// What a target is moved by is no operator.
+std::string Analyzer::targetRemedy(BinaryOp op, const DataType& operand) {
+    const bool moves = op == BinaryOp::Add || op == BinaryOp::Sub;
+    return moves && isPredefined(*operand.type, "robtarget")
+               ? ": Offs and RelTool give a robtarget that is moved"
+               : "";
+}
+
+std::string Analyzer::operatorRemedy(BinaryOp op, Typed left, Typed right) {
+    const bool texts[] = {left.isScalar(TypeKind::String), right.isScalar(TypeKind::String)};
+    if (texts[0] && texts[1])
+        return op >= BinaryOp::Lt && op <= BinaryOp::Ge ? ": compare texts by StrOrder" : "";
+    if (!texts[0] && !texts[1]) return targetRemedy(op, left.info->type);
+    if (op != BinaryOp::Add) return {};
+    const Typed other = texts[0] ? right : left;
+    if (other.isScalar(TypeKind::Num)) return ": make a text of the number with NumToStr";
+    if (other.isScalar(TypeKind::Dnum)) return ": make a text of the number with DnumToStr";
+    return ": make a text of the value with ValToStr";
+}
+
 void Analyzer::offer(diag::Diagnostic& diagnostic, const Expr& e, const Remedy& remedy) {
     diagnostic.message += remedy.words;
     if (!remedy.instead.empty()) diagnostic.fix(range(e), remedy.instead, false);

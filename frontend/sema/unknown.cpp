@@ -281,6 +281,18 @@ Analyzer::Suggestion Analyzer::suggestion(NameId name, Wanted wanted) {
     return near(written, limit) ? best : Suggestion();
 }
 
+std::string Analyzer::deeperComponent(const Type& record, std::string_view name) {
+    std::string found;
+    for (const Type::Component& part : record.base()->components) {
+        if (part.type->base()->kind != TypeKind::Record) continue;
+        const int inner = findComponent(*part.type, name);
+        if (inner < 0) continue;
+        if (!found.empty()) return {};
+        found = part.name + "." + part.type->base()->components[static_cast<size_t>(inner)].name;
+    }
+    return found;
+}
+
 const Type::Component* Analyzer::nearComponent(const Type& record, std::string_view name) {
     const std::vector<Type::Component>& components = record.base()->components;
     if (partComparisonsLeft_ < components.size()) return nullptr;

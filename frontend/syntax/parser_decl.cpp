@@ -126,7 +126,11 @@ void Parser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) {
         }
     }
     noteMoreNames(node);
-    if (!moreOf_) endStatement(node->init ? "';'" : "':=' or ';'");
+    const bool parts = kind() == K::Comma && node->init && node->init->kind == NodeKind::Aggregate;
+    if (!moreOf_)
+        endStatement(parts        ? "';': a value of several parts stands between '[' and ']' as a whole"
+                     : node->init ? "';'"
+                                  : "':=' or ';'");
 }
 
 // ---- Routines --------------------------------------------------------------------------------------------------

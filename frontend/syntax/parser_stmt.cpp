@@ -282,7 +282,8 @@ Stmt* Parser::parseAssignment(Expr* target, TokenIndex first) {
         return finish(node);
     }
     node->value = panic_ ? errorExpr() : parseExpr();
-    endStatement();
+    const bool named = node->value->kind == NodeKind::Name && kind() != K::Semicolon && startsExpr(kind());
+    endStatement(named ? "';', or '(' before the arguments of a function" : "';'");
     node->broken = unreadable_ > unreadable;
     return finish(node);
 }

@@ -81,6 +81,13 @@ const Case kCases[] = {
      "CONNECT irq WITH onChange;"},
     {"IF n > 1 AND < 5 b := TRUE;", "RAP1101",
      ": each comparison names both of its sides, as in n > 1 AND n < 5", ""},
+    {"target := p10 + [0,0,50];", "RAP3001",
+     "'robtarget' and '[0,0,50]': Offs and RelTool give a robtarget that is moved", ""},
+    {"target := p10 - at;", "RAP3001", ": Offs and RelTool give a robtarget that is moved", ""},
+    {"target := [0,0,50] + p10;", "RAP3001",
+     "'[0,0,50]' and 'robtarget': Offs and RelTool give a robtarget that is moved", ""},
+    {"target.z := 5;", "RAP2005", "; did you mean 'trans.z'?", "target.trans.z := 5;"},
+    {"n := give \"7\";", "RAP1101", "expected ';', or '(' before the arguments of a function", ""},
     {"MoveL p10,v110,z50,tool0;", "RAP2001", "; predefined are 'v100' and 'v150'", ""},
     {"MoveL p10,v100,z25,tool0;", "RAP2001", "; predefined are 'z20' and 'z30'", ""},
     {"MoveL p10,v100,z500,tool0;", "RAP2001", "; predefined is 'z200'", ""},
@@ -110,6 +117,17 @@ TEST_CASE("a value that does not fit is one message that says what would", "[sem
         CHECK(edit::applyEditsToText(whole, d.fixes.front().edits).bytes == kBefore + item.instead + kAfter);
         CHECK(errorsOf(item.instead).empty());
     }
+}
+
+// Manual 1.2.5: an aggregate stands between brackets as a whole.
+TEST_CASE("parts of a value without brackets around them are one message", "[sema]") {
+    const std::string text =
+        "MODULE m\n  CONST robtarget q := [1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9];\n"
+        "  VAR pos p := [1,2,3];\nENDMODULE\n";
+    CHECK(
+        testing::checkTexts({text})->messages() ==
+        std::vector<std::string>{"RAP1101 at 2:31: found ',', expected ';': a value of several parts stands "
+                                 "between '[' and ']' as a whole"});
 }
 
 // Inputs and outputs, single signals and groups have instructions of their own (manual 1.8).
