@@ -246,15 +246,19 @@ void Analyzer::markAssigned(DataSymbol& symbol) {
 // A LOCAL routine with the name of the entry. Only of a program that is to run, or in which everything else is known:
 // modules that a part of a program consists of may have a LOCAL main of their own, called by name from elsewhere.
 const Symbol* Analyzer::localEntry(const Task& task, NameId name) {
-    const auto isOpen = [](const Module* module) { return module->facts->open; };
-    if (!options_.requireMain &&
-        (incomplete_ || std::any_of(task.modules.begin(), task.modules.end(), isOpen)))
-        return nullptr;
-    for (const Module* module : task.modules) {
-        const Symbol* local = scopes_[module->id]->names.find(name);
-        if (local && (options_.requireMain || !local->used)) return local;
-    }
-    return nullptr;
+    const Symbol* local = nullptr;
+    for (size_t i = 0; i < task.modules.size() && !local; ++i)
+        local = scopes_[task.modules[i]->id]->names.find(name);
+    if (!local || options_.requireMain) return local;
+    const auto isOpen = [](const Module* module) {
+        const auto& tokens = module->tree->tokens;
+        return module->facts->open || std::any_of(tokens.begin(), tokens.end(), [](const Token& t) {
+                   return t.kind == TokenKind::Percent; // a call by name
+               });
+    };
+    const bool part =
+        incomplete_ || local->used || std::any_of(task.modules.begin(), task.modules.end(), isOpen);
+    return part ? nullptr : local;
 }
 
 void Analyzer::checkEntry(Task& task) {

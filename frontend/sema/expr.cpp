@@ -121,6 +121,7 @@ bool Analyzer::aggregateFits(const AggregateExpr& e, const DataType& want) {
                                 : want.dims[0] > 0 ? static_cast<size_t>(want.dims[0])
                                                    : count;
         if (count == expected) return true;
+        if (want.rank == 0 && want.type->base()->unclear) return false;
         for (const Expr* element : e.elements())
             if (element->kind == NodeKind::ErrorExpr) return false;
         report(Code::AggregateCount, range(e),

@@ -116,7 +116,10 @@ void Analyzer::resolveRecord(Type& type, const RecordDecl& decl) {
     uint64_t leaves = 0;
     type.unclear = hasUnclearLine(decl);
     for (const RecordComponent* c : decl.components) {
-        if (!isName(c->name)) continue;
+        if (!isName(c->name)) {
+            type.unclear = true;
+            continue;
+        }
         const NameId name = idOf(c->name);
         if (names.find(name)) report(Code::DuplicateComponent, range(c->name), {text(c->name), type.name});
         names.set(name, c);
@@ -218,8 +221,10 @@ void Analyzer::resolveParameter(RoutineSymbol& routine, const ParamDecl& decl) {
             report(Code::TooManyDimensions, range(decl.name + 8), {std::to_string(decl.rank)}); // "{*,*,*,*"
         symbol.type.type = program_.errorType;
     }
-    if (decl.mode == ParamMode::In && isHandle(*symbol.type.type) && isReal(*symbol.type.type))
+    if (decl.mode == ParamMode::In && isHandle(*symbol.type.type) && isReal(*symbol.type.type)) {
         report(Code::NonValueInParameter, range(decl.type), {symbol.name, symbol.type.type->name});
+        symbol.mode = ParamMode::Inout; // what is passed to it is right then
+    }
 }
 
 } // namespace rapid::sema

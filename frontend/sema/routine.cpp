@@ -106,8 +106,9 @@ bool Analyzer::isInside(uint32_t inner, uint32_t outer) const {
 void Analyzer::labelStmt(const LabelStmt& s) {
     if (!isName(s.name)) return;
     const NameId name = idOf(s.name);
-    if (const LabelSymbol* other = labelNames_.find(name)) {
+    if (LabelSymbol* other = labelNames_.find(name)) {
         noteDeclared(report(Code::DuplicateLabel, range(s.name), {text(s.name)}), *other);
+        labels_.push_back({name, block_, part_, &s, other});
         return;
     }
     if (const Symbol* data = at(routineNames_, name))
@@ -131,8 +132,12 @@ std::string Analyzer::nearLabel(NameId name) {
 // A jump may leave IF, TEST, FOR and WHILE but never enter one, and it stays in the body or in its handler.
 void Analyzer::resolveJumps() {
     NameMap<const JumpPoint> byName;
+    std::unordered_set<NameId> repeated; // which of them is meant is not known
     for (const JumpPoint& label : labels_)
-        byName.set(label.name, &label);
+        if (byName.find(label.name))
+            repeated.insert(label.name);
+        else
+            byName.set(label.name, &label);
     for (const JumpPoint& jump : gotos_) {
         const TokenIndex token = as<GotoStmt>(*jump.node).label;
         const JumpPoint* target = byName.find(jump.name);
@@ -145,7 +150,8 @@ void Analyzer::resolveJumps() {
         }
         target->label->used = true;
         facts().references[jump.node] = target->label;
-        if (blocksAreUnclear_) continue; // where the label belongs is not known
+        if (blocksAreUnclear_ || repeated.count(jump.name) > 0)
+            continue; // where the label belongs is not known
         if (target->part != jump.part)
             noteDeclared(report(Code::GotoOtherPart, range(token), {text(token)}), *target->label);
         else if (!isInside(jump.block, target->block))

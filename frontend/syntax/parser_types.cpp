@@ -107,7 +107,8 @@ Decl* Parser::parseAlias(bool local, TokenIndex first) {
     node->type = expectName();
     if (!panic_) node->name = expectName();
     checkNameLength(node->name);
-    endStatement();
+    endStatement(kind() == K::LeftBrace ? "';': an alias names a type, arrays are declared with their data"
+                                        : "';'");
     return finish(node);
 }
 

@@ -54,6 +54,8 @@ TEST_CASE("a LOCAL main is told where nothing else can be meant", "[sema]") {
     CHECK(codes("    Stop;\n") == Messages{"RAP6003"});
     CHECK(codes("    RETURN;\n", "  PROC cycle()\n    main;\n  ENDPROC\n").empty()); // a helper of that name
     CHECK(codes("    setState;\n") == Messages{"RAP2003"}); // a part of a program, called from another one
+    CHECK(codes("    Stop;\n", "  PROC next(string name)\n    %name%;\n  ENDPROC\n")
+              .empty()); // perhaps by name
     // The entry of the task has another name.
     TaskInput task;
     task.entry = "watch";
