@@ -155,6 +155,8 @@ class Analyzer {
     std::string text(syntax::TokenIndex token) const { return std::string(context_.tree->text(token)); }
     diag::Diagnostic& report(Code code, SourceRange where, std::initializer_list<std::string> args = {});
     bool isUnclear(SourceRange where) const;
+    uint32_t lineEnd(uint32_t from) const;
+    bool valueFollows(const syntax::LabelStmt& s);
     bool hasUnclearLine(const syntax::Node& node) const;
     /// Adds "declared here" at the declaration of `symbol`, when it has one in a file of the user.
     void noteDeclared(diag::Diagnostic& diagnostic, const Symbol& symbol);
@@ -516,6 +518,7 @@ class Analyzer {
     bool signalUsesKnown_ = false;
     bool incomplete_ = false;                 ///< modules of the task are missing: names may be unknown
     std::vector<std::string> missingModules_; ///< their names, as far as they are known
+    SourceRange quietLine_; ///< in the routine: the rest of a line that was meant in another way, which is reported
     std::vector<const syntax::SyntaxTree*> brokenTrees_; ///< with syntax errors
     std::unordered_set<NameId> maybeDeclared_;           ///< names in declarations that could not be read
     std::unordered_set<NameId> unknownRoutines_;         ///< reported in this routine

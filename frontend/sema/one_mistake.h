@@ -27,4 +27,7 @@ struct Repeat {
 std::vector<Repeat> findRepeats(const CheckedProgram& program, std::span<Module* const> modules,
                                 const std::vector<const diag::Diagnostic*>& said);
 
+/// When everything is reported: a line that lacks its semicolon and whose callee or last word is not known is one mistake.
+void tellUnfinished(diag::Sink& sink);
+
 } // namespace rapid::sema

@@ -123,6 +123,12 @@ size_t lostLoops(const SyntaxTree& tree, const RoutineDecl& routine) {
     return lost;
 }
 
+/// "VA": the beginning of a declaration that is being typed.
+bool isUnfinished(const SyntaxTree& tree, const Decl& decl) {
+    return decl.kind == NodeKind::ErrorDecl && decl.first == decl.last &&
+           tree.tokens[decl.first].kind == TokenKind::Identifier;
+}
+
 /// What is left of a routine without the first word, or without the first line: up to its END word.
 bool isRestOfRoutine(const SyntaxTree& tree, const Decl& decl) {
     constexpr TokenSet kEnds = {TokenKind::KwEndproc, TokenKind::KwEndfunc, TokenKind::KwEndtrap};
@@ -130,6 +136,18 @@ bool isRestOfRoutine(const SyntaxTree& tree, const Decl& decl) {
     for (TokenIndex i = decl.first; i <= decl.last; ++i)
         if (kEnds.has(tree.tokens[i].kind)) return true;
     return false;
+}
+
+/// What is wrong with the words of a line that also lacks its semicolon: a line that is being typed.
+bool isOfUnfinished(const Diagnostic& d, uint32_t end) {
+    constexpr Code kLastWord[] = {Code::UnknownName, Code::UnknownLabel, Code::UnknownParameter,
+                                  Code::NotAProcedure};
+    constexpr uint32_t kLongLine = 300;
+    if (d.range.end == end)
+        return std::find(std::begin(kLastWord), std::end(kLastWord), d.code) != std::end(kLastWord);
+    if (d.code != Code::UnknownProcedure || d.range.end > end || end - d.range.end > kLongLine) return false;
+    return d.file->text().substr(d.range.end, end - d.range.end).find_first_of("\r\n") ==
+           std::string_view::npos;
 }
 
 } // namespace
@@ -162,6 +180,7 @@ void Analyzer::explainUnknown(const Module& module) {
     size_t lostData = 0, lostRoutines = 0;
     std::unordered_set<NameId> names; // of routines without their first words
     for (const Decl* decl : module.decl->decls) {
+        if (isUnfinished(tree, *decl)) ++lostData;
         if (decl->kind == NodeKind::Data) lostData += lostName(tree, as<DataDecl>(*decl));
         if (isRestOfRoutine(tree, *decl)) {
             if (tree.tokens[decl->first].kind == TokenKind::Identifier &&
@@ -262,13 +281,36 @@ void Analyzer::tellOnce() {
             fate[keyOf(d)] = std::nullopt;
         fate[keyOf(repeat.members.front())] = leadOf(repeat);
     }
-    if (fate.empty()) return;
+    if (fate.empty()) return tellUnfinished(sink_);
     sink_.revise([&](Diagnostic& d) {
         const auto found = fate.find(keyOf(d));
         if (found == fate.end()) return true;
         if (!found->second) return false;
         d = *std::exchange(found->second, std::nullopt); // once, were it there twice
         return true;
+    });
+    tellUnfinished(sink_);
+}
+
+void tellUnfinished(diag::Sink& sink) {
+    using Place = std::pair<const SourceFile*, uint32_t>;
+    std::map<Place, bool> ends; // of lines without their semicolon, and whether something else is told there
+    for (const Diagnostic& d : sink.all())
+        if (d.code == Code::MissingSemicolon) ends.emplace(Place(d.file.get(), d.range.begin), false);
+    if (ends.empty()) return;
+    bool any = false;
+    sink.revise([&](Diagnostic& d) {
+        if (d.severity != diag::Severity::Error || d.code == Code::MissingSemicolon) return true;
+        const auto end = ends.lower_bound({d.file.get(), d.range.end});
+        if (end == ends.end() || end->first.first != d.file.get() || end->second ||
+            !isOfUnfinished(d, end->first.second))
+            return true;
+        d.notes.push_back({d.file, {end->first.second, end->first.second}, "and ';' is missing here"});
+        return end->second = any = true;
+    });
+    if (!any) return;
+    sink.revise([&](const Diagnostic& d) {
+        return d.code != Code::MissingSemicolon || !ends[{d.file.get(), d.range.begin}];
     });
 }
 

@@ -29,6 +29,7 @@ diag::Diagnostic& Analyzer::report(Code code, SourceRange where, std::initialize
 
 /// In a line that could not be read as a whole: what seems wrong there follows from that.
 bool Analyzer::isUnclear(SourceRange where) const {
+    if (where.begin < quietLine_.end && where.begin >= quietLine_.begin) return true;
     const std::vector<uint32_t>& lines = context_.tree->unclearLines;
     if (lines.empty()) return false;
     const auto after = std::upper_bound(lines.begin(), lines.end(), where.begin);

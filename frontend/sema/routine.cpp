@@ -18,6 +18,7 @@ void Analyzer::checkRoutine(RoutineSymbol& symbol) {
     context_.routine = &symbol;
     const RoutineDecl& decl = *symbol.routineDecl;
     blocksAreUnclear_ = hasUnclearLine(decl);
+    quietLine_ = {};
     loopDepth_ = 0;
     breakSeen_ = returnSeen_ = broken_ = jumpNamesKnown_ = false;
     block_ = kNoBlock;
@@ -103,6 +104,23 @@ bool Analyzer::isInside(uint32_t inner, uint32_t outer) const {
     return inner == outer;
 }
 
+uint32_t Analyzer::lineEnd(uint32_t from) const {
+    const std::string_view source = context_.tree->source->text();
+    return static_cast<uint32_t>(std::min(source.find_first_of("\r\n", from), source.size()));
+}
+
+// "n: n + 1;": what stands behind the colon in the same line is a value and no instruction.
+bool Analyzer::valueFollows(const LabelStmt& s) {
+    const auto& tokens = context_.tree->tokens;
+    const TokenIndex next = s.last + 1;
+    if (next + 1 >= tokens.size() || tokens[next].kind != TokenKind::Identifier ||
+        tokens[next].offset >= lineEnd(range(s.last).end))
+        return false;
+    const RoutineSymbol* routine = asRoutine(lookup(idOf(next)));
+    return lookup(idOf(next)) && (!routine || routine->routineKind != RoutineKind::Proc) &&
+           tokens[next + 1].kind != TokenKind::Assign;
+}
+
 void Analyzer::labelStmt(const LabelStmt& s) {
     if (!isName(s.name)) return;
     const NameId name = idOf(s.name);
@@ -111,8 +129,13 @@ void Analyzer::labelStmt(const LabelStmt& s) {
         labels_.push_back({name, block_, part_, &s, other});
         return;
     }
-    if (const Symbol* data = at(routineNames_, name))
-        noteDeclared(report(Code::LabelNamedAsData, range(s.name), {text(s.name)}), *data);
+    const Symbol* data = at(routineNames_, name);
+    if (asData(data ? const_cast<Symbol*>(data) : lookup(name)) && valueFollows(s)) {
+        report(Code::ForeignSpelling, range(s.last), {":", "':='"}).fix(range(s.last), ":=");
+        quietLine_ = {range(s.last).end, lineEnd(range(s.last).end)};
+        return;
+    }
+    if (data) noteDeclared(report(Code::LabelNamedAsData, range(s.name), {text(s.name)}), *data);
     LabelSymbol& symbol = fill(facts().labels.emplace_back(), SymbolKind::Label, s, s.name, false);
     symbol.routine = context_.routine;
     labels_.push_back({name, block_, part_, &s, &symbol});

@@ -196,6 +196,7 @@ std::vector<diag::Diagnostic> Session::diagnostics() const {
         all.add(task.whole);
     }
     all.add(state_->across);
+    tellUnfinished(all);
     return all.sorted();
 }
 

@@ -203,6 +203,10 @@ Stmt* Parser::parseFor() {
     const TokenIndex opening = blockOpening_ = take();
     bool whole = true; // once the head is broken, the rest of it is not missed
     if (parseForeignFor(node)) return parseForBody(node, opening, false);
+    if (isWhileWrittenFor()) {
+        retag(opening, opening, K::KwWhile);
+        return parseWhile(opening);
+    }
     if (takesForeignCounter(node)) return parseForBody(node, opening, false);
     const bool counterless =
         kind() == K::NumLiteral && peek() == K::KwTo && !startsLine(pos_); // FOR 1 TO 3 DO
@@ -255,9 +259,26 @@ Stmt* Parser::parseForBody(ForStmt* node, TokenIndex opening, bool whole) {
     return finish(node);
 }
 
+/// A condition behind FOR, and ENDWHILE below.
+bool Parser::isWhileWrittenFor() const {
+    constexpr TokenSet kHead = {K::KwFrom, K::Assign, K::KwTo};
+    if (panic_) return false;
+    TokenIndex i = pos_;
+    while (!startsLine(i + 1) && kindAt(i) != K::KwDo) {
+        if (kHead.has(kindAt(i))) return false;
+        ++i;
+    }
+    return kindAt(i) == K::KwDo && i > pos_ && kindAt(unmatchedWord(i)) == K::KwEndwhile;
+}
+
 Stmt* Parser::parseWhile() {
+    return parseWhile(take());
+}
+
+/// Behind the word, which has been read.
+Stmt* Parser::parseWhile(TokenIndex opening) {
     const Restore restore(blockOpening_);
-    const TokenIndex opening = blockOpening_ = take();
+    blockOpening_ = opening;
     bool whole = true;
     TokenIndex found = 0;
     const bool hidden = !findOnLine(pos_, K::KwDo, found) && negatesByComment("DO");
@@ -320,6 +341,7 @@ Stmt* Parser::parseTestCases(TokenIndex opening, Expr* subject, bool whole) {
         lost->body = parseList(kTestEnds);
         if (!lost->body.empty()) {
             if (errors_ == errorsBefore) report(Code::InstructionOutsideCase, at);
+            if (kRoutineEnds.has(kind())) whole = false; // nothing of TEST but its first line
             cases_.push_back(finish(lost));
         }
     }

@@ -116,6 +116,7 @@ TokenKind Parser::endOfOwn(const TokenSet& own) const {
 /// Is the word here, which could stand for any END, that of the block around it? Not if that is still to come, unless
 /// it stands below the word that began the block.
 bool Parser::closesHere(K end) const {
+    if (end == routineEnd_ && errors_ <= kMaxErrorsPerFile && endOfRoutineBelow() == end) return false;
     if (errors_ > kMaxErrorsPerFile || kindAt(unmatchedWord(pos_ + 1)) != end) return true;
     return end != routineEnd_ && blockOpening_ != kNoToken && startsLine(blockOpening_) &&
            columnOf(pos_) == columnOf(blockOpening_);

@@ -267,10 +267,24 @@ Expr* Parser::parsePrimary() {
     constexpr TokenSet kCompares = {K::Equal,     K::NotEqual, K::Less,
                                     K::LessEqual, K::Greater,  K::GreaterEqual};
     const bool halfCompared = pos_ > 0 && kLogic.has(kindAt(pos_ - 1)) && kCompares.has(kind());
+    if (kind() == K::Semicolon && operandBehindSemicolon()) return parsePrimary();
     missing(kind() == K::Percent ? "an expression: only procedures are called by a name in a string"
             : halfCompared ? "an expression: each comparison names both of its sides, as in n > 1 AND n < 5"
                            : "an expression");
     return errorExpr();
+}
+
+/// "x := a + ;b": the operand of one word behind the semicolon ends the line. The parser then stands at it.
+bool Parser::operandBehindSemicolon() {
+    constexpr TokenSet kOperands = {K::Identifier, K::NumLiteral, K::StringLiteral, K::KwTrue, K::KwFalse};
+    if (panic_ || startsLine(pos_) || !kOperands.has(peek()) || startsLine(pos_ + 1) || !startsLine(pos_ + 2))
+        return false;
+    if (diag::Diagnostic* d = report(Code::UnexpectedToken, pos_, {describe(pos_), "an expression"}))
+        d->fixes.push_back({"write ';' behind it", {{tree_.range(pos_), ""}, {endOf(pos_ + 1), ";"}}});
+    lastUnread_ = kNowhere;
+    take();
+    earlySemicolon_ = pos_ + 1;
+    return true;
 }
 
 /// A reserved word where an operand stands, followed by what can follow an operand.
@@ -458,6 +472,14 @@ Expr* Parser::parsePostfix(Expr* base) {
 
 /// `{1,2}`; other brackets are reported and read as if they were these.
 Expr* Parser::parseIndex(Expr* base) {
+    if (kind() != K::LeftBrace && kCloseBrackets.has(peek())) { // "x() := 1", "f[)"
+        const bool call = kind() == K::LeftBracket;
+        dropEmptyParentheses();
+        if (!call) return base;
+        auto* broken = makeExpr<ErrorExpr>(NodeKind::ErrorExpr);
+        broken->first = base->first;
+        return finish(broken);
+    }
     auto* node = makeExpr<IndexExpr>(NodeKind::Index);
     node->first = base->first;
     node->base = base;

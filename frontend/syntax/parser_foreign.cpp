@@ -225,6 +225,7 @@ void Parser::parseDimensionsOf(DataDecl* node, bool beforeName) {
     const K open = kind();
     const bool foreign = open == K::LeftBracket || open == K::LeftParen;
     if (open != K::LeftBrace && !foreign) return;
+    if (open == K::LeftParen && peek() == K::RightParen && !beforeName) return dropEmptyParentheses();
     diag::Diagnostic* diagnostic = nullptr;
     if (beforeName) {
         report(Code::UnexpectedToken, pos_, {describe(pos_), "a name: the dimensions stand behind it"});
@@ -239,6 +240,20 @@ void Parser::parseDimensionsOf(DataDecl* node, bool beforeName) {
     if (diagnostic && !panic_ && sink_.all().size() == reported)
         diagnostic->fixes.push_back({"put the dimensions between '{' and '}'",
                                      {{tree_.range(opening), "{"}, {tree_.range(pos_ - 1), "}"}}});
+}
+
+/// `VAR num x();`, `x() := 1;`
+void Parser::dropEmptyParentheses() {
+    const SourceRange both{tree_.range(pos_).begin, tree_.range(pos_ + 1).end};
+    if (kind() == K::LeftParen)
+        fix(reportAt(Code::UnexpectedToken, both, {"'()'", "no parentheses behind the name of data"}), both,
+            "");
+    else
+        fix(report(Code::ForeignSpelling, pos_,
+                   {std::string(textOf(pos_)), "'(' before the arguments of a function"}),
+            both, "()");
+    take();
+    take();
 }
 
 /// `VAR num x, y;`: each name after the first is read as a declaration of its own.

@@ -201,6 +201,7 @@ class Parser {
     TokenIndex missingName();
     void expectClosing(K closing, TokenIndex opening, bool inList);
     bool atReservedName() const;
+    bool operandBehindSemicolon();
     TokenIndex takeReservedName();
     void declareReserved(TokenIndex name);
     void laterUsesAreNames(TokenIndex declared);
@@ -237,6 +238,7 @@ class Parser {
     void retag(TokenIndex first, TokenIndex last, K word);
     bool retagIfMeant(K word);
     bool fitsAsListWord(K word, TokenIndex last) const;
+    bool isHandledBelow(TokenIndex from) const;
     bool retagMisspelt(const TokenSet& own);
     bool retagData();
     bool retagOpener();
@@ -275,6 +277,7 @@ class Parser {
     bool takesForeignCounter(ForStmt* node);
     bool isWordlessData() const;
     bool parseForeignData(DataDecl* node);
+    void dropEmptyParentheses();
     void parseDimensionsOf(DataDecl* node, bool beforeName);
     void noteMoreNames(const DataDecl* node);
     DataDecl* parseMoreNames();
@@ -345,7 +348,9 @@ class Parser {
     Stmt* parseLateMore();
     Stmt* parseFor();
     Stmt* parseForBody(ForStmt* node, TokenIndex opening, bool whole);
+    bool isWhileWrittenFor() const;
     Stmt* parseWhile();
+    Stmt* parseWhile(TokenIndex opening);
     Stmt* parseWhileBody(TokenIndex opening, Expr* condition, bool whole);
     Stmt* parseCompactIf(TokenIndex opening, Expr* condition);
     bool missesCondition() const;
@@ -435,27 +440,29 @@ class Parser {
     std::vector<TokenIndex>
         foreignClosers_;          ///< END words of other languages whose opening word has been reported
     K routineEnd_ = K::KwEndproc; ///< the word that ends the routine
-    TokenIndex signReported_ = kNoToken; ///< the last sign that stands behind an operator
-    TokenIndex foreignList_ = 0;         ///< the last bracket that another language has there
-    TokenIndex strayEnd_ = kNoToken;     ///< a word for END that ends nothing, which is reported
-    TokenIndex runTogether_ = kNoToken;  ///< the word of a declaration that what follows it has run into
-    TokenIndex switchMarked_ = kNoToken; ///< a switch without '\\', which is reported
-    size_t searched_ = 0;                ///< words of the file, for names
-    TokenIndex badNumber_ = kNoToken;    ///< the place behind a number that could not be read
-    bool inCaseValue_ = false;           ///< between CASE and its colon
-    size_t openModules_ = 0;             ///< modules whose ENDMODULE has not been found
-    size_t unreadable_ = 0;              ///< of these: parts of an instruction that could not be read
-    std::string_view foreignCloser_;     ///< what ends the block of another language that has been reported
+    TokenIndex signReported_ = kNoToken;   ///< the last sign that stands behind an operator
+    TokenIndex foreignList_ = 0;           ///< the last bracket that another language has there
+    TokenIndex strayEnd_ = kNoToken;       ///< a word for END that ends nothing, which is reported
+    TokenIndex runTogether_ = kNoToken;    ///< the word of a declaration that what follows it has run into
+    TokenIndex switchMarked_ = kNoToken;   ///< a switch without '\\', which is reported
+    TokenIndex earlySemicolon_ = kNoToken; ///< the place behind an operand whose semicolon stands before it
+    size_t searched_ = 0;                  ///< words of the file, for names
+    TokenIndex badNumber_ = kNoToken;      ///< the place behind a number that could not be read
+    bool inCaseValue_ = false;             ///< between CASE and its colon
+    size_t openModules_ = 0;               ///< modules whose ENDMODULE has not been found
+    size_t unreadable_ = 0;                ///< of these: parts of an instruction that could not be read
+    std::string_view foreignCloser_;       ///< what ends the block of another language that has been reported
     diag::Diagnostic* lastOrder_ =
         nullptr; ///< module attributes out of order, while nothing else is reported
     static constexpr uint32_t kNowhere = 0xFFFFFFFF;
     uint32_t lastUnread_ =
         kNowhere; ///< where words begin that could not be read, the last that were reported
-    diag::Diagnostic* lastReport_ = nullptr; ///< what was reported last, while reports_ says that nothing followed
-    size_t reports_ = 0;               ///< of all reports
-    size_t listMark_ = 0;              ///< in stmts_: the beginning of the list that is being read
-    TokenSet enclosing_;               ///< words that end a list further out
-    TokenIndex wrongEnd_ = kNoToken;   ///< an END word that closes a block of another kind
+    diag::Diagnostic* lastReport_ =
+        nullptr;                     ///< what was reported last, while reports_ says that nothing followed
+    size_t reports_ = 0;             ///< of all reports
+    size_t listMark_ = 0;            ///< in stmts_: the beginning of the list that is being read
+    TokenSet enclosing_;             ///< words that end a list further out
+    TokenIndex wrongEnd_ = kNoToken; ///< an END word that closes a block of another kind
     TokenIndex headReported_ = kNoToken; ///< a THEN or DO whose IF, FOR or WHILE is broken
     TokenIndex compactIf_ = kNoToken;    ///< the last IF without THEN
     TokenIndex compactIfEnd_ =

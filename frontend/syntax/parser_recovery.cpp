@@ -375,6 +375,7 @@ void Parser::endStatement(std::string_view expected) {
         panic_ = false;
         return;
     }
+    if (earlySemicolon_ == pos_ && !panic_) return;
     if (assignmentBelow()) return syncStatement();
     if (!panic_ && kind() != K::Error) {
         if (startsAfresh()) {

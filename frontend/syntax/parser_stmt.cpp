@@ -14,7 +14,7 @@ namespace {
 
 /// First letters of END, ELSE, ERROR, CASE, DEFAULT, UNDO, BACKWARD, and of words of other languages for them.
 bool mayBeMisspelt(char first) {
-    return std::string_view("ecdubnwo").find(static_cast<char>(first | 32)) != std::string_view::npos;
+    return std::string_view("ecdubnwor").find(static_cast<char>(first | 32)) != std::string_view::npos;
 }
 
 } // namespace

@@ -25,6 +25,7 @@ constexpr ForeignWord kForeignWords[] = {
     {"ENDDO", TokenKind::KwEndfor},
     {"DONE", TokenKind::KwEndwhile},
     {"DONE", TokenKind::KwEndfor},
+    {"WHEN", TokenKind::KwCase},
     {"ENDSWITCH", TokenKind::KwEndtest},
     {"ENDSELECT", TokenKind::KwEndtest},
     {"ENDCASE", TokenKind::KwEndtest},
@@ -151,6 +152,14 @@ bool Parser::retagIfMeant(K word) {
     return true;
 }
 
+/// What only an ERROR handler can have, before the next handler or the end of the routine.
+bool Parser::isHandledBelow(TokenIndex from) const {
+    for (TokenIndex i = from;
+         i < from + kFarTokens && !kRoutineEnds.has(kindAt(i)) && kindAt(i) != K::EndOfFile; ++i)
+        if (kindAt(i) == K::KwTrynext || kindAt(i) == K::KwRetry) return true;
+    return false;
+}
+
 /// Does what follows the words at `pos_` to `last` agree with this keyword of a list?
 bool Parser::fitsAsListWord(K word, TokenIndex last) const {
     TokenIndex found = 0;
@@ -162,6 +171,7 @@ bool Parser::fitsAsListWord(K word, TokenIndex last) const {
         return !alone && next != K::Colon && findOnLine(last + 1, K::Colon, found) && !startsLine(found);
     case K::KwDefault: return next == K::Colon;
     case K::KwError: // of a call, the semicolon would follow
+        if ((textOf(last)[0] | 32) == 'r') return alone && isHandledBelow(last + 1);
         return alone ||
                (next == K::LeftParen && findOnLine(last + 2, K::RightParen, found) && startsLine(found + 1));
     default: return alone;
@@ -222,6 +232,10 @@ bool Parser::endsForeignBlock() {
 bool Parser::retagMisspelt(const TokenSet& own) {
     const std::string_view text = textOf(pos_);
     const K next = peek();
+    if (!panic_ && own.has(K::KwError) && isPieceOf(pos_, K::KwError) && isHandledBelow(pos_ + 1)) { // "ER"
+        retag(pos_, pos_, K::KwError);
+        return true;
+    }
     constexpr TokenSet kUsedAsName = {TokenKind::Assign, TokenKind::Semicolon, TokenKind::Dot,
                                       TokenKind::Comma,  TokenKind::LeftBrace, TokenKind::LeftBracket};
     if (text.size() < 3 || text.size() > kLongestTypo || kUsedAsName.has(next)) return false;
@@ -243,7 +257,19 @@ bool Parser::retagMisspelt(const TokenSet& own) {
     constexpr TokenSet kOfRoutines = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
     for (const K word : kWords) {
         if (!own.has(word)) continue;
-        if (end && kOfRoutines.has(word) && word != routineEnd_) continue;
+        if (kOfRoutines.has(word) && word != routineEnd_) {
+            if (end || !fitsAsListWord(word, pos_) || !meant(pos_, word)) continue;
+            const bool tooEarly = endOfRoutineBelow() == routineEnd_; // "endfunction" in a PROC
+            const std::string own_(tokenText(routineEnd_));
+            if (!tooEarly) {
+                retag(pos_, pos_, routineEnd_);
+                return true;
+            }
+            report(Code::UnexpectedToken, pos_,
+                   {describe(pos_), "an instruction: " + own_ + " is still to come"});
+            strayEnd_ = pos_;
+            return false;
+        }
         const std::string_view spelling = tokenText(word);
         TokenIndex last = pos_;
         const bool alone = end && startsLine(pos_ + 1);
