@@ -518,7 +518,8 @@ class Analyzer {
     bool signalUsesKnown_ = false;
     bool incomplete_ = false;                 ///< modules of the task are missing: names may be unknown
     std::vector<std::string> missingModules_; ///< their names, as far as they are known
-    SourceRange quietLine_; ///< in the routine: the rest of a line that was meant in another way, which is reported
+    SourceRange
+        quietLine_; ///< in the routine: the rest of a line that was meant in another way, which is reported
     std::vector<const syntax::SyntaxTree*> brokenTrees_; ///< with syntax errors
     std::unordered_set<NameId> maybeDeclared_;           ///< names in declarations that could not be read
     std::unordered_set<NameId> unknownRoutines_;         ///< reported in this routine

@@ -262,7 +262,7 @@ Stmt* Parser::parseForBody(ForStmt* node, TokenIndex opening, bool whole) {
 /// A condition behind FOR, and ENDWHILE below.
 bool Parser::isWhileWrittenFor() const {
     constexpr TokenSet kHead = {K::KwFrom, K::Assign, K::KwTo};
-    if (panic_) return false;
+    if (panic_ || startsLine(pos_)) return false;
     TokenIndex i = pos_;
     while (!startsLine(i + 1) && kindAt(i) != K::KwDo) {
         if (kHead.has(kindAt(i))) return false;
