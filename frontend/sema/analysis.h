@@ -303,7 +303,8 @@ class Analyzer {
     std::string describeDimension(const syntax::Expr& e, Typed t);
     void initialise(DataSymbol& symbol, const syntax::DataDecl& decl);
     void checkDeclaration(DataSymbol& symbol);
-    bool reportNonConstant(const syntax::Expr& expr);
+    void reportNonConstant(const syntax::Expr& e);
+    const syntax::Expr* findNonConstant(const syntax::Expr& e);
     const syntax::Expr* findNonLiteral(const syntax::Expr& expr) const;
 
     // ---- expressions (expr*.cpp)
@@ -410,7 +411,8 @@ class Analyzer {
     bool explainComma(std::span<syntax::Argument* const> args);
     bool explainOrder(const RoutineSymbol& routine, const std::vector<const DataSymbol*>& params,
                       const std::vector<const syntax::Expr*>& given);
-    bool explainCount(syntax::TokenIndex name, const std::vector<const DataSymbol*>& params,
+    bool explainCount(const RoutineSymbol& routine, syntax::TokenIndex name,
+                      const std::vector<const DataSymbol*>& params,
                       const std::vector<const syntax::Expr*>& given);
     bool errorsLieIn(const std::vector<const syntax::Expr*>& given) const;
     bool couldBe(const syntax::Expr& e, const DataSymbol& param);

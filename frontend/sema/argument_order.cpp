@@ -95,7 +95,7 @@ bool Analyzer::explainArguments(const BoundCall& call, TokenIndex name, std::spa
         given.size() > params.size() + 1 || !endsWell(name, args) || !errorsLieIn(given))
         return false;
     return params.size() == given.size() ? explainOrder(routine, params, given)
-                                         : explainCount(name, params, given);
+                                         : explainCount(routine, name, params, given);
 }
 
 void Analyzer::reportSwapped(const RoutineSymbol& routine, const DataSymbol& one, const DataSymbol& other,
@@ -160,7 +160,8 @@ bool Analyzer::explainOrder(const RoutineSymbol& routine, const std::vector<cons
 }
 
 /// One too many before others.
-bool Analyzer::explainCount(TokenIndex name, const std::vector<const DataSymbol*>& params,
+bool Analyzer::explainCount(const RoutineSymbol& routine, TokenIndex name,
+                            const std::vector<const DataSymbol*>& params,
                             const std::vector<const Expr*>& given) {
     size_t odd = 0;
     while (odd < params.size() && couldBe(*given[odd], *params[odd]))
@@ -169,6 +170,14 @@ bool Analyzer::explainCount(TokenIndex name, const std::vector<const DataSymbol*
     for (size_t i = odd; i < params.size(); ++i)
         if (!couldBe(*given[i + 1], *params[i])) return false;
     collect_->take();
+    if (given[odd]->kind == NodeKind::Name) { // "MoveAbsJ jp, NoEOffs, v100, ..."
+        const TokenIndex option = as<NameExpr>(*given[odd]).name;
+        if (isName(option) && namedOptional(routine, idOf(option)) < routine.params.size()) {
+            report(Code::OptionalWithoutBackslash, range(option), {routine.name, text(option)})
+                .fix({range(option).begin, range(option).begin}, "\\", false);
+            return true;
+        }
+    }
     report(Code::TooManyArguments, range(*given[odd]),
            {text(name), counted(params.size(), "required argument"), std::to_string(given.size())});
     return true;

@@ -40,6 +40,7 @@ void Analyzer::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
     }
     if (param.isSwitch) {
         if (!bound.value) return;
+        if (arg.argKind == ArgKind::Required) return visitLoose(*bound.value); // told where '\\' is missing
         diag::Diagnostic& d = report(Code::SwitchWithValue, range(*bound.value), {param.name});
         const bool isTrue =
             bound.value->kind == NodeKind::BoolLiteral && as<BoolLiteralExpr>(*bound.value).value;

@@ -286,9 +286,14 @@ size_t Analyzer::namedOptional(const RoutineSymbol& routine, NameId name) {
 size_t Analyzer::matchUnmarked(const RoutineSymbol& routine, const Argument& arg, bool isLast) {
     const size_t i = namedOptional(routine, idOf(arg.name));
     if (i == kNoParam) return i;
-    const uint32_t begin = range(arg.name).begin;
-    report(Code::OptionalWithoutBackslash, range(arg.name), {routine.name, routine.params[i]->name})
-        .fix({begin, begin}, "\\", isLast);
+    const DataSymbol& param = *routine.params[i];
+    diag::Diagnostic& d = report(Code::OptionalWithoutBackslash, range(arg.name), {routine.name, param.name});
+    if (param.isSwitch && arg.value) { // "grip Open:=TRUE;"
+        d.fix(range(arg), "\\" + text(arg.name), false);
+    } else {
+        const uint32_t begin = range(arg.name).begin;
+        d.fix({begin, begin}, "\\", isLast);
+    }
     return i;
 }
 

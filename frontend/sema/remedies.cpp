@@ -77,7 +77,11 @@ Analyzer::Remedy Analyzer::recordRemedy(const Expr& e, const DataType& found, co
 /// How to make what was found what is wanted, if there is a usual way.
 Analyzer::Remedy Analyzer::remedyFor(const Expr& whole, const DataType& found, const DataType& want) {
     const Expr& e = bare(whole);
-    if (!found.type || !want.type || want.rank > 0) return {};
+    if (!found.type || !want.type) return {};
+    if (want.rank > 0) {
+        const bool element = found.rank == 0 && found.type->base() == want.type->base();
+        return {element ? ": it goes into one element, or each gets a value of its own" : "", ""};
+    }
     if (found.rank > 0) {
         if (found.type->base() != want.type->base() || !isPlaceExpr(e)) return {};
         std::string index = "{1";

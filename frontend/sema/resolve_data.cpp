@@ -95,7 +95,9 @@ uint64_t Analyzer::resolveDimensions(DataSymbol& symbol, const DataDecl& decl) {
         const ConstValue* value = t.info->constant;
         if (!value || value->kind != ConstValue::Kind::Number) {
             known = known && e.kind == NodeKind::PlaceholderExpr;
-            if (!t.isError() && e.kind != NodeKind::PlaceholderExpr)
+            const bool number = t.isScalar(TypeKind::Num) || t.isScalar(TypeKind::Dnum);
+            const bool told = number && !findNonConstant(e); // where a constant has no value
+            if (!t.isError() && e.kind != NodeKind::PlaceholderExpr && !told)
                 report(Code::DimensionNotConstant, range(e), {describeDimension(e, t)});
         } else if (!(value->number >= 1) || value->number != std::floor(value->number) ||
                    value->number > 2e9) {
@@ -178,9 +180,17 @@ void Analyzer::initialise(DataSymbol& symbol, const DataDecl& decl) {
     if (mustFold) checkBigLiterals();
 }
 
-// Names the first part that keeps `expr` from being constant. False: nothing of that kind, something else was
-// reported already.
-bool Analyzer::reportNonConstant(const Expr& e) {
+// Names the first part that keeps `expr` from being constant, if that has not been told at its declaration.
+void Analyzer::reportNonConstant(const Expr& e) {
+    const Expr* culprit = findNonConstant(e);
+    if (!culprit) return;
+    const bool call = culprit->kind == NodeKind::Call;
+    report(Code::NotConstant, range(*culprit),
+           {text(*culprit), call ? "a function call" : describe(*info(*culprit).symbol)});
+}
+
+// The first part that keeps `expr` from being constant; null when that is a constant whose value is wrong.
+const Expr* Analyzer::findNonConstant(const Expr& e) {
     switch (e.kind) {
     case NodeKind::Name:
     case NodeKind::Index:
@@ -193,23 +203,25 @@ bool Analyzer::reportNonConstant(const Expr& e) {
                     if (!info(*index).constant) open = index;
             root = root->kind == NodeKind::Index ? as<IndexExpr>(*root).base : as<ComponentExpr>(*root).base;
         }
-        const Symbol* symbol = info(*root).symbol;
-        const DataSymbol* data = asData(const_cast<Symbol*>(symbol));
-        if (!data) return false;
-        if (data->dataKind == DataKind::Const) return open && reportNonConstant(*open);
-        report(Code::NotConstant, range(*root), {text(*root), describe(*data)});
-        return true;
+        const DataSymbol* data = asData(const_cast<Symbol*>(info(*root).symbol));
+        if (!data) return nullptr;
+        if (data->dataKind == DataKind::Const) return open ? findNonConstant(*open) : nullptr;
+        return root;
     }
-    case NodeKind::Call: report(Code::NotConstant, range(e), {text(e), "a function call"}); return true;
-    case NodeKind::Paren: return reportNonConstant(*as<ParenExpr>(e).inner);
-    case NodeKind::Unary: return reportNonConstant(*as<UnaryExpr>(e).operand);
-    case NodeKind::Binary:
-        return reportNonConstant(*as<BinaryExpr>(e).left) || reportNonConstant(*as<BinaryExpr>(e).right);
+    case NodeKind::Call: return &e;
+    case NodeKind::Paren: return findNonConstant(*as<ParenExpr>(e).inner);
+    case NodeKind::Unary: return findNonConstant(*as<UnaryExpr>(e).operand);
+    case NodeKind::Binary: {
+        const Expr* left = findNonConstant(*as<BinaryExpr>(e).left);
+        return left ? left : findNonConstant(*as<BinaryExpr>(e).right);
+    }
     case NodeKind::Aggregate:
-        for (const Expr* element : as<AggregateExpr>(e).elements())
-            if (!info(*element).constant && reportNonConstant(*element)) return true;
-        return false;
-    default: return false;
+        for (const Expr* element : as<AggregateExpr>(e).elements()) {
+            const Expr* culprit = info(*element).constant ? nullptr : findNonConstant(*element);
+            if (culprit) return culprit;
+        }
+        return nullptr;
+    default: return nullptr;
     }
 }
 

@@ -244,7 +244,9 @@ void Analyzer::assign(const AssignStmt& s) {
         return;
     }
     const Remedy remedy = remedyFor(*s.value, value.info->type, want);
-    offer(report(Code::AssignType, range(*s.value), {names[0], names[1]}), *s.value, remedy);
+    diag::Diagnostic& d = report(Code::AssignType, range(*s.value), {names[0], names[1]});
+    offer(d, *s.value, remedy);
+    noteDeclared(d, *target.root);
 }
 
 namespace {

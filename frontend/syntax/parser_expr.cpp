@@ -560,7 +560,7 @@ std::span<Argument*> Parser::parseArguments(bool procedure) {
             takesSlashAsBackslash();
             args_.push_back(kind() == K::Backslash ? parseOptionalArgument()
                                                    : parseRequiredArgument(procedure));
-        } else if (first && (startsExpr(kind()) || kind() == K::PlaceArg)) {
+        } else if (first && (startsExpr(kind()) || kind() == K::PlaceArg || isShownPosition())) {
             args_.push_back(parseRequiredArgument(procedure));
         } else {
             break;
@@ -570,6 +570,12 @@ std::span<Argument*> Parser::parseArguments(bool procedure) {
     }
     height_ = height + 1;
     return drain(args_, mark);
+}
+
+/// "MoveL *, v100, fine, tool0;"
+bool Parser::isShownPosition() const {
+    constexpr TokenSet kAfter = {K::Comma, K::Semicolon, K::RightParen, K::Backslash};
+    return kind() == K::Star && kAfter.has(peek());
 }
 
 /// "ConfL/Off;" and "CRobT(/Tool:=tool1)": no argument begins with '/'.
@@ -620,6 +626,13 @@ Argument* Parser::parseRequiredArgument(bool procedure) {
         node->name = take();
         take();
     }
+    if (isShownPosition()) {
+        report(Code::UnexpectedToken, pos_,
+               {"'*'", "a position: manuals and the pendant show '*' for one that is not written out"});
+        node->value = errorExpr();
+        take();
+        return finish(node);
+    }
     node->value = parseExpr();
     if (!panic_ && kind() == K::Assign && node->value->kind == NodeKind::Binary) { // "tool0/WObj:=wobj1"
         const auto& slash = as<BinaryExpr>(*node->value);
@@ -639,6 +652,8 @@ Argument* Parser::parseOptionalArgument() {
     take();
     node->name = expectName(true);
     if (panic_) return finish(node);
+    if (kind() == K::Colon && !startsLine(pos_ + 1) && (startsExpr(peek()) || peek() == K::Equal))
+        takeColonAsAssign();
     if (kind() == K::Equal) {
         reportEqual();
         take();

@@ -155,6 +155,8 @@ class Parser {
     bool joinLastEdit(diag::Code code, SourceRange place, std::string replacement);
     void fixParentheses(diag::Diagnostic* diagnostic, const Node& operand);
     void reportEqual();
+    void takeColonAsAssign();
+    bool isShownPosition() const;
     void reportSlash(TokenIndex slash);
     void takesSlashAsBackslash();
     void skipTrapArguments();

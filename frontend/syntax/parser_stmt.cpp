@@ -137,7 +137,9 @@ Stmt* Parser::parseStmtUnguarded() {
         panic_ = false;
         accept(K::Semicolon);
     } else {
-        unexpected("an instruction");
+        unexpected(kind() == K::NumLiteral && peek() == K::Colon
+                       ? "an instruction: a branch of TEST begins with CASE, a label with a letter"
+                       : "an instruction");
         take();
         syncStatement();
     }
@@ -294,13 +296,18 @@ Stmt* Parser::parseColonAssignment() {
     auto* target = makeExpr<NameExpr>(NodeKind::Name);
     target->name = take();
     finish(target);
+    takeColonAsAssign();
+    return parseAssignment(target, name);
+}
+
+/// ':' or ': =' is to be read as ':='; the parser then stands at that.
+void Parser::takeColonAsAssign() {
     const bool split = peek() == K::Equal;
     const SourceRange sign{tree_.range(pos_).begin, tree_.range(split ? pos_ + 1 : pos_).end};
     const std::string_view shown = tree_.source->text().substr(sign.begin, sign.end - sign.begin);
     fix(reportAt(Code::ForeignSpelling, sign, {std::string(shown), "':='"}), sign, ":=");
     if (split) take();
     readAs(pos_, K::Assign);
-    return parseAssignment(target, name);
 }
 
 Stmt* Parser::parseLabel() {

@@ -88,6 +88,18 @@ const Case kCases[] = {
      "'[0,0,50]' and 'robtarget': Offs and RelTool give a robtarget that is moved", ""},
     {"target.z := 5;", "RAP2005", "; did you mean 'trans.z'?", "target.trans.z := 5;"},
     {"n := give \"7\";", "RAP1101", "expected ';', or '(' before the arguments of a function", ""},
+    {"row := 5;", "RAP2104", ": it goes into one element, or each gets a value of its own", ""},
+    {"MoveJ *,v100,z50,tool0;", "RAP1101",
+     "expected a position: manuals and the pendant show '*' for one that is not written out", ""},
+    {"MoveC p10,*,v100,z50,tool0;", "RAP1101",
+     "expected a position: manuals and the pendant show '*' for one that is not written out", ""},
+    {"TPWrite \"n\"\\Num:n;", "RAP1112", "found ':', expected ':='", "TPWrite \"n\"\\Num:=n;"},
+    {"MoveAbsJ jp,NoEOffs:=TRUE,v100,z50,tool0;", "RAP4005", "write '\\' before its name",
+     "MoveAbsJ jp,\\NoEOffs,v100,z50,tool0;"},
+    {"10: n := 5;", "RAP1101",
+     "expected an instruction: a branch of TEST begins with CASE, a label with a letter", ""},
+    {"MoveAbsJ jp,NoEOffs,v100,z50,tool0;", "RAP4005", "write '\\' before its name",
+     "MoveAbsJ jp,\\NoEOffs,v100,z50,tool0;"},
     {"MoveL p10,v110,z50,tool0;", "RAP2001", "; predefined are 'v100' and 'v150'", ""},
     {"MoveL p10,v100,z25,tool0;", "RAP2001", "; predefined are 'z20' and 'z30'", ""},
     {"MoveL p10,v100,z500,tool0;", "RAP2001", "; predefined is 'z200'", ""},
@@ -128,6 +140,14 @@ TEST_CASE("parts of a value without brackets around them are one message", "[sem
         testing::checkTexts({text})->messages() ==
         std::vector<std::string>{"RAP1101 at 2:31: found ',', expected ';': a value of several parts stands "
                                  "between '[' and ']' as a whole"});
+}
+
+// Manual 1.2.7: dimensions are constant. What is wrong with the constant is told at its declaration.
+TEST_CASE("a constant without value as dimension is one message", "[sema]") {
+    const std::string text =
+        "MODULE m\n  CONST num k := reg1 + 1;\n  VAR num row{k};\n  VAR num grid{2,k*2};\n"
+        "  VAR num other{reg1};\nENDMODULE\n";
+    CHECK(testing::checkTexts({text})->codes() == std::vector<std::string>{"RAP3030", "RAP2042"});
 }
 
 // Inputs and outputs, single signals and groups have instructions of their own (manual 1.8).
