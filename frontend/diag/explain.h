@@ -68,6 +68,9 @@ const Explanation* findExplanation(uint16_t number);
 /// The text of a message with something readable in the place of its arguments.
 std::string messageOf(const CatalogueEntry& entry);
 
+/// The name of a warning and how it is switched off; empty for what cannot be.
+std::string switchingOf(const CatalogueEntry& entry);
+
 /// What a range of numbers is about: "names and types".
 std::string_view areaOf(uint16_t number);
 

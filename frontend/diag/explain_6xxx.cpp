@@ -341,8 +341,9 @@ cell/main.mod:
     ENDPROC
   ENDMODULE)ex"},
     {6040, Kind::Files,
-     "A configuration file (.cfg) has text that is not in the form of ABB's system parameters: a "
-     "section, a colon, then lines of -Attribute value.",
+     "A configuration file (.cfg) has text that is not in the form of ABB's system parameters (a "
+     "section, a colon, then lines of -Attribute value), or what it says cannot be: a signal without "
+     "a name or of an unknown type, two signals of one name, a group signal without bits.",
      R"ex($ rapidc check main.mod --config=EIO.cfg
 main.mod:
   MODULE MainModule
@@ -367,6 +368,44 @@ EIO.cfg:
   EIO_SIGNAL:
 
         -Name "doLamp" -SignalType "DO")ex"},
+    {6041, Kind::Files,
+     "A cross connection names a signal that no EIO_SIGNAL defines. It is left out, the rest works: the "
+     "signal may be one of an add-in, which a backup does not hold. Else correct the name or define "
+     "the signal.",
+     R"ex($ rapidc check main.mod --config=EIO.cfg
+main.mod:
+  MODULE MainModule
+    PROC main()
+    ENDPROC
+  ENDMODULE
+EIO.cfg:
+  EIO:CFG_1.0:6:0::
+  #
+  EIO_SIGNAL:
+
+        -Name "doLamp" -SignalType "DO"
+  #
+  EIO_CROSS:
+
+        -Name "lamp" -Res "doLamp" -Act1 "diDoor")ex",
+     R"ex($ rapidc check main.mod --config=EIO.cfg
+main.mod:
+  MODULE MainModule
+    PROC main()
+    ENDPROC
+  ENDMODULE
+EIO.cfg:
+  EIO:CFG_1.0:6:0::
+  #
+  EIO_SIGNAL:
+
+        -Name "doLamp" -SignalType "DO"
+
+        -Name "diDoor" -SignalType "DI"
+  #
+  EIO_CROSS:
+
+        -Name "lamp" -Res "doLamp" -Act1 "diDoor")ex"},
     {6030, Kind::Files,
      "rapidc.json holds the settings of a project: an object with the sections \"warnings\" and "
      "\"format\". It is looked for beside the first input and in the folders above it.",

@@ -21,12 +21,24 @@ std::string messageOf(const CatalogueEntry& entry) {
     return formatText(entry.text, args);
 }
 
+std::string switchingOf(const CatalogueEntry& entry) {
+    if (!isSwitchable(entry)) return {};
+    const std::string name = kebabName(entry);
+    return fmt::format("name: {0}; off by -W no-{0} or the comment ! rapidc: ignore {0}", name);
+}
+
 namespace {
 
 std::string pageOf(const CatalogueEntry& entry) {
     std::string out = fmt::format("# {} {}\n\n", codeOf(entry), title(entry));
     out +=
         fmt::format("{}, {}\n\n> {}\n", severityName(entry.severity), areaOf(entry.number), messageOf(entry));
+    if (isSwitchable(entry)) {
+        const std::string name = kebabName(entry);
+        out += fmt::format("\nName: `{0}`; off by `-W no-{0}` or the comment `! rapidc: ignore {0}`, see "
+                           "[warnings](../warnings.md).\n",
+                           name);
+    }
     const Explanation* explanation = findExplanation(entry.number);
     if (explanation) {
         out += fmt::format("\n{}\n", explanation->meaning);

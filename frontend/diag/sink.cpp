@@ -32,8 +32,11 @@ Diagnostic& Diagnostic::fix(SourceRange place, std::string replacement, bool cer
     const std::string_view old =
         file ? file->text().substr(place.begin, place.end - place.begin) : std::string_view();
     const std::string_view fresh = withoutSpaces(replacement);
+    // Spaces of other kinds look like those they are replaced by.
+    const bool odd = std::all_of(old.begin(), old.end(), [](char c) { return (c & 0x80) != 0; });
     std::string words = old.empty()     ? "insert " + quoted(fresh)
-                        : fresh.empty() ? "remove " + quoted(withoutSpaces(old))
+                        : fresh.empty() ? !odd || replacement.empty() ? "remove " + quoted(withoutSpaces(old))
+                                                                      : "write a plain space"
                                         : fmt::format("replace {} by {}", quoted(old), quoted(fresh));
     Fix one;
     one.message = std::move(words);

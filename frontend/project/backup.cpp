@@ -123,6 +123,18 @@ class BackupLoader {
         home_ = findEntry(folder_, "HOME");
     }
 
+    /// What the lack of system parameters means; nothing for a program that was kept without its controller.
+    std::string describeMissingParameters() const {
+        if (!infoFile_.file) return {};
+        const fs::path parameters = findEntry(folder_, "SYSPAR");
+        std::string text;
+        if (findEntry(parameters, "SYS.cfg").empty())
+            text += "; no SYSPAR/SYS.cfg: type, entry and start-up modules of the tasks are not known";
+        if (findEntry(parameters, "EIO.cfg").empty())
+            text += "; no SYSPAR/EIO.cfg: its signals are not known";
+        return text;
+    }
+
     void readSignals(const Description& file) {
         std::vector<config::CfgProblem> ignored;
         const config::CfgFile parsed = config::parseCfg(file.text(), "EIO.cfg", ignored);
@@ -393,6 +405,7 @@ class BackupLoader {
         if (robots_.empty() && !robotOption().empty()) text += fmt::format(", robot {}", robotOption());
         for (const std::string& addIn : info_.addIns)
             text += fmt::format(", add-in {}", addIn);
+        text += describeMissingParameters();
         report(Code::BackupOverview, infoFile_, {}, {text});
     }
 

@@ -77,7 +77,12 @@ std::string withoutComments(std::string text) {
 bool readProgramFile(std::string_view bytes, std::vector<std::string>& modules) {
     const std::string text = withoutComments(config::toUtf8(bytes));
     const std::string folded = config::upperCase(text);
-    if (folded.find("<PROGRAM") == std::string::npos) return false;
+    const size_t open = folded.find("<PROGRAM");
+    if (open == std::string::npos) return false;
+    const size_t close = folded.find('>', open);
+    if (close == std::string::npos) return false;
+    // A file that was cut off in a transfer lacks modules, too.
+    if (folded[close - 1] != '/' && folded.find("</PROGRAM", close) == std::string::npos) return false;
     size_t at = 0;
     while ((at = folded.find("<MODULE", at)) != std::string::npos) {
         const size_t begin = folded.find('>', at);

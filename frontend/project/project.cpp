@@ -95,11 +95,9 @@ class Loader {
 
     /// The backup that a module belongs to, or its folder.
     static fs::path placeOf(const fs::path& module) {
-        fs::path folder = module.parent_path();
-        for (fs::path above = folder; above.has_filename(); above = above.parent_path())
-            if (config::sameName(above.filename().string(), "RAPID") && isBackup(above.parent_path()))
-                return above.parent_path();
-        return folder;
+        for (fs::path above = module.parent_path(); above.has_filename(); above = above.parent_path())
+            if (isBackup(above)) return isBackup(above.parent_path()) ? above.parent_path() : above; // RAPID
+        return module.parent_path();
     }
 
     size_t addFiles(const fs::path& folder, sema::TaskInput& task) {
@@ -147,7 +145,8 @@ class Loader {
         std::vector<std::string> modules;
         if (!readProgramFile(text, modules)) {
             report(Code::BadProgramFile,
-                   {path.string(), "it is not an XML program description of a controller"});
+                   {path.string(),
+                    "expected the XML program description of a controller, from <Program> to </Program>"});
             return;
         }
         if (modules.empty()) report(Code::BadProgramFile, {path.string(), "it names no modules"});

@@ -13,7 +13,8 @@ namespace {
 std::string commandsOf(const CLI::App& app) {
     std::string list;
     for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-        list += (list.empty() ? "" : ", ") + command->get_name();
+        if (!command->get_group().empty()) // else it is one of rapidc's own
+            list += (list.empty() ? "" : ", ") + command->get_name();
     return list;
 }
 

@@ -63,9 +63,10 @@ int write(const EmitSettings& settings, const std::string& text) {
         fmt::print(stderr, "rapidc emit: cannot write '{}'\n", settings.output);
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
-    std::fwrite(text.data(), 1, text.size(), file);
-    std::fclose(file);
-    return 0;
+    const bool whole = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+    if (std::fclose(file) == 0 && whole) return 0;
+    fmt::print(stderr, "rapidc emit: cannot write all of '{}'\n", settings.output);
+    return static_cast<int>(rt::ExitStatus::BadUsage);
 }
 
 std::string emitMachine(const EmitSettings& settings, const ir::Module& module, std::string& error) {
@@ -100,8 +101,8 @@ int emit(EmitSettings& settings) {
                 settings.as == "tree" ? rapid::syntax::printTree(*tree) : rapid::syntax::printTokens(*tree);
         }
         printDiagnostics(*compilation);
-        write(settings, text);
-        return compilation->sink.hasErrors() ? static_cast<int>(rt::ExitStatus::BadProgram) : 0;
+        const int written = write(settings, text);
+        return compilation->sink.hasErrors() ? static_cast<int>(rt::ExitStatus::BadProgram) : written;
     }
     ir::Module module;
     const bool ok = !compilation->sink.hasErrors() &&

@@ -46,6 +46,8 @@ int explain(const std::string& code) {
     }
     fmt::print("RAP{} {} ({})\n", entry->number, entry->name, rapid::diag::severityName(entry->severity));
     fmt::print("area: {}\ntext: {}\n", rapid::diag::areaOf(entry->number), rapid::diag::messageOf(*entry));
+    if (const std::string switching = rapid::diag::switchingOf(*entry); !switching.empty())
+        fmt::print("{}\n", switching);
     if (const rapid::diag::Explanation* explanation = rapid::diag::findExplanation(entry->number)) {
         fmt::print("\n{}\n", explanation->meaning);
         if (!explanation->wrong.empty()) fmt::print("\nwrong:\n{}\n", indented(explanation->wrong));

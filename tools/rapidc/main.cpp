@@ -1,11 +1,14 @@
 // rapidc: one executable, its commands (design chapter 8).
 
+#include "runtime/host/standard_streams.h"
 #include "runtime/host/usage.h"
 #include "tools/rapidc/commands.h"
 
 #include <CLI/CLI.hpp>
+#include <system_error>
 
 int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of memory may end it
+    rt::guardStandardStreams();
     CLI::App app{"rapidc compiles ABB RAPID to native code and runs it on a virtual controller"};
     app.name("rapidc");
     app.set_version_flag("--version", "rapidc " RAPIDC_VERSION);
@@ -24,7 +27,8 @@ int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of m
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {
-        return rt::reportUsage(app, problem, "rapidc");
+        status = rt::reportUsage(app, problem, "rapidc");
+    } catch (const std::system_error&) { // fmt::print: standard output is full or closed
     }
-    return status;
+    return rt::finishStandardOutput("rapidc", status);
 }

@@ -10,6 +10,7 @@
 #include "runtime/robot/robot_model.h"
 #include "stdlib/native_table.h"
 #include "stdlib/stdlib_text.h"
+#include "tools/rapidc/judge_configuration.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -50,8 +51,7 @@ void readConfiguration(Compilation& compilation, const std::vector<std::string>&
         }
         std::vector<rt::CfgProblem> problems;
         const rt::CfgFile cfg = rt::parseCfg(bytes, path, problems);
-        for (const rt::CfgProblem& problem : problems)
-            compilation.sink.report(diag::Code::ConfigurationProblem, nullptr, {}, {problem.text()});
+        reportConfigurationProblems(compilation.sink, path, bytes, problems);
         compilation.configNames.push_back(path);
         compilation.configTexts.push_back(bytes);
         if (upper(cfg.domain) == "MOC")
@@ -283,6 +283,8 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     compilation->homeFolder = project.homeFolder;
     options.configurationKnown = inputs.configurationComplete;
     readConfiguration(*compilation, configFiles, options);
+    if (inputs.onlyDiagnostics) // else the controller tells it when the program starts
+        judgeSignals(compilation->sink, compilation->configNames, compilation->configTexts);
     if (project.isBackup) checkRobot(*compilation, project.robot);
     for (const rapid::stdlib::StdlibSource& source : rapid::stdlib::sources())
         compilation->library.push_back({source.name, source.text});

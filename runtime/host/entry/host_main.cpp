@@ -1,6 +1,7 @@
 // main() of an executable made by `rapidc build`: the compiled program is linked in under a fixed name.
 
 #include "runtime/host/controller.h"
+#include "runtime/host/standard_streams.h"
 #include "runtime/host/usage.h"
 
 #include <CLI/App.hpp>
@@ -12,6 +13,7 @@
 extern "C" const rt::ProgramDesc rapidc_program;
 
 int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of memory may end it
+    rt::guardStandardStreams();
     rt::RunOptions options;
     CLI::App app(std::string("RAPID program ") + rapidc_program.name + " on a virtual controller");
     rt::addRunOptions(app, options, false);
@@ -20,5 +22,6 @@ int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of m
     } catch (const CLI::ParseError& error) {
         return rt::reportUsage(app, error, rapidc_program.name);
     }
-    return rt::runProgram(rapidc_program, options, rt::setUpStandardLibrary);
+    const int status = rt::runProgram(rapidc_program, options, rt::setUpStandardLibrary);
+    return rt::finishStandardOutput(rapidc_program.name, status);
 }

@@ -156,7 +156,8 @@ TEST_CASE("a backup brings its tasks", "[project][backup]") {
     CHECK(backup.project.robotWareOptions == std::vector<std::string>{"623-1 Multitasking"});
     CHECK(backup.project.homeFolder == backup.path() + "/HOME");
     CHECK(backup.message(diag::Code::BackupOverview) ==
-          "backup of system 'x', RobotWare 7.10: 2 tasks, 0 signals");
+          "backup of system 'x', RobotWare 7.10: 2 tasks, 0 signals; no SYSPAR/EIO.cfg: its signals are not "
+          "known");
     CHECK(backup.message(diag::Code::TaskOverview) ==
           "task 'T_ROB1': NORMAL, motion, entry 'main': 2 modules; 1 encrypted (secret.sys); names that no "
           "module "
@@ -245,8 +246,40 @@ TEST_CASE("a backup that has lost its RAPID folder still says what was in it", "
                  "SYS:CFG_1.0:6:0::\n#\nCAB_TASKS:\n\n      -Name \"T_ROB1\" -Type \"NORMAL\"\n");
     backup.load();
     CHECK(backup.codes() == "RAP6022 RAP6055 RAP6057");
-    CHECK(backup.message(diag::Code::BackupOverview) == "backup of system 'Cell 7': 1 task, 0 signals");
+    CHECK(backup.message(diag::Code::BackupOverview) ==
+          "backup of system 'Cell 7': 1 task, 0 signals; no SYSPAR/EIO.cfg: its signals are not known");
     CHECK(backup.project.tasks.empty());
+}
+
+TEST_CASE("what the lack of system parameters means is told", "[project][backup]") {
+    Backup backup;
+    backup.write("BACKINFO/backinfo.txt", ">>SYSTEM_ID:\nCell 7\n>>TASK1: (T_ROB1,,)\nPROGMOD/a.mod @ \n");
+    backup.write("RAPID/TASK1/PROGMOD/a.mod", kModule);
+    backup.load();
+    CHECK(backup.message(diag::Code::BackupOverview) ==
+          "backup of system 'Cell 7': 1 task, 0 signals; no SYSPAR/SYS.cfg: type, entry and start-up modules "
+          "of the tasks are not known; no SYSPAR/EIO.cfg: its signals are not known");
+}
+
+TEST_CASE("the program of a backup alone is not asked for system parameters", "[project][backup]") {
+    Backup backup;
+    backup.write("RAPID/TASK1/PROGMOD/a.mod", kModule);
+    backup.load();
+    CHECK(backup.message(diag::Code::BackupOverview) == "backup: 1 task, 0 signals");
+}
+
+TEST_CASE("of a folder with two backups each is named", "[project][backup]") {
+    Backup backup;
+    for (const char* name : {"monday", "tuesday"}) {
+        const std::string one = name;
+        backup.write(one + "/BACKINFO/backinfo.txt", ">>TASK1: (T_ROB1,,)\nPROGMOD/a.mod @ \n");
+        backup.write(one + "/RAPID/TASK1/PROGMOD/a.mod", kModule);
+        backup.write(one + "/HOME/lib/b.mod", kModule);
+    }
+    backup.load();
+    CHECK(backup.message(diag::Code::FolderWithoutModules)
+              .ends_with("there are some in '" + backup.path() + "/monday', '" + backup.path() +
+                         "/tuesday': name one of these"));
 }
 
 TEST_CASE("names in a backup differ in case from the files", "[project][backup]") {

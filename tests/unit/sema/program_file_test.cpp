@@ -38,6 +38,8 @@ TEST_CASE("what is no program file is told", "[project]") {
     CHECK(read("MODULE m\nENDMODULE\n") == "none");
     CHECK(read("<Program><Module>a.mod") == "none");
     CHECK(read("<Program><Module") == "none");
-    CHECK(read("<Program>") == "");
+    CHECK(read("<Program>") == "none");
+    CHECK(read("<Program><Module>a.mod</Module>") == "none"); // cut off
+    CHECK(read("<Program/>") == "");
     CHECK(read("<Program><Module>&#0;&#x110000;&bad;&</Module></Program>") == "&#0;&#x110000;&bad;&");
 }
