@@ -211,6 +211,7 @@ class Analyzer {
     enum class Meant : uint8_t { Unknown, Keyword };
     void setMissingModules(const TaskInput& input);
     bool mayReportUnknown(NameId name);
+    bool reportTorn(syntax::TokenIndex token);
     void mayDeclareTorn(const syntax::SyntaxTree& tree, syntax::TokenIndex word);
     /// Reports `code`, or rather that the name is LOCAL elsewhere or may be declared in a module that is missing.
     /// A built-in whose RobotWare option the controller is known not to have.
@@ -522,6 +523,8 @@ class Analyzer {
     std::vector<std::string> missingModules_; ///< their names, as far as they are known
     SourceRange
         quietLine_; ///< in the routine: the rest of a line that was meant in another way, which is reported
+    syntax::TokenIndex tornUntil_ = syntax::kNoToken; ///< the last word of a name in two, which is reported
+    const syntax::SyntaxTree* tornTree_ = nullptr;    ///< where that is
     std::vector<const syntax::SyntaxTree*> brokenTrees_; ///< with syntax errors
     std::unordered_set<NameId> maybeDeclared_;           ///< names in declarations that could not be read
     std::unordered_set<NameId> unknownRoutines_;         ///< reported in this routine

@@ -150,9 +150,34 @@ bool Analyzer::countedAbove(TokenIndex token, NameId name) {
     return false;
 }
 
+// "G ripOpen;", "p-Pick": the word and the one behind it are a name that is known. True also at the second word.
+bool Analyzer::reportTorn(TokenIndex token) {
+    if (token == tornUntil_ && tornTree_ == context_.tree) return true;
+    const auto& tokens = context_.tree->tokens;
+    const bool hyphen = tokens[token + 1].kind == TokenKind::Minus;
+    const TokenIndex last = hyphen ? token + 2 : token + 1;
+    if (last >= tokens.size() || tokens[last].kind != TokenKind::Identifier) return false;
+    const SourceRange whole{range(token).begin, range(last).end};
+    const std::string_view shown = context_.tree->source->text().substr(whole.begin, whole.end - whole.begin);
+    constexpr size_t kLongest = 40;
+    const bool blank = shown.find_first_of(" \t\r\n") != std::string_view::npos;
+    if (shown.size() > kLongest || blank == hyphen || shown.find_first_of("\r\n!") != std::string_view::npos)
+        return false;
+    const std::string head(text(token)), tail(text(last));
+    const Symbol* meant = lookup(interner_.intern(head + tail));
+    if (!meant && hyphen) meant = lookup(interner_.intern(head + "_" + tail));
+    if (!meant) return false;
+    tornUntil_ = last;
+    tornTree_ = context_.tree;
+    report(Code::UnexpectedToken, whole,
+           {"'" + std::string(shown) + "'", "'" + meant->name + "': a name is one word"})
+        .fix(whole, meant->name, !lookup(idOf(last)));
+    return true;
+}
+
 Analyzer::Meant Analyzer::reportUnknown(Code code, TokenIndex token, NameId name, Wanted wanted,
                                         std::string_view otherHint) {
-    if (!mayReportUnknown(name)) return Meant::Unknown;
+    if (!mayReportUnknown(name) || reportTorn(token)) return Meant::Unknown;
     Suggestion best = suggestion(name, wanted);
     std::string hint(otherHint);
     if (!best.name.empty()) hint = didYouMean(best.name);
