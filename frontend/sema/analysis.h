@@ -177,6 +177,7 @@ class Analyzer {
     // ---- what is told once (repeats.cpp)
     void gatherUnknown(std::span<Module* const> modules);
     void explainUnknown(const Module& module);
+    void explainByType(const Module& module, std::string_view declared);
     bool explainUnknown(const Module& module, SourceRange where, bool routines, size_t lost);
     /// `first`: of the errors reported while the file was checked.
     void gatherRepeats(std::span<Module* const> modules, size_t first);

@@ -171,6 +171,17 @@ bool Analyzer::explainUnknown(const Module& module, SourceRange where, bool rout
 }
 
 // "VAR num := 5;" and "PROC (num n)" are reported: whoever uses what they declare is not to blame.
+// "PROC worknum n)": what calls "work" is right.
+void Analyzer::explainByType(const Module& module, std::string_view declared) {
+    const std::string whole = foldName(declared);
+    for (UnknownName& unknown : unknownNames_) {
+        const std::string_view name = interner_.folded(unknown.name);
+        if (unknown.module != &module || whole.size() <= name.size() || !whole.starts_with(name)) continue;
+        const Symbol* rest = lookup(interner_.intern(whole.substr(name.size())));
+        unknown.explained |= rest && rest->kind == SymbolKind::Type;
+    }
+}
+
 void Analyzer::explainUnknown(const Module& module) {
     const SyntaxTree& tree = *module.tree;
     for (UnknownName& unknown : unknownNames_)
@@ -191,6 +202,7 @@ void Analyzer::explainUnknown(const Module& module) {
         }
         if (decl->kind != NodeKind::Routine) continue;
         const auto& routine = as<RoutineDecl>(*decl);
+        if (routine.broken && routine.name != kNoToken) explainByType(module, tree.text(routine.name));
         lostRoutines += routine.name == kNoToken || tree.tokens[routine.name].kind == TokenKind::NumLiteral;
         size_t own = lostLoops(tree, routine);
         for (const DataDecl* data : routine.data)

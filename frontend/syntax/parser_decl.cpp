@@ -252,6 +252,7 @@ void Parser::parseRoutineHeader(RoutineDecl* routine) {
             accept(K::RightBrace);
         }
     } else if (isName(kind()) && isName(peek()) && !startsLine(pos_ + 1) && !isTornRoutineName() &&
+               !lacksParenthesis(pos_) &&
                (routine->routineKind == RoutineKind::Proc ? !isName(peek(2)) || startsLine(pos_ + 2)
                                                           : isBasicType(textOf(pos_)))) { // PROC num name()
         fix(report(Code::ReturnTypeUnexpected, pos_,
@@ -288,6 +289,12 @@ void Parser::parseRoutineHeader(RoutineDecl* routine) {
             {tree_.range(pos_).begin, tree_.range(pos_ + 1).end}, "()");
         take();
         take();
+    } else if (lacksParenthesis(pos_ - 1)) {
+        report(Code::UnexpectedToken, pos_ - 1,
+               {describe(pos_ - 1), "'(' between the name and the data type of the first parameter"});
+        routine->broken = true;
+        typeInName_ = true;
+        parseParameters(routine);
     } else {
         unexpected("'('");
         TokenIndex open = pos_;
@@ -301,10 +308,22 @@ void Parser::parseRoutineHeader(RoutineDecl* routine) {
     }
 }
 
+/// "PROC worknum n)": the name and a data type, from which only '(' is missing.
+bool Parser::lacksParenthesis(TokenIndex name) const {
+    constexpr TokenSet kAfterFirst = {K::RightParen, K::Comma, K::Backslash, K::Bar, K::LeftBrace};
+    if (!isName(kindAt(name)) || !isName(kindAt(name + 1)) || startsLine(name + 1) ||
+        !kAfterFirst.has(kindAt(name + 2)))
+        return false;
+    const std::string_view word = textOf(name);
+    for (size_t i = 1; i < word.size(); ++i)
+        if (isBasicType(word.substr(i))) return true;
+    return false;
+}
+
 void Parser::parseParameters(RoutineDecl* routine) {
     const size_t mark = params_.size();
     if (!panic_) {
-        const TokenIndex opening = take();
+        const TokenIndex opening = typeInName_ ? pos_ - 1 : take();
         typeMissed_ = false;
         uint32_t group = 0;
         const bool missed = startsLine(pos_) && bodyBeginsHere();
@@ -399,6 +418,11 @@ ParamDecl* Parser::parseParameter(bool optional, uint32_t group) {
             report(Code::PlaceholderMisplaced, pos_, {describe(pos_), optional ? "<ALT>" : "<PAR>"});
         node->placeholder = true;
         take();
+        return finish(node);
+    }
+    if (std::exchange(typeInName_, false)) {
+        node->name = take();
+        if (kind() == K::LeftBrace) parseDimensions(node);
         return finish(node);
     }
     if (parseSwitch(node)) return finish(node);
@@ -566,10 +590,10 @@ void Parser::parseRoutineData() {
 }
 
 /// LOCAL or TASK in front of routine data; PERS there is a mistake of its own.
-void Parser::reportScopeInside(ScopeWord scope) {
+void Parser::reportScopeInside(ScopeWord scope, bool late) {
     if (peek() == K::KwPers) return;
     fix(report(Code::ScopeInsideRoutine, pos_, {scope == ScopeWord::Local ? "LOCAL" : "TASK"}),
-        {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");
+        {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "", !late);
 }
 
 void Parser::parseHandlers(RoutineDecl* routine) {

@@ -156,11 +156,14 @@ class Parser {
     void fixParentheses(diag::Diagnostic* diagnostic, const Node& operand);
     void reportEqual();
     void takeColonAsAssign();
+    bool endsBeforeLocalData() const;
+    bool lacksParenthesis(TokenIndex name) const;
     bool isShownPosition() const;
     void reportSlash(TokenIndex slash);
     void takesSlashAsBackslash();
     void skipTrapArguments();
-    void reportScopeInside(ScopeWord scope);
+    /// `late`: behind an instruction, where no declaration may stand anyhow.
+    void reportScopeInside(ScopeWord scope, bool late = false);
     /// "found X, expected Y" where an expression has ended.
     diag::Diagnostic* reportAfterExpr(diag::Code code, std::initializer_list<std::string> args);
     /// "found X, expected Y" at the current token, and panic.
@@ -445,6 +448,7 @@ class Parser {
     TokenIndex signReported_ = kNoToken;   ///< the last sign that stands behind an operator
     TokenIndex foreignList_ = 0;           ///< the last bracket that another language has there
     TokenIndex strayEnd_ = kNoToken;       ///< a word for END that ends nothing, which is reported
+    bool typeInName_ = false;              ///< of the next parameter: "PROC worknum n)"
     TokenIndex runTogether_ = kNoToken;    ///< the word of a declaration that what follows it has run into
     TokenIndex switchMarked_ = kNoToken;   ///< a switch without '\\', which is reported
     TokenIndex earlySemicolon_ = kNoToken; ///< the place behind an operand whose semicolon stands before it

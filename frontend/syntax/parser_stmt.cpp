@@ -19,6 +19,30 @@ bool mayBeMisspelt(char first) {
 
 } // namespace
 
+namespace {
+constexpr TokenSet kModuleLevel = {TokenKind::KwProc, TokenKind::KwFunc, TokenKind::KwTrap,
+                                   TokenKind::KwRecord, TokenKind::KwAlias};
+} // namespace
+
+/// At LOCAL and a declaration of data in a routine: whether nothing but declarations lies between it and the next routine,
+/// so that it is the END word that is missing.
+bool Parser::endsBeforeLocalData() const {
+    constexpr TokenIndex kFarthest = 300;
+    constexpr TokenSet kData = {K::KwLocal, K::KwVar, K::KwPers, K::KwConst};
+    if (!startsLine(pos_)) return false;
+    TokenIndex i = pos_;
+    while (i < pos_ + kFarthest) {
+        const K k = kindAt(i);
+        if (kModuleLevel.has(k) || k == K::KwEndmodule) return true;
+        if (k == K::KwLocal && kModuleLevel.has(kindAt(i + 1))) return true;
+        if (!kData.has(k) || !startsLine(i)) return false;
+        while (i < pos_ + kFarthest && kindAt(i) != K::Semicolon && kindAt(i) != K::EndOfFile)
+            ++i;
+        ++i;
+    }
+    return false;
+}
+
 StmtList Parser::parseList(const TokenSet& own, bool braced) {
     const Restore restore(enclosing_);
     const TokenSet outer = enclosing_;
@@ -40,9 +64,7 @@ StmtList Parser::parseList(const TokenSet& own, bool braced) {
                 if (!isForeignCloser(pos_) && mayBeMisspelt(textOf(pos_)[0]) && retagMisspelt(own)) continue;
             } else if (isName || isTestWrittenCase()) {
             } else if (k == K::KwLocal) {
-                if (peek() == K::KwProc || peek() == K::KwFunc || peek() == K::KwTrap ||
-                    peek() == K::KwRecord || peek() == K::KwAlias)
-                    break;
+                if (kModuleLevel.has(peek()) || endsBeforeLocalData()) break;
             } else if (outer.has(k) && !endsRoutineTooEarly() ? !standsInside() || handleStray(own)
                                                               : handleStray(own)) {
                 break;
@@ -494,7 +516,7 @@ Stmt* Parser::parseLateDecl() {
     bool reported = false;
     if (kind() == K::KwLocal || isTaskDirective(pos_)) {
         scope = kind() == K::KwLocal ? ScopeWord::Local : ScopeWord::Task;
-        reportScopeInside(scope);
+        reportScopeInside(scope, true);
         reported = true;
         take();
     }
