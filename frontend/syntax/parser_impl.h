@@ -65,6 +65,13 @@ inline constexpr TokenSet kIfEnds = {TokenKind::KwEndif, TokenKind::KwElse, Toke
 inline constexpr TokenSet kTestEnds = {TokenKind::KwEndtest, TokenKind::KwCase, TokenKind::KwDefault,
                                        TokenKind::PlaceCse};
 
+/// What a routine begins and ends with, and what messages call its kind.
+struct RoutineWords {
+    TokenKind word, end;
+    std::string_view name;
+};
+RoutineWords wordsOf(RoutineKind kind);
+
 class Parser {
   public:
     Parser(SyntaxTree& tree, diag::Sink& sink, const ParseOptions& options);
