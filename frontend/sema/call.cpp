@@ -3,14 +3,30 @@
 #include "frontend/sema/analysis.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace rapid::sema {
 
 using namespace syntax;
 
 namespace {
+
 constexpr size_t kNoParam = static_cast<size_t>(-1);
+
+/// "WaitTime 0,3;": two whole numbers with nothing but a comma between them. Its place, if so.
+std::optional<SourceRange> decimalComma(const syntax::SyntaxTree& tree, const Argument& fraction) {
+    const TokenIndex last = fraction.first;
+    if (last < 2 || fraction.last != last || tree.tokens[last - 1].kind != TokenKind::Comma) return {};
+    const auto isWhole = [&](TokenIndex i) {
+        return tree.tokens[i].kind == TokenKind::NumLiteral &&
+               tree.text(i).find_first_not_of("0123456789") == std::string_view::npos;
+    };
+    const SourceRange comma = tree.range(last - 1);
+    const bool close = tree.range(last - 2).end == comma.begin && comma.end == tree.range(last).begin;
+    return close && isWhole(last) && isWhole(last - 2) ? std::optional(comma) : std::nullopt;
 }
+
+} // namespace
 
 Typed Analyzer::functionCall(const CallExpr& e) {
     Symbol* symbol = isName(e.name) ? lookup(idOf(e.name)) : nullptr;
@@ -212,6 +228,13 @@ void Analyzer::reportTooMany(const RoutineSymbol& routine, std::span<Argument* c
         {text(routineName),
          routine.params.empty() ? "no arguments" : counted(requiredSlots(routine), "required argument"),
          std::to_string(given)});
+    if (const auto comma = decimalComma(*context_.tree, first);
+        comma && requiredSlots(routine) == 1 && given == 2) {
+        const std::string number = std::string(text(first.first - 2)) + "." + std::string(text(first.first));
+        d.message += didYouMean(number) + " A decimal number has a point";
+        d.fix(*comma, ".", false);
+        return;
+    }
     const std::string hint = first.value ? optionalFor(routine, *first.value) : std::string();
     if (hint.empty()) return;
     d.message += didYouMean(hint + text(*first.value));

@@ -264,8 +264,9 @@ bool Parser::isWhileWrittenFor() const {
     constexpr TokenSet kHead = {K::KwFrom, K::Assign, K::KwTo};
     if (panic_ || startsLine(pos_)) return false;
     TokenIndex i = pos_;
+    constexpr TokenIndex kLongHead = 200;
     while (!startsLine(i + 1) && kindAt(i) != K::KwDo) {
-        if (kHead.has(kindAt(i))) return false;
+        if (kHead.has(kindAt(i)) || i > pos_ + kLongHead) return false;
         ++i;
     }
     return kindAt(i) == K::KwDo && i > pos_ && kindAt(unmatchedWord(i)) == K::KwEndwhile;

@@ -88,8 +88,9 @@ bool Parser::standsInside() const {
 }
 
 /// From a place on: the first word that goes on with or ends a block, a handler or a routine, and whose block does not
-/// begin there.
+/// begin there. The end of the file, once so many mistakes have been found that no more are shown.
 TokenIndex Parser::unmatchedWord(TokenIndex from) const {
+    if (errors_ > kMaxErrorsPerFile) return last_;
     constexpr TokenSet kBranches = {K::KwElse, K::KwElseif, K::KwCase, K::KwDefault};
     uint32_t open = 0;
     TokenIndex i = from;
@@ -214,7 +215,8 @@ bool Parser::isTestWrittenCase() {
 /// The END word of this routine, whatever word began it; EndOfFile if there is none ahead of the next routine.
 TokenKind Parser::endOfRoutineBelow() const {
     constexpr TokenSet kEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
-    TokenIndex i = pos_;
+    TokenIndex& i = routineEndBelow_.found;
+    if (pos_ < routineEndBelow_.from || pos_ > i) i = routineEndBelow_.from = pos_;
     while (!kEnds.has(kindAt(i)) && !kBehindRoutine.has(kindAt(i)))
         ++i;
     return kEnds.has(kindAt(i)) ? kindAt(i) : K::EndOfFile;

@@ -495,10 +495,7 @@ Expr* Parser::parseIndex(Expr* base) {
     const size_t reported = sink_.all().size();
     take();
     node->indices = parseExprList(closing, opening);
-    if (diagnostic && !panic_ && sink_.all().size() == reported)
-        diagnostic->fixes.push_back({"put the index between '{' and '}'",
-                                     {{tree_.range(opening), "{"}, {tree_.range(pos_ - 1), "}"}},
-                                     closing != K::RightParen || kindAt(opening) == K::LeftParen});
+    if (diagnostic && !panic_ && sink_.all().size() == reported) fixBrackets(diagnostic, *node, opening);
     return finish(node);
 }
 

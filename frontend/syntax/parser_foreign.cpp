@@ -2,6 +2,7 @@
 // was meant, so that the rest of the routine keeps its meaning.
 
 #include "frontend/syntax/parser_impl.h"
+#include "frontend/syntax/tree_walk.h"
 
 #include <utility>
 
@@ -251,9 +252,55 @@ void Parser::dropEmptyParentheses() {
     else
         fix(report(Code::ForeignSpelling, pos_,
                    {std::string(textOf(pos_)), "'(' before the arguments of a function"}),
-            both, "()");
+            both, "()", false);
     take();
     take();
+}
+
+/// Behind "name[...]": an array was indexed, or a function was called.
+void Parser::fixBrackets(diag::Diagnostic* diagnostic, const IndexExpr& node, TokenIndex opening) {
+    const SourceRange first = tree_.range(opening), last = tree_.range(pos_ - 1);
+    const bool called = kindAt(opening) == K::LeftBracket && kindAt(pos_ - 1) == K::RightParen;
+    constexpr size_t kMostDimensions = 3;
+    const bool indexed = node.indices.size() <= kMostDimensions &&
+                         std::all_of(node.indices.begin(), node.indices.end(),
+                                     [&](const Expr* index) { return mayBeIndex(*index); });
+    if (indexed) {
+        const bool certain =
+            !called && (node.base->kind != NodeKind::Name || isArrayOfFile(as<NameExpr>(*node.base).name));
+        diagnostic->fixes.push_back(
+            {"put the index between '{' and '}'", {{first, "{"}, {last, "}"}}, certain});
+        return;
+    }
+    if (!called) diagnostic->message += ", or '(' before the arguments of a function";
+    diagnostic->fixes.push_back(
+        {"put the arguments between '(' and ')'", {{first, "("}, {last, ")"}}, false});
+}
+
+/// Neither a text, a list, a truth value nor a number that is no place in an array.
+bool Parser::mayBeIndex(const Expr& index) const {
+    const Expr& inner = bare(index);
+    if (inner.kind == NodeKind::NumLiteral) {
+        const std::string_view digits = textOf(inner.first);
+        return digits[0] != '0' && digits.find('.') == std::string_view::npos;
+    }
+    return inner.kind == NodeKind::Name || inner.kind == NodeKind::Binary || inner.kind == NodeKind::Index ||
+           inner.kind == NodeKind::Component || inner.kind == NodeKind::Call;
+}
+
+/// Is this name declared in the file with dimensions, "num name{3}"?
+bool Parser::isArrayOfFile(TokenIndex name) {
+    constexpr TokenSet kOpens = {K::LeftBrace, K::LeftBracket, K::LeftParen};
+    constexpr TokenSet kRoutines = {K::KwProc, K::KwFunc};
+    if (searched_ >= kMostWords) return false;
+    searched_ += last_;
+    const std::string upper = upperCase(textOf(name));
+    for (TokenIndex i = 2; i < last_; ++i) {
+        const bool declared = tokens_[i].length == upper.size() && isName(kindAt(i - 1)) && !startsLine(i) &&
+                              kOpens.has(kindAt(i + 1)) && !kRoutines.has(kindAt(i - 2));
+        if (declared && equalsNoCase(textOf(i), upper)) return true;
+    }
+    return false;
 }
 
 /// `VAR num x, y;`: each name after the first is read as a declaration of its own.

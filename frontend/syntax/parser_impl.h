@@ -15,6 +15,8 @@ namespace rapid::syntax {
 
 inline constexpr uint32_t kMaxDepth = 1000; ///< nesting of expressions and instructions
 inline constexpr size_t kMaxErrorsPerFile = 200;
+inline constexpr size_t kMostWords =
+    20000000; ///< words of the file that are compared, in all searches together
 inline constexpr size_t kMaxNameLength = 32; // manual 1.1.2
 
 /// Sets a member for the length of a block.
@@ -214,6 +216,9 @@ class Parser {
     void expectClosing(K closing, TokenIndex opening, bool inList);
     bool atReservedName() const;
     bool operandBehindSemicolon();
+    void fixBrackets(diag::Diagnostic* diagnostic, const IndexExpr& node, TokenIndex opening);
+    bool mayBeIndex(const Expr& index) const;
+    bool isArrayOfFile(TokenIndex name);
     TokenIndex takeReservedName();
     void declareReserved(TokenIndex name);
     void laterUsesAreNames(TokenIndex declared);
@@ -452,6 +457,10 @@ class Parser {
     std::vector<TokenIndex>
         foreignClosers_;          ///< END words of other languages whose opening word has been reported
     K routineEnd_ = K::KwEndproc; ///< the word that ends the routine
+    /// What endOfRoutineBelow() has found; the same from every place in between.
+    mutable struct {
+        TokenIndex from = kNoToken, found = 0;
+    } routineEndBelow_;
     TokenIndex signReported_ = kNoToken;   ///< the last sign that stands behind an operator
     TokenIndex foreignList_ = 0;           ///< the last bracket that another language has there
     TokenIndex strayEnd_ = kNoToken;       ///< a word for END that ends nothing, which is reported

@@ -154,6 +154,7 @@ bool Parser::retagIfMeant(K word) {
 
 /// What only an ERROR handler can have, before the next handler or the end of the routine.
 bool Parser::isHandledBelow(TokenIndex from) const {
+    if (errors_ > kMaxErrorsPerFile) return false;
     for (TokenIndex i = from;
          i < from + kFarTokens && !kRoutineEnds.has(kindAt(i)) && kindAt(i) != K::EndOfFile; ++i)
         if (kindAt(i) == K::KwTrynext || kindAt(i) == K::KwRetry) return true;

@@ -11,8 +11,6 @@ using diag::Code;
 
 namespace {
 
-constexpr size_t kMostWords = 20000000; ///< of the file that are compared, in all searches together
-
 /// What stands in most programs without being declared there.
 constexpr std::string_view kFrequent[] = {
     "AccSet",     "ClkRead",   "ClkReset",  "ClkStart", "ClkStop",   "ConfJ",    "ConfL",    "CRobT",
@@ -54,8 +52,9 @@ std::string Parser::tornName(TokenIndex second) {
     constexpr size_t kWide = 3;
     if (between.size() > kWide || between.find_first_not_of(" \t") != std::string_view::npos) return {};
     const std::string whole = std::string(head).append(tail);
+    const std::string upper = upperCase(whole);
     for (const std::string_view name : kFrequent)
-        if (upperCase(name) == upperCase(whole)) return std::string(name);
+        if (equalsNoCase(name, upper)) return std::string(name);
     const bool predefined = equalsNoCase(head, "V") || equalsNoCase(head, "Z");
     if (predefined && k == K::NumLiteral) return whole; // v100, z10
     if (whole.size() > kMaxNameLength) return {};
@@ -64,12 +63,16 @@ std::string Parser::tornName(TokenIndex second) {
 
 /// At a word that cannot stand here: it and the word before it, or the two before it, are one name.
 diag::Diagnostic* Parser::reportTornName() {
+    if (errors_ >= kMaxErrorsPerFile) return nullptr;
     for (const TokenIndex second : {pos_, pos_ - 1}) {
         const bool begins = second < 2 || startsLine(second - 1) || kindAt(second - 2) == K::Semicolon;
         if (second == 0 || (second != pos_ && !begins)) return nullptr;
         const std::string whole = tornName(second);
         if (whole.empty()) continue;
-        return reportWord(second - 1, second, whole, isKeyword(kindAt(second)) || isOnlyHere(second));
+        const auto underscored = std::string(textOf(second - 1)).append("_").append(textOf(second));
+        const bool only = spellingInFile(underscored, second - 1, second).empty();
+        return reportWord(second - 1, second, whole,
+                          only && (isKeyword(kindAt(second)) || isOnlyHere(second)));
     }
     return nullptr;
 }
