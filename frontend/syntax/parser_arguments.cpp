@@ -52,7 +52,6 @@ void Parser::takesSlashAsBackslash() {
     constexpr TokenSet kAfterName = {K::Assign,     K::Semicolon, K::Comma,
                                      K::RightParen, K::Backslash, K::Question};
     if (kind() != K::Slash || !isName(peek()) || !kAfterName.has(peek(2))) return;
-    if (pos_ > 1 && kindAt(pos_ - 2) == K::Colon && !startsLine(pos_ - 1)) return; // "b : a / c;"
     reportSlash(pos_);
     readAs(pos_, K::Backslash);
 }

@@ -237,7 +237,9 @@ Stmt* Parser::parseNamedStmt() {
     case K::Colon: {
         constexpr TokenSet kNoInstruction = {K::Equal,   K::NumLiteral, K::StringLiteral, K::KwTrue,
                                              K::KwFalse, K::Minus,      K::LeftBracket};
-        if (!kNoInstruction.has(peek(2)) || startsLine(first + 2)) return parseLabel();
+        constexpr TokenSet kBetween = {K::Star, K::Slash, K::KwDiv, K::KwMod, K::KwAnd, K::KwOr, K::KwXor};
+        const bool calculates = peek(2) == K::Identifier && kBetween.has(peek(3)) && !startsLine(first + 3);
+        if ((!kNoInstruction.has(peek(2)) && !calculates) || startsLine(first + 2)) return parseLabel();
         return parseColonAssignment();
     }
     case K::Identifier:

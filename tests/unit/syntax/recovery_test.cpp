@@ -113,7 +113,7 @@ const std::vector<Case> kBodies = {
     {"NOT as an operand", "b := a = NOT c;", "RAP1106@3:10"},
     {"component of a call", "x := CRobT().trans.x;", "RAP1107@3:13"},
     {"index of a component", "x := a.b{1};", "RAP1108@3:9"},
-    {"':' for ':=' before a quotient", "b : a / zero;\ny := 1;", "RAP1112@3:6"},
+    {"':' for ':=' before a quotient", "b : a / zero;\ny := 1;", "RAP1112@3:3"},
     {"call with parentheses, which the checker reports", "Foo(1, 2);\ny := 1;", ""},
     {"call with empty parentheses, which the checker reports", "Foo();\ny := 1;", ""},
     {"late binding not closed", "%\"a\" b;\ny := 1;", "RAP1103@3:6"},
