@@ -311,10 +311,22 @@ class PresenceWalk {
     bool goesOnBehind(const Stmt& s) {
         const auto found = module_.facts->calls.find(&s);
         if (found == module_.facts->calls.end() || !found->second.routine) return true;
-        const sema::Flow flow = found->second.routine->flow;
-        const bool goesOn = flow == sema::Flow::GoesOn || flow == sema::Flow::Stops;
-        if (!goesOn) ++leaves_;
-        return goesOn;
+        const bool comesBack = goesOn(found->second.routine->flow) && !endsElsewhere(*found->second.routine);
+        if (!comesBack) ++leaves_;
+        return comesBack;
+    }
+    static bool goesOn(sema::Flow flow) { return flow == sema::Flow::GoesOn || flow == sema::Flow::Stops; }
+
+    /// "IF NOT Present(x) giveUp;": a procedure of this module whose last instruction is EXIT or RAISE.
+    bool endsElsewhere(const RoutineSymbol& routine) const {
+        if (routine.module != &module_ || !routine.routineDecl || routine.routineDecl->body.empty())
+            return false;
+        const Stmt* last = routine.routineDecl->body.back();
+        if (last->kind != NodeKind::CallStmt)
+            return last->kind == NodeKind::Exit || last->kind == NodeKind::Raise;
+        const auto found = module_.facts->calls.find(last);
+        return found != module_.facts->calls.end() && found->second.routine &&
+               !goesOn(found->second.routine->flow);
     }
 
     bool mentionsPresent(const Expr& e) const {

@@ -190,7 +190,9 @@ class Analyzer {
     };
     Remedy remedyFor(const syntax::Expr& whole, const DataType& found, const DataType& want);
     Remedy remedyFor(const RoutineSymbol& routine, const syntax::Expr& e, const DataType& found,
-                     const DataType& want);
+                     const DataSymbol& param);
+    std::string written(const syntax::Expr& e) const;
+    std::string inWords(const syntax::Expr& e) const;
     Remedy numberRemedy(const syntax::Expr& e, const DataType& found, const Type& want);
     Remedy recordRemedy(const syntax::Expr& e, const DataType& found, const DataType& want);
     Remedy signalRemedy(const RoutineSymbol& routine, const DataType& found, const DataType& want);
@@ -420,7 +422,7 @@ class Analyzer {
     bool couldBe(const syntax::Expr& e, const DataSymbol& param);
     static bool mayStandFor(const DataSymbol& root, syntax::ParamMode mode);
     void reportSwapped(const RoutineSymbol& routine, const DataSymbol& one, const DataSymbol& other,
-                       const syntax::Expr& first, const syntax::Expr& second);
+                       const syntax::Expr& first, const syntax::Expr& second, bool certain);
     bool reportMisspeltSeparator(const RoutineSymbol& routine, const syntax::Argument& arg, size_t slot,
                                  bool isLast);
     bool reportEqualAsAssign(const BoundArg& bound);

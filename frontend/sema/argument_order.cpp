@@ -99,14 +99,11 @@ bool Analyzer::explainArguments(const BoundCall& call, TokenIndex name, std::spa
 }
 
 void Analyzer::reportSwapped(const RoutineSymbol& routine, const DataSymbol& one, const DataSymbol& other,
-                             const Expr& first, const Expr& second) {
-    const std::string_view source = context_.tree->source->text();
-    const auto written = [&](const Expr& e) {
-        return std::string(source.substr(range(e).begin, range(e).end - range(e).begin));
-    };
+                             const Expr& first, const Expr& second, bool certain) {
     report(Code::ArgumentsSwapped, range(first), {one.name, other.name, routine.name})
-        .fixes.push_back(
-            {"let them change places", {{range(first), written(second)}, {range(second), written(first)}}});
+        .fixes.push_back({"let them change places",
+                          {{range(first), written(second)}, {range(second), written(first)}},
+                          certain});
 }
 
 /// Two that have changed places, or one that stands too early or too late.
@@ -138,8 +135,12 @@ bool Analyzer::explainOrder(const RoutineSymbol& routine, const std::vector<cons
             reset();
             std::swap(order[i], order[k]);
             if (!fits()) continue;
+            bool only = true; // nothing else given fits either of the two
+            for (size_t other = 0; other < count; ++other)
+                only = only && (other == i || other == k ||
+                                !(couldBe(*given[other], *params[i]) || couldBe(*given[other], *params[k])));
             dropErrors();
-            reportSwapped(routine, *params[i], *params[k], *given[i], *given[k]);
+            reportSwapped(routine, *params[i], *params[k], *given[i], *given[k], only);
             return true;
         }
     }

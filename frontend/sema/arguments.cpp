@@ -175,7 +175,7 @@ void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t fi
     if (missing) reportMissing(call, name);
     for (const Mismatch& one : wrong) {
         const auto names = typeNames(one.found, one.param->type);
-        const Remedy remedy = remedyFor(routine, *one.value, one.found, one.param->type);
+        const Remedy remedy = remedyFor(routine, *one.value, one.found, *one.param);
         offer(report(Code::ArgumentType, range(*one.value),
                      {one.param->name, routine.name, names[0], names[1]}),
               *one.value, remedy);

@@ -53,7 +53,12 @@ Typed Analyzer::functionCall(const CallExpr& e) {
 // Data with arguments: an array whose index stands in parentheses.
 void Analyzer::reportNotAFunction(const CallExpr& e, const Symbol& symbol) {
     diag::Diagnostic& d = report(Code::NotAFunction, range(e.name), {text(e.name), describe(symbol)});
-    if (symbol.kind == SymbolKind::Data && static_cast<const DataSymbol&>(symbol).type.rank > 0) {
+    const auto isIndex = [](const Argument* a) {
+        return a->argKind == ArgKind::Required && a->name == kNoToken && a->value;
+    };
+    if (symbol.kind == SymbolKind::Data &&
+        e.args.size() == static_cast<const DataSymbol&>(symbol).type.rank && !e.args.empty() &&
+        std::all_of(e.args.begin(), e.args.end(), isIndex)) {
         const SourceRange open = range(e.name + 1), whole = range(e);
         d.fixes.push_back(
             {"put the index between '{' and '}'", {{open, "{"}, {{whole.end - 1, whole.end}, "}"}}});

@@ -28,21 +28,35 @@ bool isPredefined(const Type& type, std::string_view name) {
 std::string Analyzer::namedByNumber(std::string_view number, const Type& want) {
     for (const char* letter : {"v", "z"}) {
         const DataSymbol* data = asData(at(predefined_, interner_.intern(letter + std::string(number))));
-        if (data && data->type.rank == 0 && data->type.type->base() == want.base()) return data->name;
+        if (data && lookup(data->nameId) == data && data->type.rank == 0 &&
+            data->type.type->base() == want.base())
+            return data->name;
     }
     return {};
+}
+
+/// All of it, for a fix; text() shortens.
+std::string Analyzer::written(const Expr& e) const {
+    const SourceRange whole = range(e);
+    return std::string(context_.tree->source->text().substr(whole.begin, whole.end - whole.begin));
+}
+
+/// For a message, which is one line.
+std::string Analyzer::inWords(const Expr& e) const {
+    const bool line = written(e).find_first_of("\r\n") == std::string::npos;
+    return line ? text(e) : "...";
 }
 
 Analyzer::Remedy Analyzer::numberRemedy(const Expr& e, const DataType& found, const Type& want) {
     const bool literal = e.kind == NodeKind::NumLiteral;
     switch (want.kind) {
     case TypeKind::String:
-        if (literal) return {": write a text between double quotes", '"' + text(e) + '"'};
+        if (literal) return {": write a text between double quotes", '"' + written(e) + '"'};
         return {std::string(": make a text of the number with ") +
                     (found.type->kind == TypeKind::Dnum ? "DnumToStr" : "NumToStr"),
                 ""};
     case TypeKind::Bool: {
-        if (!literal) return {": compare it, as in " + text(e) + " <> 0", ""};
+        if (!literal) return {": compare it, as in " + inWords(e) + " <> 0", ""};
         const std::string value = as<NumLiteralExpr>(e).value == 0 ? "FALSE" : "TRUE";
         return {": write " + value, value};
     }
@@ -70,8 +84,7 @@ Analyzer::Remedy Analyzer::recordRemedy(const Expr& e, const DataType& found, co
     }
     if (!part) return {};
     if (!isPlaceExpr(e)) return {": only its component '" + part->name + "' is one", ""};
-    std::string name = text(e) + "." + part->name;
-    return {didYouMean(name), name};
+    return {didYouMean(inWords(e) + "." + part->name), written(e) + "." + part->name};
 }
 
 /// How to make what was found what is wanted, if there is a usual way.
@@ -87,7 +100,7 @@ Analyzer::Remedy Analyzer::remedyFor(const Expr& whole, const DataType& found, c
         std::string index = "{1";
         for (uint8_t i = 1; i < found.rank; ++i)
             index += ",1";
-        return {": choose an element, as in " + text(e) + index + "}", ""};
+        return {": choose an element, as in " + inWords(e) + index + "}", ""};
     }
     const TypeKind from = found.type->base()->kind, to = want.type->base()->kind;
     if (found.type->isNumeric()) {
@@ -97,7 +110,7 @@ Analyzer::Remedy Analyzer::remedyFor(const Expr& whole, const DataType& found, c
     }
     if (from == TypeKind::String && want.type->isNumeric()) {
         const bool literal = e.kind == NodeKind::StringLiteral;
-        const std::string value = literal ? decodeStringLiteral(text(e)) : std::string();
+        const std::string value = literal ? decodeStringLiteral(written(e)) : std::string();
         if (readsAsNumber(value)) return {": a number stands without quotes", value};
         return {": StrToVal reads a value from a text", ""};
     }
@@ -110,7 +123,7 @@ Analyzer::Remedy Analyzer::remedyFor(const Expr& whole, const DataType& found, c
         const Expr& record = *as<ComponentExpr>(e).base;
         const DataType& base = info(record).type;
         if (base.rank == 0 && base.type && base.type->base() == want.type->base())
-            return {didYouMean(text(record)), text(record)};
+            return {didYouMean(inWords(record)), written(record)};
     }
     if (to == TypeKind::String && isValueType(*found.type)) return {": ValToStr makes a text of it", ""};
     return from == TypeKind::Record ? recordRemedy(e, found, want) : Remedy();
@@ -118,7 +131,8 @@ Analyzer::Remedy Analyzer::remedyFor(const Expr& whole, const DataType& found, c
 
 // For arguments, also another instruction of the same family: WaitDO for WaitDI, MoveAbsJ for MoveL.
 Analyzer::Remedy Analyzer::remedyFor(const RoutineSymbol& routine, const Expr& e, const DataType& found,
-                                     const DataType& want) {
+                                     const DataSymbol& param) {
+    const DataType& want = param.type;
     if (found.type && routine.predefined && found.rank == 0 && want.rank == 0) {
         const bool moves = routine.name.starts_with("Move");
         if (moves && isPredefined(*found.type, "jointtarget") && isPredefined(*want.type, "robtarget"))
@@ -128,7 +142,12 @@ Analyzer::Remedy Analyzer::remedyFor(const RoutineSymbol& routine, const Expr& e
         const Remedy sibling = signalRemedy(routine, found, want);
         if (!sibling.words.empty()) return sibling;
     }
-    return remedyFor(e, found, want);
+    if (want.rank > 0 && found.rank == 0) return {};
+    Remedy remedy = remedyFor(e, found, want);
+    if (param.mode == ParamMode::In || param.mode == ParamMode::Ref) return remedy;
+    // Where data is passed on no value will do, and to PERS and INOUT no part of a persistent.
+    const bool part = isPlaceExpr(bare(e)) && (found.rank > 0 || !remedy.instead.empty());
+    return part && param.mode == ParamMode::Var ? remedy : Remedy();
 }
 
 // "SetDO go1, 5;": what ends in the kind of the signal takes it.

@@ -129,6 +129,8 @@ bool Analyzer::isWanted(const Symbol& symbol, Wanted wanted) const {
 
 void Analyzer::fixCall(diag::Diagnostic& diagnostic, const Expr& e, const std::string& name, bool certain) {
     const SourceRange whole = range(e);
+    const Symbol* function = lookup(interner_.intern(name));
+    if (!function || !function->predefined) return; // a name of the program hides it
     diagnostic.fixes.push_back({"write " + name + "(...)",
                                 {{{whole.begin, whole.begin}, name + "("}, {{whole.end, whole.end}, ")"}},
                                 certain});

@@ -1,6 +1,7 @@
 // Bodies of routines: scope of parameters and data, handlers, labels and jumps (manual 1.1.5, 1.12, 1.13, 1.21).
 
 #include "frontend/sema/analysis.h"
+#include "frontend/syntax/token_set.h"
 
 #include <algorithm>
 
@@ -113,12 +114,19 @@ uint32_t Analyzer::lineEnd(uint32_t from) const {
 bool Analyzer::valueFollows(const LabelStmt& s) {
     const auto& tokens = context_.tree->tokens;
     const TokenIndex next = s.last + 1;
-    if (next + 1 >= tokens.size() || tokens[next].kind != TokenKind::Identifier ||
-        tokens[next].offset >= lineEnd(range(s.last).end))
-        return false;
+    if (next + 1 >= tokens.size() || tokens[next].kind != TokenKind::Identifier) return false;
+    const uint32_t behind = range(s.last).end;
+    const std::string_view between =
+        context_.tree->source->text().substr(behind, tokens[next].offset - behind);
+    if (between.find_first_of("\r\n") != std::string_view::npos) return false;
     const RoutineSymbol* routine = asRoutine(lookup(idOf(next)));
-    return lookup(idOf(next)) && (!routine || routine->routineKind != RoutineKind::Proc) &&
-           tokens[next + 1].kind != TokenKind::Assign;
+    if (!lookup(idOf(next)) || (routine && routine->routineKind == RoutineKind::Proc)) return false;
+    constexpr TokenSet kEnd = {TokenKind::Semicolon, TokenKind::Colon, TokenKind::Assign,
+                               TokenKind::EndOfFile};
+    TokenIndex end = next + 1; // "again: list{1} := 2;" is an instruction
+    while (!kEnd.has(tokens[end].kind))
+        ++end;
+    return tokens[end].kind == TokenKind::Semicolon;
 }
 
 void Analyzer::labelStmt(const LabelStmt& s) {
@@ -132,7 +140,8 @@ void Analyzer::labelStmt(const LabelStmt& s) {
     const Symbol* data = at(routineNames_, name);
     if (asData(data ? const_cast<Symbol*>(data) : lookup(name)) && valueFollows(s)) {
         report(Code::ForeignSpelling, range(s.last), {":", "':='"}).fix(range(s.last), ":=");
-        quietLine_ = {range(s.last).end, lineEnd(range(s.last).end)};
+        const uint32_t behind = range(s.last).end;
+        if (behind >= quietLine_.end) quietLine_ = {behind, lineEnd(behind)};
         return;
     }
     if (data) noteDeclared(report(Code::LabelNamedAsData, range(s.name), {text(s.name)}), *data);

@@ -164,14 +164,15 @@ bool Analyzer::reportTorn(TokenIndex token) {
     if (shown.size() > kLongest || blank == hyphen || shown.find_first_of("\r\n!") != std::string_view::npos)
         return false;
     const std::string head(text(token)), tail(text(last));
-    const Symbol* meant = lookup(interner_.intern(head + tail));
-    if (!meant && hyphen) meant = lookup(interner_.intern(head + "_" + tail));
+    const Symbol* joined = lookup(interner_.intern(head + tail));
+    const Symbol* linked = hyphen ? lookup(interner_.intern(head + "_" + tail)) : nullptr;
+    const Symbol* meant = joined ? joined : linked;
     if (!meant) return false;
     tornUntil_ = last;
     tornTree_ = context_.tree;
     report(Code::UnexpectedToken, whole,
            {"'" + std::string(shown) + "'", "'" + meant->name + "': a name is one word"})
-        .fix(whole, meant->name, !lookup(idOf(last)));
+        .fix(whole, meant->name, !lookup(idOf(last)) && !(joined && linked));
     return true;
 }
 
@@ -256,7 +257,7 @@ Analyzer::Suggestion Analyzer::suggestion(NameId name, Wanted wanted) {
     for (const ForeignName& foreign : kForeignNames) {
         if (foreign.folded != written) continue;
         const Symbol* meant = at(predefined_, interner_.intern(foreign.meant));
-        if (meant && isWanted(*meant, wanted)) return {meant->name, false};
+        if (meant && isWanted(*meant, wanted) && lookup(meant->nameId) == meant) return {meant->name, false};
     }
     unsigned limit = suggestionLimit(written.size());
     // The nearest scope first: on equal distance it wins, and within a scope the first in the alphabet.
@@ -269,6 +270,7 @@ Analyzer::Suggestion Analyzer::suggestion(NameId name, Wanted wanted) {
         if (distance > limit) return;
         const bool equal = !best.name.empty() && distance == limit;
         if (equal && (scope != bestScope || bestFolded <= folded)) return;
+        if (symbol && lookup(symbol->nameId) != symbol) return; // hidden by another of its name
         best = {std::string(spelling), keyword, symbol};
         bestFolded = folded;
         bestScope = scope;

@@ -24,24 +24,29 @@ struct CheckSettings {
     bool fix = false;
 };
 
-/// Mends until nothing certain is left. Every round mends at least one place, so the bound is only for safety.
+/// Mends until nothing certain is left, or says that more is: a round mends what one check reports.
 void fixFiles(const Inputs& inputs) {
     constexpr int kMaxRounds = 100;
     std::map<std::string, size_t> fixed;
     std::vector<std::string> problems;
-    for (int round = 0; round < kMaxRounds; ++round) {
+    bool more = true;
+    for (int round = 0; more && round < kMaxRounds; ++round) {
         const auto compilation = checkInputs(inputs);
-        if (!compilation->usageErrors.empty()) break;
+        more = compilation->usageErrors.empty();
+        if (!more) break;
         const FixOutcome outcome = applyCertainFixes(compilation->sink.sorted());
         for (const auto& [path, count] : outcome.fixed)
             fixed[path] += count;
         problems = outcome.problems;
-        if (outcome.fixed.empty()) break;
+        more = !outcome.fixed.empty();
     }
     for (const auto& [path, count] : fixed)
         fmt::print(stderr, "{}: {} {} fixed\n", path, count, count == 1 ? "mistake" : "mistakes");
     for (const std::string& problem : problems)
         fmt::print(stderr, "rapidc check: {}\n", problem);
+    if (more)
+        fmt::print(stderr, "rapidc check: --fix ends after {} rounds and more may be left: run it again\n",
+                   kMaxRounds);
 }
 
 int check(const CheckSettings& settings) {

@@ -131,6 +131,82 @@ TEST_CASE("a value that does not fit is one message that says what would", "[sem
     }
 }
 
+namespace {
+
+/// The fixes of the first error, "?" before those that are not certain.
+std::vector<std::string> fixesOf(const std::string& declarations, const std::string& instruction) {
+    const std::string text =
+        "MODULE m\n" + declarations + "\n  PROC main()\n" + instruction + "\n  ENDPROC\nENDMODULE\n";
+    const auto checked = testing::checkTexts({text});
+    std::vector<std::string> fixes;
+    for (const diag::Diagnostic& d : checked->sink.sorted()) {
+        if (d.severity != diag::Severity::Error) continue;
+        for (const auto& fix : d.fixes) {
+            const edit::EditResult result = edit::applyEdits(*d.file, fix.edits);
+            REQUIRE(result.ok());
+            const size_t begin = result.bytes.find("main()\n") + 7;
+            fixes.push_back((fix.certain ? "" : "?") +
+                            result.bytes.substr(begin, result.bytes.find('\n', begin) - begin));
+        }
+        break;
+    }
+    return fixes;
+}
+using Fixes = std::vector<std::string>;
+
+} // namespace
+
+// Manual 1.1.2: what a module declares hides what is predefined.
+TEST_CASE("a name that the program has taken is no remedy", "[sema]") {
+    const std::string target =
+        "CONST robtarget p10:=[[0,0,5],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];";
+    CHECK(fixesOf(target, "MoveL p10,100,fine,tool0;") == Fixes{"?MoveL p10,v100,fine,tool0;"});
+    CHECK(fixesOf(target + "LOCAL CONST num v100:=5;", "MoveL p10,100,fine,tool0;").empty());
+    CHECK(fixesOf("VAR dnum d; VAR num n;", "d := n;") == Fixes{"d := NumToDnum(n);"});
+    CHECK(fixesOf("VAR dnum d; VAR num n; FUNC dnum NumToDnum(num a) RETURN 4; ENDFUNC", "d := n;").empty());
+    CHECK(fixesOf("VAR num n;", "n := on;") == Fixes{"?n := high;"});
+    CHECK(fixesOf("VAR num n; PROC high() ENDPROC", "n := on;").empty());
+}
+
+TEST_CASE("a long value is written out in its remedy", "[sema]") {
+    const std::string longName = "listOfAllThePartsOnTheTable";
+    CHECK(fixesOf("VAR pos at; VAR robtarget " + longName + "{2};",
+                  "at := " + longName + "{ 1 + 1 - 1 + 1 - 1 };") ==
+          Fixes{"?at := " + longName + "{ 1 + 1 - 1 + 1 - 1 }.trans;"});
+}
+
+// Manual 1.1.5: INOUT, VAR and PERS parameters take data; a value that a function makes is none.
+TEST_CASE("no value is offered where data is passed on", "[sema]") {
+    const auto messages = [](const std::string& parameter, const std::string& argument) {
+        return testing::checkTexts({"MODULE m\n  PROC p(" + parameter +
+                                    ")\n  ENDPROC\n  PROC main()\nVAR num n; VAR "
+                                    "string s; VAR num row{2};\np " +
+                                    argument + ";\n  ENDPROC\nENDMODULE\n"})
+            ->messages();
+    };
+    CHECK(messages("VAR string a", "n") ==
+          Fixes{"RAP4011 at 6:3: argument 'a' of 'p' is 'num', expected 'string'"});
+    CHECK(messages("INOUT num a", "s") ==
+          Fixes{"RAP4011 at 6:3: argument 'a' of 'p' is 'string', expected 'num'"});
+    CHECK(messages("VAR num a", "row") == Fixes{"RAP4011 at 6:3: argument 'a' of 'p' is 'num{2}', expected "
+                                                "'num': choose an element, as in row{1}"});
+    CHECK(messages("num a{*}", "n") ==
+          Fixes{"RAP4011 at 6:3: argument 'a' of 'p' is 'num', expected 'num{*}'"});
+}
+
+TEST_CASE("arguments change places for certain only where no other order fits", "[sema]") {
+    const std::string text = "PROC p(num a, num b, string c) ENDPROC PROC q(num a, string c) ENDPROC";
+    CHECK(fixesOf(text, "p \"x\", 1, 2;") == Fixes{"?p 2, 1, \"x\";"});
+    CHECK(fixesOf(text, "q \"x\", 1;") == Fixes{"q 1, \"x\";"});
+}
+
+TEST_CASE("parentheses become those of an index where indices stand in them", "[sema]") {
+    CHECK(fixesOf("VAR num n; VAR num row{2};", "n := row(1);") == Fixes{"n := row{1};"});
+    CHECK(fixesOf("VAR num n; VAR num row{2};", "n := row();").empty());
+    CHECK(fixesOf("VAR num n; VAR num row{2};", "n := row(1,2);").empty());
+    CHECK(fixesOf("VAR num n; VAR num row{2};", "n := row(\\a:=1);").empty());
+}
+
 // Manual 1.2.5: an aggregate stands between brackets as a whole.
 TEST_CASE("parts of a value without brackets around them are one message", "[sema]") {
     const std::string text =

@@ -1,0 +1,6 @@
+MODULE one_at_a_time
+  PROC main()
+    VAR num n;
+n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;n: n + 1;
+  ENDPROC
+ENDMODULE
