@@ -338,11 +338,13 @@ size_t Analyzer::matchOptional(BoundCall& call, const Argument& arg, TokenIndex)
         return !param.optional && call.args[i].argument ? kNoParam : i; // given once more: one report will do
     }
     const DataSymbol* near = nearOptional(routine, name);
-    const std::string hint = near || arg.value ? std::string() : optionalFor(routine, name);
-    const std::string meant = near ? near->name : hint.empty() ? hint : hint + text(arg.name);
+    // "\wobj0" is nearer to "\WObj:=wobj0" than to "\WObj", which lacks its value.
+    const bool named = arg.value || (near && near->isSwitch);
+    const std::string hint = named ? std::string() : optionalFor(routine, name);
+    const std::string meant = !hint.empty() ? hint + text(arg.name) : near ? near->name : hint;
     diag::Diagnostic& d = report(Code::UnknownParameter, range(arg.name),
                                  {routine.name, text(arg.name), meant.empty() ? meant : didYouMean(meant)});
-    if (near) d.fix(range(arg.name), near->name, false);
+    if (near && hint.empty()) d.fix(range(arg.name), near->name, false);
     if (!hint.empty()) d.fix({range(arg.name).begin - 1, range(arg.name).begin}, hint, false);
     return kNoParam;
 }

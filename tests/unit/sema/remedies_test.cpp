@@ -70,6 +70,8 @@ const Case kCases[] = {
     {"n := give(7);", "RAP4011", ": write a text between double quotes", "n := give(\"7\");"},
     {"TPWrite \"n: \", n;", "RAP4001", "; did you mean '\\Num:=n'?", "TPWrite \"n: \", \\Num:=n;"},
     {"TPWrite \"n: \"\\n;", "RAP4003", "; did you mean '\\Num:=n'?", "TPWrite \"n: \"\\Num:=n;"},
+    {"MoveL p10,v100,z50,tool0\\wobj0;", "RAP4003", "; did you mean '\\WObj:=wobj0'?",
+     "MoveL p10,v100,z50,tool0\\WObj:=wobj0;"},
     {"target := CRobT(tool0);", "RAP4001", "; did you mean '\\Tool:=tool0'?",
      "target := CRobT(\\Tool:=tool0);"},
     {"ClkStart(watch);", "RAP4012", "expected a variable", "ClkStart watch;"},
