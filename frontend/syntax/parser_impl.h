@@ -257,6 +257,7 @@ class Parser {
     bool fitsAsListWord(K word, TokenIndex last) const;
     bool isHandledBelow(TokenIndex from) const;
     bool retagMisspelt(const TokenSet& own);
+    bool retagOtherEnd();
     bool retagData();
     bool retagOpener();
     bool isEndlessLoop();
@@ -281,6 +282,7 @@ class Parser {
     void noteUnclear(uint32_t place);
     bool takeTornName(TokenIndex name, const TokenSet& after, bool endsLine = false);
     bool takesRunTogether();
+    void reportMissingIf();
 
     // ---- Spellings of other languages (parser_foreign.cpp)
     bool isBlockBrace() const;

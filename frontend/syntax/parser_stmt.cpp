@@ -227,9 +227,7 @@ Stmt* Parser::parseNamedStmt() {
     case K::Equal: {
         TokenIndex then = 0;
         if (findOnLine(pos_ + 2, K::KwThen, then)) {
-            const uint32_t at = tree_.range(pos_).begin;
-            fix(reportAt(Code::UnexpectedToken, tree_.range(pos_), {describe(pos_), "IF before a condition"}),
-                {at, at}, "IF ");
+            reportMissingIf();
             return parseIfBlocks(first, parseCondition(), false);
         }
         return parseAssignment(parseNamed(false), first);

@@ -260,16 +260,7 @@ bool Parser::retagMisspelt(const TokenSet& own) {
         if (!own.has(word)) continue;
         if (kOfRoutines.has(word) && word != routineEnd_) {
             if (end || !fitsAsListWord(word, pos_) || !meant(pos_, word)) continue;
-            const bool tooEarly = endOfRoutineBelow() == routineEnd_; // "endfunction" in a PROC
-            const std::string own_(tokenText(routineEnd_));
-            if (!tooEarly) {
-                retag(pos_, pos_, routineEnd_);
-                return true;
-            }
-            report(Code::UnexpectedToken, pos_,
-                   {describe(pos_), "an instruction: " + own_ + " is still to come"});
-            strayEnd_ = pos_;
-            return false;
+            return retagOtherEnd();
         }
         const std::string_view spelling = tokenText(word);
         TokenIndex last = pos_;
@@ -291,6 +282,19 @@ bool Parser::retagMisspelt(const TokenSet& own) {
         pos_ = last;
         return true;
     }
+    return false;
+}
+
+/// At a name that was meant as the END word of another kind of routine, "endfunction" in a PROC: that of this one, unless
+/// it is still to come.
+bool Parser::retagOtherEnd() {
+    if (endOfRoutineBelow() != routineEnd_) {
+        retag(pos_, pos_, routineEnd_);
+        return true;
+    }
+    report(Code::UnexpectedToken, pos_,
+           {describe(pos_), "an instruction: " + std::string(tokenText(routineEnd_)) + " is still to come"});
+    strayEnd_ = pos_;
     return false;
 }
 

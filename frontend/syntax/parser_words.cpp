@@ -137,6 +137,23 @@ bool Parser::takeTornName(TokenIndex name, const TokenSet& after, bool endsLine)
     return true;
 }
 
+/// At the first word of a condition that THEN follows: "reg1 = 1 THEN" and "IFreg1 = 1 THEN".
+void Parser::reportMissingIf() {
+    const std::string_view text = textOf(pos_);
+    const SourceRange range = tree_.range(pos_);
+    constexpr std::string_view kIf = "IF";
+    const bool glued = text.size() > kIf.size() && equalsNoCase(text.substr(0, kIf.size()), kIf) &&
+                       spellingInFile(text, pos_, pos_).empty();
+    if (!glued) {
+        fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "IF before a condition"}),
+            {range.begin, range.begin}, "IF ");
+        return;
+    }
+    const std::string whole = "IF " + std::string(text.substr(kIf.size()));
+    fix(report(Code::UnexpectedToken, pos_, {describe(pos_), "'" + whole + "': two words"}), range, whole);
+    noteUnclear(range.begin);
+}
+
 /// The word of a declaration and what follows it, without a space: "PROCMove(", "VARnum x". The parser then stands at the
 /// token, read as that word.
 bool Parser::takesRunTogether() {
