@@ -218,6 +218,30 @@ class PresenceWalk {
         return goesOn;
     }
 
+    void whileStmt(const WhileStmt& loop) {
+        if (!loop.condition) return;
+        expr(*loop.condition);
+        const State before = known_;
+        learn(*loop.condition, true);
+        const size_t leaves = leaves_;
+        branch(loop.body);
+        certain_ = certain_ && leaves == leaves_;
+        known_ = before;
+    }
+
+    void forStmt(const ForStmt& loop) {
+        for (const Expr* bound : {loop.from, loop.to, loop.step})
+            if (bound) expr(*bound);
+        const State before = known_;
+        // It runs at least once where its bounds are written down.
+        const bool outer = certain_;
+        certain_ = certain_ && runsOnce(loop);
+        const size_t leaves = leaves_;
+        list(loop.body);
+        certain_ = outer && leaves == leaves_ && !hopeless_;
+        known_ = before;
+    }
+
     bool statement(const Stmt& s) {
         switch (s.kind) {
         case NodeKind::If: return ifStmt(as<IfStmt>(s));
@@ -233,32 +257,8 @@ class PresenceWalk {
             whole.branches = branches;
             return ifStmt(whole);
         }
-        case NodeKind::While: {
-            const auto& loop = as<WhileStmt>(s);
-            if (!loop.condition) return true;
-            expr(*loop.condition);
-            const State before = known_;
-            learn(*loop.condition, true);
-            const size_t leaves = leaves_;
-            branch(loop.body);
-            certain_ = certain_ && leaves == leaves_;
-            known_ = before;
-            return true;
-        }
-        case NodeKind::For: {
-            const auto& loop = as<ForStmt>(s);
-            for (const Expr* bound : {loop.from, loop.to, loop.step})
-                if (bound) expr(*bound);
-            const State before = known_;
-            // It runs at least once where its bounds are written down.
-            const bool outer = certain_;
-            certain_ = certain_ && runsOnce(loop);
-            const size_t leaves = leaves_;
-            list(loop.body);
-            certain_ = outer && leaves == leaves_ && !hopeless_;
-            known_ = before;
-            return true;
-        }
+        case NodeKind::While: whileStmt(as<WhileStmt>(s)); return true;
+        case NodeKind::For: forStmt(as<ForStmt>(s)); return true;
         case NodeKind::Test: return testStmt(as<TestStmt>(s));
         case NodeKind::CallStmt: {
             const auto& call = as<CallStmt>(s);
