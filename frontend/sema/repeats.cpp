@@ -305,10 +305,10 @@ void Analyzer::tellOnce() {
 }
 
 void tellUnfinished(diag::Sink& sink) {
-    using Place = std::pair<const SourceFile*, uint32_t>;
-    std::map<Place, bool> ends; // of lines without their semicolon, and whether something else is told there
+    using LineEnd = std::pair<const SourceFile*, uint32_t>;
+    std::map<LineEnd, bool> ends; // of lines without their semicolon, and whether something else is told there
     for (const Diagnostic& d : sink.all())
-        if (d.code == Code::MissingSemicolon) ends.emplace(Place(d.file.get(), d.range.begin), false);
+        if (d.code == Code::MissingSemicolon) ends.emplace(LineEnd(d.file.get(), d.range.begin), false);
     if (ends.empty()) return;
     bool any = false;
     sink.revise([&](Diagnostic& d) {

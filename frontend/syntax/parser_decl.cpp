@@ -145,7 +145,7 @@ Decl* Parser::parseRoutine(bool local, TokenIndex first) {
         const SourceRange both{tree_.range(opening).begin, tree_.range(pos_).end};
         fix(report(Code::UnexpectedToken, pos_,
                    {"LOCAL", "a name: LOCAL stands before " + describe(opening)}),
-            both, "LOCAL " + describe(opening));
+            both, (local ? "" : "LOCAL ") + describe(opening));
         node->local = true;
         take();
     }
