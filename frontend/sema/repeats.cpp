@@ -306,7 +306,8 @@ void Analyzer::tellOnce() {
 
 void tellUnfinished(diag::Sink& sink) {
     using LineEnd = std::pair<const SourceFile*, uint32_t>;
-    std::map<LineEnd, bool> ends; // of lines without their semicolon, and whether something else is told there
+    std::map<LineEnd, bool>
+        ends; // of lines without their semicolon, and whether something else is told there
     for (const Diagnostic& d : sink.all())
         if (d.code == Code::MissingSemicolon) ends.emplace(LineEnd(d.file.get(), d.range.begin), false);
     if (ends.empty()) return;

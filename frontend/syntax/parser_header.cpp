@@ -17,31 +17,7 @@ bool Parser::isTornRoutineName() {
 }
 
 void Parser::parseRoutineHeader(RoutineDecl* routine) {
-    bool typeMissed = false;
-    if (routine->routineKind == RoutineKind::Func) {
-        const bool typed = runTogether_ != kNoToken && runTogether_ + 1 == pos_; // "FUNCnum name("
-        routine->returnType = typed ? runTogether_ : expectName();
-        if (!panic_ && kind() == K::LeftParen && !startsLine(pos_)) { // FUNC name(...): the type is missing
-            routine->name = routine->returnType;
-            routine->returnType = kNoToken;
-            report(Code::MissingReturnType, routine->name, {std::string(textOf(routine->name))});
-            typeMissed = true;
-        } else if (!panic_ && kind() == K::LeftBrace) { // FUNC num{3} name()
-            report(Code::ArrayReturn, pos_);
-            routine->returnType = kNoToken;
-            while (kind() != K::RightBrace && kind() != K::EndOfFile && !startsLine(pos_))
-                take();
-            accept(K::RightBrace);
-        }
-    } else if (isName(kind()) && isName(peek()) && !startsLine(pos_ + 1) && !isTornRoutineName() &&
-               !lacksParenthesis(pos_) &&
-               (routine->routineKind == RoutineKind::Proc ? !isName(peek(2)) || startsLine(pos_ + 2)
-                                                          : isBasicType(textOf(pos_)))) { // PROC num name()
-        fix(report(Code::ReturnTypeUnexpected, pos_,
-                   {std::string(textOf(pos_)), std::string(wordsOf(routine->routineKind).name)}),
-            {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");
-        take();
-    }
+    const bool typeMissed = parseReturnType(routine);
     if (!panic_ && routine->name == kNoToken)
         routine->name = runTogether_ != kNoToken && runTogether_ + 1 == pos_ ? runTogether_ : expectName();
     checkNameLength(routine->name);
@@ -61,7 +37,44 @@ void Parser::parseRoutineHeader(RoutineDecl* routine) {
         parseParameters(routine);
         if (typeMissed && isName(kind()) && !startsLine(pos_) && startsLine(pos_ + 1))
             routine->returnType = take(); // FUNC name(...) num
-    } else if (startsLine(pos_) || kind() == K::Semicolon) {
+    } else {
+        parseParametersWithoutParen(routine);
+    }
+}
+
+/// The data type of a function, or one that stands where there is none. True: that of a function is missing.
+bool Parser::parseReturnType(RoutineDecl* routine) {
+    if (routine->routineKind == RoutineKind::Func) {
+        const bool typed = runTogether_ != kNoToken && runTogether_ + 1 == pos_; // "FUNCnum name("
+        routine->returnType = typed ? runTogether_ : expectName();
+        if (!panic_ && kind() == K::LeftParen && !startsLine(pos_)) { // FUNC name(...)
+            routine->name = routine->returnType;
+            routine->returnType = kNoToken;
+            report(Code::MissingReturnType, routine->name, {std::string(textOf(routine->name))});
+            return true;
+        }
+        if (!panic_ && kind() == K::LeftBrace) { // FUNC num{3} name()
+            report(Code::ArrayReturn, pos_);
+            routine->returnType = kNoToken;
+            while (kind() != K::RightBrace && kind() != K::EndOfFile && !startsLine(pos_))
+                take();
+            accept(K::RightBrace);
+        }
+    } else if (isName(kind()) && isName(peek()) && !startsLine(pos_ + 1) && !isTornRoutineName() &&
+               !lacksParenthesis(pos_) &&
+               (routine->routineKind == RoutineKind::Proc ? !isName(peek(2)) || startsLine(pos_ + 2)
+                                                          : isBasicType(textOf(pos_)))) { // PROC num name()
+        fix(report(Code::ReturnTypeUnexpected, pos_,
+                   {std::string(textOf(pos_)), std::string(wordsOf(routine->routineKind).name)}),
+            {tree_.range(pos_).begin, tree_.range(pos_ + 1).begin}, "");
+        take();
+    }
+    return false;
+}
+
+/// What stands where '(' should.
+void Parser::parseParametersWithoutParen(RoutineDecl* routine) {
+    if (startsLine(pos_) || kind() == K::Semicolon) {
         diag::Diagnostic* diagnostic =
             reportAt(Code::MissingParameterList, endOf(pos_ - 1), {std::string(textOf(routine->name))});
         fix(diagnostic, kind() == K::Semicolon ? tree_.range(pos_) : endOf(pos_ - 1), "()");

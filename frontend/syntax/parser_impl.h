@@ -167,6 +167,9 @@ class Parser {
     void takeColonAsAssign();
     bool endsBeforeLocalData() const;
     bool lacksParenthesis(TokenIndex name) const;
+    bool parseReturnType(RoutineDecl* routine);
+    void parseParametersWithoutParen(RoutineDecl* routine);
+    Stmt* noStmt(TokenIndex first);
     bool isShownPosition() const;
     void reportSlash(TokenIndex slash);
     void takesSlashAsBackslash();

@@ -153,6 +153,11 @@ Stmt* Parser::parseStmtUnguarded() {
     case K::PlaceCse: return parseOrphan();
     default: break;
     }
+    return noStmt(first);
+}
+
+/// At what begins no instruction.
+Stmt* Parser::noStmt(TokenIndex first) {
     // An END word has been reported as stray.
     if (kListStops.has(kind()) && kind() != K::KwLocal) {
         take();
