@@ -519,7 +519,7 @@ bool Parser::takesSemicolonAsComma(K closing) {
         (!startsExpr(peek()) && peek() != K::Backslash))
         return false;
     uint32_t depth = 0;
-    for (TokenIndex i = pos_ + 1; !startsLine(i); ++i) {
+    for (TokenIndex i = pos_ + 1; i < pos_ + kLongLine && !startsLine(i); ++i) {
         const K k = kindAt(i);
         if (kOpenBrackets.has(k)) ++depth;
         if (k == K::Semicolon || (depth == 0 && k == K::Assign && kindAt(pos_ + 1) != K::Backslash))

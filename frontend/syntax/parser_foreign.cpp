@@ -64,7 +64,7 @@ void Parser::closeBracedBlock(K end, TokenIndex opening, bool whole, bool braced
 bool Parser::skipBracedComment() {
     if (kind() != K::LeftBrace || panic_) return false;
     TokenIndex close = pos_ + 1;
-    while (close < last_ && !startsLine(close) && kindAt(close) != K::RightBrace &&
+    while (close < pos_ + kLongLine && !startsLine(close) && kindAt(close) != K::RightBrace &&
            kindAt(close) != K::Semicolon)
         ++close;
     if (kindAt(close) != K::RightBrace || startsLine(close) || close == pos_ + 1) return false;
@@ -380,7 +380,7 @@ bool Parser::isInstructionLine() const {
                         !listClosesBelow(pos_ + 3));
     TokenIndex i = pos_;
     uint32_t depth = 0;
-    for (; kindAt(i) != K::EndOfFile && !startsLine(i + 1); ++i) {
+    for (; i < pos_ + kLongLine && !startsLine(i + 1); ++i) {
         if (kindAt(i) == K::LeftParen) ++depth;
         if (kindAt(i) == K::RightParen && depth-- == 0) return false;
         instruction = instruction || kValues.has(kindAt(i)) || depth > 0 ||
@@ -484,7 +484,7 @@ bool Parser::skipForeignComment() {
         if (!isContextual(pos_, "REM") || startsLine(pos_ + 1) || kindAt(pos_ + 1) == K::Semicolon)
             return false;
         TokenIndex last = pos_; // with a semicolon it is a call
-        while (last + 1 < last_ && !startsLine(last + 1))
+        while (last < pos_ + kLongLine && !startsLine(last + 1))
             ++last;
         if (kindAt(last) == K::Semicolon) return false;
     }

@@ -93,7 +93,7 @@ void Parser::parseParametersWithoutParen(RoutineDecl* routine) {
     } else {
         unexpected("'('");
         TokenIndex open = pos_;
-        while (kindAt(open) != K::LeftParen && kindAt(open) != K::EndOfFile && !startsLine(open + 1))
+        while (kindAt(open) != K::LeftParen && open < pos_ + kLongLine && !startsLine(open + 1))
             ++open;
         if (kindAt(open) == K::LeftParen && !startsLine(pos_)) { // PROC my-name()
             pos_ = open;

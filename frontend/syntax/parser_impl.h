@@ -58,6 +58,7 @@ inline constexpr TokenSet kOpenBrackets = {TokenKind::LeftParen, TokenKind::Left
                                            TokenKind::LeftBrace};
 inline constexpr TokenSet kCloseBrackets = {TokenKind::RightParen, TokenKind::RightBracket,
                                             TokenKind::RightBrace};
+inline constexpr TokenIndex kLongLine = 500;   ///< tokens: no search within a line goes farther
 inline constexpr TokenIndex kFarTokens = 5000; ///< how far margins and END words are compared
 inline constexpr TokenSet kStorageWords = {TokenKind::KwVar, TokenKind::KwPers, TokenKind::KwConst};
 inline constexpr TokenSet kAccessModes = {TokenKind::KwVar, TokenKind::KwPers, TokenKind::KwInout};
