@@ -51,7 +51,7 @@ std::string Parser::tornName(TokenIndex second) {
     const std::string_view between = tree_.source->text().substr(gap.begin, gap.end - gap.begin);
     constexpr size_t kWide = 3;
     if (between.size() > kWide || between.find_first_not_of(" \t") != std::string_view::npos) return {};
-    const std::string whole = std::string(head).append(tail);
+    std::string whole = std::string(head).append(tail);
     const std::string upper = upperCase(whole);
     for (const std::string_view name : kFrequent)
         if (equalsNoCase(name, upper)) return std::string(name);

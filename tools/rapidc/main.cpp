@@ -1,5 +1,6 @@
 // rapidc: one executable, its commands (design chapter 8).
 
+#include "runtime/host/run_options.h"
 #include "runtime/host/standard_streams.h"
 #include "runtime/host/usage.h"
 #include "tools/rapidc/commands.h"
@@ -28,7 +29,8 @@ int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of m
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {
         status = rt::reportUsage(app, problem, "rapidc");
-    } catch (const std::system_error&) { // fmt::print: standard output is full or closed
+    } catch (const std::system_error&) { // fmt::print: standard output is full or closed, which is told below
+        if (status == 0) status = static_cast<int>(rt::ExitStatus::BadUsage);
     }
     return rt::finishStandardOutput("rapidc", status);
 }

@@ -15,7 +15,7 @@ namespace {
 
 /// The lines of a procedure body, formatted; the module and the procedure around them are taken off again.
 std::string body(const std::string& lines, const FormatRequest& request = {}) {
-    const std::string text = formatText("MODULE m\nPROC p()\n" + lines + "\nENDPROC\nENDMODULE\n", request);
+    std::string text = formatText("MODULE m\nPROC p()\n" + lines + "\nENDPROC\nENDMODULE\n", request);
     const std::string head = "MODULE m\n   PROC p()\n", tail = "\n   ENDPROC\nENDMODULE\n";
     if (!text.starts_with(head) || !text.ends_with(tail)) return text;
     return text.substr(head.size(), text.size() - head.size() - tail.size());
@@ -138,7 +138,6 @@ TEST_CASE("spaces as RobotStudio writes them", "[format]") {
 }
 
 TEST_CASE("spaces by the settings", "[format]") {
-    const std::string text = "a:=b+-c*[1,2];MoveL p1,v100\\X:=1;";
     CHECK(body("a:=b*c;", with([](auto& s) { s.assignments = Spacing::Spaced; })) == "      a := b*c;");
     CHECK(body("a:=b*c<d;", with([](auto& s) { s.operators = Spacing::Spaced; })) == "      a:=b * c < d;");
     CHECK(body("a :=b* c;", with([](auto& s) { s.operators = s.assignments = Spacing::Keep; })) ==
