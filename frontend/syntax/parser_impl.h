@@ -161,6 +161,8 @@ class Parser {
         // The words behind are read as they were meant, unless a line just seems to end too early.
         if (certain && diagnostic->code != diag::Code::MissingSemicolon) lastUnread_ = kNowhere;
     }
+    /// Whether nothing has been reported since lastReport_, which is gone then.
+    bool isLastReport() const;
     bool joinLast(diag::Code code, SourceRange place, std::string_view message);
     bool joinLastEdit(diag::Code code, SourceRange place, std::string replacement);
     void fixParentheses(diag::Diagnostic* diagnostic, const Node& operand);

@@ -105,10 +105,13 @@ diag::Diagnostic* Parser::reportAfterExpr(Code code, std::initializer_list<std::
     return report(Code::ForeignSpelling, pos_, {"?", "IF ... THEN ... ELSE ... ENDIF to choose a value"});
 }
 
+bool Parser::isLastReport() const {
+    return lastReport_ && reports_ == sink_.all().size();
+}
+
 /// Part of what has just been reported in the same line, with this code: a note there. False when nothing was.
 bool Parser::joinLast(Code code, SourceRange place, std::string_view message) {
-    if (panic_ || !lastReport_ || reports_ != sink_.all().size() || lastReport_->code != code ||
-        place.begin < lastReport_->range.end)
+    if (panic_ || !isLastReport() || lastReport_->code != code || place.begin < lastReport_->range.end)
         return false;
     const uint32_t from = lastReport_->range.end;
     if (tree_.source->text().substr(from, place.begin - from).find_first_of("\r\n") != std::string_view::npos)
@@ -119,7 +122,7 @@ bool Parser::joinLast(Code code, SourceRange place, std::string_view message) {
 
 /// The same, with one more edit to its fix.
 bool Parser::joinLastEdit(Code code, SourceRange place, std::string replacement) {
-    if (!lastReport_ || lastReport_->fixes.empty()) return false;
+    if (!isLastReport() || lastReport_->fixes.empty()) return false;
     const std::string message = replacement.empty() ? "and without this" : "and '" + replacement + "' here";
     if (!joinLast(code, place, message)) return false;
     lastReport_->fixes.front().edits.push_back({place, std::move(replacement)});

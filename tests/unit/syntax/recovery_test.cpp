@@ -113,6 +113,8 @@ const std::vector<Case> kBodies = {
     {"NOT as an operand", "b := a = NOT c;", "RAP1106@3:10"},
     {"component of a call", "x := CRobT().trans.x;", "RAP1107@3:13"},
     {"index of a component", "x := a.b{1};", "RAP1108@3:9"},
+    {"':' for THEN behind a name in two words", "VAR num x := 1\nVAR num n Rows;\nIF x:\nx := nRows;\nENDIF",
+     "RAP1201@3:15 RAP1101@4:9 RAP1204@5:5"},
     {"':' for ':=' before a quotient", "b : a / zero;\ny := 1;", "RAP1112@3:3"},
     {"call with parentheses, which the checker reports", "Foo(1, 2);\ny := 1;", ""},
     {"call with empty parentheses, which the checker reports", "Foo();\ny := 1;", ""},
