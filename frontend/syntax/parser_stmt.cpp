@@ -535,7 +535,9 @@ Stmt* Parser::parseLateDecl() {
     const auto isLost = [](const Stmt* s) { // perhaps a declaration
         return s->broken || s->kind == NodeKind::ErrorStmt || s->kind == NodeKind::DeclStmt;
     };
-    const auto list = std::span(stmts_).subspan(listMark_);
+    constexpr size_t kMostStmts = 500;
+    const auto list =
+        std::span(stmts_).subspan(std::max(listMark_, stmts_.size() - std::min(stmts_.size(), kMostStmts)));
     reported |=
         !list.empty() && std::all_of(list.begin(), list.end(), isLost) &&
         std::any_of(list.begin(), list.end(), [](const Stmt* s) { return s->kind != NodeKind::DeclStmt; });
