@@ -117,21 +117,30 @@ void RoutineEmitter::constNative(const ir::Inst& inst, ir::ValueId id) {
     define(id, result);
 }
 
-/// Takes the cost from the budget; what is left.
-llvm::Value* RoutineEmitter::pay(Value* cost) {
+llvm::Value* RoutineEmitter::budgetLeft() {
     Value* budget = taskField(offsetof(rt::TaskCore, budget), "budget");
-    auto* before = b_.CreateLoad(b_.getInt64Ty(), budget);
-    before->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
-    Value* after = b_.CreateSub(before, cost);
+    auto* left = b_.CreateLoad(b_.getInt64Ty(), budget);
+    left->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
+    return left;
+}
+
+/// Takes the cost from the budget; returns what is left.
+llvm::Value* RoutineEmitter::pay(Value* cost) {
+    Value* after = b_.CreateSub(budgetLeft(), cost);
+    Value* budget = taskField(offsetof(rt::TaskCore, budget), "budget");
     b_.CreateStore(after, budget)->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
     return after;
 }
 
+/// Of a charge or a safepoint.
+llvm::Value* RoutineEmitter::costOf(const ir::Inst& inst) {
+    Value* cost = llvm::ConstantInt::getSigned(b_.getInt64Ty(), inst.extra);
+    return inst.operands.empty() ? cost : b_.CreateAdd(cost, operand(inst, 0));
+}
+
 void RoutineEmitter::safepoint(const ir::Inst& inst) {
     llvm::Type* i64 = b_.getInt64Ty();
-    Value* cost = llvm::ConstantInt::getSigned(i64, inst.extra);
-    if (!inst.operands.empty()) cost = b_.CreateAdd(cost, operand(inst, 0));
-    Value* after = pay(cost);
+    Value* after = pay(costOf(inst));
     BasicBlock *go = newBlock("go"), *slow = newBlock("safepoint");
     b_.CreateCondBr(b_.CreateICmpSGE(after, llvm::ConstantInt::get(i64, 0)), go, slow, m_.unlikely());
     b_.SetInsertPoint(slow);
@@ -149,7 +158,7 @@ void RoutineEmitter::safepoint(const ir::Inst& inst) {
 void RoutineEmitter::step(const ir::Inst& inst) {
     Value* here = b_.getInt32(inst.index);
     storeStatement(here);
-    Value* after = pay(b_.getInt64(1));
+    Value* after = budgetLeft();
     Value* asked = b_.CreateLoad(b_.getInt32Ty(), taskField(offsetof(rt::TaskCore, askSteps), "askSteps"));
     BasicBlock *go = newBlock("go"), *ask = newBlock("ask");
     Value* mayGo = b_.CreateAnd(b_.CreateICmpSGE(after, llvm::ConstantInt::get(b_.getInt64Ty(), 0)),

@@ -267,6 +267,7 @@ void RoutineEmitter::instruction(ir::ValueId id) {
     case ir::Op::Check: return check(inst);
     case ir::Op::Call: return call(inst, id);
     case ir::Op::CallNative: return nativeCall(inst, id);
+    case ir::Op::Charge: pay(costOf(inst)); return;
     case ir::Op::Safepoint: return safepoint(inst);
     case ir::Op::Step: return step(inst);
     default: return; // Stmt: its number travels with the instructions

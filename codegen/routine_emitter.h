@@ -69,6 +69,8 @@ class RoutineEmitter {
     void nativeCall(const ir::Inst& inst, ir::ValueId id);
     void constNative(const ir::Inst& inst, ir::ValueId id);
     Value* pay(Value* cost);
+    Value* budgetLeft();
+    Value* costOf(const ir::Inst& inst);
     void safepoint(const ir::Inst& inst);
     void step(const ir::Inst& inst);
     void storeStatement(Value* stmt);

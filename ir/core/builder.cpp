@@ -217,6 +217,12 @@ void Builder::handlerEnd() {
 void Builder::unreachable() {
     emit(make(Op::Unreachable));
 }
+void Builder::charge(uint32_t cost, ValueId more) {
+    Inst inst = make(Op::Charge);
+    inst.extra = static_cast<int32_t>(cost);
+    if (more != kNone) inst.operands = {more};
+    emit(std::move(inst));
+}
 void Builder::safepoint(int32_t cost) {
     Inst inst = make(Op::Safepoint);
     inst.extra = cost;

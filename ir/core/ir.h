@@ -80,7 +80,7 @@ struct Inst {
     std::vector<SwitchCase> cases; ///< Switch
     double number = 0;             ///< Const
     StmtId stmt = kNone;           ///< statement it belongs to
-    int32_t extra = 0;             ///< Check: error number; Safepoint: cost; Sysvar: SysvarKind
+    int32_t extra = 0;             ///< Check: error number; Charge, Safepoint: cost; Sysvar: SysvarKind
 };
 
 // ---- Statements ------------------------------------------------------------------------------------------
@@ -377,6 +377,8 @@ class Builder {
     void tryNext();
     void handlerEnd(); ///< end of an error handler reached: system handler
     void unreachable();
+    /// Takes `cost` instructions (plus `more`, an I64) from the budget of the task.
+    void charge(uint32_t cost, ValueId more = kNone);
     void safepoint(int32_t cost);
     void step(StmtId stmt);
     ValueId emit(Inst inst);

@@ -13,7 +13,15 @@ constexpr int64_t kExactLimit = 1 << 24;   ///< every integer up to here has an 
 constexpr double kConstantLimit = 1 << 23; ///< a constant leaves room for a sum
 } // namespace
 
-std::optional<RoutineLowering::IntRange> RoutineLowering::intRange(const Expr& outer) const {
+std::optional<RoutineLowering::IntRange> RoutineLowering::intRange(const Expr& expr) const {
+    return rangeOf(expr, false);
+}
+
+std::optional<RoutineLowering::IntRange> RoutineLowering::valueRange(const Expr& expr) const {
+    return rangeOf(expr, true);
+}
+
+std::optional<RoutineLowering::IntRange> RoutineLowering::rangeOf(const Expr& outer, bool ofValue) const {
     const Expr& expr = unparen(outer);
     const sema::ExprInfo& facts = info(expr);
     if (!facts.type.type || facts.type.isArray() || facts.type.type->base()->kind != sema::TypeKind::Num)
@@ -26,21 +34,26 @@ std::optional<RoutineLowering::IntRange> RoutineLowering::intRange(const Expr& o
     }
     if (expr.kind == NodeKind::Name) {
         if (!facts.symbol || facts.symbol->kind != sema::SymbolKind::Data) return std::nullopt;
-        const Slot* slot = findSlot(*static_cast<const sema::DataSymbol*>(facts.symbol));
+        const auto& symbol = *static_cast<const sema::DataSymbol*>(facts.symbol);
+        if (ofValue) {
+            const auto found = loopRanges_.find(&symbol);
+            return found == loopRanges_.end() ? std::nullopt : std::optional(found->second);
+        }
+        const Slot* slot = findSlot(symbol);
         if (!slot || slot->kind != Slot::Kind::IntLoop) return std::nullopt;
         return IntRange{slot->lo, slot->hi};
     }
     if (expr.kind == NodeKind::Unary) {
         const auto& unary = as<UnaryExpr>(expr);
         if (unary.op == UnaryOp::Not) return std::nullopt;
-        const auto inner = intRange(*unary.operand);
+        const auto inner = rangeOf(*unary.operand, ofValue);
         if (!inner || unary.op == UnaryOp::Plus) return inner;
         return IntRange{-inner->hi, -inner->lo};
     }
     if (expr.kind != NodeKind::Binary) return std::nullopt;
     const auto& binary = as<BinaryExpr>(expr);
-    const auto a = intRange(*binary.left);
-    const auto b = a ? intRange(*binary.right) : std::nullopt;
+    const auto a = rangeOf(*binary.left, ofValue);
+    const auto b = a ? rangeOf(*binary.right, ofValue) : std::nullopt;
     if (!b) return std::nullopt;
     IntRange r;
     switch (binary.op) {

@@ -234,6 +234,7 @@ void RoutineLowering::lowerWaitUntil(const BoundCall& call) {
     b_.setBlock(poll);
     const ValueId again = b_.callNative(
         native, {b_.load(ir::kBool, b_.localAddr(inPos)), maxTime, timeFlag, pollRate, b_.localAddr(state)});
+    b_.charge(1); // each evaluation takes time
     b_.condBr(again, head, end);
     b_.setBlock(met);
     const BoundArg* flag = findArg(call, "TimeFlag");

@@ -89,7 +89,11 @@ ir::Routine RoutineLowering::runDetached(const RoutineLowering& body) {
     for (const DataSymbol* data : symbol_.data)
         if (data->storage == sema::Storage::RoutineData && body.findSlot(*data))
             bindShared(*data, *body.findSlot(*data));
+    CostScope costs;
+    openCosts(costs);
     lowerErrorClauses();
+    closeCosts();
+    chargeAtFront(0, costs.cost());
     routine_.errorFilter.clear(); // the routine's own: it is asked before this one runs
     routine_.errorFilterGlobals.clear();
     return std::move(routine_);

@@ -43,6 +43,44 @@ bool isSmallBody(StmtList list, int& budget) {
 
 } // namespace
 
+RoutineLowering::ForPlan RoutineLowering::planFor(const ForStmt& stmt,
+                                                  const sema::DataSymbol& variable) const {
+    ForPlan plan;
+    if (variable.type.type->base()->kind != sema::TypeKind::Num) return plan;
+    const auto from = valueRange(*stmt.from);
+    if (!from) return plan;
+    plan.from = plan.variable = *from;
+    const auto to = valueRange(*stmt.to);
+    const auto counts = [&](ForPlan::Kind kind, int32_t step) {
+        plan.kind = kind;
+        plan.step = step;
+        if (step >= 0)
+            plan.variable.hi = std::max(
+                kind == ForPlan::Kind::Counted || kind == ForPlan::Kind::StepValue ? from->lo : from->hi,
+                to ? to->hi : kExact);
+        if (step <= 0)
+            plan.variable.lo = std::min(
+                kind == ForPlan::Kind::Counted || kind == ForPlan::Kind::StepValue ? from->hi : from->lo,
+                to ? to->lo : -kExact);
+        return plan;
+    };
+    if (!stmt.step) {
+        if (to && from->hi <= to->lo) return counts(ForPlan::Kind::Counted, 1);
+        if (to && from->lo > to->hi) return counts(ForPlan::Kind::Counted, -1);
+        return counts(ForPlan::Kind::UnknownDirection, 0);
+    }
+    const sema::ConstValue* value = info(*stmt.step).constant;
+    if (value == nullptr) {
+        const auto range = valueRange(*stmt.step);
+        if (!range || (range->lo <= 0 && range->hi >= 0)) return plan;
+        return counts(ForPlan::Kind::StepValue, range->lo > 0 ? 1 : -1);
+    }
+    if (value->number != static_cast<int32_t>(value->number) || value->number == 0 ||
+        std::abs(value->number) >= 1e6)
+        return plan;
+    return counts(ForPlan::Kind::Counted, static_cast<int32_t>(value->number));
+}
+
 void RoutineLowering::lowerFor(const ForStmt& stmt) {
     const auto& variables = facts().loopVariables;
     auto found = variables.find(&stmt);
@@ -51,46 +89,42 @@ void RoutineLowering::lowerFor(const ForStmt& stmt) {
     // The row stands for the head only: the place of an error in a bound.
     startStatement(*stmt.from, ir::StmtKind::Control);
     checkForeignData(stmt);
+    const ForPlan plan = planFor(stmt, variable);
+    if (plan.kind != ForPlan::Kind::Float) loopRanges_[&variable] = plan.variable;
     // The debugger may change the variable: no conclusion from its bounds holds then.
-    if (program_.stepping()) return lowerFloatLoop(stmt, variable);
-    const bool isNum = variable.type.type->base()->kind == sema::TypeKind::Num;
-    const auto from = isNum ? intRange(*stmt.from) : std::nullopt;
-    std::optional<int32_t> step;
-    const auto stepRange = isNum && stmt.step ? intRange(*stmt.step) : std::nullopt;
-    if (from && stepRange && !info(*stmt.step).constant && (stepRange->lo > 0 || stepRange->hi < 0)) {
-        return lowerIntLoop(stmt, variable, stepRange->lo > 0 ? 1 : -1, lowerInt(*stmt.step), *from);
-    }
-    if (stmt.step) {
-        const sema::ConstValue* value = info(*stmt.step).constant;
-        if (value && value->number == static_cast<int32_t>(value->number) && value->number != 0 &&
-            std::abs(value->number) < 1e6)
-            step = static_cast<int32_t>(value->number);
-    } else if (from) {
-        const auto to = intRange(*stmt.to);
-        if (to && from->hi <= to->lo) step = 1;
-        if (to && from->lo > to->hi) step = -1;
-        if (!step) return lowerUnknownDirection(stmt, variable, *from);
-    }
-    if (from && step) return lowerIntLoop(stmt, variable, *step, ir::kNone, *from);
-    lowerFloatLoop(stmt, variable);
+    if (plan.kind == ForPlan::Kind::Float || program_.stepping()) return lowerFloatLoop(stmt, variable, plan);
+    if (plan.kind == ForPlan::Kind::UnknownDirection) return lowerUnknownDirection(stmt, variable, plan);
+    const ValueId step = plan.kind == ForPlan::Kind::StepValue ? lowerInt(*stmt.step) : ir::kNone;
+    lowerIntLoop(stmt, variable, plan, step);
 }
 
-void RoutineLowering::lowerRounds(const ForStmt& stmt, const std::function<ValueId()>& goesOn,
+void RoutineLowering::lowerRounds(const ForStmt& stmt, const std::optional<Counting>& counting,
+                                  const std::function<ValueId()>& goesOn,
                                   const std::function<void()>& increment) {
+    const ir::BlockId before = b_.addBlock("beforefor");
     const ir::BlockId head = b_.addBlock("for");
     const ir::BlockId body = b_.addBlock("do");
     const ir::BlockId latch = b_.addBlock("step");
     const ir::BlockId end = b_.addBlock("endfor");
-    b_.br(head);
+    b_.br(before);
     b_.setBlock(head);
     b_.condBr(goesOn(), body, end);
     b_.setBlock(body);
     loops_.push_back({end, latch});
+    CostScope costs;
+    openCosts(costs);
+    const size_t firstInst = routine_.insts.size();
     lowerList(stmt.body);
+    const bool ahead = counting && isFreeOfCalls(firstInst);
+    closeCosts();
     loops_.pop_back();
     branchIfOpen(latch);
     b_.setBlock(latch);
     increment();
+    if (!ahead) b_.charge(costs.cost());
+    b_.br(head);
+    b_.setBlock(before);
+    if (ahead) chargeRounds(*counting, costs.cost());
     b_.br(head);
     b_.setBlock(end);
 }
@@ -106,18 +140,13 @@ ir::ValueId RoutineLowering::boundAsInt(ValueId value, bool roundDown) {
     return b_.select(b_.binary(roundDown ? Op::IGt : Op::ILt, rounded, limit), limit, rounded);
 }
 
-void RoutineLowering::lowerIntLoop(const ForStmt& stmt, sema::DataSymbol& variable, int32_t step,
-                                   ValueId stepValue, IntRange from) {
-    const auto to = intRange(*stmt.to);
+void RoutineLowering::lowerIntLoop(const ForStmt& stmt, sema::DataSymbol& variable, const ForPlan& plan,
+                                   ValueId stepValue) {
     const ValueId first = lowerInt(*stmt.from);
-    const ValueId last =
-        to ? lowerInt(*stmt.to) : boundAsInt(lowerValueAs(*stmt.to, program_.program().num), step > 0);
-    IntRange range = from;
-    if (step > 0)
-        range.hi = std::max(from.lo, to ? to->hi : kExact);
-    else
-        range.lo = std::min(from.hi, to ? to->lo : -kExact);
-    lowerCountedBody(stmt, variable, first, last, step, range, stepValue);
+    const ValueId last = intRange(*stmt.to)
+                             ? lowerInt(*stmt.to)
+                             : boundAsInt(lowerValueAs(*stmt.to, program_.program().num), plan.step > 0);
+    lowerCountedBody(stmt, variable, first, last, plan.step, plan.variable, stepValue);
 }
 
 void RoutineLowering::lowerCountedBody(const ForStmt& stmt, sema::DataSymbol& variable, ValueId first,
@@ -133,8 +162,10 @@ void RoutineLowering::lowerCountedBody(const ForStmt& stmt, sema::DataSymbol& va
     slots_[&variable] = slot;
     const uint32_t stepLocal = stepValue == ir::kNone ? ir::kNone : b_.addLocal("", ir::kI32);
     if (stepLocal != ir::kNone) b_.store(ir::kI32, stepValue, b_.localAddr(stepLocal));
+    std::optional<Counting> counting;
+    if (stepValue == ir::kNone) counting = Counting{first, last, step, ir::kNone};
     lowerRounds(
-        stmt,
+        stmt, counting,
         [&] {
             const ValueId now = b_.load(ir::kI32, b_.localAddr(slot.local));
             return b_.binary(step > 0 ? Op::ILe : Op::IGe, now, b_.load(ir::kI32, b_.localAddr(bound)));
@@ -147,7 +178,9 @@ void RoutineLowering::lowerCountedBody(const ForStmt& stmt, sema::DataSymbol& va
         });
 }
 
-void RoutineLowering::lowerUnknownDirection(const ForStmt& stmt, sema::DataSymbol& variable, IntRange from) {
+void RoutineLowering::lowerUnknownDirection(const ForStmt& stmt, sema::DataSymbol& variable,
+                                            const ForPlan& plan) {
+    const IntRange from = plan.from;
     const ValueId first = lowerInt(*stmt.from);
     const auto to = intRange(*stmt.to);
     const ValueId exact = to ? lowerInt(*stmt.to) : ir::kNone;
@@ -178,8 +211,8 @@ void RoutineLowering::lowerUnknownDirection(const ForStmt& stmt, sema::DataSymbo
     Slot slot;
     slot.kind = Slot::Kind::IntLoop;
     slot.local = b_.addLocal(variable.name, ir::kI32);
-    slot.lo = to ? std::min(from.lo, to->lo) : -kExact;
-    slot.hi = to ? std::max(from.hi, to->hi) : kExact;
+    slot.lo = plan.variable.lo;
+    slot.hi = plan.variable.hi;
     slots_[&variable] = slot;
     const uint32_t round = b_.addLocal("", ir::kI32);
     const uint32_t rounds = b_.addLocal("", ir::kI32);
@@ -190,7 +223,7 @@ void RoutineLowering::lowerUnknownDirection(const ForStmt& stmt, sema::DataSymbo
     b_.store(ir::kI32, first, b_.localAddr(start));
     b_.store(ir::kI32, direction, b_.localAddr(stepLocal));
     lowerRounds(
-        stmt,
+        stmt, Counting{b_.constI32(0), span, 1, ir::kNone},
         [&] {
             const ValueId now = b_.load(ir::kI32, b_.localAddr(round));
             const ValueId offset = b_.binary(Op::IMul, now, b_.load(ir::kI32, b_.localAddr(stepLocal)));
@@ -204,7 +237,24 @@ void RoutineLowering::lowerUnknownDirection(const ForStmt& stmt, sema::DataSymbo
         });
 }
 
-void RoutineLowering::lowerFloatLoop(const ForStmt& stmt, sema::DataSymbol& variable) {
+/// The bounds of a loop that counts, of which the variable is kept as num.
+std::optional<RoutineLowering::Counting> RoutineLowering::countingOf(const ForPlan& plan, ValueId from,
+                                                                     ValueId to) {
+    if (plan.kind != ForPlan::Kind::Counted && plan.kind != ForPlan::Kind::UnknownDirection)
+        return std::nullopt;
+    Counting counting;
+    counting.first = b_.convert(Op::F32ToI32, from);
+    if (plan.kind == ForPlan::Kind::Counted) {
+        counting.step = plan.step;
+        counting.last = boundAsInt(to, plan.step > 0);
+    } else {
+        counting.upward = b_.binary(Op::FLe, from, to);
+        counting.last = b_.select(counting.upward, boundAsInt(to, true), boundAsInt(to, false));
+    }
+    return counting;
+}
+
+void RoutineLowering::lowerFloatLoop(const ForStmt& stmt, sema::DataSymbol& variable, const ForPlan& plan) {
     const sema::Type* type = variable.type.type;
     const bool isDnum = type->base()->kind == sema::TypeKind::Dnum;
     const ir::TypeId t = program_.irType(type);
@@ -221,7 +271,8 @@ void RoutineLowering::lowerFloatLoop(const ForStmt& stmt, sema::DataSymbol& vari
     }
     const ValueId fromValue = lowerValueAs(*stmt.from, type);
     b_.store(t, fromValue, b_.localAddr(slot.local));
-    b_.store(t, lowerValueAs(*stmt.to, type), b_.localAddr(to));
+    const ValueId toValue = lowerValueAs(*stmt.to, type);
+    b_.store(t, toValue, b_.localAddr(to));
     if (stmt.step) {
         b_.store(t, lowerValueAs(*stmt.step, type), b_.localAddr(step));
     } else {
@@ -231,7 +282,7 @@ void RoutineLowering::lowerFloatLoop(const ForStmt& stmt, sema::DataSymbol& vari
     }
     slots_[&variable] = slot;
     lowerRounds(
-        stmt,
+        stmt, countingOf(plan, fromValue, toValue),
         [&] {
             const ValueId now = b_.load(t, b_.localAddr(slot.local));
             const ValueId bound = b_.load(t, b_.localAddr(to));

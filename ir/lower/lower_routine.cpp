@@ -300,7 +300,10 @@ void RoutineLowering::lowerData() {
 }
 
 ir::Routine RoutineLowering::run() {
-    b_.setBlock(b_.addBlock("entry"));
+    const ir::BlockId entry = b_.addBlock("entry");
+    b_.setBlock(entry);
+    CostScope costs;
+    openCosts(costs);
     if (hasErrorHandler_) routine_.errorHandler = b_.addBlock("error");
     lowerParameters();
     lowerData();
@@ -308,6 +311,7 @@ ir::Routine RoutineLowering::run() {
     inInstructions_ = true;
     if (routine_.hasBackward) lowerBackwardHandler();
     lowerList(symbol_.routineDecl->body);
+    closeCosts(); // the end below is not part of every profile
     if (!b_.terminated()) {
         inInstructions_ = false; // the end is no instruction that RETRY or TRYNEXT could name
         if (symbol_.routineKind == syntax::RoutineKind::Func) {
@@ -317,6 +321,7 @@ ir::Routine RoutineLowering::run() {
             b_.ret();
         }
     }
+    chargeAtFront(entry, costs.cost());
     lowerHandlers();
     return std::move(routine_);
 }
@@ -327,8 +332,12 @@ void RoutineLowering::lowerHandlers() {
         region_ = Region::Undo;
         routine_.undoHandler = b_.addBlock("undo");
         b_.setBlock(routine_.undoHandler);
+        CostScope costs;
+        openCosts(costs);
         lowerList(symbol_.routineDecl->undo);
         if (!b_.terminated()) b_.ret();
+        closeCosts();
+        chargeAtFront(routine_.undoHandler, costs.cost());
     }
 }
 
@@ -336,7 +345,10 @@ void RoutineLowering::lowerHandlers() {
 void RoutineLowering::lowerBackwardHandler() {
     const ir::BlockId backward = b_.addBlock("backward");
     const ir::BlockId body = b_.addBlock("body");
+    CostScope costs;
+    openCosts(costs); // not part of the body: the release profile has no such part
     startStatement(*symbol_.routineDecl, ir::StmtKind::Handler);
+    costs.statements = 0;
     const ValueId asked =
         b_.callNative(program_.support("rt_takeBackward", ir::NativeClass::Plain, ir::kBool, {}), {});
     b_.condBr(asked, backward, body);
@@ -344,6 +356,8 @@ void RoutineLowering::lowerBackwardHandler() {
     region_ = Region::Backward;
     lowerList(symbol_.routineDecl->backward);
     if (!b_.terminated()) b_.ret();
+    closeCosts();
+    chargeAtFront(backward, costs.cost());
     region_ = Region::Body;
     b_.setBlock(body);
 }
@@ -352,7 +366,11 @@ void RoutineLowering::lowerErrorHandler() {
     region_ = Region::Error;
     b_.setBlock(routine_.errorHandler);
     if (needsDetachedHandler()) lowerTakeDecision();
+    CostScope costs;
+    openCosts(costs);
     lowerErrorClauses();
+    closeCosts();
+    chargeAtFront(routine_.errorHandler, costs.cost());
 }
 
 void RoutineLowering::lowerErrorClauses() {

@@ -22,6 +22,7 @@ void RoutineLowering::startStatement(const Node& node, ir::StmtKind kind) {
     row.kind = region_ == Region::Body ? kind : ir::StmtKind::Handler;
     row.handled = region_ == Region::Body && hasErrorHandler_ && inInstructions_;
     b_.setStatement(b_.addStatement(row));
+    if (costs_ != nullptr) ++costs_->statements;
     if (node.kind != NodeKind::Routine) checkForeignData(node);
 }
 
@@ -143,13 +144,17 @@ void RoutineLowering::lowerStmt(const Stmt& stmt) {
     case NodeKind::Goto: {
         startStatement(stmt, ir::StmtKind::Control);
         const auto& refs = facts().references;
-        if (auto found = refs.find(&stmt); found != refs.end()) b_.br(labelBlock(found->second->decl));
+        const auto found = refs.find(&stmt);
+        if (found == refs.end()) return;
+        chargeJump(found->second->decl);
+        b_.br(labelBlock(found->second->decl));
         return;
     }
     case NodeKind::Label: {
         const ir::BlockId block = labelBlock(&stmt);
         branchIfOpen(block);
         b_.setBlock(block);
+        if (costs_ != nullptr) labelCosts_[&stmt] = {costs_->id, costs_->statements};
         return;
     }
     default: return; // empty instructions; errors do not get here
@@ -228,16 +233,23 @@ void RoutineLowering::lowerCompactIf(const CompactIfStmt& stmt) {
 void RoutineLowering::lowerWhile(const WhileStmt& stmt) {
     const ir::BlockId head = b_.addBlock("while");
     const ir::BlockId body = b_.addBlock("do");
+    const ir::BlockId latch = b_.addBlock("again");
     const ir::BlockId end = b_.addBlock("endwhile");
     b_.br(head);
     b_.setBlock(head);
+    CostScope costs;
+    openCosts(costs);
     startStatement(*stmt.condition, ir::StmtKind::Control);
     lowerCond(*stmt.condition, body, end);
     b_.setBlock(body);
-    loops_.push_back({end, head});
+    loops_.push_back({end, latch});
     lowerList(stmt.body);
     loops_.pop_back();
-    branchIfOpen(head);
+    closeCosts();
+    branchIfOpen(latch);
+    b_.setBlock(latch);
+    b_.charge(costs.cost());
+    b_.br(head);
     b_.setBlock(end);
 }
 

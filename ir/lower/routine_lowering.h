@@ -63,6 +63,29 @@ class RoutineLowering {
     struct LoopTargets {
         ir::BlockId onBreak, onContinue;
     };
+    /// Statements that are charged together: those of a routine or handler outside its loops, or of a loop in each round.
+    struct CostScope {
+        uint32_t id = 0;
+        uint32_t statements = 0;
+        CostScope* outer = nullptr;
+        uint32_t cost() const { return statements > 0 ? statements : 1; }
+    };
+    /// How far the code of a scope has come at a label.
+    struct LabelCost {
+        uint32_t scope = 0, statements = 0;
+    };
+    /// A loop that counts: bounds as I32, so that the number of its rounds can be computed ahead.
+    struct Counting {
+        ValueId first = ir::kNone, last = ir::kNone; ///< `last` is included
+        int32_t step = 1;
+        ValueId upward = ir::kNone; ///< Bool, when only execution shows the direction; step is 1 then
+    };
+    /// How a FOR loop counts, as far as it is known at compile time.
+    struct ForPlan {
+        enum class Kind : uint8_t { Float, Counted, StepValue, UnknownDirection } kind = Kind::Float;
+        int32_t step = 0; ///< Counted: the step; StepValue: 1 or -1, its sign
+        IntRange from, variable;
+    };
 
     // lower_routine.cpp
     void lowerParameters();
@@ -115,18 +138,28 @@ class RoutineLowering {
     ir::BlockId labelBlock(const syntax::Node* label); ///< `label`: its LabelStmt
     void startStatement(const syntax::Node& node, ir::StmtKind kind);
 
+    // lower_cost.cpp: what execution costs, equal in all profiles
+    void openCosts(CostScope& scope);
+    void closeCosts();
+    void chargeAtFront(ir::BlockId block, uint32_t cost);
+    void chargeJump(const syntax::Node* label);
+    void chargeRounds(const Counting& counting, uint32_t cost);
+    bool isFreeOfCalls(size_t firstInst) const;
+
     // lower_loops.cpp
     void lowerFor(const syntax::ForStmt& stmt);
+    ForPlan planFor(const syntax::ForStmt& stmt, const sema::DataSymbol& variable) const;
     /// `stepValue`: the step when it is known at run time only; `step` then tells its sign.
-    void lowerIntLoop(const syntax::ForStmt& stmt, sema::DataSymbol& variable, int32_t step,
-                      ValueId stepValue, IntRange from);
-    void lowerUnknownDirection(const syntax::ForStmt& stmt, sema::DataSymbol& variable, IntRange from);
+    void lowerIntLoop(const syntax::ForStmt& stmt, sema::DataSymbol& variable, const ForPlan& plan,
+                      ValueId stepValue);
+    void lowerUnknownDirection(const syntax::ForStmt& stmt, sema::DataSymbol& variable, const ForPlan& plan);
     void lowerCountedBody(const syntax::ForStmt& stmt, sema::DataSymbol& variable, ValueId first,
                           ValueId last, int32_t step, IntRange range, ValueId stepValue = ir::kNone);
-    void lowerFloatLoop(const syntax::ForStmt& stmt, sema::DataSymbol& variable);
+    void lowerFloatLoop(const syntax::ForStmt& stmt, sema::DataSymbol& variable, const ForPlan& plan);
     /// Head, body and latch, which all forms have: another round follows while `goesOn` gives TRUE.
-    void lowerRounds(const syntax::ForStmt& stmt, const std::function<ValueId()>& goesOn,
-                     const std::function<void()>& increment);
+    void lowerRounds(const syntax::ForStmt& stmt, const std::optional<Counting>& counting,
+                     const std::function<ValueId()>& goesOn, const std::function<void()>& increment);
+    std::optional<Counting> countingOf(const ForPlan& plan, ValueId from, ValueId to);
     ValueId boundAsInt(ValueId value, bool roundDown); ///< num to I32, toward minus or plus infinity
 
     // lower_expr.cpp
@@ -154,7 +187,10 @@ class RoutineLowering {
     void lowerVectorInto(const Expr& expr, ValueId dst);
 
     // int_range.cpp: num expressions that are certainly integers
-    std::optional<IntRange> intRange(const Expr& expr) const;
+    std::optional<IntRange> intRange(const Expr& expr) const; ///< that lowerInt can compute
+    /// The same in all profiles, for costs: loop variables count by their range even where they are kept as num.
+    std::optional<IntRange> valueRange(const Expr& expr) const;
+    std::optional<IntRange> rangeOf(const Expr& expr, bool ofValue) const;
     ValueId lowerInt(const Expr& expr);
 
     // lower_access.cpp
@@ -228,6 +264,10 @@ class RoutineLowering {
     const RoutineLowering* body_ = nullptr; ///< detached handler: of its routine
     std::unordered_map<const syntax::Node*, ir::BlockId> labels_;
     std::vector<LoopTargets> loops_;
+    CostScope* costs_ = nullptr; ///< null: statements that another profile lacks, which cost nothing
+    uint32_t costScopes_ = 0;
+    std::unordered_map<const syntax::Node*, LabelCost> labelCosts_;
+    std::unordered_map<const sema::DataSymbol*, IntRange> loopRanges_; ///< of FOR variables
     std::multimap<ir::TypeId, uint32_t> freeTemps_;
     std::vector<std::pair<ir::TypeId, uint32_t>> usedTemps_;
     bool hasErrorHandler_ = false;

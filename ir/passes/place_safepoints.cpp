@@ -1,7 +1,8 @@
-// Inserts the safepoints (design chapter 4). The budget counts statements: the routine pays at its entry for those
-// outside loops, each loop pays per round for those of its own. An innermost counted loop without calls pays for all
-// its rounds ahead of the loop, so that its body stays free of control flow and can be vectorised. What may have caused an
-// interrupt is followed by a safepoint without cost: traps run when the next statement is entered.
+// Inserts the safepoints (design chapter 4). The front end has said what execution costs (`charge`); here is decided
+// where compiled code looks whether the budget is used up: at each charge, or at each statement in the stepping profile,
+// which charges the same. Each cycle gets a safepoint, except counted loops without calls, so that they can be
+// vectorised. What may have caused an interrupt is followed by a safepoint without cost: traps run when the next
+// statement is entered.
 
 #include <algorithm>
 
@@ -22,18 +23,20 @@ class Placer {
         keepEntryFree();
         cfg_ = buildCfg(module_, routine_, HandlerEdges::No);
         info_ = findLoops(cfg_);
+        charged_ = std::any_of(routine_.insts.begin(), routine_.insts.end(),
+                               [](const Inst& inst) { return inst.op == Op::Charge; });
         if (!info_.irreducible.empty()) {
             for (const Edge& edge : info_.irreducible)
                 payOnEdge(edge);
             cfg_ = buildCfg(module_, routine_, HandlerEdges::No);
             info_ = findLoops(cfg_);
         }
+        for (uint32_t l = 0; l < info_.loops.size(); ++l)
+            placeInLoop(l, profile);
         if (profile == Profile::Stepping)
             step();
         else
-            payAtEntry();
-        for (uint32_t l = 0; l < info_.loops.size(); ++l)
-            placeInLoop(l, profile);
+            payWhereCharged();
         lookAfterCauses();
     }
 
@@ -53,11 +56,6 @@ class Placer {
     static Inst makeSafepoint(uint32_t cost) {
         Inst inst = make(Op::Safepoint, kVoid);
         inst.extra = static_cast<int32_t>(cost);
-        return inst;
-    }
-    static Inst makeConst(TypeId type, double number) {
-        Inst inst = make(Op::Const, type);
-        inst.number = number;
         return inst;
     }
     const Inst& terminator(BlockId b) const { return routine_.insts[routine_.blocks[b].insts.back()]; }
@@ -98,13 +96,6 @@ class Placer {
         }
     }
 
-    uint32_t markers(BlockId b) const {
-        uint32_t count = 0;
-        for (ValueId id : routine_.blocks[b].insts)
-            if (routine_.insts[id].op == Op::Stmt) ++count;
-        return count;
-    }
-
     void insertBeforeTerminator(BlockId b, Inst inst) {
         StmtId stmt = terminator(b).stmt;
         ValueId id = add(std::move(inst), stmt);
@@ -112,19 +103,22 @@ class Placer {
         insts.insert(insts.end() - 1, id);
     }
 
-    void payAtEntry() {
-        uint32_t cost = 0;
-        for (BlockId b : cfg_.order)
-            if (info_.loopOf[b] == kNone && (b == 0 || cfg_.dominates(0, b))) cost += markers(b);
+    /// What no front end has charged costs one instruction, so that no cycle takes no time.
+    uint32_t leastCost() const { return charged_ ? 0 : 1; }
+
+    void payWhereCharged() {
+        for (Inst& inst : routine_.insts)
+            if (inst.op == Op::Charge) inst.op = Op::Safepoint;
+        if (charged_) return;
         std::vector<ValueId>& insts = routine_.blocks[0].insts;
         StmtId first = kNone;
         for (ValueId id : insts)
             if (first == kNone) first = routine_.insts[id].stmt;
-        insts.insert(insts.begin(), add(makeSafepoint(std::max(cost, 1u)), first));
+        insts.insert(insts.begin(), add(makeSafepoint(leastCost()), first));
     }
 
-    /// A statement that `step` may come back to asks the controller; one in an undo handler, which is always
-    /// executed continuously (manual 1.13), and what belongs to no statement list only pay.
+    /// A statement that `step` may come back to asks the controller, and looks at the budget; charges only pay. An undo
+    /// handler is always executed continuously (manual 1.13): its charges are safepoints, as in the release profile.
     void step() {
         std::vector<bool> inUndo(routine_.blocks.size(), false);
         std::vector<BlockId> work;
@@ -141,9 +135,10 @@ class Placer {
             std::vector<ValueId> insts;
             for (ValueId id : routine_.blocks[b].insts) {
                 insts.push_back(id);
+                if (inUndo[b] && routine_.insts[id].op == Op::Charge) routine_.insts[id].op = Op::Safepoint;
                 if (routine_.insts[id].op != Op::Stmt) continue;
                 const StmtId stmt = routine_.insts[id].index;
-                Inst inst = makeSafepoint(1);
+                Inst inst = makeSafepoint(leastCost());
                 if (routine_.stepping && !inUndo[b] && routine_.statements[stmt].start != kNone) {
                     inst = make(Op::Step, kVoid);
                     inst.index = stmt;
@@ -195,85 +190,25 @@ class Placer {
 
     void placeInLoop(uint32_t l, Profile profile) {
         const Loop& loop = info_.loops[l];
-        uint32_t own = 0, all = 0;
-        for (BlockId b : loop.blocks) {
-            all += markers(b);
-            if (info_.loopOf[b] == l) own += markers(b);
-        }
+        bool pays = false, hasStatement = false;
+        for (BlockId b : loop.blocks)
+            for (ValueId id : routine_.blocks[b].insts) {
+                pays = pays || (routine_.insts[id].op == Op::Charge && info_.loopOf[b] == l);
+                hasStatement = hasStatement || routine_.insts[id].op == Op::Stmt;
+            }
         auto counted = recogniseCountedLoop(routine_, loop);
         if (counted) routine_.insts[counted->increment].extra = 1; // no signed wrap
         if (profile == Profile::Stepping) {
-            if (all == 0) payAtLatches(loop, 1);
+            if (!hasStatement) payAtLatches(loop, leastCost());
             return;
         }
-        uint32_t cost = std::max(own, 1u);
-        if (counted && loop.innermost && isFreeOfCalls(module_, routine_, loop))
-            payAhead(loop, *counted, cost);
-        else
-            payAtLatches(loop, cost);
+        const bool endsSoon = counted && loop.innermost && isFreeOfCalls(module_, routine_, loop);
+        if (!pays && !endsSoon) payAtLatches(loop, leastCost());
     }
 
     void payAtLatches(const Loop& loop, uint32_t cost) {
         for (BlockId latch : loop.latches)
             insertBeforeTerminator(latch, makeSafepoint(cost));
-    }
-
-    /// The block that enters the loop; made when there is none that only does that.
-    BlockId preheader(const Loop& loop) {
-        std::vector<BlockId> outside;
-        for (BlockId p : cfg_.preds[loop.header])
-            if (!loop.contains[p]) outside.push_back(p);
-        if (outside.size() == 1 && terminator(outside[0]).op == Op::Br) return outside[0];
-        auto block = static_cast<BlockId>(routine_.blocks.size());
-        for (BlockId p : outside)
-            retarget(loop.header, block, p);
-        Inst jump = make(Op::Br, kVoid);
-        jump.target[0] = loop.header;
-        StmtId stmt = outside.empty() ? kNone : terminator(outside[0]).stmt;
-        routine_.blocks.push_back({"preheader", {add(std::move(jump), stmt)}});
-        return block;
-    }
-
-    void payAhead(const Loop& loop, const CountedLoop& counted, uint32_t cost) {
-        BlockId block = preheader(loop);
-        StmtId stmt = terminator(block).stmt;
-        std::vector<ValueId> code;
-        auto emit = [&](Inst inst) {
-            code.push_back(add(std::move(inst), stmt));
-            return code.back();
-        };
-        auto loadLocal = [&](uint32_t local) {
-            Inst address = make(Op::LocalAddr, kPtr);
-            address.index = local;
-            return emit(make(Op::Load, kI32, {emit(std::move(address))}));
-        };
-        ValueId bound = counted.bound;
-        const Inst boundInst = routine_.insts[bound];
-        if (boundInst.op == Op::Const)
-            bound = emit(makeConst(kI32, boundInst.number));
-        else if (boundInst.op == Op::Load && routine_.insts[boundInst.operands[0]].op == Op::LocalAddr)
-            bound = loadLocal(routine_.insts[boundInst.operands[0]].index);
-        ValueId from = emit(make(Op::I32ToI64, kI64, {loadLocal(counted.counter)}));
-        ValueId to = emit(make(Op::I32ToI64, kI64, {bound}));
-        // Rounds: (distance + step) / step with the bound included, (distance + step - 1) / step without.
-        bool up = counted.step > 0;
-        bool included = counted.comparison == Op::ILe || counted.comparison == Op::IGe;
-        double step = up ? counted.step : -static_cast<double>(counted.step);
-        ValueId distance =
-            up ? emit(make(Op::ISub, kI64, {to, from})) : emit(make(Op::ISub, kI64, {from, to}));
-        ValueId extent =
-            emit(make(Op::IAdd, kI64, {distance, emit(makeConst(kI64, included ? step : step - 1))}));
-        ValueId rounds =
-            step == 1 ? extent : emit(make(Op::IDiv, kI64, {extent, emit(makeConst(kI64, step))}));
-        ValueId none = emit(makeConst(kI64, 0));
-        ValueId empty = emit(make(Op::ILt, kBool, {rounds, none}));
-        ValueId charge = emit(make(Op::Select, kI64, {empty, none, rounds}));
-        if (cost > 1) charge = emit(make(Op::IMul, kI64, {charge, emit(makeConst(kI64, cost))}));
-        Inst safepoint = makeSafepoint(0);
-        safepoint.operands = {charge};
-        emit(std::move(safepoint));
-        std::vector<ValueId>& insts = routine_.blocks[block].insts;
-        insts.insert(insts.end() - 1, code.begin(), code.end());
     }
 
     /// A jump back that no natural loop explains (GOTO into a loop): a block of its own on that edge.
@@ -283,14 +218,14 @@ class Placer {
         retarget(edge.to, block, edge.from);
         Inst jump = make(Op::Br, kVoid);
         jump.target[0] = edge.to;
-        uint32_t cost = std::max(markers(edge.to), 1u);
-        ValueId safepoint = add(makeSafepoint(cost), stmt);
+        ValueId safepoint = add(makeSafepoint(leastCost()), stmt);
         routine_.blocks.push_back({"back", {safepoint, add(std::move(jump), stmt)}});
     }
 
     const Module& module_;
     Routine& routine_;
     bool dataWatched_;
+    bool charged_ = false; ///< the front end has said what execution costs
     Cfg cfg_;
     LoopInfo info_;
 };

@@ -249,6 +249,7 @@ class RoutinePrinter {
             return;
         case Op::Call: call(inst, nameIn(module_.routines, inst.index)); return;
         case Op::CallNative: call(inst, nameIn(module_.natives, inst.index)); return;
+        case Op::Charge:
         case Op::Safepoint:
             put(out_, " {}", inst.extra);
             operands(inst);

@@ -188,6 +188,7 @@ bool RoutineParser::bodyOfControl(Inst& inst, bool& known) {
     switch (inst.op) {
     case Op::Call: return call(inst, Fixup::Kind::Routine);
     case Op::CallNative: return call(inst, Fixup::Kind::Native);
+    case Op::Charge:
     case Op::Safepoint: return in_.signedInt(inst.extra) && values(inst);
     case Op::Br: return in_.block(inst.target[0]);
     case Op::FieldAddr: return value(inst) && in_.punct(',') && in_.unsignedInt(inst.index);

@@ -49,6 +49,7 @@ void RoutineVerifier::types(const Inst& inst) {
     case Op::Check:
     case Op::Call:
     case Op::CallNative:
+    case Op::Charge:
     case Op::Safepoint:
     case Op::Stmt:
     case Op::Step:
@@ -183,6 +184,7 @@ void RoutineVerifier::typesOfControl(const Inst& inst) {
     case Op::CallNative:
         arguments(inst, module_.natives[inst.index].params, module_.natives[inst.index].result);
         return;
+    case Op::Charge:
     case Op::Safepoint:
         if (!inst.operands.empty()) want(inst, 0, kI64);
         if (inst.extra < 0) add("negative cost");

@@ -216,8 +216,9 @@ void RoutineVerifier::instruction(const Inst& inst) {
 bool RoutineVerifier::operandCount(const Inst& inst) {
     int wanted = opInfo(inst.op).operands;
     size_t count = inst.operands.size();
-    bool ok = wanted >= 0 ? count == static_cast<size_t>(wanted)
-                          : (inst.op != Op::Ret && inst.op != Op::Safepoint) || count <= 1;
+    bool ok = wanted >= 0
+                  ? count == static_cast<size_t>(wanted)
+                  : (inst.op != Op::Ret && inst.op != Op::Safepoint && inst.op != Op::Charge) || count <= 1;
     if (!ok) add(fmt::format("has {} operands", count));
     return ok;
 }

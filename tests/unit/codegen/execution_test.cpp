@@ -216,6 +216,7 @@ routine @"loop" "loop" in "M" exported void (f32 "limit") {
   stmt 2 plain 3:1 3:2
   b0:
     stmt 0
+    charge 1
     %zero = const f32 0
     %x = local 0
     store f32 %zero, %x
@@ -232,6 +233,7 @@ routine @"loop" "loop" in "M" exported void (f32 "limit") {
     %e = const f32 1
     %f = fadd %b, %e
     store f32 %f, %a
+    charge 2
     br b1
   b3:
     %g = global @"sum"
@@ -255,20 +257,20 @@ routine @"loop" "loop" in "M" exported void (f32 "limit") {
     CHECK(events[1] == "safepoint at 2 in loop");
 }
 
-TEST_CASE("a counted loop charges all its rounds at once", "[codegen]") {
-    ir::Module module = corpusModule("loops.rir");
+TEST_CASE("a charge with an operand takes both from the budget", "[codegen]") {
+    ir::Module module = corpusModule("charges.rir");
     for (ir::Routine& r : module.routines)
         r.exported = true;
     auto program = compile(module);
-    using Function = rt::Status (*)(rt::TaskCore*, rt::Frame*, int32_t, int32_t);
-    auto counted = reinterpret_cast<Function>(entry(*program, "counted"));
+    using Function = rt::Status (*)(rt::TaskCore*, rt::Frame*, int32_t, bool);
+    auto charged = reinterpret_cast<Function>(entry(*program, "charged"));
     Task task;
     task.core.budget = 1000;
-    CHECK(counted(&task.core, nullptr, 3, 12) == rt::kOk);
-    CHECK(task.core.budget == 1000 - 1 - 10 * 2);
+    CHECK(charged(&task.core, nullptr, 12, false) == rt::kOk);
+    CHECK(task.core.budget == 1000 - 4 - 12);
     task.core.budget = 1000;
-    CHECK(counted(&task.core, nullptr, 3, 2) == rt::kOk);
-    CHECK(task.core.budget == 1000 - 1);
+    CHECK(charged(&task.core, nullptr, 0, false) == rt::kOk);
+    CHECK(task.core.budget == 1000 - 4);
     CHECK(events.empty());
 }
 
