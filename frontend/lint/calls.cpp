@@ -58,6 +58,8 @@ bool Walker::call(const Node& node, std::span<Argument* const> args) {
         for (const Argument* arg : args)
             if (arg->value) isPlace(*arg->value) ? write(*arg->value, kRead) : expr(*arg->value);
         flyBy_ = nullptr;
+        ++waits_; // a routine of a module that is encrypted or missing may do anything
+        ++ends_;
         return true;
     }
     for (const BoundArg& arg : bound->args)
@@ -86,6 +88,7 @@ void Walker::argument(const BoundCall& call, const BoundArg& arg) {
             expr(*arg.value);
         return;
     }
+    if (param && !call.routine->native && param->mode == ParamMode::In) setFrom(*param, *arg.value);
     const bool byReference =
         param && (param->mode != ParamMode::In || param->type.type->kind == TypeKind::SemiValue);
     if (byReference && isPlace(*arg.value))

@@ -65,6 +65,7 @@ void Walker::subscripts(const Expr& place) {
 void Walker::inParameter(const DataSymbol& param, const Expr& place, bool fromItself) {
     uint8_t& access = access_[param.index];
     if ((access & kReported) != 0) return;
+    if (handlerResumes_ && (access & kRead) != 0) return; // RETRY: the body reads the new value
     const bool seen = fromItself || (access & kRead) != 0;
     if (seen || branchDepth_ > 0) {
         if (seen && loopDepth_ > 0) return; // the next round reads it

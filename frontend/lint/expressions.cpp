@@ -118,16 +118,44 @@ void Walker::comparison(const BinaryExpr& e) {
     const DataSymbol* root = value.kind == NodeKind::Component ? rootOf(other) : nullptr;
     if (root && root->storage == sema::Storage::Parameter) return;
     if (fraction != std::floor(fraction))
-        report(Code::FractionEquality, range(e),
-               {"operator " + std::string(tree_->text(e.opToken)), text(value)});
+        judgeFraction(other, value, range(e), "operator " + std::string(tree_->text(e.opToken)));
     else
         judgeSignal(other, value);
+}
+
+/// Data is judged when all is known that it is set from.
+void Walker::judgeFraction(const Expr& other, const Expr& value, SourceRange where, std::string operation) {
+    const DataSymbol* data = rootOf(bare(other));
+    if (!data || data->type.type->kind == TypeKind::SemiValue) {
+        report(Code::FractionEquality, where, {std::move(operation), text(value)});
+        return;
+    }
+    const bool inside = isOwn(*data) && data->storage != sema::Storage::Parameter;
+    (inside ? fractions_ : facts_.fractions)
+        .push_back({data, *number(value), tree_, where, std::move(operation), text(value)});
+}
+
+/// Remembers the fractions in a constant that data gets. Of parts of data it is not told which.
+void Walker::setFrom(const DataSymbol& data, const Expr& value) {
+    const bool inside = isOwn(data) && data.storage != sema::Storage::Parameter;
+    const ConstValue* known = constant(value);
+    if (known)
+        forEachFraction(*known,
+                        [&](double number) { (inside ? numbers_ : facts_.numbers).insert({&data, number}); });
+}
+
+void Walker::judgeFractions() {
+    for (const DataSymbol* data : routine_->data)
+        if (data->init && data->dataKind == DataKind::Var) setFrom(*data, *data->init);
+    for (const FractionUse& use : fractions_)
+        if (!numbers_.contains({use.data, use.value}))
+            report(Code::FractionEquality, use.where, {use.operation, use.text});
 }
 
 void Walker::judgeCase(const Expr& subject, const Expr& value) {
     const double* found = number(value);
     if (found && *found != std::floor(*found) && !number(subject))
-        report(Code::FractionEquality, range(value), {"CASE", text(value)});
+        judgeFraction(subject, value, range(value), "CASE");
     else
         judgeSignal(subject, value);
 }

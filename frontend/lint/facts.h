@@ -4,6 +4,8 @@
 #include "frontend/lint/warnings.h"
 #include "frontend/sema/checked.h"
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <tuple>
 #include <unordered_map>
@@ -60,15 +62,36 @@ struct InterruptUse {
     SourceRange where;
 };
 
+/// Data compared with a fraction. It meets it exactly when it was set from the same value.
+struct FractionUse {
+    const sema::DataSymbol* data = nullptr;
+    double value = 0;
+    const syntax::SyntaxTree* tree = nullptr;
+    SourceRange where;
+    std::string operation, text; ///< the arguments of the message
+};
+
 struct TaskFacts {
     std::unordered_map<const sema::RoutineSymbol*, RoutineFacts> routines;
     std::vector<const sema::RoutineSymbol*> calls; ///< of routines of the user, those of one routine together
     std::vector<Suspicion> suspicions;
     std::vector<InterruptUse> interrupts;
+    std::vector<FractionUse> fractions; ///< of data that outlives a routine, parameters
+    std::set<std::pair<const sema::DataSymbol*, double>> numbers; ///< fractions such data is set from
     std::unordered_set<const sema::Symbol*> connected; ///< interrupts that stand in CONNECT or are passed on
     bool callsByName = false;                          ///< late binding: any procedure may be called
     bool dataByName = false;                           ///< GetDataVal and the like: any data may be used
 };
+
+/// Calls `visit` for the numbers in a constant that are no integers; of large constants for the first ones.
+template <class Visit> void forEachFraction(const sema::ConstValue& value, const Visit& visit) {
+    constexpr size_t kMost = 32;
+    if (value.kind == sema::ConstValue::Kind::Number && value.number != std::floor(value.number))
+        visit(value.number);
+    const std::span<sema::ConstValue> members = value.members();
+    for (const sema::ConstValue& member : members.first(std::min(members.size(), kMost)))
+        forEachFraction(member, visit);
+}
 
 /// Types of the standard library that warnings are about; null when it does not declare them.
 struct KnownTypes {

@@ -6,12 +6,14 @@
 #include "frontend/lint/presence.h"
 #include "frontend/lint/rings.h"
 #include "frontend/lint/walker.h"
+#include "frontend/sema/names.h"
 
 #include <algorithm>
 #include <cctype>
 #include <map>
 #include <optional>
 #include <set>
+#include <unordered_set>
 
 namespace rapid::lint {
 
@@ -139,12 +141,40 @@ class SharedFiles {
     std::set<std::string> shared_;
 };
 
+/// What stands in the strings of the task's files and may name a routine: "name" and "module:name", in lower case.
+std::unordered_set<std::string> namesInTexts(const Task& task) {
+    std::unordered_set<std::string> names;
+    std::unordered_set<const SyntaxTree*> seen;
+    const auto add = [&](std::string_view text) {
+        constexpr size_t kLongest = 80; // of a string
+        if (text.size() > kLongest) return;
+        text.remove_prefix(std::min(text.size(), text.rfind(':') + 1));
+        const size_t first = text.find_first_not_of(' ');
+        if (first != std::string_view::npos)
+            names.insert(sema::foldName(text.substr(first, text.find_last_not_of(' ') - first + 1)));
+    };
+    for (const Module* module : task.modules) {
+        if (!seen.insert(module->tree).second) continue;
+        for (const Token& token : module->tree->tokens) {
+            if (token.kind != TokenKind::StringLiteral && token.kind != TokenKind::PlainAggregate) continue;
+            std::string_view text = module->tree->source->text().substr(token.offset, token.length);
+            for (size_t open = text.find('"'); open != std::string_view::npos; open = text.find('"', open)) {
+                const size_t close = std::min(text.find('"', open + 1), text.size());
+                add(text.substr(open + 1, close - open - 1));
+                open = close + 1;
+            }
+        }
+    }
+    return names;
+}
+
 class TaskLint {
   public:
     TaskLint(const sema::CheckedProgram& program, const Task& task, const Predefined& predefined,
-             const Errors& errors, const SharedFiles& shared, Reporter& reporter)
+             const Errors& errors, const SharedFiles& shared, const std::set<std::string>& configured,
+             Reporter& reporter)
         : task_(task), predefined_(predefined), errors_(errors), shared_(shared), reporter_(reporter),
-          walker_(program, task, predefined, reporter, facts_) {}
+          walker_(program, task, predefined, reporter, facts_), configured_(configured) {}
 
     /// Everything that needs the inside of the routines.
     void file(std::span<Module* const> modules) {
@@ -163,6 +193,7 @@ class TaskLint {
     void finish() {
         complete_ = task_.entryRoutine && !task_.incomplete && !errors_.any();
         suspicions();
+        fractions();
         interrupts();
         for (const Module* module : task_.modules)
             declarations(*module);
@@ -175,6 +206,8 @@ class TaskLint {
         return errors_.in(tree, tree.range(*routine.routineDecl));
     }
     void suspicions();
+    void fractions();
+    bool isNamedOutside(const RoutineSymbol& routine);
     std::unordered_map<const RoutineSymbol*, uint8_t> wholeConduct() const;
     void interrupts();
     void interruptsOfRoutines();
@@ -183,7 +216,7 @@ class TaskLint {
     bool mayBeUsedElsewhere(const Symbol& symbol) const;
     void data(const DataSymbol& data);
     void routine(const RoutineSymbol& routine);
-    bool isOnlyForCallers(const RoutineSymbol& routine) const;
+    bool isOnlyForCallers(const RoutineSymbol& routine);
     void rings();
     void type(const TypeSymbol& type);
     void hiding(const Symbol& symbol, const char* kind);
@@ -200,6 +233,8 @@ class TaskLint {
     TaskFacts facts_;
     Walker walker_;
     bool complete_ = false; ///< all modules are there and free of errors
+    const std::set<std::string>& configured_;
+    std::optional<std::unordered_set<std::string>> texts_; ///< names in strings, once they are asked for
 };
 
 /// What the routines do, together with all that they call: from the callees to the callers.
@@ -244,6 +279,14 @@ void TaskLint::suspicions() {
             reporter_.report(s.code, *s.tree, s.where);
         else
             reporter_.report(s.code, *s.tree, s.where, {s.arg});
+    }
+}
+
+void TaskLint::fractions() {
+    for (const FractionUse& use : facts_.fractions) {
+        bool met = facts_.numbers.contains({use.data, use.value});
+        forEachFraction(use.data->value(), [&](double initial) { met |= initial == use.value; });
+        if (!met) reporter_.report(Code::FractionEquality, *use.tree, use.where, {use.operation, use.text});
     }
 }
 
@@ -339,15 +382,22 @@ void TaskLint::routine(const RoutineSymbol& routine) {
     }
 }
 
+/// Whether a string of the program or the configuration names it: event data, menus, service routines.
+bool TaskLint::isNamedOutside(const RoutineSymbol& routine) {
+    if (!texts_) texts_ = namesInTexts(task_);
+    const std::string folded = sema::foldName(routine.name);
+    return texts_->contains(folded) || configured_.contains(folded);
+}
+
 /// Whether nothing but calls in the modules of the task can start it.
-bool TaskLint::isOnlyForCallers(const RoutineSymbol& routine) const {
+bool TaskLint::isOnlyForCallers(const RoutineSymbol& routine) {
     if (routine.routineKind == RoutineKind::Trap || facts_.callsByName || &routine == task_.entryRoutine)
         return false;
     const bool takesArguments = std::any_of(routine.params.begin(), routine.params.end(),
                                             [](const DataSymbol* p) { return !p->optional; });
     const bool mayBeStarted = // operators and events call PROCs
         routine.routineKind == RoutineKind::Proc && !routine.isLocal && !takesArguments;
-    return !mayBeStarted && !mayBeUsedElsewhere(routine);
+    return !mayBeStarted && !mayBeUsedElsewhere(routine) && !isNamedOutside(routine);
 }
 
 void TaskLint::rings() {
@@ -417,19 +467,24 @@ struct Lint::State {
     Errors errors;
     Reporter reporter;
     SharedFiles shared; ///< known at the end
+    std::set<std::string> configured;
     std::optional<Predefined> predefined;
     std::map<const Task*, std::unique_ptr<TaskLint>> tasks;
 
     TaskLint& at(const sema::CheckedProgram& program, const Task& task) {
         if (!predefined) predefined.emplace(program);
         std::unique_ptr<TaskLint>& found = tasks[&task];
-        if (!found) found = std::make_unique<TaskLint>(program, task, *predefined, errors, shared, reporter);
+        if (!found)
+            found =
+                std::make_unique<TaskLint>(program, task, *predefined, errors, shared, configured, reporter);
         return *found;
     }
 };
 
-Lint::Lint(const WarningLevels& levels, diag::Sink& sink, bool severalTasks)
-    : state_(std::make_unique<State>(levels, sink, severalTasks)) {}
+Lint::Lint(const WarningLevels& levels, diag::Sink& sink, bool severalTasks, std::set<std::string> configured)
+    : state_(std::make_unique<State>(levels, sink, severalTasks)) {
+    state_->configured = std::move(configured);
+}
 
 Lint::~Lint() = default;
 

@@ -5,6 +5,8 @@
 #include "frontend/sema/checked.h"
 
 #include <memory>
+#include <set>
+#include <string>
 
 namespace rapid::lint {
 
@@ -15,8 +17,10 @@ void lint(const sema::CheckedProgram& program, const WarningLevels& levels, diag
 /// The same in steps, while a program is being checked: what is inside the routines of a file is looked at once.
 class Lint {
   public:
-    /// Refers to both until it ends.
-    Lint(const WarningLevels& levels, diag::Sink& sink, bool severalTasks);
+    /// Refers to both until it ends. `configured`: what the configuration files name, in lower case: routines among it
+    /// are called from outside.
+    Lint(const WarningLevels& levels, diag::Sink& sink, bool severalTasks,
+         std::set<std::string> configured = {});
     ~Lint();
     Lint(const Lint&) = delete;
     Lint& operator=(const Lint&) = delete;

@@ -63,6 +63,8 @@ void Walker::begin(const RoutineSymbol& routine) {
     assigned_.reset();
     written_.reset();
     pending_.clear();
+    fractions_.clear();
+    numbers_.clear();
     writes_.clear();
     labels_.clear();
     targets_.clear();
@@ -108,8 +110,10 @@ void Walker::errorClause(const ErrorClause& clause) {
     const unsigned left = jumps_ + ends_;
     const size_t calls = facts_.calls.size();
     inHandler_ = true;
+    handlerResumes_ = containsToken(*tree_, clause, TokenKind::KwRetry) ||
+                      containsToken(*tree_, clause, TokenKind::KwTrynext);
     const bool goesOn = list(clause.body);
-    inHandler_ = false;
+    inHandler_ = handlerResumes_ = false;
     if (!goesOn || jumps_ + ends_ != left || facts_.callsByName || !reporter_.isOn(Code::UnhandledError))
         return;
     facts_.suspicions.push_back({Code::UnhandledError, tree_, tree_->range(clause.first), routine_->name,
@@ -125,6 +129,7 @@ bool Walker::isEmptyValue(const DataSymbol& data) const {
 void Walker::finish() {
     for (const Pending& p : pending_)
         if (!p.copied || !isEmptyValue(*p.data)) usedTooEarly(*p.data, *p.place);
+    judgeFractions();
     for (const Label& label : labels_)
         if (targets_.count(label.node) == 0) unusedLabel(as<LabelStmt>(*label.node));
     for (const DataSymbol* param : routine_->params)
@@ -260,6 +265,7 @@ void Walker::assign(const AssignStmt& s) {
     copied_ = s.value->kind == NodeKind::Name ? s.value : nullptr;
     expr(*s.value);
     copied_ = nullptr;
+    if (root) setFrom(*root, *s.value);
     const bool fromItself = own && (access_[root->index] & kRead) != 0;
     if (own) access_[root->index] |= before & kRead;
     subscripts(*s.target);

@@ -103,6 +103,9 @@ class Walker {
     void comparison(const syntax::BinaryExpr& e);
     void judgeSignal(const Expr& signal, const Expr& value);
     void judgeCase(const Expr& subject, const Expr& value);
+    void judgeFraction(const Expr& other, const Expr& value, SourceRange where, std::string operation);
+    void setFrom(const sema::DataSymbol& data, const Expr& value);
+    void judgeFractions();
     bool sameText(const syntax::Node& a, const syntax::Node& b) const;
     void textLength(const syntax::BinaryExpr& e);
     unsigned leastLength(const Expr& e) const;
@@ -148,6 +151,9 @@ class Walker {
     size_t tracked_ = 0;
     bool handlerGoesOn_ = false; ///< an ERROR handler has TRYNEXT: instructions behind RAISE are reached
     bool inHandler_ = false;
+    bool handlerResumes_ = false; ///< with RETRY or TRYNEXT: the body reads again what the handler assigns
+    std::vector<FractionUse> fractions_;                           ///< of data of the routine
+    std::set<std::pair<const sema::DataSymbol*, double>> numbers_; ///< fractions such data is set from
 
     // of the place in the routine
     Slots assigned_; ///< variables that may have been assigned on the way here
