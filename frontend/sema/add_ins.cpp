@@ -7,6 +7,7 @@ namespace rapid::sema {
 namespace {
 
 constexpr std::string_view kOtherRelease = "another release of RobotWare";
+constexpr std::string_view kRobotWare = "RobotWare itself, in a module that backups do not hold";
 
 struct AddInNames {
     std::string_view where;
@@ -63,12 +64,8 @@ constexpr AddInNames kAddIns[] = {
      "bereftoolseterr berefbeamseterr berefreseterr besetupalready besetupfailed bestartchanged becheckerr "
      "beskipupdate bestrtningerr beallnotset bequikrefnotdef beconvergerr beinstfwderr beunknownerr"},
     {"the add-in Force Control (Machining FC, Assembly FC)",
-     "fcact fccalib fccondforce fccondorient fccondpos fccondreorispeed fccondtcpspeed fccondtorque "
-     "fccondwaitwhile fcdeact fcpress1lstart fcpressc fcpressend fcpressl fcrefcircle fcrefforce "
-     "fcrefline fcrefmoveframe fcrefrot fcrefspiral fcrefsprforcecart fcrefstart fcrefstop "
-     "fcreftorque fcresetdampingtune fcresetlpfiltertune fcspdchgact fcspdchgdeact fcspdchgtunset "
-     "fcspdchgtunreset fcsetdampingtune fcsetlpfiltertune fcsupvforce fcsupvorient fcsupvpos "
-     "fcsupvreorispeed fcsupvtcpspeed fcsupvtorque fcgetforce fcgetprocessdata fcisforcemode fcloadid "
+     "fcact fccalib fccond* fcdeact fcpress* fcref* fcresetdampingtune fcresetlpfiltertune fcspdchg* "
+     "fcsetdampingtune fcsetlpfiltertune fcsupv* fcgetforce fcgetprocessdata fcisforcemode fcloadid "
      "fc_* fcdirections fcframe fcforcevector fcspeedvector fcprocessdata fcboxvol fccylindervol fcspherevol "
      "fcdamping",
      "fccondstatus fclindir fcplane fcrotdir fcspdchgtunetype fcxyznum"},
@@ -76,7 +73,7 @@ constexpr AddInNames kAddIns[] = {
      "daactproc dadeactallproc dadeactproc dadefextsig dadefprocdata dadefprocsig dadefuserdata "
      "dagetcurrdata dasetcurrdata dasetupappbehav dastartmanaction dagetappdescr dagetappindex "
      "dagetnumofprocs dagetnumofrob dagetprcdescr daprocml daprocmj dagetfsttimeevt dacheckmmsopt "
-     "dagetmp dagetrobotname dagettaskname err_da_unkproc",
+     "dagetmp dagetrobotname dagettaskname err_da_*",
      "dadescapp dadescprc daintdata"},
     {"the add-in Production Manager",
      "menudata partdata ee_event ee_* pmgr* gap_* execengine robathomepos op_no_robot op_service "
@@ -88,17 +85,18 @@ constexpr AddInNames kAddIns[] = {
     {"the add-in HomePos-Running",
      "smovej smovejdo smovejgo smovejsync smovel smoveldo smovelgo smovelsync ssearchl striggj "
      "striggl scssdeactmovel hr_*"},
+    {"the add-in SmarTac", "search_1d search_groove search_part pdispadd oframechange smtspeedstd"},
     {"the add-in SmartGripper (YuMi)",
-     "hand_* g_init g_calibrate g_gripin g_gripout g_jogin g_jogout g_moveto g_stop g_getpos "
+     "hand_* eventlog g_init g_calibrate g_gripin g_gripout g_jogin g_jogout g_moveto g_stop g_getpos "
      "g_vacuumon* g_vacuumoff* g_blowon* g_blowoff* g_setforce g_setmaxspd g_getspd g_iscalibrated "
      "g_getpressure* g_getvac* err_hand_*"},
     {"the add-in PickMaster",
      "itmsrc itmsrctype itmtgt getitmtgt ackitmtgt nextitmtgttype qstartitmsrc qstopitmsrc "
-     "flushitmsrc pick_type place_type pickplace_tune speed_tune resetitmsrc resetflowcount getqueuelevel "
-     "itmsrcdata maxnosources noncnvwodata "
-     "noncnvwobjname cnvname err_ppa_timeout ppadropwobj ppa_jump_move waitforexeorder remoteipnode "
-     "pickplacerunning "
-     "safestopexecuted incoordrout"},
+     "flushitmsrc pick_type place_type pickplace_tune speed_tune resetitmsrc resetflowcount getflowcount "
+     "getqueuelevel getqueuetoplevel itmsrcdata maxnosources noncnvwodata "
+     "noncnvwobjname cnvname err_ppa_* ppadropwobj ppa_* waitforexeorder remoteipnode "
+     "pickplacerunning pickplaceseq safestopexecuted incoordrout",
+     "selectiondata sortdata"},
     {"the add-in PickMaster palletizing (Palletizing PowerPac)",
      "pm_* pmack* pmcalc* pmcompare* pmdo* pmerrorlog pmget* pmlast* pmload* pmproj* pmreset* pmsearch* "
      "pmset* pmstart* pmstop* pmwait*"},
@@ -108,6 +106,7 @@ constexpr AddInNames kAddIns[] = {
     {"the add-in of the Servo-Robot seam finder", "asfmu_*"},
     {"the modules of the Volkswagen standard",
      "moveabs_* movecirc_* movelin_* moveptp_* searchcirc_* searchlin_*"},
+    {kRobotWare, "linked_m linked_m_exe"},
     {kOtherRelease,
      "ditheract ditherdeact ioctrlaxis_* movepnp err_csv_index err_mod_notloaded err_whl_search sys_err_*",
      "triggflag tasksatstart searchdata stopmovestartmove_mem"},

@@ -1,5 +1,7 @@
 // Built-ins that belong to a RobotWare option, when the controller's options are known from a backup.
 
+#include "frontend/sema/options.h"
+
 #include "frontend/sema/analysis.h"
 
 #include <algorithm>
@@ -33,24 +35,49 @@ bool covers(std::string_view installed, std::string_view wanted) {
     });
 }
 
-bool isInstalled(const std::vector<std::string>& installed, std::string_view wanted) {
+/// Options that come with another one, or are another one under the name of its release.
+struct Included {
+    std::string_view number; ///< of the option, as backups write it first
+    std::string_view name;   ///< or its words
+    std::string_view option;
+};
+constexpr Included kIncluded[] = {
+    {"689-1", "Externally Guided Motion", "Robot Reference Interface"},
+    {"604-1", "MultiMove Coordinated", "Multitasking"},
+    {"604-2", "MultiMove Independent", "Multitasking"},
+    {"616-1", "PC Interface", "RobotStudio Connect"},
+    {"612-1", "Path Offset", "Path Corrections"},
+    {"635-3", "Spot Servo", "Servo Tool Control"},
+};
+
+bool includes(std::string_view installed, std::string_view wanted) {
+    return std::any_of(std::begin(kIncluded), std::end(kIncluded), [&](const Included& entry) {
+        const bool numbered =
+            installed.starts_with(entry.number) &&
+            (installed.size() == entry.number.size() || installed[entry.number.size()] == ' ');
+        return (numbered || covers(installed, entry.name)) && covers(entry.option, wanted);
+    });
+}
+
+} // namespace
+
+bool isOptionInstalled(const std::vector<std::string>& installed, std::string_view wanted) {
     constexpr std::string_view kOr = " or ";
     for (;;) {
         const size_t end = wanted.find(kOr);
         const std::string_view one = wanted.substr(0, end);
-        if (std::any_of(installed.begin(), installed.end(),
-                        [&](const std::string& option) { return covers(option, one); }))
+        if (std::any_of(installed.begin(), installed.end(), [&](const std::string& option) {
+                return covers(option, one) || includes(option, one);
+            }))
             return true;
         if (end == std::string_view::npos) return false;
         wanted.remove_prefix(end + kOr.size());
     }
 }
 
-} // namespace
-
 void Analyzer::checkOption(const RoutineSymbol& routine, syntax::TokenIndex name) {
     if (routine.option.empty() || !options_.robotWareOptions) return;
-    if (isInstalled(*options_.robotWareOptions, routine.option)) return;
+    if (isOptionInstalled(*options_.robotWareOptions, routine.option)) return;
     if (!reportedNames_.insert(routine.nameId).second) return; // once a task
     report(Code::OptionMissing, range(name), {routine.name, "'" + routine.option + "'"});
 }

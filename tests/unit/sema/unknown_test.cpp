@@ -158,6 +158,27 @@ TEST_CASE("one of several options is enough", "[sema]") {
     CHECK(count("608-1 World Zones") == 1);
 }
 
+TEST_CASE("an option brings others along", "[sema]") {
+    const auto count = [&](const char* installed, const std::string& line) {
+        CheckOptions options;
+        options.robotWareOptions = {installed};
+        const std::string text =
+            "MODULE work\n  PERS sensor mate := [2, [0,0], 0];\n  PROC run()\n    " + line + "\n  ENDPROC\nENDMODULE\n";
+        const Messages codes = testing::checkTexts({text}, options)->codes();
+        return std::count(codes.begin(), codes.end(), "RAP4025");
+    };
+    // Externally Guided Motion includes the Robot Reference Interface.
+    CHECK(count("689-1 Externally Guided Motion (EGM)", "SiConnect mate;") == 0);
+    CHECK(count("3124-1 Externally Guided Motion", "SiClose mate;") == 0);
+    CHECK(count("608-1 World Zones", "SiConnect mate;") == 1);
+    // MultiMove has several tasks.
+    CHECK(count("604-1 MultiMove Coordinated", "RMQEmptyQueue;") == 0);
+    CHECK(count("616-1 PC Interface", "RMQEmptyQueue;") == 0);
+    CHECK(count("608-1 World Zones", "RMQEmptyQueue;") == 1);
+    CHECK(count("612-1 Path Offset", "CorrClear;") == 0);
+    CHECK(count("689-1 Externally Guided Motion (EGM)", "CorrClear;") == 1);
+}
+
 TEST_CASE("a persistent that tasks share has one type: records are compared by their components", "[sema]") {
     const auto module = [](const char* components, const char* scope = "") {
         return std::string("MODULE work\n  RECORD part\n") + components + "  ENDRECORD\n  " + scope +
