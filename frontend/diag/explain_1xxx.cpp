@@ -197,6 +197,29 @@ m.modx:
      "ENDIF",
      "IF a = 1 THEN\n"
      "ENDIF"},
+    {1113, Kind::Files,
+     "BREAK and CONTINUE have been instructions since RobotWare 7.12, UNDO a word of routines since RobotWare "
+     "5. Programs of older systems, in files with the endings .mod, .sys and .prg, may use them as names. They "
+     "are read as such where they cannot be anything else; before the program moves to a newer controller they "
+     "need other names (manual 1.1.2).",
+     R"ex($ rapidc check main.mod
+main.mod:
+  MODULE MainModule
+    VAR bool continue := TRUE;
+    PROC main()
+      IF continue TPWrite "on";
+      continue := FALSE;
+    ENDPROC
+  ENDMODULE)ex",
+     R"ex($ rapidc check main.mod
+main.mod:
+  MODULE MainModule
+    VAR bool goOn := TRUE;
+    PROC main()
+      IF goOn TPWrite "on";
+      goOn := FALSE;
+    ENDPROC
+  ENDMODULE)ex"},
     {1201, Kind::Body,
      "Instructions and declarations end with ';'. The place is the end of the unfinished one, not the "
      "beginning of the "

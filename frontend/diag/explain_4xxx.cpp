@@ -199,8 +199,9 @@ EIO.cfg:
         -Name "doLamp" -SignalType "DO")ex"},
     {4021, Kind::Body,
      "Signals are defined by the configuration of the controller (manual 1.9). Without it rapidc "
-     "takes the name for a signal of the type that is needed here. Pass the configuration to have "
-     "names and types checked: --config=EIO.cfg.",
+     "takes the name for a signal of the type that is needed here; a name that is only compared with numbers "
+     "may be a signal. Pass the configuration to have names and types checked: --config=EIO.cfg. 'rapidc "
+     "signals' writes one from what the program uses, and with --assume-signals the program runs without.",
      "SetDO doLamp, 1;",
      "VAR signaldo doLamp;\n"
      "AliasIO \"lamp\", doLamp;\n"
@@ -294,6 +295,30 @@ RAPID/TASK1/PROGMOD/main.mod:
      "PROC go(robtarget p)\n"
      "  MoveL p, v100, fine, tool0;\n"
      "ENDPROC"},
+    {4027, Kind::Files,
+     "With --assume-signals the signals that no configuration defines exist all the same, with the type that "
+     "the instructions and functions need which they are used with. Group signals have as many bits as their "
+     "values need: 8, 16 or 32.",
+     R"ex($ rapidc check main.mod --assume-signals
+main.mod:
+  MODULE MainModule
+    PROC main()
+      SetDO doLamp, 1;
+    ENDPROC
+  ENDMODULE)ex",
+     R"ex($ rapidc check main.mod --assume-signals --config=EIO.cfg
+main.mod:
+  MODULE MainModule
+    PROC main()
+      SetDO doLamp, 1;
+    ENDPROC
+  ENDMODULE
+EIO.cfg:
+  EIO:CFG_1.0:7:0::
+  #
+  EIO_SIGNAL:
+
+        -Name "doLamp" -SignalType "DO")ex"},
 });
 // clang-format on
 

@@ -462,6 +462,24 @@ main.mod:
   ENDMODULE
 rapidc.json:
   { "warnings": { "unused-variable": "off" } })ex"},
+    {6042, Kind::Files,
+     "Files of many programs are called .cfg. One whose first line is not that of system parameters, such as "
+     "'EIO:CFG_1.0:7:0::', is left out when it merely lies in a folder. Named with --config it is an error.",
+     R"ex($ rapidc check cell
+cell/main.mod:
+  MODULE MainModule
+    PROC main()
+    ENDPROC
+  ENDMODULE
+cell/tool.cfg:
+  [camera]
+  port = 3000)ex",
+     R"ex($ rapidc check cell
+cell/main.mod:
+  MODULE MainModule
+    PROC main()
+    ENDPROC
+  ENDMODULE)ex"},
 });
 // clang-format on
 

@@ -78,6 +78,7 @@ void Parser::parseFile(const LexResult& lexed) {
         return;
     } else {
         reportLexErrors(lexed);
+        readLaterWordsAsNames();
         accept(K::FileHeader);
     }
     for (;;) {

@@ -279,6 +279,10 @@ class Parser {
     bool isMisspeltOperator(const Expr* left);
     bool takesPercentAsMod();
 
+    // ---- Words that became reserved late (parser_later_words.cpp)
+    void readLaterWordsAsNames();
+    bool isNameInOldFile(TokenIndex i, bool endsAtOnce) const;
+
     // ---- Torn names and words that ran together (parser_words.cpp)
     std::string_view spellingInFile(std::string_view wanted, TokenIndex exceptFirst, TokenIndex exceptLast);
     std::string tornName(TokenIndex second);
