@@ -392,7 +392,7 @@ class BackupLoader {
             if (hasTask(configured)) continue;
             SourceRange place = sysFile_.find("-Name \"" + configured.name + '"', "CAB_TASKS:");
             if (place.end == 0) place = sysFile_.find('"' + configured.name + '"', "CAB_TASKS:");
-            report(Code::TaskWithoutFolder, sysFile_, place, {configured.name});
+            report(Code::TaskWithoutFolder, sysFile_, place, {configured.name, "backup"});
         }
     }
 

@@ -26,8 +26,8 @@ constexpr size_t kMostNeighbours = 64;
 constexpr uintmax_t kMostBytes = uintmax_t{4} << 20;
 
 bool isUnknown(const Diagnostic& d) {
-    constexpr Code kCodes[] = {Code::UnknownName, Code::UnknownType, Code::UnknownProcedure,
-                               Code::UnknownFunction, Code::UnknownTrap};
+    constexpr Code kCodes[] = {Code::UnknownName,     Code::UnknownType, Code::UnknownProcedure,
+                               Code::UnknownFunction, Code::UnknownTrap, Code::SignalUnknown};
     return d.file && std::find(std::begin(kCodes), std::end(kCodes), d.code) != std::end(kCodes);
 }
 

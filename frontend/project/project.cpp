@@ -2,6 +2,7 @@
 
 #include "config/text_util.h"
 #include "frontend/project/backup.h"
+#include "frontend/project/configured_folder.h"
 #include "frontend/project/files.h"
 #include "frontend/project/program_file.h"
 
@@ -19,7 +20,9 @@ namespace {
 
 class Loader {
   public:
-    Loader(ProjectInput& out, diag::Sink& sink) : out_(out), sink_(sink), files_(sink) {}
+    /// `elsewhere`: the tasks whose modules the command line names.
+    Loader(ProjectInput& out, diag::Sink& sink, std::set<std::string> elsewhere)
+        : out_(out), sink_(sink), files_(sink), elsewhere_(std::move(elsewhere)) {}
 
     /// Adds what `input` names to `task`. A backup adds tasks of its own and leaves `task` alone.
     void add(const std::string& input, sema::TaskInput& task, bool allowBackup) {
@@ -31,7 +34,7 @@ class Loader {
             const fs::path backup = allowBackup ? backupIn(path) : fs::path();
             if (!backup.empty())
                 addBackup(backup);
-            else
+            else if (!allowBackup || !loadConfiguredFolder(path, elsewhere_, files_, sink_, out_))
                 addFolder(path, task);
         } else if (isModule(path)) {
             files_.addModule(path, task);
@@ -164,17 +167,33 @@ class Loader {
     ProjectInput& out_;
     diag::Sink& sink_;
     FileReader files_;
+    std::set<std::string> elsewhere_;
 };
+
+/// Files that are named beside a folder with tasks of its own join the task that moves the robot.
+void joinFirst(ProjectInput& out, sema::TaskInput& main) {
+    if (out.isBackup || out.tasks.empty()) return;
+    sema::TaskInput& first = out.tasks.front();
+    first.files.insert(first.files.end(), main.files.begin(), main.files.end());
+    first.missingModules.insert(first.missingModules.end(), main.missingModules.begin(),
+                                main.missingModules.end());
+    first.incomplete |= main.incomplete;
+    main = {};
+}
 
 } // namespace
 
 bool loadProject(const std::vector<std::string>& inputs, const std::vector<TaskSpec>& extraTasks,
                  ProjectInput& out, diag::Sink& sink) {
     const size_t errorsBefore = sink.errorCount();
-    Loader loader(out, sink);
+    std::set<std::string> elsewhere;
+    for (const TaskSpec& spec : extraTasks)
+        elsewhere.insert(config::upperCase(spec.name));
+    Loader loader(out, sink, std::move(elsewhere));
     sema::TaskInput main;
     for (const std::string& input : inputs)
         loader.add(input, main, true);
+    joinFirst(out, main);
     if (!main.files.empty() || !main.missingModules.empty() || out.tasks.empty())
         out.tasks.insert(out.tasks.begin(), std::move(main));
     for (const TaskSpec& spec : extraTasks) {

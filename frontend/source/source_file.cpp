@@ -130,12 +130,12 @@ bool hasManyControls(std::string_view bytes) {
     return count >= 4 && static_cast<size_t>(count) * 50 >= bytes.size();
 }
 
-/// Encrypted modules begin with 0xFC or 0xFE and are no text. A Latin-1 text may begin with that letter, and UTF-16
+/// Encrypted modules begin with 0xFC, 0xFD or 0xFE and are no text. A Latin-1 text may begin with that letter, and UTF-16
 /// with FE FF.
 bool looksEncrypted(std::string_view bytes) {
     if (bytes.empty() || bytes.starts_with("\xFE\xFF")) return false;
     const auto first = static_cast<unsigned char>(bytes[0]);
-    if (first != 0xFC && first != 0xFE) return false;
+    if (first < 0xFC || first > 0xFE) return false;
     static constexpr std::string_view kWord = "ENDMODULE";
     const auto sameLetter = [](char a, char b) { return (a & ~0x20) == b; };
     return std::search(bytes.begin(), bytes.end(), kWord.begin(), kWord.end(), sameLetter) == bytes.end() ||

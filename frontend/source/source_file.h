@@ -47,7 +47,7 @@ class SourceFile {
     int64_t badUtf8Offset() const { return badUtf8Offset_; }
     /// True for encrypted modules and other binary junk (NUL bytes, unless they only fill up the end).
     bool isBinary() const { return binary_; }
-    /// True for a module that a controller encrypted: first byte 0xFC or 0xFE, and no text.
+    /// True for a module that a controller encrypted: first byte 0xFC, 0xFD or 0xFE, and no text.
     bool isEncrypted() const { return encrypted_; }
 
     /// The bytes on disk from which a range of text() was made; the byte order mark is never among them. Empty for a

@@ -1,0 +1,5 @@
+MODULE NoteModule
+  PROC note()
+    TPWrite "from HOME";
+  ENDPROC
+ENDMODULE

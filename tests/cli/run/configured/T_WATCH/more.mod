@@ -1,0 +1,5 @@
+MODULE MoreModule
+  PROC inFolder()
+    Incr level;
+  ENDPROC
+ENDMODULE

@@ -1,0 +1,5 @@
+MODULE OwnModule
+  PROC own()
+    TPWrite "own of the motion task";
+  ENDPROC
+ENDMODULE
