@@ -81,6 +81,22 @@ struct UnknownName {
     bool explained = false; ///< by a declaration that lost its name
 };
 
+/// The numbers that an undeclared name is compared with.
+struct ComparedName {
+    double least = 0, most = 0;
+    bool fraction = false; ///< one of them is no integer
+    bool unknown = false;  ///< of one the value is not known
+};
+
+/// How the routines of a task use names that nothing declares; worked out when the first of them is met.
+struct SignalUses {
+    bool known = false;
+    NameMap<const Type> arguments; ///< for parameters of a signal type
+    std::unordered_map<NameId, ComparedName> compared;
+    std::unordered_set<NameId> others; ///< assigned, calculated with, or declared in some routine
+    std::unordered_map<NameId, syntax::TokenIndex> own; ///< names of the routine that is read; their types
+};
+
 /// What is being checked now.
 struct Context {
     Module* module = nullptr;
@@ -238,12 +254,24 @@ class Analyzer {
     Symbol* reportUnknownData(syntax::TokenIndex token, NameId name, const Type* handle);
     DataSymbol* configuredObject(NameId name, std::string spelling, const Type* type, bool assumed);
     void declareUnknown(NameId name);
-    const Type* signalTypeByUse(NameId name);
-    void gatherSignalUses();
-    void gatherSignalUses(syntax::StmtList list);
-    void gatherSignalUses(const syntax::Expr* expr);
-    void gatherSignalUses(const RoutineSymbol& routine, std::span<syntax::Argument* const> args);
+    void reportSignal(syntax::TokenIndex token, bool perhaps);
     void declareConfiguration();
+
+    // ---- signals known by their use (signal_uses.cpp)
+    const Type* signalType(std::string_view name);
+    const Type* signalTypeByName(const std::string& name);
+    const Type* signalTypeByUse(NameId name);
+    const Type* signalTypeByComparison(const std::string& written, NameId name);
+    bool isMisspeltNumber(NameId name);
+    void gatherSignalUses();
+    void gatherSignalUses(const syntax::Node& node);
+    void gatherSignalUses(const RoutineSymbol& routine, std::span<syntax::Argument* const> args);
+    void declareOwn(syntax::TokenIndex name, syntax::TokenIndex type);
+    void operands(const syntax::BinaryExpr& e);
+    void usedOtherwise(const syntax::Expr& place);
+    void compared(const syntax::Expr& side, const syntax::Expr& number);
+    const Type* looseType(const syntax::Expr& expr);
+    bool looseNumber(const syntax::Expr& expr, double& value);
 
     // ---- tasks (checker.cpp)
     bool sameStructure(const Type& left, const Type& right);
@@ -519,9 +547,8 @@ class Analyzer {
     uint32_t lastStamp_ = 0;   ///< of a check of a file
     std::vector<Symbol*> routineNames_; ///< by NameId: parameters, data and loop variables of the routine
     std::vector<NameId> declaredInRoutine_;
-    NameMap<const Type> signalUses_; ///< undeclared names that stand where a signal is expected
-    bool duplicateModule_ = false;   ///< its names collide with those of its twin, which is reported
-    bool signalUsesKnown_ = false;
+    SignalUses signalUses_;
+    bool duplicateModule_ = false;            ///< its names collide with those of its twin, which is reported
     bool incomplete_ = false;                 ///< modules of the task are missing: names may be unknown
     std::vector<std::string> missingModules_; ///< their names, as far as they are known
     SourceRange

@@ -3,8 +3,6 @@
 
 #include "frontend/sema/analysis.h"
 
-#include <cctype>
-
 namespace rapid::sema {
 
 using namespace syntax;
@@ -16,44 +14,6 @@ bool looksLikeSignal(std::string_view name) {
     for (const std::string_view prefix : kPrefixes)
         if (name.starts_with(prefix) && name.size() > 2) return true;
     return false;
-}
-
-/// The part of a name that tells the kind of a signal: all of diStart, what follows in PLC_di_Start and sdoStart, the end
-/// of Part_Gi.
-std::string_view kindOnwards(std::string_view name) {
-    static constexpr std::string_view kKinds[] = {"di", "do", "gi", "go", "ai", "ao"};
-    const std::string folded = foldName(name);
-    const std::string_view text = folded;
-    for (const std::string_view kind : kKinds) {
-        if (name.size() > 3 && name[0] == 's' && name.substr(1).starts_with(kind)) return name.substr(1);
-        const std::string part = "_" + std::string(kind) + "_";
-        if (const size_t at = text.find(part); at != std::string_view::npos && at > 0)
-            return name.substr(at + 1);
-        const bool isWord = name.ends_with("_do") || name.ends_with("_go"); // to_do, let_go
-        if (text.size() > 3 && text.ends_with(part.substr(0, 3)) && !isWord)
-            return name.substr(name.size() - 2);
-    }
-    return name;
-}
-
-/// The type of a signal by the habit of naming them: diStart, DO_Clamp, gi1, PLC_do_Ready, sdoArcOn. Empty: the name has
-/// another form.
-std::string_view signalTypeByName(std::string_view name) {
-    const std::string_view whole = name;
-    name = kindOnwards(whole);
-    const bool isEnd = name.size() == 2 && whole.size() > 3;
-    if (name.size() < 3 && !isEnd) return {};
-    const auto lower = [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); };
-    const auto isUpper = [](char c) { return c >= 'A' && c <= 'Z'; };
-    const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
-    const bool marked =
-        isEnd || name[2] == '_' || isDigit(name[2]) || (isUpper(name[2]) && !isUpper(name[1]));
-    if (!marked) return {};
-    static constexpr std::string_view kTypes[] = {"signaldi", "signaldo", "signalgi",
-                                                  "signalgo", "signalai", "signalao"};
-    for (const std::string_view type : kTypes)
-        if (lower(name[0]) == type[6] && lower(name[1]) == type[7]) return type;
-    return {};
 }
 } // namespace
 
@@ -115,12 +75,10 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
     const bool mecunit = handle && handle->base()->name == "mecunit";
     const Type* type = handle && handle->kind == TypeKind::SemiValue ? handle : nullptr;
     if (!type && !mecunit && context_.routine) type = signalTypeByUse(name);
-    if (!type && !mecunit && context_.routine && !incomplete_) {
-        const std::string_view typeName = signalTypeByName(text(token));
-        if (const TypeSymbol* signal =
-                typeName.empty() ? nullptr : asType(at(predefined_, interner_.intern(typeName))))
-            type = signal->type;
-    }
+    if (!type && !mecunit && context_.routine && !incomplete_) type = signalTypeByName(text(token));
+    const bool assumes = options_.assumeSignals || !options_.configurationKnown;
+    const bool perhaps = !type && !mecunit && context_.routine && !incomplete_ && assumes;
+    if (perhaps) type = signalTypeByComparison(text(token), name);
     if (!type && !mecunit) {
         if (moduleNames_.find(name)) {
             report(Code::NotData, range(token), {text(token), "a module"});
@@ -137,17 +95,28 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
         if (context_.routine) declareUnknown(name);
         return nullptr;
     }
-    const bool isError = !mecunit && options_.configurationKnown;
     if (reportedNames_.insert(name).second && mayReportUnknown(name)) {
-        const Code code = mecunit   ? Code::MechanicalUnitUnknown
-                          : isError ? Code::SignalUndefined
-                                    : Code::SignalUnknown;
         if (incomplete_)
             reportMayBeDeclared(token, {});
+        else if (mecunit)
+            report(Code::MechanicalUnitUnknown, range(token), {text(token)});
         else
-            report(code, range(token), {text(token)});
+            reportSignal(token, perhaps);
     }
     return configuredObject(name, text(token), mecunit ? handle : type, true);
+}
+
+// A signal that no configuration defines. `perhaps`: nothing but a comparison says that it is one.
+void Analyzer::reportSignal(TokenIndex token, bool perhaps) {
+    if (options_.assumeSignals) return; // the command says which ones it assumes
+    const std::string name = text(token);
+    if (options_.configurationKnown || options_.configurationComplete)
+        report(Code::SignalUndefined, range(token),
+               {name, options_.configurationComplete ? ", or use --assume-signals" : ""});
+    else
+        report(Code::SignalUnknown, range(token),
+               {perhaps ? "'" + name + "'" : "signal '" + name + "'",
+                perhaps ? "may be a signal" : "is taken as configured"});
 }
 
 // From now on the routine has data of this name and of the type that fits everything: one mistake, one diagnostic.
@@ -162,125 +131,6 @@ void Analyzer::declareUnknown(NameId name) {
     symbol.routine = context_.routine;
     put<Symbol>(routineNames_, name, &symbol);
     declaredInRoutine_.push_back(name);
-}
-
-const Type* Analyzer::signalTypeByUse(NameId name) {
-    if (!signalUsesKnown_) {
-        signalUsesKnown_ = true;
-        gatherSignalUses();
-    }
-    return signalUses_.find(name);
-}
-
-void Analyzer::gatherSignalUses() {
-    const Context saved = context_;
-    for (Module* module : task_->modules) {
-        enterModule(module);
-        for (const RoutineSymbol* routine : module->routines) {
-            const RoutineDecl& decl = *routine->routineDecl;
-            gatherSignalUses(decl.body);
-            gatherSignalUses(decl.backward);
-            for (const ErrorClause* clause : decl.errors)
-                gatherSignalUses(clause->body);
-            gatherSignalUses(decl.undo);
-        }
-    }
-    context_ = saved;
-}
-
-void Analyzer::gatherSignalUses(StmtList list) {
-    for (const Stmt* s : list) {
-        switch (s->kind) {
-        case NodeKind::CallStmt: {
-            const auto& call = as<CallStmt>(*s);
-            const RoutineSymbol* routine =
-                call.lateName ? nullptr : asRoutine(lookupOutside(idOf(call.name)));
-            if (routine) gatherSignalUses(*routine, call.args);
-            for (const Argument* a : call.args)
-                gatherSignalUses(a->value);
-            break;
-        }
-        case NodeKind::Assign: gatherSignalUses(as<AssignStmt>(*s).value); break;
-        case NodeKind::Return: gatherSignalUses(as<ReturnStmt>(*s).value); break;
-        case NodeKind::If:
-            for (const IfBranch* b : as<IfStmt>(*s).branches) {
-                gatherSignalUses(b->condition);
-                gatherSignalUses(b->body);
-            }
-            gatherSignalUses(as<IfStmt>(*s).elseBody);
-            break;
-        case NodeKind::CompactIf: {
-            gatherSignalUses(as<CompactIfStmt>(*s).condition);
-            Stmt* body = as<CompactIfStmt>(*s).body;
-            if (body) gatherSignalUses(StmtList(&body, 1));
-            break;
-        }
-        case NodeKind::For: gatherSignalUses(as<ForStmt>(*s).body); break;
-        case NodeKind::While:
-            gatherSignalUses(as<WhileStmt>(*s).condition);
-            gatherSignalUses(as<WhileStmt>(*s).body);
-            break;
-        case NodeKind::Test:
-            gatherSignalUses(as<TestStmt>(*s).subject);
-            for (const TestCase* c : as<TestStmt>(*s).cases)
-                gatherSignalUses(c->body);
-            gatherSignalUses(as<TestStmt>(*s).defaultBody);
-            break;
-        default: break;
-        }
-    }
-}
-
-void Analyzer::gatherSignalUses(const Expr* e) {
-    if (!e) return;
-    switch (e->kind) {
-    case NodeKind::Call: {
-        const auto& call = as<CallExpr>(*e);
-        if (const RoutineSymbol* routine = asRoutine(lookupOutside(idOf(call.name))))
-            gatherSignalUses(*routine, call.args);
-        for (const Argument* a : call.args)
-            gatherSignalUses(a->value);
-        break;
-    }
-    case NodeKind::Paren: gatherSignalUses(as<ParenExpr>(*e).inner); break;
-    case NodeKind::Unary: gatherSignalUses(as<UnaryExpr>(*e).operand); break;
-    case NodeKind::Binary:
-        for (; e->kind == NodeKind::Binary; e = as<BinaryExpr>(*e).left)
-            gatherSignalUses(as<BinaryExpr>(*e).right);
-        gatherSignalUses(e);
-        break;
-    default: break;
-    }
-}
-
-void Analyzer::gatherSignalUses(const RoutineSymbol& routine, std::span<Argument* const> args) {
-    size_t next = nextRequired(routine, 0);
-    const Type* partner = nullptr; // AliasIO(name, signal): a signal of that type
-    for (const Argument* a : args) {
-        if (!a->value || a->value->kind != NodeKind::Name || !routine.predefined) continue;
-        DataSymbol* data = asData(lookupOutside(idOf(as<NameExpr>(*a->value).name)));
-        if (!data || data->storage != Storage::ModuleData) continue;
-        ensureData(*data);
-        if (data->type.type->kind == TypeKind::SemiValue) partner = data->type.type;
-    }
-    for (const Argument* a : args) {
-        const DataSymbol* param = nullptr;
-        if (a->argKind == ArgKind::Required) {
-            if (next < routine.params.size()) param = routine.params[next];
-            next = nextRequired(routine, alternativesEnd(routine, next));
-        } else if (a->name != kNoToken) {
-            const NameId name = idOf(a->name);
-            for (const DataSymbol* p : routine.params)
-                if (p->nameId == name) param = p;
-        }
-        if (!param || !a->value || a->value->kind != NodeKind::Name) continue;
-        const NameId name = idOf(as<NameExpr>(*a->value).name);
-        const bool either =
-            param->accepts == ParamClass::SignalOrString || param->accepts == ParamClass::Signal;
-        const Type* type = either ? partner : param->type.type;
-        if (type && type->kind == TypeKind::SemiValue && !signalUses_.find(name) && !lookupOutside(name))
-            signalUses_.set(name, type);
-    }
 }
 
 } // namespace rapid::sema

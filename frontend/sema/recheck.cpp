@@ -133,7 +133,6 @@ void Analyzer::clearLooseEnds() {
     spareAssumed_.insert(spareAssumed_.end(), assumed_.begin(), assumed_.end());
     assumed_.clear();
     signalUses_ = {};
-    signalUsesKnown_ = false;
     reportedNames_.clear();
     maybeDeclared_.clear();
     brokenTrees_.clear();

@@ -127,6 +127,7 @@ void addBuildCommand(CLI::App& app, int& status) {
     command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")
         ->required();
     command->add_option("-o,--output", settings->output, "The executable to write");
+    addAssumeSignalsOption(*command, settings->inputs);
     addWarningOption(*command, settings->inputs);
     command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")
         ->allow_extra_args(false);

@@ -2,6 +2,7 @@
 
 #include "tools/rapidc/apply_fixes.h"
 #include "tools/rapidc/commands.h"
+#include "tools/rapidc/missing_report.h"
 #include "tools/rapidc/pipeline.h"
 
 #include "frontend/project/neighbours.h"
@@ -22,6 +23,7 @@ struct CheckSettings {
     Inputs inputs;
     std::string format = "human";
     bool fix = false;
+    bool missing = false; ///< only the table of what is missing
 };
 
 /// Mends until nothing certain is left, or says that more is: a round mends what one check reports.
@@ -49,8 +51,21 @@ void fixFiles(const Inputs& inputs) {
                    kMaxRounds);
 }
 
-int check(const CheckSettings& settings) {
+void printMissing(const Compilation& compilation, bool json) {
+    fmt::print("{}", json ? missingJson(compilation) : missingTable(compilation));
+    const size_t errors = compilation.sink.errorCount();
+    if (errors > 0)
+        fmt::print(stderr, "{} error{}: 'rapidc check' without --missing shows them\n", errors,
+                   errors == 1 ? "" : "s");
+}
+
+int check(CheckSettings& settings) {
     rapid::putHeapOnHugePages();
+    if (settings.missing && settings.format == "sarif") {
+        fmt::print(stderr, "rapidc check: --missing has the formats human and json\n");
+        return static_cast<int>(rt::ExitStatus::BadUsage);
+    }
+    if (settings.missing) settings.inputs.onlyDiagnostics = false;
     if (settings.fix) fixFiles(settings.inputs);
     // Kept to the end of the process: taking a large program apart takes as long as parsing it.
     static std::unique_ptr<Compilation> kept;
@@ -63,7 +78,9 @@ int check(const CheckSettings& settings) {
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
     const rapid::diag::Sink& sink = compilation->sink;
-    if (settings.format == "json")
+    if (settings.missing)
+        printMissing(*compilation, settings.format == "json");
+    else if (settings.format == "json")
         fmt::print("{}", rapid::diag::renderJson(sink.sorted()));
     else if (settings.format == "sarif")
         fmt::print("{}", rapid::diag::renderSarif(sink.sorted(), std::filesystem::current_path().string()));
@@ -86,9 +103,13 @@ void addCheckCommand(CLI::App& app, int& status) {
         ->allow_extra_args(false);
     settings->inputs.lint = true;
     settings->inputs.onlyDiagnostics = true;
+    addAssumeSignalsOption(*command, settings->inputs);
     addWarningOption(*command, settings->inputs);
     command->add_option("--format", settings->format, "human, json or sarif")
         ->check(CLI::IsMember({"human", "json", "sarif"}));
+    command->add_flag("--missing", settings->missing,
+                      "Only a table of what the program needs and is not there: built-ins, names, modules, "
+                      "signals, options");
     command->add_flag("--fix", settings->fix,
                       "Change the files: apply each fix that is certain, then report what is left");
     command->callback([settings, &status] { status = check(*settings); });

@@ -21,6 +21,7 @@ int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of m
     rapidc::addEmitCommand(app, status);
     rapidc::addExplainCommand(app, status);
     rapidc::addBuiltinsCommand(app, status);
+    rapidc::addSignalsCommand(app, status);
     rapidc::addFmtCommand(app, status);
     rapidc::addRenameCommand(app, status);
     rapidc::addSetValueCommand(app, status);

@@ -11,12 +11,14 @@
 #include "stdlib/native_table.h"
 #include "stdlib/stdlib_text.h"
 #include "tools/rapidc/judge_configuration.h"
+#include "tools/rapidc/signal_uses.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fmt/format.h>
 #include <set>
 #include <unistd.h>
@@ -24,6 +26,7 @@
 
 namespace rapidc {
 
+namespace fs = std::filesystem;
 namespace sema = rapid::sema;
 namespace diag = rapid::diag;
 
@@ -39,10 +42,21 @@ std::string lower(std::string text) {
     return text;
 }
 
+/// A text that is no system parameters at all: programs of other kinds have files called .cfg, too.
+bool isForeign(Compilation& compilation, const std::string& path, const std::string& text,
+               const rt::CfgFile& cfg) {
+    if (!cfg.domain.empty()) return false;
+    compilation.sink.report(diag::Code::ForeignConfiguration, std::make_shared<rapid::SourceFile>(path, text),
+                            {}, {fs::path(path).filename().string()});
+    return true;
+}
+
 /// The configured signals and mechanical units by name and RAPID type; the runtime reads the same files again when the program starts.
-void readConfiguration(Compilation& compilation, const std::vector<std::string>& files,
+/// `named`: how many of the files the command line names with --config; the others were found.
+void readConfiguration(Compilation& compilation, const std::vector<std::string>& files, size_t named,
                        sema::CheckOptions& options) {
-    for (const std::string& path : files) {
+    for (size_t i = 0; i < files.size(); ++i) {
+        const std::string& path = files[i];
         std::string bytes;
         if (const std::string problem = rapid::config::readFile(path, bytes); !problem.empty()) {
             compilation.usageErrors.push_back(
@@ -51,6 +65,7 @@ void readConfiguration(Compilation& compilation, const std::vector<std::string>&
         }
         std::vector<rt::CfgProblem> problems;
         const rt::CfgFile cfg = rt::parseCfg(bytes, path, problems);
+        if (i >= named && isForeign(compilation, path, bytes, cfg)) continue;
         reportConfigurationProblems(compilation.sink, path, bytes, problems);
         compilation.configNames.push_back(path);
         compilation.configTexts.push_back(bytes);
@@ -211,11 +226,40 @@ void checkDirectives(Compilation& compilation) {
             if (seen.insert(file->path()).second) rapid::lint::checkDirectives(file, compilation.sink);
 }
 
+/// What the configuration files name, in lower case: event routines, service routines, interrupts by system signals.
+std::set<std::string> namedByConfiguration(const Compilation& compilation) {
+    std::set<std::string> names;
+    for (size_t i = 0; i < compilation.configTexts.size(); ++i) {
+        std::vector<rt::CfgProblem> ignored;
+        const rt::CfgFile cfg = rt::parseCfg(compilation.configTexts[i], compilation.configNames[i], ignored);
+        for (const rt::CfgSection& section : cfg.sections)
+            for (const rt::CfgInstance& instance : section.instances)
+                for (const rt::CfgAttribute& attribute : instance.attributes)
+                    for (const std::string& value : attribute.values)
+                        names.insert(lower(value));
+    }
+    return names;
+}
+
+/// The signals that the program uses and the configuration lacks become part of the configuration.
+void assumeSignals(Compilation& compilation) {
+    const std::vector<UsedSignal>& signals = compilation.assumedSignals =
+        usedSignals(*compilation.program, compilation.options.signals);
+    if (signals.empty()) return;
+    compilation.configNames.emplace_back("(assumed signals)");
+    compilation.configTexts.push_back(writeSignals(signals));
+    compilation.sink.report(diag::Code::SignalsAssumed, nullptr, {}, {describeSignals(signals)});
+    for (const UsedSignal& signal : signals)
+        compilation.options.signals.push_back({signal.name, "signal" + lower(signal.type)});
+}
+
 /// Checks all tasks and looks at each file as soon as it is checked.
 void judge(Compilation& compilation, bool onlyDiagnostics) {
     diag::Sink& sink = compilation.sink;
     UnimplementedCalls unimplemented;
-    rapid::lint::Lint lint(compilation.warningLevels, sink, compilation.tasks.size() > 1);
+    rapid::lint::Lint lint(compilation.warningLevels, sink, compilation.tasks.size() > 1,
+                           compilation.warningLevels.anyLint() ? namedByConfiguration(compilation)
+                                                               : std::set<std::string>());
     sema::CheckOptions options = compilation.options;
     options.onlyDiagnostics = onlyDiagnostics;
     options.onFile = [&](const sema::CheckedProgram& program, const sema::Task& task,
@@ -231,6 +275,11 @@ void judge(Compilation& compilation, bool onlyDiagnostics) {
 }
 
 } // namespace
+
+void addAssumeSignalsOption(CLI::App& command, Inputs& inputs) {
+    command.add_flag("--assume-signals", inputs.assumeSignals,
+                     "Define signals that no configuration defines as the program uses them");
+}
 
 void addWarningOption(CLI::App& command, Inputs& inputs) {
     command
@@ -281,8 +330,9 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     options.requireMain = inputs.requireMain;
     options.robotWareOptions = project.robotWareOptions;
     compilation->homeFolder = project.homeFolder;
-    options.configurationKnown = inputs.configurationComplete;
-    readConfiguration(*compilation, configFiles, options);
+    options.configurationComplete = inputs.configurationComplete;
+    options.assumeSignals = inputs.assumeSignals;
+    readConfiguration(*compilation, configFiles, inputs.configFiles.size(), options);
     if (inputs.onlyDiagnostics) // else the controller tells it when the program starts
         judgeSignals(compilation->sink, compilation->configNames, compilation->configTexts);
     if (project.isBackup) checkRobot(*compilation, project.robot);
@@ -293,6 +343,7 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     if (!project.isBackup) configureTasks(*compilation, typesTold);
     readTaskSettings(*compilation);
     judge(*compilation, inputs.onlyDiagnostics);
+    if (inputs.assumeSignals) assumeSignals(*compilation);
     findSharedModules(*compilation, project.sharedFiles);
     return compilation;
 }

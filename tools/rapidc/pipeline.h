@@ -4,6 +4,7 @@
 #include "frontend/lint/warnings.h"
 #include "frontend/sema/checker.h"
 #include "ir/core/ir.h"
+#include "tools/rapidc/signal_uses.h"
 
 #include <memory>
 #include <set>
@@ -25,6 +26,7 @@ struct Inputs {
     bool lint = false;                  ///< with the warnings of 8xxx, also where -W does not name them
     bool onlyDiagnostics = false;       ///< nothing is lowered: the inside of routines need not be kept
     bool configurationComplete = false; ///< no further configuration can come: an unknown signal is an error
+    bool assumeSignals = false; ///< define the signals that the configuration lacks as the program uses them
 };
 
 /// Result of the front end, with everything the later stages need.
@@ -37,12 +39,16 @@ struct Compilation {
     rapid::lint::WarningLevels warningLevels;
     std::vector<std::string> configNames; ///< what --config and the folders gave
     std::vector<std::string> configTexts;
-    std::set<std::string> sharedModules;  ///< installed once for all tasks; lower case
-    std::set<std::string> eventRoutines;  ///< that the configuration names; lower case
-    std::vector<std::string> usageErrors; ///< e.g. a --task that cannot be read
-    std::string folder;                   ///< kept in the program: where relative paths begin; may be empty
-    std::string homeFolder;               ///< HOME of a backup; empty if there is none
+    std::vector<UsedSignal> assumedSignals; ///< with Inputs::assumeSignals: what the configuration lacked
+    std::set<std::string> sharedModules;    ///< installed once for all tasks; lower case
+    std::set<std::string> eventRoutines;    ///< that the configuration names; lower case
+    std::vector<std::string> usageErrors;   ///< e.g. a --task that cannot be read
+    std::string folder;                     ///< kept in the program: where relative paths begin; may be empty
+    std::string homeFolder;                 ///< HOME of a backup; empty if there is none
 };
+
+/// Adds the option --assume-signals to a command.
+void addAssumeSignalsOption(CLI::App& command, Inputs& inputs);
 
 /// Adds the option -W to a command.
 void addWarningOption(CLI::App& command, Inputs& inputs);

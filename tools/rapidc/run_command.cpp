@@ -207,6 +207,7 @@ void addRunCommand(CLI::App& app, int& status) {
     command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")
         ->required();
     rt::addRunOptions(*command, settings->options, true);
+    addAssumeSignalsOption(*command, settings->inputs);
     addWarningOption(*command, settings->inputs);
     command->add_option("--picture", settings->picture, "Draw the path of the TCP from the trace (SVG)");
     command->add_flag("--summary", settings->summary, "Show cycle time and where the files lie");

@@ -1,0 +1,322 @@
+// Signals that nobody declares: the names that the program of the task uses as signals. Strong evidence is an argument for a
+// parameter of a signal type; without any configuration a comparison with a number will do, unless the name is also
+// assigned or calculated with.
+
+#include "frontend/sema/add_ins.h"
+#include "frontend/sema/analysis.h"
+#include "frontend/syntax/tree_walk.h"
+
+#include <cctype>
+#include <cmath>
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+namespace {
+
+/// The part of a name that tells the kind of a signal: all of diStart, what follows in PLC_di_Start and sdoStart, the end
+/// of Part_Gi.
+std::string_view kindOnwards(std::string_view name) {
+    static constexpr std::string_view kKinds[] = {"di", "do", "gi", "go", "ai", "ao"};
+    const std::string folded = foldName(name);
+    const std::string_view text = folded;
+    for (const std::string_view kind : kKinds) {
+        if (name.size() > 3 && name[0] == 's' && name.substr(1).starts_with(kind)) return name.substr(1);
+        const std::string part = "_" + std::string(kind) + "_";
+        if (const size_t at = text.find(part); at != std::string_view::npos && at > 0)
+            return name.substr(at + 1);
+        const bool isWord = name.ends_with("_do") || name.ends_with("_go"); // to_do, let_go
+        if (text.size() > 3 && text.ends_with(part.substr(0, 3)) && !isWord)
+            return name.substr(name.size() - 2);
+    }
+    return name;
+}
+
+/// The type of a signal by the habit of naming them: diStart, DO_Clamp, gi1, PLC_do_Ready, sdoArcOn. Empty: the name has
+/// another form.
+std::string_view typeByName(std::string_view name) {
+    const std::string_view whole = name;
+    name = kindOnwards(whole);
+    const bool isEnd = name.size() == 2 && whole.size() > 3;
+    if (name.size() < 3 && !isEnd) return {};
+    const auto lower = [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); };
+    const auto isUpper = [](char c) { return c >= 'A' && c <= 'Z'; };
+    const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+    const bool marked =
+        isEnd || name[2] == '_' || isDigit(name[2]) || (isUpper(name[2]) && !isUpper(name[1]));
+    if (!marked) return {};
+    static constexpr std::string_view kTypes[] = {"signaldi", "signaldo", "signalgi",
+                                                  "signalgo", "signalai", "signalao"};
+    for (const std::string_view type : kTypes)
+        if (lower(name[0]) == type[6] && lower(name[1]) == type[7]) return type;
+    return {};
+}
+
+/// soTouch: an output by the habit of some plants.
+bool isOutput(std::string_view name) {
+    const auto lower = [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); };
+    return name.size() > 2 && lower(name[0]) == 's' && lower(name[1]) == 'o' &&
+           (name[2] < 'a' || name[2] > 'z');
+}
+
+/// The data types that a signal is compared with. Other names of num (errnum, stoppointdata) count what is no signal.
+bool isPlainNumber(const Type& type) {
+    return type.kind == TypeKind::SemiValue ||
+           (type.isNumeric() && (!type.aliasOf || foldName(type.name) == "dionum"));
+}
+
+/// One letter more, less or another; other digits make another name.
+bool isMisspelt(std::string_view written, std::string_view declared) {
+    constexpr size_t kShort = 4;
+    if (written.size() < kShort || editDistance(written, declared, 1) > 1) return false;
+    size_t same = 0;
+    while (same < written.size() && same < declared.size() && written[same] == declared[same])
+        ++same;
+    const auto isDigit = [same](std::string_view text) {
+        return same < text.size() && std::isdigit(static_cast<unsigned char>(text[same])) != 0;
+    };
+    return !isDigit(written) && !isDigit(declared);
+}
+
+} // namespace
+
+const Type* Analyzer::signalType(std::string_view name) {
+    const TypeSymbol* type = asType(at(predefined_, interner_.intern(name)));
+    return type ? type->type : nullptr;
+}
+
+const Type* Analyzer::signalTypeByName(const std::string& name) {
+    const std::string_view type = typeByName(name);
+    return type.empty() ? nullptr : signalType(type);
+}
+
+const Type* Analyzer::signalTypeByUse(NameId name) {
+    if (!signalUses_.known) gatherSignalUses();
+    return signalUses_.arguments.find(name);
+}
+
+// The type of a name that is known by comparisons with numbers only; null when something says that it is no signal.
+const Type* Analyzer::signalTypeByComparison(const std::string& written, NameId name) {
+    if (!signalUses_.known) gatherSignalUses();
+    const auto found = signalUses_.compared.find(name);
+    if (found == signalUses_.compared.end() || signalUses_.others.contains(name)) return nullptr;
+    const std::string_view folded = interner_.folded(name);
+    if (moduleNames_.find(name) || !addInOf(folded, false, false).empty()) return nullptr;
+    for (const Module* module : task_->modules)
+        if (module != context_.module && scopes_[module->id]->names.find(name)) return nullptr; // LOCAL there
+    if (isMisspeltNumber(name)) return nullptr;
+    const ComparedName& use = found->second;
+    if (use.fraction) return signalType("signalai");
+    if (use.most > 1 || use.least < 0 || use.unknown) return signalType("signalgi");
+    return signalType(isOutput(written) ? "signaldo" : "signaldi");
+}
+
+bool Analyzer::isMisspeltNumber(NameId name) {
+    const Suggestion best = suggestion(name, Wanted::Data);
+    if (!best.symbol || best.symbol->predefined || best.symbol->kind != SymbolKind::Data) return false;
+    const auto& data = static_cast<const DataSymbol&>(*best.symbol);
+    const bool number = data.type.type && data.type.type->isNumeric();
+    return number && isMisspelt(interner_.folded(name), interner_.folded(data.nameId));
+}
+
+void Analyzer::gatherSignalUses() {
+    signalUses_.known = true;
+    const Context saved = context_;
+    for (Module* module : task_->modules) {
+        enterModule(module);
+        for (const RoutineSymbol* routine : module->routines) {
+            const RoutineDecl& decl = *routine->routineDecl;
+            signalUses_.own.clear();
+            for (const ParamDecl* param : decl.params)
+                declareOwn(param->name, param->type);
+            for (const DataDecl* data : decl.data)
+                declareOwn(data->name, data->type);
+            gatherSignalUses(decl);
+        }
+    }
+    context_ = saved;
+}
+
+// A name of the routine itself is no signal in any other routine either: there it was forgotten.
+void Analyzer::declareOwn(TokenIndex name, TokenIndex type) {
+    if (!isName(name)) return;
+    signalUses_.own[idOf(name)] = type;
+    signalUses_.others.insert(idOf(name));
+}
+
+void Analyzer::gatherSignalUses(const Node& node) {
+    switch (node.kind) {
+    case NodeKind::Aggregate:
+        if (as<AggregateExpr>(node).isPlain()) return;
+        break;
+    case NodeKind::Binary: // long chains lean to the left
+        for (const Node* e = &node;; e = as<BinaryExpr>(*e).left) {
+            if (e->kind != NodeKind::Binary) return gatherSignalUses(*e);
+            operands(as<BinaryExpr>(*e));
+            gatherSignalUses(*as<BinaryExpr>(*e).right);
+        }
+    case NodeKind::Unary:
+        if (as<UnaryExpr>(node).op != UnaryOp::Not) usedOtherwise(*as<UnaryExpr>(node).operand);
+        break;
+    case NodeKind::Assign:
+        if (as<AssignStmt>(node).target) usedOtherwise(*as<AssignStmt>(node).target);
+        break;
+    case NodeKind::For:
+        if (isName(as<ForStmt>(node).variable)) declareOwn(as<ForStmt>(node).variable, kNoToken);
+        break;
+    case NodeKind::Test: {
+        const auto& test = as<TestStmt>(node);
+        for (const TestCase* c : test.cases)
+            for (const Expr* value : c->values)
+                if (test.subject) compared(*test.subject, *value);
+        break;
+    }
+    case NodeKind::CallStmt: {
+        const auto& call = as<CallStmt>(node);
+        const RoutineSymbol* routine = call.lateName ? nullptr : asRoutine(lookupOutside(idOf(call.name)));
+        if (routine) gatherSignalUses(*routine, call.args);
+        break;
+    }
+    case NodeKind::Call:
+        if (const RoutineSymbol* routine = asRoutine(lookupOutside(idOf(as<CallExpr>(node).name))))
+            gatherSignalUses(*routine, as<CallExpr>(node).args);
+        break;
+    default: break;
+    }
+    forEachChild(node, [this](const Node& child) { gatherSignalUses(child); });
+}
+
+void Analyzer::operands(const BinaryExpr& e) {
+    if (e.op < BinaryOp::Lt) {
+        usedOtherwise(*e.left);
+        usedOtherwise(*e.right);
+    } else if (e.op <= BinaryOp::Ge) {
+        compared(*e.left, *e.right);
+        compared(*e.right, *e.left);
+    }
+}
+
+// Assigned, calculated with, or of a type that signals do not have.
+void Analyzer::usedOtherwise(const Expr& place) {
+    const Expr* e = &bare(place);
+    while (e->kind == NodeKind::Index || e->kind == NodeKind::Component)
+        e = e->kind == NodeKind::Index ? as<IndexExpr>(*e).base : as<ComponentExpr>(*e).base;
+    if (e->kind == NodeKind::Name && isName(as<NameExpr>(*e).name))
+        signalUses_.others.insert(idOf(as<NameExpr>(*e).name));
+}
+
+void Analyzer::compared(const Expr& side, const Expr& number) {
+    const Expr& e = bare(side);
+    if (e.kind != NodeKind::Name || !isName(as<NameExpr>(e).name)) return;
+    const NameId name = idOf(as<NameExpr>(e).name);
+    if (signalUses_.own.contains(name) || lookupOutside(name)) return;
+    const Type* type = looseType(number);
+    if (!type || !isPlainNumber(*type)) return;
+    ComparedName& use = signalUses_.compared[name];
+    double value = 0;
+    if (!looseNumber(number, value)) {
+        use.unknown = true;
+        return;
+    }
+    use.fraction |= value != std::floor(value);
+    use.most = std::max(use.most, value);
+    use.least = std::min(use.least, value);
+}
+
+// What can be said of the type of an expression before anything is checked; null: nothing.
+const Type* Analyzer::looseType(const Expr& expr) {
+    const Expr& e = bare(expr);
+    switch (e.kind) {
+    case NodeKind::NumLiteral: return program_.num;
+    case NodeKind::Unary: return looseType(*as<UnaryExpr>(e).operand);
+    case NodeKind::Binary: {
+        const auto& binary = as<BinaryExpr>(e);
+        if (binary.op >= BinaryOp::Lt) return nullptr;
+        const Type* type = looseType(*binary.right);
+        return type && type->isNumeric() ? type->base() : nullptr;
+    }
+    case NodeKind::Call: {
+        const RoutineSymbol* routine = asRoutine(lookupOutside(idOf(as<CallExpr>(e).name)));
+        return routine ? routine->returnType.type : nullptr;
+    }
+    case NodeKind::Index: return looseType(*as<IndexExpr>(e).base);
+    case NodeKind::Component: {
+        const auto& part = as<ComponentExpr>(e);
+        const Type* record = part.name == kNoToken ? nullptr : looseType(*part.base);
+        const int index = record ? record->findComponent(context_.tree->text(part.name)) : -1;
+        return index < 0 ? nullptr : record->base()->components[static_cast<size_t>(index)].type;
+    }
+    case NodeKind::Name: break;
+    default: return nullptr;
+    }
+    if (!isName(as<NameExpr>(e).name)) return nullptr;
+    const NameId name = idOf(as<NameExpr>(e).name);
+    if (const auto own = signalUses_.own.find(name); own != signalUses_.own.end()) {
+        if (own->second == kNoToken) return program_.num; // of a FOR
+        TypeSymbol* type = findType(idOf(own->second));
+        return type ? ensureType(*type) : nullptr;
+    }
+    if (DataSymbol* data = asData(lookupOutside(name))) {
+        ensureData(*data);
+        return data->type.type;
+    }
+    return signalUses_.arguments.find(name);
+}
+
+// The value of a literal or a constant.
+bool Analyzer::looseNumber(const Expr& expr, double& value) {
+    const Expr& e = bare(expr);
+    if (e.kind == NodeKind::NumLiteral) {
+        value = as<NumLiteralExpr>(e).value;
+        return true;
+    }
+    if (e.kind == NodeKind::Unary && as<UnaryExpr>(e).op == UnaryOp::Minus) {
+        const bool known = looseNumber(*as<UnaryExpr>(e).operand, value);
+        value = -value;
+        return known;
+    }
+    if (e.kind != NodeKind::Name || !isName(as<NameExpr>(e).name)) return false;
+    const NameId name = idOf(as<NameExpr>(e).name);
+    DataSymbol* data = signalUses_.own.contains(name) ? nullptr : asData(lookupOutside(name));
+    if (!data || data->dataKind != DataKind::Const || data->storage != Storage::ModuleData) return false;
+    ensureValue(*data);
+    value = data->value().kind == ConstValue::Kind::Number ? data->value().number : 0;
+    return data->value().kind == ConstValue::Kind::Number;
+}
+
+void Analyzer::gatherSignalUses(const RoutineSymbol& routine, std::span<Argument* const> args) {
+    size_t next = nextRequired(routine, 0);
+    const Type* partner = nullptr; // AliasIO(name, signal): a signal of that type
+    for (const Argument* a : args) {
+        if (!a->value || a->value->kind != NodeKind::Name || !routine.predefined) continue;
+        DataSymbol* data = asData(lookupOutside(idOf(as<NameExpr>(*a->value).name)));
+        if (!data || data->storage != Storage::ModuleData) continue;
+        ensureData(*data);
+        if (data->type.type->kind == TypeKind::SemiValue) partner = data->type.type;
+    }
+    for (const Argument* a : args) {
+        const DataSymbol* param = nullptr;
+        if (a->argKind == ArgKind::Required) {
+            if (next < routine.params.size()) param = routine.params[next];
+            next = nextRequired(routine, alternativesEnd(routine, next));
+        } else if (a->name != kNoToken) {
+            const NameId name = idOf(a->name);
+            for (const DataSymbol* p : routine.params)
+                if (p->nameId == name) param = p;
+        }
+        if (!param || !a->value || a->value->kind != NodeKind::Name) continue;
+        const NameId name = idOf(as<NameExpr>(*a->value).name);
+        const bool either =
+            param->accepts == ParamClass::SignalOrString || param->accepts == ParamClass::Signal;
+        const Type* type = either ? partner : param->type.type;
+        if (!type || signalUses_.own.contains(name) || lookupOutside(name)) continue;
+        if (type->kind != TypeKind::SemiValue) {
+            if (!either && param->mode != ParamMode::In) usedOtherwise(*a->value);
+        } else if (!signalUses_.arguments.find(name)) {
+            signalUses_.arguments.set(name, type);
+        }
+    }
+}
+
+} // namespace rapid::sema

@@ -1,0 +1,229 @@
+#include "tools/rapidc/missing_report.h"
+
+#include "frontend/sema/names.h"
+#include "frontend/sema/options.h"
+#include "stdlib/native_table.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace rapidc {
+
+namespace {
+
+namespace diag = rapid::diag;
+namespace sema = rapid::sema;
+using diag::Code;
+using Json = nlohmann::ordered_json;
+
+struct Place {
+    std::string file;
+    rapid::LineColumn at;
+    auto operator<=>(const Place& other) const {
+        return std::tie(file, at.line, at.column) <=> std::tie(other.file, other.at.line, other.at.column);
+    }
+    bool operator==(const Place& other) const { return (*this <=> other) == 0; }
+};
+
+struct Row {
+    std::string detail;
+    std::set<std::string> parts; ///< built-ins that need the option
+    std::set<Place> places;
+};
+
+/// By kind, then name.
+using Table = std::map<std::pair<std::string, std::string>, Row>;
+
+/// What a diagnostic reports as missing; an empty kind: nothing.
+struct Finding {
+    std::string_view kind, detail;
+    bool isName = false; ///< it stands in the source: all of its places are told
+};
+
+Finding findingOf(Code code) {
+    switch (code) {
+    case Code::MayBeDeclared: return {"name", "", true};
+    case Code::UnknownName: return {"name", "nothing declares this data", true};
+    case Code::UnknownType: return {"name", "nothing declares this data type", true};
+    case Code::UnknownProcedure: return {"name", "nothing declares this procedure", true};
+    case Code::UnknownFunction: return {"name", "nothing declares this function", true};
+    case Code::UnknownTrap: return {"name", "nothing declares this trap routine", true};
+    case Code::SignalUnknown: return {"signal", "no configuration is given", true};
+    case Code::SignalUndefined: return {"signal", "the configuration does not define it", true};
+    case Code::MechanicalUnitUnknown: return {"unit", "the configuration has no such mechanical unit", true};
+    case Code::EncryptedModule: return {"module", "encrypted"};
+    case Code::ModuleNotSaved:
+    case Code::ListedModuleMissing:
+    case Code::ProgramModuleMissing: return {"module", "the file is not there"};
+    case Code::SystemModuleNotSaved: return {"module", "part of RobotWare"};
+    case Code::TaskWithoutFolder: return {"task", "it has no modules"};
+    case Code::RobotUnknown: return {"robot", "the model is not known here"};
+    default: return {};
+    }
+}
+
+/// The name in the first quotation marks of a message, of some messages in the second ones.
+std::string quoted(const std::string& message, int which) {
+    size_t at = 0;
+    for (int i = 0;; ++i) {
+        const size_t open = message.find('\'', at);
+        const size_t close = open == std::string::npos ? open : message.find('\'', open + 1);
+        if (close == std::string::npos) return {};
+        if (i == which) return message.substr(open + 1, close - open - 1);
+        at = close + 1;
+    }
+}
+
+class MissingReport {
+  public:
+    explicit MissingReport(const Compilation& compilation) : compilation_(compilation) {
+        for (const diag::Diagnostic& d : compilation.sink.all())
+            fromDiagnostic(d);
+        findBuiltins();
+        findPlaces();
+    }
+
+    const Table& table() const { return table_; }
+
+  private:
+    void fromDiagnostic(const diag::Diagnostic& d) {
+        const Finding finding = findingOf(d.code);
+        if (finding.kind.empty()) return;
+        const bool second = d.code == Code::ProgramModuleMissing;
+        std::string name = quoted(d.message, second ? 1 : 0);
+        if (d.code == Code::ListedModuleMissing || finding.kind == "module")
+            name = std::filesystem::path(name).filename().string();
+        Row& row = table_[{std::string(finding.kind), name}];
+        if (row.detail.empty()) row.detail = finding.detail;
+        if (d.code == Code::MayBeDeclared) {
+            constexpr std::string_view kBefore = "it may be declared in ";
+            const size_t from = d.message.find(kBefore);
+            row.detail = d.message.substr(from == std::string::npos ? 0 : from + kBefore.size());
+        }
+        if (finding.isName) names_[sema::foldName(name)].push_back(&row);
+    }
+
+    void findBuiltins() {
+        std::unordered_set<std::string_view> declaredOnly;
+        for (const rt::NativeEntry& entry : rt::nativeTable())
+            if (!entry.isImplemented()) declaredOnly.insert(entry.name);
+        for (const auto& task : compilation_.program->tasks)
+            for (const sema::Module* module : task->modules)
+                for (const auto& [node, call] : module->facts->calls) {
+                    const sema::RoutineSymbol* routine = call.routine;
+                    if (!routine || !routine->predefined || call.module != module) continue;
+                    const Place place = placeOf(*module->tree, module->tree->range(*node).begin);
+                    if (routine->native && declaredOnly.contains(routine->name)) {
+                        Row& row = table_[{"built-in", routine->name}];
+                        row.detail = "not implemented: the program stops when it calls it";
+                        row.places.insert(place);
+                    }
+                    if (!routine->option.empty()) needOption(*routine, place);
+                }
+    }
+
+    void needOption(const sema::RoutineSymbol& routine, const Place& place) {
+        const auto& installed = compilation_.options.robotWareOptions;
+        if (installed && sema::isOptionInstalled(*installed, routine.option)) return;
+        Row& row = table_[{"option", routine.option}];
+        row.detail =
+            installed ? "the controller does not have it" : "whether the controller has it is not known";
+        row.parts.insert(routine.name);
+        row.places.insert(place);
+    }
+
+    static Place placeOf(const rapid::syntax::SyntaxTree& tree, uint32_t offset) {
+        return {tree.source->path(), tree.source->lineColumn(offset)};
+    }
+
+    /// Where the names stand that are reported once only.
+    void findPlaces() {
+        std::unordered_set<const rapid::syntax::SyntaxTree*> seen;
+        for (const auto& tree : compilation_.program->trees) {
+            if (!isOwn(*tree)) continue;
+            for (const rapid::syntax::Token& token : tree->tokens) {
+                if (token.kind != rapid::syntax::TokenKind::Identifier) continue;
+                const auto found =
+                    names_.find(sema::foldName(tree->source->text().substr(token.offset, token.length)));
+                if (found == names_.end()) continue;
+                for (Row* row : found->second)
+                    row->places.insert(placeOf(*tree, token.offset));
+            }
+        }
+    }
+
+    bool isOwn(const rapid::syntax::SyntaxTree& tree) {
+        if (own_.empty())
+            for (const sema::TaskInput& task : compilation_.tasks)
+                for (const auto& file : task.files)
+                    own_.insert(file.get());
+        return own_.contains(tree.source.get());
+    }
+
+    const Compilation& compilation_;
+    Table table_;
+    std::unordered_map<std::string, std::vector<Row*>> names_; ///< in lower case
+    std::unordered_set<const rapid::SourceFile*> own_;
+};
+
+std::string detailOf(const Row& row) {
+    if (row.parts.empty()) return row.detail;
+    return fmt::format("{}; needed by {}", row.detail, fmt::join(row.parts, ", "));
+}
+
+std::string placesOf(const Row& row) {
+    if (row.places.empty()) return "-";
+    const Place& first = *row.places.begin();
+    std::string text = fmt::format("{}:{}", first.file, first.at.line);
+    if (row.places.size() > 1) text += fmt::format(" and {} more", row.places.size() - 1);
+    return text;
+}
+
+} // namespace
+
+std::string missingTable(const Compilation& compilation) {
+    const MissingReport report(compilation);
+    if (report.table().empty()) return "nothing is missing\n";
+    constexpr std::array<std::string_view, 4> kTitles = {"KIND", "NAME", "WHERE", "WHY"};
+    std::vector<std::array<std::string, 4>> lines;
+    std::array<size_t, 4> widths{};
+    const auto add = [&](std::array<std::string, 4> line) {
+        for (size_t i = 0; i < line.size(); ++i)
+            widths[i] = std::max(widths[i], line[i].size());
+        lines.push_back(std::move(line));
+    };
+    add({std::string(kTitles[0]), std::string(kTitles[1]), std::string(kTitles[2]), std::string(kTitles[3])});
+    for (const auto& [key, row] : report.table())
+        add({key.first, key.second, placesOf(row), detailOf(row)});
+    std::string text;
+    for (const auto& line : lines)
+        text += fmt::format("{:<{}}  {:<{}}  {:<{}}  {}\n", line[0], widths[0], line[1], widths[1], line[2],
+                            widths[2], line[3]);
+    return text;
+}
+
+std::string missingJson(const Compilation& compilation) {
+    const MissingReport report(compilation);
+    Json rows = Json::array();
+    for (const auto& [key, row] : report.table()) {
+        Json places = Json::array();
+        for (const Place& place : row.places)
+            places.push_back({{"file", place.file}, {"line", place.at.line}, {"column", place.at.column}});
+        Json item = {{"kind", key.first}, {"name", key.second}, {"detail", row.detail}};
+        if (!row.parts.empty()) item["neededBy"] = row.parts;
+        item["count"] = row.places.size();
+        item["places"] = std::move(places);
+        rows.push_back(std::move(item));
+    }
+    const Json json = {{"missing", std::move(rows)}};
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; // a path need not be UTF-8
+}
+
+} // namespace rapidc

@@ -1,0 +1,17 @@
+#pragma once
+// check --missing: everything that a program needs and that is not there, in one table.
+
+#include "tools/rapidc/pipeline.h"
+
+#include <string>
+
+namespace rapidc {
+
+/// The table for people; "nothing is missing" when it would be empty. The compilation must have kept the inside of
+/// routines (Inputs::onlyDiagnostics).
+std::string missingTable(const Compilation& compilation);
+
+/// The same as JSON: {"missing":[{kind,name,detail,count,places:[{file,line,column}]}]}.
+std::string missingJson(const Compilation& compilation);
+
+} // namespace rapidc

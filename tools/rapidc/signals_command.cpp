@@ -1,0 +1,86 @@
+// rapidc signals: the signals that a program uses, as an EIO.cfg to start a configuration from.
+
+#include "tools/rapidc/commands.h"
+#include "tools/rapidc/pipeline.h"
+#include "tools/rapidc/signal_uses.h"
+
+#include "config/atomic_file.h"
+#include "runtime/host/run_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace rapidc {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SignalsSettings {
+    Inputs inputs;
+    std::string output;
+};
+
+/// The file would be lost that the program was read from.
+bool isInput(const Compilation& compilation, const std::string& output) {
+    std::error_code ignored;
+    const auto same = [&](const std::string& path) { return fs::equivalent(path, output, ignored); };
+    for (const std::string& config : compilation.configNames)
+        if (same(config)) return true;
+    for (const rapid::sema::TaskInput& task : compilation.tasks)
+        for (const auto& file : task.files)
+            if (same(file->path())) return true;
+    return false;
+}
+
+int writeSignalFile(SignalsSettings& settings) {
+    settings.inputs.assumeSignals = true;
+    const auto compilation = checkInputs(settings.inputs);
+    for (const std::string& problem : compilation->usageErrors)
+        fmt::print(stderr, "rapidc signals: {}\n", problem);
+    if (!compilation->usageErrors.empty()) return static_cast<int>(rt::ExitStatus::BadUsage);
+    const std::vector<UsedSignal>& signals = compilation->assumedSignals;
+    for (const UsedSignal& signal : signals)
+        if (!signal.contradiction.empty())
+            fmt::print(stderr, "rapidc signals: signal '{}' is used as {} and as {}: written as {}\n",
+                       signal.name, signal.type, signal.contradiction, signal.type);
+    const std::string text = writeSignals(signals);
+    if (settings.output.empty()) {
+        fmt::print("{}", text);
+    } else if (isInput(*compilation, settings.output)) {
+        fmt::print(stderr,
+                   "rapidc signals: '{}' is an input, it would be overwritten: name another file with -o\n",
+                   settings.output);
+        return static_cast<int>(rt::ExitStatus::BadUsage);
+    } else if (const std::string problem = rapid::config::replaceFile(settings.output, text);
+               !problem.empty()) {
+        fmt::print(stderr, "rapidc signals: {}\n", problem);
+        return static_cast<int>(rt::ExitStatus::BadUsage);
+    }
+    if (!compilation->sink.hasErrors()) return 0;
+    const size_t errors = compilation->sink.errorCount();
+    fmt::print(stderr,
+               "rapidc signals: the program has {} error{}, so signals may be missing: see 'rapidc check'\n",
+               errors, errors == 1 ? "" : "s");
+    return 1;
+}
+
+} // namespace
+
+void addSignalsCommand(CLI::App& app, int& status) {
+    auto settings = std::make_shared<SignalsSettings>();
+    CLI::App* command = app.add_subcommand(
+        "signals", "Write the signals that a program uses and no configuration defines as an EIO.cfg");
+    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")
+        ->required();
+    command->add_option("-o,--output", settings->output, "The file to write; without it standard output");
+    command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")
+        ->allow_extra_args(false);
+    command->add_option("--config", settings->inputs.configFiles, "Parameters (.cfg) that exist already")
+        ->allow_extra_args(false);
+    command->callback([settings, &status] { status = writeSignalFile(*settings); });
+}
+
+} // namespace rapidc
