@@ -198,9 +198,12 @@ m.modx:
      "IF a = 1 THEN\n"
      "ENDIF"},
     {1113, Kind::Files,
-     "BREAK and CONTINUE have been instructions since RobotWare 7.12, UNDO a word of routines since RobotWare "
-     "5. Programs of older systems, in files with the endings .mod, .sys and .prg, may use them as names. They "
-     "are read as such where they cannot be anything else; before the program moves to a newer controller they "
+     "BREAK and CONTINUE have been instructions since RobotWare 7.12, UNDO a word of routines since "
+     "RobotWare "
+     "5. Programs of older systems, in files with the endings .mod, .sys and .prg, may use them as names. "
+     "They "
+     "are read as such where they cannot be anything else; before the program moves to a newer controller "
+     "they "
      "need other names (manual 1.1.2).",
      R"ex($ rapidc check main.mod
 main.mod:

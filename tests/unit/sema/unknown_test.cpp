@@ -162,8 +162,8 @@ TEST_CASE("an option brings others along", "[sema]") {
     const auto count = [&](const char* installed, const std::string& line) {
         CheckOptions options;
         options.robotWareOptions = {installed};
-        const std::string text =
-            "MODULE work\n  PERS sensor mate := [2, [0,0], 0];\n  PROC run()\n    " + line + "\n  ENDPROC\nENDMODULE\n";
+        const std::string text = "MODULE work\n  PERS sensor mate := [2, [0,0], 0];\n  PROC run()\n    " +
+                                 line + "\n  ENDPROC\nENDMODULE\n";
         const Messages codes = testing::checkTexts({text}, options)->codes();
         return std::count(codes.begin(), codes.end(), "RAP4025");
     };
