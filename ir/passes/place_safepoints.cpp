@@ -21,22 +21,16 @@ class Placer {
 
     void run(Profile profile) {
         keepEntryFree();
-        cfg_ = buildCfg(module_, routine_, HandlerEdges::No);
-        info_ = findLoops(cfg_);
         charged_ = std::any_of(routine_.insts.begin(), routine_.insts.end(),
                                [](const Inst& inst) { return inst.op == Op::Charge; });
-        if (!info_.irreducible.empty()) {
-            for (const Edge& edge : info_.irreducible)
-                payOnEdge(edge);
-            cfg_ = buildCfg(module_, routine_, HandlerEdges::No);
-            info_ = findLoops(cfg_);
-        }
-        for (uint32_t l = 0; l < info_.loops.size(); ++l)
-            placeInLoop(l, profile);
-        if (profile == Profile::Stepping)
+        if (profile == Profile::Stepping) {
+            markCountedLoops();
             step();
-        else
+            breakSilentCycles();
+        } else {
+            placeInLoops();
             payWhereCharged();
+        }
         lookAfterCauses();
     }
 
@@ -188,22 +182,80 @@ class Placer {
         }
     }
 
-    void placeInLoop(uint32_t l, Profile profile) {
-        const Loop& loop = info_.loops[l];
-        bool pays = false, hasStatement = false;
-        for (BlockId b : loop.blocks)
-            for (ValueId id : routine_.blocks[b].insts) {
-                pays = pays || (routine_.insts[id].op == Op::Charge && info_.loopOf[b] == l);
-                hasStatement = hasStatement || routine_.insts[id].op == Op::Stmt;
-            }
+    /// The step of a counted loop cannot wrap.
+    std::optional<CountedLoop> markCounted(const Loop& loop) {
         auto counted = recogniseCountedLoop(routine_, loop);
-        if (counted) routine_.insts[counted->increment].extra = 1; // no signed wrap
-        if (profile == Profile::Stepping) {
-            if (!hasStatement) payAtLatches(loop, leastCost());
-            return;
+        if (counted) routine_.insts[counted->increment].extra = 1;
+        return counted;
+    }
+
+    void markCountedLoops() {
+        cfg_ = buildCfg(module_, routine_, HandlerEdges::No);
+        info_ = findLoops(cfg_);
+        for (const Loop& loop : info_.loops)
+            markCounted(loop);
+    }
+
+    void placeInLoops() {
+        cfg_ = buildCfg(module_, routine_, HandlerEdges::No);
+        info_ = findLoops(cfg_);
+        if (!info_.irreducible.empty()) {
+            for (const Edge& edge : info_.irreducible)
+                payOnEdge(edge);
+            cfg_ = buildCfg(module_, routine_, HandlerEdges::No);
+            info_ = findLoops(cfg_);
         }
-        const bool endsSoon = counted && loop.innermost && isFreeOfCalls(module_, routine_, loop);
-        if (!pays && !endsSoon) payAtLatches(loop, leastCost());
+        for (uint32_t l = 0; l < info_.loops.size(); ++l) {
+            const Loop& loop = info_.loops[l];
+            bool pays = false;
+            for (BlockId b : loop.blocks)
+                for (ValueId id : routine_.blocks[b].insts)
+                    pays = pays || (routine_.insts[id].op == Op::Charge && info_.loopOf[b] == l);
+            const bool counted = markCounted(loop).has_value();
+            const bool endsSoon = counted && loop.innermost && isFreeOfCalls(module_, routine_, loop);
+            if (!pays && !endsSoon) payAtLatches(loop, leastCost());
+        }
+    }
+
+    bool looks(BlockId b) const {
+        const std::vector<ValueId>& insts = routine_.blocks[b].insts;
+        return std::any_of(insts.begin(), insts.end(), [this](ValueId id) {
+            return routine_.insts[id].op == Op::Step || routine_.insts[id].op == Op::Safepoint;
+        });
+    }
+
+    /// A cycle without a statement (a FOR loop with an empty body) gets a safepoint. Elsewhere there is none between
+    /// statements: a task that is interrupted there could not be entered again by a later process.
+    void breakSilentCycles() {
+        enum class State : uint8_t { New, Open, Done };
+        std::vector<State> states(routine_.blocks.size(), State::New);
+        std::vector<Edge> back;
+        struct Visit {
+            BlockId block;
+            std::vector<BlockId> next;
+        };
+        for (BlockId root = 0; root < states.size(); ++root) {
+            if (states[root] != State::New || looks(root)) continue;
+            std::vector<Visit> open{{root, successors(routine_, root)}};
+            states[root] = State::Open;
+            while (!open.empty()) {
+                Visit& at = open.back();
+                if (at.next.empty()) {
+                    states[at.block] = State::Done;
+                    open.pop_back();
+                    continue;
+                }
+                const BlockId to = at.next.back();
+                at.next.pop_back();
+                if (looks(to)) continue;
+                if (states[to] == State::Open) back.push_back({at.block, to});
+                if (states[to] != State::New) continue;
+                states[to] = State::Open;
+                open.push_back({to, successors(routine_, to)});
+            }
+        }
+        for (const Edge& edge : back)
+            payOnEdge(edge);
     }
 
     void payAtLatches(const Loop& loop, uint32_t cost) {

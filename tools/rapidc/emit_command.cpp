@@ -21,6 +21,7 @@ struct EmitSettings {
     std::string as = "ir";
     std::string output;
     bool noOptimise = false;
+    bool stepping = false;
 };
 
 std::string symbolsText(const rapid::sema::CheckedProgram& program) {
@@ -105,8 +106,9 @@ int emit(EmitSettings& settings) {
         return compilation->sink.hasErrors() ? static_cast<int>(rt::ExitStatus::BadProgram) : written;
     }
     ir::Module module;
-    const bool ok = !compilation->sink.hasErrors() &&
-                    (settings.as == "symbols" || lowerToIr(*compilation, "program", false, module));
+    const bool ok =
+        !compilation->sink.hasErrors() &&
+        (settings.as == "symbols" || lowerToIr(*compilation, "program", settings.stepping, module));
     printDiagnostics(*compilation);
     if (!ok) return static_cast<int>(rt::ExitStatus::BadProgram);
     if (settings.as == "symbols") return write(settings, symbolsText(*compilation->program));
@@ -135,6 +137,7 @@ void addEmitCommand(CLI::App& app, int& status) {
     command->add_option("--config", settings->inputs.configFiles, "Parameters (.cfg)")
         ->allow_extra_args(false);
     command->add_option("-o,--output", settings->output, "File to write instead of the terminal");
+    command->add_flag("--stepping", settings->stepping, "Show the code of the stepping profile");
     command->add_flag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
     command->callback([settings, &status] { status = emit(*settings); });
 }
