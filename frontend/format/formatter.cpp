@@ -195,7 +195,9 @@ std::optional<SourceRange> changeOfMeaning(const SyntaxTree& tree, const std::ve
     diag::Sink ignored; // mistakes that are kept
     ParseOptions options;
     options.declarations = request.declarations;
-    const auto again = parse(std::make_shared<const SourceFile>("new.modx", changed.bytes), ignored, options);
+    const bool old = SourceFile::isLegacyFileType(tree.source->path()); // words mean other things there
+    const auto again = parse(std::make_shared<const SourceFile>(old ? "new.mod" : "new.modx", changed.bytes),
+                             ignored, options);
     return findDifference(tree, *again, nodes);
 }
 

@@ -31,14 +31,15 @@ constexpr TokenSet kAfterName = {
     TokenKind::KwElseif, TokenKind::Bar};
 /// What can stand before a value or the name of a declaration, but not before an instruction.
 constexpr TokenSet kBeforeName = {
-    TokenKind::Assign,    TokenKind::Comma,    TokenKind::LeftParen,    TokenKind::LeftBracket,
-    TokenKind::LeftBrace, TokenKind::Plus,     TokenKind::Minus,        TokenKind::Star,
-    TokenKind::Slash,     TokenKind::Less,     TokenKind::LessEqual,    TokenKind::Equal,
-    TokenKind::NotEqual,  TokenKind::Greater,  TokenKind::GreaterEqual, TokenKind::KwNot,
-    TokenKind::KwAnd,     TokenKind::KwOr,     TokenKind::KwXor,        TokenKind::KwDiv,
-    TokenKind::KwMod,     TokenKind::KwReturn, TokenKind::KwTest,       TokenKind::KwGoto,
-    TokenKind::KwProc,    TokenKind::KwTrap,   TokenKind::KwFrom,       TokenKind::KwTo,
-    TokenKind::KwRaise,   TokenKind::KwWith};
+    TokenKind::Assign,    TokenKind::Comma,   TokenKind::LeftParen,    TokenKind::LeftBracket,
+    TokenKind::LeftBrace, TokenKind::Plus,    TokenKind::Minus,        TokenKind::Star,
+    TokenKind::Slash,     TokenKind::Less,    TokenKind::LessEqual,    TokenKind::Equal,
+    TokenKind::NotEqual,  TokenKind::Greater, TokenKind::GreaterEqual, TokenKind::KwIf,
+    TokenKind::KwElseif,  TokenKind::KwWhile, TokenKind::KwNot,        TokenKind::KwAnd,
+    TokenKind::KwOr,      TokenKind::KwXor,   TokenKind::KwDiv,        TokenKind::KwMod,
+    TokenKind::KwReturn,  TokenKind::KwTest,  TokenKind::KwGoto,       TokenKind::KwProc,
+    TokenKind::KwTrap,    TokenKind::KwFrom,  TokenKind::KwTo,         TokenKind::KwRaise,
+    TokenKind::KwWith};
 /// The argument of a call: "Undo 3;".
 constexpr TokenSet kAfterCall = {TokenKind::NumLiteral, TokenKind::StringLiteral, TokenKind::KwTrue,
                                  TokenKind::KwFalse, TokenKind::Backslash};
