@@ -44,6 +44,9 @@ class JitProgram {
 std::unique_ptr<JitProgram> jit(const ir::Module& module, const CodegenOptions& options,
                                 const std::vector<NativeSymbol>& symbols, std::string& error);
 
+/// LLVM calls `outOfMemory`, which does not return, instead of ending the process when memory runs out. Once, at the start.
+void guardMemory(void (*outOfMemory)());
+
 /// Writes a relocatable object (position independent) that defines `rapidc_program`. The same bytes for the same
 /// module, whatever the host's processor.
 bool emitObject(const ir::Module& module, const std::string& path, const CodegenOptions& options,

@@ -305,6 +305,7 @@ void RoutineEmitter::ret(const ir::Inst& inst) {
         return;
     }
     llvm::Value* status = b_.getInt32(rt::kOk);
+    if (inst.operands.empty()) return returnStatus(status); // no result, or the end of what nothing reaches
     if (!function_->getReturnType()->isStructTy()) {
         b_.CreateRet(status);
         return;

@@ -153,6 +153,7 @@ class Loader {
             return;
         }
         if (modules.empty()) report(Code::BadProgramFile, {path.string(), "it names no modules"});
+        task.incomplete = true; // system modules, which it never lists, may declare more
         const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
         for (const std::string& name : modules) {
             const fs::path found = findModule(folder, name);

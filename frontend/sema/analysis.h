@@ -227,7 +227,8 @@ class Analyzer {
         bool isKeyword = false;
         const Symbol* symbol = nullptr; ///< null: a reserved word
     };
-    enum class Meant : uint8_t { Unknown, Keyword };
+    /// Elsewhere: a module that is not here may declare it.
+    enum class Meant : uint8_t { Unknown, Keyword, Elsewhere };
     void setMissingModules(const TaskInput& input);
     bool mayReportUnknown(NameId name);
     bool reportTorn(syntax::TokenIndex token);

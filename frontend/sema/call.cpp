@@ -435,7 +435,8 @@ void Analyzer::checkExclusive(const BoundCall& call) {
     }
 }
 
-// Late binding: the procedure is known at run time only, so arguments are collected as they are (manual 1.1.5).
+// Late binding: the procedure is known at run time only, so arguments are collected as they are (manual 1.1.5). The same for
+// a procedure that a module may declare that is not here; its arguments get their type from nothing.
 void Analyzer::lateCall(const CallStmt& stmt) {
     if (stmt.lateName) {
         const Typed name = expr(*stmt.lateName);
@@ -464,8 +465,10 @@ void Analyzer::lateCall(const CallStmt& stmt) {
         } else if (isPlaceExpr(*arg->value)) {
             if (DataSymbol* root = place(*arg->value).root)
                 markAssigned(*root); // the callee may take it as VAR
-        } else {
+        } else if (stmt.lateName) {
             expr(*arg->value);
+        } else {
+            visitLoose(*arg->value);
         }
     }
     call.args = call.args.first(count);

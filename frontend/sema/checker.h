@@ -23,7 +23,9 @@ struct TaskInput {
     /// Modules that belong to the task but cannot be read: encrypted, not saved with the backup, missing. As named by
     /// the backup, e.g. "secret.sys"; what they declare is not known.
     std::vector<std::string> missingModules;
-    bool incomplete = false; ///< true when `missingModules` is not empty
+    /// Names that nothing declares may be declared elsewhere: some `missingModules`, or modules that nobody named, as the
+    /// system modules of a controller are that a program file never lists.
+    bool incomplete = false;
     /// Without an entry routine the task is left out of a program, with a warning, instead of being an error: tasks of
     /// options and add-ins, whose modules a backup does not hold.
     bool optional = false;

@@ -129,6 +129,7 @@ void Analyzer::declareUnknown(NameId name) {
     symbol.storage = Storage::RoutineData;
     symbol.type.type = program_.errorType;
     symbol.routine = context_.routine;
+    symbol.index = kNoIndex;
     put<Symbol>(routineNames_, name, &symbol);
     declaredInRoutine_.push_back(name);
 }

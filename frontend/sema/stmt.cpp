@@ -375,12 +375,11 @@ bool Analyzer::callStmt(const CallStmt& s) {
             return true;
         } else if (isLineOfText(s) || reportLabelWithoutColon(s)) {
             return true;
-        } else if (reportUnknown(Code::UnknownProcedure, s.name, name, Wanted::Procedure) == Meant::Keyword) {
-            broken_ = true; // and its arguments are none
-            return true;
-        } else if (incomplete_) { // found when it is executed, or not
-            lateCall(s);
-            return true;
+        } else {
+            const Meant meant = reportUnknown(Code::UnknownProcedure, s.name, name, Wanted::Procedure);
+            if (meant == Meant::Keyword) broken_ = true; // and its arguments are none
+            if (meant == Meant::Elsewhere) lateCall(s);  // looked for when it is executed
+            if (meant != Meant::Unknown) return true;
         }
         if (!namesProcedure(s.args)) visitArguments(s.args); // "irq IDelete;"
         return true;

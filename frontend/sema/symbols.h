@@ -95,6 +95,9 @@ enum class Storage : uint8_t {
 /// What a parameter of pseudo-type `anytype` takes; from `where:` in the declaration.
 enum class ParamClass : uint8_t { Any, Value, ValueOrSignal, Atomic, Numeric, Signal, SignalOrString, Array };
 
+/// DataSymbol::index of what stands for a name that nothing declares: it belongs to no table.
+inline constexpr uint32_t kNoIndex = UINT32_MAX;
+
 struct DataSymbol : Symbol {
     Storage storage = Storage::ModuleData;
     syntax::DataKind dataKind = syntax::DataKind::Var;
@@ -116,7 +119,7 @@ struct DataSymbol : Symbol {
 
   public:
     uint32_t group = 0;   ///< parameters: equal for mutually exclusive ones
-    uint32_t index = 0;   ///< dense per routine (parameters first) or per module
+    uint32_t index = 0;   ///< dense per routine (parameters first) or per module; or kNoIndex
     uint32_t writers = 0; ///< files that write it
     uint32_t lastWriter = 0;
     DataType type;

@@ -85,8 +85,7 @@ void Analyzer::setMissingModules(const TaskInput& input) {
     for (const auto& file : input.files) // what a file declares that cannot be read is not known
         if (file->isBinary())
             missingModules_.push_back(std::filesystem::path(file->path()).filename().string());
-    incomplete_ =
-        (input.incomplete && !options_.requireMain) || missingModules_.size() > input.missingModules.size();
+    incomplete_ = input.incomplete || missingModules_.size() > input.missingModules.size();
 }
 
 // "CONST num n Rows:=4;", "PROC my-name()": all words of the line up to the value or the list of parameters, and the names
@@ -194,11 +193,11 @@ Analyzer::Meant Analyzer::reportUnknown(Code code, TokenIndex token, NameId name
         !where.empty()) {
         if (reportedNames_.insert(name).second)
             report(Code::MayBeDeclared, range(token), {text(token), std::string(where), ""});
-        return Meant::Unknown;
+        return Meant::Elsewhere;
     }
     if (incomplete_) {
         if (reportedNames_.insert(name).second) reportMayBeDeclared(token, hint);
-        return meant;
+        return Meant::Elsewhere;
     }
     // A routine that is missing is one mistake; a name that looks misspelt is one each time.
     const bool routine = wanted != Wanted::Data && wanted != Wanted::Type;
@@ -221,7 +220,8 @@ Analyzer::Meant Analyzer::reportUnknown(Code code, TokenIndex token, NameId name
 }
 
 void Analyzer::reportMayBeDeclared(TokenIndex token, const std::string& hint) {
-    const std::string where = missingModules_.empty() ? "a module that is missing" : listed(missingModules_);
+    const std::string where = missingModules_.empty() ? "a module that is not here, such as a system module"
+                                                      : listed(missingModules_);
     report(Code::MayBeDeclared, range(token), {text(token), where, hint});
 }
 

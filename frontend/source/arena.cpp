@@ -79,8 +79,9 @@ class BlockPool {
 
   private:
     static std::pair<char*, size_t> newChunk(size_t atLeast) {
-        const size_t size = std::max(kChunk, roundUp(atLeast, kHugePage));
+        size_t size = std::max(kChunk, roundUp(atLeast, kHugePage));
         void* data = std::aligned_alloc(kHugePage, size);
+        if (!data) data = std::aligned_alloc(kHugePage, size = roundUp(atLeast, kHugePage)); // the last of it
         if (!data) throw std::bad_alloc();
 #if defined(__linux__)
         ::madvise(data, size, MADV_HUGEPAGE); // where there are none, ordinary pages do

@@ -7,6 +7,7 @@
 
 #if defined(__linux__)
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #endif
 #if defined(__GLIBC__)
@@ -21,6 +22,9 @@ void putHeapOnHugePages() {
     constexpr size_t kProbe = size_t{1} << 16; // less than what malloc maps by itself
     constexpr uintptr_t kHugePage = uintptr_t{1} << 21;
     constexpr int kOnHeap = 1 << 24; // what is larger is mapped by itself
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY)
+        return; // no address space to waste
     if (mallopt(M_TOP_PAD, kAtOnce) == 0 || mallopt(M_MMAP_THRESHOLD, kOnHeap) == 0) return;
     const auto before = reinterpret_cast<uintptr_t>(::sbrk(0));
     uintptr_t end = before;

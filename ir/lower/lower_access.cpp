@@ -157,6 +157,7 @@ RoutineLowering::Place RoutineLowering::reference(const Expr& outer) {
     // A value without a place of its own gets a temporary one.
     Place p;
     p.type = info(expr).type;
+    if (p.type.isArray() && !isOfKnownSize(expr, p.type)) return arrayTemporary(expr);
     p.addr = tempAddr(program_.irType(p.type));
     lowerInto(expr, p.type, p.addr);
     return p;

@@ -303,7 +303,11 @@ void RoutineLowering::lowerInto(const Expr& outer, const sema::DataType& type, V
                 {dst, a, b});
         }
         return;
-    default: b_.copy(irType, dst, place(expr).addr); return;
+    default: {
+        const Place source = place(expr);
+        if (type.isArray()) checkSameSize({dst, type, {}}, source);
+        b_.copy(irType, dst, source.addr);
+    }
     }
 }
 

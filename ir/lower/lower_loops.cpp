@@ -85,6 +85,8 @@ void RoutineLowering::lowerFor(const ForStmt& stmt) {
     const auto& variables = facts().loopVariables;
     auto found = variables.find(&stmt);
     if (found == variables.end()) return;
+    for (const Expr* bound : {stmt.from, stmt.to, stmt.step})
+        if (bound && lowerOpenHead(*bound)) return;
     sema::DataSymbol& variable = *found->second;
     // The row stands for the head only: the place of an error in a bound.
     startStatement(*stmt.from, ir::StmtKind::Control);

@@ -355,45 +355,6 @@ uint32_t ProgramLowering::importGlobal(const DataSymbol& symbol, uint32_t task) 
     return static_cast<uint32_t>(module_.globals.size() - 1);
 }
 
-/// Something in the statement itself, not in one nested in it, that nothing declares; its name.
-std::string_view RoutineLowering::missingReference(const Node& node, const char*& error) const {
-    const auto& tree = *module_->tree;
-    if (node.kind == NodeKind::Name && info(as<NameExpr>(node)).type.type->base()->kind == TypeKind::Error) {
-        error = "ERR_REFUNKDAT";
-        return tree.text(as<NameExpr>(node).name);
-    }
-    if (node.kind == NodeKind::Call) {
-        const auto found = facts().calls.find(&node);
-        if (found == facts().calls.end() || !found->second.routine) {
-            error = "ERR_REFUNKFUN";
-            return tree.text(as<CallExpr>(node).name);
-        }
-    }
-    std::string_view missing;
-    forEachChild(node, [&](const Node& child) {
-        if (missing.empty() && !isStmt(child.kind)) missing = missingReference(child, error);
-    });
-    return missing;
-}
-
-/// A reference that stays open until the statement is executed (manual 1.6). True when the statement has been dealt with.
-bool RoutineLowering::lowerUnresolved(const Node& statement, const Node& part) {
-    if (!program_.task(task_).incomplete || statement.kind == NodeKind::PlaceholderStmt) return false;
-    const char* error = nullptr;
-    std::string_view missing;
-    if (statement.kind == NodeKind::Connect &&
-        facts().references.find(&statement) == facts().references.end()) {
-        error = "ERR_REFUNKTRP";
-        missing = module_->tree->text(as<ConnectStmt>(statement).trap);
-    } else {
-        missing = missingReference(part, error);
-    }
-    if (missing.empty()) return false;
-    startStatement(statement, ir::StmtKind::Plain);
-    raiseUnresolved(error, missing);
-    return true;
-}
-
 // ---- Modules that leave memory --------------------------------------------------------------------------------------
 
 uint32_t ProgramLowering::goneFlag(const sema::Module& module, uint32_t task) {
@@ -479,13 +440,6 @@ void RoutineLowering::checkForeignData(const Node& part) {
         b_.br(there);
         b_.setBlock(there);
     }
-}
-
-void RoutineLowering::raiseUnresolved(const char* error, std::string_view name) {
-    const uint32_t native =
-        program_.support("rt_unresolved", ir::NativeClass::Plain, ir::kVoid, {ir::kI32, ir::kPtr});
-    b_.callNative(native,
-                  {b_.constI32(program_.errorNumber(error)), b_.globalAddr(program_.stringGlobal(name))});
 }
 
 /// A routine of another unit.

@@ -279,6 +279,7 @@ void RoutineLowering::lowerData() {
     for (const DataSymbol* data : symbol_.data) {
         if (data->storage != sema::Storage::RoutineData) continue;
         if (data->dataKind == syntax::DataKind::Const) continue; // folded, or a constant global on first use
+        if (isUnknown(data->type)) continue;                     // whoever uses it raises an error
         const ir::TypeId type = program_.irType(data->type);
         Slot slot;
         slot.local = b_.addLocal(data->name, type);
@@ -290,7 +291,9 @@ void RoutineLowering::lowerData() {
         if (found == slots_.end() || data->storage != sema::Storage::RoutineData) continue;
         const ValueId target = b_.localAddr(found->second.local);
         if (data->init) {
-            if (lowerUnresolved(*data->decl, *data->init)) continue;
+            const bool plain = data->init->kind == syntax::NodeKind::Aggregate &&
+                               syntax::as<syntax::AggregateExpr>(*data->init).isPlain();
+            if (!plain && lowerUnresolved(*data->decl, *data->init, ir::StmtKind::Plain)) continue;
             startStatement(*data->decl, ir::StmtKind::Plain);
             lowerInto(*data->init, data->type, target);
         } else {
@@ -308,8 +311,8 @@ ir::Routine RoutineLowering::run() {
     lowerParameters();
     lowerData();
     if (needsDetachedHandler()) shareData();
-    inInstructions_ = true;
     if (routine_.hasBackward) lowerBackwardHandler();
+    inInstructions_ = true;
     lowerList(symbol_.routineDecl->body);
     closeCosts(); // the end below is not part of every profile
     if (!b_.terminated()) {
@@ -395,9 +398,17 @@ void RoutineLowering::lowerErrorClauses() {
     if (lists && others) routine_.errorFilter.push_back(0); // takes the others, too, from its own calls
 }
 
+namespace {
+constexpr int32_t kNoError = -1;
+} // namespace
+
 /// One number in the list of an ERROR clause: goes to `body` when it is the error. True when it is known only here (a
 /// variable of the routine), so that the handler must be asked for every error.
 bool RoutineLowering::lowerListedNumber(const Expr& number, ir::BlockId body) {
+    if (const char* ignored = nullptr; !missingReference(number, ignored).empty()) {
+        routine_.errorFilter.push_back(kNoError); // an error that nothing here can raise
+        return false;
+    }
     startStatement(number, ir::StmtKind::Control);
     const sema::ConstValue* value = info(number).constant;
     const ir::BlockId other = b_.addBlock("other");

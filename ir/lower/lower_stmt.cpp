@@ -88,26 +88,13 @@ uint8_t RoutineLowering::statementFlags(const Stmt& stmt) const {
     return flags;
 }
 
-/// Does the instruction itself, not one nested in it, hold a placeholder?
-bool RoutineLowering::hasPlaceholder(const Node& node) const {
-    if (node.kind == NodeKind::PlaceholderExpr) return true;
-    if (node.kind == NodeKind::Argument && as<Argument>(node).argKind == ArgKind::Placeholder) return true;
-    if (node.kind == NodeKind::IfBranch && !as<IfBranch>(node).condition) return true;
-    if (node.kind == NodeKind::TestCase && as<TestCase>(node).values.empty()) return true;
-    bool found = false;
-    forEachChild(node, [&](const Node& child) {
-        if (!isStmt(child.kind) && !found) found = hasPlaceholder(child);
-    });
-    return found;
-}
-
 void RoutineLowering::lowerStmt(const Stmt& stmt) {
     if (routineHasPlaceholders_ && (stmt.kind == NodeKind::PlaceholderStmt || hasPlaceholder(stmt))) {
         startStatement(stmt, ir::StmtKind::Plain);
         b_.raise(b_.constI32(program_.errorNumber("ERR_EXECPHR")));
         return;
     }
-    if (lowerUnresolved(stmt, stmt)) return;
+    if (lowerUnresolved(stmt, stmt, ir::StmtKind::Plain)) return;
     switch (stmt.kind) {
     case NodeKind::Assign: return lowerAssign(as<AssignStmt>(stmt));
     case NodeKind::CallStmt: {
@@ -177,21 +164,8 @@ void RoutineLowering::lowerAssign(const AssignStmt& stmt) {
         return;
     }
     const Expr& value = unparen(*stmt.value);
-    if (target.type.isArray() && (value.kind == NodeKind::Name)) {
-        const Place source = place(value);
-        ValueId count = ir::kNone;
-        for (int k = 0; k < target.type.rank; ++k) {
-            const ValueId dim = dimValue(target, k);
-            if (target.type.dims[k] == 0 || source.type.dims[k] == 0)
-                b_.check(b_.binary(ir::Op::IEq, dim, dimValue(source, k)),
-                         program_.errorNumber("ERR_ARRAY_SIZE"));
-            count = count == ir::kNone ? dim : b_.binary(ir::Op::IMul, count, dim);
-        }
-        const ValueId bytes = b_.binary(ir::Op::IMul, b_.convert(ir::Op::I32ToI64, count),
-                                        b_.constI64(program_.module().size(element)));
-        b_.copyDynamic(target.addr, source.addr, bytes);
-        return;
-    }
+    if (target.type.isArray() && (value.kind == NodeKind::Name || !isOfKnownSize(value, target.type)))
+        return assignArray(value, target, *stmt.target);
     if (mayAlias(value, *stmt.target)) {
         const ValueId buffer = tempAddr(program_.irType(target.type));
         lowerInto(value, target.type, buffer);
@@ -206,8 +180,12 @@ void RoutineLowering::lowerIf(const IfStmt& stmt) {
     for (const IfBranch* branch : stmt.branches) {
         const ir::BlockId body = b_.addBlock("then");
         const ir::BlockId next = b_.addBlock("else");
-        startStatement(*branch->condition, ir::StmtKind::Control);
-        lowerCond(*branch->condition, body, next);
+        if (lowerOpenHead(*branch->condition)) {
+            b_.condBr(b_.constBool(false), body, next);
+        } else {
+            startStatement(*branch->condition, ir::StmtKind::Control);
+            lowerCond(*branch->condition, body, next);
+        }
         b_.setBlock(body);
         lowerList(branch->body);
         branchIfOpen(end);
@@ -219,6 +197,7 @@ void RoutineLowering::lowerIf(const IfStmt& stmt) {
 }
 
 void RoutineLowering::lowerCompactIf(const CompactIfStmt& stmt) {
+    if (lowerOpenHead(*stmt.condition)) return;
     const ir::BlockId body = b_.addBlock("then");
     const ir::BlockId end = b_.addBlock("endif");
     startStatement(*stmt.condition, ir::StmtKind::Control);
@@ -231,6 +210,7 @@ void RoutineLowering::lowerCompactIf(const CompactIfStmt& stmt) {
 }
 
 void RoutineLowering::lowerWhile(const WhileStmt& stmt) {
+    if (lowerOpenHead(*stmt.condition)) return;
     const ir::BlockId head = b_.addBlock("while");
     const ir::BlockId body = b_.addBlock("do");
     const ir::BlockId latch = b_.addBlock("again");
@@ -254,6 +234,7 @@ void RoutineLowering::lowerWhile(const WhileStmt& stmt) {
 }
 
 void RoutineLowering::lowerTest(const TestStmt& stmt) {
+    if (lowerOpenHead(*stmt.subject)) return;
     startStatement(*stmt.subject, ir::StmtKind::Control);
     checkForeignData(stmt); // what the cases compare with, too
     const sema::DataType type = info(*stmt.subject).type;
@@ -272,6 +253,7 @@ void RoutineLowering::lowerTest(const TestStmt& stmt) {
         const ir::BlockId body = b_.addBlock("case");
         const ir::BlockId next = b_.addBlock("nextcase");
         for (const Expr* value : testCase->values) {
+            if (lowerOpenHead(*value)) continue;
             const ir::BlockId other = b_.addBlock("othervalue");
             ValueId equal = ir::kNone;
             if (scalar) {

@@ -52,6 +52,10 @@ Passing passingOf(const DataSymbol& param) {
     return byValue ? Passing::Value : Passing::Pointer;
 }
 
+bool isUnknown(const DataType& type) {
+    return type.type->base()->kind == TypeKind::Error;
+}
+
 ProgramLowering::ProgramLowering(const sema::CheckedProgram& program, const Options& options,
                                  diag::Sink& sink, ir::Module& out)
     : program_(program), options_(options), sink_(sink), module_(out) {
@@ -70,8 +74,8 @@ ir::TypeId ProgramLowering::irType(const sema::Type* type) {
     case TypeKind::Switch: return ir::kBool;
     case TypeKind::String: return ir::kStr;
     case TypeKind::NonValue:
-    case TypeKind::SemiValue: return ir::kI64;
-    case TypeKind::Error:
+    case TypeKind::SemiValue:
+    case TypeKind::Error: return ir::kI64; // of a module that is not here: a place, which nothing reads
     case TypeKind::AnyType: return ir::kVoid;
     case TypeKind::Record: break;
     }
@@ -142,8 +146,8 @@ void ProgramLowering::flatten(const sema::ConstValue& value, const DataType& typ
     case TypeKind::Bool: scalar.kind = ir::TypeKind::Bool; break;
     case TypeKind::String: scalar.kind = ir::TypeKind::Str; break;
     case TypeKind::NonValue:
-    case TypeKind::SemiValue: scalar.kind = ir::TypeKind::I64; break;
-    case TypeKind::Error:
+    case TypeKind::SemiValue:
+    case TypeKind::Error: scalar.kind = ir::TypeKind::I64; break;
     case TypeKind::Switch:
     case TypeKind::AnyType: return;
     }
@@ -415,7 +419,7 @@ void ProgramLowering::lowerTask(uint32_t index) {
     const sema::Task& current = task(index);
     for (const sema::Module* m : current.modules) {
         for (const DataSymbol* data : m->data)
-            globalFor(*data, index);
+            if (!isUnknown(data->type)) globalFor(*data, index);
         for (const RoutineSymbol* routine : m->routines)
             routineFor(*routine, index);
     }
@@ -457,7 +461,7 @@ bool ProgramLowering::runUnit(uint32_t task, const sema::Module& module, const U
     findNamedParameters();
     continuesAtUserLevel_ = usesContinue();
     for (const DataSymbol* data : module.data)
-        globalFor(*data, task);
+        if (!isUnknown(data->type)) globalFor(*data, task);
     for (const RoutineSymbol* routine : module.routines)
         routineFor(*routine, task);
     drainPending();

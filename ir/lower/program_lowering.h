@@ -19,6 +19,9 @@ enum class Passing : uint8_t {
 
 Passing passingOf(const sema::DataSymbol& param);
 
+/// Of a type that a module declares which is not here: the instruction that uses such data raises an error.
+bool isUnknown(const sema::DataType& type);
+
 class RoutineLowering;
 
 class ProgramLowering {

@@ -120,7 +120,6 @@ class RoutineLowering {
     // lower_stmt.cpp
     void lowerList(syntax::StmtList list);
     void lowerStmt(const syntax::Stmt& stmt);
-    bool hasPlaceholder(const syntax::Node& node) const;
     uint8_t statementFlags(const syntax::Stmt& stmt) const;
     struct CallSearch; ///< lower_resume.cpp
     uint8_t resumeFlags(const syntax::Stmt& stmt, size_t row) const;
@@ -230,15 +229,34 @@ class RoutineLowering {
     ValueId isInMemory(const sema::Symbol& symbol);
     void collectForeignData(const syntax::Node& node, std::vector<const sema::DataSymbol*>& out) const;
     void checkForeignData(const syntax::Node& part);
-    void raiseUnresolved(const char* error, std::string_view name);
-    bool lowerUnresolved(const syntax::Node& statement, const syntax::Node& part);
-    std::string_view missingReference(const syntax::Node& node, const char*& error) const;
     void lowerLateCall(const syntax::CallStmt& stmt);
     void callByName(ValueId name, std::span<const sema::BoundArg> args, ir::RoutineKind kind, ValueId result);
     void lateValue(const sema::BoundArg& arg, ValueId present, std::vector<ValueId>& out);
     int32_t lateFlags(const sema::BoundArg& arg) const;
     ValueId argumentName(const sema::BoundArg& arg);
     void lowerArgName(const sema::BoundCall& call, ValueId resultAddr);
+
+    // lower_array.cpp
+    Place rowOf(const Place& array, ValueId addr) const;
+    ValueId elementCount(const Place& array, int from); ///< I32; of the dimensions from number `from` on
+    ValueId byteCount(const Place& array);              ///< I64
+    void checkSameSize(const Place& a, const Place& b);
+    void checkShape(const Expr& expr, const Place& target);
+    void storeArray(const Expr& expr, const Place& target);
+    Place arrayTemporary(const Expr& expr);
+    void assignArray(const Expr& value, const Place& target, const Expr& written);
+    bool isOfKnownSize(const Expr& value, const sema::DataType& target) const;
+
+    // lower_open.cpp
+    void raiseUnresolved(const char* error, std::string_view name);
+    bool lowerUnresolved(const syntax::Node& statement, const syntax::Node& part, ir::StmtKind kind);
+    bool lowerOpenHead(const Expr& expr);
+    std::string_view missingReference(const syntax::Node& node, const char*& error) const;
+    std::string_view missingInName(const syntax::NameExpr& name, const char*& error) const;
+    std::string_view missingInCall(const syntax::Node& node, syntax::TokenIndex name,
+                                   const char*& error) const;
+    std::string_view missingInCallStmt(const syntax::CallStmt& stmt, const char*& error) const;
+    bool hasPlaceholder(const syntax::Node& node) const;
 
     // helpers
     const sema::FileFacts& facts() const { return *module_->facts; }

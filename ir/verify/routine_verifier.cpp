@@ -138,6 +138,9 @@ std::vector<bool> RoutineVerifier::reachableFrom(BlockId root) const {
 void RoutineVerifier::handlers() {
     std::vector<bool> inBody = reachableFrom(0), inError = reachableFrom(routine_.errorHandler);
     inUndo_ = reachableFrom(routine_.undoHandler);
+    reached_.assign(inBody.size(), false);
+    for (size_t i = 0; i < inBody.size(); ++i)
+        reached_[i] = inBody[i] || inError[i] || inUndo_[i];
     for (block_ = 0; block_ < routine_.blocks.size(); ++block_) {
         if (inUndo_[block_] && (inBody[block_] || inError[block_]))
             add("is reached from the undo handler and from elsewhere");

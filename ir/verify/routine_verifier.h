@@ -50,6 +50,7 @@ class RoutineVerifier {
     std::vector<BlockId> blockOf_;  ///< per instruction
     std::vector<uint32_t> placeOf_; ///< position inside its block
     std::vector<bool> inUndo_;      ///< per block: only the undo handler reaches it
+    std::vector<bool> reached_;     ///< per block: from the entry or a handler, without RETRY and TRYNEXT
     Cfg cfg_;
 };
 

@@ -47,8 +47,10 @@ void ProgramTables::addUnit(const ProgramDesc& unit, LoadedModule module) {
 }
 
 void ProgramTables::take(const ProgramDesc& unit) {
+    // What a unit has of the language's data stays when its module leaves memory: others may refer to it.
+    const bool isNew = taken_.insert(&unit).second;
     for (uint32_t i = 0; i < unit.globalCount; ++i)
-        globals_.push_back(&unit.globals[i]);
+        if (isNew || (unit.globals[i].flags & kDataPredefined) == 0) globals_.push_back(&unit.globals[i]);
     for (uint32_t i = 0; i < unit.aliasCount; ++i)
         globals_.push_back(&unit.aliases[i]);
     for (uint32_t i = 0; i < unit.routineCount; ++i)
@@ -88,6 +90,8 @@ bool ProgramTables::remove(int32_t task, std::string_view module) {
         std::erase_if(routineData_, [&](const RoutineDataDesc* entry) {
             return within(entry, unit->routineData, unit->routineDataCount);
         });
+        const std::unordered_set<const TypeDesc*> types(unit->types, unit->types + unit->typeCount);
+        std::erase_if(types_, [&](const TypeDesc* type) { return types.contains(type); });
     } else {
         if (found->gone != nullptr) *found->gone = 1;
         const auto inModule = [&](const auto* entry) {

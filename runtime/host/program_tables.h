@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace rt {
@@ -64,6 +65,7 @@ class ProgramTables {
     std::vector<const RoutineEntry*> routines_;
     std::vector<const RoutineDataDesc*> routineData_;
     std::vector<const TypeDesc*> types_;
+    std::unordered_set<const ProgramDesc*> taken_; ///< the program, and units that are or were in memory
     std::unordered_multimap<std::string, const GlobalDesc*> globalByName_;
     std::unordered_multimap<std::string, const RoutineEntry*> routineByName_;
 };

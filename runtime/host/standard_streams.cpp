@@ -3,10 +3,15 @@
 #include "runtime/host/run_options.h"
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <new>
+#include <system_error>
 #include <unistd.h>
 
 namespace rt {
@@ -24,7 +29,39 @@ ssize_t writeToStandardError(void* /*cookie*/, const char* text, size_t size) {
     return static_cast<ssize_t>(size);
 }
 
+const char* programName = "rapidc";
+
+/// Not every library asks for memory by `new`, and some throw where nothing can catch.
+[[noreturn]] void endAfterException() {
+    try {
+        if (std::current_exception()) throw;
+    } catch (const std::bad_alloc&) {
+        endOutOfMemory();
+    } catch (const std::system_error& problem) {
+        const auto condition = problem.code().default_error_condition();
+        if (condition == std::errc::not_enough_memory ||
+            condition == std::errc::resource_unavailable_try_again)
+            endOutOfMemory();
+    } catch (...) { // a mistake of the program itself
+    }
+    std::abort();
+}
+
 } // namespace
+
+void endOutOfMemory() {
+    const auto say = [](const char* text) { writeToStandardError(nullptr, text, std::strlen(text)); };
+    say(programName);
+    say(": out of memory: give the process more (ulimit -v), or split the input\n");
+    std::_Exit(kOutOfMemory);
+}
+
+void guardLimits(const char* program) {
+    programName = program;
+    std::signal(SIGXFSZ, SIG_IGN); // the write fails with EFBIG then
+    std::set_new_handler(endOutOfMemory);
+    std::set_terminate(endAfterException);
+}
 
 void guardStandardStreams() {
     // Open in the wrong direction: what is written is still refused.

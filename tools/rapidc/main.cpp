@@ -1,5 +1,6 @@
 // rapidc: one executable, its commands (design chapter 8).
 
+#include "codegen/codegen.h"
 #include "runtime/host/run_options.h"
 #include "runtime/host/standard_streams.h"
 #include "runtime/host/usage.h"
@@ -9,6 +10,8 @@
 #include <system_error>
 
 int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of memory may end it
+    rt::guardLimits("rapidc");
+    codegen::guardMemory(rt::endOutOfMemory);
     rt::guardStandardStreams();
     CLI::App app{"rapidc compiles ABB RAPID to native code and runs it on a virtual controller"};
     app.name("rapidc");

@@ -13,6 +13,7 @@
 extern "C" const rt::ProgramDesc rapidc_program;
 
 int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of memory may end it
+    rt::guardLimits(rapidc_program.name);
     rt::guardStandardStreams();
     rt::RunOptions options;
     CLI::App app(std::string("RAPID program ") + rapidc_program.name + " on a virtual controller");

@@ -1,0 +1,171 @@
+// Open references: names and data types that a module declares which is not here (encrypted, of an add-in, of the system, or
+// loaded later), and placeholders. The instruction that uses them raises an error when it is executed.
+
+#include "frontend/syntax/token_set.h"
+#include "frontend/syntax/tree_walk.h"
+#include "ir/lower/routine_lowering.h"
+
+namespace rapid::lower {
+
+using namespace syntax;
+using sema::BoundArg;
+using sema::DataSymbol;
+
+namespace {
+
+/// The data type as written in the declaration.
+std::string_view typeNameOf(const DataSymbol& symbol) {
+    if (!symbol.decl || !symbol.module) return symbol.name;
+    TokenIndex token = kNoToken;
+    if (symbol.decl->kind == NodeKind::Param) token = as<ParamDecl>(*symbol.decl).type;
+    if (symbol.decl->kind == NodeKind::Data) token = as<DataDecl>(*symbol.decl).type;
+    return token == kNoToken ? std::string_view(symbol.name) : symbol.module->tree->text(token);
+}
+
+/// A constant that gets its value from a name which nothing declares here.
+bool lacksValue(const DataSymbol& symbol) {
+    return symbol.dataKind == DataKind::Const && symbol.storage != sema::Storage::Parameter && symbol.init &&
+           !symbol.predefined && symbol.value().kind == sema::ConstValue::Kind::None;
+}
+
+} // namespace
+
+std::string_view RoutineLowering::missingInName(const NameExpr& name, const char*& error) const {
+    const sema::ExprInfo& facts = info(name);
+    const bool data = facts.symbol && facts.symbol->kind == sema::SymbolKind::Data;
+    const bool known =
+        !isUnknown(facts.type) && !(data && lacksValue(*static_cast<const DataSymbol*>(facts.symbol)));
+    if (known) return {};
+    error = "ERR_REFUNKDAT";
+    return module_->tree->text(name.name);
+}
+
+std::string_view RoutineLowering::missingInCall(const Node& node, TokenIndex name, const char*& error) const {
+    const auto found = facts().calls.find(&node);
+    const bool isFunction = node.kind == NodeKind::Call;
+    if (found == facts().calls.end() || !found->second.routine) {
+        error = isFunction ? "ERR_REFUNKFUN" : "ERR_REFUNKPRC";
+        return module_->tree->text(name);
+    }
+    const sema::RoutineSymbol& routine = *found->second.routine;
+    error = "ERR_REFUNKDAT";
+    for (const BoundArg& arg : found->second.args)
+        if (arg.kind != BoundArg::Kind::Absent && isUnknown(arg.param->type)) return typeNameOf(*arg.param);
+    if (isFunction && isUnknown(routine.returnType))
+        return routine.module->tree->text(routine.routineDecl->returnType);
+    return {};
+}
+
+/// Something in the instruction or expression, not in an instruction nested in it, that nothing declares; its name, and
+/// the error it raises.
+std::string_view RoutineLowering::missingReference(const Node& node, const char*& error) const {
+    if (node.kind == NodeKind::Name) return missingInName(as<NameExpr>(node), error);
+    std::string_view missing;
+    forEachChild(node, [&](const Node& child) {
+        if (missing.empty() && !isStmt(child.kind)) missing = missingReference(child, error);
+    });
+    if (!missing.empty()) return missing;
+    if (node.kind == NodeKind::Call) return missingInCall(node, as<CallExpr>(node).name, error);
+    if (node.kind == NodeKind::CallStmt && !as<CallStmt>(node).lateName)
+        return missingInCall(node, as<CallStmt>(node).name, error);
+    error = "ERR_REFUNKDAT";
+    if (node.kind == NodeKind::Component) {
+        const auto& component = as<ComponentExpr>(node);
+        return isUnknown(info(component).type) ? module_->tree->text(component.name) : std::string_view();
+    }
+    if (node.kind != NodeKind::Aggregate) return {};
+    const sema::DataType& type = info(as<AggregateExpr>(node)).type;
+    const std::string_view text = module_->tree->source->text();
+    const SourceRange range = module_->tree->range(node);
+    constexpr uint32_t kShown = 40;
+    if (isUnknown(type)) return text.substr(range.begin, std::min(range.end - range.begin, kShown));
+    for (const sema::Type::Component& component : type.type->base()->components)
+        if (component.type->base()->kind == sema::TypeKind::Error) return component.name;
+    return {};
+}
+
+/// An instruction whose references stay open until it is executed (manual 1.6). True when it has been dealt with.
+bool RoutineLowering::lowerUnresolved(const Node& statement, const Node& part, ir::StmtKind kind) {
+    const char* error = nullptr;
+    std::string_view missing;
+    switch (part.kind) {
+    case NodeKind::If:
+    case NodeKind::CompactIf:
+    case NodeKind::While:
+    case NodeKind::For:
+    case NodeKind::Test:
+    case NodeKind::PlaceholderStmt: return false; // their parts, one by one, when they are reached
+    case NodeKind::Connect:
+        if (facts().references.find(&part) == facts().references.end()) {
+            error = "ERR_REFUNKTRP";
+            missing = module_->tree->text(as<ConnectStmt>(part).trap);
+            break;
+        }
+        missing = missingReference(part, error);
+        break;
+    case NodeKind::CallStmt: missing = missingInCallStmt(as<CallStmt>(part), error); break;
+    case NodeKind::Return:
+        if (symbol_.routineKind == RoutineKind::Func && isUnknown(symbol_.returnType)) {
+            error = "ERR_REFUNKDAT";
+            missing = module_->tree->text(symbol_.routineDecl->returnType);
+            break;
+        }
+        missing = missingReference(part, error);
+        break;
+    default: missing = missingReference(part, error);
+    }
+    if (missing.empty()) return false;
+    startStatement(statement, kind);
+    raiseUnresolved(error, missing);
+    return true;
+}
+
+/// An expression in the head of an instruction, as lowerUnresolved().
+bool RoutineLowering::lowerOpenHead(const Expr& expr) {
+    return lowerUnresolved(expr, expr, ir::StmtKind::Control);
+}
+
+/// A procedure that nothing declares is looked for when it is called: a module that came meanwhile may have it. An argument
+/// of unknown type cannot be passed to it.
+std::string_view RoutineLowering::missingInCallStmt(const CallStmt& stmt, const char*& error) const {
+    const auto found = facts().calls.find(&stmt);
+    const bool bound = found != facts().calls.end();
+    if (stmt.lateName || (bound && found->second.routine)) return missingReference(stmt, error);
+    error = "ERR_REFUNKPRC";
+    const std::string_view name = module_->tree->text(stmt.name);
+    if (!bound) return name;
+    const char* ignored = nullptr;
+    for (const BoundArg& arg : found->second.args)
+        if (arg.value && (isUnknown(info(*arg.value).type) || !missingReference(*arg.value, ignored).empty()))
+            return name;
+    return {};
+}
+
+void RoutineLowering::raiseUnresolved(const char* error, std::string_view name) {
+    const uint32_t native =
+        program_.support("rt_unresolved", ir::NativeClass::Plain, ir::kVoid, {ir::kI32, ir::kPtr});
+    b_.callNative(native,
+                  {b_.constI32(program_.errorNumber(error)), b_.globalAddr(program_.stringGlobal(name))});
+}
+
+/// Does the instruction itself, not one nested in it, hold a placeholder?
+bool RoutineLowering::hasPlaceholder(const Node& node) const {
+    if (node.kind == NodeKind::IfBranch && !as<IfBranch>(node).condition) return true;
+    if (node.kind == NodeKind::TestCase && as<TestCase>(node).values.empty()) return true;
+    const auto isOne = [&](TokenIndex from, TokenIndex end) {
+        for (TokenIndex t = from; t < end; ++t)
+            if (isPlaceholder(module_->tree->tokens[t].kind)) return true;
+        return false;
+    };
+    // Its own words are those between its children: <ID> may stand for any name.
+    bool found = false;
+    TokenIndex next = node.first;
+    forEachChild(node, [&](const Node& child) {
+        if (child.first == kNoToken || child.first > child.last) return;
+        found = found || isOne(next, child.first) || (!isStmt(child.kind) && hasPlaceholder(child));
+        next = std::max(next, child.last + 1);
+    });
+    return found || (node.last != kNoToken && isOne(next, node.last + 1));
+}
+
+} // namespace rapid::lower

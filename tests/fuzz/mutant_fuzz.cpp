@@ -1,0 +1,156 @@
+// libFuzzer target: a program of the tests, changed word by word and line by line. What check accepts must come through to
+// machine code and a bounded run, in both profiles. The input is the text of the module.
+
+#include "frontend/syntax/lexer.h"
+#include "fuzz_support.h"
+#include "tests/fuzz/program_runner.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+namespace {
+
+using namespace rapid;
+using Random = std::mt19937;
+
+size_t below(Random& random, size_t n) {
+    return n == 0 ? 0 : random() % n;
+}
+
+/// The programs of the tests that consist of one module.
+const std::vector<std::string>& seeds() {
+    static const std::vector<std::string> texts = [] {
+        std::vector<std::filesystem::path> paths;
+        const std::filesystem::path root = RAPIDC_SOURCE_DIR "/tests/golden";
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root))
+            if (entry.path().extension() == ".modx") paths.push_back(entry.path());
+        std::sort(paths.begin(), paths.end());
+        std::vector<std::string> read;
+        for (const auto& path : paths) {
+            std::ifstream file(path, std::ios::binary);
+            read.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+        }
+        return read;
+    }();
+    return texts;
+}
+
+struct Word {
+    syntax::TokenKind kind;
+    std::string text;
+    size_t at;
+};
+
+std::vector<Word> wordsOf(const std::string& text) {
+    std::vector<Word> words;
+    for (const syntax::Token& token : syntax::lex(text).tokens)
+        if (token.length > 0)
+            words.push_back({token.kind, text.substr(token.offset, token.length), token.offset});
+    return words;
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+    std::vector<std::string> lines;
+    for (size_t from = 0; from < text.size();) {
+        const size_t end = std::min(text.find('\n', from), text.size() - 1) + 1;
+        lines.push_back(text.substr(from, end - from));
+        from = end;
+    }
+    return lines;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+    std::string text;
+    for (const std::string& line : lines)
+        text += line;
+    return text;
+}
+
+/// One word becomes another of its kind.
+std::string changeWord(std::string text, Random& random) {
+    static const char* const kNumbers[] = {"0",    "1",          "2",          "-1",       "0.5",
+                                           "3.7",  "1E10",       "1E38",       "16777216", "255",
+                                           "1E-6", "4294967295", "2147483647", "80"};
+    static const char* const kOperators[] = {
+        "+", "-", "*", "/", "<", "<=", ">", ">=", "=", "<>", " DIV ", " MOD ", " AND ", " OR ", " XOR "};
+    const std::vector<Word> words = wordsOf(text);
+    if (words.empty()) return text;
+    const Word& word = words[below(random, words.size())];
+    std::string other;
+    const bool isNumber = word.kind == syntax::TokenKind::NumLiteral;
+    const bool isOperator = word.text.find_first_of("+-*/<>=") == 0 && word.text != ":=";
+    if (isNumber && below(random, 2) == 0) {
+        other = kNumbers[below(random, std::size(kNumbers))];
+    } else if (isOperator) {
+        other = kOperators[below(random, std::size(kOperators))];
+    } else {
+        const std::vector<Word> donors =
+            below(random, 4) == 0 ? wordsOf(seeds()[below(random, seeds().size())]) : words;
+        std::vector<const Word*> fitting;
+        for (const Word& donor : donors)
+            if (donor.kind == word.kind && donor.text != word.text) fitting.push_back(&donor);
+        if (!fitting.empty()) other = fitting[below(random, fitting.size())]->text;
+    }
+    if (!other.empty()) text.replace(word.at, word.text.size(), other);
+    return text;
+}
+
+std::string changeLines(const std::string& text, Random& random) {
+    std::vector<std::string> lines = linesOf(text);
+    if (lines.size() < 4) return text;
+    const auto at = [&] { return static_cast<std::ptrdiff_t>(1 + below(random, lines.size() - 2)); };
+    const auto from = at(), to = at();
+    const std::string line = lines[static_cast<size_t>(from)];
+    switch (below(random, 4)) {
+    case 0: lines.erase(lines.begin() + from); break;
+    case 1: lines.insert(lines.begin() + to, line); break;
+    case 2: std::swap(lines[static_cast<size_t>(from)], lines[static_cast<size_t>(to)]); break;
+    default: {
+        const std::vector<std::string> donor = linesOf(seeds()[below(random, seeds().size())]);
+        if (!donor.empty()) lines.insert(lines.begin() + to, donor[below(random, donor.size())]);
+    }
+    }
+    return joined(lines);
+}
+
+/// Waits for people and other machines: nothing for a run without them.
+bool isLeftOut(const std::string& text) {
+    for (const Word& word : wordsOf(text)) {
+        std::string folded = word.text;
+        std::transform(folded.begin(), folded.end(), folded.begin(),
+                       [](unsigned char c) { return std::tolower(c); });
+        for (const char* begin :
+             {"socket", "egm", "uialpha", "uimsg", "uinum", "uidnum", "uilist", "uimess", "tpread"})
+            if (folded.starts_with(begin)) return true;
+    }
+    return false;
+}
+
+} // namespace
+
+extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t maxSize, unsigned seed) {
+    Random random(seed);
+    std::string text(reinterpret_cast<const char*>(data), size);
+    if (size < 20 || below(random, 50) == 0) text = seeds()[below(random, seeds().size())];
+    for (size_t n = 1 + below(random, 3); n > 0; --n)
+        text = below(random, 3) > 0 ? changeWord(std::move(text), random) : changeLines(text, random);
+    if (text.size() > maxSize) return size;
+    std::memcpy(data, text.data(), text.size());
+    return text.size();
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    static fuzz::ProgramRunner runner;
+    const std::string text = fuzz::bytesOf(data, size);
+    if (isLeftOut(text)) return 0;
+    const bool accepted = fuzz::tryProgram(runner, {{text}}, true);
+    static size_t all = 0, good = 0;
+    ++all;
+    good += accepted ? 1u : 0u;
+    if (all % 1000 == 0) std::fprintf(stderr, "%zu programs, %zu accepted\n", all, good);
+    return 0;
+}

@@ -1,0 +1,173 @@
+#include "tests/fuzz/program_runner.h"
+
+#include "codegen/codegen.h"
+#include "ir/lower/lower.h"
+#include "ir/passes/passes.h"
+#include "runtime/host/controller.h"
+#include "stdlib/native_table.h"
+#include "stdlib/stdlib_text.h"
+#include "tests/fuzz/fuzz_support.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace rapid::fuzz {
+
+namespace {
+
+constexpr const char* kSignals =
+    "EIO:CFG_1.0:5:0::\n#\nEIO_SIGNAL:\n\n"
+    "      -Name \"di1\" -SignalType \"DI\"\n      -Name \"di2\" -SignalType \"DI\"\n"
+    "      -Name \"do1\" -SignalType \"DO\"\n      -Name \"do2\" -SignalType \"DO\"\n"
+    "      -Name \"gi1\" -SignalType \"GI\" -Size 8\n"
+    "      -Name \"gi2\" -SignalType \"GI\" -Size 8\n"
+    "      -Name \"go1\" -SignalType \"GO\" -Size 8\n"
+    "      -Name \"go2\" -SignalType \"GO\" -Size 8\n"
+    "      -Name \"ai1\" -SignalType \"AI\"\n      -Name \"ai2\" -SignalType \"AI\"\n"
+    "      -Name \"ao1\" -SignalType \"AO\"\n      -Name \"ao2\" -SignalType \"AO\"\n";
+
+/// Catches what is written to a descriptor, in memory.
+class Capture {
+  public:
+    explicit Capture(int descriptor) : descriptor_(descriptor), saved_(::dup(descriptor)) {
+        memory_ = ::memfd_create("output", 0);
+        ::dup2(memory_, descriptor_);
+    }
+    ~Capture() {
+        ::dup2(saved_, descriptor_);
+        ::close(saved_);
+        ::close(memory_);
+    }
+    Capture(const Capture&) = delete;
+    Capture& operator=(const Capture&) = delete;
+    std::string text() const {
+        std::string out(static_cast<size_t>(::lseek(memory_, 0, SEEK_END)), '\0');
+        const ssize_t got = ::pread(memory_, out.data(), out.size(), 0);
+        out.resize(got > 0 ? static_cast<size_t>(got) : 0);
+        return out;
+    }
+
+  private:
+    int descriptor_, saved_, memory_;
+};
+
+std::vector<codegen::NativeSymbol> natives() {
+    std::vector<codegen::NativeSymbol> symbols;
+    for (const rt::NativeEntry& entry : rt::nativeTable())
+        if (entry.address) symbols.push_back({entry.symbol, entry.address});
+    for (const rt::SupportEntry& entry : rt::supportTable())
+        if (entry.address) symbols.push_back({entry.symbol, entry.address});
+    return symbols;
+}
+
+std::string show(const diag::Sink& sink) {
+    std::string text;
+    for (const diag::Diagnostic& d : sink.sorted())
+        if (d.severity == diag::Severity::Error) text += renderText(d, false);
+    return text;
+}
+
+} // namespace
+
+ProgramRunner::ProgramRunner() {
+    for (const stdlib::StdlibSource& source : stdlib::sources())
+        texts_.push_back({source.name, source.text});
+    options_.library = texts_;
+    options_.requireMain = true;
+    options_.configurationKnown = true;
+    for (const char* type : {"di", "do", "gi", "go", "ai", "ao"})
+        for (const char* number : {"1", "2"})
+            options_.signals.push_back({std::string(type) + number, std::string("signal") + type});
+    diag::Sink sink;
+    library_ = sema::check({}, options_, sink);
+}
+
+bool ProgramRunner::check(const TaskTexts& tasks) {
+    std::vector<sema::TaskInput> inputs;
+    sources_.clear();
+    for (size_t i = 0; i < tasks.size(); ++i) {
+        sema::TaskInput& input = inputs.emplace_back();
+        if (i > 0) input.name = "T_" + std::to_string(i + 1);
+        for (const std::string& text : tasks[i]) {
+            const std::string name = input.name + "_" + std::to_string(input.files.size()) + ".modx";
+            input.files.push_back(std::make_shared<const SourceFile>(name, text));
+            sources_ += "! ---- " + name + "\n" + text;
+        }
+    }
+    diag::Sink sink;
+    program_ = sema::check(inputs, options_, sink);
+    errors_ = show(sink);
+    return !sink.hasErrors();
+}
+
+RunResult ProgramRunner::run(Way way) {
+    const auto demand = [&](bool condition, const std::string& what) {
+        if (!condition)
+            std::fprintf(stderr, "%s\nin the %s profile: ", sources_.c_str(),
+                         way.stepping ? "stepping" : "release");
+        require(condition, what.c_str());
+    };
+    lower::Options options;
+    options.stepping = way.stepping;
+    options.configNames = {"EIO.cfg"};
+    options.configTexts = {kSignals};
+    options.nativeImplemented = [](std::string_view symbol) {
+        return rt::findNativeAddress(symbol) != nullptr;
+    };
+    ir::Module module;
+    diag::Sink sink;
+    demand(lower::lowerProgram(*program_, options, sink, module), "checked, but not lowered:\n" + show(sink));
+    ir::PassOptions passes;
+    passes.profile = way.stepping ? ir::Profile::Stepping : ir::Profile::Release;
+    std::string findings;
+    for (const std::string& finding : ir::runPasses(module, passes))
+        findings += finding + "\n";
+    demand(findings.empty(), "checked, but the IR is wrong:\n" + findings);
+    codegen::CodegenOptions codegenOptions;
+    codegenOptions.optimise = way.optimise;
+    codegenOptions.debugInfo = false;
+    static const std::vector<codegen::NativeSymbol> symbols = natives();
+    std::string error;
+    const auto code = codegen::jit(module, codegenOptions, symbols, error);
+    demand(code != nullptr, "checked, but no machine code: " + error);
+    rt::RunOptions runOptions;
+    runOptions.hasMaxTime = true;
+    runOptions.maxTime = 2;
+    runOptions.stackBytes = 1u << 20;
+    RunResult result;
+    {
+        const Capture out(STDOUT_FILENO), err(STDERR_FILENO);
+        {
+            rt::Controller controller(runOptions);
+            rt::setUpStandardLibrary(controller);
+            result.status = static_cast<int>(controller.prepare(*code->program()));
+            if (result.status == 0) result.status = static_cast<int>(controller.run());
+        }
+        std::fflush(stdout);
+        std::fflush(stderr);
+        result.output = out.text();
+    }
+    demand(result.status == 0 || result.status == 1 || result.status == 4,
+           "exit status " + std::to_string(result.status));
+    return result;
+}
+
+bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime) {
+    if (!runner.check(tasks)) return false;
+    const RunResult release = runner.run({.stepping = false, .optimise = true});
+    const RunResult stepping = runner.run({.stepping = true, .optimise = false});
+    constexpr int kMaxTime = 4;
+    const bool comparable = !hasTime && release.status != kMaxTime && stepping.status != kMaxTime;
+    if (comparable && (release.status != stepping.status || release.output != stepping.output)) {
+        for (const auto& task : tasks)
+            for (const std::string& text : task)
+                std::fprintf(stderr, "%s\n", text.c_str());
+        std::fprintf(stderr, "---- release, status %d:\n%s---- stepping, status %d:\n%s", release.status,
+                     release.output.c_str(), stepping.status, stepping.output.c_str());
+        require(false, "the profiles differ");
+    }
+    return true;
+}
+
+} // namespace rapid::fuzz

@@ -1,0 +1,47 @@
+#pragma once
+// Takes modules the whole way: check, lower, verify, machine code, a bounded run. What check accepts must come through, and
+// must do the same in all profiles.
+
+#include "frontend/sema/checker.h"
+
+#include <string>
+#include <vector>
+
+namespace rapid::fuzz {
+
+struct Way {
+    bool stepping = false;
+    bool optimise = true;
+};
+
+struct RunResult {
+    int status = 0;
+    std::string output; ///< of TPWrite
+};
+
+/// Texts of the modules of each task; the first one is T_ROB1.
+using TaskTexts = std::vector<std::vector<std::string>>;
+
+class ProgramRunner {
+  public:
+    ProgramRunner();
+    /// The library alone, checked.
+    const sema::CheckedProgram& library() const { return *library_; }
+    /// True when there are no errors; then run() can be called.
+    bool check(const TaskTexts& tasks);
+    /// Errors of the last check, for people.
+    const std::string& errors() const { return errors_; }
+    /// Breaks off the process with a message when the program does not come through.
+    RunResult run(Way way);
+
+  private:
+    std::vector<sema::LibraryText> texts_;
+    sema::CheckOptions options_;
+    std::unique_ptr<sema::CheckedProgram> library_, program_;
+    std::string errors_, sources_;
+};
+
+/// Checks, runs in two profiles, compares what they print unless `hasTime`. False: check refuses the program.
+bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime);
+
+} // namespace rapid::fuzz
