@@ -255,6 +255,7 @@ class Analyzer {
     Symbol* reportUnknownData(syntax::TokenIndex token, NameId name, const Type* handle);
     DataSymbol* configuredObject(NameId name, std::string spelling, const Type* type, bool assumed);
     void declareUnknown(NameId name);
+    bool comparisonsTell() const;
     void reportSignal(syntax::TokenIndex token, bool perhaps);
     void declareConfiguration();
 

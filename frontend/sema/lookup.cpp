@@ -75,10 +75,13 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
     const bool mecunit = handle && handle->base()->name == "mecunit";
     const Type* type = handle && handle->kind == TypeKind::SemiValue ? handle : nullptr;
     if (!type && !mecunit && context_.routine) type = signalTypeByUse(name);
-    if (!type && !mecunit && context_.routine && !incomplete_) type = signalTypeByName(text(token));
-    const bool assumes = options_.assumeSignals || !options_.configurationKnown;
-    const bool perhaps = !type && !mecunit && context_.routine && !incomplete_ && assumes;
+    const bool open = !type && !mecunit && context_.routine;
+    if (open && (!incomplete_ || options_.assumeSignals)) type = signalTypeByName(text(token));
+    const bool perhaps = open && !type && comparisonsTell();
     if (perhaps) type = signalTypeByComparison(text(token), name);
+    // A signal that cannot come: the name is left to the modules that are missing, which may declare it.
+    const bool cannotCome = options_.configurationKnown || options_.configurationComplete;
+    if (incomplete_ && cannotCome && !options_.assumeSignals) type = nullptr;
     if (!type && !mecunit) {
         if (moduleNames_.find(name)) {
             report(Code::NotData, range(token), {text(token), "a module"});
@@ -96,7 +99,7 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
         return nullptr;
     }
     if (reportedNames_.insert(name).second && mayReportUnknown(name)) {
-        if (incomplete_)
+        if (incomplete_ && !perhaps && !options_.assumeSignals)
             reportMayBeDeclared(token, {});
         else if (mecunit)
             report(Code::MechanicalUnitUnknown, range(token), {text(token)});
@@ -104,6 +107,13 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
             reportSignal(token, perhaps);
     }
     return configuredObject(name, text(token), mecunit ? handle : type, true);
+}
+
+// Whether a comparison with a number is enough to take a name for a signal: without a configuration, and where no module
+// that is known to be missing may declare it.
+bool Analyzer::comparisonsTell() const {
+    if (options_.assumeSignals) return true;
+    return !options_.configurationKnown && missingModules_.empty();
 }
 
 // A signal that no configuration defines. `perhaps`: nothing but a comparison says that it is one.
