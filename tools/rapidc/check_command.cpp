@@ -51,8 +51,12 @@ void fixFiles(const Inputs& inputs) {
                    kMaxRounds);
 }
 
-void printMissing(const Compilation& compilation, bool json) {
-    fmt::print("{}", json ? missingJson(compilation) : missingTable(compilation));
+void printMissing(const Compilation& compilation, const Inputs& inputs, bool json) {
+    std::error_code ignored;
+    std::string root;
+    if (inputs.paths.size() == 1 && std::filesystem::is_directory(inputs.paths[0], ignored))
+        root = (std::filesystem::path(inputs.paths[0]) / "").string();
+    fmt::print("{}", json ? missingJson(compilation) : missingTable(compilation, root));
     const size_t errors = compilation.sink.errorCount();
     if (errors > 0)
         fmt::print(stderr, "{} error{}: 'rapidc check' without --missing shows them\n", errors,
@@ -79,7 +83,7 @@ int check(CheckSettings& settings) {
     }
     const rapid::diag::Sink& sink = compilation->sink;
     if (settings.missing)
-        printMissing(*compilation, settings.format == "json");
+        printMissing(*compilation, settings.inputs, settings.format == "json");
     else if (settings.format == "json")
         fmt::print("{}", rapid::diag::renderJson(sink.sorted()));
     else if (settings.format == "sarif")

@@ -178,17 +178,18 @@ std::string detailOf(const Row& row) {
     return fmt::format("{}; needed by {}", row.detail, fmt::join(row.parts, ", "));
 }
 
-std::string placesOf(const Row& row) {
+std::string placesOf(const Row& row, const std::string& root) {
     if (row.places.empty()) return "-";
     const Place& first = *row.places.begin();
-    std::string text = fmt::format("{}:{}", first.file, first.at.line);
+    const bool below = !root.empty() && first.file.starts_with(root);
+    std::string text = fmt::format("{}:{}", first.file.substr(below ? root.size() : 0), first.at.line);
     if (row.places.size() > 1) text += fmt::format(" and {} more", row.places.size() - 1);
     return text;
 }
 
 } // namespace
 
-std::string missingTable(const Compilation& compilation) {
+std::string missingTable(const Compilation& compilation, const std::string& root) {
     const MissingReport report(compilation);
     if (report.table().empty()) return "nothing is missing\n";
     constexpr std::array<std::string_view, 4> kTitles = {"KIND", "NAME", "WHERE", "WHY"};
@@ -201,7 +202,7 @@ std::string missingTable(const Compilation& compilation) {
     };
     add({std::string(kTitles[0]), std::string(kTitles[1]), std::string(kTitles[2]), std::string(kTitles[3])});
     for (const auto& [key, row] : report.table())
-        add({key.first, key.second, placesOf(row), detailOf(row)});
+        add({key.first, key.second, placesOf(row, root), detailOf(row)});
     std::string text;
     for (const auto& line : lines)
         text += fmt::format("{:<{}}  {:<{}}  {:<{}}  {}\n", line[0], widths[0], line[1], widths[1], line[2],

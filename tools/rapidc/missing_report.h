@@ -7,9 +7,10 @@
 
 namespace rapidc {
 
-/// The table for people; "nothing is missing" when it would be empty. The compilation must have kept the inside of
+/// The table for people; "nothing is missing" when it would be empty. Paths below `root`, unless that is empty, are shown
+/// without it. The compilation must have kept the inside of
 /// routines (Inputs::onlyDiagnostics).
-std::string missingTable(const Compilation& compilation);
+std::string missingTable(const Compilation& compilation, const std::string& root);
 
 /// The same as JSON: {"missing":[{kind,name,detail,count,places:[{file,line,column}]}]}.
 std::string missingJson(const Compilation& compilation);

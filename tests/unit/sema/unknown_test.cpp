@@ -92,7 +92,8 @@ TEST_CASE("a signal that the configuration lacks may be a variable of a missing 
     const auto checked = checkBeside(
         {"io.sys"}, "MODULE work\n  PROC run()\n    Set doGrip;\n  ENDPROC\nENDMODULE\n", false, true);
     CHECK(checked->messages() ==
-          Messages{"RAP2009 at 3:9: 'doGrip' is not declared here, it may be declared in 'io.sys'"});
+          Messages{"RAP2009 at 3:9: 'doGrip' is not declared here, it may be declared in 'io.sys'; if it "
+                   "is a signal, define it in EIO.cfg and pass that with --config"});
 }
 
 TEST_CASE("nothing is missing: an unknown name is an error", "[sema]") {
