@@ -32,7 +32,8 @@ const std::vector<std::string>& seeds() {
         std::vector<std::string> read;
         for (const auto& path : paths) {
             std::ifstream file(path, std::ios::binary);
-            read.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+            std::string text((std::istreambuf_iterator<char>(file)), {});
+            if (text.find("PROC main(") != std::string::npos) read.push_back(std::move(text));
         }
         return read;
     }();
@@ -147,10 +148,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     static fuzz::ProgramRunner runner;
     const std::string text = fuzz::bytesOf(data, size);
     if (isLeftOut(text)) return 0;
-    const bool accepted = fuzz::tryProgram(runner, {{text}}, true);
-    static size_t all = 0, good = 0;
-    ++all;
-    good += accepted ? 1u : 0u;
-    if (all % 1000 == 0) std::fprintf(stderr, "%zu programs, %zu accepted\n", all, good);
+    fuzz::tryProgram(runner, {{text}}, true, text.size() % 4 == 0);
     return 0;
 }

@@ -110,7 +110,8 @@ ProgramMaker::ProgramMaker(const Catalog& catalog, const uint8_t* data, size_t s
 MadeProgram ProgramMaker::make() {
     const size_t moduleCount = 1 + choose_.below(3);
     modules_.resize(moduleCount);
-    budget_ = 400;
+    made_.optimise = choose_.below(4) == 3;
+    budget_ = 40 + static_cast<int>(choose_.below(250));
     makeTypes();
     makeData();
     makeSubs(0);

@@ -91,7 +91,8 @@ class Catalog {
 struct MadeProgram {
     /// Texts of the modules of each task.
     std::vector<std::vector<std::string>> tasks;
-    bool hasTime = false; ///< what it prints hangs on virtual time, which differs between the profiles
+    bool optimise = false; ///< the optimiser takes most of the time
+    bool hasTime = false;  ///< what it prints hangs on virtual time, which differs between the profiles
 };
 
 class ProgramMaker {

@@ -153,9 +153,29 @@ RunResult ProgramRunner::run(Way way) {
     return result;
 }
 
-bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime) {
-    if (!runner.check(tasks)) return false;
-    const RunResult release = runner.run({.stepping = false, .optimise = true});
+Tally& tally() {
+    static Tally counted;
+    static const bool shown = [] {
+        std::atexit(
+            [] { std::fprintf(stderr, "%zu programs, %zu accepted\n", counted.all, counted.accepted); });
+        return true;
+    }();
+    static_cast<void>(shown);
+    return counted;
+}
+
+bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, bool optimise) {
+    ++tally().all;
+    const bool accepted = runner.check(tasks);
+    if (std::getenv("RAPIDC_FUZZ_SHOW") != nullptr) {
+        for (const auto& task : tasks)
+            for (const std::string& text : task)
+                std::fprintf(stderr, "%s", text.c_str());
+        std::fprintf(stderr, "%s", runner.errors().c_str());
+    }
+    if (!accepted) return false;
+    ++tally().accepted;
+    const RunResult release = runner.run({.stepping = false, .optimise = optimise});
     const RunResult stepping = runner.run({.stepping = true, .optimise = false});
     constexpr int kMaxTime = 4;
     const bool comparable = !hasTime && release.status != kMaxTime && stepping.status != kMaxTime;

@@ -41,7 +41,16 @@ class ProgramRunner {
     std::string errors_, sources_;
 };
 
-/// Checks, runs in two profiles, compares what they print unless `hasTime`. False: check refuses the program.
-bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime);
+/// How many programs were tried and how many of them check has accepted.
+struct Tally {
+    size_t all = 0, accepted = 0;
+};
+
+/// Checks, runs in two profiles, compares what they print unless `hasTime`. False: check refuses the program. `optimise`: the
+/// release profile with the optimiser.
+bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, bool optimise);
+
+/// Of tryProgram() in this process; shown when it ends. RAPIDC_FUZZ_SHOW=1 shows programs and refusals as well.
+Tally& tally();
 
 } // namespace rapid::fuzz

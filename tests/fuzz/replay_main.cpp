@@ -36,7 +36,7 @@ size_t tryRandom(const std::string& order) {
     const size_t first = comma == std::string::npos ? 1 : std::stoul(order.substr(comma + 1));
     for (size_t seed = first; seed < first + count; ++seed) {
         std::mt19937_64 random(seed);
-        std::vector<uint8_t> bytes(20 + random() % 2000);
+        std::vector<uint8_t> bytes(20 + random() % 4000);
         for (uint8_t& byte : bytes)
             byte = static_cast<uint8_t>(random());
         if (LLVMFuzzerCustomMutator != nullptr) {
