@@ -37,7 +37,9 @@ std::string_view RoutineLowering::missingInName(const NameExpr& name, const char
         !isUnknown(facts.type) && !(data && lacksValue(*static_cast<const DataSymbol*>(facts.symbol)));
     if (known) return {};
     error = "ERR_REFUNKDAT";
-    return module_->tree->text(name.name);
+    const auto* symbol = data ? static_cast<const DataSymbol*>(facts.symbol) : nullptr;
+    const bool isDeclared = symbol && symbol->decl && isUnknown(symbol->type); // its type is what is missing
+    return isDeclared ? typeNameOf(*symbol) : module_->tree->text(name.name);
 }
 
 std::string_view RoutineLowering::missingInCall(const Node& node, TokenIndex name, const char*& error) const {
