@@ -1,7 +1,8 @@
 #include "config/atomic_file.h"
 
+#include "config/temporary.h"
+
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
@@ -65,16 +66,12 @@ std::string replaceFile(const std::string& path, std::string_view bytes) {
     if (exists && ::access(target.c_str(), W_OK) != 0) return failure("write", path, errno);
 
     const std::string folder = target.has_parent_path() ? target.parent_path().string() : ".";
-    std::string temporary = folder + "/." + target.filename().string() + ".XXXXXX.tmp";
-    const int file = ::mkostemps(temporary.data(), 4, O_CLOEXEC);
-    if (file < 0) return failure("write beside", path, errno);
-    int error = fill(file, bytes, exists ? &old : nullptr);
-    if (::close(file) != 0 && error == 0) error = errno;
-    if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
-    if (error != 0) {
-        ::unlink(temporary.c_str());
-        return failure("write", path, error);
-    }
+    TemporaryFile temporary;
+    if (const int error = temporary.make(folder, target.filename().string()); error != 0)
+        return failure("write beside", path, error);
+    int error = fill(temporary.descriptor(), bytes, exists ? &old : nullptr);
+    if (error == 0) error = temporary.renameTo(target);
+    if (error != 0) return failure("write", path, error);
     flushFolder(folder);
     return {};
 }

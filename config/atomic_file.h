@@ -8,8 +8,8 @@ namespace rapid::config {
 
 /// Writes `bytes` to a temporary file in the same folder, flushes it to the disk, renames it to `path` and flushes the
 /// folder. Permissions (and, where allowed, the owner) of an existing file are kept; through a symbolic link the file
-/// it names is replaced. A file without write permission is not replaced. A writer that is killed may leave a file
-/// `.NAME.XXXXXX.tmp` behind, which no reader of projects takes for a module.
+/// it names is replaced. A file without write permission is not replaced. A writer that is killed may leave a
+/// TemporaryFile, which no reader of projects takes for a module and removeLeftovers() removes.
 ///
 /// Returns what went wrong, for people ("cannot write 'x.mod': No space left on device"); empty: success.
 [[nodiscard]] std::string replaceFile(const std::string& path, std::string_view bytes);

@@ -1,10 +1,13 @@
 #include "config/cfg_parser.h"
 
+#include "config/read_file.h"
 #include "config/text_util.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
+#include <map>
 
 namespace rapid::config {
 namespace {
@@ -19,6 +22,20 @@ bool isBlank(char c) {
     return c == ' ' || c == '\t';
 }
 
+/// "one mistake", "99,950 mistakes"
+std::string counted(std::size_t count) {
+    std::string digits = std::to_string(count);
+    for (std::size_t at = digits.size(); at > 3; at -= 3)
+        digits.insert(at - 3, ",");
+    return count == 1 ? "one more mistake" : digits + " more mistakes";
+}
+
+CfgProblem remainder(const std::string& file, uint32_t line, std::size_t count) {
+    const std::string message = fmt::format("there {} {} in this file; correct those above first",
+                                            count == 1 ? "is" : "are", counted(count));
+    return {file, line, message, false, count};
+}
+
 class CfgReader {
   public:
     CfgReader(std::string_view text, CfgFile& file, std::vector<CfgProblem>& problems)
@@ -29,14 +46,13 @@ class CfgReader {
         std::string_view line;
         while (nextLine(line))
             readLine(line);
+        if (count_ > kMaxCfgProblems)
+            problems_.push_back(remainder(file_.name, line_, count_ - kMaxCfgProblems));
     }
 
   private:
     void problem(uint32_t line, std::string message) {
-        if (++count_ > kMaxCfgProblems + 1) return;
-        if (count_ > kMaxCfgProblems)
-            message = "there are more mistakes in this file; mend those above first";
-        problems_.push_back({file_.name, line, std::move(message)});
+        if (++count_ <= kMaxCfgProblems) problems_.push_back({file_.name, line, std::move(message)});
     }
 
     /// What a message shows of a line.
@@ -231,6 +247,33 @@ std::string CfgProblem::text() const {
     return line == 0 ? fmt::format("{}: {}", file, message) : fmt::format("{}:{}: {}", file, line, message);
 }
 
+void limitProblems(std::vector<CfgProblem>& problems) {
+    struct Rest {
+        std::size_t shown = 0, hidden = 0;
+        uint32_t line = 0;
+        bool warning = true;
+    };
+    std::map<std::string, Rest> rests;
+    std::vector<CfgProblem> kept;
+    for (CfgProblem& problem : problems) {
+        Rest& rest = rests[problem.file];
+        rest.line = std::max(rest.line, problem.line);
+        if (problem.more == 0 && rest.shown < kMaxCfgProblems) {
+            ++rest.shown;
+            kept.push_back(std::move(problem));
+            continue;
+        }
+        rest.hidden += std::max<std::size_t>(problem.more, 1);
+        rest.warning = rest.warning && problem.warning;
+    }
+    for (const auto& [file, rest] : rests) {
+        if (rest.hidden == 0) continue;
+        kept.push_back(remainder(file, rest.line, rest.hidden));
+        kept.back().warning = rest.warning;
+    }
+    problems = std::move(kept);
+}
+
 CfgFile parseCfg(std::string_view text, std::string name, std::vector<CfgProblem>& problems) {
     CfgFile file;
     file.name = std::move(name);
@@ -240,9 +283,9 @@ CfgFile parseCfg(std::string_view text, std::string name, std::vector<CfgProblem
 }
 
 CfgFile readCfg(const std::string& path, std::vector<CfgProblem>& problems) {
-    std::string text, error;
-    if (!readTextFile(path, text, error)) {
-        problems.push_back({path, 0, std::move(error)});
+    std::string text;
+    if (std::string error = readFile(path, text); !error.empty()) {
+        problems.push_back({path, 0, fmt::format("cannot be read: {}", error)});
         CfgFile file;
         file.name = path;
         return file;

@@ -57,11 +57,16 @@ struct CfgProblem {
     uint32_t line = 0; ///< from 1
     std::string message;
     bool warning = false;     ///< what it concerns is left out, the rest works (a signal of an add-in, say)
+    std::size_t more = 0;     ///< not one problem, but so many that are not told one by one
     std::string text() const; ///< "EIO.cfg:12: ..."
 };
 
-/// After so many problems in a file one more says that the rest is not told.
+/// After so many problems in a file one more says how many others there are.
 inline constexpr std::size_t kMaxCfgProblems = 50;
+
+/// The same for problems that several readers have found: of each file the first kMaxCfgProblems, and one that counts
+/// the rest.
+void limitProblems(std::vector<CfgProblem>& problems);
 
 /// Reads the text of one file. ISO 8859-1 is turned into UTF-8 when the text is not UTF-8 already. Problems
 /// (all of them, up to kMaxCfgProblems) are appended; what could be read is returned all the same.

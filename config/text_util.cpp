@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstring>
 
 namespace rapid::config {
 namespace {
@@ -103,22 +100,6 @@ std::string shortestNumber(double value) {
     if (value == 0) return "0"; // not "-0"
     const float single = static_cast<float>(value);
     return static_cast<double>(single) == value ? fmt::format("{}", single) : fmt::format("{}", value);
-}
-
-bool readTextFile(const std::string& path, std::string& text, std::string& error) {
-    std::FILE* file = std::fopen(path.c_str(), "rb");
-    if (file == nullptr) {
-        error = fmt::format("cannot be opened: {}", std::strerror(errno));
-        return false;
-    }
-    text.clear();
-    char buffer[1 << 16];
-    for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, file)) > 0;)
-        text.append(buffer, got);
-    const bool failed = std::ferror(file) != 0; // a folder opens, but cannot be read
-    std::fclose(file);
-    if (failed) error = fmt::format("cannot be read: {}", std::strerror(errno));
-    return !failed;
 }
 
 } // namespace rapid::config

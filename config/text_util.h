@@ -18,7 +18,5 @@ bool parseNumber(std::string_view text, double& value);
 std::string toUtf8(std::string_view text);
 /// Shortest decimal form: of the binary32 value when nothing is lost by that, as RAPID's num shows it.
 std::string shortestNumber(double value);
-/// The whole file; false with a reason when it cannot be read.
-bool readTextFile(const std::string& path, std::string& text, std::string& error);
 
 } // namespace rapid::config

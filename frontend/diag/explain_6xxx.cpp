@@ -92,7 +92,7 @@ second.mod:
   ENDMODULE)ex"},
     {6005, Kind::Files,
      "Tasks are known by their names; the positional inputs make up T_ROB1. Choose another name in "
-     "--task=NAME=INPUT.",
+     "--task=NAME=INPUT. Further inputs of one task follow after commas, or in another --task of its name.",
      R"ex($ rapidc check first.mod --task=T_ROB1=second.mod
 first.mod:
   MODULE first
@@ -116,7 +116,9 @@ second.mod:
     ENDPROC
   ENDMODULE)ex"},
     {6006, Kind::Files,
-     "A controller runs up to 20 tasks (manual 1.20).",
+     "A controller runs up to 20 tasks (manual 1.20); a program with more could not be loaded there. Each --task and "
+     "each task of the configuration counts, T_ROB1 included. Leave out what this run does not need, or put programs "
+     "that may run one after the other together in one task.",
      R"ex($ rapidc check main.mod --task=T_2=main.mod --task=T_3=main.mod --task=T_4=main.mod --task=T_5=main.mod --task=T_6=main.mod --task=T_7=main.mod --task=T_8=main.mod --task=T_9=main.mod --task=T_10=main.mod --task=T_11=main.mod --task=T_12=main.mod --task=T_13=main.mod --task=T_14=main.mod --task=T_15=main.mod --task=T_16=main.mod --task=T_17=main.mod --task=T_18=main.mod --task=T_19=main.mod --task=T_20=main.mod --task=T_21=main.mod
 main.mod:
   MODULE MainModule

@@ -68,6 +68,7 @@ fs::path findPath(const fs::path& folder, std::string_view relative) {
 }
 
 bool FileReader::read(const fs::path& path, std::string& bytes) {
+    filesRead_.push_back(path.string());
     const std::string problem = config::readFile(path.string(), bytes);
     if (!problem.empty()) report(Code::FileUnreadable, {path.string(), problem});
     return problem.empty();

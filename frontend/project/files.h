@@ -37,6 +37,8 @@ class FileReader {
     bool read(const std::filesystem::path& path, std::string& bytes);
     /// Entries of a folder, sorted by name; that it cannot be listed is reported, once.
     std::vector<std::filesystem::path> list(const std::filesystem::path& folder);
+    /// Every file that read() was asked for.
+    const std::vector<std::string>& filesRead() const { return filesRead_; }
     bool isUnreadable(const std::filesystem::path& folder) const {
         return unreadable_.contains(folder.string());
     }
@@ -52,6 +54,7 @@ class FileReader {
     std::unordered_map<std::string, std::shared_ptr<const SourceFile>> known_; ///< by path
     std::unordered_map<const sema::TaskInput*, std::set<std::pair<dev_t, ino_t>>> identities_;
     std::set<std::string> unreadable_; ///< folders
+    std::vector<std::string> filesRead_;
 };
 
 } // namespace rapid::project

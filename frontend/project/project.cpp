@@ -48,6 +48,7 @@ class Loader {
     }
 
     void report(Code code, std::initializer_list<std::string> args) { files_.report(code, args); }
+    const std::vector<std::string>& filesRead() const { return files_.filesRead(); }
 
   private:
     /// The folder itself, the backup whose RAPID it is, or the only folder in it that is a backup while nothing else
@@ -201,9 +202,11 @@ bool loadProject(const std::vector<std::string>& inputs, const std::vector<TaskS
         sema::TaskInput task;
         task.name = spec.name;
         task.type = spec.type;
-        loader.add(spec.input, task, false);
+        for (const std::string& input : spec.inputs)
+            loader.add(input, task, false);
         out.tasks.push_back(std::move(task));
     }
+    out.filesRead = loader.filesRead();
     const auto isEmpty = [](const sema::TaskInput& task) {
         return task.files.empty() && task.missingModules.empty();
     };

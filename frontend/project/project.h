@@ -10,11 +10,11 @@
 
 namespace rapid::project {
 
-/// A task beside the main one: `--task=NAME=INPUT`, `--task=NAME:STATIC=INPUT`.
+/// A task beside the main one: `--task=NAME=INPUT,...`, `--task=NAME:STATIC=INPUT,...`.
 struct TaskSpec {
     std::string name;
-    std::string type = "NORMAL"; ///< NORMAL, STATIC, SEMISTATIC
-    std::string input;           ///< file, folder or .pgf
+    std::string type = "NORMAL";     ///< NORMAL, STATIC, SEMISTATIC
+    std::vector<std::string> inputs; ///< files, folders or .pgf
 };
 
 struct ProjectInput {
@@ -26,6 +26,7 @@ struct ProjectInput {
     std::string robot;                    ///< model that a backup names only among its options; else empty
     std::string homeFolder;               ///< HOME of a backup; empty if there is none
     bool isBackup = false;
+    std::vector<std::string> filesRead; ///< modules, programs and what else was opened
 };
 
 /// Resolves `inputs` (they make up task T_ROB1, unless one of them is a backup, which brings its own tasks) and the

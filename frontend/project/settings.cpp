@@ -106,7 +106,7 @@ std::string findSettings(const std::string& input) {
     if (!fs::is_directory(folder, error)) folder = folder.parent_path();
     for (;; folder = folder.parent_path()) {
         const fs::path candidate = folder / kSettingsFile;
-        if (fs::is_regular_file(candidate, error)) return candidate.string();
+        if (fs::exists(candidate, error)) return candidate.string(); // of whatever kind: reading it tells
         if (folder == folder.parent_path()) return {};
     }
 }

@@ -267,7 +267,7 @@ Analyzer::Suggestion Analyzer::suggestion(NameId name, Wanted wanted) {
     const auto consider = [&](std::string_view folded, std::string_view spelling, bool keyword,
                               const Symbol* symbol = nullptr) {
         const unsigned distance = editDistance(written, folded, limit);
-        if (distance > limit) return;
+        if (distance > std::min(limit, suggestionLimit(folded.size()))) return; // Search_1D is not SearchC
         const bool equal = !best.name.empty() && distance == limit;
         if (equal && (scope != bestScope || bestFolded <= folded)) return;
         if (symbol && lookup(symbol->nameId) != symbol) return; // hidden by another of its name

@@ -3,6 +3,7 @@
 #include "runtime/host/controller.h"
 
 #include "runtime/host/module_saver.h"
+#include "runtime/host/run_files.h"
 #include "runtime/host/saved_state.h"
 #include "runtime/host/stop_signals.h"
 #include "runtime/io/text_util.h"
@@ -150,17 +151,21 @@ ExitStatus Controller::finish(RunEnd end) {
         status = ExitStatus::MaxTimeReached;
     }
     motion_->finishTrace();
-    state_->write();
+    bool complete = state_->write();
     scheduler_.abandonTasks();
-    if (options_.save) saver_->saveAll();
+    if (options_.save) complete = saver_->saveAll() && complete;
     panel_.flush();
     log_.flush();
-    if (trace_ && !trace_->close())
-        fmt::print(stderr, "error: {} could not be written in full\n", options_.trace);
-    if (signalsWriter_ && !signalsWriter_->close()) {
-        fmt::print(stderr, "error: {} could not be written in full\n", options_.signals);
-    }
-    return status;
+    complete = closeOutputs() && complete;
+    return complete || status != ExitStatus::Ended ? status : ExitStatus::BadUsage;
+}
+
+/// False when some of a file was lost, which has been reported.
+bool Controller::closeOutputs() {
+    bool complete = log_.closeJson();
+    if (trace_) complete = trace_->close() && complete;
+    if (signalsWriter_) complete = signalsWriter_->close() && complete;
+    return complete;
 }
 
 bool Controller::cyclesLeft(const Task& task) const {
@@ -358,6 +363,13 @@ void Controller::perform(const StimulusItem& item) {
 }
 
 int runProgram(const ProgramDesc& program, const RunOptions& options, ControllerSetup setup) {
+    rapid::config::OutputGuard guard;
+    guard.reads("/proc/self/exe", "this executable");
+    guardOutputs(options, guard);
+    if (const std::string conflict = guard.conflict(); !conflict.empty()) {
+        fmt::print(stderr, "error: {}\n", conflict);
+        return static_cast<int>(ExitStatus::BadUsage);
+    }
     const StopSignals signals;
     ExitStatus status = ExitStatus::Ended;
     {

@@ -159,6 +159,7 @@ class Controller final : public TaskHost {
     bool backgroundAtWork();
     bool isStart(const StimulusItem& item) const;
     ExitStatus finish(RunEnd end);
+    bool closeOutputs();
     std::string whereTasksAre(const char* verb) const;
     std::string startRefusal(const Task& task) const;
     std::string trustLevel(const Task& task) const;

@@ -11,8 +11,6 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
-
 namespace rt {
 namespace {
 
@@ -84,6 +82,7 @@ ExitStatus Controller::readConfiguration(const ProgramDesc& program) {
     for (const CfgFile& file : configuration_)
         systemSignals_.configure(file, problems);
     applySystemParameters();
+    rapid::config::limitProblems(problems);
     return printProblems(problems);
 }
 
@@ -112,6 +111,9 @@ void Controller::applySystemParameters() {
 
 ExitStatus Controller::openRobot() {
     std::string name = options_.robot;
+    for (const CfgInstance* instance : instances("RAPIDC", "OPTIONS")) { // of rapidc build
+        if (name.empty()) name = instance->text("robot");
+    }
     for (const CfgInstance* instance : instances("MOC", "ROBOT")) {
         if (name.empty()) name = instance->text("use_robot_type");
     }
@@ -167,7 +169,7 @@ ExitStatus Controller::openFiles() {
             print("--trace: " + error);
             return ExitStatus::BadUsage;
         }
-        motion_->setTrace(trace_.get());
+        motion_->addTrace(*trace_);
     }
     if (!options_.signals.empty()) {
         signalsWriter_ = std::make_unique<SignalsWriter>();
@@ -179,8 +181,8 @@ ExitStatus Controller::openFiles() {
             signalsWriter_->change(scheduler_.now(), io_.config(id).name, value);
         });
     }
-    if (!options_.events.empty() && !log_.openJson(options_.events)) {
-        print(fmt::format("--events: cannot write {}: {}", options_.events, std::strerror(errno)));
+    if (!options_.events.empty() && !log_.openJson(options_.events, error)) {
+        print("--events: " + error);
         return ExitStatus::BadUsage;
     }
     return ExitStatus::Ended;
@@ -193,14 +195,16 @@ ExitStatus Controller::openState() {
         print("--state: " + error);
         return ExitStatus::BadUsage;
     }
-    state_->restore();
-    return ExitStatus::Ended;
+    if (state_->restore(error)) return ExitStatus::Ended;
+    print("--state: " + error);
+    return ExitStatus::BadUsage;
 }
 
 ExitStatus Controller::readStimulusFile() {
     if (options_.stimulus.empty()) return ExitStatus::Ended;
     std::vector<StimulusProblem> problems;
-    stimulus_ = readStimulus(options_.stimulus, problems);
+    stimulus_ = options_.stimulusText ? parseStimulus(*options_.stimulusText, problems)
+                                      : readStimulus(options_.stimulus, problems);
     for (const StimulusItem& item : stimulus_) {
         if (item.kind != StimulusKind::Signal || io_.find(item.target) >= 0) continue;
         problems.push_back(

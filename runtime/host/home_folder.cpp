@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <filesystem>
@@ -30,11 +28,6 @@ void splitPath(std::string_view path, std::vector<std::string>& parts) {
 
 } // namespace
 
-HomeFolder::~HomeFolder() {
-    std::error_code ignored;
-    if (temporary_) fs::remove_all(path_, ignored);
-}
-
 bool HomeFolder::open(const std::string& path, std::string& error) {
     std::error_code code;
     const fs::path real = fs::canonical(path, code);
@@ -47,14 +40,11 @@ bool HomeFolder::open(const std::string& path, std::string& error) {
 }
 
 bool HomeFolder::openTemporary(std::string& error) {
-    std::error_code code;
-    std::string pattern = (fs::temp_directory_path(code) / "rapidc-home-XXXXXX").string();
-    if (code || mkdtemp(pattern.data()) == nullptr) {
-        error = fmt::format("cannot make a temporary folder for HOME: {}", std::strerror(errno));
+    if (const int problem = temporary_.make("home"); problem != 0) {
+        error = fmt::format("cannot make a temporary folder for HOME: {}", std::strerror(problem));
         return false;
     }
-    temporary_ = open(pattern, error);
-    return temporary_;
+    return open(temporary_.path(), error);
 }
 
 bool HomeFolder::resolve(std::string_view rapidPath, std::string& hostPath) const {

@@ -2,6 +2,8 @@
 // HomeFolder: the controller's HOME: as a folder of the host. RAPID paths are resolved here and nowhere else,
 // so that nothing outside it can be reached.
 
+#include "config/temporary.h"
+
 #include <string>
 #include <string_view>
 
@@ -10,13 +12,12 @@ namespace rt {
 class HomeFolder {
   public:
     HomeFolder() = default;
-    ~HomeFolder();
     HomeFolder(const HomeFolder&) = delete;
     HomeFolder& operator=(const HomeFolder&) = delete;
 
     /// Uses an existing folder; false with a message when it is none.
     bool open(const std::string& path, std::string& error);
-    /// Makes an empty folder that the destructor removes.
+    /// Makes an empty folder that the destructor removes, and removes those of processes that were killed.
     bool openTemporary(std::string& error);
     /// Absolute path of the folder on the host, symbolic links resolved.
     const std::string& path() const { return path_; }
@@ -31,7 +32,7 @@ class HomeFolder {
   private:
     bool walk(std::string_view relative, std::string& hostPath) const;
     std::string path_;
-    bool temporary_ = false;
+    rapid::config::TemporaryFolder temporary_;
 };
 
 } // namespace rt

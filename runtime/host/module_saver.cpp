@@ -161,7 +161,8 @@ ModuleSaver::Result ModuleSaver::save(const Task& task, std::string_view module,
     return write(text, rows, &task);
 }
 
-void ModuleSaver::saveAll() {
+bool ModuleSaver::saveAll() {
+    bool all = true;
     std::set<std::string> done;
     for (const Declared& declared : declared_) {
         ModuleText text;
@@ -170,9 +171,11 @@ void ModuleSaver::saveAll() {
         const auto rows = changedIn(text.source, -1, text);
         if (rows.empty()) continue;
         const Result result = write(text, rows, nullptr);
-        if (result.outcome != Outcome::Saved)
-            controller_.log().write(EventId::ModuleNotSaved, nullptr, {shown(text.source), result.text});
+        if (result.outcome == Outcome::Saved) continue;
+        controller_.log().write(EventId::ModuleNotSaved, nullptr, {shown(text.source), result.text});
+        all = false;
     }
+    return all;
 }
 
 } // namespace rt

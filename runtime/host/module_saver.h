@@ -33,8 +33,8 @@ class ModuleSaver {
     /// Writes a module of the task with the values its persistents have now. `destination`: path on the host; empty:
     /// the file it came from if that lies in HOME: or --save was given, else the file of that name in HOME:.
     Result save(const Task& task, std::string_view module, const std::string& destination);
-    /// --save: every file whose persistents have changed. Problems are events.
-    void saveAll();
+    /// --save: every file whose persistents have changed. Problems are events; false when there was one.
+    bool saveAll();
 
   private:
     /// A row of the program's table of data with what the declaration says.

@@ -68,9 +68,11 @@ void MotionDriver::advance(Time time) {
         Time step = time;
         if (const auto next = system_.nextEventTime())
             step = std::min(time, std::max<Time>(*next, system_.now()));
-        while (trace_ != nullptr && nextSample_ <= step) {
-            trace_->sample(nextSample_, unitName_, system_.sample(nextSample_));
-            nextSample_ += TraceWriter::kPeriod;
+        while (!traces_.empty() && nextSample_ <= step) {
+            const motion::MotionState state = system_.sample(nextSample_);
+            for (TraceSink* trace : traces_)
+                trace->sample(nextSample_, unitName_, state);
+            nextSample_ += TraceSink::kPeriod;
         }
         system_.advanceTo(step);
         const std::vector<motion::MotionEvent> events = system_.takeEvents();

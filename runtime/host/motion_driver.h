@@ -17,7 +17,7 @@
 namespace rt {
 
 class Task;
-class TraceWriter;
+class TraceSink;
 
 /// The movement instruction executed last: where it stands and what it ordered (manual 1.21).
 struct MotionPointer {
@@ -114,7 +114,8 @@ class MotionDriver {
     /// Movements are executed backwards from now on: to their target, with type and speed of the motion pointer's.
     void setBackward(bool backward) { backward_ = backward; }
 
-    void setTrace(TraceWriter* trace) { trace_ = trace; }
+    /// Gets every sample from now on; must outlive the driver.
+    void addTrace(TraceSink& trace) { traces_.push_back(&trace); }
     /// Nothing left to do: idle, or held by a stop and standing still.
     bool isSettled() const;
     bool isMoving() const { return system_.isMoving(); }
@@ -160,7 +161,7 @@ class MotionDriver {
     uint32_t lastTrigger_ = 0;
     std::map<uint32_t, PendingAction> actions_; // by the id of the trigger
     WaitQueue changed_;
-    TraceWriter* trace_ = nullptr;
+    std::vector<TraceSink*> traces_;
     Time nextSample_ = 0;
     bool stopMove_ = false, programStop_ = false;
     Status processError_ = kOk;

@@ -69,8 +69,9 @@ void addRunOptions(CLI::App& app, RunOptions& options, bool withTasks) {
     if (withTasks) {
         app.add_option(
                "--task", options.tasks,
-               "add a task running INPUT's main; NAME:STATIC= and NAME:SEMISTATIC= give its type; repeatable")
-            ->type_name("NAME[:TYPE]=INPUT")
+               "add a task running the main of its inputs; NAME:STATIC= and NAME:SEMISTATIC= give its type; "
+               "repeatable, also to add inputs to a task")
+            ->type_name("NAME[:TYPE]=INPUT[,INPUT]")
             ->allow_extra_args(false) // inputs follow
             ->take_all();
     }
@@ -84,7 +85,9 @@ void addRunOptions(CLI::App& app, RunOptions& options, bool withTasks) {
     app.add_option("--home", options.home,
                    "the controller's HOME:; default: an empty folder, removed at the end")
         ->type_name("DIR");
-    app.add_option("--stimulus", options.stimulus, "what happens from outside: lines time_s,target,value")
+    app.add_option("--stimulus", options.stimulus,
+                   "what happens from outside: lines time_s,target,value; a file, a pipe, or - for the "
+                   "standard input")
         ->type_name("FILE.csv");
     app.add_option("--trace", options.trace, "write the robot's motion, a sample each 4 ms")
         ->type_name("FILE.csv");

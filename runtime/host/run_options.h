@@ -4,6 +4,7 @@
 #include "runtime/sched/scheduler.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct RunOptions {
     std::string robot;                            ///< "" = as the configuration says, else kDefaultRobot
     std::string home;                             ///< "" = an empty folder that is removed at the end
     std::string stimulus, trace, signals, events; ///< paths; "" = not asked for
+    std::optional<std::string>
+        stimulusText; ///< what `stimulus` holds, when it has been read: a pipe is read once
     bool realtime = false;
     std::string state;     ///< folder in which the controller's state survives the process; "" = none
     bool ppToMain = false; ///< with `state`: NORMAL tasks begin at main

@@ -1,7 +1,10 @@
 #include "runtime/host/saved_state.h"
 
 #include "config/atomic_file.h"
+#include "config/read_file.h"
+#include "config/temporary.h"
 #include "runtime/host/controller.h"
+#include "runtime/host/run_files.h"
 #include "runtime/host/state_keepers.h"
 #include "runtime/io/text_util.h"
 #include "runtime/value/value_text.h"
@@ -14,9 +17,8 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace rt {
@@ -24,8 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFile = "state.json";
-constexpr const char* kAside = "state.broken.json";
 constexpr uint8_t kVariable = 0, kPersistent = 1; // ir::GlobalKind
 constexpr std::size_t kMostNamed = 5;             // names in one event
 constexpr std::size_t kKeptEvents = 100;
@@ -67,7 +67,7 @@ SavedState::~SavedState() {
 }
 
 std::string SavedState::path() const {
-    return folder_ + "/" + kFile;
+    return folder_ + "/" + kStateFile;
 }
 
 bool SavedState::open(const std::string& folder, std::string& error) {
@@ -78,8 +78,8 @@ bool SavedState::open(const std::string& folder, std::string& error) {
         return false;
     }
     folder_ = folder;
-    const std::string lock = folder + "/lock";
-    lock_ = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    const std::string lock = folder + "/" + kStateLock;
+    lock_ = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
     if (lock_ < 0) {
         error = fmt::format("cannot write {}: {}", lock, std::strerror(errno));
         return false;
@@ -88,6 +88,7 @@ bool SavedState::open(const std::string& folder, std::string& error) {
         error = fmt::format("{} is in use by another controller; give each one a folder of its own", folder);
         return false;
     }
+    rapid::config::removeLeftovers(folder);
     remember();
     return true;
 }
@@ -198,8 +199,9 @@ StateImage SavedState::present() const {
     return image;
 }
 
-void SavedState::write() {
+bool SavedState::write() {
     if (!folder_.empty()) write(present());
+    return !failed_;
 }
 
 void SavedState::write(const StateImage& image) {
@@ -228,18 +230,29 @@ void SavedState::keepFresh() {
 
 void SavedState::putAside(const std::string& why) {
     std::error_code code;
-    fs::rename(path(), folder_ + "/" + kAside, code);
-    controller_.log().write(EventId::StateUnreadable, nullptr, {path(), why, kAside});
+    fs::rename(path(), folder_ + "/" + kStateAside, code);
+    controller_.log().write(EventId::StateUnreadable, nullptr, {path(), why, kStateAside});
 }
 
-void SavedState::restore() {
-    if (folder_.empty()) return;
+bool SavedState::restore(std::string& error) {
+    if (folder_.empty()) return true;
     written_ = std::chrono::steady_clock::now();
-    std::ifstream file(path(), std::ios::binary);
-    if (!file) return; // the first run
-    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    struct stat status{};
+    if (::lstat(path().c_str(), &status) != 0 && errno == ENOENT) return true; // the first run
+    std::string text;
+    if (const std::string problem = rapid::config::readFile(path(), text); !problem.empty()) {
+        error = fmt::format("{} cannot be read: {}; remove it or name another folder", path(), problem);
+        return false;
+    }
     StateImage image;
-    if (const std::string problem = readImage(text, image); !problem.empty()) return putAside(problem);
+    if (const std::string problem = readImage(text, image); !problem.empty())
+        putAside(problem);
+    else
+        restore(image);
+    return true;
+}
+
+void SavedState::restore(const StateImage& image) {
     controller_.log().restore(image.events);
     restoreData(persistents_, image.persistents);
     restoreTasks(image);

@@ -80,10 +80,10 @@ class SavedState {
     /// another process uses it.
     bool open(const std::string& folder, std::string& error);
     /// Takes over what an earlier run left; once tasks and signals exist and before anything runs. A file that cannot be
-    /// understood is put aside, with an event.
-    void restore();
-    /// Writes the state as it is now. Every task must stand between two instructions.
-    void write();
+    /// understood is put aside, with an event; false with a message when one is there and cannot be read.
+    bool restore(std::string& error);
+    /// Writes the state as it is now; false when it is not on disk. Every task must stand between two instructions.
+    bool write();
     /// To be called often between slices: writes when the last time was a second ago. While a task stands where no later
     /// process could go on, it waits for a better moment, for a further second at most.
     void keepFresh();
@@ -96,6 +96,7 @@ class SavedState {
     StateImage present() const;
     StateImage::TaskImage presentTask(Task& task) const;
     void write(const StateImage& image);
+    void restore(const StateImage& image);
     void restoreTasks(const StateImage& image);
     const RoutineEntry* trapAt(EntryFunction function) const;
     void restoreKept(const StateImage& image);

@@ -1,5 +1,6 @@
 #include "runtime/host/usage.h"
 
+#include "config/nearest.h"
 #include "runtime/host/run_options.h"
 
 #include <CLI/App.hpp>
@@ -27,16 +28,65 @@ std::string firstExtra(const CLI::App& app, const CLI::App& command) {
     return {};
 }
 
+/// "; did you mean 'a' or 'b'?", or "".
+std::string didYouMean(const std::string& written, const std::vector<std::string>& names) {
+    std::vector<std::string> near = rapid::config::nearestNames(written, names);
+    if (near.empty()) return {};
+    if (near.size() > 2) near.resize(2);
+    return fmt::format("; did you mean '{}'?", fmt::join(near, "' or '"));
+}
+
+std::vector<std::string> optionsOf(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames())
+            names.push_back("--" + name);
+    return names;
+}
+
+/// "'rapidc run' and 'rapidc build'": where an option exists that this command does not have; "" if nowhere.
+std::string placesOf(const std::string& option, const CLI::App& app, const CLI::App& command) {
+    std::vector<std::string> places;
+    for (const CLI::App* other : app.get_subcommands([](const CLI::App*) { return true; }))
+        if (other != &command && !other->get_group().empty() && other->get_option_no_throw(option) != nullptr)
+            places.push_back(fmt::format("'rapidc {}'", other->get_name()));
+    RunOptions ignored;
+    CLI::App executable, run;
+    addRunOptions(executable, ignored, false);
+    addRunOptions(run, ignored, true);
+    const bool isExecutable = app.get_subcommands([](const CLI::App*) { return true; }).empty();
+    if (isExecutable && run.get_option_no_throw(option) != nullptr) return "'rapidc build'";
+    if (places.empty()) return {};
+    if (executable.get_option_no_throw(option) != nullptr)
+        places.emplace_back("the executables of 'rapidc build'");
+    const std::string last = places.back();
+    places.pop_back();
+    return places.empty() ? last : fmt::format("{} and {}", fmt::join(places, ", "), last);
+}
+
+std::string unknownOption(const std::string& extra, const CLI::App& app, const CLI::App& command) {
+    const std::string option = extra.substr(0, extra.find('='));
+    if (const std::string places = placesOf(option, app, command); !places.empty())
+        return fmt::format("'{}' is an option of {}", option, places);
+    return fmt::format("there is no option '{}'{}", extra, didYouMean(option, optionsOf(command)));
+}
+
+std::string unknownCommand(const std::string& extra, const CLI::App& app, const std::string& commands) {
+    if (extra.empty()) return fmt::format("no command is given; the commands are {}", commands);
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        if (!command->get_group().empty()) names.push_back(command->get_name());
+    return fmt::format("there is no command '{}'; the commands are {}{}", extra, commands,
+                       didYouMean(extra, names));
+}
+
 std::string problemOf(const CLI::App& app, const CLI::App& command, const CLI::ParseError& error) {
     const std::string extra = firstExtra(app, command);
     const bool option = extra.size() > 1 && extra[0] == '-';
     const std::string commands = commandsOf(command);
-    if (!commands.empty() && !option) {
-        return extra.empty() ? fmt::format("no command is given; the commands are {}", commands)
-                             : fmt::format("there is no command '{}'; the commands are {}", extra, commands);
-    }
-    if (!extra.empty()) return fmt::format("{} '{}'", option ? "there is no option" : "unexpected", extra);
-    return error.what();
+    if (!commands.empty() && !option) return unknownCommand(extra, command, commands);
+    if (option) return unknownOption(extra, app, command);
+    return extra.empty() ? error.what() : fmt::format("unexpected '{}'", extra);
 }
 
 } // namespace

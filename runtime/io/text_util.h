@@ -1,12 +1,13 @@
 #pragma once
 // Small things that the readers of foreign text share, under the names the runtime uses.
 
+#include "config/read_file.h"
 #include "config/text_util.h"
 
 namespace rt {
 
 using rapid::config::parseNumber;
-using rapid::config::readTextFile;
+using rapid::config::readStream;
 using rapid::config::sameName;
 using rapid::config::shortestNumber;
 using rapid::config::toUtf8;

@@ -86,15 +86,6 @@ const char* domainName(int eventNumber) {
     }
 }
 
-EventLog::~EventLog() {
-    if (json_ != nullptr) std::fclose(json_);
-}
-
-bool EventLog::openJson(const std::string& path) {
-    json_ = std::fopen(path.c_str(), "w");
-    return json_ != nullptr;
-}
-
 void EventLog::addErrorName(int number, const char* name, const char* text) {
     names_[number] = {name, text != nullptr ? text : ""};
 }
@@ -158,10 +149,7 @@ uint64_t EventLog::write(EventType type, int number, std::string title, std::str
 }
 
 void EventLog::show(const Event& event) {
-    if (json_ != nullptr) {
-        const std::string line = toJson(event) + "\n";
-        std::fwrite(line.data(), 1, line.size(), json_);
-    }
+    if (json_.isOpen()) json_.write(toJson(event) + "\n");
     if (human_ != nullptr) {
         std::fflush(stdout); // keeps the order of what the terminal shows
         const std::string text = toText(event);
@@ -185,7 +173,7 @@ void EventLog::restore(const std::vector<Event>& events) {
 }
 
 void EventLog::flush() {
-    if (json_ != nullptr) std::fflush(json_);
+    json_.flush();
     if (human_ != nullptr) std::fflush(human_);
 }
 

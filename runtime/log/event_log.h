@@ -4,6 +4,7 @@
 // event_texts.def.
 
 #include "runtime/abi/rt_abi.h"
+#include "runtime/io/output_file.h"
 #include "runtime/sched/task.h"
 #include "runtime/sched/time.h"
 
@@ -46,12 +47,13 @@ struct Event {
 class EventLog {
   public:
     EventLog() = default;
-    ~EventLog();
     EventLog(const EventLog&) = delete;
     EventLog& operator=(const EventLog&) = delete;
 
-    /// Writes a JSON object a line to this file from now on; false when it cannot be opened.
-    bool openJson(const std::string& path);
+    /// Writes a JSON object a line to this file from now on; false with a reason when it cannot be opened.
+    bool openJson(const std::string& path, std::string& error) { return json_.open(path, error); }
+    /// Ends that file; false when some of it was lost, which has been reported.
+    bool closeJson() { return json_.close(); }
     /// Where people read events; null: nowhere. Default stderr.
     void setHumanOutput(std::FILE* file) { human_ = file; }
     void setClock(std::function<Time()> now) { now_ = std::move(now); }
@@ -93,7 +95,7 @@ class EventLog {
     std::map<uint64_t, std::function<void(const Event&)>> listeners_;
     uint64_t lastListener_ = 0;
     std::FILE* human_ = stderr;
-    std::FILE* json_ = nullptr;
+    OutputFile json_;
     uint64_t sequence_ = 0;
 };
 

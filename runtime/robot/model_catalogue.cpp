@@ -170,10 +170,11 @@ std::string nearNames(const std::vector<RobotModel>& models, std::string_view na
 }
 
 Expected<RobotModel, ModelError> readFile(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
+    std::error_code ignored; // a pipe or a device may have no end
+    std::ifstream file;
+    if (std::filesystem::is_regular_file(path, ignored)) file.open(path, std::ios::binary);
     std::ostringstream text;
-    std::error_code ignored;
-    if (!file || std::filesystem::is_directory(path, ignored) || !(text << file.rdbuf())) {
+    if (!file.is_open() || !(text << file.rdbuf())) {
         return Unexpected{ModelError{fmt::format("robot model file '{}' cannot be read", path.string())}};
     }
     return parseRobotModel(text.str(), fmt::format("'{}'", path.string()));

@@ -4,9 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 
 namespace rt {
@@ -20,22 +18,6 @@ void appendFixed(std::string& line, double value, int decimals) {
 }
 
 } // namespace
-
-bool OutputFile::open(const std::string& path, std::string& error) {
-    file_ = std::fopen(path.c_str(), "w");
-    if (file_ == nullptr) error = fmt::format("cannot write {}: {}", path, std::strerror(errno));
-    return file_ != nullptr;
-}
-
-void OutputFile::write(std::string_view text) {
-    if (file_ != nullptr && std::fwrite(text.data(), 1, text.size(), file_) != text.size()) failed_ = true;
-}
-
-bool OutputFile::close() {
-    if (file_ != nullptr && std::fclose(file_) != 0) failed_ = true;
-    file_ = nullptr;
-    return !failed_;
-}
 
 bool SignalsWriter::open(const std::string& path, std::string& error) {
     if (!file_.open(path, error)) return false;

@@ -1,33 +1,14 @@
 #pragma once
 // The files a run leaves: every change of a signal, the robot's trace. Fixed formats, the same bytes on every machine.
 
+#include "runtime/io/output_file.h"
 #include "runtime/motion/planned_motion.h"
 #include "runtime/sched/time.h"
 
-#include <cstdio>
 #include <string>
 #include <string_view>
 
 namespace rt {
-
-/// A text file written from beginning to end.
-class OutputFile {
-  public:
-    OutputFile() = default;
-    ~OutputFile() { close(); }
-    OutputFile(const OutputFile&) = delete;
-    OutputFile& operator=(const OutputFile&) = delete;
-
-    /// False with a reason when the file cannot be made.
-    bool open(const std::string& path, std::string& error);
-    void write(std::string_view text);
-    /// False when something could not be written (disk full).
-    bool close();
-
-  private:
-    std::FILE* file_ = nullptr;
-    bool failed_ = false;
-};
 
 /// --signals: `time_s,signal,value`, a row per change, time with six decimals.
 class SignalsWriter {
@@ -40,13 +21,20 @@ class SignalsWriter {
     OutputFile file_;
 };
 
-/// --trace: a row each 4 ms: `time_s,unit,j1..j6,e1..e6,x,y,z,q1,q2,q3,q4,speed_mm_s,move`; degrees, mm, the active TCP in
-/// world; axes that are not connected read 9E+09; `move` counts move instructions.
-class TraceWriter {
+/// Takes the samples of the robot's motion, in order of time.
+class TraceSink {
   public:
     static constexpr Time kPeriod = 4 * kMillisecond;
+    virtual ~TraceSink() = default;
+    virtual void sample(Time time, std::string_view unit, const motion::MotionState& state) = 0;
+};
+
+/// --trace: a row each 4 ms: `time_s,unit,j1..j6,e1..e6,x,y,z,q1,q2,q3,q4,speed_mm_s,move`; degrees, mm, the active TCP in
+/// world; axes that are not connected read 9E+09; `move` counts move instructions.
+class TraceWriter final : public TraceSink {
+  public:
     bool open(const std::string& path, std::string& error);
-    void sample(Time time, std::string_view unit, const motion::MotionState& state);
+    void sample(Time time, std::string_view unit, const motion::MotionState& state) override;
     bool close() { return file_.close(); }
 
   private:

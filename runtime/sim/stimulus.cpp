@@ -159,9 +159,10 @@ std::vector<StimulusItem> parseStimulus(std::string_view text, std::vector<Stimu
 }
 
 std::vector<StimulusItem> readStimulus(const std::string& path, std::vector<StimulusProblem>& problems) {
-    std::string text, error;
-    if (readTextFile(path, text, error)) return parseStimulus(text, problems);
-    problems.push_back({0, std::move(error)});
+    std::string text;
+    const std::string error = readStream(path, text);
+    if (error.empty()) return parseStimulus(text, problems);
+    problems.push_back({0, fmt::format("cannot be read: {}", error)});
     return {};
 }
 

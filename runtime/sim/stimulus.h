@@ -43,6 +43,7 @@ struct StimulusProblem {
 /// count, a field may stand in double quotes (an answer with a comma). Items come sorted by time, equal times
 /// in the order of the file.
 std::vector<StimulusItem> parseStimulus(std::string_view text, std::vector<StimulusProblem>& problems);
+/// Of a file, a pipe, or "-" for the standard input.
 std::vector<StimulusItem> readStimulus(const std::string& path, std::vector<StimulusProblem>& problems);
 
 } // namespace rt

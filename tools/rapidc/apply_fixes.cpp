@@ -1,6 +1,7 @@
 #include "tools/rapidc/apply_fixes.h"
 
 #include "config/atomic_file.h"
+#include "config/temporary.h"
 #include "frontend/edit/apply_edits.h"
 
 #include <algorithm>
@@ -48,6 +49,10 @@ FixOutcome applyCertainFixes(std::span<const Diagnostic> diagnostics) {
         fixes.add(*certain);
     }
     FixOutcome outcome;
+    std::vector<std::string> paths;
+    for (const auto& [path, fixes] : files)
+        paths.push_back(path);
+    rapid::config::removeLeftoversBeside(paths);
     for (const auto& [path, fixes] : files) {
         const rapid::edit::EditResult changed = rapid::edit::applyEdits(*fixes.file, fixes.edits);
         const std::string problem = changed.ok()

@@ -5,6 +5,7 @@
 #include "tools/rapidc/program_sources.h"
 
 #include "codegen/codegen.h"
+#include "config/temporary.h"
 #include "runtime/host/run_options.h"
 
 #include <CLI/CLI.hpp>
@@ -56,22 +57,51 @@ codegen::LinkOptions linkOptions(bool strip, bool wholeLibrary) {
     return options;
 }
 
-/// Removes the object file however the command ends.
-struct TemporaryFile {
-    std::string path;
-    ~TemporaryFile() {
-        std::error_code ignored;
-        fs::remove(path, ignored);
-    }
-};
-
 /// Why the executable cannot be written there; "" when it can. Better known before the compiler has worked.
 std::string outputProblem(const std::string& output) {
     std::error_code ignored;
     if (fs::is_directory(output, ignored)) return fmt::format("{} is a folder", output);
+    if (fs::exists(output, ignored) && !fs::is_regular_file(output, ignored))
+        return fmt::format("{} is a device or a pipe", output);
     const fs::path folder = fs::path(output).parent_path();
     if (access(folder.empty() ? "." : folder.c_str(), W_OK) == 0) return {};
     return fmt::format("cannot write {}: {}", output, std::strerror(errno));
+}
+
+/// --robot becomes the model of the executable; its own option --robot comes first.
+void keepRobot(Compilation& compilation, const std::string& robot) {
+    if (robot.empty()) return;
+    compilation.configNames.emplace_back("--robot");
+    compilation.configTexts.push_back(
+        fmt::format("RAPIDC:CFG_1.0:7:0::\n#\nOPTIONS:\n\n      -robot \"{}\"\n", robot));
+}
+
+/// Object file and executable are made in a folder beside the output, which is replaced in one step: whatever goes
+/// wrong, the old one is whole.
+bool makeExecutable(const BuildSettings& settings, const ir::Module& module, bool wholeLibrary,
+                    std::string& error) {
+    std::error_code missing;
+    const fs::path real = fs::canonical(settings.output, missing); // a link stays a link
+    const fs::path output = missing ? fs::path(settings.output) : real;
+    rapid::config::removeLeftoversBeside({output.string()});
+    rapid::config::TemporaryFolder folder;
+    if (const int problem = folder.makeBeside(output.parent_path(), output.filename().string());
+        problem != 0) {
+        error = fmt::format("cannot write {}: {}", settings.output, std::strerror(problem));
+        return false;
+    }
+    const std::string object = (fs::path(folder.path()) / "program.o").string();
+    const std::string executable = (fs::path(folder.path()) / "program").string();
+    codegen::CodegenOptions options;
+    options.optimise = !settings.noOptimise;
+    options.debugInfo = !settings.strip;
+    if (!codegen::emitObject(module, object, options, error) ||
+        !codegen::linkExecutable(object, executable, linkOptions(settings.strip, wholeLibrary), error))
+        return false;
+    std::error_code problem;
+    fs::rename(executable, output, problem);
+    if (problem) error = fmt::format("cannot write {}: {}", settings.output, problem.message());
+    return !problem;
 }
 
 /// Modules may come, or references have to be checked, while the program runs.
@@ -96,6 +126,12 @@ int build(BuildSettings& settings) {
         fmt::print(stderr, "rapidc build: {}; name the executable with -o FILE\n", problem);
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
+    if (const std::string conflict = outputConflict(*compilation, {{"-o", settings.output}});
+        !conflict.empty()) {
+        fmt::print(stderr, "rapidc build: {}\n", conflict);
+        return static_cast<int>(rt::ExitStatus::BadUsage);
+    }
+    keepRobot(*compilation, settings.inputs.robot);
     std::error_code ignored;
     compilation->folder = fs::current_path(ignored).string();
     ir::Module module;
@@ -106,13 +142,8 @@ int build(BuildSettings& settings) {
     if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
     const bool loads = needsSources(module);
     if (loads) module.sources = pack(*sourcesOf(*compilation, settings.stepping, !settings.noOptimise));
-    const TemporaryFile object{fmt::format("{}.{}.o", settings.output, getpid())};
-    codegen::CodegenOptions options;
-    options.optimise = !settings.noOptimise;
-    options.debugInfo = !settings.strip;
     std::string error;
-    if (!codegen::emitObject(module, object.path, options, error) ||
-        !codegen::linkExecutable(object.path, settings.output, linkOptions(settings.strip, loads), error)) {
+    if (!makeExecutable(settings, module, loads, error)) {
         fmt::print(stderr, "rapidc build: {}\n", error);
         return static_cast<int>(rt::ExitStatus::BadProgram);
     }
@@ -129,10 +160,9 @@ void addBuildCommand(CLI::App& app, int& status) {
     command->add_option("-o,--output", settings->output, "The executable to write");
     addAssumeSignalsOption(*command, settings->inputs);
     addWarningOption(*command, settings->inputs);
-    command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")
-        ->allow_extra_args(false);
-    command->add_option("--config", settings->inputs.configFiles, "Parameters (.cfg) kept in the executable")
-        ->allow_extra_args(false);
+    addTaskOption(*command, settings->inputs);
+    addConfigOption(*command, settings->inputs);
+    addRobotOption(*command, settings->inputs);
     command->add_flag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
     command->add_flag("--stepping", settings->stepping,
                       "Compile for the stepping profile: the program can be stepped forward and backward");

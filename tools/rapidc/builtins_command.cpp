@@ -3,6 +3,7 @@
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/pipeline.h"
 
+#include "config/nearest.h"
 #include "frontend/sema/names.h"
 #include "frontend/syntax/tree_walk.h"
 #include "runtime/host/run_options.h"
@@ -52,22 +53,42 @@ std::vector<Row> collect(const rapid::sema::CheckedProgram& program) {
     return rows;
 }
 
-int list(const std::string& format) {
-    const auto compilation = checkInputs({});
-    const std::vector<Row> rows = collect(*compilation->program);
-    if (format == "tsv") {
-        fmt::print("name\tkind\tchapter\tstatus\n");
-        for (const Row& row : rows)
-            fmt::print("{}\t{}\t{}\t{}\n", row.name, row.kind, row.chapter, row.status);
-        return 0;
-    }
+void printTsv(const std::vector<Row>& rows) {
+    fmt::print("name\tkind\tchapter\tstatus\n");
+    for (const Row& row : rows)
+        fmt::print("{}\t{}\t{}\t{}\n", row.name, row.kind, row.chapter, row.status);
+}
+
+void printRows(const std::vector<Row>& rows) {
     size_t done = 0;
     for (const Row& row : rows) {
         done += row.status == "implemented" ? 1u : 0u;
         fmt::print("{:<28} {:<12} {:<8} {}\n", row.name, row.kind, row.chapter, row.status);
     }
     fmt::print("\n{} of {} implemented\n", done, rows.size());
-    return 0;
+}
+
+bool isPattern(const std::string& name) {
+    return name.find_first_of("*?") != std::string::npos;
+}
+
+/// '*' stands for any letters, '?' for one; both in lower case.
+bool matches(std::string_view pattern, std::string_view name) {
+    size_t p = 0, n = 0, star = std::string_view::npos, resume = 0;
+    while (n < name.size()) {
+        if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
+            ++p, ++n;
+        } else if (p < pattern.size() && pattern[p] == '*') {
+            star = p++;
+            resume = n;
+        } else if (star != std::string_view::npos) {
+            p = star + 1;
+            n = ++resume;
+        } else {
+            return false;
+        }
+    }
+    return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
 /// Prints the lines of a text as `shown` gives them; nothing for those it answers by nullopt.
@@ -106,30 +127,72 @@ const rapid::syntax::Node* findDeclaration(const rapid::sema::Module& module, st
     return nullptr;
 }
 
-/// What each name is, what is known of it and how it is declared.
-int describe(const std::vector<std::string>& names) {
+/// What it is, what is known of it and how it is declared.
+void describe(const rapid::sema::CheckedProgram& program, const Row& row) {
+    fmt::print("{}: {}, {}{}\n", row.name, row.kind, row.status,
+               row.chapter == "-" ? "" : ", manual " + row.chapter);
+    for (const rapid::sema::Module* module : program.predefinedModules) {
+        const rapid::syntax::Node* decl = findDeclaration(*module, rapid::sema::foldName(row.name));
+        if (!decl) continue;
+        printLines(rapid::syntax::gapBefore(*module->tree, decl->first), documentationLine);
+        const rapid::SourceRange where = module->tree->range(*decl);
+        printLines(module->tree->source->text().substr(where.begin, where.end - where.begin),
+                   declarationLine);
+    }
+}
+
+std::string nearest(const std::vector<Row>& rows, const std::string& name) {
+    std::vector<std::string> names;
+    for (const Row& row : rows)
+        names.push_back(row.name);
+    std::vector<std::string> near = rapid::config::nearestNames(name, names);
+    if (near.empty()) return {};
+    near.resize(std::min<size_t>(near.size(), 3));
+    return fmt::format("; did you mean {}?", fmt::join(near, " or "));
+}
+
+/// The rows that the names and patterns mean, each once, in the order of the names. False with a message for one that
+/// means nothing.
+bool select(const std::vector<Row>& rows, const std::vector<std::string>& names, std::vector<Row>& selected) {
+    for (const std::string& name : names) {
+        const std::string folded = rapid::sema::foldName(name);
+        bool any = false;
+        for (const Row& row : rows) {
+            const std::string other = rapid::sema::foldName(row.name);
+            if (isPattern(name) ? !matches(folded, other) : folded != other) continue;
+            any = true;
+            const bool known = std::any_of(selected.begin(), selected.end(),
+                                           [&](const Row& one) { return one.name == row.name; });
+            if (!known) selected.push_back(row);
+            if (!isPattern(name)) break;
+        }
+        if (any) continue;
+        fmt::print(stderr, "rapidc builtins: nothing predefined {} '{}'{}\n",
+                   isPattern(name) ? "matches" : "has the name", name,
+                   isPattern(name) ? std::string() : nearest(rows, name));
+        return false;
+    }
+    return true;
+}
+
+/// Without names everything; names are described, patterns that mean several are listed.
+int show(const std::string& format, const std::vector<std::string>& names) {
     const auto compilation = checkInputs({});
     const std::vector<Row> rows = collect(*compilation->program);
-    for (size_t i = 0; i < names.size(); ++i) {
-        const std::string folded = rapid::sema::foldName(names[i]);
-        const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& one) {
-            return rapid::sema::foldName(one.name) == folded;
-        });
-        if (row == rows.end()) {
-            fmt::print(stderr, "rapidc builtins: nothing predefined has the name '{}'\n", names[i]);
-            return static_cast<int>(rt::ExitStatus::BadUsage);
+    std::vector<Row> selected;
+    if (!select(rows, names, selected)) return static_cast<int>(rt::ExitStatus::BadUsage);
+    if (names.empty()) selected = rows;
+    const bool listed =
+        names.empty() || (std::any_of(names.begin(), names.end(), isPattern) && selected.size() > 1);
+    if (format == "tsv")
+        printTsv(selected);
+    else if (listed)
+        printRows(selected);
+    else
+        for (size_t i = 0; i < selected.size(); ++i) {
+            if (i > 0) fmt::print("\n");
+            describe(*compilation->program, selected[i]);
         }
-        fmt::print("{}{}: {}, {}{}\n", i == 0 ? "" : "\n", row->name, row->kind, row->status,
-                   row->chapter == "-" ? "" : ", manual " + row->chapter);
-        for (const rapid::sema::Module* module : compilation->program->predefinedModules) {
-            const rapid::syntax::Node* decl = findDeclaration(*module, folded);
-            if (!decl) continue;
-            printLines(rapid::syntax::gapBefore(*module->tree, decl->first), documentationLine);
-            const rapid::SourceRange where = module->tree->range(*decl);
-            printLines(module->tree->source->text().substr(where.begin, where.end - where.begin),
-                       declarationLine);
-        }
-    }
     return 0;
 }
 
@@ -140,11 +203,11 @@ void addBuiltinsCommand(CLI::App& app, int& status) {
     auto names = std::make_shared<std::vector<std::string>>();
     CLI::App* command =
         app.add_subcommand("builtins", "List everything predefined and what of it is implemented");
-    CLI::Option* some = command->add_option("name", *names, "Say what these are and how they are declared");
-    command->add_option("--format", *format, "human or tsv")
-        ->check(CLI::IsMember({"human", "tsv"}))
-        ->excludes(some);
-    command->callback([=, &status] { status = names->empty() ? list(*format) : describe(*names); });
+    command->add_option(
+        "name", *names,
+        "Say what these are and how they are declared; 'Socket*' lists all that match (* and ?)");
+    command->add_option("--format", *format, "human or tsv")->check(CLI::IsMember({"human", "tsv"}));
+    command->callback([=, &status] { status = show(*format, *names); });
 }
 
 } // namespace rapidc

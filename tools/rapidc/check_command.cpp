@@ -100,11 +100,9 @@ void addCheckCommand(CLI::App& app, int& status) {
     CLI::App* command = app.add_subcommand("check", "Check RAPID modules and report every mistake");
     command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")
         ->required();
-    command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")
-        ->allow_extra_args(false);
-    command
-        ->add_option("--config", settings->inputs.configFiles, "EIO, SYS, MOC, SIO or PROC parameters (.cfg)")
-        ->allow_extra_args(false);
+    addTaskOption(*command, settings->inputs);
+    addConfigOption(*command, settings->inputs);
+    addRobotOption(*command, settings->inputs);
     settings->inputs.lint = true;
     settings->inputs.onlyDiagnostics = true;
     addAssumeSignalsOption(*command, settings->inputs);

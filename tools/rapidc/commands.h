@@ -14,6 +14,7 @@ void addEmitCommand(CLI::App& app, int& status);
 void addExplainCommand(CLI::App& app, int& status);
 void addBuiltinsCommand(CLI::App& app, int& status);
 void addSignalsCommand(CLI::App& app, int& status);
+void addRobotsCommand(CLI::App& app, int& status);
 void addFmtCommand(CLI::App& app, int& status);
 void addRenameCommand(CLI::App& app, int& status);
 void addSetValueCommand(CLI::App& app, int& status);

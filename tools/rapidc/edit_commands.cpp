@@ -6,6 +6,8 @@
 #include "tools/rapidc/text_diff.h"
 
 #include "config/atomic_file.h"
+#include "config/read_file.h"
+#include "config/temporary.h"
 #include "frontend/edit/apply_edits.h"
 #include "frontend/edit/initial_value.h"
 #include "frontend/edit/rename.h"
@@ -15,9 +17,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <iostream>
+#include <sstream>
 
 namespace rapidc {
 
@@ -56,6 +58,10 @@ int writeFiles(const char* command, const edit::EditSet& set, bool diffOnly) {
         if (!result.ok()) return fail(command, file.file->path() + ": " + result.problem);
         files.emplace_back(file.file->path(), std::move(result.bytes));
     }
+    std::vector<std::string> paths;
+    for (const auto& [path, bytes] : files)
+        paths.push_back(path);
+    rapid::config::removeLeftoversBeside(paths);
     for (const auto& [path, bytes] : files) {
         const std::string problem = rapid::config::replaceFile(path, bytes);
         if (!problem.empty()) return fail(command, problem);
@@ -130,6 +136,14 @@ bool readValue(const std::string& line, rt::SavedValue& value) {
     return true;
 }
 
+/// The module may be written in its own place, the values may not be overwritten.
+std::string destinationConflict(const EditSettings& settings, const rt::ModuleText& text) {
+    std::error_code ignored;
+    return settings.values != "-" && std::filesystem::equivalent(settings.values, text.destination, ignored)
+               ? fmt::format("--output '{}' would overwrite the values", text.destination)
+               : std::string();
+}
+
 /// Many values in one step: persistents whose declarations still have initial values of that form. What built
 /// executables call.
 int setValues(const EditSettings& settings) {
@@ -138,12 +152,12 @@ int setValues(const EditSettings& settings) {
     rt::ModuleText text;
     text.source = settings.inputs.paths.front();
     text.destination = settings.output.empty() ? text.source : settings.output;
-    std::ifstream file;
-    if (settings.values != "-") {
-        file.open(settings.values);
-        if (!file) return fail("set-value", fmt::format("cannot read '{}'", settings.values), kUsage);
-    }
-    std::istream& lines = settings.values == "-" ? std::cin : file;
+    std::string values;
+    if (const std::string problem = rapid::config::readStream(settings.values, values); !problem.empty())
+        return fail("set-value", fmt::format("cannot read '{}': {}", settings.values, problem), kUsage);
+    if (const std::string conflict = destinationConflict(settings, text); !conflict.empty())
+        return fail("set-value", conflict, kUsage);
+    std::istringstream lines(values);
     for (std::string line; std::getline(lines, line);) {
         if (line.empty()) continue;
         if (!readValue(line, text.values.emplace_back()))
@@ -194,8 +208,7 @@ int setValue(const EditSettings& settings) {
 CLI::Option* addInputs(CLI::App* command, EditSettings& settings) {
     CLI::Option* input =
         command->add_option("input", settings.inputs.paths, "Modules, folders, .pgf programs, backups");
-    command->add_option("--task", settings.inputs.tasks, "NAME[:TYPE]=INPUT: a further task")
-        ->allow_extra_args(false);
+    addTaskOption(*command, settings.inputs);
     command->add_flag("--diff", settings.diff, "Change nothing; show what would change");
     return input;
 }

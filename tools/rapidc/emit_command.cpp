@@ -7,6 +7,7 @@
 #include "frontend/syntax/parser.h"
 #include "ir/text/text.h"
 #include "runtime/host/run_options.h"
+#include "runtime/io/output_file.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -59,14 +60,9 @@ int write(const EmitSettings& settings, const std::string& text) {
         std::fwrite(text.data(), 1, text.size(), stdout);
         return 0;
     }
-    FILE* file = std::fopen(settings.output.c_str(), "wb");
-    if (!file) {
-        fmt::print(stderr, "rapidc emit: cannot write '{}'\n", settings.output);
-        return static_cast<int>(rt::ExitStatus::BadUsage);
-    }
-    const bool whole = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-    if (std::fclose(file) == 0 && whole) return 0;
-    fmt::print(stderr, "rapidc emit: cannot write all of '{}'\n", settings.output);
+    const std::string problem = rt::writeWhole(settings.output, text);
+    if (problem.empty()) return 0;
+    fmt::print(stderr, "rapidc emit: {}\n", problem);
     return static_cast<int>(rt::ExitStatus::BadUsage);
 }
 
@@ -88,6 +84,11 @@ int emit(EmitSettings& settings) {
     if (!compilation->usageErrors.empty()) {
         for (const std::string& problem : compilation->usageErrors)
             fmt::print(stderr, "rapidc emit: {}\n", problem);
+        return static_cast<int>(rt::ExitStatus::BadUsage);
+    }
+    if (const std::string conflict = outputConflict(*compilation, {{"-o", settings.output}});
+        !conflict.empty()) {
+        fmt::print(stderr, "rapidc emit: {}\n", conflict);
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
     std::string text;
@@ -132,10 +133,9 @@ void addEmitCommand(CLI::App& app, int& status) {
     command->add_option("--as", settings->as, "tokens, tree, symbols, ir, llvm, asm or obj")
         ->check(CLI::IsMember({"tokens", "tree", "symbols", "ir", "llvm", "asm", "obj"}));
     addWarningOption(*command, settings->inputs);
-    command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")
-        ->allow_extra_args(false);
-    command->add_option("--config", settings->inputs.configFiles, "Parameters (.cfg)")
-        ->allow_extra_args(false);
+    addTaskOption(*command, settings->inputs);
+    addConfigOption(*command, settings->inputs);
+    addRobotOption(*command, settings->inputs);
     command->add_option("-o,--output", settings->output, "File to write instead of the terminal");
     command->add_flag("--stepping", settings->stepping, "Show the code of the stepping profile");
     command->add_flag("--no-optimise", settings->noOptimise, "Leave out the optimiser");

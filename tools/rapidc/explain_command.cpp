@@ -1,11 +1,13 @@
 // rapidc explain: what a diagnostic means.
 
 #include "tools/rapidc/commands.h"
+#include "tools/rapidc/explain_runtime.h"
 
 #include "config/atomic_file.h"
 #include "frontend/diag/catalogue.h"
 #include "frontend/diag/explain.h"
 #include "runtime/host/run_options.h"
+#include "stdlib/native_table.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -36,12 +38,21 @@ int explain(const std::string& code) {
         digits.size() == 4 ? rapid::diag::findEntry(static_cast<uint16_t>(std::stoi(digits))) : nullptr;
     for (const rapid::diag::CatalogueEntry& named : rapid::diag::catalogue())
         if (!entry && kebabName(named) == code) entry = &named;
+    if (!entry || code.starts_with("ERR_")) {
+        std::string text = explainEvent(code);
+        if (text.empty()) text = explainError(code);
+        if (!text.empty()) {
+            fmt::print("{}", text);
+            return 0;
+        }
+    }
     if (!entry) {
         fmt::print(
             stderr,
-            "rapidc explain: '{}' is no code of rapidc, expected one such as RAP2104 or a name such as "
-            "unused-variable\n",
-            code);
+            "rapidc explain: '{}' is not known; expected a code such as RAP2104, the name of a warning such "
+            "as "
+            "unused-variable, the number of an event such as 40229, or an error such as ERR_DIVZERO{}\n",
+            code, nearestError(code));
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
     fmt::print("RAP{} {} ({})\n", entry->number, entry->name, rapid::diag::severityName(entry->severity));
@@ -53,6 +64,9 @@ int explain(const std::string& code) {
         if (!explanation->wrong.empty()) fmt::print("\nwrong:\n{}\n", indented(explanation->wrong));
         fmt::print("\nright:\n{}\n", indented(explanation->right));
     }
+    if (const char* error = code == digits ? rt::errorName(entry->number) : nullptr)
+        fmt::print("\nThe event log shows {} as the ERRNO of {}: see rapidc explain {}\n", code, error,
+                   error);
     return 0;
 }
 
@@ -83,8 +97,9 @@ int writePages(const std::string& folder) {
 void addExplainCommand(CLI::App& app, int& status) {
     auto code = std::make_shared<std::string>();
     auto folder = std::make_shared<std::string>();
-    CLI::App* command = app.add_subcommand("explain", "Say what a diagnostic means");
-    CLI::Option* one = command->add_option("code", *code, "A code such as RAP2104, or the name of a warning");
+    CLI::App* command = app.add_subcommand("explain", "Say what a diagnostic, an event or an error means");
+    CLI::Option* one = command->add_option(
+        "code", *code, "RAP2104, the name of a warning, the number of an event (40229), or ERR_NAME");
     CLI::Option* all =
         command->add_option("--pages", *folder, "Write a page for every code into this folder");
     one->excludes(all);

@@ -5,6 +5,7 @@
 #include "tools/rapidc/text_diff.h"
 
 #include "config/atomic_file.h"
+#include "config/temporary.h"
 #include "frontend/edit/apply_edits.h"
 #include "frontend/format/canonical_names.h"
 #include "frontend/format/formatter.h"
@@ -85,6 +86,7 @@ class Fmt {
         if (!files.problems.empty()) return kUsage;
         if (!settings_.range.empty() && files.paths.size() != 1)
             return usage("--range needs exactly one module");
+        if (!settings_.check && !settings_.diff) rapid::config::removeLeftoversBeside(files.paths);
         for (const std::string& path : files.paths)
             formatFile(path);
         return failed_ || (settings_.check && changed_) ? 1 : 0;

@@ -35,16 +35,14 @@ void reportConfigurationProblems(rapid::diag::Sink& sink, const std::string& nam
     }
 }
 
-void judgeSignals(rapid::diag::Sink& sink, const std::vector<std::string>& names,
+void judgeSignals(std::vector<CfgProblem>& problems, const std::vector<std::string>& names,
                   const std::vector<std::string>& texts) {
     rt::Scheduler scheduler{rt::SchedulerOptions{}};
     rt::IoSystem io(scheduler);
-    std::vector<CfgProblem> problems, known;
+    std::vector<CfgProblem> known;
     for (size_t i = 0; i < texts.size(); ++i)
         io.configure(rt::parseCfg(texts[i], names[i], known), problems);
     io.finishConfiguration(problems);
-    for (size_t i = 0; i < texts.size() && !problems.empty(); ++i)
-        reportConfigurationProblems(sink, names[i], texts[i], problems);
 }
 
 } // namespace rapidc

@@ -13,8 +13,8 @@ namespace rapidc {
 void reportConfigurationProblems(rapid::diag::Sink& sink, const std::string& name, const std::string& text,
                                  std::span<const rapid::config::CfgProblem> problems);
 
-/// Reports what a controller that starts with these files would find wrong with signals and cross connections.
-void judgeSignals(rapid::diag::Sink& sink, const std::vector<std::string>& names,
+/// Adds what a controller that starts with these files would find wrong with signals and cross connections.
+void judgeSignals(std::vector<rapid::config::CfgProblem>& problems, const std::vector<std::string>& names,
                   const std::vector<std::string>& texts);
 
 } // namespace rapidc

@@ -25,6 +25,7 @@ int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of m
     rapidc::addExplainCommand(app, status);
     rapidc::addBuiltinsCommand(app, status);
     rapidc::addSignalsCommand(app, status);
+    rapidc::addRobotsCommand(app, status);
     rapidc::addFmtCommand(app, status);
     rapidc::addRenameCommand(app, status);
     rapidc::addSetValueCommand(app, status);

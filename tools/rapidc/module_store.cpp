@@ -1,6 +1,7 @@
 #include "tools/rapidc/module_store.h"
 
 #include "config/atomic_file.h"
+#include "config/temporary.h"
 #include "frontend/diag/diagnostic.h"
 #include "frontend/edit/save_values.h"
 #include "frontend/syntax/parser.h"
@@ -29,6 +30,7 @@ rt::StoreResult SourceStore::store(const rt::ModuleText& text) {
     if (!result.problem.empty()) return result;
     result.notes = std::move(saved.notes);
     const bool same = text.destination == text.source && saved.bytes == file->bytes();
+    rapid::config::removeLeftoversBeside({text.destination});
     if (!same) result.problem = rapid::config::replaceFile(text.destination, saved.bytes);
     return result;
 }

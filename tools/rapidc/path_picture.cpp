@@ -1,50 +1,17 @@
 #include "tools/rapidc/path_picture.h"
 
+#include "runtime/io/output_file.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fmt/format.h>
-#include <fstream>
-#include <sstream>
 #include <vector>
 
 namespace rapidc {
 
 namespace {
 
-struct Sample {
-    double time = 0, x = 0, y = 0, z = 0, speed = 0;
-    int move = 0;
-};
-
-bool readTrace(const std::string& path, std::vector<Sample>& samples, std::string& error) {
-    std::ifstream file(path);
-    std::string line;
-    if (!file || !std::getline(file, line)) {
-        error = fmt::format("cannot read the trace '{}'", path);
-        return false;
-    }
-    std::vector<std::string> names;
-    for (std::stringstream cells(line); std::getline(cells, line, ',');)
-        names.push_back(line);
-    auto column = [&](const char* name) {
-        return static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-    };
-    const size_t time = column("time_s"), x = column("x"), y = column("y"), z = column("z"),
-                 speed = column("speed_mm_s"), move = column("move");
-    std::vector<double> values;
-    while (std::getline(file, line)) {
-        values.clear();
-        std::string cell;
-        for (std::stringstream cells(line); std::getline(cells, cell, ',');)
-            values.push_back(std::atof(cell.c_str()));
-        if (values.size() <= std::max({time, x, y, z, speed, move})) continue;
-        samples.push_back(
-            {values[time], values[x], values[y], values[z], values[speed], static_cast<int>(values[move])});
-    }
-    if (samples.empty()) error = fmt::format("the trace '{}' holds no sample", path);
-    return !samples.empty();
-}
+using Sample = PathPicture::Sample;
 
 /// One projection: picture coordinates from two world axes, same scale on both.
 struct View {
@@ -143,9 +110,28 @@ void drawPath(std::string& svg, const View& view, const Bounds& bounds, const st
 
 } // namespace
 
-bool writePathPicture(const std::string& traceFile, const std::string& svgFile, std::string& error) {
-    std::vector<Sample> samples;
-    if (!readTrace(traceFile, samples, error)) return false;
+void PathPicture::sample(rt::Time time, std::string_view /*unit*/, const motion::MotionState& state) {
+    const Sample next{rt::toSeconds(time), state.tcp.pos.x, state.tcp.pos.y,
+                      state.tcp.pos.z,     state.tcpSpeed,  static_cast<int>(state.tag)};
+    const auto same = [&next](const Sample& s) {
+        return s.x == next.x && s.y == next.y && s.z == next.z && s.speed == next.speed &&
+               s.move == next.move;
+    };
+    // While the arm stands, the first and the last sample say all.
+    const size_t count = samples_.size();
+    if (count >= 2 && same(samples_[count - 1]) && same(samples_[count - 2]))
+        samples_.back() = next;
+    else
+        samples_.push_back(next);
+}
+
+std::string PathPicture::write(const std::string& svgFile) const {
+    return rt::writeWhole(svgFile, drawing());
+}
+
+std::string PathPicture::drawing() const {
+    std::vector<Sample> samples = samples_;
+    if (samples.empty()) samples.emplace_back(); // the program took no time
     double top = 1;
     for (const Sample& s : samples)
         top = std::max(top, s.speed);
@@ -167,10 +153,7 @@ bool writePathPicture(const std::string& traceFile, const std::string& svgFile, 
                        "end of a move</text>\n",
                        kMargin, 2 * kMargin + kSize + 20, samples.back().time, top);
     svg += "</svg>\n";
-    std::ofstream file(svgFile, std::ios::binary);
-    file << svg;
-    if (!file.flush()) error = fmt::format("cannot write the picture '{}'", svgFile);
-    return error.empty();
+    return svg;
 }
 
 } // namespace rapidc

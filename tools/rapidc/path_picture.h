@@ -1,12 +1,30 @@
 #pragma once
-// The path of the TCP as a picture: top view and side view, coloured by speed, from a trace file.
+// The path of the TCP as a picture: top view and side view, coloured by speed, from the samples of a run.
+
+#include "runtime/sim/csv_writers.h"
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace rapidc {
 
-/// Reads the CSV that `--trace` writes and draws an SVG. False with a message when a file cannot be read or written
-/// or holds no sample.
-bool writePathPicture(const std::string& traceFile, const std::string& svgFile, std::string& error);
+class PathPicture final : public rt::TraceSink {
+  public:
+    struct Sample {
+        double time = 0;            ///< s
+        double x = 0, y = 0, z = 0; ///< mm, world
+        double speed = 0;           ///< mm/s
+        int move = 0;               ///< number of the move instruction
+    };
+
+    void sample(rt::Time time, std::string_view unit, const motion::MotionState& state) override;
+    /// Writes the SVG. Returns what went wrong, for people; empty: success.
+    std::string write(const std::string& svgFile) const;
+
+  private:
+    std::string drawing() const;
+    std::vector<Sample> samples_;
+};
 
 } // namespace rapidc

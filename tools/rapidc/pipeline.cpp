@@ -12,6 +12,7 @@
 #include "stdlib/stdlib_text.h"
 #include "tools/rapidc/judge_configuration.h"
 #include "tools/rapidc/signal_uses.h"
+#include "tools/rapidc/task_specs.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -52,21 +53,25 @@ bool isForeign(Compilation& compilation, const std::string& path, const std::str
 }
 
 /// The configured signals and mechanical units by name and RAPID type; the runtime reads the same files again when the program starts.
-/// `named`: how many of the files the command line names with --config; the others were found.
+/// `named`: how many of the files the command line names with --config; the others were found. `withSignals`: also
+/// what the controller would find wrong with them.
 void readConfiguration(Compilation& compilation, const std::vector<std::string>& files, size_t named,
-                       sema::CheckOptions& options) {
+                       bool withSignals) {
+    sema::CheckOptions& options = compilation.options;
+    std::vector<rt::CfgProblem> problems;
     for (size_t i = 0; i < files.size(); ++i) {
         const std::string& path = files[i];
         std::string bytes;
+        compilation.filesRead.push_back(path);
         if (const std::string problem = rapid::config::readFile(path, bytes); !problem.empty()) {
             compilation.usageErrors.push_back(
                 fmt::format("cannot read the configuration file '{}': {}", path, problem));
             continue;
         }
-        std::vector<rt::CfgProblem> problems;
-        const rt::CfgFile cfg = rt::parseCfg(bytes, path, problems);
+        std::vector<rt::CfgProblem> found;
+        const rt::CfgFile cfg = rt::parseCfg(bytes, path, found);
         if (i >= named && isForeign(compilation, path, bytes, cfg)) continue;
-        reportConfigurationProblems(compilation.sink, path, bytes, problems);
+        problems.insert(problems.end(), found.begin(), found.end());
         compilation.configNames.push_back(path);
         compilation.configTexts.push_back(bytes);
         if (upper(cfg.domain) == "MOC")
@@ -84,6 +89,11 @@ void readConfiguration(Compilation& compilation, const std::vector<std::string>&
                 options.signals.push_back({signal.text("Name"), "signal" + type});
             }
     }
+    if (withSignals) judgeSignals(problems, compilation.configNames, compilation.configTexts);
+    rapid::config::limitProblems(problems);
+    for (size_t i = 0; i < compilation.configNames.size() && !problems.empty(); ++i)
+        reportConfigurationProblems(compilation.sink, compilation.configNames[i], compilation.configTexts[i],
+                                    problems);
 }
 
 /// Event routines and shared modules of SYS.cfg.
@@ -208,9 +218,11 @@ class UnimplementedCalls {
 /// The warnings that are wanted: by the project file beside or above the first input, then by the command line.
 void readWarningLevels(const Inputs& inputs, Compilation& compilation) {
     rapid::lint::WarningLevels& levels = compilation.warningLevels;
-    if (!inputs.paths.empty())
+    if (!inputs.paths.empty()) {
+        compilation.filesRead.push_back(rapid::project::findSettings(inputs.paths.front()));
         rapid::lint::applySettings(rapid::project::loadSettings(inputs.paths.front(), compilation.sink),
                                    levels, compilation.sink);
+    }
     if (!inputs.lint) levels.set("lint", rapid::lint::Level::Off);
     for (const std::string& option : inputs.warnings) {
         std::string problem;
@@ -289,37 +301,51 @@ void addWarningOption(CLI::App& command, Inputs& inputs) {
         ->allow_extra_args(false);
 }
 
-bool readTaskSpec(const std::string& text, std::string& name, std::string& type, std::string& input,
-                  std::string& error) {
-    const size_t equals = text.find('=');
-    const std::string head = text.substr(0, equals);
-    const size_t colon = head.find(':');
-    name = head.substr(0, colon);
-    type = colon == std::string::npos ? "NORMAL" : upper(head.substr(colon + 1));
-    input = equals == std::string::npos ? "" : text.substr(equals + 1);
-    const bool knownType = type == "NORMAL" || type == "STATIC" || type == "SEMISTATIC";
-    if (name.empty() || input.empty() || !knownType) {
-        error = fmt::format(
-            "cannot read --task={}: expected NAME=INPUT, NAME:STATIC=INPUT or NAME:SEMISTATIC=INPUT", text);
-        return false;
-    }
-    return true;
+void addTaskOption(CLI::App& command, Inputs& inputs) {
+    command
+        .add_option(
+            "--task", inputs.tasks,
+            "A further task, which runs the main of its inputs; NAME:STATIC= and NAME:SEMISTATIC= give its "
+            "type; repeatable, also to add inputs to a task")
+        ->type_name("NAME[:TYPE]=INPUT[,INPUT]")
+        ->allow_extra_args(false)
+        ->take_all();
+}
+
+void addConfigOption(CLI::App& command, Inputs& inputs) {
+    command
+        .add_option("--config", inputs.configFiles,
+                    "EIO, SYS, MOC, SIO or PROC parameters in ABB's text format; repeatable")
+        ->type_name("FILE.cfg")
+        ->allow_extra_args(false)
+        ->take_all();
+}
+
+void addRobotOption(CLI::App& command, Inputs& inputs) {
+    command.add_option("--robot", inputs.robot, "Robot model; rapidc robots lists them")->type_name("MODEL");
+}
+
+std::string outputConflict(const Compilation& compilation,
+                           std::initializer_list<std::pair<const char*, std::string>> outputs,
+                           rapid::config::OutputGuard guard) {
+    for (const std::string& path : compilation.filesRead)
+        guard.reads(path);
+    guard.reads("/proc/self/exe", "rapidc itself");
+    for (const auto& [option, path] : outputs)
+        guard.writes(path, option);
+    return guard.conflict();
 }
 
 std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     auto compilation = std::make_unique<Compilation>();
-    std::vector<rapid::project::TaskSpec> specs;
     std::set<std::string> typesTold{"T_ROB1"};
-    for (const std::string& text : inputs.tasks) {
-        rapid::project::TaskSpec spec;
-        std::string error;
-        if (readTaskSpec(text, spec.name, spec.type, spec.input, error)) {
-            if (text.substr(0, text.find('=')).find(':') != std::string::npos) typesTold.insert(spec.name);
-            specs.push_back(std::move(spec));
-        } else
-            compilation->usageErrors.push_back(error);
-    }
+    const std::vector<rapid::project::TaskSpec> specs =
+        readTaskSpecs(inputs.tasks, typesTold, compilation->usageErrors);
+    if (!inputs.robot.empty())
+        if (const auto model = robot::loadRobotModel(inputs.robot); !model)
+            compilation->usageErrors.push_back("--robot: " + model.error().message);
     readWarningLevels(inputs, *compilation);
+    if (!compilation->usageErrors.empty()) return compilation;
     rapid::project::ProjectInput project;
     if (!inputs.paths.empty()) rapid::project::loadProject(inputs.paths, specs, project, compilation->sink);
     std::vector<std::string> configFiles = inputs.configFiles;
@@ -330,11 +356,12 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     options.requireMain = inputs.requireMain;
     options.robotWareOptions = project.robotWareOptions;
     compilation->homeFolder = project.homeFolder;
+    compilation->filesRead.insert(compilation->filesRead.end(), project.filesRead.begin(),
+                                  project.filesRead.end());
     options.configurationComplete = inputs.configurationComplete;
     options.assumeSignals = inputs.assumeSignals;
-    readConfiguration(*compilation, configFiles, inputs.configFiles.size(), options);
-    if (inputs.onlyDiagnostics) // else the controller tells it when the program starts
-        judgeSignals(compilation->sink, compilation->configNames, compilation->configTexts);
+    readConfiguration(*compilation, configFiles, inputs.configFiles.size(),
+                      inputs.onlyDiagnostics); // else the controller judges signals
     if (project.isBackup) checkRobot(*compilation, project.robot);
     for (const rapid::stdlib::StdlibSource& source : rapid::stdlib::sources())
         compilation->library.push_back({source.name, source.text});

@@ -1,14 +1,17 @@
 #pragma once
 // Inputs of a command -> checked program -> IR. Shared by check, build, run and emit.
 
+#include "config/output_guard.h"
 #include "frontend/lint/warnings.h"
 #include "frontend/sema/checker.h"
 #include "ir/core/ir.h"
 #include "tools/rapidc/signal_uses.h"
 
+#include <initializer_list>
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CLI {
@@ -19,8 +22,9 @@ namespace rapidc {
 
 struct Inputs {
     std::vector<std::string> paths;       ///< files, folders, programs
-    std::vector<std::string> tasks;       ///< NAME[:TYPE]=INPUT
+    std::vector<std::string> tasks;       ///< NAME[:TYPE]=INPUT[,INPUT]
     std::vector<std::string> configFiles; ///< --config
+    std::string robot;                    ///< --robot; an unknown one is wrong usage
     bool requireMain = false;
     std::vector<std::string> warnings;  ///< -W
     bool lint = false;                  ///< with the warnings of 8xxx, also where -W does not name them
@@ -45,15 +49,20 @@ struct Compilation {
     std::vector<std::string> usageErrors;   ///< e.g. a --task that cannot be read
     std::string folder;                     ///< kept in the program: where relative paths begin; may be empty
     std::string homeFolder;                 ///< HOME of a backup; empty if there is none
+    std::vector<std::string> filesRead;     ///< which no output may overwrite
 };
 
 /// Adds the option --assume-signals to a command.
 void addAssumeSignalsOption(CLI::App& command, Inputs& inputs);
 
-/// Adds the option -W to a command.
+/// Adds the options that say what is compiled: -W, --task, --config, --robot.
 void addWarningOption(CLI::App& command, Inputs& inputs);
+void addTaskOption(CLI::App& command, Inputs& inputs);
+void addConfigOption(CLI::App& command, Inputs& inputs);
+void addRobotOption(CLI::App& command, Inputs& inputs);
 
-/// Loads, parses and checks. Look at `sink` and `usageErrors` before going on.
+/// Loads, parses and checks. Look at `sink` and `usageErrors` before going on; there is no program when the options
+/// cannot be read.
 std::unique_ptr<Compilation> checkInputs(const Inputs& inputs);
 
 /// Lowers and runs the IR passes. False with diagnostics in the sink when something stands against it.
@@ -66,8 +75,9 @@ bool runIrPasses(ir::Module& module, bool stepping, rapid::diag::Sink& sink);
 /// holds (notes 605x) is told only by `check`.
 void printDiagnostics(const Compilation& compilation, bool withReport = false);
 
-/// Reads --task=NAME[:TYPE]=INPUT; false with a message when it has another form.
-bool readTaskSpec(const std::string& text, std::string& name, std::string& type, std::string& input,
-                  std::string& error);
+/// Why the outputs of a command cannot be written without loss; "" when they can. `outputs`: option and path.
+std::string outputConflict(const Compilation& compilation,
+                           std::initializer_list<std::pair<const char*, std::string>> outputs,
+                           rapid::config::OutputGuard guard = {});
 
 } // namespace rapidc

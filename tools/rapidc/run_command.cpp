@@ -8,9 +8,12 @@
 #include "tools/rapidc/unit_compiler.h"
 
 #include "codegen/codegen.h"
+#include "config/read_file.h"
+#include "config/temporary.h"
 #include "runtime/host/controller.h"
 #include "runtime/host/module_saver.h"
 #include "runtime/host/module_units.h"
+#include "runtime/host/run_files.h"
 #include "runtime/host/run_options.h"
 #include "runtime/host/stop_signals.h"
 #include "runtime/host/unit_loader.h"
@@ -18,10 +21,8 @@
 #include "stdlib/native_table.h"
 
 #include <CLI/CLI.hpp>
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
@@ -60,40 +61,33 @@ void findStimulus(RunSettings& settings) {
     if (fs::is_regular_file(beside, ignored)) settings.options.stimulus = beside.string();
 }
 
-/// HOME of a backup for one run: a copy, so that the backup stays as it is.
-class HomeCopy {
-  public:
-    HomeCopy() = default;
-    ~HomeCopy() {
-        std::error_code ignored;
-        if (!path_.empty()) fs::remove_all(path_, ignored);
+/// HOME of a backup for one run: a copy, so that the backup stays as it is. The folder of the copy; empty with a message
+/// when it cannot be made.
+std::string copyHome(const std::string& from, rapid::config::TemporaryFolder& folder, std::string& error) {
+    if (const int problem = folder.make("home"); problem != 0) {
+        error = fmt::format("cannot make a folder for HOME: {}", std::strerror(problem));
+        return {};
     }
-    HomeCopy(const HomeCopy&) = delete;
-    HomeCopy& operator=(const HomeCopy&) = delete;
+    std::error_code code;
+    fs::copy(from, folder.path(), fs::copy_options::recursive | fs::copy_options::skip_symlinks, code);
+    if (code) error = fmt::format("cannot copy '{}': {}", from, code.message());
+    return code ? std::string() : folder.path();
+}
 
-    /// The folder of the copy; empty with a message when it cannot be made.
-    std::string make(const std::string& from, std::string& error) {
-        std::error_code code;
-        std::string pattern = (fs::temp_directory_path(code) / "rapidc_home_XXXXXX").string();
-        if (!::mkdtemp(pattern.data())) {
-            error = fmt::format("cannot make a folder for HOME: {}", std::strerror(errno));
-            return {};
-        }
-        path_ = pattern;
-        fs::copy(from, path_, fs::copy_options::recursive | fs::copy_options::skip_symlinks, code);
-        if (code) error = fmt::format("cannot copy '{}': {}", from, code.message());
-        return code ? std::string() : path_.string();
-    }
-
-  private:
-    fs::path path_;
-};
+/// A pipe can be read once: what it holds is kept. False with a message when it cannot be read.
+bool readStimulus(rt::RunOptions& options, std::string& error) {
+    if (options.stimulus.empty()) return true;
+    const std::string problem = rapid::config::readStream(options.stimulus, options.stimulusText.emplace());
+    if (!problem.empty())
+        error = fmt::format("--stimulus: '{}' cannot be read: {}", options.stimulus, problem);
+    return problem.empty();
+}
 
 /// Only programs made for the stepping profile can be stepped.
-bool stimulusSteps(const std::string& path) {
-    if (path.empty()) return false;
-    std::vector<rt::StimulusProblem> problems; // reported when the controller reads the file
-    for (const rt::StimulusItem& item : rt::readStimulus(path, problems))
+bool stimulusSteps(const rt::RunOptions& options) {
+    if (!options.stimulusText) return false;
+    std::vector<rt::StimulusProblem> problems; // reported when the controller reads it
+    for (const rt::StimulusItem& item : rt::parseStimulus(*options.stimulusText, problems))
         if (item.kind == rt::StimulusKind::StepForward || item.kind == rt::StimulusKind::StepBackward)
             return true;
     return false;
@@ -106,6 +100,13 @@ void makeFolders(const RunSettings& settings) {
         const fs::path folder = fs::path(*path).parent_path();
         if (!folder.empty()) fs::create_directories(folder, ignored);
     }
+}
+
+/// Why the files of the run cannot be written without loss; "" when they can.
+std::string conflictOf(const RunSettings& settings, const Compilation& compilation) {
+    rapid::config::OutputGuard guard;
+    rt::guardOutputs(settings.options, guard);
+    return outputConflict(compilation, {{"--picture", settings.picture}}, std::move(guard));
 }
 
 void printSummary(const RunSettings& settings, rt::Controller& controller, double wallSeconds) {
@@ -122,25 +123,26 @@ int execute(RunSettings& settings, const rt::ProgramDesc& program, rt::ModuleLoa
     const rt::StopSignals signals;
     rt::ExitStatus status = rt::ExitStatus::Ended;
     {
+        PathPicture picture; // outlives what draws it
         rt::Controller controller(settings.options);
         rt::setUpStandardLibrary(controller);
         rt::setModuleLoader(controller, &loader);
         controller.saver().setStore(std::make_unique<SourceStore>());
         status = controller.prepare(program);
         if (status != rt::ExitStatus::Ended) return static_cast<int>(status);
+        if (!settings.picture.empty()) controller.motion().addTrace(picture);
         LineDebugger debugger(controller);
         if (settings.interactive) debugger.attach();
         status = controller.run();
         std::fflush(stdout);
         const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-        if (settings.summary) printSummary(settings, controller, wall.count());
-    }
-    if (!settings.picture.empty()) {
         std::string error;
-        if (!writePathPicture(settings.options.trace, settings.picture, error)) {
-            fmt::print(stderr, "rapidc run: {}\n", error);
-            return static_cast<int>(rt::ExitStatus::BadUsage);
+        if (!settings.picture.empty()) error = picture.write(settings.picture);
+        if (!error.empty()) {
+            fmt::print(stderr, "rapidc run: --picture: {}\n", error);
+            if (status == rt::ExitStatus::Ended) status = rt::ExitStatus::BadUsage;
         }
+        if (settings.summary) printSummary(settings, controller, wall.count());
     }
     rt::StopSignals::endIfReceived();
     return static_cast<int>(status);
@@ -150,6 +152,7 @@ int run(RunSettings& settings) {
     Inputs& inputs = settings.inputs;
     inputs.tasks = settings.options.tasks;
     inputs.configFiles = settings.options.configFiles;
+    inputs.robot = settings.options.robot;
     inputs.requireMain = true;
     inputs.configurationComplete = true;
     const auto compilation = checkInputs(inputs);
@@ -159,9 +162,14 @@ int run(RunSettings& settings) {
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
     findStimulus(settings);
+    std::string error = conflictOf(settings, *compilation);
+    if (!error.empty() || !readStimulus(settings.options, error)) {
+        fmt::print(stderr, "rapidc run: {}\n", error);
+        return static_cast<int>(rt::ExitStatus::BadUsage);
+    }
+    rapid::config::removeLeftoversBeside(compilation->filesRead);
     // A later process can go on in the middle of a program of the stepping profile only.
-    settings.stepping = settings.stepping || settings.interactive ||
-                        stimulusSteps(settings.options.stimulus) ||
+    settings.stepping = settings.stepping || settings.interactive || stimulusSteps(settings.options) ||
                         (!settings.options.state.empty() && !settings.noStepping);
     ir::Module module;
     const bool lowered = !compilation->sink.hasErrors() &&
@@ -171,7 +179,6 @@ int run(RunSettings& settings) {
     if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
     codegen::CodegenOptions options;
     options.optimise = !settings.noOptimise;
-    std::string error;
     const std::vector<codegen::NativeSymbol> natives = nativeSymbols();
     const auto program = codegen::jit(module, options, natives, error);
     if (!program) {
@@ -180,13 +187,9 @@ int run(RunSettings& settings) {
     }
     // The configuration is in the program already; reading it twice would define every signal twice.
     settings.options.configFiles.clear();
-    if (!settings.picture.empty() && settings.options.trace.empty()) {
-        fmt::print(stderr, "rapidc run: --picture is drawn from the trace: give --trace=FILE.csv too\n");
-        return static_cast<int>(rt::ExitStatus::BadUsage);
-    }
-    HomeCopy home;
+    rapid::config::TemporaryFolder home;
     if (settings.options.home.empty() && !compilation->homeFolder.empty()) {
-        settings.options.home = home.make(compilation->homeFolder, error);
+        settings.options.home = copyHome(compilation->homeFolder, home, error);
         if (settings.options.home.empty()) {
             fmt::print(stderr, "rapidc run: {}\n", error);
             return static_cast<int>(rt::ExitStatus::BadUsage);
@@ -209,7 +212,7 @@ void addRunCommand(CLI::App& app, int& status) {
     rt::addRunOptions(*command, settings->options, true);
     addAssumeSignalsOption(*command, settings->inputs);
     addWarningOption(*command, settings->inputs);
-    command->add_option("--picture", settings->picture, "Draw the path of the TCP from the trace (SVG)");
+    command->add_option("--picture", settings->picture, "Draw the path of the TCP (SVG)");
     command->add_flag("--summary", settings->summary, "Show cycle time and where the files lie");
     command->add_flag("--step", settings->interactive,
                       "Debug in the terminal: stop ahead of the first instruction and take commands (help)");

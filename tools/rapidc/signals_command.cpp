@@ -9,31 +9,16 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
 #include <fmt/format.h>
 
 namespace rapidc {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 struct SignalsSettings {
     Inputs inputs;
     std::string output;
 };
-
-/// The file would be lost that the program was read from.
-bool isInput(const Compilation& compilation, const std::string& output) {
-    std::error_code ignored;
-    const auto same = [&](const std::string& path) { return fs::equivalent(path, output, ignored); };
-    for (const std::string& config : compilation.configNames)
-        if (same(config)) return true;
-    for (const rapid::sema::TaskInput& task : compilation.tasks)
-        for (const auto& file : task.files)
-            if (same(file->path())) return true;
-    return false;
-}
 
 int writeSignalFile(SignalsSettings& settings) {
     settings.inputs.assumeSignals = true;
@@ -49,15 +34,15 @@ int writeSignalFile(SignalsSettings& settings) {
     const std::string text = writeSignals(signals);
     if (settings.output.empty()) {
         fmt::print("{}", text);
-    } else if (isInput(*compilation, settings.output)) {
-        fmt::print(stderr,
-                   "rapidc signals: '{}' is an input, it would be overwritten: name another file with -o\n",
-                   settings.output);
-        return static_cast<int>(rt::ExitStatus::BadUsage);
-    } else if (const std::string problem = rapid::config::replaceFile(settings.output, text);
-               !problem.empty()) {
-        fmt::print(stderr, "rapidc signals: {}\n", problem);
-        return static_cast<int>(rt::ExitStatus::BadUsage);
+    } else {
+        rapid::config::OutputGuard guard;
+        guard.writesConfiguration(settings.output, "-o");
+        std::string problem = outputConflict(*compilation, {}, std::move(guard));
+        if (problem.empty()) problem = rapid::config::replaceFile(settings.output, text);
+        if (!problem.empty()) {
+            fmt::print(stderr, "rapidc signals: {}\n", problem);
+            return static_cast<int>(rt::ExitStatus::BadUsage);
+        }
     }
     if (!compilation->sink.hasErrors()) return 0;
     const size_t errors = compilation->sink.errorCount();
@@ -76,10 +61,8 @@ void addSignalsCommand(CLI::App& app, int& status) {
     command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")
         ->required();
     command->add_option("-o,--output", settings->output, "The file to write; without it standard output");
-    command->add_option("--task", settings->inputs.tasks, "NAME[:TYPE]=INPUT: a further task")
-        ->allow_extra_args(false);
-    command->add_option("--config", settings->inputs.configFiles, "Parameters (.cfg) that exist already")
-        ->allow_extra_args(false);
+    addTaskOption(*command, settings->inputs);
+    addConfigOption(*command, settings->inputs);
     command->callback([settings, &status] { status = writeSignalFile(*settings); });
 }
 

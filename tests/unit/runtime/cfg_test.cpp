@@ -149,7 +149,14 @@ TEST_CASE("problems of a file stay within bounds", "[cfg]") {
     std::vector<CfgProblem> problems;
     parseCfg(text, "X.cfg", problems);
     REQUIRE(problems.size() == rapid::config::kMaxCfgProblems + 1);
-    CHECK_THAT(problems.back().message, Contains("more mistakes"));
+    CHECK(problems.back().message ==
+          "there are 99,951 more mistakes in this file; correct those above first");
+    problems.push_back({"X.cfg", 7, "a signal without a name"}); // of another reader
+    problems.push_back({"Y.cfg", 7, "a signal without a name"});
+    rapid::config::limitProblems(problems);
+    REQUIRE(problems.size() == rapid::config::kMaxCfgProblems + 2);
+    CHECK(problems.back().message ==
+          "there are 99,952 more mistakes in this file; correct those above first");
     for (const CfgProblem& problem : problems)
         CHECK(problem.message.size() < 200);
 }

@@ -112,7 +112,7 @@ TEST_CASE("more tasks are named with their type", "[project]") {
     const Folder folder;
     folder.write("main.modx", kModule);
     folder.write("side.modx", kModule);
-    const auto loaded = load({folder / "main.modx"}, {{"T_SIDE", "STATIC", folder / "side.modx"}});
+    const auto loaded = load({folder / "main.modx"}, {{"T_SIDE", "STATIC", {folder / "side.modx"}}});
     CHECK(loaded->ok);
     REQUIRE(loaded->project.tasks.size() == 2);
     CHECK(loaded->project.tasks[1].name == "T_SIDE");

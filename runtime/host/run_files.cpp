@@ -1,0 +1,18 @@
+#include "runtime/host/run_files.h"
+
+namespace rt {
+
+void guardOutputs(const RunOptions& options, rapid::config::OutputGuard& guard) {
+    for (const std::string& path : options.configFiles)
+        guard.reads(path, "the configuration");
+    if (options.stimulus != "-") guard.reads(options.stimulus, "the stimulus");
+    if (options.robot.ends_with(".json")) guard.reads(options.robot, "the robot model");
+    guard.writes(options.trace, "--trace");
+    guard.writes(options.signals, "--signals");
+    guard.writes(options.events, "--events");
+    if (options.state.empty()) return;
+    for (const char* name : {kStateFile, kStateAside, kStateLock})
+        guard.writes(options.state + "/" + name, "--state");
+}
+
+} // namespace rt
