@@ -44,7 +44,8 @@ def read(path):
 def execute(command, cwd, timeout, stdin=None, environment=None):
     """Runs a command, with further environment variables; a signal that killed it gives a negative status. At the time limit
     whatever it started ends with it."""
-    if not shutil.which(command[0], path=os.environ.get("PATH")):
+    program = os.path.join(cwd, command[0]) if "/" in command[0] else command[0]  # "./cell" is one of the folder
+    if not shutil.which(program, path=os.environ.get("PATH")):
         return Output(127, "", f"there is no program {command[0]}")
     with subprocess.Popen(command, cwd=cwd, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                           start_new_session=True, env={**os.environ, **(environment or {})}) as process:
