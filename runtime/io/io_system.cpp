@@ -97,7 +97,7 @@ IoResult IoSystem::checkWrite(Handle handle, double& value, Signal*& signal) {
 void IoSystem::cancelPending(Signal& signal) {
     if (signal.pending == Pending::None) return;
     scheduler_.cancel(signal.event);
-    (signal.pending == Pending::Pulse ? pulsing_ : delayed_) -= 1;
+    if (signal.pending == Pending::Delay) --delayed_;
     signal.pending = Pending::None;
 }
 
@@ -137,16 +137,13 @@ IoResult IoSystem::pulse(Handle handle, Time length, bool high) {
     if (!isDigital(signal->config.type)) return IoResult::NotWritable;
     if (length < kMinSpan || length > kMaxSpan) return IoResult::BadTime;
     const bool running = signal->pending == Pending::Pulse;
-    if (!running && pulsing_ >= kMaxPulses) return IoResult::TooManyPulses;
     // A pulse ordered during a pulse makes it longer; its end brings back what was before the first.
     const double during = high ? 1 : running ? signal->value : 1 - signal->value;
     cancelPending(*signal);
     signal->pending = Pending::Pulse;
-    ++pulsing_;
     const SignalId id = idOf(handle);
     signal->event = scheduler_.after(length, [this, id, during, signal] {
         signal->pending = Pending::None;
-        --pulsing_;
         change(id, 1 - during, false); // neither are pulses
     });
     change(id, during, false);

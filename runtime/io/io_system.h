@@ -58,7 +58,6 @@ enum class IoResult : uint8_t {
     OutOfRange,    ///< value outside the logical limits (ERR_AO_LIM, ERR_GO_LIM), nothing was changed
     NotWritable,   ///< an input, or Access does not let RAPID write
     BadTime,       ///< delay or pulse length outside what is allowed (ERR_ARGVALERR)
-    TooManyPulses, ///< 10 signals pulse already (manual 2.10)
     TooManyDelays, ///< 20 signals are delayed already
 };
 
@@ -77,7 +76,6 @@ struct CrossConnection {
 
 class IoSystem {
   public:
-    static constexpr std::size_t kMaxPulses = 10;
     static constexpr std::size_t kMaxDelays = 20;
     /// Longest delay and pulse accepted by setDelayed and pulse: 0.001 to 2000 s.
     static constexpr Time kMinSpan = kMillisecond;
@@ -176,7 +174,7 @@ class IoSystem {
     std::vector<ListenerEntry> listeners_;
     uint64_t lastListener_ = 0;
     int calling_ = 0; // depth of listener calls
-    std::size_t pulsing_ = 0, delayed_ = 0;
+    std::size_t delayed_ = 0;
 };
 
 } // namespace rt

@@ -27,7 +27,7 @@ constexpr const char* kGroup = "ISignalGI";
 constexpr const char* kTimer = "ITimer";
 
 int numberOf(const float* interrupt) {
-    return static_cast<int>(*interrupt);
+    return *interrupt >= 0 && *interrupt < 1e6F ? static_cast<int>(*interrupt) : 0; // not a number either
 }
 
 Status tooMany(TaskCore* task) {
@@ -202,9 +202,8 @@ Status rt_ITimer(TaskCore* task, bool Single, bool SingleSafe, float Time, float
 }
 
 Status rt_IDelete(TaskCore* task, float* Interrupt) {
-    // Programs begin with IDelete, CONNECT: a variable that was never connected, or is deleted already, is no error.
-    if (*Interrupt == 0) return kOk;
-    if (!taskOf(task).interrupts().remove(numberOf(Interrupt))) return lib::unknownInterrupt(task);
+    // Programs begin with IDelete, CONNECT: a variable that is not connected, whatever it holds, has nothing to delete.
+    (void)taskOf(task).interrupts().remove(numberOf(Interrupt));
     *Interrupt = 0;
     return kOk;
 }

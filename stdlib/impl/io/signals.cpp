@@ -43,8 +43,6 @@ Status ioStatus(TaskCore* task, IoResult result, Handle handle) {
                     "signal " + name + " cannot be set from a program (input, or Access level)");
     case IoResult::BadTime:
         return fail(task, err::ERR_ARGVALERR, "delay and pulse length must lie between 0.001 and 2000 s");
-    case IoResult::TooManyPulses:
-        return fail(task, err::ERR_ARGVALERR, "10 signals pulse already, which is the most");
     case IoResult::TooManyDelays:
         return fail(task, err::ERR_ARGVALERR, "20 delayed changes are pending already, which is the most");
     }

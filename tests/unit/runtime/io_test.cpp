@@ -99,7 +99,7 @@ TEST_CASE("pulses go up and come back; with high they end low", "[io]") {
     CHECK(bench.io.pulse(bench.handle("ao1"), kSecond, false) == IoResult::NotWritable);
 }
 
-TEST_CASE("at most 10 signals pulse and 20 are delayed at a time", "[io]") {
+TEST_CASE("any number of signals pulse, 20 are delayed at a time", "[io]") {
     Bench bench;
     for (int i = 0; i < 25; ++i) {
         SignalConfig config;
@@ -108,13 +108,12 @@ TEST_CASE("at most 10 signals pulse and 20 are delayed at a time", "[io]") {
         bench.io.addSignal(config);
     }
     const auto handle = [&](int i) { return bench.handle(("o" + std::to_string(i)).c_str()); };
-    for (int i = 0; i < 10; ++i)
+    for (int i = 0; i < 25; ++i)
         CHECK(bench.io.pulse(handle(i), kSecond, false) == IoResult::Ok);
-    CHECK(bench.io.pulse(handle(10), kSecond, false) == IoResult::TooManyPulses);
     CHECK(bench.io.pulse(handle(3), kSecond, false) == IoResult::Ok); // pulses already
     bench.runTo(2 * kSecond);
-    CHECK(bench.io.pulse(handle(10), kSecond, false) == IoResult::Ok);
-    bench.runTo(4 * kSecond);
+    for (int i = 0; i < 25; ++i)
+        CHECK(bench.value(("o" + std::to_string(i)).c_str()) == 0);
     for (int i = 0; i < 20; ++i)
         CHECK(bench.io.setDelayed(handle(i), 1, kSecond) == IoResult::Ok);
     CHECK(bench.io.setDelayed(handle(20), 1, kSecond) == IoResult::TooManyDelays);
