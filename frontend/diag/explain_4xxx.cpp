@@ -157,7 +157,8 @@ constexpr auto kExplanations = std::to_array<Explanation>({
     {4018, Kind::Module,
      "Present tells whether an optional parameter of the routine itself was given; other data is "
      "always there (manual 1.1.5).",
-     "PROC tell(num level)\n"
+     "VAR num level;\n"
+     "PROC tell()\n"
      "  IF Present(level) reg1 := level;\n"
      "ENDPROC",
      "PROC tell(\\num level)\n"

@@ -111,6 +111,15 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "PROC work(\\num level)\n"
      "  IF Present(level) reg1 := level;\n"
      "ENDPROC"},
+    {5016, Kind::Module,
+     "Present tells whether an optional parameter was given. A required one always is, so the answer is TRUE "
+     "(manual 1.1.5). Leave out the test, or declare the parameter with '\\'.",
+     "PROC tell(num level)\n"
+     "  IF Present(level) reg1 := level;\n"
+     "ENDPROC",
+     "PROC tell(\\num level)\n"
+     "  IF Present(level) reg1 := level;\n"
+     "ENDPROC"},
     {5020, Kind::Body,
      "RETRY and TRYNEXT refer to the instruction that raised the error, which is known only in an "
      "ERROR handler (manual 1.12).",

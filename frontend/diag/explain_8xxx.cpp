@@ -345,6 +345,31 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      "  MoveL CRobT(), v500, z10, tool0;\n"
      "  MoveJ Offs(CRobT(), 0, 0, 9), v500, fine, tool0;\n"
      "ENDPROC"},
+    {8046, Kind::Module,
+     "An error in a routine without error handler stops the program at once. It goes to the caller's handler only when a "
+     "handler in the routine passes it on with RAISE, or when a handler lists its number, as ERROR (ERR_MAXTIME) "
+     "does (manual 1.12). The handler here names an error that comes from a routine without error handler, so it never sees "
+     "it.",
+     "PROC waitForPart()\n"
+     "  IF reg1 = 0 RAISE 12;\n"
+     "ENDPROC\n"
+     "PROC work()\n"
+     "  waitForPart;\n"
+     "ERROR\n"
+     "  IF ERRNO = 12 TRYNEXT;\n"
+     "  RAISE;\n"
+     "ENDPROC",
+     "PROC waitForPart()\n"
+     "  IF reg1 = 0 RAISE 12;\n"
+     "ERROR\n"
+     "  RAISE;\n"
+     "ENDPROC\n"
+     "PROC work()\n"
+     "  waitForPart;\n"
+     "ERROR\n"
+     "  IF ERRNO = 12 TRYNEXT;\n"
+     "  RAISE;\n"
+     "ENDPROC"},
 });
 // clang-format on
 

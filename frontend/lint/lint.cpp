@@ -3,6 +3,7 @@
 #include "frontend/lint/lint.h"
 
 #include "frontend/lint/backward.h"
+#include "frontend/lint/error_routes.h"
 #include "frontend/lint/presence.h"
 #include "frontend/lint/rings.h"
 #include "frontend/lint/walker.h"
@@ -182,6 +183,7 @@ class TaskLint {
             for (const RoutineSymbol* routine : module->routines) {
                 if (isWrong(*routine)) continue;
                 walker_.routine(*routine);
+                errorRoutes_.routine(*routine);
                 judgePresence(*routine, reporter_);
                 judgeBackward(*routine, reporter_);
                 routineData(*routine);
@@ -195,6 +197,7 @@ class TaskLint {
         suspicions();
         fractions();
         interrupts();
+        errorRoutes_.judge(reporter_);
         for (const Module* module : task_.modules)
             declarations(*module);
         rings();
@@ -232,6 +235,7 @@ class TaskLint {
     Reporter& reporter_;
     TaskFacts facts_;
     Walker walker_;
+    ErrorRoutes errorRoutes_;
     bool complete_ = false; ///< all modules are there and free of errors
     const std::set<std::string>& configured_;
     std::optional<std::unordered_set<std::string>> texts_; ///< names in strings, once they are asked for

@@ -78,7 +78,8 @@ class PresenceWalk {
         const sema::Symbol* symbol = info(*value).symbol;
         if (!symbol || symbol->kind != sema::SymbolKind::Data) return nullptr;
         const auto* data = static_cast<const DataSymbol*>(symbol);
-        return data->routine == &routine_ && data->index < known_.size() ? data : nullptr;
+        const bool own = data->routine == &routine_ && data->optional;
+        return own && data->index < known_.size() ? data : nullptr;
     }
     bool isConstant(const Expr& e, bool value) const {
         const sema::ConstValue* constant = info(e).constant;

@@ -465,6 +465,7 @@ class Analyzer {
     static const char* missingClass(ParamClass accepts, const DataType& found);
     bool checkClass(const RoutineSymbol& routine, const BoundArg& bound, const DataType& type);
     void checkPresent(const BoundArg& bound);
+    DataSymbol* ownParameter(const syntax::Expr& e);
     DataSymbol* ownOptional(const syntax::Expr& e);
     const Type* handleHint(const DataSymbol& param) const;
     static std::string describeExpr(const syntax::Expr& e);

@@ -332,10 +332,15 @@ bool Analyzer::checkClass(const RoutineSymbol& routine, const BoundArg& bound, c
 }
 
 // The optional parameter of the current routine that `e` names, or null.
-DataSymbol* Analyzer::ownOptional(const Expr& e) {
+DataSymbol* Analyzer::ownParameter(const Expr& e) {
     if (e.kind != NodeKind::Name || !context_.routine) return nullptr;
     DataSymbol* data = asData(lookup(idOf(as<NameExpr>(e).name)));
-    return data && data->storage == Storage::Parameter && data->optional ? data : nullptr;
+    return data && data->storage == Storage::Parameter ? data : nullptr;
+}
+
+DataSymbol* Analyzer::ownOptional(const Expr& e) {
+    DataSymbol* data = ownParameter(e);
+    return data && data->optional ? data : nullptr;
 }
 
 // Dim(array, number): which dimensions there are is known (manual 1.1.5).
@@ -356,11 +361,10 @@ void Analyzer::checkPresent(const BoundArg& bound) {
     const bool known = isPlaceExpr(e) ? place(e).root != nullptr : (visitLoose(e), true);
     presenceOnly_ = outer;
     if (!known || e.kind == NodeKind::PlaceholderExpr) return;
-    const DataSymbol* own = ownOptional(e);
-    if (own)
+    if (const DataSymbol* own = ownOptional(e))
         optionalUses_[own->index].tested = true;
     else
-        report(Code::PresentNotOptional, range(e), {text(e)});
+        report(ownParameter(e) ? Code::PresentRequired : Code::PresentNotOptional, range(e), {text(e)});
 }
 
 // `\Arg?Param`: present if the caller's own optional parameter is.

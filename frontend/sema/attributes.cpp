@@ -145,9 +145,10 @@ void Analyzer::applyRoutineAttributes(RoutineSymbol& symbol) {
             symbol.manual = std::string(value.substr(0, value.find(' ')));
         else if (key == "option")
             symbol.option = std::string(value);
-        else if (key == "raises")
+        else if (key == "raises") {
             symbol.raises = true;
-        else if (key == "confidence")
+            symbol.raisedErrors = std::string(value);
+        } else if (key == "confidence")
             symbol.uncertain = value != "high";
         else if (key == "flow")
             symbol.flow = flowOf(value);

@@ -186,6 +186,7 @@ struct RoutineSymbol : Symbol {
     Flow flow = Flow::GoesOn;
     uint8_t lintTraits = 0;                      ///< of LintTrait
     bool raises = false;                         ///< natives: it may raise an error
+    std::string raisedErrors;                    ///< natives: "ERR_A, ERR_B"
     bool uncertain = false;                      ///< built-ins: the form of the call is not confirmed
     uint8_t textLength = 0;                      ///< bytes of the text a native returns at least
     const DataSymbol* textLengthParam = nullptr; ///< parameter that tells how many
