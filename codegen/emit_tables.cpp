@@ -179,7 +179,7 @@ llvm::Constant* ModuleEmitter::routineDescValue(const ir::Routine& routine) {
                                                         i8(routine.stepping),
                                                         i8(routine.callable),
                                                         i8(routine.isDetachedHandler),
-                                                        i8(0),
+                                                        i8(routine.isBuiltin),
                                                         i32(int64_t{routine.textHash}),
                                                         detached});
 }

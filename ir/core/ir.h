@@ -142,6 +142,7 @@ struct Routine {
     uint32_t file = kNone; ///< index into Module::files
     uint32_t line = 0;
     bool noStepIn = false;
+    bool isBuiltin = false; ///< an instruction of the language: errors in it come to its caller's statement
     bool stepping =
         false; ///< made for the stepping profile: every statement has a start that `step` may choose
     bool hasBackward = false; ///< stepping: has a backward part

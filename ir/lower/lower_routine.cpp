@@ -17,6 +17,7 @@ ir::Routine declareRoutine(ProgramLowering& program, const RoutineSymbol& symbol
     routine.moduleName = symbol.module->name;
     routine.name = fmt::format("{}/{}/{}", program.task(task).name, symbol.module->name, symbol.name);
     routine.noStepIn = symbol.noStepIn;
+    routine.isBuiltin = symbol.predefined;
     routine.stepping = program.stepping();
     if (routine.stepping) routine.textHash = textHash(symbol);
     routine.callable = symbol.routineKind == syntax::RoutineKind::Proc && symbol.params.empty();
@@ -394,7 +395,10 @@ void RoutineLowering::lowerErrorClauses() {
         if (!b_.terminated()) b_.handlerEnd();
         b_.setBlock(next);
     }
-    if (!b_.terminated()) b_.propagate();
+    if (!b_.terminated()) { // variables of the routine are known here only: no clause lists the error
+        b_.callNative(program_.support("rt_errorNotListed", ir::NativeClass::Plain, ir::kVoid, {}), {});
+        b_.unreachable();
+    }
     if (lists && others) routine_.errorFilter.push_back(0); // takes the others, too, from its own calls
 }
 

@@ -260,6 +260,7 @@ class ModuleParser {
             return false;
         routine.exported = in_.takeWord("exported");
         routine.noStepIn = in_.takeWord("nostepin");
+        routine.isBuiltin = in_.takeWord("builtin");
         routine.stepping = in_.takeWord("stepping");
         routine.hasBackward = in_.takeWord("backward");
         routine.callable = in_.takeWord("callable");

@@ -136,6 +136,7 @@ class RoutinePrinter {
         printPlace(out_, routine_.file, routine_.line);
         if (routine_.exported) put(out_, " exported");
         if (routine_.noStepIn) put(out_, " nostepin");
+        if (routine_.isBuiltin) put(out_, " builtin");
         if (routine_.stepping) put(out_, " stepping");
         if (routine_.hasBackward) put(out_, " backward");
         if (routine_.callable) put(out_, " callable");

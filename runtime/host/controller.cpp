@@ -138,6 +138,18 @@ std::string Controller::whereTasksAre(const char* verb) const {
     return text.empty() ? text : text + ".";
 }
 
+/// Status 0 also when a program did not come to the end of main: then the log says what ended it.
+void Controller::reportEnds() {
+    std::string text;
+    for (const auto& task : tasks_) {
+        if (!isNormal(task) || task->endReason().empty()) continue;
+        const SourcePlace& place = task->endPlace();
+        text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", task->name(), task->endReason());
+        if (!place.module.empty()) text += fmt::format(" in {}:{}", place.module, place.line);
+    }
+    if (!text.empty()) log_.write(EventId::EndedEarly, nullptr, {text + "."});
+}
+
 ExitStatus Controller::finish(RunEnd end) {
     ExitStatus status = stoppedByError() ? ExitStatus::StoppedByError : ExitStatus::Ended;
     if (const int signal = StopSignals::received(); signal != 0) {
@@ -154,8 +166,9 @@ ExitStatus Controller::finish(RunEnd end) {
     bool complete = state_->write();
     scheduler_.abandonTasks();
     if (options_.save) complete = saver_->saveAll() && complete;
+    if (status == ExitStatus::Ended) reportEnds();
     panel_.flush();
-    log_.flush();
+    log_.finish();
     complete = closeOutputs() && complete;
     return complete || status != ExitStatus::Ended ? status : ExitStatus::BadUsage;
 }
@@ -224,6 +237,7 @@ void Controller::stopTasks(const char* order, SystemEvent event) {
         any = true;
         log_.write(EventId::ProgramStopped, task.get(), {task->name(), order});
         task->stop(StopCause::Order);
+        task->noteEnd(order);
         task->events().owe(event);
         debugger_.noteStop(*task, StopReason::Order);
     }

@@ -158,6 +158,7 @@ class Controller final : public TaskHost {
     bool runOver();
     bool backgroundAtWork();
     bool isStart(const StimulusItem& item) const;
+    void reportEnds();
     ExitStatus finish(RunEnd end);
     bool closeOutputs();
     std::string whereTasksAre(const char* verb) const;

@@ -20,8 +20,11 @@ void Controller::actionPowerFail() {
     log_.write(EventId::PowerFailed, nullptr);
     powerOff_ = true;
     motorsOn_ = false;
-    for (const auto& task : tasks_)
-        if (task->isExecuting()) task->stop(StopCause::Order);
+    for (const auto& task : tasks_) {
+        if (!task->isExecuting()) continue;
+        task->stop(StopCause::Order);
+        task->noteEnd("power failure");
+    }
     motion_->emergencyStop(true);
     state_->write();
 }

@@ -38,7 +38,8 @@ Json jsonOf(const Event& event) {
         {"title", event.title},       {"text", event.text},           {"time", event.time},
         {"task", event.task},         {"module", event.place.module}, {"routine", event.place.routine},
         {"file", event.place.file},   {"line", event.place.line},     {"column", event.place.column},
-        {"errno", event.errorNumber}, {"errorName", event.errorName}, {"arguments", event.arguments}};
+        {"errno", event.errorNumber}, {"errorName", event.errorName}, {"arguments", event.arguments},
+        {"count", event.count},       {"since", event.since}};
 }
 
 Json jsonOf(const StateImage::TaskImage& task) {
@@ -96,6 +97,11 @@ Event eventFrom(const Json& json) {
     whole(json.at("errno"), event.errorNumber);
     json.at("errorName").get_to(event.errorName);
     json.at("arguments").get_to(event.arguments);
+    if (json.contains("count")) { // not in images of earlier versions
+        whole(json.at("count"), event.count);
+        whole(json.at("since"), event.since);
+        if (event.count == 0) event.count = 1;
+    }
     return event;
 }
 

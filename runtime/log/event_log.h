@@ -4,9 +4,9 @@
 // event_texts.def.
 
 #include "runtime/abi/rt_abi.h"
+#include "runtime/log/event.h"
+#include "runtime/log/event_output.h"
 #include "runtime/io/output_file.h"
-#include "runtime/sched/task.h"
-#include "runtime/sched/time.h"
 
 #include <cstdio>
 #include <deque>
@@ -20,9 +20,6 @@
 
 namespace rt {
 
-/// The figures that controllers use for the type of a message.
-enum class EventType : uint8_t { Information = 1, Warning = 2, Error = 3 };
-
 /// Event numbers that the runtime itself uses: one enumerator per row of event_texts.def.
 enum class EventId : int {
 #define EVENT(name, number, type, title, text) name = number,
@@ -30,29 +27,16 @@ enum class EventId : int {
 #undef EVENT
 };
 
-struct Event {
-    uint64_t sequence = 0; ///< from 1, given by the log
-    int number = 0;
-    EventType type = EventType::Information;
-    std::string title, text;
-    Time time = 0;                      ///< virtual
-    std::string task;                   ///< empty: the controller
-    SourcePlace place;                  ///< module, routine, line; empty when there is none
-    std::vector<SourcePlace> calls;     ///< callers of place.routine, innermost first
-    int errorNumber = 0;                ///< ERRNO, 0 = none
-    std::string errorName;              ///< "ERR_DIVZERO"
-    std::vector<std::string> arguments; ///< what was filled into the text, for ReadErrData
-};
-
 class EventLog {
   public:
     EventLog() = default;
+    ~EventLog() { finish(); }
     EventLog(const EventLog&) = delete;
     EventLog& operator=(const EventLog&) = delete;
 
     /// Writes a JSON object a line to this file from now on; false with a reason when it cannot be opened.
     bool openJson(const std::string& path, std::string& error) { return json_.open(path, error); }
-    /// Ends that file; false when some of it was lost, which has been reported.
+    /// Ends that file, after finish(); false when some of it was lost, which has been reported.
     bool closeJson() { return json_.close(); }
     /// Where people read events; null: nowhere. Default stderr.
     void setHumanOutput(std::FILE* file) { human_ = file; }
@@ -77,18 +61,23 @@ class EventLog {
     uint64_t write(EventType type, int number, std::string title, std::string text, const Task* task,
                    std::vector<std::string> arguments = {});
 
-    /// The newest 1000, oldest first.
+    /// The newest 1000, oldest first. One that repeats the one before it is counted there.
     const std::deque<Event>& events() const { return events_; }
     /// Events of an earlier run come before those of this one; numbers go on. They are not shown again.
     void restore(const std::vector<Event>& events);
     /// The event with this sequence number, while it is kept.
     const Event* find(uint64_t sequence) const;
     uint64_t count() const { return sequence_; }
-    /// Everything to disk.
+    /// Everything to disk, counts of repetitions too.
     void flush();
+    /// flush(), and what was not written because of the limits is said. At the end of the run.
+    void finish();
 
   private:
     void show(const Event& event);
+    void putJson(const Event& event);
+    void putText(const Event& event);
+    void keep(const Event& event);
     std::deque<Event> events_;
     std::map<int, std::pair<const char*, const char*>> names_;
     std::function<Time()> now_;
@@ -96,6 +85,10 @@ class EventLog {
     uint64_t lastListener_ = 0;
     std::FILE* human_ = stderr;
     OutputFile json_;
+    static constexpr uint64_t kMostShown = 10'000, kMostInFile = 100'000; // events
+    BoundedOutput toPeople_{kMostShown, [this](const Event& event) { putText(event); }};
+    BoundedOutput toFile_{kMostInFile, [this](const Event& event) { putJson(event); }};
+    RepeatFilter shown_{[this](const Event& event) { show(event); }};
     uint64_t sequence_ = 0;
 };
 
@@ -108,12 +101,5 @@ struct EventText {
 EventText eventText(EventId id);
 /// Its text with {0} {1} ... replaced.
 std::string formatEventText(EventId id, std::initializer_list<std::string> arguments);
-/// Lower-case word used in JSON and on stderr: "error", "program" ...
-const char* typeName(EventType type);
-const char* domainName(int eventNumber);
-/// One line of JSON, without line end.
-std::string toJson(const Event& event);
-/// Several lines for people, with line ends.
-std::string toText(const Event& event);
 
 } // namespace rt

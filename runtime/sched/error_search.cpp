@@ -23,6 +23,24 @@ bool inUndoHandler(const Frame& frame) {
     return frame.routine->hasUndo && frame.reserved == kFrameInUndo;
 }
 
+/// Not a place where the system calls a routine.
+bool isOfProgram(const Frame& frame) {
+    return frame.routine != nullptr && frame.routine != &kTrapBoundary && frame.routine != &kEventBoundary;
+}
+
+/// The nearest handler from `at` outwards that lists the number, past trap routines too; null: none. The search ends at a
+/// statement of an error or UNDO handler: errors there do not reach routines that are being left.
+Frame* listingHandler(Frame* at, int errorNumber) {
+    for (Frame* frame = at; frame != nullptr && frame->routine != &kEventBoundary; frame = frame->caller) {
+        if (!isOfProgram(*frame)) continue;
+        if (inUndoHandler(*frame)) break;
+        if (!frame->routine->hasErrorHandler) continue;
+        if (!coversStatement(*frame)) break;
+        if (listsError(*frame->routine, errorNumber)) return frame;
+    }
+    return nullptr;
+}
+
 } // namespace
 
 bool listsError(const RoutineDesc& routine, int errorNumber) {
@@ -51,44 +69,63 @@ bool inErrorHandler(const Frame& frame) {
     return statement != nullptr && statement->kind == kStmtHandler && !inUndoHandler(frame);
 }
 
+const Frame* callSeenByUser(const Frame* at) {
+    while (at != nullptr && at->routine != nullptr && at->routine->isBuiltin != 0)
+        at = at->caller;
+    return at;
+}
+
+Frame* callSeenByUser(Frame* at) {
+    return const_cast<Frame*>(callSeenByUser(static_cast<const Frame*>(at)));
+}
+
+bool handles(const Frame& frame, int errorNumber) {
+    return isOfProgram(frame) && !inUndoHandler(frame) && frame.routine->hasErrorHandler &&
+           coversStatement(frame) && takesError(*frame.routine, errorNumber);
+}
+
 ErrorRoute routeOfError(Frame* at, int errorNumber) {
+    at = callSeenByUser(at);
     if (at == nullptr || at->routine == &kEventBoundary) return {};
-    if (at->routine == nullptr || at->routine == &kTrapBoundary)
-        return routeFromCall(at->caller, errorNumber);
-    if (inUndoHandler(*at)) return {};
-    if (at->routine->hasErrorHandler) {
-        if (!coversStatement(*at)) return {};
-        if (takesError(*at->routine, errorNumber)) return {at, false};
+    if (isOfProgram(*at)) {
+        if (inUndoHandler(*at)) return {};
+        if (at->routine->hasErrorHandler && !coversStatement(*at)) return {};
+        if (handles(*at, errorNumber)) return {at, false};
     }
-    return routeFromCall(at->caller, errorNumber);
+    Frame* const listing = listingHandler(at->caller, errorNumber);
+    return {listing, listing != nullptr};
 }
 
 ErrorRoute routeFromCall(Frame* at, int errorNumber) {
-    Frame* nearest = nullptr;
-    bool trap = false; // past a trap routine only lists are asked
-    for (Frame* frame = at; frame != nullptr; frame = frame->caller) {
-        if (frame->routine == &kEventBoundary) break;
-        trap = trap || frame->routine == &kTrapBoundary;
-        if (frame->routine == nullptr || frame->routine == &kTrapBoundary) continue;
-        // Errors in an UNDO handler end it; they do not reach routines that are being left.
-        if (inUndoHandler(*frame)) break;
-        if (!frame->routine->hasErrorHandler) continue;
-        if (!coversStatement(*frame)) break;
-        if (listsError(*frame->routine, errorNumber)) return {frame, true};
-        if (nearest == nullptr && !trap && takesError(*frame->routine, errorNumber)) nearest = frame;
+    at = callSeenByUser(at);
+    if (Frame* const listing = listingHandler(at, errorNumber)) return {listing, true};
+    return {at != nullptr && handles(*at, errorNumber) ? at : nullptr, false};
+}
+
+UnaskedHandlers unaskedHandlers(const Frame* stoppedAt, int errorNumber) {
+    UnaskedHandlers result;
+    const auto covered = [](const Frame& frame) {
+        return !inUndoHandler(frame) && (!frame.routine->hasErrorHandler || coversStatement(frame));
+    };
+    if (stoppedAt == nullptr || !isOfProgram(*stoppedAt) || !covered(*stoppedAt)) return result;
+    for (const Frame* frame = stoppedAt; frame != nullptr; frame = frame->caller) {
+        if (!isOfProgram(*frame) || !covered(*frame)) break;
+        if (frame->routine->isBuiltin != 0) continue;
+        if (handles(*frame, errorNumber))
+            result.callers.push_back(frame);
+        else if (result.callers.empty())
+            result.between.push_back(frame);
+        if (result.callers.size() > UnaskedHandlers::kMost ||
+            result.between.size() > UnaskedHandlers::kMostBetween)
+            break;
     }
-    return {nearest, false};
+    return result;
 }
 
 Frame* userLevelHandler(Frame* at, int errorNumber) {
-    for (Frame* frame = at; frame != nullptr; frame = frame->caller) {
-        if (frame->routine == nullptr || frame->routine == &kTrapBoundary ||
-            frame->routine == &kEventBoundary)
-            return nullptr;
-        if (frame->routine->noStepIn) continue;
-        const bool takes = !inUndoHandler(*frame) && frame->routine->hasErrorHandler &&
-                           coversStatement(*frame) && takesError(*frame->routine, errorNumber);
-        return takes ? frame : nullptr;
+    for (Frame* frame = at; frame != nullptr && isOfProgram(*frame); frame = frame->caller) {
+        if (frame->routine->noStepIn || frame->routine->isBuiltin) continue;
+        return handles(*frame, errorNumber) ? frame : nullptr;
     }
     return nullptr;
 }

@@ -4,6 +4,8 @@
 #include "runtime/abi/rt_abi.h"
 #include "runtime/sched/task.h"
 
+#include <vector>
+
 namespace rt {
 
 /// True when the routine's handler takes this error if it comes to the routine itself.
@@ -21,12 +23,28 @@ struct ErrorRoute {
     bool longJump =
         false; ///< past the routines between, error handlers among them, even out of a trap routine
 };
-/// Raised by the statement in progress of `at`: that routine's own handler first, then as raisedAtCall.
+/// Raised by the statement in progress of `at`: that routine's own handler, else the nearest handler further out that lists
+/// the number. Handlers of callers without list are not asked (manual 1.12).
 ErrorRoute routeOfError(Frame* at, int errorNumber);
-/// Raised at the call in progress of `at`: the nearest handler further out that lists the number takes it; when there is
-/// none, the nearest handler without list. The search ends at a statement of an error or UNDO handler, and for handlers
-/// without list where the system called a trap routine.
+/// Raised at the call in progress of `at` by RAISE in a handler: the nearest handler from there outwards that lists the number,
+/// else the handler of `at`. The search ends at a statement of an error or UNDO handler.
 ErrorRoute routeFromCall(Frame* at, int errorNumber);
+/// The handler of this very routine takes the error at its statement in progress.
+bool handles(const Frame& frame, int errorNumber);
+/// The frame whose statement the user sees as the instruction in progress: instructions of the standard library that are
+/// written in RAPID belong to their caller's statement.
+Frame* callSeenByUser(Frame* at);
+const Frame* callSeenByUser(const Frame* at);
+
+/// For the event of an error that nothing takes.
+struct UnaskedHandlers {
+    static constexpr std::size_t kMost = 3, kMostBetween = 8;
+    std::vector<const Frame*> between; ///< from the routine without a fitting handler on, innermost first
+    std::vector<const Frame*>
+        callers; ///< with a handler that would take the error; more than kMost: there are others
+};
+/// `stoppedAt`: the routine whose lack of a handler ended the search. Empty where no RAISE would help: in handlers, in traps.
+UnaskedHandlers unaskedHandlers(const Frame* stoppedAt, int errorNumber);
 /// RaiseToUser: the innermost routine in progress that is not NOSTEPIN, when its handler takes errors there.
 Frame* userLevelHandler(Frame* at, int errorNumber);
 SourcePlace placeOf(const Frame* frame);

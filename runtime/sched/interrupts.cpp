@@ -175,7 +175,7 @@ Status InterruptTable::deliverFirst() {
         return task_.fatal(static_cast<int>(EventId::TrapMissing), std::to_string(occurrence.number));
     // The interrupted code must not see that a trap ran in between: ERRNO and INTNO are its own.
     Frame* const interrupted = task_.frame;
-    const float errorNumber = task_.errorNumber;
+    Task::ErrorInProgress error = task_.errorInProgress();
     const float interruptNumber = task_.interruptNumber;
     Frame boundary{interrupted, &kTrapBoundary, -1, 0};
     task_.interruptNumber = static_cast<float>(occurrence.number);
@@ -185,7 +185,7 @@ Status InterruptTable::deliverFirst() {
     const Status status = trap.function(&task_, &boundary);
     unwound();
     task_.frame = interrupted;
-    task_.errorNumber = errorNumber;
+    task_.setErrorInProgress(std::move(error));
     task_.interruptNumber = interruptNumber;
     return status > 0 ? task_.raiseAt(&boundary, status) : status;
 }

@@ -92,6 +92,7 @@ bool Task::runCycle() {
     const EntryFunction entry = entryOverride_ != nullptr ? entryOverride_ : desc_.entry;
     entryOverride_ = nullptr;
     backwardCaller_ = nullptr;
+    if (status == kOk) endReason_.clear();
     if (status == kOk && nextGuide_ != nullptr) beginReentry();
     if (interrupts_.deliverable()) interruptPosted(); // occurred while the last cycle was left
     if (status == kOk && entry != nullptr) status = entry(this, nullptr);
@@ -380,13 +381,20 @@ Status Task::requestExit() {
         return kUnwindSilent;
     }
     unwinding_ = events_.executesStopped() ? Unwind::Event : Unwind::Exit;
+    if (unwinding_ == Unwind::Exit) noteEnd("EXIT");
     return kUnwind;
 }
 
 Status Task::requestExitCycle() {
     if (unwinding_ != Unwind::None || events_.executesStopped()) return requestExit();
     unwinding_ = Unwind::ExitCycle;
+    noteEnd("ExitCycle");
     return kUnwind;
+}
+
+void Task::noteEnd(std::string reason) {
+    endReason_ = std::move(reason);
+    endPlace_ = place();
 }
 
 bool Task::ignoredInUndo(const char* instruction) {
@@ -402,6 +410,7 @@ Status Task::stopHere(const char* instruction, bool allNormal, StopCause cause) 
     if (events_.executesStopped()) return requestExit(); // ends the event routine
     host_.log().write(EventId::ProgramStopped, this, {name_, instruction});
     stop(cause);
+    noteEnd(instruction);
     events_.owe(SystemEvent::Stop);
     host_.taskStopped(*this);
     if (allNormal) host_.stopNormalTasks(StopCause::Order);
@@ -473,6 +482,7 @@ bool Task::canResume() const {
 bool Task::resume() {
     if (!canResume()) return false;
     stopCause_ = StopCause::None;
+    endReason_.clear();
     ++starts_;
     startedAt_ = now();
     return true;

@@ -212,6 +212,11 @@ class Task : public TaskCore {
     /// then. `allNormal`: so do all NORMAL tasks. In an UNDO handler it is ignored with a warning.
     Status stopHere(const char* instruction, bool allNormal = false,
                     StopCause cause = StopCause::Instruction);
+    /// What ended the program or made it stand, until a start or the next cycle: "ExitCycle", "stop order"; "" when it ended
+    /// at the end of main. And where.
+    const std::string& endReason() const { return endReason_; }
+    const SourcePlace& endPlace() const { return endPlace_; }
+    void noteEnd(std::string reason);
     /// True when a warning was written that the instruction is ignored, because an UNDO handler is at work.
     bool ignoredInUndo(const char* instruction);
 
@@ -237,6 +242,20 @@ class Task : public TaskCore {
     /// RaiseToUser \Continue: executes the error handler of that routine on top of the present one. 0: `decision` is to be
     /// carried out by the present routine, RETRY or TRYNEXT. Negative as above, also when that handler leaves its routine.
     Status continueAtUser(int number, HandlerDecision& decision);
+    /// No clause of the error handler at work lists the error: the system handler. Negative; kAgain after a start.
+    Status errorNotListed();
+    /// What a trap routine must leave as it was: the error that the interrupted code handles.
+    struct ErrorInProgress {
+        float number = 0;
+        std::string text;
+        SourcePlace place;
+    };
+    ErrorInProgress errorInProgress() const { return {errorNumber, errorText_, errorPlace_}; }
+    void setErrorInProgress(ErrorInProgress error) {
+        errorNumber = error.number;
+        errorText_ = std::move(error.text);
+        errorPlace_ = std::move(error.place);
+    }
     /// In that handler: how to go on; it returns to continueAtUser then.
     void endDetached(HandlerDecision decision) { detached_.back().decision = decision; }
     /// What the detached handler of the innermost routine decided before the stack was unwound to that routine; once.
@@ -376,7 +395,6 @@ class Task : public TaskCore {
         int number = 0;
         std::string text;
         SourcePlace place;
-        Time time = 0;
     };
 
     void fibreMain();
@@ -391,9 +409,10 @@ class Task : public TaskCore {
     Status enterWait();
     Status afterSwitch();
     Status beginUnwind(Unwind cause);
-    Status systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where);
+    Status systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where,
+                         const std::string& hint = {});
     Status raiseOnce(Frame* at, int number);
-    Status dispatchError(const ErrorRoute& route, int number);
+    Status dispatchError(const ErrorRoute& route, int number, const Frame* from);
     Status startJump(Frame* target, int number, HandlerDecision decision = kNotDecided);
     Frame* findUserLevel(int number);
     Status leaveDetached(int number);
@@ -453,6 +472,8 @@ class Task : public TaskCore {
     bool raisedBelow_ = false;   // the error a native returns has been raised by what it called
     bool raiseToCaller_ = false; // the error that comes next leaves the routine although it is its handler's
 
+    std::string endReason_;
+    SourcePlace endPlace_;
     std::string errorDetail_, errorText_;
     SourcePlace errorPlace_;
     std::vector<RetryCount> retries_;

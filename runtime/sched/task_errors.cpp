@@ -31,6 +31,43 @@ bool isAmongCallers(const Frame* from, const Frame* wanted) {
     return std::less<>()(highest, wanted);
 }
 
+/// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+    return text;
+}
+
+/// The names of the routines in progress, each once.
+std::vector<std::string> routineNames(const std::vector<const Frame*>& frames, std::size_t most) {
+    std::vector<std::string> names;
+    for (const Frame* at : frames) {
+        const std::string name = at->routine->name;
+        if (names.size() < most && std::find(names.begin(), names.end(), name) == names.end())
+            names.push_back(name);
+    }
+    return names;
+}
+
+/// Which callers have a handler that was not asked (manual 1.12), and what would ask it; "" when there is none.
+std::string unaskedText(const Frame* from, int number) {
+    const Frame* const stopped = callSeenByUser(from);
+    const UnaskedHandlers unasked = unaskedHandlers(stopped, number);
+    if (unasked.callers.empty() || unasked.between.empty()) return {};
+    const char* const lack = stopped->routine->hasErrorHandler != 0
+                                 ? "The error handler of {0} does not list this error"
+                                 : "{0} has no error handler";
+    std::vector<std::string> callers = routineNames(unasked.callers, UnaskedHandlers::kMost);
+    if (unasked.callers.size() > UnaskedHandlers::kMost) callers.emplace_back("others");
+    const std::vector<std::string> between = routineNames(unasked.between, UnaskedHandlers::kMostBetween);
+    return fmt::format(fmt::runtime(std::string(lack) +
+                                    ", so the error does not go to its callers: the error "
+                                    "handler of {1} was not asked. \"ERROR RAISE;\" in "
+                                    "{2} passes errors on."),
+                       stopped->routine->name, listed(callers), listed(between));
+}
+
 } // namespace
 
 std::string SourcePlace::reference() const {
@@ -38,7 +75,7 @@ std::string SourcePlace::reference() const {
 }
 
 SourcePlace Task::place() const {
-    for (const Frame* at = frame; at != nullptr; at = at->caller) {
+    for (const Frame* at = callSeenByUser(frame); at != nullptr; at = callSeenByUser(at->caller)) {
         if (at->routine != &kTrapBoundary && at->routine != &kEventBoundary) return placeOf(at);
     }
     return {};
@@ -46,7 +83,8 @@ SourcePlace Task::place() const {
 
 std::vector<SourcePlace> Task::callChain() const {
     std::vector<SourcePlace> chain;
-    for (const Frame* at = frame; at != nullptr && chain.size() <= kMaxCalls; at = at->caller) {
+    for (const Frame* at = callSeenByUser(frame); at != nullptr && chain.size() <= kMaxCalls;
+         at = callSeenByUser(at->caller)) {
         chain.push_back(placeOf(at));
     }
     return chain;
@@ -89,7 +127,8 @@ Status Task::raiseOnce(Frame* at, int number) {
         errorText_ = describeError(number);
     }
     errorDetail_.clear(); // the next error has a reason of its own
-    return dispatchError(toCaller ? routeFromCall(at->caller, number) : routeOfError(at, number), number);
+    if (toCaller) return dispatchError(routeFromCall(at->caller, number), number, at->caller);
+    return dispatchError(routeOfError(at, number), number, at);
 }
 
 Status Task::raiseToCaller(int number) {
@@ -104,16 +143,16 @@ Status Task::propagateFrom(Frame* handler) {
     Status status = kAgain;
     while (status == kAgain) {
         frame = handler;
-        status = detached
-                     ? leaveDetached(number)
-                     : dispatchError(routeFromCall(handler != nullptr ? handler->caller : nullptr, number),
-                                     number);
+        Frame* const caller = handler != nullptr ? handler->caller : nullptr;
+        status =
+            detached ? leaveDetached(number) : dispatchError(routeFromCall(caller, number), number, caller);
         if (canExecuteAgain()) break;
     }
     return status;
 }
 
-Status Task::dispatchError(const ErrorRoute& route, int number) {
+/// `from`: where the search for a handler began.
+Status Task::dispatchError(const ErrorRoute& route, int number, const Frame* from) {
     errorNumber = static_cast<float>(number);
     if (unwinding_ == Unwind::Abandon || undoAborted_) return silentStatus();
     if (guide_ != nullptr) return guide_->failed(*this);
@@ -125,7 +164,14 @@ Status Task::dispatchError(const ErrorRoute& route, int number) {
         return number;
     }
     handled_.clear(); // reported as unhandled instead
-    return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText_, errorPlace_);
+    const std::string hint = backward ? std::string() : unaskedText(from, number);
+    return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText_, errorPlace_, hint);
+}
+
+Status Task::errorNotListed() {
+    handled_.clear();
+    return systemHandler(static_cast<int>(EventId::UnhandledError), static_cast<int>(errorNumber), errorText_,
+                         errorPlace_);
 }
 
 Status Task::handlerEndAt(Frame* handler) {
@@ -155,7 +201,8 @@ Status Task::fatal(int eventNumber, std::string argument) {
                          formatEventText(static_cast<EventId>(eventNumber), {std::move(argument)}), place());
 }
 
-Status Task::systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where) {
+Status Task::systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where,
+                           const std::string& hint) {
     if (unwinding_ == Unwind::Abandon || undoAborted_) return silentStatus();
     if (guide_ != nullptr) return guide_->failed(*this);
     EventLog& log = host_.log();
@@ -169,6 +216,7 @@ Status Task::systemHandler(int eventNumber, int number, std::string text, const 
     event.title = eventText(static_cast<EventId>(eventNumber)).title;
     event.arguments = {name_, where.reference(), text};
     event.text = std::move(text);
+    if (!hint.empty()) event.text += " " + hint;
     event.time = now();
     event.task = name_;
     event.place = where;
@@ -254,7 +302,7 @@ Status Task::continueAtUser(int number, HandlerDecision& decision) {
     const RoutineDesc& routine = *user->routine;
     if (routine.detachedHandler == nullptr)
         return fatal(static_cast<int>(EventId::HandlerNotDetached), routine.name);
-    handled_.push_back({user, &routine, number, errorText_, errorPlace_, now()});
+    handled_.push_back({user, &routine, number, errorText_, errorPlace_});
     detached_.push_back({user});
     void* const* data = static_cast<const SteppingFrame*>(user)->addresses + routine.localCount;
     const Status status = routine.detachedHandler(this, from, data);
@@ -296,7 +344,7 @@ void Task::abortUndo(std::string why) {
 void Task::noteHandled(Frame* handler, int number) {
     flushHandledWarning();
     dropHandled(handler);
-    handled_.push_back({handler, handler->routine, number, errorText_, errorPlace_, now()});
+    handled_.push_back({handler, handler->routine, number, errorText_, errorPlace_});
     RetryCount* entry = retryCountOf(handler);
     if (entry == nullptr) entry = &retries_.emplace_back();
     if (entry->frame != handler || entry->statement != handler->statement || entry->id != handler->reserved)
@@ -390,7 +438,7 @@ void Task::writeHandledWarning() {
     event.title = eventText(EventId::HandledError).title;
     event.text = formatEventText(EventId::HandledError, {handled.text, handled.routine->name});
     event.arguments = {name_, handled.place.reference(), handled.text, handled.routine->name};
-    event.time = handled.time;
+    event.time = now(); // until here SkipWarn may take it back, and the log is in order of time
     event.task = name_;
     event.place = handled.place;
     event.errorNumber = handled.number;

@@ -47,7 +47,7 @@ void Task::finishReentry(const ErrorMemory& errors, bool behindStop) {
     if (errors.handled && errors.handled->depth < chain.size()) {
         Frame* const at = chain[errors.handled->depth];
         handled_.push_back(
-            {at, at->routine, errors.handled->number, errors.handled->text, errors.handled->place, now()});
+            {at, at->routine, errors.handled->number, errors.handled->text, errors.handled->place});
     }
 }
 

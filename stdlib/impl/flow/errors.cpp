@@ -105,6 +105,10 @@ Status rt_raiseToCaller(TaskCore* task, int32_t number) {
     return taskOf(task).raiseToCaller(number);
 }
 
+Status rt_errorNotListed(TaskCore* task) {
+    return taskOf(task).errorNotListed();
+}
+
 Status rt_ignoredInUndo(TaskCore* task, const String* instruction) {
     (void)taskOf(task).ignoredInUndo(std::string(instruction->view()).c_str());
     return kOk;

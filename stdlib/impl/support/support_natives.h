@@ -67,6 +67,8 @@ rt::Status rt_exitProgram(rt::TaskCore* task);
 rt::Status rt_raiseNumber(rt::TaskCore* task, int32_t* result, float number);
 /// RAISE number in an error handler: raises it at the call of the routine. Never returns 0.
 rt::Status rt_raiseToCaller(rt::TaskCore* task, int32_t number);
+/// No clause of the error handler lists the error: the system handler. Never returns 0.
+rt::Status rt_errorNotListed(rt::TaskCore* task);
 /// RaiseToUser in an error handler, with \Continue: kDecidedRetry or kDecidedTryNext, to be carried out by the routine that
 /// calls this. With \BreakOff it never returns 0.
 rt::Status rt_raiseToUser(rt::TaskCore* task, int32_t* result, bool Continue, bool BreakOff,

@@ -1,0 +1,43 @@
+#pragma once
+// Event: one entry of the event log.
+
+#include "runtime/sched/task.h"
+#include "runtime/sched/time.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rt {
+
+/// The figures that controllers use for the type of a message.
+enum class EventType : uint8_t { Information = 1, Warning = 2, Error = 3 };
+
+struct Event {
+    uint64_t sequence = 0; ///< from 1, given by the log; of the last one when it stands for several
+    int number = 0;
+    EventType type = EventType::Information;
+    std::string title, text;
+    Time time = 0;                      ///< virtual; of the last one
+    uint64_t count = 1;                 ///< occurrences that it stands for
+    Time since = 0;                     ///< time of the first of them, when there are several
+    std::string task;                   ///< empty: the controller
+    SourcePlace place;                  ///< module, routine, line; empty when there is none
+    std::vector<SourcePlace> calls;     ///< callers of place.routine, innermost first
+    int errorNumber = 0;                ///< ERRNO, 0 = none
+    std::string errorName;              ///< "ERR_DIVZERO"
+    std::vector<std::string> arguments; ///< what was filled into the text, for ReadErrData
+
+    /// The same event at another time.
+    bool repeats(const Event& other) const;
+};
+
+/// Lower-case word used in JSON and on stderr: "error", "program" ...
+const char* typeName(EventType type);
+const char* domainName(int eventNumber);
+/// One line of JSON, without line end.
+std::string toJson(const Event& event);
+/// Several lines for people, with line ends.
+std::string toText(const Event& event);
+
+} // namespace rt

@@ -1,0 +1,93 @@
+#include "runtime/log/event_output.h"
+
+#include "runtime/log/event_log.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace rt {
+namespace {
+
+/// Orders and states of the controller: each one counts.
+bool isOperational(const Event& event) {
+    return event.number >= 10'000 && event.number < 30'000;
+}
+
+/// What stops a program is written also when the file is full.
+bool isLasting(const Event& event) {
+    return isOperational(event) || (event.type == EventType::Error && event.number / 10'000 == 4);
+}
+
+Event eventOf(EventId id, uint64_t number, const Event& like) {
+    const EventText row = eventText(id);
+    Event event;
+    event.sequence = like.sequence;
+    event.number = static_cast<int>(id);
+    event.type = row.type;
+    event.title = row.title;
+    event.text = formatEventText(id, {std::to_string(number)});
+    event.time = like.time;
+    return event;
+}
+
+} // namespace
+
+void RepeatFilter::take(const Event& event) {
+    if (isOperational(event)) {
+        flush();
+        known_.clear();
+        put_(event);
+        return;
+    }
+    const auto found = std::find_if(known_.rbegin(), known_.rend(),
+                                    [&event](const Known& known) { return event.repeats(known.event); });
+    if (found != known_.rend()) {
+        if (found->repeats++ == 0) found->since = event.time;
+        found->event.sequence = event.sequence;
+        found->event.time = event.time;
+        return;
+    }
+    flush();
+    put_(event);
+    known_.push_back({event, 0, 0});
+    if (known_.size() > kWindow) known_.pop_front();
+}
+
+void RepeatFilter::flush() {
+    std::vector<Known*> open;
+    for (Known& known : known_)
+        if (known.repeats > 0) open.push_back(&known);
+    std::sort(open.begin(), open.end(),
+              [](const Known* a, const Known* b) { return a->event.sequence < b->event.sequence; });
+    for (Known* known : open) {
+        Event event = known->event;
+        event.count = std::exchange(known->repeats, 0);
+        event.since = known->since;
+        put_(event);
+    }
+}
+
+void EventFile::put(const Event& event) {
+    const std::string text = format_(event);
+    std::fwrite(text.data(), 1, text.size(), file_);
+}
+
+void EventFile::write(const Event& event) {
+    if (file_ == nullptr) return;
+    constexpr uint64_t kReserved = 1000;
+    if (written_ >= most_ + (isLasting(event) ? kReserved : 0)) {
+        if (dropped_ == 0) put(eventOf(EventId::EventLimit, written_, event));
+        dropped_ += event.count;
+        last_ = event;
+        return;
+    }
+    ++written_;
+    put(event);
+}
+
+void EventFile::finish() {
+    if (file_ == nullptr || dropped_ == 0) return;
+    put(eventOf(EventId::EventsOmitted, std::exchange(dropped_, 0), last_));
+}
+
+} // namespace rt

@@ -1,0 +1,57 @@
+#pragma once
+// Where the event log is written: JSON lines and text for people. Repetitions are counted, and both have a last line, so that
+// a program that fails for ever fills neither a disk nor a terminal.
+
+#include "runtime/log/event.h"
+
+#include <cstdio>
+#include <deque>
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace rt {
+
+/// Passes events on in order of time. An event that repeats one of the latest different ones is counted instead; the count
+/// is passed on, as an event with the time of the last repetition, when another event comes or at the end. Events of the
+/// operator and of the system (domains 1 and 2) are never counted: what follows one is written anew.
+class RepeatFilter {
+  public:
+    explicit RepeatFilter(std::function<void(const Event&)> put) : put_(std::move(put)) {}
+    void take(const Event& event);
+    /// The counts that are open.
+    void flush();
+
+  private:
+    static constexpr std::size_t kWindow = 16; ///< different events that repeat in turns
+    struct Known {
+        Event event;          ///< sequence and time of the last repetition
+        uint64_t repeats = 0; ///< not passed on yet
+        Time since = 0;       ///< of the first of them
+    };
+    std::function<void(const Event&)> put_;
+    std::deque<Known> known_; ///< the latest one last
+};
+
+/// One file: so many events, then a line that says so, then only what stops programs, and at the end how many it does not
+/// hold.
+class EventFile {
+  public:
+    using Format = std::string (*)(const Event& event);
+    EventFile(Format format, uint64_t most) : format_(format), most_(most) {}
+    void setFile(std::FILE* file) { file_ = file; }
+    std::FILE* file() const { return file_; }
+    void write(const Event& event);
+    /// Says how many events were not written.
+    void finish();
+
+  private:
+    void put(const Event& event);
+    Format format_;
+    uint64_t most_;
+    std::FILE* file_ = nullptr;
+    uint64_t written_ = 0, dropped_ = 0;
+    Event last_; ///< of the dropped ones
+};
+
+} // namespace rt
