@@ -370,11 +370,12 @@ void RoutineLowering::lowerErrorHandler() {
     region_ = Region::Error;
     b_.setBlock(routine_.errorHandler);
     if (needsDetachedHandler()) lowerTakeDecision();
+    const ir::BlockId begin = b_.block(); // what was decided is taken before a trap routine can run
     CostScope costs;
     openCosts(costs);
     lowerErrorClauses();
     closeCosts();
-    chargeAtFront(routine_.errorHandler, costs.cost());
+    chargeAtFront(begin, costs.cost());
 }
 
 void RoutineLowering::lowerErrorClauses() {

@@ -18,15 +18,15 @@ bool isLasting(const Event& event) {
     return isOperational(event) || (event.type == EventType::Error && event.number / 10'000 == 4);
 }
 
-Event eventOf(EventId id, uint64_t number, const Event& like) {
+Event eventOf(EventId id, uint64_t number, uint64_t sequence, Time time) {
     const EventText row = eventText(id);
     Event event;
-    event.sequence = like.sequence;
+    event.sequence = sequence;
     event.number = static_cast<int>(id);
     event.type = row.type;
     event.title = row.title;
     event.text = formatEventText(id, {std::to_string(number)});
-    event.time = like.time;
+    event.time = time;
     return event;
 }
 
@@ -74,11 +74,12 @@ void EventFile::put(const Event& event) {
 
 void EventFile::write(const Event& event) {
     if (file_ == nullptr) return;
+    sequence_ = event.sequence;
+    time_ = event.time;
     constexpr uint64_t kReserved = 1000;
     if (written_ >= most_ + (isLasting(event) ? kReserved : 0)) {
-        if (dropped_ == 0) put(eventOf(EventId::EventLimit, written_, event));
+        if (dropped_ == 0) put(eventOf(EventId::EventLimit, written_, event.sequence, event.time));
         dropped_ += event.count;
-        last_ = event;
         return;
     }
     ++written_;
@@ -87,7 +88,7 @@ void EventFile::write(const Event& event) {
 
 void EventFile::finish() {
     if (file_ == nullptr || dropped_ == 0) return;
-    put(eventOf(EventId::EventsOmitted, std::exchange(dropped_, 0), last_));
+    put(eventOf(EventId::EventsOmitted, std::exchange(dropped_, 0), sequence_, time_));
 }
 
 } // namespace rt

@@ -51,7 +51,8 @@ class EventFile {
     uint64_t most_;
     std::FILE* file_ = nullptr;
     uint64_t written_ = 0, dropped_ = 0;
-    Event last_; ///< of the dropped ones
+    uint64_t sequence_ = 0; ///< of the last event,
+    Time time_ = 0;         ///< and its time
 };
 
 } // namespace rt
