@@ -143,7 +143,7 @@ struct RoutineDesc {
     uint8_t stepping;        ///< made for the stepping profile
     uint8_t
         callable; ///< a procedure without parameters: the program pointer can be moved to it, the system can call it
-    uint8_t isDetachedHandler; ///< of another routine, whose name and place it has
+    uint8_t isDetachedHandler;       ///< of another routine, whose name and place it has
     uint8_t isBuiltin;               ///< an instruction of the standard library that is written in RAPID
     uint32_t textHash;               ///< stepping profile: another number when the source text was changed
     DetachedHandler detachedHandler; ///< null: no handler, or no RaiseToUser \Continue in the program

@@ -32,7 +32,8 @@ TEST_CASE("the search for a handler follows manual 1.12", "[errors]") {
         any("any", 2, 1, {kAllErrors});
     Frame outer{nullptr, &main.desc, 0, 0};
     Frame inner{&outer, &middle.desc, 1, 0};
-    CHECK(routeOfError(&inner, 3).handler == nullptr); // without handler: the system handler, callers are not asked
+    CHECK(routeOfError(&inner, 3).handler ==
+          nullptr); // without handler: the system handler, callers are not asked
     CHECK(routeFromCall(&outer, 3).handler == &outer); // RAISE passes it on,
     CHECK_FALSE(routeFromCall(&outer, 3).longJump);
     CHECK(routeFromCall(&inner, 3).handler == nullptr); // to the next caller and no further
@@ -41,7 +42,8 @@ TEST_CASE("the search for a handler follows manual 1.12", "[errors]") {
     CHECK(routeOfError(&selective, 8).handler == nullptr); // its list does not name it
     Routine instruction("CallByVar", 2);
     instruction.desc.isBuiltin = 1;
-    Frame builtin{&outer, &instruction.desc, 1, 0}; // an instruction written in RAPID is the caller's statement
+    Frame builtin{&outer, &instruction.desc, 1,
+                  0}; // an instruction written in RAPID is the caller's statement
     CHECK(routeOfError(&builtin, 3).handler == &outer);
     CHECK(routeFromCall(&builtin, 3).handler == &outer);
     CHECK(routeFromCall(&selective, 7).longJump);
