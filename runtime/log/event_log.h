@@ -4,9 +4,9 @@
 // event_texts.def.
 
 #include "runtime/abi/rt_abi.h"
+#include "runtime/io/output_file.h"
 #include "runtime/log/event.h"
 #include "runtime/log/event_output.h"
-#include "runtime/io/output_file.h"
 
 #include <cstdio>
 #include <deque>

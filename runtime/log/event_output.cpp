@@ -67,28 +67,21 @@ void RepeatFilter::flush() {
     }
 }
 
-void EventFile::put(const Event& event) {
-    const std::string text = format_(event);
-    std::fwrite(text.data(), 1, text.size(), file_);
-}
-
-void EventFile::write(const Event& event) {
-    if (file_ == nullptr) return;
+void BoundedOutput::write(const Event& event) {
+    constexpr uint64_t kReserved = 1000;
     sequence_ = event.sequence;
     time_ = event.time;
-    constexpr uint64_t kReserved = 1000;
     if (written_ >= most_ + (isLasting(event) ? kReserved : 0)) {
-        if (dropped_ == 0) put(eventOf(EventId::EventLimit, written_, event.sequence, event.time));
+        if (dropped_ == 0) put_(eventOf(EventId::EventLimit, written_, event.sequence, event.time));
         dropped_ += event.count;
         return;
     }
     ++written_;
-    put(event);
+    put_(event);
 }
 
-void EventFile::finish() {
-    if (file_ == nullptr || dropped_ == 0) return;
-    put(eventOf(EventId::EventsOmitted, std::exchange(dropped_, 0), sequence_, time_));
+void BoundedOutput::finish() {
+    if (dropped_ > 0) put_(eventOf(EventId::EventsOmitted, std::exchange(dropped_, 0), sequence_, time_));
 }
 
 } // namespace rt

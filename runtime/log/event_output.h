@@ -4,10 +4,8 @@
 
 #include "runtime/log/event.h"
 
-#include <cstdio>
 #include <deque>
 #include <functional>
-#include <string>
 #include <utility>
 
 namespace rt {
@@ -33,23 +31,17 @@ class RepeatFilter {
     std::deque<Known> known_; ///< the latest one last
 };
 
-/// One file: so many events, then a line that says so, then only what stops programs, and at the end how many it does not
-/// hold.
-class EventFile {
+/// Passes on so many events, then one that says so, then only what stops programs, and at the end how many were left out.
+class BoundedOutput {
   public:
-    using Format = std::string (*)(const Event& event);
-    EventFile(Format format, uint64_t most) : format_(format), most_(most) {}
-    void setFile(std::FILE* file) { file_ = file; }
-    std::FILE* file() const { return file_; }
+    BoundedOutput(uint64_t most, std::function<void(const Event&)> put) : most_(most), put_(std::move(put)) {}
     void write(const Event& event);
-    /// Says how many events were not written.
+    /// Says how many events were left out.
     void finish();
 
   private:
-    void put(const Event& event);
-    Format format_;
     uint64_t most_;
-    std::FILE* file_ = nullptr;
+    std::function<void(const Event&)> put_;
     uint64_t written_ = 0, dropped_ = 0;
     uint64_t sequence_ = 0; ///< of the last event,
     Time time_ = 0;         ///< and its time

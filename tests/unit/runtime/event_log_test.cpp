@@ -20,7 +20,8 @@ struct Bench {
     Bench() {
         log.setHumanOutput(nullptr);
         log.setClock([this] { return now; });
-        REQUIRE(log.openJson(file));
+        std::string error;
+        REQUIRE(log.openJson(file, error));
     }
     void write(const std::string& title, int number = 80001) {
         now += kMillisecond;
@@ -29,6 +30,7 @@ struct Bench {
     /// "title@time", with "xN" when a line stands for N.
     std::vector<std::string> lines() {
         log.finish();
+        REQUIRE(log.closeJson());
         std::vector<std::string> result;
         std::istringstream in(folder.read("events.jsonl"));
         for (std::string line; std::getline(in, line);) {
