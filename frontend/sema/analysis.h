@@ -184,7 +184,7 @@ class Analyzer {
     static std::array<std::string, 2> typeNames(const DataType& found, const DataType& wanted);
     /// "a constant", "a procedure" ...
     static std::string describe(const Symbol& symbol);
-    enum class Wanted : uint8_t { Data, Type, Procedure, Function, Trap };
+    enum class Wanted : uint8_t { Data, Signal, Type, Procedure, Function, Trap };
     bool isWanted(const Symbol& symbol, Wanted wanted) const;
     static std::string counted(size_t count, std::string_view noun, std::string_view plural = {});
     /// Adds the fix that makes `name(e)` of an expression.
@@ -256,7 +256,7 @@ class Analyzer {
     DataSymbol* configuredObject(NameId name, std::string spelling, const Type* type, bool assumed);
     void declareUnknown(NameId name);
     bool comparisonsTell() const;
-    void reportSignal(syntax::TokenIndex token, bool perhaps);
+    void reportSignal(syntax::TokenIndex token, NameId name, const Type& type, bool perhaps);
     void declareConfiguration();
 
     // ---- signals known by their use (signal_uses.cpp)

@@ -104,7 +104,7 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
         else if (mecunit)
             report(Code::MechanicalUnitUnknown, range(token), {text(token)});
         else
-            reportSignal(token, perhaps);
+            reportSignal(token, name, *type, perhaps);
     }
     return configuredObject(name, text(token), mecunit ? handle : type, true);
 }
@@ -117,16 +117,21 @@ bool Analyzer::comparisonsTell() const {
 }
 
 // A signal that no configuration defines. `perhaps`: nothing but a comparison says that it is one.
-void Analyzer::reportSignal(TokenIndex token, bool perhaps) {
+void Analyzer::reportSignal(TokenIndex token, NameId name, const Type& type, bool perhaps) {
     if (options_.assumeSignals) return; // the command says which ones it assumes
-    const std::string name = text(token);
-    if (options_.configurationKnown || options_.configurationComplete)
-        report(Code::SignalUndefined, range(token),
-               {name, options_.configurationComplete ? ", or use --assume-signals" : ""});
-    else
+    const std::string written = text(token);
+    if (!options_.configurationKnown && !options_.configurationComplete) {
         report(Code::SignalUnknown, range(token),
-               {perhaps ? "'" + name + "'" : "signal '" + name + "'",
+               {perhaps ? "'" + written + "'" : "signal '" + written + "'",
                 perhaps ? "may be a signal" : "is taken as configured"});
+        return;
+    }
+    const Suggestion near = suggestion(name, Wanted::Signal);
+    const bool fits = near.symbol && static_cast<const DataSymbol*>(near.symbol)->type.type == &type;
+    std::string rest = options_.configurationComplete ? ", or use --assume-signals" : "";
+    if (fits) rest += didYouMean(near.name);
+    diag::Diagnostic& d = report(Code::SignalUndefined, range(token), {written, rest});
+    if (fits) d.fix(range(token), near.name, false);
 }
 
 // From now on the routine has data of this name and of the type that fits everything: one mistake, one diagnostic.

@@ -113,7 +113,11 @@ std::string Analyzer::describe(const Symbol& symbol) {
 }
 
 bool Analyzer::isWanted(const Symbol& symbol, Wanted wanted) const {
-    if (symbol.kind == SymbolKind::Data) return wanted == Wanted::Data;
+    if (symbol.kind == SymbolKind::Data) {
+        const auto& data = static_cast<const DataSymbol&>(symbol);
+        if (data.assumed) return false; // nothing declares it
+        return wanted == Wanted::Data || (wanted == Wanted::Signal && data.storage == Storage::Signal);
+    }
     if (symbol.kind == SymbolKind::Type) {
         const Type* type = static_cast<const TypeSymbol&>(symbol).type; // null: not resolved yet
         return wanted == Wanted::Type && (!type || isReal(*type));
