@@ -159,6 +159,11 @@ Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstVal
             const Remedy remedy = remedyFor(element, t.info->type, member);
             offer(report(Code::AggregateMember, range(element), {names[0], names[1]}), element, remedy);
         }
+        if (!array &&
+            member.type->kind == TypeKind::Error) { // of a type that is not here: what is said is left out
+            members[i] = {};
+            continue;
+        }
         wrong |= !fit || t.isError();
         // The first row of an array of unknown size tells the length of the others.
         if (array && i == 0) std::copy_n(t.info->type.dims, member.rank, own.dims + 1);

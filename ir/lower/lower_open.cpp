@@ -22,6 +22,23 @@ std::string_view typeNameOf(const DataSymbol& symbol) {
     return token == kNoToken ? std::string_view(symbol.name) : symbol.module->tree->text(token);
 }
 
+/// The declaration holds a placeholder where it tells type, size or value.
+bool hasPlaceholderIn(const DataSymbol& symbol) {
+    if (!symbol.decl || !symbol.module || symbol.predefined) return false;
+    const auto& tokens = symbol.module->tree->tokens;
+    for (TokenIndex t = symbol.decl->first; t <= symbol.decl->last && t < tokens.size(); ++t)
+        if (isPlaceholder(tokens[t].kind)) return true;
+    return false;
+}
+
+/// An array whose size is a placeholder; that of a parameter is known at run time.
+bool lacksSize(const DataSymbol& symbol) {
+    if (symbol.storage == sema::Storage::Parameter) return false;
+    for (int k = 0; k < symbol.type.rank; ++k)
+        if (symbol.type.dims[k] == 0) return true;
+    return false;
+}
+
 /// A constant that gets its value from a name which nothing declares here.
 bool lacksValue(const DataSymbol& symbol) {
     return symbol.dataKind == DataKind::Const && symbol.storage != sema::Storage::Parameter && symbol.init &&
@@ -32,14 +49,14 @@ bool lacksValue(const DataSymbol& symbol) {
 
 std::string_view RoutineLowering::missingInName(const NameExpr& name, const char*& error) const {
     const sema::ExprInfo& facts = info(name);
-    const bool data = facts.symbol && facts.symbol->kind == sema::SymbolKind::Data;
-    const bool known =
-        !isUnknown(facts.type) && !(data && lacksValue(*static_cast<const DataSymbol*>(facts.symbol)));
-    if (known) return {};
-    error = "ERR_REFUNKDAT";
-    const auto* symbol = data ? static_cast<const DataSymbol*>(facts.symbol) : nullptr;
-    const bool isDeclared = symbol && symbol->decl && isUnknown(symbol->type); // its type is what is missing
-    return isDeclared ? typeNameOf(*symbol) : module_->tree->text(name.name);
+    const bool isData = facts.symbol && facts.symbol->kind == sema::SymbolKind::Data;
+    const auto* data = isData ? static_cast<const DataSymbol*>(facts.symbol) : nullptr;
+    if (!isUnknown(facts.type) && !(data && (lacksValue(*data) || lacksSize(*data)))) return {};
+    error = data && hasPlaceholderIn(*data) ? "ERR_EXECPHR" : "ERR_REFUNKDAT";
+    const bool hasSize =
+        data && data->decl && data->decl->kind == NodeKind::Data && !as<DataDecl>(*data->decl).dims.empty();
+    const bool lacksType = data && data->decl && isUnknown(data->type) && !hasSize;
+    return lacksType ? typeNameOf(*data) : module_->tree->text(name.name);
 }
 
 std::string_view RoutineLowering::missingInCall(const Node& node, TokenIndex name, const char*& error) const {
@@ -50,11 +67,33 @@ std::string_view RoutineLowering::missingInCall(const Node& node, TokenIndex nam
         return module_->tree->text(name);
     }
     const sema::RoutineSymbol& routine = *found->second.routine;
-    error = "ERR_REFUNKDAT";
-    for (const BoundArg& arg : found->second.args)
-        if (arg.kind != BoundArg::Kind::Absent && isUnknown(arg.param->type)) return typeNameOf(*arg.param);
-    if (isFunction && isUnknown(routine.returnType))
-        return routine.module->tree->text(routine.routineDecl->returnType);
+    error = "ERR_EXECPHR";
+    if (routine.incomplete) return module_->tree->text(name); // <PAR> stands for parameters
+    for (const BoundArg& arg : found->second.args) {
+        if (arg.kind == BoundArg::Kind::Absent || !isUnknown(arg.param->type)) continue;
+        error = hasPlaceholderIn(*arg.param) ? "ERR_EXECPHR" : "ERR_REFUNKDAT";
+        return typeNameOf(*arg.param);
+    }
+    return isFunction ? missingInResult(routine, error) : std::string_view();
+}
+
+/// The data type of a function, when nothing declares it.
+std::string_view RoutineLowering::missingInResult(const sema::RoutineSymbol& routine,
+                                                  const char*& error) const {
+    if (!isUnknown(routine.returnType)) return {};
+    const auto& tree = *routine.module->tree;
+    const TokenIndex type = routine.routineDecl->returnType;
+    error = isPlaceholder(tree.tokens[type].kind) ? "ERR_EXECPHR" : "ERR_REFUNKDAT";
+    return tree.text(type);
+}
+
+/// Of the record that an aggregate stands for: a component of a type that nothing declares.
+std::string_view RoutineLowering::missingComponent(const Node& node) const {
+    if (node.kind != NodeKind::Aggregate) return {};
+    const sema::DataType& type = info(as<AggregateExpr>(node)).type;
+    if (type.isArray()) return {};
+    for (const sema::Type::Component& component : type.type->base()->components)
+        if (component.type->base()->kind == sema::TypeKind::Error) return component.name;
     return {};
 }
 
@@ -62,7 +101,8 @@ std::string_view RoutineLowering::missingInCall(const Node& node, TokenIndex nam
 /// the error it raises.
 std::string_view RoutineLowering::missingReference(const Node& node, const char*& error) const {
     if (node.kind == NodeKind::Name) return missingInName(as<NameExpr>(node), error);
-    std::string_view missing;
+    std::string_view missing = missingComponent(node);
+    if (!missing.empty()) error = "ERR_REFUNKDAT";
     forEachChild(node, [&](const Node& child) {
         if (missing.empty() && !isStmt(child.kind)) missing = missingReference(child, error);
     });
@@ -80,10 +120,8 @@ std::string_view RoutineLowering::missingReference(const Node& node, const char*
     const std::string_view text = module_->tree->source->text();
     const SourceRange range = module_->tree->range(node);
     constexpr uint32_t kShown = 40;
-    if (isUnknown(type)) return text.substr(range.begin, std::min(range.end - range.begin, kShown));
-    for (const sema::Type::Component& component : type.type->base()->components)
-        if (component.type->base()->kind == sema::TypeKind::Error) return component.name;
-    return {};
+    return isUnknown(type) ? text.substr(range.begin, std::min(range.end - range.begin, kShown))
+                           : std::string_view();
 }
 
 /// An instruction whose references stay open until it is executed (manual 1.6). True when it has been dealt with.
@@ -107,11 +145,8 @@ bool RoutineLowering::lowerUnresolved(const Node& statement, const Node& part, i
         break;
     case NodeKind::CallStmt: missing = missingInCallStmt(as<CallStmt>(part), error); break;
     case NodeKind::Return:
-        if (symbol_.routineKind == RoutineKind::Func && isUnknown(symbol_.returnType)) {
-            error = "ERR_REFUNKDAT";
-            missing = module_->tree->text(symbol_.routineDecl->returnType);
-            break;
-        }
+        if (symbol_.routineKind == RoutineKind::Func) missing = missingInResult(symbol_, error);
+        if (!missing.empty()) break;
         missing = missingReference(part, error);
         break;
     default: missing = missingReference(part, error);
@@ -144,6 +179,8 @@ std::string_view RoutineLowering::missingInCallStmt(const CallStmt& stmt, const 
 }
 
 void RoutineLowering::raiseUnresolved(const char* error, std::string_view name) {
+    if (std::string_view(error) == "ERR_EXECPHR")
+        return b_.check(b_.constBool(false), program_.errorNumber(error));
     const uint32_t native =
         program_.support("rt_unresolved", ir::NativeClass::Plain, ir::kVoid, {ir::kI32, ir::kPtr});
     b_.callNative(native,

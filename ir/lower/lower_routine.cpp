@@ -280,7 +280,7 @@ void RoutineLowering::lowerData() {
     for (const DataSymbol* data : symbol_.data) {
         if (data->storage != sema::Storage::RoutineData) continue;
         if (data->dataKind == syntax::DataKind::Const) continue; // folded, or a constant global on first use
-        if (isUnknown(data->type)) continue;                     // whoever uses it raises an error
+        if (isWithoutForm(*data)) continue;                      // whoever uses it raises an error
         const ir::TypeId type = program_.irType(data->type);
         Slot slot;
         slot.local = b_.addLocal(data->name, type);
@@ -292,9 +292,12 @@ void RoutineLowering::lowerData() {
         if (found == slots_.end() || data->storage != sema::Storage::RoutineData) continue;
         const ValueId target = b_.localAddr(found->second.local);
         if (data->init) {
+            // A constant value leaves out what belongs to components of unknown types.
             const bool plain = data->init->kind == syntax::NodeKind::Aggregate &&
                                syntax::as<syntax::AggregateExpr>(*data->init).isPlain();
-            if (!plain && lowerUnresolved(*data->decl, *data->init, ir::StmtKind::Plain)) continue;
+            if (!plain && !info(*data->init).constant &&
+                lowerUnresolved(*data->decl, *data->init, ir::StmtKind::Plain))
+                continue;
             startStatement(*data->decl, ir::StmtKind::Plain);
             lowerInto(*data->init, data->type, target);
         } else {

@@ -89,7 +89,9 @@ uint8_t RoutineLowering::statementFlags(const Stmt& stmt) const {
 }
 
 void RoutineLowering::lowerStmt(const Stmt& stmt) {
-    if (routineHasPlaceholders_ && (stmt.kind == NodeKind::PlaceholderStmt || hasPlaceholder(stmt))) {
+    const bool mayHold =
+        routineHasPlaceholders_ && stmt.kind != NodeKind::Label; // nothing is executed at <ID>:
+    if (mayHold && (stmt.kind == NodeKind::PlaceholderStmt || hasPlaceholder(stmt))) {
         startStatement(stmt, ir::StmtKind::Plain);
         b_.raise(b_.constI32(program_.errorNumber("ERR_EXECPHR")));
         return;

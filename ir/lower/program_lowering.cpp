@@ -56,6 +56,13 @@ bool isUnknown(const DataType& type) {
     return type.type->base()->kind == TypeKind::Error;
 }
 
+bool isWithoutForm(const DataSymbol& data) {
+    bool sized = true;
+    for (int k = 0; k < data.type.rank; ++k)
+        sized = sized && data.type.dims[k] > 0;
+    return isUnknown(data.type) || !sized;
+}
+
 ProgramLowering::ProgramLowering(const sema::CheckedProgram& program, const Options& options,
                                  diag::Sink& sink, ir::Module& out)
     : program_(program), options_(options), sink_(sink), module_(out) {
@@ -419,7 +426,7 @@ void ProgramLowering::lowerTask(uint32_t index) {
     const sema::Task& current = task(index);
     for (const sema::Module* m : current.modules) {
         for (const DataSymbol* data : m->data)
-            if (!isUnknown(data->type)) globalFor(*data, index);
+            if (!isWithoutForm(*data)) globalFor(*data, index);
         for (const RoutineSymbol* routine : m->routines)
             routineFor(*routine, index);
     }
@@ -461,7 +468,7 @@ bool ProgramLowering::runUnit(uint32_t task, const sema::Module& module, const U
     findNamedParameters();
     continuesAtUserLevel_ = usesContinue();
     for (const DataSymbol* data : module.data)
-        if (!isUnknown(data->type)) globalFor(*data, task);
+        if (!isWithoutForm(*data)) globalFor(*data, task);
     for (const RoutineSymbol* routine : module.routines)
         routineFor(*routine, task);
     drainPending();

@@ -21,6 +21,8 @@ Passing passingOf(const sema::DataSymbol& param);
 
 /// Of a type that a module declares which is not here: the instruction that uses such data raises an error.
 bool isUnknown(const sema::DataType& type);
+/// Module data or data of a routine of such a type, or of a size that a placeholder stands for: nothing is made for them.
+bool isWithoutForm(const sema::DataSymbol& data);
 
 class RoutineLowering;
 

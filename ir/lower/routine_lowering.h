@@ -252,9 +252,11 @@ class RoutineLowering {
     bool lowerUnresolved(const syntax::Node& statement, const syntax::Node& part, ir::StmtKind kind);
     bool lowerOpenHead(const Expr& expr);
     std::string_view missingReference(const syntax::Node& node, const char*& error) const;
+    std::string_view missingComponent(const syntax::Node& node) const;
     std::string_view missingInName(const syntax::NameExpr& name, const char*& error) const;
     std::string_view missingInCall(const syntax::Node& node, syntax::TokenIndex name,
                                    const char*& error) const;
+    std::string_view missingInResult(const sema::RoutineSymbol& routine, const char*& error) const;
     std::string_view missingInCallStmt(const syntax::CallStmt& stmt, const char*& error) const;
     bool hasPlaceholder(const syntax::Node& node) const;
 

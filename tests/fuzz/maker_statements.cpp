@@ -244,7 +244,6 @@ void ProgramMaker::useInterrupt() {
         if (sub.isTrap) trap = sub.name;
     const TypeOf* intnum = catalog_.type("intnum");
     if (trap.empty() || !intnum || part_ != Part::Body) return assignment();
-    made_.hasTime = true;
     const std::string number = global(*intnum, 0, Access::Var).name;
     line("IDelete " + number + ";");
     line("CONNECT " + number + " WITH " + trap + ";");

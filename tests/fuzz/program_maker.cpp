@@ -123,7 +123,6 @@ MadeProgram ProgramMaker::make() {
     for (size_t i = 0; i < moduleCount; ++i)
         made_.tasks.back().push_back(makeModule(static_cast<int>(i)));
     if (choose_.chance(10)) {
-        made_.hasTime = true;
         made_.tasks.push_back(
             {"MODULE Other\n  PERS num sharedNum:=1;\n  PROC main()\n    FOR i FROM 1 TO 3 DO\n"
              "      sharedNum:=sharedNum+1;\n      WaitTime 0.05;\n    ENDFOR\n"

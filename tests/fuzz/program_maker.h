@@ -92,7 +92,7 @@ struct MadeProgram {
     /// Texts of the modules of each task.
     std::vector<std::vector<std::string>> tasks;
     bool optimise = false; ///< the optimiser takes most of the time
-    bool hasTime = false;  ///< what it prints hangs on virtual time, which differs between the profiles
+    bool hasTime = false;  ///< what it prints hangs on the time of day
 };
 
 class ProgramMaker {

@@ -156,8 +156,10 @@ RunResult ProgramRunner::run(Way way) {
 Tally& tally() {
     static Tally counted;
     static const bool shown = [] {
-        std::atexit(
-            [] { std::fprintf(stderr, "%zu programs, %zu accepted\n", counted.all, counted.accepted); });
+        std::atexit([] {
+            std::fprintf(stderr, "%zu programs, %zu accepted, %zu compared, %zu ended\n", counted.all,
+                         counted.accepted, counted.compared, counted.ended);
+        });
         return true;
     }();
     static_cast<void>(shown);
@@ -179,6 +181,8 @@ bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, boo
     const RunResult stepping = runner.run({.stepping = true, .optimise = false});
     constexpr int kMaxTime = 4;
     const bool comparable = !hasTime && release.status != kMaxTime && stepping.status != kMaxTime;
+    tally().compared += comparable ? 1u : 0u;
+    tally().ended += release.status == 0 ? 1u : 0u;
     if (comparable && (release.status != stepping.status || release.output != stepping.output)) {
         for (const auto& task : tasks)
             for (const std::string& text : task)
