@@ -39,6 +39,7 @@ class ProgramRunner {
     sema::CheckOptions options_;
     std::unique_ptr<sema::CheckedProgram> library_, program_;
     std::string errors_, sources_;
+    bool refusable_ = false; ///< it names what a controller may have, but this one has not
 };
 
 /// How many programs were tried and how many of them check has accepted.
