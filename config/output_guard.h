@@ -15,7 +15,7 @@ class OutputGuard {
 
     /// A file that is read. `what`: as people call it ("the configuration"); "" for an input as such.
     void reads(const std::string& path, std::string what = {});
-    /// A file that is to be written. `option`: "--trace". An empty path is no output.
+    /// A file that is to be written. `option`: "--trace". An empty path means no output.
     void writes(const std::string& path, std::string option);
     /// The same for an output that is a configuration: its name may say so.
     void writesConfiguration(const std::string& path, std::string option);

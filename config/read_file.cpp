@@ -62,7 +62,7 @@ constexpr size_t kStep = size_t{1} << 16;
 
 /// Waits until the pipe has data or its writer is gone. False when the time is over.
 bool waitFor(int file, std::chrono::steady_clock::time_point end, bool hasWriter) {
-    constexpr int kLook = 100; // ms; a writer that opens the pipe wakes nobody
+    constexpr int kLook = 100; // ms; poll does not report a writer that opens the pipe
     pollfd entry{file, POLLIN, 0};
     ::poll(&entry, 1, kLook);
     return entry.revents != 0 || hasWriter || std::chrono::steady_clock::now() < end;

@@ -142,7 +142,7 @@ class SharedFiles {
     std::set<std::string> shared_;
 };
 
-/// What stands in the strings of the task's files and may name a routine: "name" and "module:name", in lower case.
+/// Texts in the strings of the task's files that may name a routine: "name" and "module:name", in lower case.
 std::unordered_set<std::string> namesInTexts(const Task& task) {
     std::unordered_set<std::string> names;
     std::unordered_set<const SyntaxTree*> seen;

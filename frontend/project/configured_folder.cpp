@@ -73,7 +73,7 @@ class FolderLoader {
         if (motion != tasks_.end()) std::rotate(tasks_.begin(), motion, motion + 1);
     }
 
-    /// Where a text stands in SYS.cfg.
+    /// The place of a text in SYS.cfg.
     SourceRange find(const std::string& what, std::string_view section) const {
         const std::string_view text = sysFile_->text();
         const size_t from = text.find(section);

@@ -84,7 +84,7 @@ struct UnknownName {
 /// The numbers that an undeclared name is compared with.
 struct ComparedName {
     double least = 0, most = 0;
-    bool fraction = false; ///< one of them is no integer
+    bool fraction = false; ///< one of them is not an integer
     bool unknown = false;  ///< of one the value is not known
 };
 

@@ -23,7 +23,7 @@ struct TaskInput {
     /// Modules that belong to the task but cannot be read: encrypted, not saved with the backup, missing. As named by
     /// the backup, e.g. "secret.sys"; what they declare is not known.
     std::vector<std::string> missingModules;
-    /// Names that nothing declares may be declared elsewhere: some `missingModules`, or modules that nobody named, as the
+    /// Names that nothing declares may be declared elsewhere: some `missingModules`, or modules that were not named, as the
     /// system modules of a controller are that a program file never lists.
     bool incomplete = false;
     /// Without an entry routine the task is left out of a program, with a warning, instead of being an error: tasks of

@@ -1,4 +1,4 @@
-// Signals that nobody declares: the names that the program of the task uses as signals. Strong evidence is an argument for a
+// Undeclared signals: the names that the program of the task uses as signals. Strong evidence is an argument for a
 // parameter of a signal type; without any configuration a comparison with a number will do, unless the name is also
 // assigned or calculated with.
 
@@ -60,7 +60,7 @@ bool isOutput(std::string_view name) {
            (name[2] < 'a' || name[2] > 'z');
 }
 
-/// The data types that a signal is compared with. Other names of num (errnum, stoppointdata) count what is no signal.
+/// The data types that a signal is compared with. Other names of num (errnum, stoppointdata) count other things than signals.
 bool isPlainNumber(const Type& type) {
     return type.kind == TypeKind::SemiValue ||
            (type.isNumeric() && (!type.aliasOf || foldName(type.name) == "dionum"));
@@ -96,7 +96,7 @@ const Type* Analyzer::signalTypeByUse(NameId name) {
     return signalUses_.arguments.find(name);
 }
 
-// The type of a name that is known by comparisons with numbers only; null when something says that it is no signal.
+// The type of a name that is known by comparisons with numbers only; null when its use shows that it is not a signal.
 const Type* Analyzer::signalTypeByComparison(const std::string& written, NameId name) {
     if (!signalUses_.known) gatherSignalUses();
     const auto found = signalUses_.compared.find(name);
@@ -138,7 +138,7 @@ void Analyzer::gatherSignalUses() {
     context_ = saved;
 }
 
-// A name of the routine itself is no signal in any other routine either: there it was forgotten.
+// A name of the routine itself is not a signal in any other routine either: there its declaration is missing.
 void Analyzer::declareOwn(TokenIndex name, TokenIndex type) {
     if (!isName(name)) return;
     signalUses_.own[idOf(name)] = type;

@@ -95,7 +95,7 @@ enum class Storage : uint8_t {
 /// What a parameter of pseudo-type `anytype` takes; from `where:` in the declaration.
 enum class ParamClass : uint8_t { Any, Value, ValueOrSignal, Atomic, Numeric, Signal, SignalOrString, Array };
 
-/// DataSymbol::index of what stands for a name that nothing declares: it belongs to no table.
+/// DataSymbol::index of a stand-in for an undeclared name: it is in no table.
 inline constexpr uint32_t kNoIndex = UINT32_MAX;
 
 struct DataSymbol : Symbol {

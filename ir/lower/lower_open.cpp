@@ -68,7 +68,7 @@ std::string_view RoutineLowering::missingInCall(const Node& node, TokenIndex nam
     }
     const sema::RoutineSymbol& routine = *found->second.routine;
     error = "ERR_EXECPHR";
-    if (routine.incomplete) return module_->tree->text(name); // <PAR> stands for parameters
+    if (routine.incomplete) return module_->tree->text(name); // <PAR> replaces parameters
     for (const BoundArg& arg : found->second.args) {
         if (arg.kind == BoundArg::Kind::Absent || !isUnknown(arg.param->type)) continue;
         error = hasPlaceholderIn(*arg.param) ? "ERR_EXECPHR" : "ERR_REFUNKDAT";
