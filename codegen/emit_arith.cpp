@@ -59,6 +59,11 @@ llvm::Value* RoutineEmitter::floatArithmetic(const ir::Inst& inst) {
     }
 }
 
+llvm::Value* RoutineEmitter::isFinite(Value* number) {
+    Value* magnitude = b_.CreateUnaryIntrinsic(llvm::Intrinsic::fabs, number);
+    return b_.CreateFCmpOLT(magnitude, llvm::ConstantFP::getInfinity(number->getType()));
+}
+
 llvm::Value* RoutineEmitter::intArithmetic(const ir::Inst& inst) {
     Value* a = operand(inst, 0);
     switch (inst.op) {

@@ -38,8 +38,7 @@ llvm::BasicBlock* RoutineEmitter::joinFrom(ErrorJoin& join, Value* number) {
     return join.block;
 }
 
-void RoutineEmitter::check(const ir::Inst& inst) {
-    Value* condition = operand(inst, 0);
+void RoutineEmitter::check(const ir::Inst& inst, Value* condition) {
     BasicBlock* ok = newBlock("ok");
     BasicBlock*& fail = failedChecks_[{inst.stmt, inst.extra}];
     BasicBlock* target = fail ? fail : fail = newBlock("fail");

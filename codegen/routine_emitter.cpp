@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "codegen/wide_loop.h"
 #include "ir/core/op_info.h"
 #include "runtime/abi/rt_abi.h"
 
@@ -17,6 +18,8 @@ constexpr uint64_t kLargeLocal = 4096;
 RoutineEmitter::RoutineEmitter(ModuleEmitter& module, uint32_t index)
     : m_(module), module_(module.source()), routine_(module_.routines[index]),
       function_(module.routine(index)), desc_(module.routineDesc(index)), b_(module.context()) {}
+
+RoutineEmitter::~RoutineEmitter() = default;
 
 void RoutineEmitter::run() {
     if (m_.debug()) m_.debug()->attach(routine_, *function_);
@@ -65,6 +68,7 @@ void RoutineEmitter::analyse() {
     }
     findRetried();
     findFrameBlock();
+    findWideLoops();
 }
 
 bool RoutineEmitter::isEmpty(ir::BlockId id) const {
@@ -264,7 +268,8 @@ void RoutineEmitter::instruction(ir::ValueId id) {
     if (ir::opInfo(inst.op).terminator) return terminator(inst);
     if (arithmetic(inst, id) || memory(inst, id)) return;
     switch (inst.op) {
-    case ir::Op::Check: return check(inst);
+    case ir::Op::Check: return check(inst, operand(inst, 0));
+    case ir::Op::CheckFinite: return check(inst, isFinite(operand(inst, 0)));
     case ir::Op::Call: return call(inst, id);
     case ir::Op::CallNative: return nativeCall(inst, id);
     case ir::Op::Charge: pay(costOf(inst)); return;
@@ -277,7 +282,10 @@ void RoutineEmitter::instruction(ir::ValueId id) {
 void RoutineEmitter::terminator(const ir::Inst& inst) {
     enterStatement();
     switch (inst.op) {
-    case ir::Op::Br: b_.CreateBr(blockOf(inst.target[0])); return;
+    case ir::Op::Br:
+        if (const WideLoop* wide = wideLoopFrom(current_)) return wideLoop(*wide);
+        b_.CreateBr(blockOf(inst.target[0]));
+        return;
     case ir::Op::CondBr:
         b_.CreateCondBr(operand(inst, 0), blockOf(inst.target[0]), blockOf(inst.target[1]));
         return;

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "codegen/module_emitter.h"
@@ -12,9 +13,12 @@
 
 namespace codegen {
 
+class WideLoop;
+
 class RoutineEmitter {
   public:
     RoutineEmitter(ModuleEmitter& module, uint32_t index);
+    ~RoutineEmitter();
     void run();
 
   private:
@@ -54,6 +58,17 @@ class RoutineEmitter {
     Value* comparison(const ir::Inst& inst);
     Value* conversion(const ir::Inst& inst);
     Value* constant(const ir::Inst& inst);
+    Value* isFinite(Value* number);
+
+    // wide_loop.cpp
+    void findWideLoops();
+    const WideLoop* wideLoopFrom(ir::BlockId block) const;
+    void wideLoop(const WideLoop& wide);
+    Value* wideOperand(const WideLoop& wide, const ir::Inst& inst, size_t i,
+                       const std::unordered_map<ir::ValueId, Value*>& values);
+    Value* wideValue(const WideLoop& wide, ir::ValueId id, Value* first,
+                     const std::unordered_map<ir::ValueId, Value*>& values);
+    Value* allFinite(const WideLoop& wide, const std::unordered_map<ir::ValueId, Value*>& values);
 
     // emit_memory.cpp
     bool memory(const ir::Inst& inst, ir::ValueId id);
@@ -89,7 +104,7 @@ class RoutineEmitter {
     bool inUndo() const { return inUndo_[current_]; }
     ErrorJoin& makeJoin(ErrorJoin& join, const char* name);
     BasicBlock* joinFrom(ErrorJoin& join, Value* number);
-    void check(const ir::Inst& inst);
+    void check(const ir::Inst& inst, Value* condition);
     void raise(const ir::Inst& inst);
     void continueIfOk(const ir::Inst& inst, Value* status);
     void continueIfNativeOk(const ir::Inst& inst, Value* status, BasicBlock* call);
@@ -122,6 +137,7 @@ class RoutineEmitter {
     std::vector<Value*> values_;
     std::vector<llvm::AllocaInst*> spills_; ///< of values that handlers may need in other blocks
     std::vector<ir::BlockId> homeOf_;
+    std::vector<WideLoop> wideLoops_;
     std::vector<Value*> locals_;
     llvm::AllocaInst* resultSlots_[8] = {}; ///< for scalar results of natives, by type
     Value *task_ = nullptr, *caller_ = nullptr, *result_ = nullptr;

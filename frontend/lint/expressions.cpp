@@ -1,6 +1,7 @@
 // Expressions: what is read, comparisons that cannot be meant, texts that become too long.
 
 #include "frontend/lint/walker.h"
+#include "frontend/syntax/lexer.h"
 #include "frontend/syntax/tree_walk.h"
 
 #include <algorithm>
@@ -55,6 +56,7 @@ void Walker::expr(const Expr& e, bool partOfText) {
         subscripts(e);
         read(e);
         return;
+    case NodeKind::NumLiteral: inexact(as<NumLiteralExpr>(e)); return;
     case NodeKind::Call: call(e, as<CallExpr>(e).args); return;
     case NodeKind::Aggregate:
         if (as<AggregateExpr>(e).isPlain()) return;
@@ -66,6 +68,14 @@ void Walker::expr(const Expr& e, bool partOfText) {
     case NodeKind::Binary: binary(as<BinaryExpr>(e), partOfText); return;
     default: return;
     }
+}
+
+void Walker::inexact(const NumLiteralExpr& e) {
+    const double stored = static_cast<double>(static_cast<float>(e.value));
+    if (info(e).type.type != program_.num || stored == e.value || !isWholeLiteral(tree_->text(e.first)))
+        return;
+    report(Code::InexactInteger, range(e),
+           {std::string(tree_->text(e.first)), fmt::format("{:.0f}", stored)});
 }
 
 void Walker::binary(const BinaryExpr& e, bool partOfText) {

@@ -99,6 +99,7 @@ class Walker {
     // ---- expressions.cpp
     void expr(const Expr& e, bool partOfText = false);
     void binary(const syntax::BinaryExpr& e, bool partOfText);
+    void inexact(const syntax::NumLiteralExpr& e);
     void identical(const syntax::BinaryExpr& e);
     void comparison(const syntax::BinaryExpr& e);
     void judgeSignal(const Expr& signal, const Expr& value);

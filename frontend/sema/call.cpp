@@ -369,9 +369,16 @@ size_t Analyzer::chooseAlternative(BoundCall& call, const Argument& arg, size_t 
     }
     judged_.push_back(&arg);
     if (t.isError()) return first;
+    // A literal that needs dnum fits num as well.
+    const bool needsDnum = t.flex == Flex::Literal && t.isScalar(TypeKind::Dnum);
+    const bool choice =
+        needsDnum && std::any_of(routine.params.begin() + static_cast<std::ptrdiff_t>(first),
+                                 routine.params.begin() + static_cast<std::ptrdiff_t>(end),
+                                 [](const DataSymbol* p) { return p->type.type->kind == TypeKind::Dnum; });
     for (size_t i = first; i < end; ++i) {
         const DataSymbol& param = *routine.params[i];
         if (param.mode != ParamMode::In && !found.root && isPlaceExpr(e)) continue;
+        if (choice && param.type.type->kind != TypeKind::Dnum) continue;
         if (param.type.type->kind != TypeKind::AnyType && !fits(e, t, param.type)) continue;
         BoundArg bound{routine.params[i], BoundArg::Kind::Present, &e, &arg};
         if (param.mode == ParamMode::In)

@@ -2,6 +2,7 @@
 // (manual 1.3.1 to 1.3.3).
 
 #include "frontend/sema/analysis.h"
+#include "frontend/syntax/lexer.h"
 
 #include <algorithm>
 #include <cfloat>
@@ -53,13 +54,17 @@ Typed Analyzer::expr(const Expr& e, const DataType* want, ConstValue* slot) {
 }
 
 Typed Analyzer::literal(const NumLiteralExpr& e, const DataType* want, ConstValue* slot) {
-    const bool dnum = want && want->rank == 0 && want->type->kind == TypeKind::Dnum;
+    const bool known = want && want->rank == 0 && want->type->isNumeric();
+    // A whole number that num cannot hold exactly is a dnum where the context leaves the choice.
+    const bool dnum = known ? want->type->kind == TypeKind::Dnum
+                            : isWholeLiteral(context_.tree->text(e.first)) &&
+                                  static_cast<double>(static_cast<float>(e.value)) != e.value;
     const Typed t = result(e, dnum ? program_.dnum : program_.num, Flex::Literal);
     ConstValue* value = slot ? slot : newConst();
     value->kind = ConstValue::Kind::Number;
     value->number = dnum ? e.value : static_cast<double>(static_cast<float>(e.value));
     t.info->constant = value;
-    if (e.value > FLT_MAX) bigLiterals_.push_back(&e);
+    if (!std::isfinite(static_cast<float>(e.value))) bigLiterals_.push_back(&e);
     return t;
 }
 

@@ -156,7 +156,9 @@ Analyzer::Numeric Analyzer::unify(const BinaryExpr& e, Typed& left, Typed& right
     flex = Flex::None;
     if (left.flex != Flex::None && right.flex != Flex::None) {
         flex = left.flex == Flex::Group || right.flex == Flex::Group ? Flex::Group : Flex::Literal;
-        const Type* common = flex == Flex::Group ? program_.dnum : left.base();
+        const bool dnum =
+            flex == Flex::Group || left.base() == program_.dnum || right.base() == program_.dnum;
+        const Type* common = dnum ? program_.dnum : program_.num;
         settle(*e.left, common);
         settle(*e.right, common);
     } else if (left.flex != Flex::None)

@@ -2,6 +2,7 @@
 
 #include "frontend/sema/analysis.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -216,6 +217,10 @@ void Analyzer::foldBinary(const BinaryExpr& e) {
                 if (!foldArithmetic(e, scalars[0] ? a->number : left.at[i],
                                     scalars[1] ? b->number : right.at[i], false, vector.at[i]))
                     return;
+        }
+        if (!std::all_of(vector.at.begin(), vector.at.end(), [](double v) { return std::isfinite(v); })) {
+            if (context_.constant) report(Code::ConstantOverflow, range(e.opToken), {"num"});
+            return;
         }
         ConstValue* value = newConst();
         *value = aggregateOf(vector, valueArena());

@@ -70,7 +70,7 @@ void Analyzer::checkIndex(const Expr& index, int32_t dimension, int64_t& value) 
     const Typed t = expr(index);
     value = 0;
     if (t.isError()) return;
-    if (t.flex == Flex::Group) settle(index, program_.num);
+    if (t.flex != Flex::None) settle(index, program_.num);
     if (!t.isScalar(TypeKind::Num)) {
         report(Code::IndexType, range(index), {typeName(*t.info)});
         return;

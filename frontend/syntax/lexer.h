@@ -53,5 +53,7 @@ struct NumberValue {
     bool inRange = true;
 };
 NumberValue numberValue(std::string_view text);
+/// Written without decimal point and exponent, in any base.
+bool isWholeLiteral(std::string_view text);
 
 } // namespace rapid::syntax

@@ -38,6 +38,11 @@ NumberValue radixValue(std::string_view digits, int radix) {
 
 } // namespace
 
+bool isWholeLiteral(std::string_view text) {
+    const bool prefixed = text.size() > 1 && text[0] == '0' && (text[1] | 32) >= 'a';
+    return prefixed || text.find_first_of(".eE") == std::string_view::npos;
+}
+
 NumberValue numberValue(std::string_view text) {
     if (text.size() > 1 && text[0] == '0') {
         const char prefix = static_cast<char>(text[1] | 32);

@@ -80,7 +80,7 @@ struct Inst {
     std::vector<SwitchCase> cases; ///< Switch
     double number = 0;             ///< Const
     StmtId stmt = kNone;           ///< statement it belongs to
-    int32_t extra = 0;             ///< Check: error number; Charge, Safepoint: cost; Sysvar: SysvarKind
+    int32_t extra = 0; ///< Check, CheckFinite: error number; Charge, Safepoint: cost; Sysvar: SysvarKind
 };
 
 // ---- Statements ------------------------------------------------------------------------------------------
@@ -296,6 +296,8 @@ struct Module {
     /// no unit), and the routine that gives its variables their initial values.
     int32_t unitTask = -1;
     uint32_t unitReset = kNone;
+    /// Error number that arithmetic raises when its result is out of range; 0: infinities and NaN are values like others.
+    int32_t overflowError = 0;
     std::vector<std::string> configTexts; ///< configuration known at compile time, kept for the run
     std::vector<std::string> configNames;
 

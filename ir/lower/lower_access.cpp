@@ -83,6 +83,10 @@ ir::ValueId RoutineLowering::dimValue(const Place& p, int k) {
 
 ir::ValueId RoutineLowering::lowerIndex(const Expr& index, ValueId dim, int32_t knownDim, bool& safe) {
     const int32_t outOfBounds = program_.errorNumber("ERR_OUTOFBND");
+    if (isIncomplete(index)) {
+        reachPlaceholder(unparen(index));
+        return b_.constI32(0);
+    }
     ValueId one = b_.constI32(1);
     if (const auto range = intRange(index)) {
         safe = range->lo >= 1 && knownDim > 0 && range->hi <= knownDim;
@@ -135,6 +139,13 @@ RoutineLowering::Place RoutineLowering::place(const Expr& outer) {
 
 RoutineLowering::Place RoutineLowering::reference(const Expr& outer) {
     const Expr& expr = unparen(outer);
+    if (isIncomplete(expr)) {
+        reachPlaceholder(expr);
+        Place none;
+        none.addr = b_.nullPtr();
+        none.type = info(expr).type;
+        return none;
+    }
     switch (expr.kind) {
     case NodeKind::Name: {
         const auto* symbol = info(expr).symbol;

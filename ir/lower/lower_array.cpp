@@ -109,7 +109,7 @@ RoutineLowering::Place RoutineLowering::arrayTemporary(const Expr& expr) {
 /// `target` := `value`, one of them of a size known at run time only.
 void RoutineLowering::assignArray(const Expr& value, const Place& target, const Expr& written) {
     const bool isAggregate = value.kind == NodeKind::Aggregate;
-    if (isAggregate && !mayAlias(value, written) && !info(value).constant) {
+    if (isAggregate && !mayAlias(value, written) && !mayFailHalfway(value) && !info(value).constant) {
         checkShape(value, target);
         return storeArray(value, target);
     }

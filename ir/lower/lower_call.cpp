@@ -1,5 +1,6 @@
 // Calls of routines and natives, the built-ins that the compiler treats itself, late binding.
 
+#include "frontend/syntax/tree_walk.h"
 #include "ir/lower/routine_lowering.h"
 
 namespace rapid::lower {
@@ -36,14 +37,80 @@ ir::ValueId RoutineLowering::argumentAddress(const BoundArg& arg) {
 }
 
 void RoutineLowering::pushPointerArgument(const BoundArg& arg, std::vector<ValueId>& args) {
+    const bool copied = arg.param->mode == ParamMode::In && changesBeforeUse_.contains(&arg);
     if (!arg.param->type.isArray()) {
-        args.push_back(argumentAddress(arg));
+        const ValueId address = argumentAddress(arg);
+        args.push_back(address);
+        if (!copied) return;
+        args.back() = tempAddr(program_.irType(arg.param->type));
+        b_.copy(program_.irType(arg.param->type), args.back(), address);
         return;
     }
     const Place p = place(*arg.value);
-    args.push_back(p.addr);
+    args.push_back(copied ? copyOfArray(p) : p.addr);
     for (int k = 0; k < arg.param->type.rank; ++k)
         args.push_back(dimValue(p, k));
+}
+
+/// A copy of an array whose size may be known at run time only. Each place of the program has one buffer, made when it is
+/// needed for the first time: the size of an array does not change while the routine runs.
+ir::ValueId RoutineLowering::copyOfArray(const Place& p) {
+    const ir::TypeId element = program_.irType(p.type.type);
+    if (p.type.dims[0] > 0) {
+        const ir::TypeId type = program_.irType(p.type);
+        const ValueId buffer = tempAddr(type);
+        b_.copy(type, buffer, p.addr);
+        return buffer;
+    }
+    ValueId count = dimValue(p, 0);
+    for (int k = 1; k < p.type.rank; ++k)
+        count = b_.binary(Op::IMul, count, dimValue(p, k));
+    const ValueId bytes =
+        b_.binary(Op::IMul, b_.convert(Op::I32ToI64, count), b_.constI64(program_.module().size(element)));
+    const uint32_t buffer = b_.addLocal("", ir::kPtr);
+    arrayBuffers_.push_back(buffer);
+    const ir::BlockId make = b_.addBlock("buffer");
+    const ir::BlockId have = b_.addBlock("copy");
+    b_.condBr(b_.binary(Op::IEq, b_.load(ir::kPtr, b_.localAddr(buffer)), b_.nullPtr()), make, have);
+    b_.setBlock(make);
+    b_.store(ir::kPtr, b_.stackAlloc(bytes), b_.localAddr(buffer));
+    b_.br(have);
+    b_.setBlock(have);
+    b_.copyDynamic(b_.load(ir::kPtr, b_.localAddr(buffer)), p.addr, bytes);
+    return b_.load(ir::kPtr, b_.localAddr(buffer));
+}
+
+/// IN arguments that a native may overwrite while it still reads them, and those that a function called for a later
+/// argument may change.
+void RoutineLowering::findChangedArguments(const BoundCall& call) {
+    for (size_t i = 0; i < call.args.size(); ++i) {
+        const BoundArg& arg = call.args[i];
+        const DataSymbol* root = referredData(arg.value, *module_);
+        if (!root || !arg.param || arg.param->mode != ParamMode::In) continue;
+        bool changes = false;
+        for (size_t k = 0; k < call.args.size() && !changes; ++k) {
+            const BoundArg& other = call.args[k];
+            if (k == i || !other.value || !other.param) continue;
+            const DataSymbol* written =
+                other.param->mode == ParamMode::In ? nullptr : referredData(other.value, *module_);
+            changes =
+                (call.routine->native && written && mayOverlap(*root, *written)) ||
+                (k > i && callsRoutine(*other.value) && (isShared(*root) || mentions(*other.value, *root)));
+        }
+        if (changes) changesBeforeUse_.insert(&arg);
+    }
+}
+
+/// A routine of the program is called: it may change whatever it reaches.
+bool RoutineLowering::callsRoutine(const Node& node) const {
+    if (node.kind == NodeKind::Call) {
+        const auto found = facts().calls.find(&node);
+        if (found == facts().calls.end() || !found->second.routine || !found->second.routine->native)
+            return true;
+    }
+    bool calls = false;
+    forEachChild(node, [&](const Node& child) { calls = calls || callsRoutine(child); });
+    return calls;
 }
 
 /// \x?y: what the caller got for y is passed on, absent or not.
@@ -114,6 +181,10 @@ void RoutineLowering::pushValue(const BoundArg& arg, std::vector<ValueId>& args)
 }
 
 ir::ValueId RoutineLowering::lowerCall(const Node& node, ValueId resultAddr) {
+    if (isIncompleteCall(node)) {
+        reachPlaceholder(node);
+        return b_.constF32(0);
+    }
     const auto& calls = facts().calls;
     auto found = calls.find(&node);
     if (found == calls.end() || !found->second.routine) return b_.constF32(0);
@@ -140,6 +211,7 @@ ir::ValueId RoutineLowering::lowerCall(const Node& node, ValueId resultAddr) {
             return ir::kNone;
         }
     }
+    findChangedArguments(call);
     if (program_.isForeign(callee)) return lowerForeignCall(call, resultAddr);
     if (program_.mayBeErased(callee, module_)) return lowerErasableCall(call, resultAddr);
     std::vector<ValueId> args;

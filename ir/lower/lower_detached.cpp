@@ -94,6 +94,7 @@ ir::Routine RoutineLowering::runDetached(const RoutineLowering& body) {
     lowerErrorClauses();
     closeCosts();
     chargeAtFront(0, costs.cost());
+    clearArrayBuffers(0);
     routine_.errorFilter.clear(); // the routine's own: it is asked before this one runs
     routine_.errorFilterGlobals.clear();
     return std::move(routine_);

@@ -2,6 +2,8 @@
 
 #include "ir/lower/routine_lowering.h"
 
+#include <cmath>
+
 namespace rapid::lower {
 
 using namespace syntax;
@@ -32,6 +34,10 @@ ir::ValueId RoutineLowering::readSignal(const Expr& expr, bool asDnum) {
 ir::ValueId RoutineLowering::lowerValueAs(const Expr& expr, const sema::Type* wanted) {
     const ir::TypeId type = program_.irType(wanted);
     const Expr& inner = unparen(expr);
+    if (isIncomplete(inner)) {
+        reachPlaceholder(inner);
+        return zeroOf(type);
+    }
     const sema::ExprInfo& facts = info(inner);
     if (facts.constant && facts.constant->kind != sema::ConstValue::Kind::Aggregate)
         return constantScalar(*facts.constant, type);
@@ -41,6 +47,10 @@ ir::ValueId RoutineLowering::lowerValueAs(const Expr& expr, const sema::Type* wa
     if (have == ir::kF32 && type == ir::kF64) return b_.convert(Op::F32ToF64, value);
     if (have == ir::kF64 && type == ir::kF32) return b_.convert(Op::F64ToF32, value);
     return value;
+}
+
+ir::ValueId RoutineLowering::lowerBool(const Expr& expr) {
+    return lowerValueAs(expr, program_.program().boolean);
 }
 
 ir::ValueId RoutineLowering::lowerValue(const Expr& outer) {
@@ -67,7 +77,7 @@ ir::ValueId RoutineLowering::lowerValue(const Expr& outer) {
     case NodeKind::Call: return lowerCall(expr, ir::kNone);
     case NodeKind::Unary: {
         const auto& unary = as<UnaryExpr>(expr);
-        if (unary.op == UnaryOp::Not) return b_.unary(Op::Not, lowerValue(*unary.operand));
+        if (unary.op == UnaryOp::Not) return b_.unary(Op::Not, lowerBool(*unary.operand));
         if (intRange(expr)) return b_.convert(Op::I32ToF32, lowerInt(expr));
         const ValueId value = lowerValueAs(*unary.operand, facts.type.type);
         return unary.op == UnaryOp::Minus ? b_.unary(Op::FNeg, value) : value;
@@ -82,9 +92,12 @@ ir::ValueId RoutineLowering::lowerBinary(const BinaryExpr& expr) {
     case BinaryOp::And:
     case BinaryOp::Or:
         if (!isCheap(*expr.right)) return lowerShortCircuit(expr);
-        return b_.binary(expr.op == BinaryOp::And ? Op::And : Op::Or, lowerValue(*expr.left),
-                         lowerValue(*expr.right));
-    case BinaryOp::Xor: return b_.binary(Op::Xor, lowerValue(*expr.left), lowerValue(*expr.right));
+        return b_.binary(expr.op == BinaryOp::And ? Op::And : Op::Or, lowerBool(*expr.left),
+                         lowerBool(*expr.right));
+    case BinaryOp::Xor: {
+        const ValueId left = lowerBool(*expr.left);
+        return b_.binary(Op::Xor, left, lowerBool(*expr.right));
+    }
     case BinaryOp::Eq: return lowerEquality(*expr.left, *expr.right);
     case BinaryOp::Ne: return b_.unary(Op::Not, lowerEquality(*expr.left, *expr.right));
     case BinaryOp::Lt:
@@ -171,8 +184,18 @@ ir::ValueId RoutineLowering::lowerEquality(const Expr& left, const Expr& right) 
         lowerInto(e, type, buffer);
         return buffer;
     };
-    const ValueId a = address(left);
+    const ValueId a = keptUntil(right, left, type, address(left));
     return equalPlaces(a, address(right), type);
+}
+
+/// The value at `address`, which is that of `expr`, must not change while `later` is evaluated.
+ir::ValueId RoutineLowering::keptUntil(const Expr& later, const Expr& expr, const sema::DataType& type,
+                                       ValueId address) {
+    const sema::DataSymbol* root = referredData(&expr, *module_);
+    if (!root || !callsRoutine(later) || !(isShared(*root) || mentions(later, *root))) return address;
+    const ValueId kept = tempAddr(program_.irType(type));
+    b_.copy(program_.irType(type), kept, address);
+    return kept;
 }
 
 ir::ValueId RoutineLowering::equalPlaces(ValueId a, ValueId b, const sema::DataType& type) {
@@ -184,12 +207,29 @@ ir::ValueId RoutineLowering::equalPlaces(ValueId a, ValueId b, const sema::DataT
         {a, b, b_.typeDescAddr(program_.typeDesc(type))});
 }
 
+/// Division by zero, overflow. A small constant changes no number so much that it leaves the range of its type.
+bool RoutineLowering::mayFail(const BinaryExpr& expr) const {
+    const auto atMost = [&](const Expr& operand, double limit) {
+        const sema::ConstValue* value = info(operand).constant;
+        return value && value->kind == sema::ConstValue::Kind::Number && std::abs(value->number) <= limit;
+    };
+    switch (expr.op) {
+    case BinaryOp::Add:
+    case BinaryOp::Sub: return !atMost(*expr.left, 1e30) && !atMost(*expr.right, 1e30) && !intRange(expr);
+    case BinaryOp::Mul: return !atMost(*expr.left, 1) && !atMost(*expr.right, 1) && !intRange(expr);
+    case BinaryOp::Div:
+    case BinaryOp::IntDiv:
+    case BinaryOp::Mod: return true;
+    default: return false;
+    }
+}
+
 /// Cheap: may be evaluated although its value is not needed (no call, no error, no wait).
 bool RoutineLowering::isCheap(const Expr& outer) const {
     const Expr& expr = unparen(outer);
     const sema::ExprInfo& facts = info(expr);
     if (facts.constant) return true;
-    if (!facts.type.type || facts.type.isArray()) return false;
+    if (!facts.type.type || facts.type.isArray() || containsPlaceholder(expr)) return false;
     switch (expr.kind) {
     case NodeKind::Name: {
         const auto* symbol = static_cast<const sema::DataSymbol*>(facts.symbol);
@@ -201,8 +241,7 @@ bool RoutineLowering::isCheap(const Expr& outer) const {
     case NodeKind::Unary: return isCheap(*as<UnaryExpr>(expr).operand);
     case NodeKind::Binary: {
         const auto& binary = as<BinaryExpr>(expr);
-        if (binary.op == BinaryOp::Div || binary.op == BinaryOp::IntDiv || binary.op == BinaryOp::Mod)
-            return false;
+        if (mayFail(binary)) return false;
         const TypeKind kind = baseType(*binary.left)->kind;
         const bool scalar = kind == TypeKind::Num || kind == TypeKind::Dnum || kind == TypeKind::Bool;
         return scalar && isCheap(*binary.left) && isCheap(*binary.right);
@@ -216,12 +255,12 @@ ir::ValueId RoutineLowering::lowerShortCircuit(const BinaryExpr& expr) {
     const uint32_t result = temp(ir::kBool);
     const ir::BlockId more = b_.addBlock("right");
     const ir::BlockId end = b_.addBlock("decided");
-    const ValueId left = lowerValue(*expr.left);
+    const ValueId left = lowerBool(*expr.left);
     b_.store(ir::kBool, left, b_.localAddr(result));
     const bool isAnd = expr.op == BinaryOp::And;
     b_.condBr(left, isAnd ? more : end, isAnd ? end : more);
     b_.setBlock(more);
-    const ValueId right = lowerValue(*expr.right);
+    const ValueId right = lowerBool(*expr.right);
     b_.store(ir::kBool, right, b_.localAddr(result));
     b_.br(end);
     b_.setBlock(end);
@@ -242,7 +281,18 @@ void RoutineLowering::lowerCond(const Expr& outer, ir::BlockId ifTrue, ir::Block
             return lowerCond(*binary.right, ifTrue, ifFalse);
         }
     }
-    b_.condBr(lowerValue(expr), ifTrue, ifFalse);
+    b_.condBr(lowerBool(expr), ifTrue, ifFalse);
+}
+
+/// An aggregate is stored element by element; when one of them fails, nothing must have been stored yet.
+bool RoutineLowering::mayFailHalfway(const Expr& outer) const {
+    const Expr& expr = unparen(outer);
+    if (expr.kind != NodeKind::Aggregate || info(expr).constant) return false;
+    for (const Expr* element : as<AggregateExpr>(expr).elements()) {
+        const Expr& inner = unparen(*element);
+        if (inner.kind == NodeKind::Aggregate ? mayFailHalfway(inner) : !isCheap(inner)) return true;
+    }
+    return false;
 }
 
 ir::ValueId RoutineLowering::lowerAddr(const Expr& outer) {
@@ -261,6 +311,7 @@ void RoutineLowering::storeExpr(const Expr& expr, const sema::DataType& type, Va
 void RoutineLowering::lowerInto(const Expr& outer, const sema::DataType& type, ValueId dst) {
     const Expr& expr = unparen(outer);
     const ir::TypeId irType = program_.irType(type);
+    if (isIncomplete(expr) && expr.kind != NodeKind::Aggregate) return reachPlaceholder(expr);
     if (!type.isArray() && program_.module().isScalar(irType) && irType != ir::kI64)
         return b_.store(irType, lowerValueAs(expr, type.type), dst);
     if (const auto* constant = info(expr).constant) {
@@ -296,7 +347,7 @@ void RoutineLowering::lowerInto(const Expr& outer, const sema::DataType& type, V
         if (isVectorOp(expr)) return lowerVectorInto(expr, dst);
         {
             const auto& binary = as<BinaryExpr>(expr); // string +
-            const ValueId a = lowerAddr(*binary.left);
+            const ValueId a = keptUntil(*binary.right, *binary.left, type, lowerAddr(*binary.left));
             const ValueId b = lowerAddr(*binary.right);
             b_.callNative(
                 program_.support("rt_strConcat", ir::NativeClass::Plain, ir::kStr, {ir::kPtr, ir::kPtr}),

@@ -17,30 +17,6 @@ using sema::TypeKind;
 
 // ---- Parameters whose argument's name is asked for (ArgName) -------------------------------------------------------
 
-namespace {
-
-const Expr& inner(const Expr& expr) {
-    const Expr* e = &expr;
-    while (e->kind == NodeKind::Paren)
-        e = as<ParenExpr>(*e).inner;
-    return *e;
-}
-
-/// The data object that a reference names as a whole or in part; null for anything else.
-const DataSymbol* rootOf(const Expr* written, const sema::Module& module) {
-    if (!written) return nullptr;
-    const Expr* expr = &inner(*written);
-    while (expr->kind == NodeKind::Index || expr->kind == NodeKind::Component)
-        expr = &inner(expr->kind == NodeKind::Index ? *as<IndexExpr>(*expr).base
-                                                    : *as<ComponentExpr>(*expr).base);
-    if (expr->kind != NodeKind::Name) return nullptr;
-    const sema::Symbol* symbol = (*module.exprs)[expr->id].symbol;
-    return symbol && symbol->kind == sema::SymbolKind::Data ? static_cast<const DataSymbol*>(symbol)
-                                                            : nullptr;
-}
-
-} // namespace
-
 bool ProgramLowering::uses(std::string_view native) const {
     return natives_.contains("rt_" + std::string(native));
 }
@@ -79,7 +55,7 @@ void ProgramLowering::findNamedParameters() {
     asksForNames_ = true;
     bool changed = true;
     const auto mark = [&](const BoundArg& arg, const sema::Module& module) {
-        const DataSymbol* root = rootOf(arg.value, module);
+        const DataSymbol* root = referredData(arg.value, module);
         if (root && root->storage == Storage::Parameter && namedParams_.insert(root).second) changed = true;
     };
     while (std::exchange(changed, false))
@@ -96,7 +72,7 @@ void ProgramLowering::findNamedParameters() {
 }
 
 ir::ValueId RoutineLowering::argumentName(const BoundArg& arg) {
-    const DataSymbol* root = rootOf(arg.value, *module_);
+    const DataSymbol* root = referredData(arg.value, *module_);
     if (!root) return b_.nullPtr();
     if (root->storage != Storage::Parameter) return b_.globalAddr(program_.stringGlobal(root->name));
     const Slot* slot = findSlot(*root);

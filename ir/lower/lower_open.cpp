@@ -1,7 +1,6 @@
 // Open references: names and data types that a module declares which is not here (encrypted, of an add-in, of the system, or
 // loaded later), and placeholders. The instruction that uses them raises an error when it is executed.
 
-#include "frontend/syntax/token_set.h"
 #include "frontend/syntax/tree_walk.h"
 #include "ir/lower/routine_lowering.h"
 
@@ -100,6 +99,7 @@ std::string_view RoutineLowering::missingComponent(const Node& node) const {
 /// Something in the instruction or expression, not in an instruction nested in it, that nothing declares; its name, and
 /// the error it raises.
 std::string_view RoutineLowering::missingReference(const Node& node, const char*& error) const {
+    if (!isStmt(node.kind) && containsPlaceholder(node)) return {}; // an error of its own, when it is reached
     if (node.kind == NodeKind::Name) return missingInName(as<NameExpr>(node), error);
     std::string_view missing = missingComponent(node);
     if (!missing.empty()) error = "ERR_REFUNKDAT";
@@ -185,26 +185,6 @@ void RoutineLowering::raiseUnresolved(const char* error, std::string_view name) 
         program_.support("rt_unresolved", ir::NativeClass::Plain, ir::kVoid, {ir::kI32, ir::kPtr});
     b_.callNative(native,
                   {b_.constI32(program_.errorNumber(error)), b_.globalAddr(program_.stringGlobal(name))});
-}
-
-/// Does the instruction itself, not one nested in it, hold a placeholder?
-bool RoutineLowering::hasPlaceholder(const Node& node) const {
-    if (node.kind == NodeKind::IfBranch && !as<IfBranch>(node).condition) return true;
-    if (node.kind == NodeKind::TestCase && as<TestCase>(node).values.empty()) return true;
-    const auto isOne = [&](TokenIndex from, TokenIndex end) {
-        for (TokenIndex t = from; t < end; ++t)
-            if (isPlaceholder(module_->tree->tokens[t].kind)) return true;
-        return false;
-    };
-    // Its own words are those between its children: <ID> may stand for any name.
-    bool found = false;
-    TokenIndex next = node.first;
-    forEachChild(node, [&](const Node& child) {
-        if (child.first == kNoToken || child.first > child.last) return;
-        found = found || isOne(next, child.first) || (!isStmt(child.kind) && hasPlaceholder(child));
-        next = std::max(next, child.last + 1);
-    });
-    return found || (node.last != kNoToken && isOne(next, node.last + 1));
 }
 
 } // namespace rapid::lower

@@ -65,113 +65,7 @@ RoutineLowering::RoutineLowering(ProgramLowering& program, const RoutineSymbol& 
     describesData_ = reachesData_ || program.stepping();
 }
 
-namespace {
-
-/// True when executing `list` may write memory that an argument passed by address could lie in.
-bool writesMemory(syntax::StmtList list, const sema::Module& module, const sema::FileFacts& facts);
-
-bool exprWrites(const syntax::Expr* expr, const sema::FileFacts& facts) {
-    if (!expr) return false;
-    using syntax::NodeKind;
-    switch (expr->kind) {
-    case NodeKind::Paren: return exprWrites(syntax::as<syntax::ParenExpr>(*expr).inner, facts);
-    case NodeKind::Unary: return exprWrites(syntax::as<syntax::UnaryExpr>(*expr).operand, facts);
-    case NodeKind::Binary: {
-        const auto& binary = syntax::as<syntax::BinaryExpr>(*expr);
-        return exprWrites(binary.left, facts) || exprWrites(binary.right, facts);
-    }
-    case NodeKind::Index: {
-        const auto& index = syntax::as<syntax::IndexExpr>(*expr);
-        for (const syntax::Expr* e : index.indices)
-            if (exprWrites(e, facts)) return true;
-        return exprWrites(index.base, facts);
-    }
-    case NodeKind::Component: return exprWrites(syntax::as<syntax::ComponentExpr>(*expr).base, facts);
-    case NodeKind::Aggregate:
-        for (const syntax::Expr* e : syntax::as<syntax::AggregateExpr>(*expr).elements())
-            if (exprWrites(e, facts)) return true;
-        return false;
-    case NodeKind::Call: {
-        auto found = facts.calls.find(expr);
-        if (found == facts.calls.end() || !found->second.routine || !found->second.routine->native)
-            return true;
-        for (const auto& arg : found->second.args) {
-            if (arg.param && arg.param->mode != syntax::ParamMode::In) return true;
-            if (exprWrites(arg.value, facts)) return true;
-        }
-        return false;
-    }
-    default: return false;
-    }
-}
-
-bool stmtWrites(const syntax::Stmt& stmt, const sema::Module& module, const sema::FileFacts& facts) {
-    using syntax::NodeKind;
-    switch (stmt.kind) {
-    case NodeKind::Assign: {
-        const auto& assign = syntax::as<syntax::AssignStmt>(stmt);
-        const syntax::Expr* root = assign.target;
-        while (root->kind == NodeKind::Index || root->kind == NodeKind::Component)
-            root = root->kind == NodeKind::Index ? syntax::as<syntax::IndexExpr>(*root).base
-                                                 : syntax::as<syntax::ComponentExpr>(*root).base;
-        const auto* symbol = static_cast<const DataSymbol*>((*module.exprs)[root->id].symbol);
-        const bool localTarget =
-            symbol && symbol->kind == sema::SymbolKind::Data &&
-            (symbol->storage == sema::Storage::RoutineData ||
-             (symbol->storage == sema::Storage::Parameter && symbol->mode == syntax::ParamMode::In));
-        return !localTarget || exprWrites(assign.target, facts) || exprWrites(assign.value, facts);
-    }
-    case NodeKind::If: {
-        const auto& node = syntax::as<syntax::IfStmt>(stmt);
-        for (const auto* branch : node.branches)
-            if (exprWrites(branch->condition, facts) || writesMemory(branch->body, module, facts))
-                return true;
-        return writesMemory(node.elseBody, module, facts);
-    }
-    case NodeKind::CompactIf: {
-        const auto& node = syntax::as<syntax::CompactIfStmt>(stmt);
-        return exprWrites(node.condition, facts) || stmtWrites(*node.body, module, facts);
-    }
-    case NodeKind::For: {
-        const auto& node = syntax::as<syntax::ForStmt>(stmt);
-        return exprWrites(node.from, facts) || exprWrites(node.to, facts) || exprWrites(node.step, facts) ||
-               writesMemory(node.body, module, facts);
-    }
-    case NodeKind::While: {
-        const auto& node = syntax::as<syntax::WhileStmt>(stmt);
-        return exprWrites(node.condition, facts) || writesMemory(node.body, module, facts);
-    }
-    case NodeKind::Test: {
-        const auto& node = syntax::as<syntax::TestStmt>(stmt);
-        for (const auto* c : node.cases)
-            if (writesMemory(c->body, module, facts)) return true;
-        return exprWrites(node.subject, facts) || writesMemory(node.defaultBody, module, facts);
-    }
-    case NodeKind::Return: return exprWrites(syntax::as<syntax::ReturnStmt>(stmt).value, facts);
-    case NodeKind::Goto:
-    case NodeKind::Label:
-    case NodeKind::Break:
-    case NodeKind::Continue:
-    case NodeKind::Empty: return false;
-    default: return true;
-    }
-}
-
-bool writesMemory(syntax::StmtList list, const sema::Module& module, const sema::FileFacts& facts) {
-    for (const syntax::Stmt* stmt : list)
-        if (stmtWrites(*stmt, module, facts)) return true;
-    return false;
-}
-
-} // namespace
-
-bool RoutineLowering::mayChangeArguments() const {
-    return hasErrorHandler_ || symbol_.routineDecl->hasUndo || reachesData_ ||
-           writesMemory(symbol_.routineDecl->body, *module_, facts());
-}
-
 void RoutineLowering::lowerParameters() {
-    const bool copyAggregates = mayChangeArguments();
     uint32_t number = 0;
     for (const DataSymbol* param : symbol_.params) {
         Slot slot;
@@ -194,11 +88,12 @@ void RoutineLowering::lowerParameters() {
         }
         slot.kind = Slot::Kind::Pointer;
         slot.optional = param->optional;
-        const bool in = param->mode == syntax::ParamMode::In;
-        if (in && param->type.isArray() && (param->assigned || reachesData_)) {
+        // IN is a private value: it is copied when the routine changes it, or when something else might.
+        const bool copied = param->mode == syntax::ParamMode::In &&
+                            (param->assigned || reachesData_ || program_.copies(*param));
+        if (copied && param->type.isArray()) {
             copyArrayParameter(*param, slot);
-        } else if (in && !param->type.isArray() && type != ir::kI64 && (param->assigned || copyAggregates)) {
-            // IN is a private value: the caller's data may change while the routine runs.
+        } else if (copied && type != ir::kI64) {
             slot.kind = Slot::Kind::Local;
             slot.local = b_.addLocal(param->name, type, true);
             if (param->optional) {
@@ -306,6 +201,17 @@ void RoutineLowering::lowerData() {
     }
 }
 
+/// The buffers are made where they are needed first.
+void RoutineLowering::clearArrayBuffers(ir::BlockId entry) {
+    if (arrayBuffers_.empty()) return;
+    std::vector<ir::ValueId>& first = routine_.blocks[entry].insts;
+    const std::vector<ir::ValueId> rest = std::exchange(first, {});
+    b_.setBlock(entry);
+    for (const uint32_t buffer : arrayBuffers_)
+        b_.store(ir::kPtr, b_.nullPtr(), b_.localAddr(buffer));
+    first.insert(first.end(), rest.begin(), rest.end());
+}
+
 ir::Routine RoutineLowering::run() {
     const ir::BlockId entry = b_.addBlock("entry");
     b_.setBlock(entry);
@@ -330,6 +236,7 @@ ir::Routine RoutineLowering::run() {
     }
     chargeAtFront(entry, costs.cost());
     lowerHandlers();
+    clearArrayBuffers(0);
     return std::move(routine_);
 }
 

@@ -88,14 +88,36 @@ uint8_t RoutineLowering::statementFlags(const Stmt& stmt) const {
     return flags;
 }
 
-void RoutineLowering::lowerStmt(const Stmt& stmt) {
-    const bool mayHold =
-        routineHasPlaceholders_ && stmt.kind != NodeKind::Label; // nothing is executed at <ID>:
-    if (mayHold && (stmt.kind == NodeKind::PlaceholderStmt || hasPlaceholder(stmt))) {
-        startStatement(stmt, ir::StmtKind::Plain);
-        b_.raise(b_.constI32(program_.errorNumber("ERR_EXECPHR")));
-        return;
+/// Instructions that cannot begin without what a placeholder stands for.
+bool RoutineLowering::lowerIncomplete(const Stmt& stmt) {
+    bool incomplete = false;
+    switch (stmt.kind) {
+    case NodeKind::PlaceholderStmt: incomplete = true; break;
+    case NodeKind::Connect:
+    case NodeKind::Goto: incomplete = containsPlaceholder(stmt); break;
+    case NodeKind::CallStmt: incomplete = isIncompleteCall(stmt); break;
+    case NodeKind::For: {
+        const auto& loop = as<ForStmt>(stmt);
+        const bool named = facts().loopVariables.find(&loop) != facts().loopVariables.end();
+        incomplete = (!named && routineHasPlaceholders_) || isIncomplete(*loop.from) ||
+                     isIncomplete(*loop.to) || (loop.step && isIncomplete(*loop.step));
+        break;
     }
+    case NodeKind::Test: {
+        const auto& test = as<TestStmt>(stmt);
+        incomplete = isIncomplete(*test.subject);
+        break;
+    }
+    default: break;
+    }
+    if (!incomplete) return false;
+    startStatement(stmt, ir::StmtKind::Plain);
+    reachPlaceholder(stmt);
+    return true;
+}
+
+void RoutineLowering::lowerStmt(const Stmt& stmt) {
+    if (lowerIncomplete(stmt)) return;
     if (lowerUnresolved(stmt, stmt, ir::StmtKind::Plain)) return;
     switch (stmt.kind) {
     case NodeKind::Assign: return lowerAssign(as<AssignStmt>(stmt));
@@ -159,6 +181,7 @@ bool RoutineLowering::isStartMoveRetry(const Stmt& stmt) const {
 
 void RoutineLowering::lowerAssign(const AssignStmt& stmt) {
     startStatement(stmt, ir::StmtKind::Plain);
+    if (isIncomplete(*stmt.target) || isIncomplete(*stmt.value)) return reachPlaceholder(stmt);
     const Place target = place(*stmt.target);
     const ir::TypeId element = program_.irType(target.type.type);
     if (!target.type.isArray() && program_.module().isScalar(element) && element != ir::kI64) {
@@ -168,7 +191,7 @@ void RoutineLowering::lowerAssign(const AssignStmt& stmt) {
     const Expr& value = unparen(*stmt.value);
     if (target.type.isArray() && (value.kind == NodeKind::Name || !isOfKnownSize(value, target.type)))
         return assignArray(value, target, *stmt.target);
-    if (mayAlias(value, *stmt.target)) {
+    if (mayAlias(value, *stmt.target) || mayFailHalfway(value)) {
         const ValueId buffer = tempAddr(program_.irType(target.type));
         lowerInto(value, target.type, buffer);
         b_.copy(program_.irType(target.type), target.addr, buffer);
@@ -180,6 +203,11 @@ void RoutineLowering::lowerAssign(const AssignStmt& stmt) {
 void RoutineLowering::lowerIf(const IfStmt& stmt) {
     const ir::BlockId end = b_.addBlock("endif");
     for (const IfBranch* branch : stmt.branches) {
+        if (!branch->condition) { // <EIT>
+            startStatement(*branch, ir::StmtKind::Control);
+            reachPlaceholder(*branch);
+            continue;
+        }
         const ir::BlockId body = b_.addBlock("then");
         const ir::BlockId next = b_.addBlock("else");
         if (lowerOpenHead(*branch->condition)) {
@@ -252,6 +280,11 @@ void RoutineLowering::lowerTest(const TestStmt& stmt) {
         lowerInto(*stmt.subject, type, subject);
     const ir::BlockId end = b_.addBlock("endtest");
     for (const TestCase* testCase : stmt.cases) {
+        if (testCase->values.empty()) { // <CSE>
+            startStatement(*testCase, ir::StmtKind::Control);
+            reachPlaceholder(*testCase);
+            continue;
+        }
         const ir::BlockId body = b_.addBlock("case");
         const ir::BlockId next = b_.addBlock("nextcase");
         for (const Expr* value : testCase->values) {
@@ -289,7 +322,13 @@ void RoutineLowering::lowerReturn(const ReturnStmt& stmt) {
     if (!stmt.value || symbol_.routineKind != RoutineKind::Func) return b_.ret();
     const ir::TypeId type = program_.irType(symbol_.returnType);
     if (program_.module().isScalar(type)) return b_.ret(lowerValueAs(*stmt.value, symbol_.returnType.type));
-    lowerInto(*stmt.value, symbol_.returnType, b_.resultAddr());
+    if (mayFailHalfway(*stmt.value)) {
+        const ValueId buffer = tempAddr(type);
+        lowerInto(*stmt.value, symbol_.returnType, buffer);
+        b_.copy(type, b_.resultAddr(), buffer);
+    } else {
+        lowerInto(*stmt.value, symbol_.returnType, b_.resultAddr());
+    }
     b_.ret();
 }
 

@@ -70,6 +70,7 @@ ProgramLowering::ProgramLowering(const sema::CheckedProgram& program, const Opti
         for (const DataSymbol* data : lib->data)
             if (data->name.starts_with("ERR_") || data->name == "LONG_JMP_ALL_ERR")
                 errorNumbers_[data->name] = static_cast<int32_t>(data->value().number);
+    module_.overflowError = errorNumber("ERR_OVERFLOW");
 }
 
 ir::TypeId ProgramLowering::irType(const sema::Type* type) {
@@ -442,6 +443,14 @@ void ProgramLowering::lowerTask(uint32_t index) {
     module_.tasks.push_back(std::move(entry));
 }
 
+/// Modules that come later may have trap routines, event routines and error handlers of callers are executed in between.
+void ProgramLowering::findCopies() {
+    const bool hooks =
+        std::any_of(options_.configTexts.begin(), options_.configTexts.end(),
+                    [](const auto& text) { return text.find("CAB_EXEC_HOOKS") != std::string::npos; });
+    copies_.emplace(program_, unit_ || erases_ || hooks, continuesAtUserLevel_);
+}
+
 bool ProgramLowering::run() {
     module_.name = options_.programName;
     module_.configNames = options_.configNames;
@@ -452,6 +461,7 @@ bool ProgramLowering::run() {
     // A module that is loaded may call EraseModule, too.
     erases_ = usedBuiltIn("erasemodule") != nullptr || loads();
     continuesAtUserLevel_ = usesContinue();
+    findCopies();
     for (uint32_t i = 0; i < program_.tasks.size(); ++i)
         lowerTask(i);
     addTables();
@@ -467,6 +477,7 @@ bool ProgramLowering::runUnit(uint32_t task, const sema::Module& module, const U
     const size_t errorsBefore = sink_.errorCount();
     findNamedParameters();
     continuesAtUserLevel_ = usesContinue();
+    findCopies();
     for (const DataSymbol* data : module.data)
         if (!isWithoutForm(*data)) globalFor(*data, task);
     for (const RoutineSymbol* routine : module.routines)

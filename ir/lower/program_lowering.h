@@ -1,9 +1,11 @@
 #pragma once
 // State shared by all routines of one program while it is lowered: types, globals, natives, routine numbers.
 
+#include "ir/lower/argument_copies.h"
 #include "ir/lower/lower.h"
 
 #include <map>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -77,6 +79,8 @@ class ProgramLowering {
     /// The argument's name travels with this parameter, because ArgName asks for it.
     bool passesName(const sema::DataSymbol& param) const { return namedParams_.contains(&param); }
     bool asksForNames() const { return asksForNames_; }
+    /// The routine works on a copy of this IN parameter.
+    bool copies(const sema::DataSymbol& param) const { return copies_ && copies_->copies(param); }
     /// Layout of an argument of a call by name (rt::LateCallArg).
     ir::TypeId lateRow();
     const sema::Task& task(uint32_t index) const { return *program_.tasks[index]; }
@@ -96,6 +100,7 @@ class ProgramLowering {
     const sema::RoutineSymbol* usedBuiltIn(std::string_view name) const;
     bool searchesData() const;
     void findNamedParameters();
+    void findCopies();
     bool usesContinue() const;
     void addPredefinedData(uint32_t task);
     void addRoutineData(uint32_t task, const sema::Module& module);
@@ -130,6 +135,7 @@ class ProgramLowering {
     const UnitOptions* unitOptions_ = nullptr;
     std::unordered_set<const sema::DataSymbol*> namedParams_;
     bool asksForNames_ = false;
+    std::optional<ArgumentCopies> copies_;
     bool erases_ = false; ///< calls EraseModule, or loads modules, which may
     bool continuesAtUserLevel_ = false;
     std::map<std::pair<uint32_t, const sema::Module*>, uint32_t> goneFlags_;

@@ -91,6 +91,7 @@ class RoutineLowering {
     void lowerParameters();
     void copyArrayParameter(const sema::DataSymbol& param, Slot& slot);
     void lowerData();
+    void clearArrayBuffers(ir::BlockId entry);
     void lowerHandlers();
     void lowerBackwardHandler();
     /// Tells the debugger about a local (stepping profile only).
@@ -102,7 +103,6 @@ class RoutineLowering {
     void lowerErrorClauses();
     bool lowerListedNumber(const Expr& number, ir::BlockId body);
     bool hasRetry() const { return hasErrorHandler_; }
-    bool mayChangeArguments() const;
 
     // lower_detached.cpp
     uint32_t share(uint32_t local);
@@ -120,6 +120,7 @@ class RoutineLowering {
     // lower_stmt.cpp
     void lowerList(syntax::StmtList list);
     void lowerStmt(const syntax::Stmt& stmt);
+    bool lowerIncomplete(const syntax::Stmt& stmt);
     uint8_t statementFlags(const syntax::Stmt& stmt) const;
     struct CallSearch; ///< lower_resume.cpp
     uint8_t resumeFlags(const syntax::Stmt& stmt, size_t row) const;
@@ -145,6 +146,15 @@ class RoutineLowering {
     void chargeRounds(const Counting& counting, uint32_t cost);
     bool isFreeOfCalls(size_t firstInst) const;
 
+    // lower_placeholder.cpp
+    bool containsPlaceholder(const syntax::Node& node) const;
+    bool isIncomplete(const Expr& expr) const;
+    bool isIncompleteCall(const syntax::Node& node) const;
+    void reachPlaceholder(const syntax::Node& node);
+    void evaluate(const Expr& expr);
+    bool callsAnything(const syntax::Node& node) const;
+    ValueId zeroOf(ir::TypeId type);
+
     // lower_loops.cpp
     void lowerFor(const syntax::ForStmt& stmt);
     ForPlan planFor(const syntax::ForStmt& stmt, const sema::DataSymbol& variable) const;
@@ -166,6 +176,8 @@ class RoutineLowering {
     ValueId lowerValueAs(const Expr& expr, const sema::Type* wanted);
     ValueId lowerAddr(const Expr& expr); ///< aggregate or handle: address of storage or temporary
     void lowerInto(const Expr& expr, const sema::DataType& type, ValueId dst);
+    ValueId lowerBool(const Expr& expr);
+    ValueId keptUntil(const Expr& later, const Expr& expr, const sema::DataType& type, ValueId address);
     void storeExpr(const Expr& expr, const sema::DataType& type, ValueId dst);
     void lowerCond(const Expr& expr, ir::BlockId ifTrue, ir::BlockId ifFalse);
     ValueId lowerBinary(const syntax::BinaryExpr& expr);
@@ -179,6 +191,8 @@ class RoutineLowering {
     bool namesSignal(const Expr& expr) const;
     ValueId readSignal(const Expr& expr, bool asDnum);
     bool isCheap(const Expr& expr) const;
+    bool mayFail(const syntax::BinaryExpr& expr) const;
+    bool mayFailHalfway(const Expr& value) const;
 
     // lower_vector.cpp: pos and orient arithmetic, component by component
     bool isVectorOp(const Expr& expr) const;
@@ -219,6 +233,9 @@ class RoutineLowering {
     void pushPointerArgument(const sema::BoundArg& arg, std::vector<ValueId>& args);
     void pushConditional(const sema::BoundArg& arg, std::vector<ValueId>& args);
     void pushAny(const sema::BoundArg& arg, std::vector<ValueId>& args);
+    ValueId copyOfArray(const Place& p);
+    void findChangedArguments(const sema::BoundCall& call);
+    bool callsRoutine(const syntax::Node& node) const;
     ValueId argumentAddress(const sema::BoundArg& arg);
     ValueId typeAddress(const Place& p); ///< description of its type, made at run time for conformant arrays
     const sema::BoundArg* findArg(const sema::BoundCall& call, std::string_view name) const;
@@ -258,7 +275,6 @@ class RoutineLowering {
                                    const char*& error) const;
     std::string_view missingInResult(const sema::RoutineSymbol& routine, const char*& error) const;
     std::string_view missingInCallStmt(const syntax::CallStmt& stmt, const char*& error) const;
-    bool hasPlaceholder(const syntax::Node& node) const;
 
     // helpers
     const sema::FileFacts& facts() const { return *module_->facts; }
@@ -288,6 +304,8 @@ class RoutineLowering {
     uint32_t costScopes_ = 0;
     std::unordered_map<const syntax::Node*, LabelCost> labelCosts_;
     std::unordered_map<const sema::DataSymbol*, IntRange> loopRanges_; ///< of FOR variables
+    std::unordered_set<const sema::BoundArg*> changesBeforeUse_; ///< IN arguments that this routine copies
+    std::vector<uint32_t> arrayBuffers_; ///< locals with the address of a buffer, null until it is needed
     std::multimap<ir::TypeId, uint32_t> freeTemps_;
     std::vector<std::pair<ir::TypeId, uint32_t>> usedTemps_;
     bool hasErrorHandler_ = false;

@@ -1,5 +1,5 @@
 // Evaluates instructions whose operands are constants. Exactly what the compiled code would compute: F32 in float,
-// conversions saturating. Results that are NaN are left alone, because their bits depend on the operation.
+// conversions saturating. Results that are not finite are left alone: the program finds out when it gets there.
 
 #include <cmath>
 #include <limits>
@@ -168,7 +168,7 @@ class Folder {
         if (!done && type == kF32) done = floatArithmetic<float>(inst.op, a, b, out);
         if (!done && type == kF64) done = floatArithmetic<double>(inst.op, a, b, out);
         if (!done && (type == kI32 || type == kI64)) done = intArithmetic(inst.op, type, a, b, out);
-        if (!done || std::isnan(out)) return false;
+        if (!done || !std::isfinite(out)) return false;
         inst.op = Op::Const;
         inst.type = type;
         inst.operands.clear();

@@ -14,7 +14,9 @@ std::vector<std::string> verifyAfter(const Module& module, std::string_view pass
 } // namespace
 
 std::vector<std::string> runPasses(Module& module, const PassOptions& options) {
-    return runPasses(module, options, {"simplify-cfg", "fold-constants", "simplify-cfg", "place-safepoints"});
+    return runPasses(
+        module, options,
+        {"simplify-cfg", "fold-constants", "simplify-cfg", "check-overflow", "place-safepoints"});
 }
 
 std::vector<std::string> runPasses(Module& module, const PassOptions& options,
@@ -25,6 +27,8 @@ std::vector<std::string> runPasses(Module& module, const PassOptions& options,
             simplifyCfg(module);
         else if (name == "fold-constants")
             foldConstants(module);
+        else if (name == "check-overflow")
+            checkOverflow(module);
         else if (name == "place-safepoints")
             placeSafepoints(module, options.profile);
         else

@@ -29,6 +29,7 @@ class ModuleParser {
         if (in_.takeWord("file")) return file();
         if (in_.takeWord("folder")) return in_.string(module_.folder) && in_.endOfLine();
         if (in_.takeWord("sources")) return in_.string(module_.sources) && in_.endOfLine();
+        if (in_.takeWord("overflow")) return in_.signedInt(module_.overflowError) && in_.endOfLine();
         if (in_.takeWord("type")) return type();
         if (in_.takeWord("desc")) return desc();
         if (in_.takeWord("global")) return global();
@@ -43,7 +44,7 @@ class ModuleParser {
         if (in_.takeWord("within")) return routineData();
         if (in_.takeWord("named")) return named();
         return in_.expected(
-            "module, file, folder, sources, type, desc, global, native, routine, external, alias, "
+            "module, file, folder, sources, overflow, type, desc, global, native, routine, external, alias, "
             "task, source, search, "
             "within, named or config");
     }

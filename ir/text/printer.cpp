@@ -245,6 +245,7 @@ class RoutinePrinter {
             put(out_, ", {}", inst.index);
             return;
         case Op::Check:
+        case Op::CheckFinite:
             operands(inst);
             put(out_, ", {}", inst.extra);
             return;
@@ -370,6 +371,7 @@ std::string printModule(const Module& module) {
         put(out, "file {} {}\n", i, quoted(module.files[i]));
     if (!module.folder.empty()) put(out, "folder {}\n", quoted(module.folder));
     if (!module.sources.empty()) put(out, "sources {}\n", quoted(module.sources));
+    if (module.overflowError != 0) put(out, "overflow {}\n", module.overflowError);
     for (TypeId id = kPtr + 1; id < module.types.size(); ++id)
         printType(out, module, id);
     for (size_t i = 0; i < module.typeDescs.size(); ++i)

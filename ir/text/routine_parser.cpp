@@ -192,7 +192,8 @@ bool RoutineParser::bodyOfControl(Inst& inst, bool& known) {
     case Op::Safepoint: return in_.signedInt(inst.extra) && values(inst);
     case Op::Br: return in_.block(inst.target[0]);
     case Op::FieldAddr: return value(inst) && in_.punct(',') && in_.unsignedInt(inst.index);
-    case Op::Check: return value(inst) && in_.punct(',') && in_.signedInt(inst.extra);
+    case Op::Check:
+    case Op::CheckFinite: return value(inst) && in_.punct(',') && in_.signedInt(inst.extra);
     case Op::CondBr:
         return value(inst) && in_.punct(',') && in_.block(inst.target[0]) && in_.punct(',') &&
                in_.block(inst.target[1]);

@@ -47,6 +47,7 @@ void RoutineVerifier::types(const Inst& inst) {
     case Op::FieldAddr:
     case Op::ElemAddr: typesOfMemory(inst); return;
     case Op::Check:
+    case Op::CheckFinite:
     case Op::Call:
     case Op::CallNative:
     case Op::Charge:
@@ -171,6 +172,10 @@ void RoutineVerifier::ret(const Inst& inst) {
 
 void RoutineVerifier::typesOfControl(const Inst& inst) {
     switch (inst.op) {
+    case Op::CheckFinite:
+        if (!isFloat(operandType(inst, 0))) add("checks something that is not a floating-point number");
+        if (inst.extra <= 0) add(fmt::format("error number {}", inst.extra));
+        return;
     case Op::Check:
         want(inst, 0, kBool);
         if (inst.extra <= 0) add(fmt::format("error number {}", inst.extra));

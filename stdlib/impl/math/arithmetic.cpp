@@ -1,7 +1,7 @@
 // Manual 1.15: simple arithmetic. Inner calculations are done in double and rounded once to num.
 
 #include "stdlib/impl/math/rounding.h"
-#include "stdlib/impl/support/fail.h"
+#include "stdlib/impl/support/finite.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
@@ -65,10 +65,6 @@ Status power(TaskCore* task, double base, double exponent, double& value) {
     return kOk;
 }
 
-Status tooLarge(TaskCore* task) {
-    return lib::fail(task, err::ERR_OVERFLOW, "the result is too large for the type");
-}
-
 Status addTo(TaskCore* task, float* num, double* dnum, double amount) {
     const double sum = (num ? static_cast<double>(*num) : *dnum) + amount;
     if (num ? !std::isfinite(static_cast<float>(sum)) : !std::isfinite(sum))
@@ -103,26 +99,22 @@ double rt_NumToDnum(float Value) {
 Status rt_Round(TaskCore* task, float* result, float Val, const float* Dec) {
     const int decimals = decimalsOf(Dec);
     if (decimals < 0) return badDecimals(task);
-    *result = lib::roundNum(Val, decimals);
-    return kOk;
+    return lib::give(task, result, lib::roundNum(Val, decimals));
 }
 Status rt_RoundDnum(TaskCore* task, double* result, double Val, const float* Dec) {
     const int decimals = decimalsOf(Dec);
     if (decimals < 0) return badDecimals(task);
-    *result = lib::roundDnum(Val, decimals);
-    return kOk;
+    return lib::give(task, result, lib::roundDnum(Val, decimals));
 }
 Status rt_Trunc(TaskCore* task, float* result, float Val, const float* Dec) {
     const int decimals = decimalsOf(Dec);
     if (decimals < 0) return badDecimals(task);
-    *result = lib::truncNum(Val, decimals);
-    return kOk;
+    return lib::give(task, result, lib::truncNum(Val, decimals));
 }
 Status rt_TruncDnum(TaskCore* task, double* result, double Val, const float* Dec) {
     const int decimals = decimalsOf(Dec);
     if (decimals < 0) return badDecimals(task);
-    *result = lib::truncDnum(Val, decimals);
-    return kOk;
+    return lib::give(task, result, lib::truncDnum(Val, decimals));
 }
 
 Status rt_Sqrt(TaskCore* task, float* result, float Value) {
@@ -139,24 +131,17 @@ Status rt_SqrtDnum(TaskCore* task, double* result, double Value) {
 }
 
 Status rt_Exp(TaskCore* task, float* result, float Exponent) {
-    const float value = static_cast<float>(std::exp(static_cast<double>(Exponent)));
-    if (!std::isfinite(value)) return tooLarge(task);
-    *result = value;
-    return kOk;
+    return lib::give(task, result, static_cast<float>(std::exp(static_cast<double>(Exponent))));
 }
 Status rt_Pow(TaskCore* task, float* result, float Base, float Exponent) {
     double value = 0;
     if (const Status status = power(task, Base, Exponent, value)) return status;
-    if (!std::isfinite(static_cast<float>(value))) return tooLarge(task);
-    *result = static_cast<float>(value);
-    return kOk;
+    return lib::give(task, result, static_cast<float>(value));
 }
 Status rt_PowDnum(TaskCore* task, double* result, double Base, float Exponent) {
     double value = 0;
     if (const Status status = power(task, Base, Exponent, value)) return status;
-    if (!std::isfinite(value)) return tooLarge(task);
-    *result = value;
-    return kOk;
+    return lib::give(task, result, value);
 }
 
 Status rt_DnumToNum(TaskCore* task, float* result, double Value, bool Integer) {

@@ -1,6 +1,6 @@
 // Manual 1.15: lines, planes, spheres and circles through points (mm), by least squares.
 
-#include "stdlib/impl/support/fail.h"
+#include "stdlib/impl/support/finite.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 
 #include <cmath>
+#include <utility>
 
 using namespace rt;
 
@@ -78,12 +79,25 @@ Vector3d oriented(const Vector3d& direction) {
     return direction(largest) < 0 ? Vector3d(-direction) : direction;
 }
 
-void reportErrors(const Eigen::VectorXd& errors, float* rms, float* maxErr, float* worst) {
+struct Optional {
+    float* rms;
+    float* maxErr;
+    float* worst;
+};
+
+/// Stores nothing when a number is beyond the range of num. `shape`: what is fitted.
+template <class... Shape>
+Status giveFit(TaskCore* task, const Eigen::VectorXd& errors, const Optional& out, const Shape&... shape) {
     Eigen::Index index = 0;
-    const double largest = errors.cwiseAbs().maxCoeff(&index);
-    if (rms) *rms = static_cast<float>(std::sqrt(errors.squaredNorm() / static_cast<double>(errors.size())));
-    if (maxErr) *maxErr = static_cast<float>(largest);
-    if (worst) *worst = static_cast<float>(index + 1);
+    const auto largest = static_cast<float>(errors.cwiseAbs().maxCoeff(&index));
+    const auto rms = static_cast<float>(std::sqrt(errors.squaredNorm() / static_cast<double>(errors.size())));
+    if (!lib::isFinite(largest) || !lib::isFinite(rms) || !(lib::isFinite(shape.second) && ...))
+        return lib::tooLarge(task);
+    ((*shape.first = shape.second), ...);
+    if (out.rms) *out.rms = rms;
+    if (out.maxErr) *out.maxErr = largest;
+    if (out.worst) *out.worst = static_cast<float>(index + 1);
+    return kOk;
 }
 
 /// Centre and radius of the best circle (2 rows) or sphere (3 rows): |p|^2 = 2 c.p + (r^2 - |c|^2) is linear in c.
@@ -116,11 +130,9 @@ Status fitCircle(TaskCore* task, const Input& in, data::Pos* center, float* radi
     Eigen::VectorXd errors(points.cols());
     for (Eigen::Index i = 0; i < points.cols(); ++i)
         errors(i) = std::hypot((local.col(i).head<2>() - centre).norm() - r, local(2, i));
-    *center = toPos(spread.mean + spread.axes * inPlane);
-    *radius = static_cast<float>(r);
-    *normal = toPos(oriented(spread.axes.col(2)));
-    reportErrors(errors, rms, maxErr, worst);
-    return kOk;
+    return giveFit(
+        task, errors, {rms, maxErr, worst}, std::pair(center, toPos(spread.mean + spread.axes * inPlane)),
+        std::pair(radius, static_cast<float>(r)), std::pair(normal, toPos(oriented(spread.axes.col(2)))));
 }
 
 } // namespace
@@ -139,10 +151,8 @@ Status rt_FitLine(TaskCore* task, const double* Rows, int32_t RowsDim1, int32_t 
     Eigen::VectorXd errors(points.cols());
     for (Eigen::Index i = 0; i < points.cols(); ++i)
         errors(i) = direction.cross(points.col(i) - spread.mean).norm();
-    *Point = toPos(spread.mean);
-    *Direction = toPos(oriented(direction));
-    reportErrors(errors, RMS, MaxErr, IndexWorst);
-    return kOk;
+    return giveFit(task, errors, {RMS, MaxErr, IndexWorst}, std::pair(Point, toPos(spread.mean)),
+                   std::pair(Direction, toPos(oriented(direction))));
 }
 
 Status rt_FitPlane(TaskCore* task, const double* Rows, int32_t RowsDim1, int32_t RowsDim2,
@@ -155,10 +165,8 @@ Status rt_FitPlane(TaskCore* task, const double* Rows, int32_t RowsDim1, int32_t
     if (!spread.spans(2)) return undetermined(task);
     const Vector3d normal = spread.axes.col(2);
     const Eigen::VectorXd errors = (points.colwise() - spread.mean).transpose() * normal;
-    *Point = toPos(spread.mean);
-    *Normal = toPos(oriented(normal));
-    reportErrors(errors, RMS, MaxErr, IndexWorst);
-    return kOk;
+    return giveFit(task, errors, {RMS, MaxErr, IndexWorst}, std::pair(Point, toPos(spread.mean)),
+                   std::pair(Normal, toPos(oriented(normal))));
 }
 
 Status rt_FitSphere(TaskCore* task, const double* Rows, int32_t RowsDim1, int32_t RowsDim2,
@@ -173,10 +181,8 @@ Status rt_FitSphere(TaskCore* task, const double* Rows, int32_t RowsDim1, int32_
     double r = 0;
     if (!centreOf<3>(local, centre, r)) return undetermined(task);
     const Eigen::VectorXd errors = (local.colwise() - centre).colwise().norm().transpose().array() - r;
-    *Center = toPos(mean + centre);
-    *Radius = static_cast<float>(r);
-    reportErrors(errors, RMS, MaxErr, IndexWorst);
-    return kOk;
+    return giveFit(task, errors, {RMS, MaxErr, IndexWorst}, std::pair(Center, toPos(mean + centre)),
+                   std::pair(Radius, static_cast<float>(r)));
 }
 
 Status rt_FitCircle(TaskCore* task, const double* Rows, int32_t RowsDim1, int32_t RowsDim2,

@@ -2,6 +2,7 @@
 
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/support/fail.h"
+#include "stdlib/impl/support/finite.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
@@ -87,8 +88,7 @@ Status rt_DefFrame(TaskCore* task, data::Pose* result, const data::Robtarget* Ne
     if (!frameOfPoints(toVec(NewP1->trans), toVec(NewP2->trans), toVec(NewP3->trans),
                        Origin ? static_cast<int>(*Origin) : 1, frame))
         return noFrame(task, "the three positions lie on one line or in one place");
-    *result = toPose(frame);
-    return kOk;
+    return give(task, result, toPose(frame));
 }
 
 Status rt_DefDFrame(TaskCore* task, data::Pose* result, const data::Robtarget* OldP1,
@@ -99,8 +99,7 @@ Status rt_DefDFrame(TaskCore* task, data::Pose* result, const data::Robtarget* O
     if (!frameOfPoints(toVec(OldP1->trans), toVec(OldP2->trans), toVec(OldP3->trans), 1, before) ||
         !frameOfPoints(toVec(NewP1->trans), toVec(NewP2->trans), toVec(NewP3->trans), 1, after))
         return noFrame(task, "the three positions lie on one line or in one place");
-    *result = toPose(after * robot::inverse(before));
-    return kOk;
+    return give(task, result, toPose(after * robot::inverse(before)));
 }
 
 Status rt_DefAccFrame(TaskCore* task, data::Pose* result, const data::Robtarget* TargetListOne,
@@ -127,15 +126,18 @@ Status rt_DefAccFrame(TaskCore* task, data::Pose* result, const data::Robtarget*
         largest = std::max(largest, error);
         sum += error;
     }
-    *MaxErr = static_cast<float>(largest);
-    *MeanErr = static_cast<float>(sum / static_cast<double>(count));
-    *result = toPose(frame);
+    const auto worst = static_cast<float>(largest);
+    const auto mean = static_cast<float>(sum / static_cast<double>(count));
+    if (!isFinite(worst) || !isFinite(mean)) return tooLarge(task);
+    if (const Status status = give(task, result, toPose(frame))) return status;
+    *MaxErr = worst;
+    *MeanErr = mean;
     return kOk;
 }
 
 /// The position is mirrored in the xy plane of the object frame of MirPlane. A mirrored tool would be left-handed: its x
 /// and z axes are mirrored (y and z with \MirY), the third axis follows from them.
-Status rt_MirPos(TaskCore*, data::Robtarget* result, const data::Robtarget* Point,
+Status rt_MirPos(TaskCore* task, data::Robtarget* result, const data::Robtarget* Point,
                  const data::Wobjdata* MirPlane, const data::Wobjdata* WObj, bool MirY) {
     const robot::Pose object = WObj ? objectFrame(*WObj) : robot::Pose{};
     const robot::Pose plane = objectFrame(*MirPlane);
@@ -152,7 +154,6 @@ Status rt_MirPos(TaskCore*, data::Robtarget* result, const data::Robtarget* Poin
     data::Robtarget out = *Point;
     out.trans = toPos(back.pos);
     out.rot = toOrient(back.rot);
-    *result = out;
-    return kOk;
+    return give(task, result, out);
 }
 }

@@ -1,6 +1,7 @@
 // Manual 1.15: matrices. Results are computed completely before they are stored, so they may replace an operand.
 
 #include "stdlib/impl/support/fail.h"
+#include "stdlib/impl/support/finite.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
@@ -43,6 +44,7 @@ Status inUse(TaskCore* task, const double* a, int32_t rows, int32_t columns, con
 /// Into the upper left corner of an array that may be larger; the rest becomes 0.
 Status store(TaskCore* task, const Matrix& value, double* out, int32_t rows, int32_t columns) {
     if (value.rows() > rows || value.cols() > columns) return badSize(task);
+    if (!value.allFinite()) return lib::tooLarge(task);
     Out target(out, rows, columns);
     target.setZero();
     target.topLeftCorner(value.rows(), value.cols()) = value;
@@ -122,6 +124,7 @@ Status rt_MatrixSolveQR(TaskCore* task, const double* A, int32_t ADim1, int32_t 
     const Matrix q = qr.householderQ() * Matrix::Identity(a.rows(), a.rows());
     const Matrix r = qr.matrixQR().template triangularView<Eigen::Upper>();
     if (q.rows() > QDim1 || q.cols() > QDim2 || r.rows() > RDim1 || r.cols() > RDim2) return badSize(task);
+    if (!q.allFinite() || !r.allFinite()) return lib::tooLarge(task);
     store(task, q, Q, QDim1, QDim2);
     return store(task, r, R, RDim1, RDim2);
 }
@@ -139,6 +142,7 @@ Status rt_MatrixSVD(TaskCore* task, const double* A, int32_t ADim1, int32_t ADim
     const Matrix v = svd.matrixV();
     if (u.rows() > UDim1 || u.cols() > UDim2 || s.rows() > SDim1 || v.rows() > VDim1 || v.cols() > VDim2)
         return badSize(task);
+    if (!u.allFinite() || !s.allFinite() || !v.allFinite()) return lib::tooLarge(task);
     store(task, u, U, UDim1, UDim2);
     store(task, s, S, SDim1, 1);
     return store(task, v, V, VDim1, VDim2);

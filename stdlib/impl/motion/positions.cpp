@@ -3,6 +3,7 @@
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/fail.h"
+#include "stdlib/impl/support/finite.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
@@ -52,17 +53,16 @@ motion::RobTarget currentTarget(TaskCore* task, const data::Tooldata* tool,
 
 extern "C" {
 
-Status rt_Offs(TaskCore*, data::Robtarget* result, const data::Robtarget* Point, float XOffset, float YOffset,
-               float ZOffset) {
+Status rt_Offs(TaskCore* task, data::Robtarget* result, const data::Robtarget* Point, float XOffset,
+               float YOffset, float ZOffset) {
     data::Robtarget out = *Point;
     out.trans.x += XOffset;
     out.trans.y += YOffset;
     out.trans.z += ZOffset;
-    *result = out;
-    return kOk;
+    return lib::give(task, result, out);
 }
 
-Status rt_RelTool(TaskCore*, data::Robtarget* result, const data::Robtarget* Point, float Dx, float Dy,
+Status rt_RelTool(TaskCore* task, data::Robtarget* result, const data::Robtarget* Point, float Dx, float Dy,
                   float Dz, const float* Rx, const float* Ry, const float* Rz) {
     const auto degrees = [](const float* angle) { return angle ? static_cast<double>(*angle) : 0.0; };
     const robot::Pose moved =
@@ -70,26 +70,22 @@ Status rt_RelTool(TaskCore*, data::Robtarget* result, const data::Robtarget* Poi
     data::Robtarget out = *Point;
     out.trans = lib::toPos(moved.pos);
     out.rot = lib::toOrient(moved.rot);
-    *result = out;
-    return kOk;
+    return lib::give(task, result, out);
 }
 
 Status rt_CRobT(TaskCore* task, data::Robtarget* result, Handle* TaskRef, const String* TaskName,
                 data::Tooldata* Tool, data::Wobjdata* WObj) {
     if (const Status status = checkTask(task, TaskRef, TaskName)) return status;
-    *result = lib::toRobtarget(currentTarget(task, Tool, WObj));
-    return kOk;
+    return lib::give(task, result, lib::toRobtarget(currentTarget(task, Tool, WObj)));
 }
 
 Status rt_CPos(TaskCore* task, data::Pos* result, data::Tooldata* Tool, data::Wobjdata* WObj) {
-    *result = lib::toPos(currentTarget(task, Tool, WObj).pose.pos);
-    return kOk;
+    return lib::give(task, result, lib::toPos(currentTarget(task, Tool, WObj).pose.pos));
 }
 
 Status rt_CJointT(TaskCore* task, data::Jointtarget* result, Handle* TaskRef, const String* TaskName) {
     if (const Status status = checkTask(task, TaskRef, TaskName)) return status;
-    *result = lib::toJointtarget(systemOf(task).currentJoints());
-    return kOk;
+    return lib::give(task, result, lib::toJointtarget(systemOf(task).currentJoints()));
 }
 
 Status rt_CTool(TaskCore* task, data::Tooldata* result, Handle* TaskRef, const String* TaskName) {
@@ -110,8 +106,7 @@ Status rt_CalcRobT(TaskCore* task, data::Robtarget* result, const data::Jointtar
     motion::RobTarget target =
         motion::calcRobTarget(systemOf(task).kinematics(), lib::toJoints(*Joint_target), frames);
     lib::addOffsets(target.extax, lib::motionState(task).axisOffsets, -1);
-    *result = lib::toRobtarget(target);
-    return kOk;
+    return lib::give(task, result, lib::toRobtarget(target));
 }
 
 /// \UseCurWObjPos only matters for work objects that another unit moves.
@@ -124,10 +119,7 @@ Status rt_CalcJointT(TaskCore* task, data::Jointtarget* result, bool, const data
     const auto joints =
         motion::calcJointTarget(system.kinematics(), target, frames, system.currentJoints().robax);
     if (ErrorNumber) *ErrorNumber = 0;
-    if (joints) {
-        *result = lib::toJointtarget(*joints);
-        return kOk;
-    }
+    if (joints) return lib::give(task, result, lib::toJointtarget(*joints));
     const Status number = lib::motionErrno(joints.error());
     if (!ErrorNumber) return lib::fail(task, number, joints.error().message());
     *ErrorNumber = static_cast<float>(number);
@@ -143,8 +135,7 @@ Status rt_ORobT(TaskCore* task, data::Robtarget* result, const data::Robtarget* 
     motion::RobTarget target = lib::toTarget(*OrgPoint);
     if (!InPDisp) target.pose = state.displacement * target.pose;
     if (!InEOffs) lib::addOffsets(target.extax, state.axisOffsets, 1);
-    *result = lib::toRobtarget(target);
-    return kOk;
+    return lib::give(task, result, lib::toRobtarget(target));
 }
 
 Status rt_RobName(TaskCore* task, String* result) {

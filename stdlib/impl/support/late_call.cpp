@@ -11,7 +11,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <cstring>
 #include <fmt/format.h>
+#include <memory>
 #include <vector>
 
 using namespace rt;
@@ -68,7 +71,7 @@ class Binder {
         return routine_.paramCount;
     }
 
-    std::string take(const LateCallArg& arg, const ParamDesc& param, LateArg& out) const {
+    std::string take(const LateCallArg& arg, const ParamDesc& param, LateArg& out) {
         if ((param.type == nullptr) != ((arg.flags & kLateSwitch) != 0))
             return fmt::format("parameter '{}' {} a switch", param.name,
                                param.type == nullptr ? "is" : "is not");
@@ -90,13 +93,24 @@ class Binder {
             return fmt::format("parameter '{}' needs a persistent", param.name);
         if (param.mode == kParamVar && persistent)
             return fmt::format("parameter '{}' needs a variable", param.name);
+        if (param.mode == kParamIn && reference) out.data = copyOf(arg);
         return "";
+    }
+
+    /// IN is a value: whoever made the call could not know the mode, and the routine may reach the object otherwise.
+    void* copyOf(const LateCallArg& arg) {
+        const DescKind kind = lib::elementOf(*arg.type).kind;
+        if (kind == DescKind::Handle || kind == DescKind::Other) return arg.data;
+        auto& copy = copies_.emplace_back(std::make_unique<std::byte[]>(arg.type->size));
+        std::memcpy(copy.get(), arg.data, arg.type->size);
+        return copy.get();
     }
 
     const Controller& controller_;
     const RoutineEntry& routine_;
     std::vector<LateArg> bound_;
     std::vector<bool> taken_;
+    std::vector<std::unique_ptr<std::byte[]>> copies_;
 };
 
 const char* wordFor(int32_t kind) {

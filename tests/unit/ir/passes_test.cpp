@@ -299,3 +299,36 @@ TEST_CASE("a broken module is reported, not transformed", "[ir]") {
     REQUIRE(findings.size() == 1);
     CHECK(findings[0].rfind("input: ", 0) == 0);
 }
+
+namespace {
+
+size_t finiteChecks(const std::string& result, const std::string& lines) {
+    ir::Module module = body(result, lines);
+    module.overflowError = 17;
+    module = run(std::move(module), {"check-overflow"});
+    return count(module.routines[0], Op::CheckFinite);
+}
+
+} // namespace
+
+TEST_CASE("a result out of range is found where it leaves its expression", "[ir]") {
+    const std::string x = "    %0 = sysvar errno\n";
+    // Inner results show in the outer one: one check.
+    CHECK(finiteChecks("f32", x + "    %1 = fmul %0, %0\n    %2 = fadd %1, %0\n    ret %2\n") == 1);
+    // A divisor and the operands of a comparison hide it.
+    CHECK(finiteChecks("f32", x + "    %1 = fmul %0, %0\n    %2 = fdiv %0, %1\n    ret %2\n") == 2);
+    CHECK(finiteChecks("bool", x + "    %1 = fmul %0, %0\n    %2 = flt %1, %0\n    ret %2\n") == 1);
+    // Bounded: no sum with 1 is out of range, nor a quotient by 2; the product of two halves may be.
+    CHECK(finiteChecks("f32", x + "    %1 = const f32 1\n    %2 = fadd %0, %1\n    ret %2\n") == 0);
+    CHECK(finiteChecks("f32", x + "    %1 = const f32 2\n    %2 = fdiv %0, %1\n    ret %2\n") == 0);
+    CHECK(finiteChecks("f32", x + "    %1 = const f32 2\n    %2 = fdiv %1, %0\n    ret %2\n") == 1);
+    CHECK(finiteChecks("f64", x + "    %1 = f32tof64 %0\n    %2 = fmul %1, %1\n    ret %2\n") == 0);
+    CHECK(finiteChecks("f32", x + "    %1 = f32tof64 %0\n    %2 = fmul %1, %1\n    %3 = f64tof32 %2\n"
+                                  "    ret %3\n") == 1);
+}
+
+TEST_CASE("a module without overflow keeps infinities", "[ir]") {
+    ir::Module module =
+        run(body("f32", "    %0 = sysvar errno\n    %1 = fmul %0, %0\n    ret %1\n"), {"check-overflow"});
+    CHECK(count(module.routines[0], Op::CheckFinite) == 0);
+}

@@ -1,0 +1,343 @@
+#include "codegen/wide_loop.h"
+
+#include <algorithm>
+
+#include <llvm/IR/Intrinsics.h>
+
+#include "ir/core/op_info.h"
+
+namespace codegen {
+
+using ir::Inst;
+using ir::Op;
+using ir::ValueId;
+
+namespace {
+
+/// Bytes that the results of one step over the array take: eight registers.
+constexpr unsigned kBytesAtOnce = 128;
+constexpr unsigned kRegister = 16;
+
+bool isFloat(ir::TypeId type) {
+    return type == ir::kF32 || type == ir::kF64;
+}
+
+bool isVectorOp(Op op) {
+    return (op >= Op::FAdd && op <= Op::FNeg) || op == Op::F32ToF64 || op == Op::F64ToF32;
+}
+
+} // namespace
+
+std::optional<WideLoop> WideLoop::plan(const ir::Module& module, const ir::Routine& routine,
+                                       const ir::Cfg& cfg, const ir::Loop& loop) {
+    WideLoop wide(module, routine, loop);
+    if (!loop.innermost || !wide.read(cfg)) return std::nullopt;
+    return wide;
+}
+
+bool WideLoop::read(const ir::Cfg& cfg) {
+    const auto counted = recogniseCountedLoop(routine_, loop_);
+    const bool up = counted && (counted->comparison == Op::ILe || counted->comparison == Op::ILt);
+    if (!up || counted->step != 1) return false;
+    counted_ = *counted;
+    header_ = loop_.header;
+    for (const ir::BlockId p : cfg.preds[header_]) {
+        if (loop_.contains[p]) continue;
+        if (entry_ != ir::kNone) return false;
+        entry_ = p;
+    }
+    if (entry_ == ir::kNone || routine_.insts[routine_.blocks[entry_].insts.back()].op != Op::Br)
+        return false;
+    return readBody() && !checks_.empty() && !stores_.empty() && isIndependent();
+}
+
+/// One way through the loop, block after block.
+bool WideLoop::readBody() {
+    size_t blocks = 0;
+    for (ir::BlockId b = header_;;) {
+        ++blocks;
+        const std::vector<ValueId>& insts = routine_.blocks[b].insts;
+        const Inst& last = routine_.insts[insts.back()];
+        const ValueId test = b == header_ ? last.operands[0] : ir::kNone;
+        for (const ValueId id : insts) {
+            if (id == insts.back() || id == test || routine_.insts[id].op == Op::Stmt) continue;
+            if (!classify(id)) return false;
+            insts_.push_back(id);
+        }
+        if (b != header_ && last.op != Op::Br) return false;
+        b = last.target[0];
+        if (b == header_) break;
+        if (!loop_.contains[b] || blocks > loop_.blocks.size()) return false;
+    }
+    unsigned bytes = 4;
+    for (const ValueId id : checks_)
+        bytes = std::max(bytes, module_.size(ir::valueType(routine_.insts[routine_.insts[id].operands[0]])));
+    width_ = kBytesAtOnce / bytes / static_cast<unsigned>(stores_.size());
+    return blocks == loop_.blocks.size() && stores_.size() <= 4 &&
+           width_ * stores_.size() * bytes == kBytesAtOnce;
+}
+
+const WideLoop::Lane* WideLoop::lane(ValueId id) const {
+    const auto found = lanes_.find(id);
+    return found == lanes_.end() ? nullptr : &found->second;
+}
+
+WideLoop::Kind WideLoop::kindOf(ValueId id) const {
+    const Lane* known = lane(id);
+    return known ? known->kind : Kind::Uniform; // defined ahead of the loop
+}
+
+/// The local that is loaded from or stored to directly; kNone: something else is.
+uint32_t WideLoop::loadedLocal(const Inst& inst) const {
+    const Inst& address = routine_.insts[inst.operands[inst.op == Op::Store ? 1 : 0]];
+    return address.op == Op::LocalAddr ? address.index : ir::kNone;
+}
+
+bool WideLoop::isStored(uint32_t local) const {
+    for (const ir::BlockId b : loop_.blocks)
+        for (const ValueId id : routine_.blocks[b].insts)
+            if (routine_.insts[id].op == Op::Store && loadedLocal(routine_.insts[id]) == local) return true;
+    return false;
+}
+
+bool WideLoop::classify(ValueId id) {
+    const Inst& inst = routine_.insts[id];
+    Lane out;
+    if (inst.op == Op::Load) return classifyLoad(id);
+    if (inst.op == Op::Store) return classifyStore(id);
+    if (inst.op == Op::CheckFinite) {
+        checks_.push_back(id);
+        return true;
+    }
+    if (ir::opInfo(inst.op).touchesMemory || ir::opInfo(inst.op).mayRaise) return false;
+    const bool uniform = std::all_of(inst.operands.begin(), inst.operands.end(),
+                                     [&](ValueId o) { return kindOf(o) == Kind::Uniform; });
+    if (uniform) {
+        if (inst.op == Op::LocalAddr || inst.op == Op::GlobalAddr) out.object = id;
+        if (inst.op == Op::FieldAddr || inst.op == Op::ElemAddr) return false;
+    } else if (inst.op == Op::IAdd || inst.op == Op::ISub) {
+        const bool second = kindOf(inst.operands[0]) != Kind::Index; // uniform + index
+        const ValueId other = inst.operands[second ? 0 : 1];
+        if (kindOf(other) != Kind::Uniform || (second && inst.op == Op::ISub)) return false;
+        out.kind = Kind::Index;
+        const Inst& amount = routine_.insts[other];
+        const auto before = lanes_.at(inst.operands[second ? 1 : 0]).offset;
+        if (before && amount.op == Op::Const)
+            out.offset = *before + static_cast<int64_t>(inst.op == Op::IAdd ? amount.number : -amount.number);
+    } else if (inst.op == Op::I32ToF32 || inst.op == Op::I32ToF64) {
+        out.kind = Kind::Vector;
+    } else if (inst.op == Op::ElemAddr) {
+        const Lane* base = lane(inst.operands[0]);
+        const ValueId object = base ? base->object : inst.operands[0];
+        if (object == ir::kNone || kindOf(inst.operands[0]) != Kind::Uniform || !isFloat(inst.type))
+            return false;
+        out = {Kind::Address, lanes_.at(inst.operands[1]).offset, object};
+    } else if (isVectorOp(inst.op)) {
+        const auto fits = [&](ValueId o) { return kindOf(o) == Kind::Uniform || kindOf(o) == Kind::Vector; };
+        if (!std::all_of(inst.operands.begin(), inst.operands.end(), fits)) return false;
+        out.kind = Kind::Vector;
+    } else {
+        return false;
+    }
+    lanes_[id] = out;
+    return true;
+}
+
+bool WideLoop::classifyLoad(ValueId id) {
+    const Inst& inst = routine_.insts[id];
+    const uint32_t local = loadedLocal(inst);
+    if (local != ir::kNone) {
+        if (local == counted_.counter)
+            lanes_[id] = {Kind::Index, 0, ir::kNone};
+        else if (!module_.isScalar(routine_.locals[local].type) || isStored(local))
+            return false;
+        else
+            lanes_[id] = {};
+        return true;
+    }
+    const Lane* address = lane(inst.operands[0]);
+    if (address && address->kind == Kind::Uniform && address->object != ir::kNone) {
+        scalars_.push_back(address->object);
+        lanes_[id] = {};
+        return true;
+    }
+    if (!address || address->kind != Kind::Address || !isFloat(inst.type)) return false;
+    if (routine_.insts[inst.operands[0]].type != inst.type) return false;
+    loads_.push_back(id);
+    lanes_[id] = {Kind::Vector, std::nullopt, ir::kNone};
+    return true;
+}
+
+bool WideLoop::classifyStore(ValueId id) {
+    const Inst& inst = routine_.insts[id];
+    if (loadedLocal(inst) == counted_.counter) return true;
+    const Lane* address = lane(inst.operands[1]);
+    if (!address || address->kind != Kind::Address || !address->offset || !isFloat(inst.type)) return false;
+    if (routine_.insts[inst.operands[1]].type != inst.type || kindOf(inst.operands[0]) == Kind::Index)
+        return false;
+    stores_.push_back(id);
+    return true;
+}
+
+bool WideLoop::sameObject(ValueId a, ValueId b) const {
+    const Inst &x = routine_.insts[a], &y = routine_.insts[b];
+    return x.op == y.op && x.index == y.index;
+}
+
+/// What a round stores, no other round reads or stores; and a round reads it before it stores.
+bool WideLoop::isIndependent() const {
+    const auto named = [&](ValueId object) {
+        const Op op = routine_.insts[object].op;
+        return op == Op::LocalAddr || op == Op::GlobalAddr;
+    };
+    for (const ValueId s : stores_) {
+        const Lane& stored = lanes_.at(routine_.insts[s].operands[1]);
+        if (!named(stored.object)) return false;
+        for (const ValueId scalar : scalars_)
+            if (sameObject(scalar, stored.object)) return false;
+        for (const ValueId l : loads_) {
+            const Lane& loaded = lanes_.at(routine_.insts[l].operands[0]);
+            if (!named(loaded.object)) return false;
+            if (!sameObject(stored.object, loaded.object)) continue;
+            const bool before =
+                std::find(insts_.begin(), insts_.end(), l) < std::find(insts_.begin(), insts_.end(), s);
+            if (loaded.offset != stored.offset || !before) return false;
+        }
+        for (const ValueId other : stores_)
+            if (other != s && sameObject(stored.object, lanes_.at(routine_.insts[other].operands[1]).object))
+                return false;
+    }
+    return true;
+}
+
+// ---- Emission ------------------------------------------------------------------------------------------------------
+
+void RoutineEmitter::findWideLoops() {
+    if (routine_.stepping || !m_.options().optimise || module_.overflowError == 0) return;
+    const ir::Cfg cfg = ir::buildCfg(module_, routine_, ir::HandlerEdges::No);
+    const ir::LoopInfo info = ir::findLoops(cfg);
+    for (const ir::Loop& loop : info.loops)
+        if (auto wide = WideLoop::plan(module_, routine_, cfg, loop)) wideLoops_.push_back(std::move(*wide));
+}
+
+const WideLoop* RoutineEmitter::wideLoopFrom(ir::BlockId block) const {
+    for (const WideLoop& wide : wideLoops_)
+        if (wide.entry() == block) return &wide;
+    return nullptr;
+}
+
+/// Emits the loop ahead of the loop at the end of the block that enters it.
+void RoutineEmitter::wideLoop(const WideLoop& wide) {
+    BasicBlock *head = newBlock("wide"), *body = newBlock("wide.body"), *storing = newBlock("wide.store");
+    BasicBlock* rest = blockOf(wide.header());
+    Value* counter = locals_[wide.counted_.counter];
+    b_.CreateBr(head);
+    b_.SetInsertPoint(head);
+    Value* first = load(ir::kI32, counter);
+    const ir::Inst& limit = routine_.insts[wide.counted_.bound];
+    Value* bound = limit.op == Op::Const  ? constant(limit)
+                   : limit.op == Op::Load ? load(ir::kI32, locals_[wide.loadedLocal(limit)])
+                                          : value(wide.counted_.bound);
+    llvm::Type* i64 = b_.getInt64Ty();
+    Value* last = b_.CreateAdd(b_.CreateSExt(first, i64), b_.getInt64(wide.width_ - 1));
+    const bool included = wide.counted_.comparison == Op::ILe;
+    b_.CreateCondBr(b_.CreateICmp(included ? llvm::CmpInst::ICMP_SLE : llvm::CmpInst::ICMP_SLT, last,
+                                  b_.CreateSExt(bound, i64)),
+                    body, rest);
+    b_.SetInsertPoint(body);
+    std::unordered_map<ValueId, Value*> values;
+    for (const ValueId id : wide.insts_)
+        if (wide.lane(id)) values[id] = wideValue(wide, id, first, values);
+    b_.CreateCondBr(allFinite(wide, values), storing, rest);
+    b_.SetInsertPoint(storing);
+    for (const ValueId id : wide.stores_) {
+        const Inst& inst = routine_.insts[id];
+        auto* write = b_.CreateAlignedStore(wideOperand(wide, inst, 0, values), values.at(inst.operands[1]),
+                                            llvm::Align(module_.align(inst.type)));
+        write->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().data[inst.type]);
+    }
+    store(ir::kI32, b_.CreateAdd(first, b_.getInt32(wide.width_)), counter);
+    b_.CreateBr(head);
+    storedStmt_.reset();
+}
+
+llvm::Value* RoutineEmitter::wideOperand(const WideLoop& wide, const ir::Inst& inst, size_t i,
+                                         const std::unordered_map<ir::ValueId, Value*>& values) {
+    const ValueId id = inst.operands[i];
+    const auto found = values.find(id);
+    if (found != values.end() && found->second->getType()->isVectorTy()) return found->second;
+    return b_.CreateVectorSplat(wide.width_, found != values.end() ? found->second : value(id));
+}
+
+llvm::Value* RoutineEmitter::wideValue(const WideLoop& wide, ir::ValueId id, Value* first,
+                                       const std::unordered_map<ir::ValueId, Value*>& values) {
+    const Inst& inst = routine_.insts[id];
+    const auto scalar = [&](size_t i) {
+        const auto found = values.find(inst.operands[i]);
+        return found != values.end() ? found->second : value(inst.operands[i]);
+    };
+    const auto wideType = [&](llvm::Type* type) { return llvm::FixedVectorType::get(type, wide.width_); };
+    switch (wide.lane(id)->kind) {
+    case WideLoop::Kind::Uniform: instruction(id); return value(id);
+    case WideLoop::Kind::Index: // in the first of the rounds
+        if (inst.op == Op::Load) return first;
+        return inst.op == Op::IAdd ? b_.CreateAdd(scalar(0), scalar(1)) : b_.CreateSub(scalar(0), scalar(1));
+    case WideLoop::Kind::Address:
+        return b_.CreateInBoundsGEP(m_.memoryType(inst.type), scalar(0),
+                                    b_.CreateSExt(scalar(1), b_.getInt64Ty()));
+    case WideLoop::Kind::Vector: break;
+    }
+    if (inst.op == Op::Load) {
+        auto* read = b_.CreateAlignedLoad(wideType(m_.memoryType(inst.type)), scalar(0),
+                                          llvm::Align(module_.align(inst.type)));
+        read->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().data[inst.type]);
+        return read;
+    }
+    if (inst.op == Op::I32ToF32 || inst.op == Op::I32ToF64) {
+        std::vector<llvm::Constant*> rounds;
+        for (unsigned i = 0; i < wide.width_; ++i)
+            rounds.push_back(b_.getInt32(i));
+        Value* numbers =
+            b_.CreateAdd(b_.CreateVectorSplat(wide.width_, scalar(0)), llvm::ConstantVector::get(rounds));
+        return b_.CreateSIToFP(numbers, wideType(m_.valueType(inst.type)));
+    }
+    const auto operand = [&](size_t i) { return wideOperand(wide, inst, i, values); };
+    switch (inst.op) {
+    case Op::FAdd: return b_.CreateFAdd(operand(0), operand(1));
+    case Op::FSub: return b_.CreateFSub(operand(0), operand(1));
+    case Op::FMul: return b_.CreateFMul(operand(0), operand(1));
+    case Op::FDiv: return b_.CreateFDiv(operand(0), operand(1));
+    case Op::FNeg: return b_.CreateFNeg(operand(0));
+    case Op::F32ToF64: return b_.CreateFPExt(operand(0), wideType(b_.getDoubleTy()));
+    default: return b_.CreateFPTrunc(operand(0), wideType(b_.getFloatTy()));
+    }
+}
+
+/// One look at all results: a sum of them shows infinities and NaN. It may overflow where none of them does; then the
+/// loop itself does the work.
+llvm::Value* RoutineEmitter::allFinite(const WideLoop& wide,
+                                       const std::unordered_map<ir::ValueId, Value*>& values) {
+    Value* fine = b_.getTrue();
+    for (const ValueId id : wide.checks_) {
+        Value* sum = wideOperand(wide, routine_.insts[id], 0, values);
+        auto* type = llvm::cast<llvm::FixedVectorType>(sum->getType());
+        const unsigned lanes = kRegister / (type->getScalarSizeInBits() / 8);
+        while (type->getNumElements() > lanes) {
+            const unsigned half = type->getNumElements() / 2;
+            std::vector<int> low, high;
+            for (unsigned i = 0; i < half; ++i) {
+                low.push_back(static_cast<int>(i));
+                high.push_back(static_cast<int>(half + i));
+            }
+            sum = b_.CreateFAdd(b_.CreateShuffleVector(sum, low), b_.CreateShuffleVector(sum, high));
+            type = llvm::cast<llvm::FixedVectorType>(sum->getType());
+        }
+        // x - x is no number exactly when x is infinite or none.
+        Value* difference = b_.CreateFSub(sum, sum);
+        Value* bad = b_.CreateFCmpUNO(difference, difference);
+        fine = b_.CreateAnd(fine, b_.CreateNot(b_.CreateOrReduce(bad)));
+    }
+    return fine;
+}
+
+} // namespace codegen

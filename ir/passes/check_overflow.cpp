@@ -1,0 +1,129 @@
+// A floating-point result beyond the range of its type is an error of the program. Infinities and NaN propagate
+// through sums and products, so that a check where the value leaves an expression (is stored, passed, returned, compared,
+// divided by or converted to an integer) finds what went wrong anywhere in it. Values in memory are finite. A bound of
+// each magnitude shows where no check is needed: a counter that grows by 1 cannot overflow, it stops growing before.
+
+#include <cmath>
+#include <limits>
+
+#include "ir/core/cfg.h"
+#include "ir/core/op_info.h"
+#include "ir/passes/passes.h"
+
+namespace ir {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool isFloat(TypeId type) {
+    return type == kF32 || type == kF64;
+}
+
+double largest(TypeId type) {
+    return type == kF32 ? static_cast<double>(std::numeric_limits<float>::max())
+                        : std::numeric_limits<double>::max();
+}
+
+/// Rounded to the type, as the instruction does: rounding is monotone, so a bound stays one.
+double rounded(TypeId type, double value) {
+    if (std::isnan(value)) return kInfinity;
+    return type == kF32 ? static_cast<double>(static_cast<float>(value)) : value;
+}
+
+class OverflowChecker {
+  public:
+    OverflowChecker(const Module& module, Routine& routine)
+        : module_(module), routine_(routine), lossy_(routine.insts.size(), false),
+          bound_(routine.insts.size(), kInfinity) {}
+
+    void run() {
+        for (const Block& block : routine_.blocks)
+            for (ValueId id : block.insts)
+                noteUses(routine_.insts[id]);
+        for (BlockId b : buildCfg(module_, routine_, HandlerEdges::Yes).order)
+            visit(routine_.blocks[b]);
+    }
+
+  private:
+    const Inst& inst(ValueId id) const { return routine_.insts[id]; }
+
+    /// Marks the operands whose infinity would not show in the result.
+    void noteUses(const Inst& user) {
+        switch (user.op) {
+        case Op::FAdd:
+        case Op::FSub:
+        case Op::FMul:
+        case Op::FNeg:
+        case Op::F32ToF64:
+        case Op::F64ToF32:
+        case Op::Select: return;
+        case Op::FDiv: lossy_[user.operands[1]] = true; return;
+        default:
+            for (ValueId operand : user.operands)
+                lossy_[operand] = true;
+        }
+    }
+
+    void visit(Block& block) {
+        std::vector<ValueId> insts;
+        for (ValueId id : block.insts) {
+            insts.push_back(id);
+            const TypeId type = valueType(inst(id));
+            if (!isFloat(type)) continue;
+            bound_[id] = boundOf(inst(id), type);
+            if (bound_[id] <= largest(type) || !lossy_[id]) continue;
+            bound_[id] = largest(type);
+            Inst check;
+            check.op = Op::CheckFinite;
+            check.operands = {id};
+            check.extra = module_.overflowError;
+            check.stmt = inst(id).stmt;
+            insts.push_back(static_cast<ValueId>(routine_.insts.size()));
+            routine_.insts.push_back(std::move(check));
+        }
+        block.insts = std::move(insts);
+    }
+
+    /// What the magnitude of the value cannot exceed; infinity: anything may come out.
+    double boundOf(const Inst& value, TypeId type) const {
+        const auto operand = [&](size_t i) { return bound_[value.operands[i]]; };
+        switch (value.op) {
+        case Op::Const: return rounded(type, std::abs(value.number));
+        case Op::FAdd:
+        case Op::FSub: return rounded(type, operand(0) + operand(1));
+        case Op::FMul: return rounded(type, operand(0) * operand(1));
+        case Op::FDiv: {
+            const Inst& divisor = inst(value.operands[1]);
+            if (divisor.op != Op::Const || divisor.number == 0) return kInfinity;
+            return rounded(type, operand(0) / rounded(type, std::abs(divisor.number)));
+        }
+        case Op::FNeg:
+        case Op::FTrunc:
+        case Op::F32ToF64: return operand(0);
+        case Op::F64ToF32: return rounded(type, operand(0));
+        case Op::Select: return std::max(operand(1), operand(2));
+        case Op::I32ToF32:
+        case Op::I32ToF64: return 0x1p31;
+        case Op::I64ToF32:
+        case Op::I64ToF64: return 0x1p63;
+        case Op::CallNative:
+            return module_.natives[value.index].nativeClass == NativeClass::Const ? largest(type) : kInfinity;
+        default: return largest(type); // memory, parameters and results of routines hold finite values
+        }
+    }
+
+    const Module& module_;
+    Routine& routine_;
+    std::vector<bool> lossy_;
+    std::vector<double> bound_;
+};
+
+} // namespace
+
+void checkOverflow(Module& module) {
+    if (module.overflowError == 0) return;
+    for (Routine& routine : module.routines)
+        OverflowChecker(module, routine).run();
+}
+
+} // namespace ir
