@@ -17,6 +17,8 @@ bool RoutineEmitter::arithmetic(const ir::Inst& inst, ir::ValueId id) {
         result = floatArithmetic(inst);
     else if (inst.op >= Op::IAdd && inst.op <= Op::INeg)
         result = intArithmetic(inst);
+    else if (inst.op == Op::IsFinite)
+        result = isFinite(operand(inst, 0));
     else if (inst.op >= Op::FEq && inst.op <= Op::IULt)
         result = comparison(inst);
     else if (inst.op == Op::And)
@@ -59,9 +61,15 @@ llvm::Value* RoutineEmitter::floatArithmetic(const ir::Inst& inst) {
     }
 }
 
+/// What costs the processor least: for binary32 a comparison of the bits without the sign; x - x is no number when x is
+/// infinite or none.
 llvm::Value* RoutineEmitter::isFinite(Value* number) {
-    Value* magnitude = b_.CreateUnaryIntrinsic(llvm::Intrinsic::fabs, number);
-    return b_.CreateFCmpOLT(magnitude, llvm::ConstantFP::getInfinity(number->getType()));
+    if (number->getType()->isFloatTy()) {
+        Value* bits = b_.CreateShl(b_.CreateBitCast(number, b_.getInt32Ty()), 1);
+        return b_.CreateICmpULT(bits, b_.getInt32(0xFF000000));
+    }
+    Value* difference = b_.CreateFSub(number, number);
+    return b_.CreateFCmpORD(difference, difference);
 }
 
 llvm::Value* RoutineEmitter::intArithmetic(const ir::Inst& inst) {

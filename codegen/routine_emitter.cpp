@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "codegen/joined_rounds.h"
 #include "codegen/wide_loop.h"
 #include "ir/core/op_info.h"
 #include "runtime/abi/rt_abi.h"
@@ -68,7 +69,7 @@ void RoutineEmitter::analyse() {
     }
     findRetried();
     findFrameBlock();
-    findWideLoops();
+    findFastLoops();
 }
 
 bool RoutineEmitter::isEmpty(ir::BlockId id) const {
@@ -283,11 +284,12 @@ void RoutineEmitter::terminator(const ir::Inst& inst) {
     enterStatement();
     switch (inst.op) {
     case ir::Op::Br:
-        if (const WideLoop* wide = wideLoopFrom(current_)) return wideLoop(*wide);
+        if (entersFastLoop()) return;
         b_.CreateBr(blockOf(inst.target[0]));
         return;
     case ir::Op::CondBr:
-        b_.CreateCondBr(operand(inst, 0), blockOf(inst.target[0]), blockOf(inst.target[1]));
+        b_.CreateCondBr(operand(inst, 0), blockOf(inst.target[0]), blockOf(inst.target[1]),
+                        inst.extra == 1 ? m_.unlikely() : nullptr);
         return;
     case ir::Op::Switch: return switchOn(inst);
     case ir::Op::Ret: return ret(inst);

@@ -13,6 +13,7 @@
 
 namespace codegen {
 
+class JoinedRounds;
 class WideLoop;
 
 class RoutineEmitter {
@@ -60,10 +61,16 @@ class RoutineEmitter {
     Value* constant(const ir::Inst& inst);
     Value* isFinite(Value* number);
 
+    // joined_rounds.cpp
+    void findFastLoops();
+    bool entersFastLoop();
+    void joinedRounds(const JoinedRounds& joined);
+    void oneOfRounds(const JoinedRounds& joined, bool isLast, BasicBlock* back, Value* (&sums)[2]);
+
     // wide_loop.cpp
-    void findWideLoops();
-    const WideLoop* wideLoopFrom(ir::BlockId block) const;
     void wideLoop(const WideLoop& wide);
+    Value* misplacedElements(const WideLoop& wide);
+    void wideRounds(const WideLoop& wide, BasicBlock* head, uint32_t alignment);
     Value* wideOperand(const WideLoop& wide, const ir::Inst& inst, size_t i,
                        const std::unordered_map<ir::ValueId, Value*>& values);
     Value* wideValue(const WideLoop& wide, ir::ValueId id, Value* first,
@@ -138,6 +145,7 @@ class RoutineEmitter {
     std::vector<llvm::AllocaInst*> spills_; ///< of values that handlers may need in other blocks
     std::vector<ir::BlockId> homeOf_;
     std::vector<WideLoop> wideLoops_;
+    std::vector<JoinedRounds> joinedRounds_;
     std::vector<Value*> locals_;
     llvm::AllocaInst* resultSlots_[8] = {}; ///< for scalar results of natives, by type
     Value *task_ = nullptr, *caller_ = nullptr, *result_ = nullptr;

@@ -212,26 +212,43 @@ bool WideLoop::isIndependent() const {
 
 // ---- Emission ------------------------------------------------------------------------------------------------------
 
-void RoutineEmitter::findWideLoops() {
-    if (routine_.stepping || !m_.options().optimise || module_.overflowError == 0) return;
-    const ir::Cfg cfg = ir::buildCfg(module_, routine_, ir::HandlerEdges::No);
-    const ir::LoopInfo info = ir::findLoops(cfg);
-    for (const ir::Loop& loop : info.loops)
-        if (auto wide = WideLoop::plan(module_, routine_, cfg, loop)) wideLoops_.push_back(std::move(*wide));
-}
-
-const WideLoop* RoutineEmitter::wideLoopFrom(ir::BlockId block) const {
-    for (const WideLoop& wide : wideLoops_)
-        if (wide.entry() == block) return &wide;
-    return nullptr;
-}
-
-/// Emits the loop ahead of the loop at the end of the block that enters it.
+/// Emits the loop ahead of the loop at the end of the block that enters it; in two forms when the elements may lie as the
+/// processor likes them.
 void RoutineEmitter::wideLoop(const WideLoop& wide) {
-    BasicBlock *head = newBlock("wide"), *body = newBlock("wide.body"), *storing = newBlock("wide.store");
+    BasicBlock* anywhere = newBlock("wide");
+    if (Value* misplaced = misplacedElements(wide)) {
+        BasicBlock* aligned = newBlock("wide.aligned");
+        b_.CreateCondBr(b_.CreateICmpEQ(misplaced, b_.getInt32(0)), aligned, anywhere);
+        wideRounds(wide, aligned, kRegister);
+    } else {
+        b_.CreateBr(anywhere);
+    }
+    wideRounds(wide, anywhere, 1);
+    storedStmt_.reset();
+}
+
+/// A number that is 0 when all elements of the first round begin a register; null: that is not known.
+llvm::Value* RoutineEmitter::misplacedElements(const WideLoop& wide) {
+    Value* first = load(ir::kI32, locals_[wide.counted_.counter]);
+    Value* misplaced = b_.getInt32(0);
+    for (const auto& [id, lane] : wide.lanes_) {
+        if (lane.kind != WideLoop::Kind::Address) continue;
+        const Inst& object = routine_.insts[lane.object];
+        if (!lane.offset || object.op != Op::GlobalAddr) return nullptr;
+        const auto* global = llvm::dyn_cast<llvm::GlobalVariable>(m_.global(object.index));
+        if (!global || global->getAlign().valueOrOne().value() < kRegister) return nullptr;
+        const uint32_t perRegister = kRegister / module_.size(routine_.insts[id].type);
+        Value* index = b_.CreateAdd(first, b_.getInt32(static_cast<uint32_t>(*lane.offset)));
+        misplaced = b_.CreateOr(misplaced, b_.CreateAnd(index, b_.getInt32(perRegister - 1)));
+    }
+    return misplaced;
+}
+
+/// `alignment`: of the elements at the counter, as far as it exceeds that of their type.
+void RoutineEmitter::wideRounds(const WideLoop& wide, BasicBlock* head, uint32_t alignment) {
+    BasicBlock *body = newBlock("wide.body"), *storing = newBlock("wide.store");
     BasicBlock* rest = blockOf(wide.header());
     Value* counter = locals_[wide.counted_.counter];
-    b_.CreateBr(head);
     b_.SetInsertPoint(head);
     Value* first = load(ir::kI32, counter);
     const ir::Inst& limit = routine_.insts[wide.counted_.bound];
@@ -240,25 +257,26 @@ void RoutineEmitter::wideLoop(const WideLoop& wide) {
                                           : value(wide.counted_.bound);
     llvm::Type* i64 = b_.getInt64Ty();
     Value* last = b_.CreateAdd(b_.CreateSExt(first, i64), b_.getInt64(wide.width_ - 1));
-    const bool included = wide.counted_.comparison == Op::ILe;
-    b_.CreateCondBr(b_.CreateICmp(included ? llvm::CmpInst::ICMP_SLE : llvm::CmpInst::ICMP_SLT, last,
-                                  b_.CreateSExt(bound, i64)),
-                    body, rest);
+    const auto goesOn =
+        wide.counted_.comparison == Op::ILe ? llvm::CmpInst::ICMP_SLE : llvm::CmpInst::ICMP_SLT;
+    b_.CreateCondBr(b_.CreateICmp(goesOn, last, b_.CreateSExt(bound, i64)), body, rest);
     b_.SetInsertPoint(body);
     std::unordered_map<ValueId, Value*> values;
     for (const ValueId id : wide.insts_)
         if (wide.lane(id)) values[id] = wideValue(wide, id, first, values);
-    b_.CreateCondBr(allFinite(wide, values), storing, rest);
+    for (const ValueId id : wide.loads_)
+        llvm::cast<llvm::LoadInst>(values.at(id))
+            ->setAlignment(llvm::Align(std::max(alignment, module_.align(routine_.insts[id].type))));
+    b_.CreateCondBr(allFinite(wide, values), storing, rest, m_.unlikely());
     b_.SetInsertPoint(storing);
     for (const ValueId id : wide.stores_) {
         const Inst& inst = routine_.insts[id];
         auto* write = b_.CreateAlignedStore(wideOperand(wide, inst, 0, values), values.at(inst.operands[1]),
-                                            llvm::Align(module_.align(inst.type)));
+                                            llvm::Align(std::max(alignment, module_.align(inst.type))));
         write->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().data[inst.type]);
     }
     store(ir::kI32, b_.CreateAdd(first, b_.getInt32(wide.width_)), counter);
     b_.CreateBr(head);
-    storedStmt_.reset();
 }
 
 llvm::Value* RoutineEmitter::wideOperand(const WideLoop& wide, const ir::Inst& inst, size_t i,

@@ -80,7 +80,8 @@ struct Inst {
     std::vector<SwitchCase> cases; ///< Switch
     double number = 0;             ///< Const
     StmtId stmt = kNone;           ///< statement it belongs to
-    int32_t extra = 0; ///< Check, CheckFinite: error number; Charge, Safepoint: cost; Sysvar: SysvarKind
+    /// Check, CheckFinite: error number; Charge, Safepoint: cost; Sysvar: SysvarKind; CondBr: 1 = seldom goes to target[1]
+    int32_t extra = 0;
 };
 
 // ---- Statements ------------------------------------------------------------------------------------------

@@ -14,9 +14,9 @@ std::vector<std::string> verifyAfter(const Module& module, std::string_view pass
 } // namespace
 
 std::vector<std::string> runPasses(Module& module, const PassOptions& options) {
-    return runPasses(
-        module, options,
-        {"simplify-cfg", "fold-constants", "simplify-cfg", "check-overflow", "place-safepoints"});
+    return runPasses(module, options,
+                     {"simplify-cfg", "fold-constants", "simplify-cfg", "check-overflow", "merge-checks",
+                      "place-safepoints"});
 }
 
 std::vector<std::string> runPasses(Module& module, const PassOptions& options,
@@ -29,6 +29,8 @@ std::vector<std::string> runPasses(Module& module, const PassOptions& options,
             foldConstants(module);
         else if (name == "check-overflow")
             checkOverflow(module);
+        else if (name == "merge-checks")
+            mergeChecks(module);
         else if (name == "place-safepoints")
             placeSafepoints(module, options.profile);
         else

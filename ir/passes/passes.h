@@ -18,12 +18,12 @@ struct PassOptions {
     Profile profile = Profile::Release;
 };
 
-/// Runs simplifyCfg, foldConstants, checkOverflow, placeSafepoints. Returns the verifier's findings, each prefixed with the
+/// Runs simplifyCfg, foldConstants, checkOverflow, mergeChecks, placeSafepoints. Returns the verifier's findings, each prefixed with the
 /// pass after which it appeared ("input: " when the module came in broken); empty = fine. Stops at the first
 /// pass with findings.
 std::vector<std::string> runPasses(Module& module, const PassOptions& options);
 
-/// Runs the named passes only ("simplify-cfg", "fold-constants", "check-overflow", "place-safepoints"), for tests and for emit.
+/// Runs the named passes only ("simplify-cfg", "fold-constants", "check-overflow", "merge-checks", "place-safepoints"), for tests and for emit.
 std::vector<std::string> runPasses(Module& module, const PassOptions& options,
                                    const std::vector<std::string_view>& names);
 
@@ -33,6 +33,8 @@ void simplifyCfg(Module& module);
 void foldConstants(Module& module);
 /// Raises Module::overflowError where a floating-point result is out of range; does nothing when that is 0.
 void checkOverflow(Module& module);
+/// One look at several values in place of a check of each; release profile only.
+void mergeChecks(Module& module);
 /// Inserts the safepoints (design chapter 4); the input must contain none.
 void placeSafepoints(Module& module, Profile profile);
 

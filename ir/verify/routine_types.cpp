@@ -88,6 +88,8 @@ void RoutineVerifier::typesOfArithmetic(const Inst& inst) {
     bool ok = false;
     if (inst.op >= Op::FAdd && inst.op <= Op::FNeg)
         ok = isFloat(type);
+    else if (inst.op == Op::IsFinite)
+        ok = isFloat(type);
     else if (inst.op >= Op::IAdd && inst.op <= Op::INeg)
         ok = isInt(type);
     else if (inst.op == Op::FTrunc || (inst.op >= Op::FEq && inst.op <= Op::FGe))

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <tuple>
 
@@ -24,6 +25,31 @@ bool hasHandles(const TypeDesc& type) {
     for (uint32_t i = 0; i < parts; ++i)
         if (hasHandles(*type.fields[i])) return true;
     return false;
+}
+
+template <class Number> Number numberAt(const unsigned char* data) {
+    Number number;
+    std::memcpy(&number, data, sizeof number);
+    return number;
+}
+
+/// The bytes of a file somebody may have edited can be what no program could store.
+bool isValue(const unsigned char* data, const TypeDesc& type) {
+    switch (type.kind) {
+    case DescKind::Num: return std::isfinite(numberAt<float>(data));
+    case DescKind::Dnum: return std::isfinite(numberAt<double>(data));
+    case DescKind::Bool: return *data <= 1;
+    case DescKind::String: return numberAt<uint32_t>(data) <= sizeof(String::bytes);
+    case DescKind::Array:
+        for (uint32_t i = 0; i < type.count; ++i)
+            if (!isValue(data + uint64_t{i} * type.fields[0]->size, *type.fields[0])) return false;
+        return true;
+    case DescKind::Record:
+        for (uint32_t i = 0; i < type.count; ++i)
+            if (!isValue(data + type.offsets[i], *type.fields[i])) return false;
+        return true;
+    default: return true;
+    }
 }
 
 /// Who keeps the objects behind a handle or an array of handles; null: nobody.
@@ -200,6 +226,8 @@ bool imageToValue(const std::string& text, void* data, const TypeDesc& type, uin
         const char* at = text.data() + 1 + 2 * i;
         if (std::from_chars(at, at + 2, bytes[i], 16).ptr != at + 2) return false;
     }
+    for (uint64_t i = 0; i < count; ++i)
+        if (!isValue(bytes.data() + i * type.size, type)) return false;
     std::memcpy(data, bytes.data(), bytes.size());
     return true;
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rt {
 
@@ -70,7 +71,9 @@ double IoSystem::read(Handle handle, IoResult& result) const {
 }
 
 IoResult IoSystem::normalise(const SignalConfig& config, double& value) {
-    if (!std::isfinite(value)) return IoResult::OutOfRange;
+    // Programs read the value as a num.
+    if (!(std::fabs(value) <= static_cast<double>(std::numeric_limits<float>::max())))
+        return IoResult::OutOfRange;
     if (isDigital(config.type)) {
         value = value != 0 ? 1 : 0;
         return IoResult::Ok;

@@ -327,6 +327,26 @@ TEST_CASE("a result out of range is found where it leaves its expression", "[ir]
                                   "    ret %3\n") == 1);
 }
 
+TEST_CASE("checks with nothing but stores between them become one look", "[ir]") {
+    const std::string lines =
+        "    %0 = sysvar errno\n    %1 = fmul %0, %0\n    checkfinite %1, 17\n    %2 = global @\"g\"\n"
+        "    store f32 %1, %2\n    %3 = fadd %0, %0\n    checkfinite %3, 17\n    ret %3\n";
+    const std::string global = "global @\"g\" \"g\" in \"M\" f32 var\n";
+    ir::Module module =
+        parse(global + "routine @\"r\" \"r\" in \"M\" f32 () {\n  stmt 0 plain 1:1 1:2\n  b0:\n    stmt 0\n" +
+              lines + "}\n");
+    module = run(std::move(module), {"merge-checks"});
+    const ir::Routine& r = module.routines[0];
+    REQUIRE(r.blocks.size() == 3);
+    CHECK(count(r, Op::IsFinite) == 1);
+    CHECK(count(r, Op::CheckFinite) == 2);
+    // The way that is seldom taken: undo the store, check, store, check.
+    std::vector<Op> again;
+    for (const ir::ValueId id : r.blocks[2].insts)
+        again.push_back(r.insts[id].op);
+    CHECK(again == std::vector<Op>{Op::Store, Op::CheckFinite, Op::Store, Op::CheckFinite, Op::Br});
+}
+
 TEST_CASE("a module without overflow keeps infinities", "[ir]") {
     ir::Module module =
         run(body("f32", "    %0 = sysvar errno\n    %1 = fmul %0, %0\n    ret %1\n"), {"check-overflow"});

@@ -1,0 +1,195 @@
+// Several `checkfinite` of a block that have nothing between them but arithmetic, loads and stores are replaced by one look at
+// all of their values. When it finds something, the stores in between are undone and everything is done again in order,
+// each check in its place: what is seen of an error does not change.
+
+#include <algorithm>
+
+#include "ir/core/cfg.h"
+#include "ir/core/op_info.h"
+#include "ir/passes/passes.h"
+
+namespace ir {
+namespace {
+
+class CheckMerger {
+  public:
+    CheckMerger(const Module& module, Routine& routine) : module_(module), routine_(routine) {}
+
+    void run() {
+        findPrivateLocals();
+        // Blocks made on the way hold the rest of those before them; what is done again is left as it is.
+        for (BlockId b = 0; b < routine_.blocks.size(); ++b) {
+            if (std::find(again_.begin(), again_.end(), b) != again_.end()) continue;
+            if (const Region region = findRegion(routine_.blocks[b].insts); region.checks.size() > 1)
+                merge(b, region);
+        }
+    }
+
+  private:
+    /// Places in the list of a block: from the first check to the barrier behind the last one.
+    struct Region {
+        size_t begin = 0, end = 0;
+        std::vector<ValueId> checks;
+    };
+
+    const Inst& inst(ValueId id) const { return routine_.insts[id]; }
+
+    ValueId add(Op op, TypeId type, std::vector<ValueId> operands, StmtId stmt) {
+        Inst made;
+        made.op = op;
+        made.type = type;
+        made.operands = std::move(operands);
+        made.stmt = stmt;
+        routine_.insts.push_back(std::move(made));
+        return static_cast<ValueId>(routine_.insts.size() - 1);
+    }
+
+    void findPrivateLocals() {
+        private_.assign(routine_.locals.size(), true);
+        for (const Block& block : routine_.blocks)
+            for (const ValueId id : block.insts)
+                for (size_t i = 0; i < inst(id).operands.size(); ++i) {
+                    const Inst& address = inst(inst(id).operands[i]);
+                    if (address.op != Op::LocalAddr) continue;
+                    const bool direct =
+                        (inst(id).op == Op::Load && i == 0) || (inst(id).op == Op::Store && i == 1);
+                    if (!direct) private_[address.index] = false;
+                }
+    }
+
+    bool isBarrier(const Inst& i) const {
+        if (i.op == Op::CheckFinite || i.op == Op::Load || i.op == Op::Store || i.op == Op::Stmt)
+            return false;
+        return opInfo(i.op).terminator || opInfo(i.op).touchesMemory || mayRaise(module_, i);
+    }
+
+    Region findRegion(const std::vector<ValueId>& insts) const {
+        Region region;
+        for (size_t i = 0; i < insts.size(); ++i) {
+            if (inst(insts[i]).op == Op::CheckFinite) {
+                if (region.checks.empty()) region.begin = i;
+                region.checks.push_back(insts[i]);
+                region.end = i + 1;
+            } else if (isBarrier(inst(insts[i]))) {
+                if (region.checks.size() > 1) return region;
+                region = {};
+            }
+        }
+        return region;
+    }
+
+    /// Values whose infinity shows in a value that is checked later in the region.
+    std::vector<bool> findCovered(const std::vector<ValueId>& insts, const Region& region) const {
+        std::vector<ValueId> stored(routine_.locals.size(), kNone); // value of a private local at this point
+        std::vector<ValueId> source(routine_.insts.size(), kNone);  // of a load: what was stored there
+        for (size_t i = 0; i < region.end; ++i) {
+            const Inst& at = inst(insts[i]);
+            if (at.op != Op::Load && at.op != Op::Store) continue;
+            const Inst& address = inst(at.operands[at.op == Op::Load ? 0 : 1]);
+            if (address.op != Op::LocalAddr || !private_[address.index]) continue;
+            if (at.op == Op::Load)
+                source[insts[i]] = stored[address.index];
+            else
+                stored[address.index] = at.operands[0];
+        }
+        std::vector<bool> covered(routine_.insts.size(), false);
+        for (const ValueId check : region.checks) {
+            std::vector<ValueId> work = passedOn(inst(check).operands[0], source);
+            while (!work.empty()) {
+                const ValueId value = work.back();
+                work.pop_back();
+                if (covered[value]) continue;
+                covered[value] = true;
+                for (const ValueId next : passedOn(value, source))
+                    work.push_back(next);
+            }
+        }
+        return covered;
+    }
+
+    /// The operands whose infinity the value takes over.
+    std::vector<ValueId> passedOn(ValueId id, const std::vector<ValueId>& source) const {
+        switch (inst(id).op) {
+        case Op::FAdd:
+        case Op::FSub:
+        case Op::FMul:
+        case Op::FNeg:
+        case Op::F32ToF64:
+        case Op::F64ToF32: return inst(id).operands;
+        case Op::FDiv: return {inst(id).operands[0]};
+        case Op::Load: return source[id] == kNone ? std::vector<ValueId>() : std::vector<ValueId>{source[id]};
+        default: return {};
+        }
+    }
+
+    void merge(BlockId b, const Region& region) {
+        const std::vector<ValueId> insts = std::move(routine_.blocks[b].insts);
+        const std::vector<bool> covered = findCovered(insts, region);
+        const StmtId stmt = inst(insts[region.end - 1]).stmt;
+        std::vector<ValueId> fast(insts.begin(), insts.begin() + static_cast<std::ptrdiff_t>(region.begin));
+        std::vector<ValueId> undo, again;
+        ValueId sums[2] = {kNone, kNone};
+        for (size_t i = region.begin; i < region.end; ++i) {
+            const ValueId id = insts[i];
+            const Inst now = inst(id);
+            if (now.op == Op::CheckFinite) {
+                again.push_back(id);
+                const TypeId type = valueType(inst(now.operands[0]));
+                ValueId& sum = sums[type == kF64];
+                if (covered[now.operands[0]]) continue;
+                // Further values are added where they are known, so that few have to be kept.
+                sum = sum == kNone ? now.operands[0] : add(Op::FAdd, type, {sum, now.operands[0]}, stmt);
+                if (sum != now.operands[0]) fast.push_back(sum);
+                continue;
+            }
+            if (now.op == Op::Store) {
+                const ValueId old = add(Op::Load, now.type, {now.operands[1]}, now.stmt);
+                fast.push_back(old);
+                undo.push_back(add(Op::Store, now.type, {old, now.operands[1]}, now.stmt));
+                again.push_back(add(Op::Store, now.type, {now.operands[0], now.operands[1]}, now.stmt));
+            }
+            fast.push_back(id);
+        }
+        ValueId fine = kNone;
+        for (const ValueId sum : sums) {
+            if (sum == kNone) continue;
+            const ValueId finite = add(Op::IsFinite, kBool, {sum}, stmt);
+            fast.push_back(finite);
+            if (fine != kNone) fast.push_back(add(Op::And, kBool, {fine, finite}, stmt));
+            fine = fast.back();
+        }
+        const auto rest = static_cast<BlockId>(routine_.blocks.size());
+        const ValueId branch = add(Op::CondBr, kVoid, {fine}, stmt);
+        routine_.insts[branch].target[0] = rest;
+        routine_.insts[branch].target[1] = rest + 1;
+        routine_.insts[branch].extra = 1; // the first is likely
+        fast.push_back(branch);
+        std::reverse(undo.begin(), undo.end());
+        undo.insert(undo.end(), again.begin(), again.end());
+        undo.push_back(add(Op::Br, kVoid, {}, stmt));
+        routine_.insts[undo.back()].target[0] = rest;
+        routine_.blocks[b].insts = std::move(fast);
+        routine_.blocks.push_back(
+            {"finite", {insts.begin() + static_cast<std::ptrdiff_t>(region.end), insts.end()}});
+        again_.push_back(rest + 1);
+        routine_.blocks.push_back({"again", std::move(undo)});
+    }
+
+    const Module& module_;
+    Routine& routine_;
+    std::vector<bool> private_; ///< by local
+    std::vector<BlockId> again_;
+};
+
+} // namespace
+
+void mergeChecks(Module& module) {
+    // What watches data is asked after each store of it.
+    const bool watched = std::any_of(module.natives.begin(), module.natives.end(),
+                                     [](const Native& native) { return native.watches; });
+    if (watched) return;
+    for (Routine& routine : module.routines)
+        if (!routine.stepping) CheckMerger(module, routine).run();
+}
+
+} // namespace ir
