@@ -21,7 +21,9 @@ bool isPrivate(const ir::Routine& routine, uint32_t local) {
             for (size_t i = 0; i < user.operands.size(); ++i) {
                 const Inst& address = routine.insts[user.operands[i]];
                 if (address.op != Op::LocalAddr || address.index != local) continue;
-                if (!((user.op == Op::Load && i == 0) || (user.op == Op::Store && i == 1))) return false;
+                if (!((user.op == Op::Load && i == 0) || (user.op == Op::Store && i == 1) ||
+                      user.op == Op::Zero))
+                    return false;
             }
         }
     return true;

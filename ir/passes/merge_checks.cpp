@@ -51,8 +51,8 @@ class CheckMerger {
                 for (size_t i = 0; i < inst(id).operands.size(); ++i) {
                     const Inst& address = inst(inst(id).operands[i]);
                     if (address.op != Op::LocalAddr) continue;
-                    const bool direct =
-                        (inst(id).op == Op::Load && i == 0) || (inst(id).op == Op::Store && i == 1);
+                    const bool direct = (inst(id).op == Op::Load && i == 0) ||
+                                        (inst(id).op == Op::Store && i == 1) || inst(id).op == Op::Zero;
                     if (!direct) private_[address.index] = false;
                 }
     }
@@ -84,13 +84,13 @@ class CheckMerger {
         std::vector<ValueId> source(routine_.insts.size(), kNone);  // of a load: what was stored there
         for (size_t i = 0; i < region.end; ++i) {
             const Inst& at = inst(insts[i]);
-            if (at.op != Op::Load && at.op != Op::Store) continue;
-            const Inst& address = inst(at.operands[at.op == Op::Load ? 0 : 1]);
+            if (at.op != Op::Load && at.op != Op::Store && at.op != Op::Zero) continue;
+            const Inst& address = inst(at.operands[at.op == Op::Store ? 1 : 0]);
             if (address.op != Op::LocalAddr || !private_[address.index]) continue;
             if (at.op == Op::Load)
                 source[insts[i]] = stored[address.index];
             else
-                stored[address.index] = at.operands[0];
+                stored[address.index] = at.op == Op::Zero ? kNone : at.operands[0];
         }
         std::vector<bool> covered(routine_.insts.size(), false);
         for (const ValueId check : region.checks) {
