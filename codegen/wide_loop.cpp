@@ -187,8 +187,10 @@ bool WideLoop::sameObject(ValueId a, ValueId b) const {
 /// What a round stores, no other round reads or stores; and a round reads it before it stores.
 bool WideLoop::isIndependent() const {
     const auto named = [&](ValueId object) {
-        const Op op = routine_.insts[object].op;
-        return op == Op::LocalAddr || op == Op::GlobalAddr;
+        const Inst& inst = routine_.insts[object];
+        if (inst.op == Op::LocalAddr) return true;
+        // Two names of objects that lie elsewhere may stand for one.
+        return inst.op == Op::GlobalAddr && module_.globals[inst.index].kind != ir::GlobalKind::External;
     };
     for (const ValueId s : stores_) {
         const Lane& stored = lanes_.at(routine_.insts[s].operands[1]);
