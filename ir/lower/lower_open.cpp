@@ -1,6 +1,7 @@
 // Open references: names and data types that a module declares which is not here (encrypted, of an add-in, of the system, or
 // loaded later), and placeholders. The instruction that uses them raises an error when it is executed.
 
+#include "frontend/syntax/token_set.h"
 #include "frontend/syntax/tree_walk.h"
 #include "ir/lower/routine_lowering.h"
 
