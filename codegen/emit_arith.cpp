@@ -61,15 +61,14 @@ llvm::Value* RoutineEmitter::floatArithmetic(const ir::Inst& inst) {
     }
 }
 
-/// What costs the processor least: for binary32 a comparison of the bits without the sign; x - x is no number when x is
-/// infinite or none.
+/// A comparison of what costs the processor least: for binary32 the bits without the sign.
 llvm::Value* RoutineEmitter::isFinite(Value* number) {
     if (number->getType()->isFloatTy()) {
         Value* bits = b_.CreateShl(b_.CreateBitCast(number, b_.getInt32Ty()), 1);
         return b_.CreateICmpULT(bits, b_.getInt32(0xFF000000));
     }
-    Value* difference = b_.CreateFSub(number, number);
-    return b_.CreateFCmpORD(difference, difference);
+    Value* size = b_.CreateUnaryIntrinsic(llvm::Intrinsic::fabs, number);
+    return b_.CreateFCmpOLT(size, llvm::ConstantFP::getInfinity(number->getType()));
 }
 
 llvm::Value* RoutineEmitter::intArithmetic(const ir::Inst& inst) {

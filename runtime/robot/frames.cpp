@@ -22,19 +22,6 @@ Quat aboutZ(double deg) {
 }
 } // namespace
 
-double norm(const Vec3& a) {
-    return std::sqrt(dot(a, a));
-}
-double norm(const Quat& q) {
-    return std::sqrt(dot(q, q));
-}
-
-Quat normalized(const Quat& q) {
-    const double length = norm(q);
-    if (!(length > 0)) return {};
-    return {q.w / length, q.x / length, q.y / length, q.z / length};
-}
-
 Vec3 rotationVector(const Quat& q) {
     // Of the two quaternions of a rotation the one with w >= 0 turns the short way.
     const double sign = q.w < 0 ? -1.0 : 1.0;

@@ -2,6 +2,8 @@
 // Points, orientations and frames. Lengths in mm; quaternions in RAPID's order w, x, y, z (q1..q4), unit
 // length; a Pose named a_b ("b in a") turns coordinates given in frame b into coordinates in frame a.
 
+#include <cmath>
+
 namespace robot {
 
 /// Position or direction, mm when it is a position.
@@ -38,7 +40,9 @@ inline double dot(const Vec3& a, const Vec3& b) {
 inline Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-double norm(const Vec3& a);
+inline double norm(const Vec3& a) {
+    return std::sqrt(dot(a, a));
+}
 
 /// Rotation b followed, seen from outside, by a: (a*b) v = a (b v).
 inline Quat operator*(const Quat& a, const Quat& b) {
@@ -58,9 +62,15 @@ inline Vec3 rotate(const Quat& q, const Vec3& v) {
 }
 
 /// Length of the quaternion, to be compared with 1 (RAPID's ERR_ORIENT_VALUE).
-double norm(const Quat& q);
+inline double norm(const Quat& q) {
+    return std::sqrt(dot(q, q));
+}
 /// Scaled to unit length; a quaternion of length zero becomes the identity.
-Quat normalized(const Quat& q);
+inline Quat normalized(const Quat& q) {
+    const double length = norm(q);
+    if (!(length > 0)) return {};
+    return {q.w / length, q.x / length, q.y / length, q.z / length};
+}
 
 /// Coordinates of frame c in a, from b in a and c in b (RAPID's PoseMult).
 inline Pose operator*(const Pose& a_b, const Pose& b_c) {

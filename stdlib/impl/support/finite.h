@@ -12,26 +12,26 @@
 namespace rt::lib {
 
 /// `T`: a number, or a record of nothing but num.
-template <class T> bool isFinite(const T& value) {
+template <class T> [[gnu::always_inline]] inline bool isFinite(const T& value) {
     if constexpr (std::is_floating_point_v<T>) {
         return std::isfinite(value);
     } else {
         static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(float) == 0);
         float numbers[sizeof(T) / sizeof(float)];
         std::memcpy(numbers, &value, sizeof value);
-        bool all = true;
+        float sum = 0;
         for (const float number : numbers)
-            all = all & std::isfinite(number); // no branch for each
-        return all;
+            sum += number - number; // NaN for infinities and NaN; no branch for each
+        return sum == 0;
     }
 }
 
-inline Status tooLarge(TaskCore* task) {
+[[gnu::cold]] inline Status tooLarge(TaskCore* task) {
     return fail(task, err::ERR_OVERFLOW, "the result is beyond the range of its type");
 }
 
 /// Stores a calculated value; raises ERR_OVERFLOW, and stores nothing, when a number in it is out of range.
-template <class T> Status give(TaskCore* task, T* result, const T& value) {
+template <class T> [[gnu::always_inline]] inline Status give(TaskCore* task, T* result, const T& value) {
     if (!isFinite(value)) return tooLarge(task);
     *result = value;
     return kOk;
