@@ -263,8 +263,10 @@ constexpr auto kExplanations = std::to_array<Explanation>({
     {8035, Kind::Body,
      "num has 24 bits for the digits of a number: whole numbers are exact up to 16777216 (manual 1.2.1). This one is written "
      "where a num is wanted, so it is rounded. dnum holds whole numbers up to 9007199254740992.",
-     "VAR num parts := 16777217;",
-     "VAR dnum parts := 16777217;"},
+     "reg1 := 16777217;",
+     "VAR dnum parts;\n"
+     "parts := 16777217;\n"
+     "TPWrite DnumToStr(parts, 0);"},
     {8040, Kind::Module,
      "Zone 0 at a fly-by point makes the robot brake hard at speeds above 70 mm/s (manual 5). Stop "
      "there with fine, or choose a larger zone.",

@@ -80,8 +80,7 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
     const bool perhaps = open && !type && comparisonsTell();
     if (perhaps) type = signalTypeByComparison(text(token), name);
     // A signal that cannot come: the name is left to the modules that are missing, which may declare it.
-    const bool cannotCome = options_.configurationKnown || options_.configurationComplete;
-    if (incomplete_ && cannotCome && !options_.assumeSignals) type = nullptr;
+    if (incomplete_ && options_.configurationKnown && !options_.assumeSignals) type = nullptr;
     if (!type && !mecunit) {
         if (moduleNames_.find(name)) {
             report(Code::NotData, range(token), {text(token), "a module"});
@@ -120,7 +119,7 @@ bool Analyzer::comparisonsTell() const {
 void Analyzer::reportSignal(TokenIndex token, NameId name, const Type& type, bool perhaps) {
     if (options_.assumeSignals) return; // the command says which ones it assumes
     const std::string written = text(token);
-    if (!options_.configurationKnown && !options_.configurationComplete) {
+    if (!options_.configurationKnown) {
         report(Code::SignalUnknown, range(token),
                {perhaps ? "'" + written + "'" : "signal '" + written + "'",
                 perhaps ? "may be a signal" : "is taken as configured"});
@@ -128,9 +127,8 @@ void Analyzer::reportSignal(TokenIndex token, NameId name, const Type& type, boo
     }
     const Suggestion near = suggestion(name, Wanted::Signal);
     const bool fits = near.symbol && static_cast<const DataSymbol*>(near.symbol)->type.type == &type;
-    std::string rest = options_.configurationComplete ? ", or use --assume-signals" : "";
-    if (fits) rest += didYouMean(near.name);
-    diag::Diagnostic& d = report(Code::SignalUndefined, range(token), {written, rest});
+    diag::Diagnostic& d =
+        report(Code::SignalUndefined, range(token), {written, fits ? didYouMean(near.name) : std::string()});
     if (fits) d.fix(range(token), near.name, false);
 }
 

@@ -54,14 +54,9 @@ RoutineLowering::ForPlan RoutineLowering::planFor(const ForStmt& stmt,
     const auto counts = [&](ForPlan::Kind kind, int32_t step) {
         plan.kind = kind;
         plan.step = step;
-        if (step >= 0)
-            plan.variable.hi = std::max(
-                kind == ForPlan::Kind::Counted || kind == ForPlan::Kind::StepValue ? from->lo : from->hi,
-                to ? to->hi : kExact);
-        if (step <= 0)
-            plan.variable.lo = std::min(
-                kind == ForPlan::Kind::Counted || kind == ForPlan::Kind::StepValue ? from->hi : from->lo,
-                to ? to->lo : -kExact);
+        // A loop of known direction may not run at all; then the variable has no value.
+        if (step >= 0) plan.variable.hi = std::max(step != 0 ? from->lo : from->hi, to ? to->hi : kExact);
+        if (step <= 0) plan.variable.lo = std::min(step != 0 ? from->hi : from->lo, to ? to->lo : -kExact);
         return plan;
     };
     if (!stmt.step) {

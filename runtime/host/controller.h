@@ -64,6 +64,8 @@ class Controller final : public TaskHost {
     const std::vector<CfgFile>& configuration() const { return configuration_; }
     /// All instances of a type in the files of a domain, in order.
     std::vector<const CfgInstance*> instances(std::string_view domain, std::string_view type) const;
+    /// Their names: the simulated robot first, then those of the configuration (MOC).
+    std::vector<std::string> mechanicalUnits() const;
     /// Random numbers for Rand, started with --seed; the same sequence on every machine.
     std::mt19937& random() { return random_; }
     /// Date and time of the controller: the wall's at the start plus virtual time. Seconds since 1970, UTC.

@@ -107,6 +107,15 @@ void Controller::applySystemParameters() {
     }
 }
 
+std::vector<std::string> Controller::mechanicalUnits() const {
+    std::vector<std::string> units{std::string(motion_->unitName())};
+    for (const char* type : {"ROBOT", "MECHANICAL_UNIT"})
+        for (const CfgInstance* instance : instances("MOC", type))
+            if (const std::string name = instance->text("name"); !sameName(name, units.front()))
+                units.push_back(name);
+    return units;
+}
+
 // ---- Robot ---------------------------------------------------------------------------------------------------------
 
 ExitStatus Controller::openRobot() {
@@ -254,6 +263,11 @@ bool connectExternal(Controller& controller, const ExternalDesc& external) {
     SignalType type{};
     if (signalTypeOf(kind, type)) {
         const SignalId id = controller.io().find(name);
+        if (id < 0 && controller.instances("EIO", "EIO_SIGNAL").empty()) {
+            *external.slot =
+                controller.io().undefinedHandle(name); // without any configuration: an error when it is used
+            return true;
+        }
         if (id < 0) {
             return fail(fmt::format(
                 "signal '{}' ({}) is not defined; define it in an EIO configuration file "
@@ -269,8 +283,11 @@ bool connectExternal(Controller& controller, const ExternalDesc& external) {
         *external.slot = IoSystem::handleOf(id);
         return true;
     }
-    if (sameName(kind, "mecunit") && sameName(name, controller.motion().unitName())) {
-        *external.slot = 1;
+    if (sameName(kind, "mecunit")) { // one that is not there: an error when it is used
+        const std::vector<std::string> units = controller.mechanicalUnits();
+        const auto found = std::find_if(units.begin(), units.end(),
+                                        [&name](const std::string& unit) { return sameName(unit, name); });
+        *external.slot = found == units.end() ? 0 : found - units.begin() + 1;
         return true;
     }
     if (sameName(kind, "taskid")) { // predefined for each task as <name>Id

@@ -53,6 +53,16 @@ SignalId IoSystem::idOf(Handle handle) const {
                                                                        : static_cast<SignalId>(handle - 1);
 }
 
+Handle IoSystem::undefinedHandle(const std::string& name) {
+    undefined_.push_back(name);
+    return -static_cast<Handle>(undefined_.size());
+}
+
+std::string IoSystem::undefinedName(Handle handle) const {
+    const auto index = static_cast<std::size_t>(-(handle + 1));
+    return handle < 0 && index < undefined_.size() ? undefined_[index] : std::string();
+}
+
 IoSystem::Signal* IoSystem::byHandle(Handle handle) {
     const SignalId id = idOf(handle);
     return id < 0 ? nullptr : signals_[static_cast<std::size_t>(id)].get();

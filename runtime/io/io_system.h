@@ -54,7 +54,7 @@ using SignalId = int32_t; ///< from 0; -1 = none
 
 enum class IoResult : uint8_t {
     Ok,
-    NoSignal,      ///< the handle is 0 or stale: variable not connected with AliasIO
+    NoSignal,      ///< a variable not connected with AliasIO, or a signal that no configuration defines
     OutOfRange,    ///< value outside the logical limits (ERR_AO_LIM, ERR_GO_LIM), nothing was changed
     NotWritable,   ///< an input, or Access does not let RAPID write
     BadTime,       ///< delay or pulse length outside what is allowed (ERR_ARGVALERR)
@@ -106,6 +106,10 @@ class IoSystem {
     static Handle handleOf(SignalId id) { return id + 1; }
     /// -1 for a handle that is no signal.
     SignalId idOf(Handle handle) const;
+    /// The handle of a signal that the program names and no configuration defines: each use of it fails.
+    Handle undefinedHandle(const std::string& name);
+    /// The name of such a signal; empty for other handles.
+    std::string undefinedName(Handle handle) const;
 
     // ---- Values -------------------------------------------------------------------------------------------
     /// The logical value; digital 0 or 1, group an integer. The id must be valid.
@@ -168,6 +172,7 @@ class IoSystem {
     Scheduler& scheduler_;
     std::vector<std::unique_ptr<Signal>> signals_;
     std::unordered_map<std::string, SignalId> names_; // upper case
+    std::vector<std::string> undefined_;              // of handle -1, -2, ...
     std::vector<CrossConnection> connections_;
     std::vector<PendingConnection> pendingConnections_;
     std::unordered_map<std::string, bool> accessLevels_; // upper case -> RAPID may write

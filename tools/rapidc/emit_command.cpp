@@ -118,7 +118,8 @@ int emit(EmitSettings& settings) {
     text = emitMachine(settings, module, error);
     if (!error.empty()) {
         fmt::print(stderr, "rapidc emit: {}\n", error);
-        return static_cast<int>(rt::ExitStatus::BadProgram);
+        // Only the file can be wrong with an object: the program has passed the checker.
+        return static_cast<int>(settings.as == "obj" ? rt::ExitStatus::BadUsage : rt::ExitStatus::BadProgram);
     }
     return settings.as == "obj" ? 0 : write(settings, text);
 }

@@ -358,7 +358,6 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     compilation->homeFolder = project.homeFolder;
     compilation->filesRead.insert(compilation->filesRead.end(), project.filesRead.begin(),
                                   project.filesRead.end());
-    options.configurationComplete = inputs.configurationComplete;
     options.assumeSignals = inputs.assumeSignals;
     readConfiguration(*compilation, configFiles, inputs.configFiles.size(),
                       inputs.onlyDiagnostics); // else the controller judges signals

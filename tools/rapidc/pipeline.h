@@ -29,7 +29,6 @@ struct Inputs {
     std::vector<std::string> warnings;  ///< -W
     bool lint = false;                  ///< with the warnings of 8xxx, also where -W does not name them
     bool onlyDiagnostics = false;       ///< nothing is lowered: the inside of routines need not be kept
-    bool configurationComplete = false; ///< no further configuration can come: an unknown signal is an error
     bool assumeSignals = false; ///< define the signals that the configuration lacks as the program uses them
 };
 

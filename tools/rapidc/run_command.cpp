@@ -154,7 +154,6 @@ int run(RunSettings& settings) {
     inputs.configFiles = settings.options.configFiles;
     inputs.robot = settings.options.robot;
     inputs.requireMain = true;
-    inputs.configurationComplete = true;
     const auto compilation = checkInputs(inputs);
     if (!compilation->usageErrors.empty()) {
         for (const std::string& problem : compilation->usageErrors)
@@ -196,6 +195,12 @@ int run(RunSettings& settings) {
         }
     }
     makeFolders(settings);
+    if (!settings.picture.empty())
+        error = PathPicture().write(settings.picture); // before the run, as other files
+    if (!error.empty()) {
+        fmt::print(stderr, "rapidc run: --picture: {}\n", error);
+        return static_cast<int>(rt::ExitStatus::BadUsage);
+    }
     const auto sources = sourcesOf(*compilation, settings.stepping, options.optimise);
     SourceCompiler compiler(*sources);
     rt::UnitLoader loader(compiler);

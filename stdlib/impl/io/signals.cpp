@@ -29,6 +29,12 @@ Status ioStatus(TaskCore* task, IoResult result, Handle handle) {
     switch (result) {
     case IoResult::Ok: return kOk;
     case IoResult::NoSignal:
+        if (const std::string undefined = io.undefinedName(handle); !undefined.empty())
+            return fail(
+                task, err::ERR_NO_ALIASIO_DEF,
+                "signal " + undefined +
+                    " is not defined by a configuration; define it in EIO.cfg and pass that with --config, "
+                    "or use --assume-signals");
         return fail(task, err::ERR_NO_ALIASIO_DEF,
                     "the signal variable is not connected; connect it with AliasIO first");
     case IoResult::OutOfRange: {

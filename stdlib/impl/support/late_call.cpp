@@ -172,9 +172,12 @@ Status rt_lateTrap(TaskCore* core, void** result, const String* name) {
 }
 
 Status rt_unresolved(TaskCore* core, int32_t number, const String* name) {
-    const char* detail =
-        number == err::ERR_REFUNKDAT ? ", or not as it was when the module that uses it was compiled" : "";
-    return lib::fail(core, number,
-                     fmt::format("nothing in program memory declares '{}'{}", name->view(), detail));
+    const Task& task = taskOf(core);
+    const bool isThere =
+        number == err::ERR_REFUNKDAT &&
+        task.controller().tables().findGlobal(name->view(), "", static_cast<int32_t>(task.index()), false);
+    const char* problem = isThere ? "'{}' has changed since the module that uses it was compiled"
+                                  : "nothing in program memory declares '{}'";
+    return lib::fail(core, number, fmt::format(fmt::runtime(problem), name->view()));
 }
 }

@@ -106,8 +106,12 @@ Status rt_GetTSPStatus(TaskCore* task, float* result, Handle* TaskRef, const Str
         *result = other->kind() == TaskKind::Normal ? k::TSP_STATUS_ACT : k::TSP_STATUS_NOT_NORMAL_TASK;
     return status;
 }
-Status rt_GetMecUnitName(TaskCore* task, String* result, Handle*) {
-    result->assign(taskOf(task).controller().motion().unitName()); // the only unit there is
+Status rt_GetMecUnitName(TaskCore* task, String* result, Handle* MechUnit) {
+    const std::vector<std::string> units = taskOf(task).controller().mechanicalUnits();
+    const auto index = static_cast<std::size_t>(*MechUnit - 1);
+    if (index >= units.size())
+        return lib::fail(task, err::ERR_REFUNKDAT, "the configuration does not define this mechanical unit");
+    result->assign(units[index]);
     return kOk;
 }
 Status rt_MotionPlannerNo(TaskCore* task, float* result) {

@@ -23,7 +23,7 @@ TEST_CASE("every module of the corpus survives print, parse, print", "[ir]") {
     for (const auto& path : rirFiles(corpusFolder())) {
         INFO(path);
         ir::Module first = parse(readText(path));
-        CHECK(ir::verify(first).empty());
+        CHECK(ir::verify(first) == std::vector<std::string>{});
         std::string printed = ir::printModule(first);
         ir::Module second = parse(printed);
         CHECK(ir::printModule(second) == printed);
@@ -123,7 +123,7 @@ TEST_CASE("sizes and offsets are those of C", "[ir]") {
 
 TEST_CASE("errors of the parser name the place and what was expected", "[ir]") {
     CHECK(parseError("nonsense") ==
-          "1:1: 'nonsense' where module, file, folder, sources, type, desc, global, native, routine, "
+          "1:1: 'nonsense' where module, file, folder, sources, overflow, type, desc, global, native, routine, "
           "external, alias, task, source, search, within, named or config is expected");
     CHECK(parseError("module \"open\n") == "1:8: string without closing quote");
     CHECK(parseError("module \"a\\q\"") == "1:8: '\\' in a string must be followed by two hex digits");

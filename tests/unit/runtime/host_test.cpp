@@ -192,9 +192,17 @@ TEST_CASE("a program that names what is not configured does not start", "[host]"
         CHECK(run.run() == ExitStatus::BadProgram);
     }
     Run unknown;
+    unknown.options.configFiles = {folder.write("EIO.cfg", kSignals)};
     unknown.externals = {{"di7", "signaldi", &slot, "main.modx", 3, 8}};
     unknown.task("T", waitForInput);
     CHECK(unknown.run() == ExitStatus::BadProgram);
+    // Without any configuration the use of the signal is the error (decision 39).
+    Run open;
+    open.externals = {{"di7", "signaldi", &slot, "main.modx", 3, 8}};
+    open.task("T", [](TaskCore*, Frame*) -> Status { return kOk; });
+    CHECK(open.run() == ExitStatus::Ended);
+    CHECK(open.controller->io().idOf(slot) == -1);
+    CHECK(open.controller->io().undefinedName(slot) == "di7");
 }
 
 TEST_CASE("wrong use of options ends with status 3, wrong configuration with 2", "[host]") {

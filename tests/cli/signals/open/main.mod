@@ -6,6 +6,7 @@ MODULE MainModule
     TPWrite "end";
   ERROR
     IF ERRNO = ERR_REFUNKDAT TPWrite "no data";
+    IF ERRNO = ERR_NO_ALIASIO_DEF TPWrite "no signal";
     TRYNEXT;
   ENDPROC
 ENDMODULE
