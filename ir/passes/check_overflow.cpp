@@ -40,8 +40,14 @@ class OverflowChecker {
         for (const Block& block : routine_.blocks)
             for (ValueId id : block.insts)
                 noteUses(routine_.insts[id]);
-        for (BlockId b : buildCfg(module_, routine_, HandlerEdges::Yes).order)
+        std::vector<bool> seen(routine_.blocks.size(), false);
+        for (BlockId b : buildCfg(module_, routine_, HandlerEdges::Yes).order) {
             visit(routine_.blocks[b]);
+            seen[b] = true;
+        }
+        // The checks may be what makes the others reachable, by TRYNEXT.
+        for (BlockId b = 0; b < routine_.blocks.size(); ++b)
+            if (!seen[b]) visit(routine_.blocks[b]);
     }
 
   private:

@@ -180,7 +180,10 @@ class Folder {
     void dropTrueChecks() {
         auto passes = [&](ValueId id) {
             const Inst& inst = routine_.insts[id];
-            return inst.op == Op::Check && isConst(inst.operands[0]) && numberOf(inst.operands[0]) != 0;
+            if (inst.op != Op::Check && inst.op != Op::CheckFinite) return false;
+            if (!isConst(inst.operands[0])) return false;
+            const double number = numberOf(inst.operands[0]);
+            return inst.op == Op::Check ? number != 0 : std::isfinite(number);
         };
         for (Block& block : routine_.blocks)
             std::erase_if(block.insts, passes);

@@ -15,7 +15,8 @@ std::vector<std::string> verifyAfter(const Module& module, std::string_view pass
 
 std::vector<std::string> runPasses(Module& module, const PassOptions& options) {
     return runPasses(module, options,
-                     {"simplify-cfg", "fold-constants", "simplify-cfg", "check-overflow", "merge-checks",
+                     // Checks first: they decide which places TRYNEXT and RETRY can lead to.
+                     {"check-overflow", "simplify-cfg", "fold-constants", "simplify-cfg", "merge-checks",
                       "place-safepoints"});
 }
 

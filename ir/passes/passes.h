@@ -18,12 +18,13 @@ struct PassOptions {
     Profile profile = Profile::Release;
 };
 
-/// Runs simplifyCfg, foldConstants, checkOverflow, mergeChecks, placeSafepoints. Returns the verifier's findings, each prefixed with the
-/// pass after which it appeared ("input: " when the module came in broken); empty = fine. Stops at the first
-/// pass with findings.
+/// Runs checkOverflow, simplifyCfg, foldConstants, simplifyCfg, mergeChecks, placeSafepoints. Returns the verifier's
+/// findings, each prefixed with the pass after which it appeared ("input: " when the module came in broken); empty = fine.
+/// Stops at the first pass with findings.
 std::vector<std::string> runPasses(Module& module, const PassOptions& options);
 
-/// Runs the named passes only ("simplify-cfg", "fold-constants", "check-overflow", "merge-checks", "place-safepoints"), for tests and for emit.
+/// Runs the named passes only ("check-overflow", "simplify-cfg", "fold-constants", "merge-checks", "place-safepoints"),
+/// for tests and for emit.
 std::vector<std::string> runPasses(Module& module, const PassOptions& options,
                                    const std::vector<std::string_view>& names);
 

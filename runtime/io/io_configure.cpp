@@ -95,6 +95,13 @@ void IoSystem::configureSignal(const CfgInstance& instance, const std::string& f
     config.file = file;
     config.line = instance.line;
     if (config.name.empty()) return problem("a signal without -Name");
+    for (const char* attribute : {"Size", "MaxLog", "MinLog", "Default", "DefValue"}) {
+        double ignored = 0;
+        const CfgAttribute* written = instance.find(attribute);
+        if (written != nullptr && !instance.number(attribute, ignored))
+            return problem(fmt::format("signal {}: {} is '{}', must be a number", config.name, attribute,
+                                       written->text()));
+    }
     const std::string type = instance.text("SignalType");
     if (!parseType(type, config.type)) {
         return problem(fmt::format("signal {}: SignalType is '{}', must be DI, DO, AI, AO, GI or GO",
