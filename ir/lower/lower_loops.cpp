@@ -2,6 +2,8 @@
 // greater than the end. Loops whose start and step are certainly integers count in I32, so that indices need
 // no conversion and the optimiser knows the trip count; the variable reads as num.
 
+#include <cmath>
+
 #include "ir/lower/routine_lowering.h"
 
 namespace rapid::lower {
@@ -70,8 +72,7 @@ RoutineLowering::ForPlan RoutineLowering::planFor(const ForStmt& stmt,
         if (!range || (range->lo <= 0 && range->hi >= 0)) return plan;
         return counts(ForPlan::Kind::StepValue, range->lo > 0 ? 1 : -1);
     }
-    if (value->number != static_cast<int32_t>(value->number) || value->number == 0 ||
-        std::abs(value->number) >= 1e6)
+    if (value->number == 0 || std::abs(value->number) >= 1e6 || value->number != std::trunc(value->number))
         return plan;
     return counts(ForPlan::Kind::Counted, static_cast<int32_t>(value->number));
 }
