@@ -48,7 +48,7 @@ bool WideLoop::read(const ir::Cfg& cfg) {
     }
     if (entry_ == ir::kNone || routine_.insts[routine_.blocks[entry_].insts.back()].op != Op::Br)
         return false;
-    return readBody() && !checks_.empty() && !stores_.empty() && isIndependent();
+    return readBody() && !checks_.empty() && isIndependent();
 }
 
 /// One way through the loop, block after block.
@@ -69,6 +69,7 @@ bool WideLoop::readBody() {
         if (b == header_) break;
         if (!loop_.contains[b] || blocks > loop_.blocks.size()) return false;
     }
+    if (stores_.empty()) return false;
     unsigned bytes = 4;
     for (const ValueId id : checks_)
         bytes = std::max(bytes, module_.size(ir::valueType(routine_.insts[routine_.insts[id].operands[0]])));

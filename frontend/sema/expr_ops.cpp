@@ -118,8 +118,12 @@ Typed Analyzer::combine(const BinaryExpr& e, Typed left, Typed right) {
     if (isRelation(e.op) && e.left->kind == NodeKind::Binary && isRelation(as<BinaryExpr>(*e.left).op))
         return result(e, program_.boolean); // a chain of relations is a syntax error
     if (left.isError() || right.isError()) {
-        // What a comparison gives is known all the same.
+        // What a comparison gives is known all the same, and what a logical operator takes.
         const bool gives = e.op >= BinaryOp::Lt;
+        const Typed known = left.isError() ? right : left;
+        const bool takes = e.op < BinaryOp::And || known.isError() || known.isScalar(TypeKind::Bool);
+        if (!takes && text(e.opToken)[0] != '&')
+            report(Code::UnaryOperatorType, range(e.opToken), {text(e.opToken), typeName(*known.info)});
         return gives ? result(e, program_.boolean) : errorExpr(e);
     }
     switch (e.op) {

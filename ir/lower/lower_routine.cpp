@@ -289,7 +289,7 @@ void RoutineLowering::lowerErrorHandler() {
 }
 
 void RoutineLowering::lowerErrorClauses() {
-    bool lists = false, others = false;
+    bool lists = false, others = false, all = false;
     for (const syntax::ErrorClause* clause : symbol_.routineDecl->errors) {
         const ir::BlockId next = b_.addBlock("clause");
         if (clause->hasList) {
@@ -300,16 +300,17 @@ void RoutineLowering::lowerErrorClauses() {
             b_.br(next);
             b_.setBlock(body);
         } else {
-            others = true;
+            others = all = true;
         }
         lowerList(clause->body);
         if (!b_.terminated()) b_.handlerEnd();
         b_.setBlock(next);
     }
-    if (!b_.terminated()) { // variables of the routine are known here only: no clause lists the error
+    if (!all && !b_.terminated()) { // variables of the routine are known here only: no clause lists the error
+        if (routine_.statements.empty()) startStatement(*symbol_.routineDecl, ir::StmtKind::Handler);
         b_.callNative(program_.support("rt_errorNotListed", ir::NativeClass::Plain, ir::kVoid, {}), {});
-        b_.unreachable();
     }
+    if (!b_.terminated()) b_.unreachable();
     if (lists && others) routine_.errorFilter.push_back(0); // takes the others, too, from its own calls
 }
 

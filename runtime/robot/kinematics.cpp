@@ -70,7 +70,8 @@ struct Kinematics::ArmBranch {
 };
 
 int quarterRevolution(double angleDeg) {
-    return static_cast<int>(std::floor((angleDeg + kNoise) / 90.0));
+    constexpr double kMost = 1e9; // an angle beyond any arm's
+    return static_cast<int>(std::clamp(std::floor((angleDeg + kNoise) / 90.0), -kMost, kMost));
 }
 
 std::string IkError::message() const {

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 
 #include "stdlib_constants.h"
@@ -31,6 +32,7 @@ struct BookedNumbers {
 
 /// 1 to 90 are the program's, the others must be predefined or booked.
 bool mayBeRaised(Controller& controller, float number) {
+    if (!(std::abs(number) < 1e6F)) return false;
     const auto whole = static_cast<int>(number);
     if (static_cast<float>(whole) != number) return false;
     if (whole >= 1 && whole <= 90) return true;
@@ -135,7 +137,7 @@ Status rt_BookErrNo(TaskCore* task, float* ErrorName) {
     Controller& controller = taskOf(task).controller();
     if (*ErrorName == -1) *ErrorName = static_cast<float>(controller.service<BookedNumbers>().next++);
     const GlobalDesc* data = lib::dataAt(controller, ErrorName);
-    const auto number = static_cast<int>(*ErrorName);
+    const int number = *ErrorName >= 0 && *ErrorName < 1e6F ? static_cast<int>(*ErrorName) : 0;
     if (data != nullptr && data->type->kind == DescKind::Num && number >= BookedNumbers::kFirst)
         controller.log().addErrorName(number, data->name, "booked by the program");
     return kOk;

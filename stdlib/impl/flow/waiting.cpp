@@ -43,7 +43,7 @@ Status rt_WaitTime(TaskCore* task, bool InPos, float Time) {
     if (InPos)
         if (const Status status = waitInPosition(task)) return status;
     // The resolution is a millisecond; binary32 does not hold most decimal fractions exactly.
-    return taskOf(task).sleepFor((fromSeconds(Time) + kMillisecond / 2) / kMillisecond * kMillisecond);
+    return taskOf(task).sleepFor(addTime(fromSeconds(Time), kMillisecond / 2) / kMillisecond * kMillisecond);
 }
 
 Status rt_WaitRob(TaskCore* task, bool InPos, bool ZeroSpeed) {

@@ -26,10 +26,6 @@ constexpr const char* kDigital = "ISignalDI";
 constexpr const char* kGroup = "ISignalGI";
 constexpr const char* kTimer = "ITimer";
 
-int numberOf(const float* interrupt) {
-    return *interrupt >= 0 && *interrupt < 1e6F ? static_cast<int>(*interrupt) : 0; // not a number either
-}
-
 Status tooMany(TaskCore* task) {
     return lib::fail(task, err::ERR_INOMAX, "100 interrupts are defined in this task, which is the most");
 }
@@ -107,6 +103,10 @@ struct Timer {
 
 namespace rt::lib {
 
+int numberOf(const float* interrupt) {
+    return *interrupt >= 0 && *interrupt < 1e6F ? static_cast<int>(*interrupt) : 0;
+}
+
 int numberToOrder(TaskCore* task, float* interrupt, Status& status) {
     InterruptTable& table = taskOf(task).interrupts();
     if (table.isDefined(numberOf(interrupt))) return numberOf(interrupt);
@@ -162,8 +162,8 @@ extern "C" {
 Status rt_connect(TaskCore* task, float* interrupt, void* trap) {
     InterruptTable& table = taskOf(task).interrupts();
     const Trap routine{reinterpret_cast<EntryFunction>(trap), nullptr, {}};
-    if (table.attach(numberOf(interrupt), routine)) return kOk; // ordered before it was connected
-    if (table.isDefined(numberOf(interrupt)))
+    if (table.attach(lib::numberOf(interrupt), routine)) return kOk; // ordered before it was connected
+    if (table.isDefined(lib::numberOf(interrupt)))
         return lib::fail(task, err::ERR_ALRDYCNT,
                          "the interrupt variable is connected already; use IDelete first");
     const int number = table.connect(routine);
@@ -203,22 +203,22 @@ Status rt_ITimer(TaskCore* task, bool Single, bool SingleSafe, float Time, float
 
 Status rt_IDelete(TaskCore* task, float* Interrupt) {
     // Programs begin with IDelete, CONNECT: a variable that is not connected, whatever it holds, has nothing to delete.
-    (void)taskOf(task).interrupts().remove(numberOf(Interrupt));
+    (void)taskOf(task).interrupts().remove(lib::numberOf(Interrupt));
     *Interrupt = 0;
     return kOk;
 }
 
 Status rt_ISleep(TaskCore* task, float* Interrupt) {
     InterruptTable& table = taskOf(task).interrupts();
-    if (!table.isDefined(numberOf(Interrupt))) return lib::unknownInterrupt(task);
-    if (table.isSafe(numberOf(Interrupt)))
+    if (!table.isDefined(lib::numberOf(Interrupt))) return lib::unknownInterrupt(task);
+    if (table.isSafe(lib::numberOf(Interrupt)))
         return lib::fail(task, err::ERR_INOISSAFE, "a safe interrupt cannot be put to sleep");
-    table.sleep(numberOf(Interrupt));
+    table.sleep(lib::numberOf(Interrupt));
     return kOk;
 }
 
 Status rt_IWatch(TaskCore* task, float* Interrupt) {
-    return taskOf(task).interrupts().watch(numberOf(Interrupt)) ? kOk : lib::unknownInterrupt(task);
+    return taskOf(task).interrupts().watch(lib::numberOf(Interrupt)) ? kOk : lib::unknownInterrupt(task);
 }
 
 Status rt_IDisable(TaskCore* task) {

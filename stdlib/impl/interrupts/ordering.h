@@ -20,6 +20,8 @@ struct OrderKind {
     bool safe = false;   ///< kept while the task is stopped; single as well
 };
 
+/// The number in an interrupt variable; 0, which is not an interrupt, for what cannot be one.
+int numberOf(const float* interrupt);
 /// The number an interrupt variable is ordered by. A variable that is not connected with a trap routine gets a
 /// number too: it may be ordered, but its occurrence is fatal. 0 and ERR_INOMAX (in `status`) when 100 are defined.
 int numberToOrder(TaskCore* task, float* interrupt, Status& status);

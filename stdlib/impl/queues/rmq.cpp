@@ -212,7 +212,7 @@ Status rt_RMQEmptyQueue(TaskCore* task) {
 
 Status rt_IRMQMessage(TaskCore* task, void*, const TypeDesc* InterruptDataTypeType, float* Interrupt) {
     InterruptTable& table = taskOf(task).interrupts();
-    const int number = static_cast<int>(*Interrupt);
+    const int number = lib::numberOf(Interrupt);
     if (!table.isDefined(number)) return lib::unknownInterrupt(task);
     if (ownQueue(task).mode == QueueMode::Synchronous)
         return misused(task, "IRMQMessage",
