@@ -1,5 +1,6 @@
 #include "codegen/compile.h"
 
+#include <llvm/Analysis/LoopInfo.h>
 #include <llvm/IR/LegacyPassManager.h>
 #include <llvm/IR/Verifier.h>
 #include <llvm/MC/TargetRegistry.h>
@@ -39,7 +40,14 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
     tuning.LoopVectorization = true;
     tuning.LoopInterleaving = true;
     tuning.SLPVectorization = true;
-    llvm::PassBuilder builder(&machine, tuning);
+    llvm::PassInstrumentationCallbacks callbacks;
+    callbacks.registerShouldRunOptionalPassCallback([](llvm::StringRef, const llvm::Any& unit) {
+        const auto* function = llvm::any_cast<const llvm::Function*>(&unit);
+        const auto* loop = llvm::any_cast<const llvm::Loop*>(&unit);
+        if (function == nullptr && loop == nullptr) return true;
+        return !(function ? *function : (*loop)->getHeader()->getParent())->hasOptNone();
+    });
+    llvm::PassBuilder builder(&machine, tuning, std::nullopt, &callbacks);
     llvm::LoopAnalysisManager loops;
     llvm::FunctionAnalysisManager functions;
     llvm::CGSCCAnalysisManager sccs;
@@ -50,6 +58,23 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
     builder.registerLoopAnalyses(loops);
     builder.crossRegisterProxies(loops, functions, sccs, modules);
     builder.buildPerModuleDefaultPipeline(llvm::OptimizationLevel::O2).run(module, modules);
+}
+
+/// LLVM instructions of a routine from which on the optimiser and the register allocator cost too much: about 400 movement
+/// instructions. Their time grows with the square of the number of basic blocks.
+constexpr unsigned kHuge = 10'000;
+
+/// Keeps the optimiser out of huge routines. True when there are any.
+bool spareHugeRoutines(llvm::Module& module) {
+    bool found = false;
+    for (llvm::Function& function : module) {
+        if (function.getInstructionCount() <= kHuge) continue;
+        function.addFnAttr(llvm::Attribute::OptimizeNone);
+        function.addFnAttr(llvm::Attribute::NoInline);
+        function.removeFnAttr(llvm::Attribute::AlwaysInline);
+        found = true;
+    }
+    return found;
 }
 
 } // namespace
@@ -66,7 +91,11 @@ std::unique_ptr<llvm::Module> compile(const ir::Module& module, const CodegenOpt
         error = "internal error: LLVM rejects the module '" + module.name + "': " + stream.str();
         return nullptr;
     }
-    if (options.optimise) optimise(*result, machine);
+    if (!options.optimise) return result;
+    const bool huge = spareHugeRoutines(*result);
+    optimise(*result, machine);
+    // One register allocator serves the whole module.
+    if (huge) machine.setOptLevel(llvm::CodeGenOptLevel::None);
     return result;
 }
 
