@@ -34,8 +34,8 @@ struct TaskInput {
 struct CheckOptions {
     bool requireMain = false;        ///< build and run: a task without entry routine is an error
     bool configurationKnown = false; ///< some EIO configuration was given: an unknown signal name is an error
-    bool assumeSignals = false;         ///< signals that the configuration lacks exist as they are used
-    std::vector<SignalInfo> signals;    ///< from the configuration; mechanical units as well
+    bool assumeSignals = false;      ///< signals that the configuration lacks exist as they are used
+    std::vector<SignalInfo> signals; ///< from the configuration; mechanical units as well
     /// RobotWare options of the controller, e.g. "623-1 Multitasking", when a backup tells them; else unknown.
     std::optional<std::vector<std::string>> robotWareOptions;
     /// Modules that are installed once for all tasks (CAB_TASK_MODULES), names in lower case.

@@ -26,9 +26,9 @@ struct Inputs {
     std::vector<std::string> configFiles; ///< --config
     std::string robot;                    ///< --robot; an unknown one is wrong usage
     bool requireMain = false;
-    std::vector<std::string> warnings;  ///< -W
-    bool lint = false;                  ///< with the warnings of 8xxx, also where -W does not name them
-    bool onlyDiagnostics = false;       ///< nothing is lowered: the inside of routines need not be kept
+    std::vector<std::string> warnings; ///< -W
+    bool lint = false;                 ///< with the warnings of 8xxx, also where -W does not name them
+    bool onlyDiagnostics = false;      ///< nothing is lowered: the inside of routines need not be kept
     bool assumeSignals = false; ///< define the signals that the configuration lacks as the program uses them
 };
 

@@ -122,9 +122,10 @@ TEST_CASE("sizes and offsets are those of C", "[ir]") {
 }
 
 TEST_CASE("errors of the parser name the place and what was expected", "[ir]") {
-    CHECK(parseError("nonsense") ==
-          "1:1: 'nonsense' where module, file, folder, sources, overflow, type, desc, global, native, routine, "
-          "external, alias, task, source, search, within, named or config is expected");
+    CHECK(
+        parseError("nonsense") ==
+        "1:1: 'nonsense' where module, file, folder, sources, overflow, type, desc, global, native, routine, "
+        "external, alias, task, source, search, within, named or config is expected");
     CHECK(parseError("module \"open\n") == "1:8: string without closing quote");
     CHECK(parseError("module \"a\\q\"") == "1:8: '\\' in a string must be followed by two hex digits");
     CHECK(parseError("file 3 \"x\"") == "1:6: file 0 is expected here");
