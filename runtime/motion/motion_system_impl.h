@@ -4,15 +4,17 @@
 #include "runtime/motion/coast.h"
 #include "runtime/motion/motion_system.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace motion {
 
 /// Nanoseconds that are not before the given seconds, so that what is promised for a time has happened by
-/// then.
+/// then. At most 4e9 s (126 years): a sum of two such times is still a time.
 inline TimeNs toNs(double seconds) {
-    return static_cast<TimeNs>(std::ceil(seconds * 1e9 - 1e-6));
+    constexpr double kLongest = 4e9;
+    return static_cast<TimeNs>(std::ceil(std::min(seconds, kLongest) * 1e9 - 1e-6));
 }
 inline double toSeconds(TimeNs time) {
     return static_cast<double>(time) * 1e-9;
