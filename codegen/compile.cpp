@@ -71,7 +71,6 @@ bool spareHugeRoutines(llvm::Module& module) {
         if (function.getInstructionCount() <= kHuge) continue;
         function.addFnAttr(llvm::Attribute::OptimizeNone);
         function.addFnAttr(llvm::Attribute::NoInline);
-        function.removeFnAttr(llvm::Attribute::AlwaysInline);
         found = true;
     }
     return found;

@@ -15,7 +15,8 @@ namespace codegen {
 /// Machine code is made for one fixed feature set, never for the host's: results and objects must not depend on it.
 std::unique_ptr<llvm::TargetMachine> makeTargetMachine(const CodegenOptions& options, std::string& error);
 
-/// Emits `module`, checks the result and optimises it. With a huge routine in it, `machine` generates code quickly from then on. Null and `error` when LLVM's verifier objects (our bug).
+/// Emits `module`, checks the result and optimises it. When the module has a huge routine, sets `machine` to generate code
+/// without optimisation. Null and `error` when LLVM's verifier objects (our bug).
 std::unique_ptr<llvm::Module> compile(const ir::Module& module, const CodegenOptions& options,
                                       llvm::TargetMachine& machine, llvm::LLVMContext& context,
                                       std::string& error);

@@ -11,26 +11,6 @@ using ir::Inst;
 using ir::Op;
 using ir::ValueId;
 
-namespace {
-
-/// Every address of the local is used to load from or store to it directly.
-bool isPrivate(const ir::Routine& routine, uint32_t local) {
-    for (const ir::Block& block : routine.blocks)
-        for (const ValueId id : block.insts) {
-            const Inst& user = routine.insts[id];
-            for (size_t i = 0; i < user.operands.size(); ++i) {
-                const Inst& address = routine.insts[user.operands[i]];
-                if (address.op != Op::LocalAddr || address.index != local) continue;
-                if (!((user.op == Op::Load && i == 0) || (user.op == Op::Store && i == 1) ||
-                      user.op == Op::Zero))
-                    return false;
-            }
-        }
-    return true;
-}
-
-} // namespace
-
 std::optional<JoinedRounds> JoinedRounds::plan(const ir::Module& module, const ir::Routine& routine,
                                                const ir::Cfg& cfg, const ir::Loop& loop) {
     JoinedRounds joined;
@@ -44,15 +24,12 @@ bool JoinedRounds::read(const ir::Module& module, const ir::Routine& routine, co
     if (!counted) return false;
     counted_ = *counted;
     header_ = loop.header;
-    for (const ir::BlockId p : cfg.preds[header_]) {
-        if (loop.contains[p]) continue;
-        if (entry_ != ir::kNone) return false;
-        entry_ = p;
-    }
-    if (entry_ == ir::kNone || routine.insts[routine.blocks[entry_].insts.back()].op != Op::Br) return false;
+    entry_ = ir::entryByJump(routine, cfg, loop);
+    if (entry_ == ir::kNone) return false;
     if (!readBody(module, routine, loop) || checked_.empty()) return false;
+    const std::vector<bool> isPrivate = ir::privateLocals(routine);
     for (const uint32_t local : written_)
-        if (!isPrivate(routine, local)) return false;
+        if (!isPrivate[local]) return false;
     std::vector<uint32_t> seen; // what a local holds at the end of the round counts
     for (auto id = insts_.rbegin(); id != insts_.rend(); ++id) {
         const Inst& store = routine.insts[*id];
@@ -140,7 +117,7 @@ void RoutineEmitter::findFastLoops() {
     }
 }
 
-/// At the jump that enters a loop: emits the faster one ahead of it, if there is one.
+/// At the jump that enters a loop: emits its faster form before it, if there is one.
 bool RoutineEmitter::entersFastLoop() {
     for (const WideLoop& wide : wideLoops_)
         if (wide.entry() == current_) return wideLoop(wide), true;
@@ -149,30 +126,31 @@ bool RoutineEmitter::entersFastLoop() {
     return false;
 }
 
-void RoutineEmitter::joinedRounds(const JoinedRounds& joined) {
-    BasicBlock *head = newBlock("rounds"), *body = newBlock("rounds.body"), *back = newBlock("rounds.back");
-    BasicBlock* rest = blockOf(joined.header());
-    const ir::CountedLoop& counted = joined.counted();
-    Value* counter = locals_[counted.counter];
-    b_.CreateBr(head);
-    b_.SetInsertPoint(head);
-    const ir::Inst& limit = routine_.insts[counted.bound];
+/// At the header of a counted loop: at least so many rounds are left. Computed in 64 bits, which the sum cannot leave.
+llvm::Value* RoutineEmitter::hasRounds(const ir::CountedLoop& counted, unsigned rounds) {
+    const Inst& limit = routine_.insts[counted.bound];
     Value* bound = limit.op == Op::Const  ? constant(limit)
                    : limit.op == Op::Load ? load(ir::kI32, locals_[routine_.insts[limit.operands[0]].index])
                                           : value(counted.bound);
     llvm::Type* i64 = b_.getInt64Ty();
-    const int64_t distance = static_cast<int64_t>(counted.step) * (JoinedRounds::kRounds - 1);
-    Value* last = b_.CreateAdd(b_.CreateSExt(load(ir::kI32, counter), i64),
+    const int64_t distance = static_cast<int64_t>(counted.step) * (rounds - 1);
+    Value* last = b_.CreateAdd(b_.CreateSExt(load(ir::kI32, locals_[counted.counter]), i64),
                                llvm::ConstantInt::getSigned(i64, distance));
     Value* to = b_.CreateSExt(bound, i64);
-    Value* all = nullptr;
     switch (counted.comparison) {
-    case Op::ILe: all = b_.CreateICmpSLE(last, to); break;
-    case Op::ILt: all = b_.CreateICmpSLT(last, to); break;
-    case Op::IGe: all = b_.CreateICmpSGE(last, to); break;
-    default: all = b_.CreateICmpSGT(last, to); break;
+    case Op::ILe: return b_.CreateICmpSLE(last, to);
+    case Op::ILt: return b_.CreateICmpSLT(last, to);
+    case Op::IGe: return b_.CreateICmpSGE(last, to);
+    default: return b_.CreateICmpSGT(last, to);
     }
-    b_.CreateCondBr(all, body, rest);
+}
+
+void RoutineEmitter::joinedRounds(const JoinedRounds& joined) {
+    BasicBlock *head = newBlock("rounds"), *body = newBlock("rounds.body"), *back = newBlock("rounds.back");
+    BasicBlock* rest = blockOf(joined.header());
+    b_.CreateBr(head);
+    b_.SetInsertPoint(head);
+    b_.CreateCondBr(hasRounds(joined.counted(), JoinedRounds::kRounds), body, rest);
     b_.SetInsertPoint(body);
     std::vector<std::pair<uint32_t, Value*>> before;
     for (const uint32_t local : joined.written())

@@ -1,7 +1,7 @@
 #pragma once
-// Counted loops that add up (`sum := sum + a{i} * b{i}`): an infinity stays in the sum, so that one look after several
-// rounds finds what went wrong in any of them. Ahead of such a loop stands one that does several rounds at once; where
-// its look finds something it takes them back, and the loop itself goes on.
+// Counted loops that add up (`sum := sum + a{i} * b{i}`): an infinity stays in the sum, so one check after several rounds
+// shows whether any of them overflowed. A loop that does several rounds at once is emitted before such a loop. When its check
+// fails, it restores the variables of these rounds, and the original loop repeats them.
 
 #include <optional>
 

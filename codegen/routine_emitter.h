@@ -11,6 +11,10 @@
 #include "codegen/module_emitter.h"
 #include "ir/core/cfg.h"
 
+namespace ir {
+struct CountedLoop;
+}
+
 namespace codegen {
 
 class JoinedRounds;
@@ -64,6 +68,7 @@ class RoutineEmitter {
     // joined_rounds.cpp
     void findFastLoops();
     bool entersFastLoop();
+    Value* hasRounds(const ir::CountedLoop& counted, unsigned rounds);
     void joinedRounds(const JoinedRounds& joined);
     void oneOfRounds(const JoinedRounds& joined, bool isLast, BasicBlock* back, Value* (&sums)[2]);
 

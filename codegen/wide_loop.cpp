@@ -41,13 +41,8 @@ bool WideLoop::read(const ir::Cfg& cfg) {
     if (!up || counted->step != 1) return false;
     counted_ = *counted;
     header_ = loop_.header;
-    for (const ir::BlockId p : cfg.preds[header_]) {
-        if (loop_.contains[p]) continue;
-        if (entry_ != ir::kNone) return false;
-        entry_ = p;
-    }
-    if (entry_ == ir::kNone || routine_.insts[routine_.blocks[entry_].insts.back()].op != Op::Br)
-        return false;
+    entry_ = ir::entryByJump(routine_, cfg, loop_);
+    if (entry_ == ir::kNone) return false;
     return readBody() && !checks_.empty() && isIndependent();
 }
 
@@ -85,7 +80,7 @@ const WideLoop::Lane* WideLoop::lane(ValueId id) const {
 
 WideLoop::Kind WideLoop::kindOf(ValueId id) const {
     const Lane* known = lane(id);
-    return known ? known->kind : Kind::Uniform; // defined ahead of the loop
+    return known ? known->kind : Kind::Uniform; // defined before the loop
 }
 
 /// The local that is loaded from or stored to directly; kNone: something else is.
@@ -190,7 +185,7 @@ bool WideLoop::isIndependent() const {
     const auto named = [&](ValueId object) {
         const Inst& inst = routine_.insts[object];
         if (inst.op == Op::LocalAddr) return true;
-        // Two names of objects that lie elsewhere may stand for one.
+        // Two external names can be aliases of one object.
         return inst.op == Op::GlobalAddr && module_.globals[inst.index].kind != ir::GlobalKind::External;
     };
     for (const ValueId s : stores_) {
@@ -215,8 +210,8 @@ bool WideLoop::isIndependent() const {
 
 // ---- Emission ------------------------------------------------------------------------------------------------------
 
-/// Emits the loop ahead of the loop at the end of the block that enters it; in two forms when the elements may lie as the
-/// processor likes them.
+/// Emits the wide loop at the end of the block that enters the original one; in two forms when the elements may be
+/// aligned to registers.
 void RoutineEmitter::wideLoop(const WideLoop& wide) {
     BasicBlock* anywhere = newBlock("wide");
     if (Value* misplaced = misplacedElements(wide)) {
@@ -254,15 +249,7 @@ void RoutineEmitter::wideRounds(const WideLoop& wide, BasicBlock* head, uint32_t
     Value* counter = locals_[wide.counted_.counter];
     b_.SetInsertPoint(head);
     Value* first = load(ir::kI32, counter);
-    const ir::Inst& limit = routine_.insts[wide.counted_.bound];
-    Value* bound = limit.op == Op::Const  ? constant(limit)
-                   : limit.op == Op::Load ? load(ir::kI32, locals_[wide.loadedLocal(limit)])
-                                          : value(wide.counted_.bound);
-    llvm::Type* i64 = b_.getInt64Ty();
-    Value* last = b_.CreateAdd(b_.CreateSExt(first, i64), b_.getInt64(wide.width_ - 1));
-    const auto goesOn =
-        wide.counted_.comparison == Op::ILe ? llvm::CmpInst::ICMP_SLE : llvm::CmpInst::ICMP_SLT;
-    b_.CreateCondBr(b_.CreateICmp(goesOn, last, b_.CreateSExt(bound, i64)), body, rest);
+    b_.CreateCondBr(hasRounds(wide.counted_, wide.width_), body, rest);
     b_.SetInsertPoint(body);
     std::unordered_map<ValueId, Value*> values;
     for (const ValueId id : wide.insts_)
@@ -353,7 +340,7 @@ llvm::Value* RoutineEmitter::allFinite(const WideLoop& wide,
             sum = b_.CreateFAdd(b_.CreateShuffleVector(sum, low), b_.CreateShuffleVector(sum, high));
             type = llvm::cast<llvm::FixedVectorType>(sum->getType());
         }
-        // x - x is no number exactly when x is infinite or none.
+        // x - x is NaN exactly when x is infinite or NaN.
         Value* difference = b_.CreateFSub(sum, sum);
         Value* bad = b_.CreateFCmpUNO(difference, difference);
         fine = b_.CreateAnd(fine, b_.CreateNot(b_.CreateOrReduce(bad)));

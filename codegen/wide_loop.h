@@ -1,7 +1,7 @@
 #pragma once
-// Counted loops over arrays that check their results (`checkfinite`): LLVM does not vectorise a loop that can be left in
-// its middle. Ahead of such a loop stands one that computes many elements at once and looks at all results together
-// before it stores any. Where one of them is out of range, and for the rest, the loop itself goes on.
+// Counted loops over arrays that check their results (`checkfinite`): LLVM does not vectorise a loop with an exit in its
+// middle. A loop that computes many elements at once is emitted before such a loop; it checks all results together before it
+// stores any. The original loop does the remaining rounds, and all rounds from the first result that is out of range.
 
 #include <optional>
 #include <unordered_map>

@@ -227,4 +227,31 @@ LoopInfo findLoops(const Cfg& cfg) {
     return info;
 }
 
+BlockId entryByJump(const Routine& routine, const Cfg& cfg, const Loop& loop) {
+    BlockId entry = kNone;
+    for (const BlockId p : cfg.preds[loop.header]) {
+        if (loop.contains[p]) continue;
+        if (entry != kNone) return kNone;
+        entry = p;
+    }
+    const bool jumps = entry != kNone && routine.insts[routine.blocks[entry].insts.back()].op == Op::Br;
+    return jumps ? entry : kNone;
+}
+
+std::vector<bool> privateLocals(const Routine& routine) {
+    std::vector<bool> result(routine.locals.size(), true);
+    for (const Block& block : routine.blocks)
+        for (const ValueId id : block.insts) {
+            const Inst& user = routine.insts[id];
+            for (size_t i = 0; i < user.operands.size(); ++i) {
+                const Inst& address = routine.insts[user.operands[i]];
+                if (address.op != Op::LocalAddr) continue;
+                const bool direct = (user.op == Op::Load && i == 0) || (user.op == Op::Store && i == 1) ||
+                                    user.op == Op::Zero;
+                if (!direct) result[address.index] = false;
+            }
+        }
+    return result;
+}
+
 } // namespace ir

@@ -50,4 +50,10 @@ struct LoopInfo {
 };
 LoopInfo findLoops(const Cfg& cfg);
 
+/// The only block outside the loop that leads to its header, when it ends in a jump; kNone otherwise.
+BlockId entryByJump(const Routine& routine, const Cfg& cfg, const Loop& loop);
+
+/// By local: every address of it is used to load from it, store to it or zero it directly.
+std::vector<bool> privateLocals(const Routine& routine);
+
 } // namespace ir

@@ -82,7 +82,7 @@ void ArgumentCopies::read(const RoutineSymbol& routine) {
     visit(*routine.routineDecl, *routine.module, at->second);
 }
 
-/// Own data of the routine do not count: nobody else can reach them unless the call itself hands them out.
+/// Own data of the routine do not count: other code reaches them only when the call itself passes them.
 void ArgumentCopies::write(const DataSymbol* object, Body& body) {
     if (object && isShared(*object)) body.written.insert(object);
 }

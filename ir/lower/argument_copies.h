@@ -12,11 +12,11 @@ namespace rapid::lower {
 /// The data object that a reference names as a whole or in part; null for anything else.
 const sema::DataSymbol* referredData(const syntax::Expr* expr, const sema::Module& module);
 
-/// Some other code of the program may be able to reach the object by its address: data of modules, and what a parameter by
-/// reference stands for.
+/// Some other code of the program may be able to reach the object by its address: data of modules, and the
+/// argument of a parameter by reference.
 bool isShared(const sema::DataSymbol& object);
 
-/// The two names may stand for objects that overlap.
+/// The two names may refer to objects that overlap.
 bool mayOverlap(const sema::DataSymbol& a, const sema::DataSymbol& b);
 
 class ArgumentCopies {

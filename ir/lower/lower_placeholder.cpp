@@ -1,5 +1,5 @@
 // Placeholders (manual 1.1.1): an instruction that is not complete raises ERR_EXECPHR when its placeholder is reached.
-// Expressions around one have no type, so what would be evaluated ahead of it is evaluated for its effects alone.
+// Expressions around one have no type, so what would be evaluated before it is evaluated for its effects alone.
 
 #include "frontend/syntax/token_set.h"
 #include "frontend/syntax/tree_walk.h"
@@ -46,7 +46,7 @@ bool RoutineLowering::isIncompleteCall(const Node& node) const {
     return found;
 }
 
-/// Evaluates what comes ahead of the placeholder within `node`, and raises the error.
+/// Evaluates what comes before the placeholder within `node`, and raises the error.
 void RoutineLowering::reachPlaceholder(const Node& node) {
     bool reached = false;
     forEachChild(node, [&](const Node& child) {

@@ -16,7 +16,7 @@ class CheckMerger {
     CheckMerger(const Module& module, Routine& routine) : module_(module), routine_(routine) {}
 
     void run() {
-        findPrivateLocals();
+        private_ = privateLocals(routine_);
         // Blocks made on the way hold the rest of those before them; what is done again is left as it is.
         for (BlockId b = 0; b < routine_.blocks.size(); ++b) {
             if (std::find(again_.begin(), again_.end(), b) != again_.end()) continue;
@@ -42,19 +42,6 @@ class CheckMerger {
         made.stmt = stmt;
         routine_.insts.push_back(std::move(made));
         return static_cast<ValueId>(routine_.insts.size() - 1);
-    }
-
-    void findPrivateLocals() {
-        private_.assign(routine_.locals.size(), true);
-        for (const Block& block : routine_.blocks)
-            for (const ValueId id : block.insts)
-                for (size_t i = 0; i < inst(id).operands.size(); ++i) {
-                    const Inst& address = inst(inst(id).operands[i]);
-                    if (address.op != Op::LocalAddr) continue;
-                    const bool direct = (inst(id).op == Op::Load && i == 0) ||
-                                        (inst(id).op == Op::Store && i == 1) || inst(id).op == Op::Zero;
-                    if (!direct) private_[address.index] = false;
-                }
     }
 
     bool isBarrier(const Inst& i) const {

@@ -92,8 +92,7 @@ void keepBookedNumbers(Controller& controller, StateKeepers& kept) {
 extern "C" {
 
 Status rt_raiseNumber(TaskCore* task, int32_t* result, float number) {
-    const bool fits = number > -1e6F && number < 1e6F;
-    if (!fits || !mayBeRaised(taskOf(task).controller(), number))
+    if (!mayBeRaised(taskOf(task).controller(), number))
         return lib::fail(
             task, err::ERR_ILLRAISE,
             fmt::format("RAISE {}: the number must be 1 to 90, an error constant, or a number booked "
