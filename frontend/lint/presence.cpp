@@ -282,12 +282,15 @@ class PresenceWalk {
             if (isExpr(child.kind)) expr(static_cast<const Expr&>(child));
         });
         switch (s.kind) {
+        case NodeKind::Break:
+        case NodeKind::Continue:
+            if (module_.facts->calls.find(&s) != module_.facts->calls.end()) return goesOnBehind(s);
+            ++leaves_;
+            return false;
         case NodeKind::Return:
         case NodeKind::Raise:
         case NodeKind::Exit:
         case NodeKind::Goto:
-        case NodeKind::Break:
-        case NodeKind::Continue:
         case NodeKind::Retry:
         case NodeKind::TryNext: ++leaves_; return false;
         default: return true;

@@ -244,8 +244,11 @@ bool Walker::statement(const Stmt& s) {
     case NodeKind::Retry:
     case NodeKind::TryNext:
     case NodeKind::Exit: ++ends_; return false;
-    case NodeKind::Break: breakSeen_ = true; return false;
-    case NodeKind::Continue: return false;
+    case NodeKind::Break:
+    case NodeKind::Continue:
+        if (find(s)) return call(s, {}); // a procedure of that name in old files
+        breakSeen_ |= s.kind == NodeKind::Break;
+        return false;
     default: return true;
     }
 }

@@ -510,6 +510,7 @@ class Analyzer {
     void connectTarget(const syntax::Expr& target);
     void labelStmt(const syntax::LabelStmt& s);
     void placeholder(const syntax::Node& node);
+    bool callsOldProcedure(const syntax::Stmt& s);
     void loopWord(const syntax::Stmt& s, const char* word);
     void resolveJumps();
     std::string nearLabel(NameId name);

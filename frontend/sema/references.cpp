@@ -103,6 +103,8 @@ class Collector {
         }
         case NodeKind::Call: call(node, as<CallExpr>(node).name); break;
         case NodeKind::CallStmt: call(node, as<CallStmt>(node).name); break;
+        case NodeKind::Break:
+        case NodeKind::Continue: call(node, node.first); break; // a procedure of that name in old files
         case NodeKind::Goto: add(as<GotoStmt>(node).label, statementSymbol(node)); break;
         case NodeKind::Connect: add(as<ConnectStmt>(node).trap, statementSymbol(node)); break;
         case NodeKind::Data: type(as<DataDecl>(node).type); break;

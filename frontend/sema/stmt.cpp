@@ -60,10 +60,14 @@ bool Analyzer::wholeStatement(const Stmt& s) {
         return false;
     case NodeKind::Exit: return false;
     case NodeKind::Break:
+        if (callsOldProcedure(s)) return true;
         loopWord(s, "BREAK");
         breakSeen_ = true;
         return false;
-    case NodeKind::Continue: loopWord(s, "CONTINUE"); return false;
+    case NodeKind::Continue:
+        if (callsOldProcedure(s)) return true;
+        loopWord(s, "CONTINUE");
+        return false;
     case NodeKind::PlaceholderStmt:
         placeholder(s);
         broken_ = true; // it may stand for the RETURN
@@ -79,6 +83,19 @@ bool Analyzer::wholeStatement(const Stmt& s) {
     case NodeKind::ErrorStmt: broken_ = true; return true;
     default: return true;
     }
+}
+
+/// `Continue;` in a file of an older system, for which the word is not reserved, calls the procedure of that name if another
+/// file declares one. The parser has dealt with procedures of the same file.
+bool Analyzer::callsOldProcedure(const Stmt& s) {
+    if (!SourceFile::isLegacyFileType(context_.tree->source->path())) return false;
+    RoutineSymbol* routine = asRoutine(lookup(idOf(s.first)));
+    if (!routine || routine->routineKind != RoutineKind::Proc) return false;
+    report(Code::LaterReservedWord, range(s.first),
+           {s.kind == NodeKind::Break ? "BREAK" : "CONTINUE", "RobotWare 7.12"});
+    markUsed(*routine);
+    bindCall(s, *routine, s.first, {});
+    return true;
 }
 
 void Analyzer::loopWord(const Stmt& s, const char* word) {

@@ -86,7 +86,7 @@ void RoutineLowering::lowerFor(const ForStmt& stmt) {
     sema::DataSymbol& variable = *found->second;
     // The row stands for the head only: the place of an error in a bound.
     startStatement(*stmt.from, ir::StmtKind::Control);
-    checkForeignData(stmt);
+    checkData(stmt);
     const ForPlan plan = planFor(stmt, variable);
     if (plan.kind != ForPlan::Kind::Float) loopRanges_[&variable] = plan.variable;
     // The debugger may change the variable: no conclusion from its bounds holds then.

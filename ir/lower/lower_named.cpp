@@ -335,14 +335,16 @@ uint32_t ProgramLowering::importGlobal(const DataSymbol& symbol, uint32_t task) 
 
 uint32_t ProgramLowering::goneFlag(const sema::Module& module, uint32_t task) {
     auto [found, isNew] = goneFlags_.try_emplace({task, &module}, 0);
-    if (isNew) {
-        ir::Global flag;
-        flag.name = "gone/" + this->task(task).name + "/" + module.name;
-        flag.type = ir::kI32;
-        found->second = static_cast<uint32_t>(module_.globals.size());
-        module_.globals.push_back(std::move(flag));
-    }
+    if (isNew) found->second = addFlag("gone/" + this->task(task).name + "/" + module.name);
     return found->second;
+}
+
+uint32_t ProgramLowering::addFlag(std::string name) {
+    ir::Global flag;
+    flag.name = std::move(name);
+    flag.type = ir::kI32;
+    module_.globals.push_back(std::move(flag));
+    return static_cast<uint32_t>(module_.globals.size() - 1);
 }
 
 /// True as long as the module of the symbol has not been erased.
@@ -397,8 +399,14 @@ void RoutineLowering::collectForeignData(const Node& node, std::vector<const Dat
     });
 }
 
-/// Data of modules that may have left memory raise an error when the instruction begins. `part`: the statement itself or
-/// an expression of it; statements nested in it look after themselves.
+/// Data that are not in memory or have no value yet raise an error when the instruction begins. `part`: the statement itself
+/// or an expression of it; statements nested in it look after themselves.
+void RoutineLowering::checkData(const Node& part) {
+    checkForeignData(part);
+    checkAssigned(part);
+}
+
+/// Data of modules that may have left memory.
 void RoutineLowering::checkForeignData(const Node& part) {
     if (!program_.dataMayBeAbsent()) return;
     std::vector<const DataSymbol*> used;

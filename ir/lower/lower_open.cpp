@@ -39,13 +39,50 @@ bool lacksSize(const DataSymbol& symbol) {
     return false;
 }
 
-/// A constant that gets its value from a name which nothing declares here.
+/// Its initial value is that of a name which nothing declares here.
+bool lacksInitialValue(const DataSymbol& symbol) {
+    return symbol.init && !symbol.predefined && symbol.value().kind == sema::ConstValue::Kind::None;
+}
+
 bool lacksValue(const DataSymbol& symbol) {
-    return symbol.dataKind == DataKind::Const && symbol.storage != sema::Storage::Parameter && symbol.init &&
-           !symbol.predefined && symbol.value().kind == sema::ConstValue::Kind::None;
+    return symbol.dataKind == DataKind::Const && symbol.storage != sema::Storage::Parameter &&
+           lacksInitialValue(symbol);
+}
+
+/// The name that nothing declares here and on which the initial value hangs.
+std::string_view openNameIn(const Node& node, const DataSymbol& symbol) {
+    const sema::Module& module = *symbol.module;
+    if (node.kind == NodeKind::Name) {
+        const auto& name = as<NameExpr>(node);
+        const sema::Symbol* other = (*module.exprs)[name.id].symbol;
+        if (!other) return module.tree->text(name.name);
+        if (other->kind != sema::SymbolKind::Data || other == &symbol) return {};
+        const auto& data = static_cast<const DataSymbol&>(*other);
+        return lacksInitialValue(data) ? openNameIn(*data.init, data) : std::string_view();
+    }
+    std::string_view found;
+    forEachChild(node, [&](const Node& child) {
+        if (found.empty()) found = openNameIn(child, symbol);
+    });
+    return found;
+}
+
+std::string_view openName(const DataSymbol& symbol) {
+    const std::string_view found = openNameIn(*symbol.init, symbol);
+    return found.empty() ? std::string_view(symbol.name) : found;
+}
+
+bool isVariableWithoutValue(const DataSymbol& data) {
+    return data.storage == sema::Storage::ModuleData && data.dataKind == DataKind::Var &&
+           lacksInitialValue(data) && !isWithoutForm(data);
 }
 
 } // namespace
+
+void ProgramLowering::findOpenInitialValues(const sema::Module& module) {
+    openInitialValues_ |= std::any_of(module.data.begin(), module.data.end(),
+                                      [](const DataSymbol* data) { return isVariableWithoutValue(*data); });
+}
 
 std::string_view RoutineLowering::missingInName(const NameExpr& name, const char*& error) const {
     const sema::ExprInfo& facts = info(name);
@@ -56,7 +93,8 @@ std::string_view RoutineLowering::missingInName(const NameExpr& name, const char
     const bool hasSize =
         data && data->decl && data->decl->kind == NodeKind::Data && !as<DataDecl>(*data->decl).dims.empty();
     const bool lacksType = data && data->decl && isUnknown(data->type) && !hasSize;
-    return lacksType ? typeNameOf(*data) : module_->tree->text(name.name);
+    if (lacksType) return typeNameOf(*data);
+    return data && lacksValue(*data) ? openName(*data) : module_->tree->text(name.name);
 }
 
 std::string_view RoutineLowering::missingInCall(const Node& node, TokenIndex name, const char*& error) const {
@@ -123,6 +161,51 @@ std::string_view RoutineLowering::missingReference(const Node& node, const char*
     constexpr uint32_t kShown = 40;
     return isUnknown(type) ? text.substr(range.begin, std::min(range.end - range.begin, kShown))
                            : std::string_view();
+}
+
+/// The name of a variable of a module that has no value until it is assigned.
+bool RoutineLowering::beginsWithoutValue(const Expr& expr) const {
+    if (expr.kind != NodeKind::Name) return false;
+    const sema::Symbol* symbol = info(expr).symbol;
+    return symbol && symbol->kind == sema::SymbolKind::Data && !program_.isForeign(*symbol) &&
+           isVariableWithoutValue(static_cast<const DataSymbol&>(*symbol));
+}
+
+/// Such variables as the node uses; the target of an assignment gets its value from it.
+void RoutineLowering::collectWithoutValue(const Node& node, std::vector<const DataSymbol*>& out) const {
+    if (isExpr(node.kind) && beginsWithoutValue(static_cast<const Expr&>(node))) {
+        const auto* data = static_cast<const DataSymbol*>(info(static_cast<const Expr&>(node)).symbol);
+        if (std::find(out.begin(), out.end(), data) == out.end()) out.push_back(data);
+        return;
+    }
+    const Expr* assigned = node.kind == NodeKind::Assign ? as<AssignStmt>(node).target : nullptr;
+    forEachChild(node, [&](const Node& child) {
+        const bool target = &child == assigned && child.kind == NodeKind::Name;
+        if (!isStmt(child.kind) && !target) collectWithoutValue(child, out);
+    });
+}
+
+/// Variables that no assignment has given a value yet.
+void RoutineLowering::checkAssigned(const Node& part) {
+    if (!program_.hasOpenInitialValues()) return;
+    std::vector<const DataSymbol*> used;
+    collectWithoutValue(part, used);
+    for (const DataSymbol* data : used) {
+        const ValueId flag = b_.load(ir::kI32, b_.globalAddr(program_.valueFlag(*data, task_)));
+        const ir::BlockId open = b_.addBlock("open");
+        const ir::BlockId assigned = b_.addBlock("assigned");
+        b_.condBr(b_.binary(ir::Op::INe, flag, b_.constI32(0)), assigned, open);
+        b_.setBlock(open);
+        raiseUnresolved(hasPlaceholderIn(*data) ? "ERR_EXECPHR" : "ERR_REFUNKDAT", openName(*data));
+        b_.br(assigned);
+        b_.setBlock(assigned);
+    }
+}
+
+void RoutineLowering::noteAssigned(const Expr& target) {
+    if (!program_.hasOpenInitialValues() || !beginsWithoutValue(target)) return;
+    const auto& data = static_cast<const DataSymbol&>(*info(target).symbol);
+    b_.store(ir::kI32, b_.constI32(1), b_.globalAddr(program_.valueFlag(data, task_)));
 }
 
 /// An instruction whose references stay open until it is executed (manual 1.6). True when it has been dealt with.

@@ -23,7 +23,7 @@ void RoutineLowering::startStatement(const Node& node, ir::StmtKind kind) {
     row.handled = region_ == Region::Body && hasErrorHandler_ && inInstructions_;
     b_.setStatement(b_.addStatement(row));
     if (costs_ != nullptr) ++costs_->statements;
-    if (node.kind != NodeKind::Routine) checkForeignData(node);
+    if (node.kind != NodeKind::Routine) checkData(node);
 }
 
 void RoutineLowering::lowerList(StmtList list) {
@@ -120,7 +120,9 @@ void RoutineLowering::lowerStmt(const Stmt& stmt) {
     if (lowerIncomplete(stmt)) return;
     if (lowerUnresolved(stmt, stmt, ir::StmtKind::Plain)) return;
     switch (stmt.kind) {
-    case NodeKind::Assign: return lowerAssign(as<AssignStmt>(stmt));
+    case NodeKind::Assign:
+        lowerAssign(as<AssignStmt>(stmt));
+        return noteAssigned(*as<AssignStmt>(stmt).target);
     case NodeKind::CallStmt: {
         const auto& call = as<CallStmt>(stmt);
         const auto found = facts().calls.find(&stmt);
@@ -145,12 +147,15 @@ void RoutineLowering::lowerStmt(const Stmt& stmt) {
     case NodeKind::Retry: startStatement(stmt, ir::StmtKind::Control); return lowerRetry();
     case NodeKind::TryNext: startStatement(stmt, ir::StmtKind::Control); return lowerTryNext();
     case NodeKind::Break:
-        startStatement(stmt, ir::StmtKind::Control);
-        if (!loops_.empty()) b_.br(loops_.back().onBreak);
-        return;
     case NodeKind::Continue:
+        if (facts().calls.find(&stmt) != facts().calls.end()) { // a procedure of that name in old files
+            startStatement(stmt, ir::StmtKind::Call);
+            lowerCall(stmt, ir::kNone);
+            return;
+        }
         startStatement(stmt, ir::StmtKind::Control);
-        if (!loops_.empty()) b_.br(loops_.back().onContinue);
+        if (loops_.empty()) return;
+        b_.br(stmt.kind == NodeKind::Break ? loops_.back().onBreak : loops_.back().onContinue);
         return;
     case NodeKind::Goto: {
         startStatement(stmt, ir::StmtKind::Control);
@@ -266,7 +271,7 @@ void RoutineLowering::lowerWhile(const WhileStmt& stmt) {
 void RoutineLowering::lowerTest(const TestStmt& stmt) {
     if (lowerOpenHead(*stmt.subject)) return;
     startStatement(*stmt.subject, ir::StmtKind::Control);
-    checkForeignData(stmt); // what the cases compare with, too
+    checkData(stmt); // what the cases compare with, too
     const sema::DataType type = info(*stmt.subject).type;
     const ir::TypeId irType = program_.irType(type.type);
     const bool signal = namesSignal(*stmt.subject);

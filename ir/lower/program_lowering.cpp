@@ -418,9 +418,19 @@ uint32_t ProgramLowering::makeReset(uint32_t taskIndex) {
         else
             b.copy(type, target, b.globalAddr(constGlobal(type, module_.globals[i].init)));
     }
+    for (const auto& [key, flag] : valueFlags_)
+        if (key.first == taskIndex) b.zero(ir::kI32, b.globalAddr(flag));
     b.ret();
     module_.routines.push_back(std::move(routine));
     return static_cast<uint32_t>(module_.routines.size() - 1);
+}
+
+uint32_t ProgramLowering::valueFlag(const DataSymbol& symbol, uint32_t task) {
+    auto [found, isNew] = valueFlags_.try_emplace({task, &symbol}, 0);
+    if (isNew)
+        found->second = addFlag(
+            fmt::format("assigned/{}/{}/{}", this->task(task).name, symbol.module->name, symbol.name));
+    return found->second;
 }
 
 void ProgramLowering::lowerTask(uint32_t index) {
@@ -462,6 +472,9 @@ bool ProgramLowering::run() {
     erases_ = usedBuiltIn("erasemodule") != nullptr || loads();
     continuesAtUserLevel_ = usesContinue();
     findCopies();
+    for (const auto& task : program_.tasks)
+        for (const sema::Module* module : task->modules)
+            findOpenInitialValues(*module);
     for (uint32_t i = 0; i < program_.tasks.size(); ++i)
         lowerTask(i);
     addTables();
@@ -478,6 +491,7 @@ bool ProgramLowering::runUnit(uint32_t task, const sema::Module& module, const U
     findNamedParameters();
     continuesAtUserLevel_ = usesContinue();
     findCopies();
+    findOpenInitialValues(module);
     for (const DataSymbol* data : module.data)
         if (!isWithoutForm(*data)) globalFor(*data, task);
     for (const RoutineSymbol* routine : module.routines)

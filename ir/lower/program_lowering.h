@@ -47,6 +47,10 @@ class ProgramLowering {
     }
     /// The global I32 that tells whether that has happened.
     uint32_t goneFlag(const sema::Module& module, uint32_t task);
+    /// A flag (i32): the variable has been assigned since the task began. For variables of modules whose initial value hangs
+    /// on a name that nothing declares here.
+    uint32_t valueFlag(const sema::DataSymbol& symbol, uint32_t task);
+    bool hasOpenInitialValues() const { return openInitialValues_; }
     /// Some data of other modules may be absent when an instruction is executed.
     bool dataMayBeAbsent() const { return unit_ || erases_; }
 
@@ -100,6 +104,8 @@ class ProgramLowering {
     const sema::RoutineSymbol* usedBuiltIn(std::string_view name) const;
     bool searchesData() const;
     void findNamedParameters();
+    void findOpenInitialValues(const sema::Module& module); // lower_open.cpp
+    uint32_t addFlag(std::string name);
     void findCopies();
     bool usesContinue() const;
     void addPredefinedData(uint32_t task);
@@ -136,9 +142,11 @@ class ProgramLowering {
     std::unordered_set<const sema::DataSymbol*> namedParams_;
     bool asksForNames_ = false;
     std::optional<ArgumentCopies> copies_;
+    bool openInitialValues_ = false;
     bool erases_ = false; ///< calls EraseModule, or loads modules, which may
     bool continuesAtUserLevel_ = false;
     std::map<std::pair<uint32_t, const sema::Module*>, uint32_t> goneFlags_;
+    std::map<std::pair<uint32_t, const sema::DataSymbol*>, uint32_t> valueFlags_;
     ir::TypeId lateRow_ = ir::kVoid;
 };
 

@@ -246,6 +246,7 @@ class RoutineLowering {
     ValueId isInMemory(const sema::Symbol& symbol);
     void collectForeignData(const syntax::Node& node, std::vector<const sema::DataSymbol*>& out) const;
     void checkForeignData(const syntax::Node& part);
+    void checkData(const syntax::Node& part);
     void lowerLateCall(const syntax::CallStmt& stmt);
     void callByName(ValueId name, std::span<const sema::BoundArg> args, ir::RoutineKind kind, ValueId result);
     void lateValue(const sema::BoundArg& arg, ValueId present, std::vector<ValueId>& out);
@@ -268,6 +269,10 @@ class RoutineLowering {
     void raiseUnresolved(const char* error, std::string_view name);
     bool lowerUnresolved(const syntax::Node& statement, const syntax::Node& part, ir::StmtKind kind);
     bool lowerOpenHead(const Expr& expr);
+    bool beginsWithoutValue(const Expr& expr) const;
+    void collectWithoutValue(const syntax::Node& node, std::vector<const sema::DataSymbol*>& out) const;
+    void checkAssigned(const syntax::Node& part);
+    void noteAssigned(const Expr& target);
     std::string_view missingReference(const syntax::Node& node, const char*& error) const;
     std::string_view missingComponent(const syntax::Node& node) const;
     std::string_view missingInName(const syntax::NameExpr& name, const char*& error) const;
