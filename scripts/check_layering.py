@@ -26,7 +26,7 @@ LAYERS = {
     "ir/text": ["ir/core", "ir/verify"],
     "ir/verify": ["ir/core"],
     "ir/passes": ["ir/core", "ir/text", "ir/verify"],
-    "ir/lower": ["ir/core", "ir/text", "ir/verify", "ir/passes", "frontend/"],
+    "ir/lower": ["ir/core", "ir/text", "ir/verify", "ir/passes", "frontend/", "runtime/abi"],
     # code generation and the runtime share the C layout of runtime/abi and nothing else
     "codegen": ["ir/core", "ir/text", "ir/verify", "ir/passes", "runtime/abi"],
     # the headers of runtime/abi stand alone (codegen includes them); see also ABI_SOURCES
@@ -41,7 +41,7 @@ LAYERS = {
     "runtime/value": ["runtime/abi"],
     "runtime/debug": ["runtime/"],
     "runtime/host": ["runtime/", "stdlib", "config"],
-    "stdlib/gen": ["frontend/"],
+    "stdlib/gen": ["frontend/", "ir/core", "runtime/abi"],
     "stdlib/impl": ["runtime/", "stdlib"],
     "stdlib": ["runtime/abi"],
     "tools": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/"],

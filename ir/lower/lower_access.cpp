@@ -33,7 +33,7 @@ void RoutineLowering::readSystemVariable(const DataSymbol& symbol, ir::ValueId a
         b_.store(ir::kF32, b_.sysvar(kind), address);
         return;
     }
-    b_.callNative(program_.support("rt_systemData", ir::NativeClass::Plain, ir::kVoid, {ir::kPtr, ir::kPtr}),
+    b_.callNative(program_.support(Support::rt_systemData),
                   {address, b_.globalAddr(program_.stringGlobal(symbol.name))});
 }
 

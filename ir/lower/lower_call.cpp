@@ -140,8 +140,7 @@ void RoutineLowering::pushAny(const BoundArg& arg, std::vector<ValueId>& args) {
 ir::ValueId RoutineLowering::typeAddress(const Place& p) {
     if (p.type.isArray() && p.type.dims[0] == 0) {
         // Conformant: its size is known at run time only; the runtime makes the description.
-        const uint32_t native = program_.support("rt_arrayDesc", ir::NativeClass::Plain, ir::kPtr,
-                                                 {ir::kPtr, ir::kI32, ir::kI32, ir::kI32});
+        const uint32_t native = program_.support(Support::rt_arrayDesc);
         const ValueId element = b_.typeDescAddr(program_.typeDesc(scalarType(p.type.type)));
         std::vector<ValueId> dims{element};
         for (int k = 0; k < 3; ++k)
@@ -199,8 +198,7 @@ ir::ValueId RoutineLowering::lowerCall(const Node& node, ValueId resultAddr) {
         const ValueId value = lowerSpecial(call, done);
         if (done) return value;
         if (!program_.implemented(callee)) {
-            const uint32_t native =
-                program_.support("rt_notImplemented", ir::NativeClass::Plain, ir::kVoid, {ir::kPtr});
+            const uint32_t native = program_.support(Support::rt_notImplemented);
             b_.callNative(native, {b_.globalAddr(program_.stringGlobal(callee.name))});
             if (callee.routineKind != RoutineKind::Func) return ir::kNone;
             const ir::TypeId type = program_.irType(callee.returnType);
@@ -279,8 +277,7 @@ void RoutineLowering::lowerWaitUntil(const BoundCall& call) {
         pushArgument(*arg, out);
         return out[0];
     };
-    const uint32_t native = program_.support("rt_waitUntilPoll", ir::NativeClass::Plain, ir::kBool,
-                                             {ir::kBool, ir::kPtr, ir::kPtr, ir::kPtr, ir::kPtr});
+    const uint32_t native = program_.support(Support::rt_waitUntilPoll);
     const BoundArg* inPosArg = findArg(call, "InPos");
     std::vector<ValueId> inPosValue;
     if (inPosArg) pushArgument(*inPosArg, inPosValue);
@@ -297,8 +294,7 @@ void RoutineLowering::lowerWaitUntil(const BoundCall& call) {
     const ir::BlockId end = b_.addBlock("waited");
     if (inPosArg && inPosArg->kind != BoundArg::Kind::Absent) {
         // \InPos: first the robot stands still, then the condition counts.
-        b_.callNative(program_.support("rt_waitInPos", ir::NativeClass::Plain, ir::kVoid, {ir::kBool}),
-                      {inPosValue[0]});
+        b_.callNative(program_.support(Support::rt_waitInPos), {inPosValue[0]});
     }
     b_.br(head);
     b_.setBlock(head);

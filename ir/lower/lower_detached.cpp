@@ -56,8 +56,7 @@ void RoutineLowering::shareData() {
 /// First thing in the handler: the detached handler may have been executed already and have told to leave the routine.
 void RoutineLowering::lowerTakeDecision() {
     startStatement(*symbol_.routineDecl, ir::StmtKind::Handler);
-    const ValueId decision =
-        b_.callNative(program_.support("rt_takeDecision", ir::NativeClass::Plain, ir::kI32, {}), {});
+    const ValueId decision = b_.callNative(program_.support(Support::rt_takeDecision), {});
     const ir::BlockId returns = b_.addBlock("returns"), raises = b_.addBlock("raises"),
                       handler = b_.addBlock("handler");
     b_.switchOn(decision, {{kReturn, returns}, {kRaise, raises}}, handler);
@@ -135,8 +134,7 @@ void RoutineLowering::bindShared(const DataSymbol& symbol, Slot slot) {
 }
 
 void RoutineLowering::endDetached(int32_t decision) {
-    b_.callNative(program_.support("rt_endDetached", ir::NativeClass::Plain, ir::kVoid, {ir::kI32}),
-                  {b_.constI32(decision)});
+    b_.callNative(program_.support(Support::rt_endDetached), {b_.constI32(decision)});
     b_.ret();
 }
 
@@ -169,8 +167,7 @@ void RoutineLowering::lowerRaiseToUser(const sema::BoundCall& call) {
     std::vector<ValueId> args;
     for (const sema::BoundArg& arg : call.args)
         pushArgument(arg, args);
-    const uint32_t native = program_.support("rt_raiseToUser", ir::NativeClass::Plain, ir::kI32,
-                                             {ir::kBool, ir::kBool, ir::kPtr});
+    const uint32_t native = program_.support(Support::rt_raiseToUser);
     const ValueId decision = b_.callNative(native, std::move(args));
     const ir::BlockId again = b_.addBlock("again"), next = b_.addBlock("after");
     b_.condBr(b_.binary(ir::Op::IEq, decision, b_.constI32(kRetry)), again, next);

@@ -25,9 +25,7 @@ bool RoutineLowering::namesSignal(const Expr& expr) const {
 /// The value of a signal in an expression: num, or dnum for groups (manual 1.9).
 ir::ValueId RoutineLowering::readSignal(const Expr& expr, bool asDnum) {
     const Place signal = reference(expr);
-    const ir::TypeId result = asDnum ? ir::kF64 : ir::kF32;
-    const uint32_t native = program_.support(asDnum ? "rt_readSignalDnum" : "rt_readSignalNum",
-                                             ir::NativeClass::Plain, result, {ir::kPtr});
+    const uint32_t native = program_.support(asDnum ? Support::rt_readSignalDnum : Support::rt_readSignalNum);
     return b_.callNative(native, {signal.addr});
 }
 
@@ -200,11 +198,9 @@ ir::ValueId RoutineLowering::keptUntil(const Expr& later, const Expr& expr, cons
 
 ir::ValueId RoutineLowering::equalPlaces(ValueId a, ValueId b, const sema::DataType& type) {
     if (!type.isArray() && type.type->base()->kind == TypeKind::String)
-        return b_.callNative(
-            program_.support("rt_strEqual", ir::NativeClass::Const, ir::kBool, {ir::kPtr, ir::kPtr}), {a, b});
-    return b_.callNative(
-        program_.support("rt_anyEqual", ir::NativeClass::Const, ir::kBool, {ir::kPtr, ir::kPtr, ir::kPtr}),
-        {a, b, b_.typeDescAddr(program_.typeDesc(type))});
+        return b_.callNative(program_.support(Support::rt_strEqual), {a, b});
+    return b_.callNative(program_.support(Support::rt_anyEqual),
+                         {a, b, b_.typeDescAddr(program_.typeDesc(type))});
 }
 
 /// Division by zero, overflow. A small constant changes no number so much that it leaves the range of its type.
@@ -349,9 +345,7 @@ void RoutineLowering::lowerInto(const Expr& outer, const sema::DataType& type, V
             const auto& binary = as<BinaryExpr>(expr); // string +
             const ValueId a = keptUntil(*binary.right, *binary.left, type, lowerAddr(*binary.left));
             const ValueId b = lowerAddr(*binary.right);
-            b_.callNative(
-                program_.support("rt_strConcat", ir::NativeClass::Plain, ir::kStr, {ir::kPtr, ir::kPtr}),
-                {dst, a, b});
+            b_.callNative(program_.support(Support::rt_strConcat), {dst, a, b});
         }
         return;
     default: {

@@ -91,22 +91,20 @@ void RoutineLowering::lowerArgName(const BoundCall& call, ValueId resultAddr) {
 // ---- Calls by name -------------------------------------------------------------------------------------------------
 
 namespace {
-/// rt::LateCallArg::flags
-constexpr int32_t kReference = 1;
-constexpr int32_t kConstant = 2;
-constexpr int32_t kSwitch = 4;
+/// Fields of the row that lateRow() describes.
+enum LateField : uint32_t { kData, kType, kObjectName, kParameter, kFlags };
 } // namespace
 
 int32_t RoutineLowering::lateFlags(const BoundArg& arg) const {
-    if (!arg.value) return kSwitch;
+    if (!arg.value) return rt::kLateSwitch;
     const Expr& value = unparen(*arg.value);
     const DataSymbol* root = rootSymbol(value);
     int32_t flags = 0;
-    if (root) flags |= kReference;
+    if (root) flags |= rt::kLateReference;
     if (info(value).constant ||
         (root && root->dataKind == DataKind::Const && root->storage != Storage::Parameter))
-        flags |= kConstant;
-    if (arg.kind == BoundArg::Kind::Conditional && root && root->isSwitch) flags |= kSwitch;
+        flags |= rt::kLateConstant;
+    if (arg.kind == BoundArg::Kind::Conditional && root && root->isSwitch) flags |= rt::kLateSwitch;
     return flags;
 }
 
@@ -167,20 +165,18 @@ void RoutineLowering::callByName(ValueId name, std::span<const BoundArg> args, i
         std::vector<ValueId> value;
         lateValue(arg, name, value);
         const ValueId at = b_.elemAddr(row, table, b_.constI32(i));
-        const auto set = [&](uint32_t field, ir::TypeId type, ValueId content) {
-            b_.store(type, content, b_.fieldAddr(row, at, field));
+        const auto set = [&](LateField field, ValueId content) {
+            b_.store(program_.module().type(row).fields[field].type, content, b_.fieldAddr(row, at, field));
         };
-        set(0, ir::kPtr, value[0]);
-        set(1, ir::kPtr, value[1]);
-        set(2, ir::kPtr, program_.asksForNames() ? argumentName(arg) : b_.nullPtr());
+        set(kData, value[0]);
+        set(kType, value[1]);
+        set(kObjectName, program_.asksForNames() ? argumentName(arg) : b_.nullPtr());
         const bool byName = arg.argument && arg.argument->argKind != ArgKind::Required;
-        set(3, ir::kPtr,
-            byName ? b_.globalAddr(program_.stringGlobal(module_->tree->text(arg.argument->name)))
-                   : b_.nullPtr());
-        set(4, ir::kI32, b_.constI32(lateFlags(arg)));
+        set(kParameter, byName ? b_.globalAddr(program_.stringGlobal(module_->tree->text(arg.argument->name)))
+                               : b_.nullPtr());
+        set(kFlags, b_.constI32(lateFlags(arg)));
     }
-    const uint32_t native = program_.support("rt_lateCall", ir::NativeClass::Plain, ir::kVoid,
-                                             {ir::kPtr, ir::kPtr, ir::kI32, ir::kI32, ir::kPtr});
+    const uint32_t native = program_.support(Support::rt_lateCall);
     b_.callNative(native, {name, table, b_.constI32(count), b_.constI32(static_cast<int32_t>(kind)), result});
 }
 
@@ -194,12 +190,15 @@ void RoutineLowering::lowerLateCall(const CallStmt& stmt) {
 }
 
 ir::TypeId ProgramLowering::lateRow() {
-    if (lateRow_ == ir::kVoid)
-        lateRow_ = module_.addRecord("rt.LateCallArg", {{"data", ir::kPtr},
-                                                        {"type", ir::kPtr},
-                                                        {"objectName", ir::kPtr},
-                                                        {"parameter", ir::kPtr},
-                                                        {"flags", ir::kI32}});
+    using Row = rt::LateCallArg;
+    if (lateRow_ != ir::kVoid) return lateRow_;
+    lateRow_ = module_.addRecord("rt.LateCallArg", {{"data", irTypeOf<decltype(Row::data)>()},
+                                                    {"type", irTypeOf<decltype(Row::type)>()},
+                                                    {"objectName", irTypeOf<decltype(Row::objectName)>()},
+                                                    {"parameter", irTypeOf<decltype(Row::parameter)>()},
+                                                    {"flags", irTypeOf<decltype(Row::flags)>()}});
+    static_assert(offsetof(Row, type) == 8 && offsetof(Row, objectName) == 16 &&
+                  offsetof(Row, parameter) == 24 && offsetof(Row, flags) == 32 && sizeof(Row) == 40);
     return lateRow_;
 }
 

@@ -265,8 +265,7 @@ std::string_view RoutineLowering::missingInCallStmt(const CallStmt& stmt, const 
 void RoutineLowering::raiseUnresolved(const char* error, std::string_view name) {
     if (std::string_view(error) == "ERR_EXECPHR")
         return b_.check(b_.constBool(false), program_.errorNumber(error));
-    const uint32_t native =
-        program_.support("rt_unresolved", ir::NativeClass::Plain, ir::kVoid, {ir::kI32, ir::kPtr});
+    const uint32_t native = program_.support(Support::rt_unresolved);
     b_.callNative(native,
                   {b_.constI32(program_.errorNumber(error)), b_.globalAddr(program_.stringGlobal(name))});
 }

@@ -27,16 +27,13 @@ ir::Routine declareRoutine(ProgramLowering& program, const RoutineSymbol& symbol
     routine.line = tree.source->lineColumn(tree.range(symbol.nameToken).begin).line;
     if (symbol.routineKind == syntax::RoutineKind::Func) routine.result = program.irType(symbol.returnType);
     for (const DataSymbol* param : symbol.params) {
-        switch (passingOf(*param)) {
-        case Passing::Value: routine.params.push_back({param->name, program.irType(param->type)}); break;
-        case Passing::Switch: routine.params.push_back({param->name, ir::kBool}); break;
-        case Passing::Any:
-        case Passing::Pointer:
-            routine.params.push_back({param->name, ir::kPtr});
-            for (int k = 0; k < param->type.rank; ++k)
-                routine.params.push_back({fmt::format("{}$dim{}", param->name, k + 1), ir::kI32});
-            break;
-        }
+        int dimension = 0;
+        rt::forEachSlot(shapeOf(*param), [&](rt::Slot slot) {
+            const bool isDimension = slot == rt::Slot::Dimension;
+            routine.params.push_back(
+                {isDimension ? fmt::format("{}$dim{}", param->name, ++dimension) : param->name,
+                 program.slotType(slot, *param)});
+        });
         if (program.passesName(*param)) routine.params.push_back({param->name + "$name", ir::kPtr});
     }
     return routine;
@@ -72,7 +69,7 @@ void RoutineLowering::lowerParameters() {
         slot.param = number;
         const Passing passing = passingOf(*param);
         const ir::TypeId type = program_.irType(param->type.type);
-        number += 1 + (passing == Passing::Pointer ? param->type.rank : 0u);
+        rt::forEachSlot(shapeOf(*param), [&](rt::Slot) { ++number; });
         if (program_.passesName(*param)) slot.name = number++;
         if (passing == Passing::Switch) {
             if (describesData_) describeSwitch(*param, slot);
@@ -263,8 +260,7 @@ void RoutineLowering::lowerBackwardHandler() {
     openCosts(costs); // not part of the body: the release profile has no such part
     startStatement(*symbol_.routineDecl, ir::StmtKind::Handler);
     costs.statements = 0;
-    const ValueId asked =
-        b_.callNative(program_.support("rt_takeBackward", ir::NativeClass::Plain, ir::kBool, {}), {});
+    const ValueId asked = b_.callNative(program_.support(Support::rt_takeBackward), {});
     b_.condBr(asked, backward, body);
     b_.setBlock(backward);
     region_ = Region::Backward;
@@ -308,7 +304,7 @@ void RoutineLowering::lowerErrorClauses() {
     }
     if (!all && !b_.terminated()) { // variables of the routine are known here only: no clause lists the error
         if (routine_.statements.empty()) startStatement(*symbol_.routineDecl, ir::StmtKind::Handler);
-        b_.callNative(program_.support("rt_errorNotListed", ir::NativeClass::Plain, ir::kVoid, {}), {});
+        b_.callNative(program_.support(Support::rt_errorNotListed), {});
     }
     if (!b_.terminated()) b_.unreachable();
     if (lists && others) routine_.errorFilter.push_back(0); // takes the others, too, from its own calls

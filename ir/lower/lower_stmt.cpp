@@ -347,17 +347,15 @@ void RoutineLowering::lowerRaise(const RaiseStmt& stmt) {
     if (const sema::ConstValue* value = info(*stmt.value).constant)
         number = b_.constI32(static_cast<int32_t>(value->number)); // the checker knows that it may be raised
     else
-        number = b_.callNative(
-            program_.support("rt_raiseNumber", ir::NativeClass::Plain, ir::kI32, {ir::kF32}), {given});
+        number = b_.callNative(program_.support(Support::rt_raiseNumber), {given});
     if (region_ == Region::Body) return b_.raise(number);
-    b_.callNative(program_.support("rt_raiseToCaller", ir::NativeClass::Plain, ir::kVoid, {ir::kI32}),
-                  {number});
+    b_.callNative(program_.support(Support::rt_raiseToCaller), {number});
     b_.unreachable();
 }
 
 /// Manual 1.13: a warning, and execution goes on behind the instruction.
 void RoutineLowering::lowerIgnoredInUndo(const char* instruction) {
-    b_.callNative(program_.support("rt_ignoredInUndo", ir::NativeClass::Plain, ir::kVoid, {ir::kPtr}),
+    b_.callNative(program_.support(Support::rt_ignoredInUndo),
                   {b_.globalAddr(program_.stringGlobal(instruction))});
 }
 
@@ -371,19 +369,17 @@ void RoutineLowering::lowerConnect(const ConnectStmt& stmt) {
     const Place target = place(*stmt.target);
     if (program_.isForeign(symbol) || program_.mayBeErased(symbol, module_)) {
         const ValueId name = b_.globalAddr(program_.stringGlobal(symbol.module->name + ":" + symbol.name));
-        address = b_.callNative(program_.support("rt_lateTrap", ir::NativeClass::Plain, ir::kPtr, {ir::kPtr}),
-                                {name});
+        address = b_.callNative(program_.support(Support::rt_lateTrap), {name});
     } else {
         const uint32_t trap = program_.routineFor(symbol, task_);
         program_.module().routines[trap].exported = true;
         address = b_.routineAddr(trap);
     }
-    b_.callNative(program_.support("rt_connect", ir::NativeClass::Plain, ir::kVoid, {ir::kPtr, ir::kPtr}),
-                  {target.addr, address});
+    b_.callNative(program_.support(Support::rt_connect), {target.addr, address});
 }
 
 void RoutineLowering::lowerExit() {
-    b_.callNative(program_.support("rt_exitProgram", ir::NativeClass::Plain, ir::kVoid, {}), {});
+    b_.callNative(program_.support(Support::rt_exitProgram), {});
     b_.unreachable();
 }
 

@@ -43,13 +43,16 @@ ir::DescKind descKind(const sema::Type& type) {
 
 } // namespace
 
-Passing passingOf(const DataSymbol& param) {
-    if (param.isSwitch) return Passing::Switch;
+rt::ParamShape shapeOf(const DataSymbol& param) {
     const TypeKind kind = param.type.type->base()->kind;
-    if (kind == TypeKind::AnyType) return Passing::Any;
-    const bool byValue = param.mode == syntax::ParamMode::In && !param.optional &&
-                         !param.requiredAlternative && !param.type.isArray() && isScalarKind(kind);
-    return byValue ? Passing::Value : Passing::Pointer;
+    rt::ParamShape shape;
+    shape.isSwitch = param.isSwitch;
+    shape.isAny = kind == TypeKind::AnyType;
+    shape.isScalar = isScalarKind(kind);
+    shape.isIn = param.mode == syntax::ParamMode::In;
+    shape.optional = param.optional || param.requiredAlternative;
+    shape.rank = param.type.rank;
+    return shape;
 }
 
 bool isUnknown(const DataType& type) {
@@ -315,11 +318,47 @@ bool ProgramLowering::implemented(const RoutineSymbol& symbol) const {
     return !options_.nativeImplemented || options_.nativeImplemented("rt_" + symbol.name);
 }
 
-uint32_t ProgramLowering::support(const char* symbol, ir::NativeClass nativeClass, ir::TypeId result,
-                                  std::vector<ir::TypeId> params) {
-    auto [it, isNew] = natives_.try_emplace(symbol, static_cast<uint32_t>(module_.natives.size()));
-    if (isNew) module_.natives.push_back({symbol, nativeClass, result, std::move(params)});
+ir::TypeId irTypeOf(rt::AbiType type) {
+    switch (type) {
+    case rt::AbiType::Void: return ir::kVoid;
+    case rt::AbiType::Bool: return ir::kBool;
+    case rt::AbiType::I32: return ir::kI32;
+    case rt::AbiType::I64: return ir::kI64;
+    case rt::AbiType::F32: return ir::kF32;
+    case rt::AbiType::F64: return ir::kF64;
+    case rt::AbiType::String: return ir::kStr;
+    case rt::AbiType::Pointer: return ir::kPtr;
+    }
+    return ir::kVoid;
+}
+
+uint32_t ProgramLowering::addNative(ir::Native native) {
+    auto [it, isNew] = natives_.try_emplace(native.symbol, static_cast<uint32_t>(module_.natives.size()));
+    if (isNew) module_.natives.push_back(std::move(native));
     return it->second;
+}
+
+uint32_t ProgramLowering::support(Support which) {
+    const rt::NativeSignature& signature = rt::support::signatureOf(which);
+    if (auto found = natives_.find(signature.symbol); found != natives_.end()) return found->second;
+    ir::Native native;
+    native.symbol = signature.symbol;
+    native.nativeClass = signature.returnsValue ? ir::NativeClass::Const : ir::NativeClass::Plain;
+    native.result = irTypeOf(signature.result);
+    for (const rt::AbiType type : signature.params)
+        native.params.push_back(irTypeOf(type));
+    return addNative(std::move(native));
+}
+
+ir::TypeId ProgramLowering::slotType(rt::Slot slot, const DataSymbol& param) {
+    switch (slot) {
+    case rt::Slot::Value: return irType(param.type);
+    case rt::Slot::Switch: return ir::kBool;
+    case rt::Slot::Address:
+    case rt::Slot::Type: return ir::kPtr;
+    case rt::Slot::Dimension: return ir::kI32;
+    }
+    return ir::kVoid;
 }
 
 uint32_t ProgramLowering::nativeFor(const RoutineSymbol& symbol) {
@@ -328,35 +367,19 @@ uint32_t ProgramLowering::nativeFor(const RoutineSymbol& symbol) {
     ir::Native native;
     native.symbol = name;
     bool allValues = true;
-    for (const DataSymbol* param : symbol.params) {
-        switch (passingOf(*param)) {
-        case Passing::Value: native.params.push_back(irType(param->type)); break;
-        case Passing::Switch:
-            native.params.push_back(ir::kBool);
-            allValues = false;
-            break;
-        case Passing::Any:
-            native.params.insert(native.params.end(), {ir::kPtr, ir::kPtr});
-            allValues = false;
-            break;
-        case Passing::Pointer:
-            native.params.push_back(ir::kPtr);
-            native.params.insert(native.params.end(), param->type.rank, ir::kI32);
-            allValues = false;
-            break;
-        }
-    }
+    for (const DataSymbol* param : symbol.params)
+        rt::forEachSlot(shapeOf(*param), [&](rt::Slot slot) {
+            native.params.push_back(slotType(slot, *param));
+            allValues = allValues && slot == rt::Slot::Value;
+        });
     const bool isFunction = symbol.routineKind == syntax::RoutineKind::Func;
     native.result = isFunction ? irType(symbol.returnType) : ir::kVoid;
     const bool scalarResult = isFunction && module_.isScalar(native.result) && native.result != ir::kI64;
-    native.nativeClass = symbol.effects == sema::Effects::Const && allValues && scalarResult
-                             ? ir::NativeClass::Const
-                             : ir::NativeClass::Plain;
+    const bool isConst = symbol.effects == sema::Effects::Const;
+    native.nativeClass = rt::returnsItsValue(isConst, scalarResult, allValues) ? ir::NativeClass::Const
+                                                                               : ir::NativeClass::Plain;
     native.watches = symbol.effects == sema::Effects::Watches;
-    const auto index = static_cast<uint32_t>(module_.natives.size());
-    module_.natives.push_back(std::move(native));
-    natives_[name] = index;
-    return index;
+    return addNative(std::move(native));
 }
 
 uint32_t ProgramLowering::routineFor(const RoutineSymbol& symbol, uint32_t task) {

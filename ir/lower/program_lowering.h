@@ -3,6 +3,7 @@
 
 #include "ir/lower/argument_copies.h"
 #include "ir/lower/lower.h"
+#include "runtime/abi/support_natives.h"
 
 #include <map>
 #include <optional>
@@ -11,15 +12,19 @@
 
 namespace rapid::lower {
 
-/// How one parameter travels. The rules equal those of the prototype generator (stdlib/gen).
-enum class Passing : uint8_t {
-    Value,   ///< required IN num, dnum, bool: by value
-    Switch,  ///< Bool: given or not
-    Pointer, ///< address; null = absent; for arrays followed by one I32 per dimension
-    Any      ///< address and type description
-};
+using rt::Passing;
+using Support = rt::support::Native;
 
-Passing passingOf(const sema::DataSymbol& param);
+/// What the calling convention needs to know of a parameter (runtime/abi/native_signature.h).
+rt::ParamShape shapeOf(const sema::DataSymbol& param);
+inline Passing passingOf(const sema::DataSymbol& param) {
+    return rt::passingOf(shapeOf(param));
+}
+
+ir::TypeId irTypeOf(rt::AbiType type);
+template <class T> ir::TypeId irTypeOf() {
+    return irTypeOf(rt::abiTypeOf<T>());
+}
 
 /// Of a type that a module declares which is not here: the instruction that uses such data raises an error.
 bool isUnknown(const sema::DataType& type);
@@ -69,10 +74,10 @@ class ProgramLowering {
     /// The global that holds module data, a constant aggregate or the slot of a signal, made on first use.
     uint32_t globalFor(const sema::DataSymbol& symbol, uint32_t task);
     uint32_t routineFor(const sema::RoutineSymbol& symbol, uint32_t task);
+    ir::TypeId slotType(rt::Slot slot, const sema::DataSymbol& param);
     uint32_t nativeFor(const sema::RoutineSymbol& symbol);
     /// A native of the runtime support that has no RAPID name.
-    uint32_t support(const char* symbol, ir::NativeClass nativeClass, ir::TypeId result,
-                     std::vector<ir::TypeId> params);
+    uint32_t support(Support native);
     bool implemented(const sema::RoutineSymbol& symbol) const;
     /// Interned read-only data.
     uint32_t constGlobal(ir::TypeId type, ir::ConstData data);
@@ -106,6 +111,7 @@ class ProgramLowering {
     void findNamedParameters();
     void findOpenInitialValues(const sema::Module& module); // lower_open.cpp
     uint32_t addFlag(std::string name);
+    uint32_t addNative(ir::Native native);
     void findCopies();
     bool usesContinue() const;
     void addPredefinedData(uint32_t task);

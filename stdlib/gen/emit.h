@@ -1,6 +1,7 @@
 #pragma once
 // The generated files, each as one text.
 
+#include "ir/core/ir.h"
 #include "stdlib/gen/model.h"
 
 namespace stdlibgen {
@@ -17,7 +18,13 @@ std::string cppType(const Model& model, std::string_view type);
 /// A RAPID name as a C++ identifier: keywords and macros get a trailing '_'.
 std::string cppName(std::string_view name);
 
+/// The layout that compiled code uses for a predefined type: num, dnum, bool, string, handles and records of them. Adds the
+/// records it contains to `module`.
+ir::TypeId layoutOf(const Model& model, std::string_view type, ir::Module& module);
+
 std::string emitTypes(const Model& model);
+/// Assertions that C++ lays out every record of stdlib_types.h as compiled code does (layoutOf).
+std::string emitLayoutChecks(const Model& model);
 std::string emitConstants(const Model& model);
 std::string emitNatives(const Model& model);
 std::string emitNativeTable(const Model& model);

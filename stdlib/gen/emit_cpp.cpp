@@ -1,3 +1,4 @@
+#include "runtime/abi/native_signature.h"
 #include "stdlib/gen/emit.h"
 
 #include <fmt/format.h>
@@ -23,26 +24,35 @@ Repr reprOf(const Model& model, std::string_view type) {
     return base ? base->repr : Repr::Record;
 }
 
-bool isPlainScalarIn(const Model& model, const Param& p) {
-    return p.mode == Mode::In && !p.optional && !p.alternative && !p.isSwitch && p.rank == 0 &&
-           isScalar(reprOf(model, p.type));
+rt::ParamShape shapeOf(const Model& model, const Param& p) {
+    const Repr repr = reprOf(model, p.type);
+    rt::ParamShape shape;
+    shape.isSwitch = p.isSwitch;
+    shape.isAny = !p.isSwitch && repr == Repr::Any;
+    shape.isScalar = isScalar(repr);
+    shape.isIn = p.mode == Mode::In;
+    shape.optional = p.optional || p.alternative;
+    shape.rank = p.rank;
+    return shape;
 }
 
 std::string cppParam(const Model& model, const Param& p) {
     const std::string name = cppName(p.name);
-    if (p.isSwitch) return "bool " + name;
-    const std::string constness = p.mode == Mode::In ? "const " : "";
-    if (reprOf(model, p.type) == Repr::Any)
-        return fmt::format("{}void* {}, const rt::TypeDesc* {}Type", constness, name, name);
-    const std::string type = cppType(model, p.type);
-    if (p.rank > 0) {
-        std::string out = fmt::format("{}{}* {}", constness, type, name);
-        for (int i = 1; i <= p.rank; ++i)
-            out += fmt::format(", int32_t {}Dim{}", name, i);
-        return out;
-    }
-    if (isPlainScalarIn(model, p)) return type + " " + name;
-    return fmt::format("{}{}* {}", constness, type, name);
+    std::string out;
+    int dimension = 0;
+    rt::forEachSlot(shapeOf(model, p), [&](rt::Slot slot) {
+        if (!out.empty()) out += ", ";
+        switch (slot) {
+        case rt::Slot::Value: out += cppType(model, p.type) + " " + name; break;
+        case rt::Slot::Switch: out += "bool " + name; break;
+        case rt::Slot::Address:
+            out += fmt::format("{}{}* {}", p.mode == Mode::In ? "const " : "", cppType(model, p.type), name);
+            break;
+        case rt::Slot::Type: out += fmt::format("const rt::TypeDesc* {}Type", name); break;
+        case rt::Slot::Dimension: out += fmt::format("int32_t {}Dim{}", name, ++dimension); break;
+        }
+    });
+    return out;
 }
 
 std::string prototype(const Model& model, const Routine& routine) {
@@ -136,12 +146,14 @@ std::string cppType(const Model& model, std::string_view type) {
 }
 
 bool isConstNative(const Model& model, const Routine& routine) {
-    if (routine.returnType.empty() || !isScalar(reprOf(model, routine.returnType))) return false;
     std::string effects = routine.doc.get("effects");
     effects = effects.substr(0, effects.find(' '));
-    if (effects != "const") return false;
-    return std::all_of(routine.params.begin(), routine.params.end(),
-                       [&](const Param& p) { return isPlainScalarIn(model, p); });
+    const bool isFunction = !routine.returnType.empty();
+    const bool allValues = std::all_of(routine.params.begin(), routine.params.end(), [&](const Param& p) {
+        return rt::passingOf(shapeOf(model, p)) == rt::Passing::Value;
+    });
+    return rt::returnsItsValue(effects == "const", isFunction && isScalar(reprOf(model, routine.returnType)),
+                               allValues);
 }
 
 std::string emitTypes(const Model& model) {

@@ -32,6 +32,7 @@ int usage() {
 
 bool writeAll(const stdlibgen::Model& model, const std::string& folder) {
     bool ok = writeIfChanged(folder + "/stdlib_types.h", emitTypes(model));
+    ok &= writeIfChanged(folder + "/layout_checks.cpp", emitLayoutChecks(model));
     ok &= writeIfChanged(folder + "/stdlib_constants.h", emitConstants(model));
     ok &= writeIfChanged(folder + "/stdlib_natives.h", emitNatives(model));
     ok &= writeIfChanged(folder + "/native_table.cpp", emitNativeTable(model));

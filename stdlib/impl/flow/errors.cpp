@@ -7,7 +7,7 @@
 #include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
 
-#include "stdlib/impl/support/support_natives.h"
+#include "runtime/abi/support_natives.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 
 #include "runtime/host/controller.h"
 #include "stdlib/impl/support/fail.h"
-#include "stdlib/impl/support/support_natives.h"
+#include "runtime/abi/support_natives.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
@@ -44,8 +44,8 @@ Status rt_ExitCycle(TaskCore* task) {
     return taskOf(task).requestExitCycle();
 }
 
-Status rt_takeBackward(TaskCore* task, uint8_t* result) {
-    *result = taskOf(task).takeBackward() ? 1 : 0;
+Status rt_takeBackward(TaskCore* task, bool* result) {
+    *result = taskOf(task).takeBackward();
     return kOk;
 }
 

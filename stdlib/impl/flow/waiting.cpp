@@ -2,7 +2,7 @@
 
 #include "runtime/host/controller.h"
 #include "stdlib/impl/support/fail.h"
-#include "stdlib/impl/support/support_natives.h"
+#include "runtime/abi/support_natives.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"

@@ -3,7 +3,7 @@
 #include "stdlib/impl/interrupts/ordering.h"
 #include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
-#include "stdlib/impl/support/support_natives.h"
+#include "runtime/abi/support_natives.h"
 #include "stdlib/impl/support/utf8.h"
 
 #include "stdlib_constants.h"

@@ -3,7 +3,7 @@
 #include "runtime/host/state_keepers.h"
 #include "runtime/value/value_text.h"
 #include "stdlib/impl/support/fail.h"
-#include "stdlib/impl/support/support_natives.h"
+#include "runtime/abi/support_natives.h"
 
 #include "stdlib_constants.h"
 

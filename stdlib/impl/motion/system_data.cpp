@@ -2,7 +2,7 @@
 
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/motion/state.h"
-#include "stdlib/impl/support/support_natives.h"
+#include "runtime/abi/support_natives.h"
 
 #include "runtime/io/text_util.h"
 

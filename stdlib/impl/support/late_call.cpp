@@ -4,7 +4,7 @@
 #include "runtime/io/text_util.h"
 #include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
-#include "stdlib/impl/support/support_natives.h"
+#include "runtime/abi/support_natives.h"
 #include "stdlib/impl/support/type_match.h"
 
 #include "stdlib_constants.h"

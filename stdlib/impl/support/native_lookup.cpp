@@ -1,4 +1,4 @@
-#include "stdlib/impl/support/support_natives.h"
+#include "runtime/abi/support_natives.h"
 #include "stdlib/native_table.h"
 
 #include <string>
@@ -8,8 +8,10 @@ namespace rt {
 
 std::span<const SupportEntry> supportTable() {
     static const SupportEntry table[] = {
-#define SUPPORT_NATIVE(symbol) {#symbol, reinterpret_cast<void*>(&symbol)},
-#include "stdlib/impl/support/support_natives.def"
+#define SUPPORT_NATIVE(symbol, ...) {#symbol, reinterpret_cast<void*>(&symbol)},
+#define SUPPORT_VALUE(symbol, ...) {#symbol, reinterpret_cast<void*>(&symbol)},
+#define RUNTIME_FUNCTION(symbol) {#symbol, reinterpret_cast<void*>(&symbol)},
+#include "runtime/abi/support_natives.def"
     };
     return table;
 }

@@ -1,6 +1,6 @@
 // String functions: manual 1.19.
 
-#include "stdlib/impl/support/support_natives.h"
+#include "runtime/abi/support_natives.h"
 #include "stdlib/impl/support/utf8.h"
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
