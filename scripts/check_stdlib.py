@@ -3,6 +3,7 @@
 
 Usage: check_stdlib.py [--stdlib DIR] [--names NAMES.tsv] [--rapidc PROGRAM]
 
+The generator (stdlib_gen) checks the words of attributes, this script the rest.
 Always: names declared once (RAPID ignores case), types used are declared, order within a file (types, data,
 routines), reserved words, documentation and attributes of every routine, error numbers distinct and outside the
 user range, texts of at most 80 bytes, size of files.
@@ -26,10 +27,6 @@ ENDMODULE ENDPROC ENDRECORD ENDTEST ENDTRAP ENDWHILE ERROR EXIT FALSE FOR FROM F
 NOSTEPIN NOT NOVIEW OR PERS PROC RAISE READONLY RECORD RETRY RETURN STEP SYSMODULE TEST THEN TO TRAP TRUE TRYNEXT
 UNDO VAR VIEWONLY WHILE WITH XOR""".split())
 MODES = {"VAR", "PERS", "INOUT", "REF"}
-EFFECTS = {"const", "pure", "reads", "writes", "watches", "waits", "motion"}
-CONFIDENCE = {"high", "medium", "low"}
-CLASSES = {"atomic", "nonvalue", "semivalue", "pseudo", "sysvar"}
-RESTRICTIONS = {"value", "numeric", "atomic", "array", "signal", "string"}
 
 # Rows of the tables that are not declared, and why.
 EXEMPT = {
@@ -165,10 +162,6 @@ class Checker:
                     found.setdefault(last, []).append(match.group(2))
                 elif last:
                     found[last][-1] += " " + part
-        if found.get("confidence", ["high"])[0] not in CONFIDENCE:
-            self.offence(place, f"confidence: {found['confidence'][0]}")
-        if found.get("class", ["atomic"])[0].split()[0] not in CLASSES:
-            self.offence(place, f"class: {found['class'][0]}")
         return found
 
     def record(self, place, lines, number, code, attributes):
@@ -265,8 +258,6 @@ class Checker:
             if key not in attributes:
                 self.offence(place, f"{name}: attribute {key} is missing")
         effects = attributes.get("effects", ["pure"])[0]
-        if effects not in EFFECTS:
-            self.offence(place, f"{name}: effects: {effects}")
         raises = re.findall(r"\w+", " ".join(attributes.get("raises", [])))
         errors = [d.split()[1] for d in doc if d.startswith("@error")]
         if set(raises) != set(errors):
@@ -274,11 +265,6 @@ class Checker:
         if raises and effects == "const":
             self.offence(place, f"{name}: cannot be const and raise")
         self.errors_named += [(place, e) for e in raises]
-        for restriction in re.split(", *", ", ".join(attributes.get("where", []))):
-            match = re.match(r"(\w+) is (\w+(?: or \w+)*)$", restriction)
-            known = match and match.group(1) in names and set(match.group(2).split(" or ")) <= RESTRICTIONS
-            if restriction and not known:
-                self.offence(place, f"{name}: where: {restriction}")
         for deferred in attributes.get("deferred", []):
             if deferred not in names:
                 self.offence(place, f"{name}: deferred: {deferred} is not a parameter")

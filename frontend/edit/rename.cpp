@@ -313,14 +313,15 @@ class Renamer {
         for (const auto& task : program.tasks)
             for (const sema::Module* module : task->modules)
                 ofUser.insert(module->tree);
-        for (const auto& tree : program.trees) {
+        for (size_t i = 0; i < program.trees.size(); ++i) {
+            const auto& tree = program.trees[i];
             if (!ofUser.contains(tree.get())) continue;
             for (TokenIndex t = 0; t < tree->tokens.size(); ++t)
                 if (tree->tokens[t].kind == TokenKind::StringLiteral && spelt(*tree, t) == oldName_)
                     note(*tree, t, fmt::format("the string {} stays as it is", tree->text(t)));
             if (isRoutine_ || isParameter_)
                 for (const ModuleDecl* module : tree->modules)
-                    noteLateCalls(*tree, *module);
+                    noteLateCalls(*tree, *program.facts[i], *module);
         }
     }
 
@@ -334,11 +335,12 @@ class Renamer {
             set_.notes.push_back(std::move(text));
     }
 
-    void noteLateCalls(const SyntaxTree& tree, const Node& node) {
+    void noteLateCalls(const SyntaxTree& tree, const sema::FileFacts& facts, const Node& node) {
         if (node.kind == NodeKind::CallStmt) {
             const auto& call = as<CallStmt>(node);
-            const bool byNumber = call.name != kNoToken &&
-                                  sema::foldName(tree.text(call.name)) == "callbyvar" && !call.args.empty();
+            const auto bound = facts.calls.find(&node);
+            const bool byNumber = bound != facts.calls.end() && bound->second.routine &&
+                                  bound->second.routine->role == sema::Role::CallByVar && !call.args.empty();
             if (isRoutine_ && call.lateName) noteBeginnings(tree, *call.lateName);
             if (isRoutine_ && byNumber) noteBeginnings(tree, *call.args.front());
             if (isParameter_ && call.lateName)
@@ -349,7 +351,7 @@ class Renamer {
                                          tree.text(arg->name)));
             return;
         }
-        forEachChild(node, [&](const Node& child) { noteLateCalls(tree, child); });
+        forEachChild(node, [&](const Node& child) { noteLateCalls(tree, facts, child); });
     }
 
     /// `%"proc"+NumToStr(n,0)%`, `CallByVar "proc",n`: "proc1" may be meant.

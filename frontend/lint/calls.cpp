@@ -33,11 +33,6 @@ bool handlesSignal(const RoutineSymbol& routine) {
     return false;
 }
 
-/// Incr, Add, BitSet ...: chapter 1.15 of the manual.
-bool isCalculation(const RoutineSymbol& routine) {
-    return routine.native && routine.manual == "1.15";
-}
-
 const BoundArg* given(const BoundCall& call, int param) {
     if (param < 0 || static_cast<size_t>(param) >= call.args.size()) return nullptr;
     const BoundArg& arg = call.args[static_cast<size_t>(param)];
@@ -69,7 +64,7 @@ bool Walker::call(const Node& node, std::span<Argument* const> args) {
     if (node.kind == NodeKind::CallStmt) {
         if (bound->routine->effects == Effects::Motion)
             movement(*bound);
-        else if ((bound->routine->lintTraits & sema::kLintStopPoint) != 0)
+        else if (bound->routine->traits.has(sema::Trait::StopPoint))
             wait(node, *bound);
         else if (!bound->routine->native || bound->routine->effects == Effects::Waits)
             flyBy_ = nullptr;
@@ -80,7 +75,7 @@ bool Walker::call(const Node& node, std::span<Argument* const> args) {
 /// First all that is read ...
 void Walker::argument(const BoundCall& call, const BoundArg& arg) {
     const DataSymbol* param = arg.param;
-    if (arg.kind == BoundArg::Kind::Conditional || call.routine->special ||
+    if (arg.kind == BoundArg::Kind::Conditional || call.routine->traits.has(sema::Trait::Inspects) ||
         (param && param->mode == ParamMode::Ref)) {
         if (isPlace(*arg.value))
             mention(*arg.value);
@@ -109,7 +104,7 @@ void Walker::reference(const BoundCall& call, const BoundArg& arg) {
     }
     const DataSymbol* own = rootOf(*arg.value);
     const bool counted = own && isOwn(*own) && own->storage == sema::Storage::Parameter &&
-                         own->mode == ParamMode::In && isCalculation(*call.routine);
+                         own->mode == ParamMode::In && call.routine->traits.has(sema::Trait::Calculates);
     if (counted)
         write(*arg.value, kAssigned, true); // "Incr n;"
     else
@@ -122,7 +117,7 @@ void Walker::interrupt(const BoundCall& call, const BoundArg& arg) {
     if (!root) return;
     if (!call.routine->native)
         facts_.connected.insert(root); // perhaps there
-    else if ((call.routine->lintTraits & sema::kLintUnconnected) == 0)
+    else if (!call.routine->traits.has(sema::Trait::Unconnected))
         facts_.interrupts.push_back({root, call.routine, tree_, range(*arg.value)});
 }
 
@@ -145,8 +140,8 @@ void Walker::usesNames() {
 /// What the call means for the flow of control; whether the instruction behind it can be reached.
 bool Walker::conduct(const BoundCall& call) {
     const RoutineSymbol& routine = *call.routine;
-    if ((routine.lintTraits & sema::kLintCalls) != 0) facts_.callsByName = true;
-    if ((routine.lintTraits & sema::kLintNames) != 0) usesNames();
+    if (routine.traits.has(sema::Trait::CallsByName)) facts_.callsByName = true;
+    if (routine.traits.has(sema::Trait::DataNames)) usesNames();
     if (!routine.native) {
         facts_.calls.push_back(&routine);
         return true;
@@ -155,7 +150,7 @@ bool Walker::conduct(const BoundCall& call) {
     // An error may be the way out of a loop; one of a signal or a calculation is not, unless somebody waits for it.
     const bool acts = routine.effects != Effects::Const && routine.effects != Effects::Pure &&
                       routine.effects != Effects::Reads;
-    const bool unlikely = handlesSignal(routine) || isCalculation(routine);
+    const bool unlikely = handlesSignal(routine) || routine.traits.has(sema::Trait::Calculates);
     if (acts && routine.raises && (!routine_->routineDecl->errors.empty() || !unlikely)) ++errors_;
     switch (routine.flow) {
     case sema::Flow::GoesOn: return true;

@@ -62,15 +62,15 @@ class PresenceWalk {
         const bool own = data->routine == &routine_ && data->storage == sema::Storage::Parameter;
         return own && data->optional && !data->isSwitch ? data : nullptr;
     }
-    bool isCallOf(const Expr& e, std::string_view name) const {
+    bool isCallOf(const Expr& e, sema::Role role) const {
         if (e.kind != NodeKind::Call) return false;
         const auto found = module_.facts->calls.find(&e);
         const RoutineSymbol* routine = found == module_.facts->calls.end() ? nullptr : found->second.routine;
-        return routine && routine->predefined && routine->name == name;
+        return routine && routine->role == role;
     }
     /// The parameter that `e` asks for: Present(x). Also of switches, whose alternatives it tells about.
     const DataSymbol* asked(const Expr& e) const {
-        if (!isCallOf(e, "Present")) return nullptr;
+        if (!isCallOf(e, sema::Role::Present)) return nullptr;
         const sema::BoundCall& call = module_.facts->calls.find(&e)->second;
         if (call.args.empty()) return nullptr;
         const Expr* value = call.args.front().value;
@@ -180,8 +180,8 @@ class PresenceWalk {
 
     void arguments(const Node& node, std::span<Argument* const> args) {
         const auto found = module_.facts->calls.find(&node);
-        const bool looksOnly =
-            found != module_.facts->calls.end() && found->second.routine && found->second.routine->special;
+        const bool looksOnly = found != module_.facts->calls.end() && found->second.routine &&
+                               found->second.routine->traits.has(sema::Trait::Inspects);
         for (const Argument* arg : args) {
             if (!arg->value || arg->argKind == ArgKind::Conditional) continue;
             if (looksOnly && ownOptional(*arg->value)) continue;
@@ -302,7 +302,7 @@ class PresenceWalk {
         const auto* from = numberOf(loop.from);
         if (!from || !loop.to) return false;
         const auto* to = numberOf(loop.to);
-        if (!to) return !loop.step && *from <= 1 && isCallOf(*loop.to, "Dim");
+        if (!to) return !loop.step && *from <= 1 && isCallOf(*loop.to, sema::Role::Dim);
         const auto* step = numberOf(loop.step);
         if (loop.step && !step) return false;
         return !step || (*step < 0 ? *from >= *to : *from <= *to);

@@ -535,7 +535,6 @@ class Analyzer {
     Type* anyType_ = nullptr;
     Type* switchType_ = nullptr;
     const Type* intnum_ = nullptr;
-    NameId presentId_ = 0, argNameId_ = 0;
     std::vector<Symbol*> predefined_; ///< by NameId
     std::vector<Symbol*> globals_;    ///< of the task, by NameId
     std::vector<std::string> taskNames_;

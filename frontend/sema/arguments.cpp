@@ -52,7 +52,7 @@ void Analyzer::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
         report(Code::OptionalWithoutValue, range(arg), {param.name, typeName(param.type)});
         return;
     }
-    if (routine.predefined && routine.nameId == presentId_) {
+    if (routine.role == Role::Present) {
         checkPresent(bound);
         return;
     }
@@ -60,7 +60,7 @@ void Analyzer::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
     const bool byReference = param.mode != ParamMode::In || param.type.type->kind == TypeKind::SemiValue;
     if (byReference) {
         // An argument that is absent is something ArgName may be asked about.
-        const bool asked = presenceOnly_ || (routine.predefined && routine.nameId == argNameId_);
+        const bool asked = presenceOnly_ || routine.role == Role::ArgName;
         const bool outer = std::exchange(presenceOnly_, asked);
         checkReference(routine, bound);
         presenceOnly_ = outer;
@@ -292,7 +292,7 @@ void Analyzer::checkAccess(const RoutineSymbol& routine, const BoundArg& bound, 
                {bound.param->name, routine.name, "'" + root.name + "'"});
         return;
     }
-    if (!routine.special) markAssigned(root); // IsVar and their like only look
+    if (!routine.traits.has(Trait::Inspects)) markAssigned(root); // IsVar and their like only look
 }
 
 // What an argument for such a parameter must be, or null when `found` is that.
@@ -345,7 +345,7 @@ DataSymbol* Analyzer::ownOptional(const Expr& e) {
 
 // Dim(array, number): which dimensions there are is known (manual 1.1.5).
 void Analyzer::checkDim(const CallExpr& e, const RoutineSymbol& routine) {
-    if (!routine.predefined || interner_.folded(routine.nameId) != "dim" || e.args.size() != 2) return;
+    if (routine.role != Role::Dim || e.args.size() != 2) return;
     const Expr *array = e.args[0]->value, *number = e.args[1]->value;
     if (!array || !number || info(*array).type.rank == 0) return;
     const ConstValue* value = info(*number).constant;

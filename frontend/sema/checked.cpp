@@ -21,4 +21,11 @@ void FileFacts::dropInner() {
     assigned = {};
 }
 
+bool CheckedProgram::uses(Trait trait) const {
+    for (const Module* library : predefinedModules)
+        for (const RoutineSymbol* routine : library->routines)
+            if (routine->used && routine->traits.has(trait)) return true;
+    return false;
+}
+
 } // namespace rapid::sema

@@ -159,6 +159,8 @@ struct CheckedProgram {
     const ExprInfo& info(const Module& module, const syntax::Expr& expr) const {
         return (*module.exprs)[expr.id];
     }
+    /// Some instruction calls a predefined routine with this trait.
+    bool uses(Trait trait) const;
 };
 
 } // namespace rapid::sema

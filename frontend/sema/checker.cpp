@@ -37,8 +37,6 @@ Analyzer::Analyzer(CheckedProgram& program, const CheckOptions& options, diag::S
         symbol.type = const_cast<Type*>(atomic);
         put<Symbol>(predefined_, symbol.nameId, &symbol);
     }
-    presentId_ = interner_.intern("present");
-    argNameId_ = interner_.intern("argname");
 }
 
 void Analyzer::loadLibrary() {

@@ -408,7 +408,7 @@ bool Analyzer::callStmt(const CallStmt& s) {
     if (part_ == Part::Undo) callInUndo(*routine, s.name);
     if (movesRobot(*routine) && task_->type != "NORMAL")
         report(Code::MotionInBackgroundTask, range(s.name), {text(s.name), task_->name, task_->type});
-    if (routine->predefined && routine->name == "RaiseToUser") raiseToUser(s);
+    if (routine->role == Role::RaiseToUser) raiseToUser(s);
     return !routine->predefined || predefinedCall(*routine, s.name);
 }
 

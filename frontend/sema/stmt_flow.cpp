@@ -137,20 +137,17 @@ void Analyzer::connectTarget(const Expr& target) {
         noteDeclared(report(Code::ConnectRoutineData, range(target), {root.name}), root);
 }
 
-// A built-in that orders movement; stopping one is no movement.
+// A built-in that orders movement; stopping one is not movement.
 bool Analyzer::movesRobot(const RoutineSymbol& routine) const {
-    const std::string_view folded = interner_.folded(routine.nameId);
-    return routine.effects == Effects::Motion && routine.native && folded != "stopmove" &&
-           folded != "startmove" && folded != "egmstop";
+    return routine.effects == Effects::Motion && routine.native && !routine.traits.has(Trait::NoMovement);
 }
 
 // Stops, raised errors and movement are not for UNDO handlers (manual 1.13).
 void Analyzer::callInUndo(const RoutineSymbol& routine, TokenIndex name) {
     if (!routine.predefined) return;
-    const std::string_view folded = interner_.folded(routine.nameId);
     if (movesRobot(routine))
         report(Code::MotionInUndo, range(name), {text(name)});
-    else if (folded == "stop" || folded == "debugbreak")
+    else if (routine.traits.has(Trait::IgnoredInUndo))
         report(Code::IgnoredInUndo, range(name), {text(name)});
 }
 

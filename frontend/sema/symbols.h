@@ -1,6 +1,7 @@
 #pragma once
 // Symbols: what names mean. Owned by the CheckedProgram; pointers stay valid for its life.
 
+#include "frontend/sema/builtin_words.h"
 #include "frontend/sema/types.h"
 #include "frontend/syntax/ast.h"
 
@@ -92,9 +93,6 @@ enum class Storage : uint8_t {
     SystemVariable ///< ERRNO, INTNO ...
 };
 
-/// What a parameter of pseudo-type `anytype` takes; from `where:` in the declaration.
-enum class ParamClass : uint8_t { Any, Value, ValueOrSignal, Atomic, Numeric, Signal, SignalOrString, Array };
-
 /// DataSymbol::index of a stand-in for an undeclared name: it is in no table.
 inline constexpr uint32_t kNoIndex = UINT32_MAX;
 
@@ -152,26 +150,6 @@ struct DataSymbol : Symbol {
 };
 static_assert(sizeof(void*) != 8 || sizeof(DataSymbol) <= 160);
 
-/// How a native may be called; from `effects:` in the declaration.
-enum class Effects : uint8_t { None, Const, Pure, Reads, Writes, Watches, Waits, Motion };
-
-/// Where a predefined procedure goes on; from `flow:` in the declaration.
-enum class Flow : uint8_t {
-    GoesOn,
-    Leaves,  ///< the program cycle
-    Raises,  ///< an error
-    Retries, ///< in an error handler, as RETRY
-    Stops    ///< the program; a restart goes on behind it
-};
-
-/// What the warnings want to know of a native; from `lint:` in the declaration.
-enum LintTrait : uint8_t {
-    kLintStopPoint = 1,   ///< waits for something while the robot should stand still
-    kLintNames = 2,       ///< reaches data by name
-    kLintCalls = 4,       ///< calls procedures by name
-    kLintUnconnected = 8, ///< takes interrupts that are not connected
-};
-
 struct RoutineSymbol : Symbol {
     syntax::RoutineKind routineKind = syntax::RoutineKind::Proc;
     const syntax::RoutineDecl* routineDecl = nullptr;
@@ -180,18 +158,17 @@ struct RoutineSymbol : Symbol {
     std::vector<DataSymbol*> data; ///< all routine data and loop variables
     bool incomplete = false;       ///< a parameter could not be read: calls are not judged
     bool native = false;           ///< declared without body in stdlib
-    bool special = false;          ///< `lower: special`
     bool noStepIn = false;         ///< its module is NOSTEPIN or NOVIEW
     Effects effects = Effects::None;
     Flow flow = Flow::GoesOn;
-    uint8_t lintTraits = 0;                      ///< of LintTrait
+    Role role = Role::None;
+    Traits traits;
     bool raises = false;                         ///< natives: it may raise an error
     std::string raisedErrors;                    ///< natives: "ERR_A, ERR_B"
     bool uncertain = false;                      ///< built-ins: the form of the call is not confirmed
     uint8_t textLength = 0;                      ///< bytes of the text a native returns at least
     const DataSymbol* textLengthParam = nullptr; ///< parameter that tells how many
     std::string option;                          ///< RobotWare option it needs
-    std::string manual;                          ///< chapter of the manual, for built-ins
     std::string documentation;
     std::vector<DataSymbol*> formerParams; ///< of an earlier check, to be used again
     void reset() {

@@ -93,7 +93,8 @@ void ArgumentCopies::visit(const Node& node, const sema::Module& module, Body& b
     if (node.kind == NodeKind::CallStmt || node.kind == NodeKind::Call) {
         const auto found = module.facts->calls.find(&node);
         const RoutineSymbol* callee = found == module.facts->calls.end() ? nullptr : found->second.routine;
-        if (callee && !(callee->lintTraits & (sema::kLintNames | sema::kLintCalls)))
+        if (callee && !callee->traits.has(sema::Trait::DataNames) &&
+            !callee->traits.has(sema::Trait::CallsByName))
             body.calls.push_back(&found->second);
         else
             body.unknown = true;

@@ -190,7 +190,7 @@ ir::ValueId RoutineLowering::lowerCall(const Node& node, ValueId resultAddr) {
     const BoundCall& call = found->second;
     const sema::RoutineSymbol& callee = *call.routine;
     if (callee.native) {
-        if (foldCase(callee.name) == "argname") {
+        if (callee.role == sema::Role::ArgName) {
             lowerArgName(call, resultAddr);
             return ir::kNone;
         }
@@ -224,18 +224,19 @@ ir::ValueId RoutineLowering::lowerCall(const Node& node, ValueId resultAddr) {
 }
 
 ir::ValueId RoutineLowering::lowerSpecial(const BoundCall& call, bool& done) {
-    const std::string name = foldCase(call.routine->name);
     done = true;
-    if (name == "present") return lowerPresent(call);
-    if (name == "dim") return lowerDim(call);
-    if (name == "raisetouser" && region_ == Region::Error &&
-        findArg(call, "Continue")->kind != BoundArg::Kind::Absent) {
+    switch (call.routine->role) {
+    case sema::Role::Present: return lowerPresent(call);
+    case sema::Role::Dim: return lowerDim(call);
+    case sema::Role::RaiseToUser:
+        if (region_ != Region::Error || findArg(call, "Continue")->kind == BoundArg::Kind::Absent) break;
         lowerRaiseToUser(call);
         return ir::kNone;
-    }
-    if (name == "waituntil") {
-        lowerWaitUntil(call);
-        return ir::kNone;
+    case sema::Role::WaitUntil: lowerWaitUntil(call); return ir::kNone;
+    case sema::Role::None:
+    case sema::Role::ArgName:        // needs the place of the result
+    case sema::Role::StartMoveRetry: // the native first
+    case sema::Role::CallByVar: break;
     }
     done = false;
     return ir::kNone;

@@ -17,27 +17,19 @@ using sema::TypeKind;
 
 // ---- Parameters whose argument's name is asked for (ArgName) -------------------------------------------------------
 
-bool ProgramLowering::uses(std::string_view native) const {
-    return natives_.contains("rt_" + std::string(native));
-}
-
-bool ProgramLowering::loads() const {
-    return usedBuiltIn("load") != nullptr || usedBuiltIn("startload") != nullptr;
-}
-
-/// Null when the program does not call it; `name` in lower case.
-const RoutineSymbol* ProgramLowering::usedBuiltIn(std::string_view name) const {
+/// Null when the program does not call it.
+const RoutineSymbol* ProgramLowering::usedBuiltIn(sema::Role role) const {
     for (const sema::Module* lib : program_.predefinedModules)
         for (const RoutineSymbol* routine : lib->routines)
-            if (routine->used && foldCase(routine->name) == name) return routine;
+            if (routine->used && routine->role == role) return routine;
     return nullptr;
 }
 
 /// RaiseToUser \Continue occurs, or may come with a module: code of the stepping profile is ready for that, other code
 /// would have to pay for it.
 bool ProgramLowering::usesContinue() const {
-    if (stepping() && (unit_ || loads())) return true;
-    const RoutineSymbol* raise = usedBuiltIn("raisetouser");
+    if (stepping() && (unit_ || program_.uses(sema::Trait::Loads))) return true;
+    const RoutineSymbol* raise = usedBuiltIn(sema::Role::RaiseToUser);
     if (!raise) return false;
     for (const auto& facts : program_.facts)
         for (const auto& [node, call] : facts->calls)
@@ -50,7 +42,7 @@ bool ProgramLowering::usesContinue() const {
 
 /// ArgName follows a parameter through the calls that pass it on, so these parameters bring a name along.
 void ProgramLowering::findNamedParameters() {
-    const RoutineSymbol* argName = usedBuiltIn("argname");
+    const RoutineSymbol* argName = usedBuiltIn(sema::Role::ArgName);
     if (!argName) return;
     asksForNames_ = true;
     bool changed = true;
@@ -205,7 +197,7 @@ ir::TypeId ProgramLowering::lateRow() {
 // ---- Tables --------------------------------------------------------------------------------------------------------
 
 bool ProgramLowering::searchesData() const {
-    return uses("SetDataSearch") || uses("GetDataVal") || uses("SetDataVal") || uses("SetAllDataVal");
+    return program_.uses(sema::Trait::DataNames);
 }
 
 /// Data of the language can be read and searched by name, too.
@@ -289,7 +281,7 @@ void ProgramLowering::addTablesOf(uint32_t task, const sema::Module& module, boo
     entry.task = task;
     if (erases_ && !unit_) entry.gone = goneFlag(module, task);
     module_.modules.push_back(std::move(entry));
-    if (unit_ || uses("SetDataSearch")) addRoutineData(task, module);
+    if (unit_ || program_.uses(sema::Trait::SearchesData)) addRoutineData(task, module);
     if (!callsByName) return;
     for (const RoutineSymbol* routine : module.routines)
         addNamedRoutine(*routine, task);

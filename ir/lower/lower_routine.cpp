@@ -1,6 +1,7 @@
 // Parameters, routine data, handlers and the frame of one routine.
 
 #include "frontend/syntax/token_set.h"
+#include "frontend/syntax/tree_walk.h"
 #include "ir/lower/routine_lowering.h"
 
 #include <algorithm>
@@ -39,14 +40,17 @@ ir::Routine declareRoutine(ProgramLowering& program, const RoutineSymbol& symbol
     return routine;
 }
 
-namespace {
-/// Natives that find the data of the routine by name: they lie in memory and are described then.
-bool reachesData(std::string_view name) {
-    constexpr std::string_view kNames[] = {"getdataval", "setdataval", "setalldataval"};
-    if (name.size() < 10 || name.size() > 13) return false;
-    return std::find(std::begin(kNames), std::end(kNames), foldCase(name)) != std::end(kNames);
+/// A native called in it finds the data of the routine by name: they lie in memory and are described then.
+bool RoutineLowering::reachesRoutineData(const syntax::Node& node) const {
+    const auto found = facts().calls.find(&node);
+    if (found != facts().calls.end() && found->second.routine &&
+        found->second.routine->traits.has(sema::Trait::RoutineData))
+        return true;
+    bool reaches = false;
+    syntax::forEachChild(node,
+                         [&](const syntax::Node& child) { reaches = reaches || reachesRoutineData(child); });
+    return reaches;
 }
-} // namespace
 
 RoutineLowering::RoutineLowering(ProgramLowering& program, const RoutineSymbol& symbol, uint32_t task,
                                  const ir::Routine& declared)
@@ -56,9 +60,7 @@ RoutineLowering::RoutineLowering(ProgramLowering& program, const RoutineSymbol& 
     const auto& tree = *symbol.module->tree;
     for (syntax::TokenIndex t = symbol.routineDecl->first; t <= symbol.routineDecl->last; ++t)
         routineHasPlaceholders_ = routineHasPlaceholders_ || syntax::isPlaceholder(tree.tokens[t].kind);
-    for (syntax::TokenIndex t = symbol.routineDecl->first; t <= symbol.routineDecl->last && !reachesData_;
-         ++t)
-        reachesData_ = tree.tokens[t].kind == syntax::TokenKind::Identifier && reachesData(tree.text(t));
+    reachesData_ = program.reachesRoutineData() && reachesRoutineData(*symbol.routineDecl);
     describesData_ = reachesData_ || program.stepping();
 }
 

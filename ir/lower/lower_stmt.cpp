@@ -83,8 +83,7 @@ uint8_t RoutineLowering::statementFlags(const Stmt& stmt) const {
         if (callee.routineDecl && callee.routineDecl->hasBackward) flags |= ir::kStmtCallsBackward;
     }
     if (callee.effects == sema::Effects::Motion) flags |= ir::kStmtMovement;
-    if (callee.predefined && callee.manual == "1.7" && callee.effects == sema::Effects::Writes)
-        flags |= ir::kStmtForwardOnly;
+    if (callee.traits.has(sema::Trait::ForwardOnly)) flags |= ir::kStmtForwardOnly;
     return flags;
 }
 
@@ -181,7 +180,7 @@ void RoutineLowering::lowerStmt(const Stmt& stmt) {
 bool RoutineLowering::isStartMoveRetry(const Stmt& stmt) const {
     const auto found = facts().calls.find(&stmt);
     const sema::RoutineSymbol* routine = found == facts().calls.end() ? nullptr : found->second.routine;
-    return routine != nullptr && routine->predefined && routine->name == "StartMoveRetry";
+    return routine != nullptr && routine->role == sema::Role::StartMoveRetry;
 }
 
 void RoutineLowering::lowerAssign(const AssignStmt& stmt) {

@@ -68,7 +68,8 @@ bool isWithoutForm(const DataSymbol& data) {
 
 ProgramLowering::ProgramLowering(const sema::CheckedProgram& program, const Options& options,
                                  diag::Sink& sink, ir::Module& out)
-    : program_(program), options_(options), sink_(sink), module_(out) {
+    : program_(program), options_(options), sink_(sink), module_(out),
+      reachesRoutineData_(program.uses(sema::Trait::RoutineData)) {
     for (const sema::Module* lib : program.predefinedModules)
         for (const DataSymbol* data : lib->data)
             if (data->name.starts_with("ERR_") || data->name == "LONG_JMP_ALL_ERR")
@@ -492,7 +493,7 @@ bool ProgramLowering::run() {
     const size_t errorsBefore = sink_.errorCount();
     findNamedParameters();
     // A module that is loaded may call EraseModule, too.
-    erases_ = usedBuiltIn("erasemodule") != nullptr || loads();
+    erases_ = program_.uses(sema::Trait::Erases) || program_.uses(sema::Trait::Loads);
     continuesAtUserLevel_ = usesContinue();
     findCopies();
     for (const auto& task : program_.tasks)

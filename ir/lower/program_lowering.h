@@ -62,6 +62,8 @@ class ProgramLowering {
     /// RaiseToUser \Continue may execute error handlers of the program.
     bool continuesAtUserLevel() const { return continuesAtUserLevel_; }
 
+    /// Some native reaches data of the routine that calls it by name.
+    bool reachesRoutineData() const { return reachesRoutineData_; }
     bool stepping() const { return options_.stepping; }
 
     ir::Module& module() { return module_; }
@@ -104,9 +106,7 @@ class ProgramLowering {
     };
     void lowerTask(uint32_t task);
     // lower_named.cpp
-    bool uses(std::string_view native) const; ///< some routine calls it; known when all is lowered
-    bool loads() const;                       ///< some routine calls Load or StartLoad
-    const sema::RoutineSymbol* usedBuiltIn(std::string_view name) const;
+    const sema::RoutineSymbol* usedBuiltIn(sema::Role role) const;
     bool searchesData() const;
     void findNamedParameters();
     void findOpenInitialValues(const sema::Module& module); // lower_open.cpp
@@ -149,6 +149,7 @@ class ProgramLowering {
     bool asksForNames_ = false;
     std::optional<ArgumentCopies> copies_;
     bool openInitialValues_ = false;
+    const bool reachesRoutineData_;
     bool erases_ = false; ///< calls EraseModule, or loads modules, which may
     bool continuesAtUserLevel_ = false;
     std::map<std::pair<uint32_t, const sema::Module*>, uint32_t> goneFlags_;

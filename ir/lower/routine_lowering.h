@@ -265,6 +265,8 @@ class RoutineLowering {
     void assignArray(const Expr& value, const Place& target, const Expr& written);
     bool isOfKnownSize(const Expr& value, const sema::DataType& target) const;
 
+    bool reachesRoutineData(const syntax::Node& node) const; // lower_routine.cpp
+
     // lower_open.cpp
     void raiseUnresolved(const char* error, std::string_view name);
     bool lowerUnresolved(const syntax::Node& statement, const syntax::Node& part, ir::StmtKind kind);

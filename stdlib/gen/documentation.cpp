@@ -1,7 +1,11 @@
+#include "frontend/sema/builtin_words.h"
+#include "frontend/syntax/declaration_comment.h"
 #include "stdlib/gen/model.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <sstream>
 
@@ -9,43 +13,40 @@ namespace stdlibgen {
 
 namespace {
 
-constexpr std::array<std::string_view, 12> kKeys = {"manual",   "effects",    "raises", "option",
-                                                    "deferred", "confidence", "lower",  "class",
-                                                    "where",    "flow",       "lint",   "length"};
-
-bool isKey(std::string_view word) {
-    return std::find(kKeys.begin(), kKeys.end(), word) != kKeys.end();
+template <class Enum, size_t N> std::string choices(const rapid::sema::BuiltinWord<Enum> (&words)[N]) {
+    std::string out;
+    for (const auto& word : words)
+        out += fmt::format("{}{}", out.empty() ? "" : ", ", word.word);
+    return out;
 }
 
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())))
-        text.remove_prefix(1);
-    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())))
-        text.remove_suffix(1);
-    return text;
+/// Empty when `value` is one of the words.
+template <class Enum, size_t N>
+std::string problemOf(std::string_view key, std::string_view value,
+                      const rapid::sema::BuiltinWord<Enum> (&words)[N]) {
+    if (rapid::sema::valueOf(words, value)) return {};
+    return fmt::format("{}: does not know '{}'; it takes {}", key, value, choices(words));
 }
 
-/// `text` is all attribute lines of one declaration joined: a key is a known word followed by ':'.
-void readAttributes(const std::string& text, Doc& doc, std::string& problem) {
-    std::string key;
-    std::istringstream words(text);
-    for (std::string word; words >> word;) {
-        const bool labelled = word.back() == ':';
-        const std::string stem = labelled ? word.substr(0, word.size() - 1) : word;
-        if (labelled && isKey(stem)) {
-            key = stem;
-            doc.attr[key];
-            continue;
-        }
-        if (key.empty()) {
-            problem = "unknown attribute '" + word +
-                      "'; known are manual, effects, raises, option, confidence, " +
-                      "lower, class, where, deferred, flow, lint, length";
-            return;
-        }
-        std::string& value = doc.attr[key];
-        value += (value.empty() ? "" : " ") + word;
-    }
+std::string problemOf(const rapid::syntax::Attribute& attribute) {
+    namespace sema = rapid::sema;
+    const std::string_view key = attribute.key, value = attribute.value;
+    if (std::find(std::begin(sema::kAttributeKeys), std::end(sema::kAttributeKeys), key) ==
+        std::end(sema::kAttributeKeys))
+        return fmt::format("unknown attribute '{}:'; known are {}", key,
+                           fmt::join(sema::kAttributeKeys, ", "));
+    if (key == "effects") return problemOf(key, value, sema::kEffectsWords);
+    if (key == "flow") return problemOf(key, value, sema::kFlowWords);
+    if (key == "role") return problemOf(key, value, sema::kRoleWords);
+    if (key == "class") return problemOf(key, value, sema::kTypeClassWords);
+    if (key == "confidence" && value != "high" && value != "medium" && value != "low")
+        return fmt::format("confidence: does not know '{}'; it takes high, medium, low", value);
+    std::istringstream words(attribute.value);
+    if (key == "traits")
+        for (std::string word; words >> word;)
+            if (std::string problem = problemOf(key, word, sema::kTraitWords); !problem.empty())
+                return problem;
+    return {};
 }
 
 } // namespace
@@ -72,32 +73,33 @@ std::string Doc::get(const std::string& key) const {
 }
 
 Doc readDocumentation(std::string_view text, uint32_t offset, std::string& problem) {
-    std::vector<std::string_view> lines;
-    size_t lineStart = text.rfind('\n', offset == 0 ? 0 : offset - 1);
-    lineStart = lineStart == std::string_view::npos ? 0 : lineStart + 1;
-    while (lineStart > 0) {
-        const size_t end = lineStart - 1;
-        size_t start = end == 0 ? std::string_view::npos : text.rfind('\n', end - 1);
-        start = start == std::string_view::npos ? 0 : start + 1;
-        const std::string_view line = trimmed(text.substr(start, end - start));
-        if (!line.starts_with("!!") && !line.starts_with("!@")) break;
-        lines.push_back(line);
-        lineStart = start;
-    }
-    std::reverse(lines.begin(), lines.end());
+    const auto comment = rapid::syntax::readDeclarationComment(text.substr(0, offset));
     Doc doc;
-    std::string attributes;
-    for (std::string_view line : lines) {
-        const std::string_view rest = trimmed(line.substr(2));
-        if (line[1] == '@') {
-            attributes += std::string(rest) + ' ';
-            continue;
-        }
-        if (!doc.text.empty()) doc.text += '\n';
-        doc.text += rest;
+    doc.text = comment.text;
+    if (!comment.stray.empty())
+        problem = fmt::format("'{}' follows no attribute: write a key before it", comment.stray);
+    for (const auto& attribute : comment.attributes) {
+        if (problem.empty()) problem = problemOf(attribute);
+        doc.attr[std::string(attribute.key)] = attribute.value;
     }
-    readAttributes(attributes, doc, problem);
     return doc;
+}
+
+std::string whereProblem(const Routine& routine) {
+    std::istringstream list(routine.doc.get("where"));
+    for (std::string one; std::getline(list, one, ',');) {
+        one.erase(0, one.find_first_not_of(' '));
+        const size_t is = one.find(" is ");
+        const std::string name = one.substr(0, is);
+        const bool known = std::any_of(routine.params.begin(), routine.params.end(),
+                                       [&](const Param& param) { return param.name == name; });
+        if (is == std::string::npos || !known)
+            return fmt::format("where: '{}' is not 'Parameter is kind'", one);
+        if (std::string problem = problemOf("where", one.substr(is + 4), rapid::sema::kParamClassWords);
+            !problem.empty())
+            return problem;
+    }
+    return {};
 }
 
 } // namespace stdlibgen

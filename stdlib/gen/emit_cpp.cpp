@@ -102,10 +102,7 @@ bool isErrorConstant(const Model& model, const Datum& d) {
 } // namespace
 
 bool hasPrototype(const Routine& routine) {
-    if (!routine.native) return false;
-    const std::string key = lowered(routine.name);
-    return key != "present" && key != "dim" &&
-           key != "waituntil"; // WaitUntil becomes a loop around its condition
+    return routine.native && rapid::sema::hasCode(routine.role);
 }
 
 std::string symbolOf(const Routine& routine) {
@@ -146,14 +143,12 @@ std::string cppType(const Model& model, std::string_view type) {
 }
 
 bool isConstNative(const Model& model, const Routine& routine) {
-    std::string effects = routine.doc.get("effects");
-    effects = effects.substr(0, effects.find(' '));
     const bool isFunction = !routine.returnType.empty();
     const bool allValues = std::all_of(routine.params.begin(), routine.params.end(), [&](const Param& p) {
         return rt::passingOf(shapeOf(model, p)) == rt::Passing::Value;
     });
-    return rt::returnsItsValue(effects == "const", isFunction && isScalar(reprOf(model, routine.returnType)),
-                               allValues);
+    return rt::returnsItsValue(routine.doc.get("effects") == "const",
+                               isFunction && isScalar(reprOf(model, routine.returnType)), allValues);
 }
 
 std::string emitTypes(const Model& model) {

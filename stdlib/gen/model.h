@@ -2,6 +2,7 @@
 // What the declarations in stdlib/decl and stdlib/data say, read once and checked; every generated file is
 // written from this.
 
+#include "frontend/sema/builtin_words.h"
 #include "frontend/syntax/parser.h"
 
 #include <cstdint>
@@ -22,10 +23,9 @@ struct Place {
 
 /// The `!!` lines (documentation) and `!@` lines (attributes) above a declaration.
 struct Doc {
-    std::string text; ///< lines joined by '\n', marks removed
-    std::map<std::string, std::string>
-        attr;                    ///< manual, effects, raises, option, confidence, lower, class, where
-    std::string summary() const; ///< the first sentence, or the first line
+    std::string text;                        ///< lines joined by '\n', marks removed
+    std::map<std::string, std::string> attr; ///< keys and words: frontend/sema/builtin_words.def
+    std::string summary() const;             ///< the first sentence, or the first line
     std::string get(const std::string& key) const;
 };
 
@@ -62,7 +62,7 @@ struct Routine {
     std::vector<Param> params;
     std::string signature; ///< as written, white space collapsed
     bool native = false;
-    bool special = false; ///< treated by the compiler; see hasPrototype()
+    rapid::sema::Role role = rapid::sema::Role::None;
     Doc doc;
     Place place;
 };
@@ -101,6 +101,9 @@ Model readDeclarations(const std::vector<std::string>& paths);
 /// Splits the `!!` and `!@` lines directly above `offset` off the text. `problem` is set for an unknown
 /// attribute.
 Doc readDocumentation(std::string_view text, uint32_t offset, std::string& problem);
+
+/// A mistake in the attribute `where:` of a routine; empty: none.
+std::string whereProblem(const Routine& routine);
 
 std::string lowered(std::string_view text);
 

@@ -184,7 +184,8 @@ class Reader {
         routine.place = place(decl);
         routine.native = !decl.hasBody;
         routine.doc = documentation(decl, routine.name, true);
-        routine.special = routine.doc.get("lower").starts_with("special");
+        routine.role = rapid::sema::valueOf(rapid::sema::kRoleWords, routine.doc.get("role"))
+                           .value_or(rapid::sema::Role::None);
         for (const auto* p : decl.params)
             routine.params.push_back(readParam(*p));
         for (Param& p : routine.params) {
@@ -192,6 +193,8 @@ class Reader {
             for (const Param& q : routine.params)
                 p.alternative |= &p != &q && p.group == q.group && !q.optional;
         }
+        if (const std::string problem = whereProblem(routine); !problem.empty())
+            fail(routine.place, fmt::format("'{}': {}", routine.name, problem));
         const std::string text = written(decl);
         const size_t close = text.find(')');
         routine.signature = collapsed(text.substr(0, close == std::string::npos ? close : close + 1));

@@ -104,14 +104,6 @@ bool makeExecutable(const BuildSettings& settings, const ir::Module& module, boo
     return !problem;
 }
 
-/// Modules may come, or references have to be checked, while the program runs.
-bool needsSources(const ir::Module& module) {
-    constexpr std::string_view kUsers[] = {"rt_Load", "rt_StartLoad", "rt_CheckProgRef", "rt_EraseModule"};
-    return std::any_of(module.natives.begin(), module.natives.end(), [&](const ir::Native& native) {
-        return std::find(std::begin(kUsers), std::end(kUsers), native.symbol) != std::end(kUsers);
-    });
-}
-
 int build(BuildSettings& settings) {
     settings.inputs.requireMain = true;
     const auto compilation = checkInputs(settings.inputs);
@@ -140,7 +132,7 @@ int build(BuildSettings& settings) {
         lowerToIr(*compilation, fs::path(settings.output).filename().string(), settings.stepping, module);
     printDiagnostics(*compilation);
     if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
-    const bool loads = needsSources(module);
+    const bool loads = compilation->program->uses(rapid::sema::Trait::NeedsSources);
     if (loads) module.sources = pack(*sourcesOf(*compilation, settings.stepping, !settings.noOptimise));
     std::string error;
     if (!makeExecutable(settings, module, loads, error)) {

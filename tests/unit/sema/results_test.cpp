@@ -348,7 +348,7 @@ TEST_CASE("the library gives effects, documentation and alternatives", "[sema]")
     CHECK(moveL->native);
     CHECK_FALSE(moveL->documentation.empty());
     REQUIRE(present);
-    CHECK(present->special);
+    CHECK(present->role == Role::Present);
     CHECK(present->params[0]->mode == syntax::ParamMode::Ref);
     REQUIRE(setGo);
     CHECK(std::count_if(setGo->params.begin(), setGo->params.end(),

@@ -104,7 +104,7 @@ TEST_CASE("all other natives get the task and return a status", "[stdlib][gen]")
 }
 
 TEST_CASE("what the compiler makes itself has no prototype", "[stdlib][gen]") {
-    const Model model = read("!! There?\n!@ lower: special\nFUNC bool Present(REF anytype OptPar)\n");
+    const Model model = read("!! There?\n!@ role: present\nFUNC bool Present(REF anytype OptPar)\n");
     CHECK(emitNatives(model).find("rt_Present") == std::string::npos);
     CHECK(emitNativeTable(model).find("NativeForm::Compiler") != std::string::npos);
 }
@@ -185,6 +185,22 @@ TEST_CASE("a routine with a body is not native", "[stdlib][gen]") {
     CHECK(emitNatives(model).find("rt_Sum") == std::string::npos);
 }
 
+TEST_CASE("an attribute with a word that is not in builtin_words.def is refused", "[stdlib][gen]") {
+    const auto problem = [](const std::string& attribute) {
+        const Model model = read("!! One.\n!@ " + attribute + "\nPROC Put(num N, anytype A)\n");
+        return model.errors.empty() ? std::string() : model.errors.front();
+    };
+    CHECK(problem("effects: writes   traits: names calls   where: A is value or signal").empty());
+    CHECK(
+        mentions({problem("effects: write")}, "effects: does not know 'write'; it takes const, pure, reads"));
+    CHECK(mentions({problem("flow: ends")}, "flow: does not know 'ends'; it takes leaves, raises"));
+    CHECK(mentions({problem("role: presents")}, "role: does not know 'presents'; it takes present, dim"));
+    CHECK(mentions({problem("traits: names named")}, "traits: does not know 'named'; it takes stoppoint"));
+    CHECK(mentions({problem("confidence: very")}, "confidence: does not know 'very'"));
+    CHECK(mentions({problem("where: A is vlaue")}, "where: does not know 'vlaue'; it takes value"));
+    CHECK(mentions({problem("where: B is value")}, "where: 'B is value' is not 'Parameter is kind'"));
+}
+
 TEST_CASE("bad declarations are refused with file and line", "[stdlib][gen]") {
     const Model unknown = read("!! Does it.\nPROC Put(nothing N)\n");
     REQUIRE(unknown.errors.size() == 1);
@@ -193,6 +209,8 @@ TEST_CASE("bad declarations are refused with file and line", "[stdlib][gen]") {
     CHECK(mentions(read("!! One.\nPROC Put(num N)\n\n!! Two.\nPROC put(num N)\n").errors,
                    "'put' is declared twice, first at"));
     CHECK(mentions(read("!! One.\n!@ manuel: 1.2\nPROC Put(num N)\n").errors, "unknown attribute 'manuel:'"));
+    CHECK(
+        mentions(read("!! One.\n!@ what is this\nPROC Put(num N)\n").errors, "'what' follows no attribute"));
     CHECK(
         mentions(read("!! Empty.\nRECORD nothing\nENDRECORD\n").errors, "record 'nothing' has no component"));
     CHECK_FALSE(read("!! One.\nPROC Put(num N\n").errors.empty()); // the parser's own message
