@@ -1,4 +1,4 @@
-"""address_space.py COMMAND [ARGUMENTS]: runs rapidc on a small and a very large module with 300 MB of address space and
+"""address_space.py MB COMMAND [ARGUMENTS]: runs rapidc on a small or a very large module with so much address space and
 says how it ended. `{large}` stands for the large module."""
 
 import resource
@@ -6,7 +6,7 @@ import subprocess
 import sys
 import tempfile
 
-LIMIT = 300 << 20
+LIMIT = int(sys.argv[1]) << 20
 
 
 def write_large(path):
@@ -22,8 +22,8 @@ def write_large(path):
 
 with tempfile.TemporaryDirectory() as folder:
     large = folder + "/large.modx"
-    command = [word.replace("{large}", large).replace("{out}", folder + "/out") for word in sys.argv[1:]]
-    if command != sys.argv[1:]:
+    command = [word.replace("{large}", large).replace("{out}", folder + "/out") for word in sys.argv[2:]]
+    if command != sys.argv[2:]:
         write_large(large)
     done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, timeout=100, check=False,
                           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (LIMIT, LIMIT)))

@@ -1,0 +1,8 @@
+#include "codegen/plugin/backend.h"
+
+const codegen::Backend* rapidc_codegen_backend() {
+    using namespace codegen;
+    static const Backend backend = {&jit,      &guardMemory, &emitObject,    &emitImage,
+                                    &emitLlvm, &emitAsm,     &linkExecutable};
+    return &backend;
+}
