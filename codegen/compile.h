@@ -8,9 +8,14 @@
 #include <memory>
 #include <string>
 
+#include "codegen/abi_types.h"
 #include "codegen/codegen.h"
+#include "runtime/abi/rt_abi.h"
 
 namespace codegen {
+
+/// The symbol of the description that every compiled program holds.
+inline constexpr const char* kProgramSymbol = RAPIDC_SYMBOL(rapidc_program);
 
 /// Machine code is made for one fixed feature set, never for the host's: results and objects must not depend on it.
 std::unique_ptr<llvm::TargetMachine> makeTargetMachine(const CodegenOptions& options, std::string& error);

@@ -3,10 +3,7 @@
 #include <llvm/ADT/StringSwitch.h>
 #include <llvm/IR/Intrinsics.h>
 
-#include <cstddef>
-
 #include "codegen/routine_emitter.h"
-#include "runtime/abi/rt_abi.h"
 
 namespace codegen {
 namespace {
@@ -31,13 +28,8 @@ llvm::Value* RoutineEmitter::stmtNumber(const ir::Inst& inst) const {
                                         static_cast<int32_t>(inst.stmt));
 }
 
-llvm::Value* RoutineEmitter::taskField(size_t offset, const char* name) {
-    return b_.CreateInBoundsGEP(b_.getInt8Ty(), task_, b_.getInt64(offset), name);
-}
-
 void RoutineEmitter::storeStatement(Value* stmt) {
-    b_.CreateStore(stmt, b_.CreateStructGEP(m_.runtime().frame, frame_, 2))
-        ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().frame);
+    storeFrame<&rt::Frame::statement>(stmt);
 }
 
 /// Stores the statement ahead of a call, unless the call before it in this block did.
@@ -80,7 +72,7 @@ void RoutineEmitter::nativeCall(const ir::Inst& inst, ir::ValueId id) {
     BasicBlock* again = newBlock("native");
     b_.CreateBr(again);
     b_.SetInsertPoint(again);
-    b_.CreateStore(frame_, taskField(offsetof(rt::TaskCore, frame), "taskFrame"))
+    b_.CreateStore(frame_, taskField<&rt::TaskCore::frame>("taskFrame"))
         ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
     llvm::CallInst* status = b_.CreateCall(m_.nativeFunction(inst.index), args);
     continueIfNativeOk(inst, status, again);
@@ -118,16 +110,13 @@ void RoutineEmitter::constNative(const ir::Inst& inst, ir::ValueId id) {
 }
 
 llvm::Value* RoutineEmitter::budgetLeft() {
-    Value* budget = taskField(offsetof(rt::TaskCore, budget), "budget");
-    auto* left = b_.CreateLoad(b_.getInt64Ty(), budget);
-    left->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
-    return left;
+    return loadTask<&rt::TaskCore::budget>("budget");
 }
 
 /// Takes the cost from the budget; returns what is left.
 llvm::Value* RoutineEmitter::pay(Value* cost) {
     Value* after = b_.CreateSub(budgetLeft(), cost);
-    Value* budget = taskField(offsetof(rt::TaskCore, budget), "budget");
+    Value* budget = taskField<&rt::TaskCore::budget>("budget");
     b_.CreateStore(after, budget)->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
     return after;
 }
@@ -144,12 +133,12 @@ void RoutineEmitter::safepoint(const ir::Inst& inst) {
     BasicBlock *go = newBlock("go"), *slow = newBlock("safepoint");
     b_.CreateCondBr(b_.CreateICmpSGE(after, llvm::ConstantInt::get(i64, 0)), go, slow, m_.unlikely());
     b_.SetInsertPoint(slow);
-    llvm::CallInst* status =
-        b_.CreateCall(m_.runtime().safepointSlow, {task_, frame_, caller_, desc_, stmtNumber(inst)});
-    status->setCallingConv(llvm::CallingConv::PreserveAll);
+    llvm::CallInst* outcome =
+        m_.runtime().safepointSlow.call(b_, task_, frame_, caller_, desc_, stmtNumber(inst));
+    outcome->setCallingConv(llvm::CallingConv::PreserveAll);
     ErrorJoin& leave = leaveJoin();
-    BasicBlock* target = joinFrom(leave, status);
-    b_.CreateCondBr(b_.CreateICmpEQ(status, b_.getInt32(rt::kOk)), go, target, m_.unlikely());
+    BasicBlock* target = joinFrom(leave, outcome);
+    b_.CreateCondBr(b_.CreateICmpEQ(outcome, statusValue(rt::kOk)), go, target, m_.unlikely());
     b_.SetInsertPoint(go);
     storedStmt_.reset(); // the slow path stores its own
 }
@@ -159,13 +148,14 @@ void RoutineEmitter::step(const ir::Inst& inst) {
     Value* here = b_.getInt32(inst.index);
     storeStatement(here);
     Value* after = budgetLeft();
-    Value* asked = b_.CreateLoad(b_.getInt32Ty(), taskField(offsetof(rt::TaskCore, askSteps), "askSteps"));
+    Value* asked = b_.CreateLoad(abi::typeOf<abi::TypeOf<&rt::TaskCore::askSteps>>(m_.context()),
+                                 taskField<&rt::TaskCore::askSteps>("askSteps"));
     BasicBlock *go = newBlock("go"), *ask = newBlock("ask");
     Value* mayGo = b_.CreateAnd(b_.CreateICmpSGE(after, llvm::ConstantInt::get(b_.getInt64Ty(), 0)),
                                 b_.CreateICmpEQ(asked, b_.getInt32(0)));
     b_.CreateCondBr(mayGo, go, ask, m_.unlikely());
     b_.SetInsertPoint(ask);
-    Value* wanted = b_.CreateCall(m_.runtime().step, {task_, frame_});
+    Value* wanted = m_.runtime().step.call(b_, task_, frame_);
     BasicBlock* elsewhere = joinFrom(makeJoin(steps_, "step"), wanted);
     b_.CreateCondBr(b_.CreateICmpEQ(wanted, here), go, elsewhere, m_.unlikely());
     b_.SetInsertPoint(go);

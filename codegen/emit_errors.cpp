@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "codegen/routine_emitter.h"
-#include "runtime/abi/rt_abi.h"
 
 namespace codegen {
 
@@ -64,7 +63,7 @@ void RoutineEmitter::raise(const ir::Inst& inst) {
 void RoutineEmitter::continueIfOk(const ir::Inst& inst, Value* status) {
     BasicBlock* ok = newBlock("ok");
     BasicBlock* fail = joinFrom(isHandled(inst) && !inUndo() ? dispatchJoin() : leaveJoin(), status);
-    b_.CreateCondBr(b_.CreateICmpEQ(status, b_.getInt32(rt::kOk)), ok, fail, m_.unlikely());
+    b_.CreateCondBr(b_.CreateICmpEQ(status, statusValue(rt::kOk)), ok, fail, m_.unlikely());
     b_.SetInsertPoint(ok);
 }
 
@@ -72,26 +71,26 @@ void RoutineEmitter::continueIfOk(const ir::Inst& inst, Value* status) {
 /// native is called once more (`call`: the block that does so).
 void RoutineEmitter::continueIfNativeOk(const ir::Inst& inst, Value* status, BasicBlock* call) {
     BasicBlock *ok = newBlock("ok"), *failed = newBlock("native.failed");
-    b_.CreateCondBr(b_.CreateICmpEQ(status, b_.getInt32(rt::kOk)), ok, failed, m_.unlikely());
+    b_.CreateCondBr(b_.CreateICmpEQ(status, statusValue(rt::kOk)), ok, failed, m_.unlikely());
     b_.SetInsertPoint(failed);
-    Value* outcome = b_.CreateCall(m_.runtime().nativeFailed, {task_, frame_, status});
+    Value* outcome = m_.runtime().nativeFailed.call(b_, task_, frame_, status);
     if (routine_.stepping && !inUndo() && inst.stmt < routine_.statements.size() &&
         routine_.statements[inst.stmt].start != ir::kNone) {
         call = newBlock("again"); // the whole statement: what its arguments are made of may have been mended
         llvm::IRBuilder<>::InsertPointGuard guard(b_);
         b_.SetInsertPoint(call);
-        Value* stmt = b_.CreateLoad(b_.getInt32Ty(), b_.CreateStructGEP(m_.runtime().frame, frame_, 2));
+        Value* stmt = abi::loadField<&rt::Frame::statement>(b_, frame_);
         b_.CreateBr(joinFrom(makeJoin(steps_, "step"), stmt));
     }
     BasicBlock* fail = joinFrom(isHandled(inst) && !inUndo() ? dispatchJoin() : leaveJoin(), outcome);
-    b_.CreateCondBr(b_.CreateICmpEQ(outcome, b_.getInt32(static_cast<uint32_t>(rt::kAgain))), call, fail);
+    b_.CreateCondBr(b_.CreateICmpEQ(outcome, statusValue(rt::kAgain)), call, fail);
     b_.SetInsertPoint(ok);
 }
 
 /// propagate, handlerend: the runtime decides, the routine is left.
-void RoutineEmitter::handlerCall(const ir::Inst& inst, llvm::FunctionCallee callee) {
+void RoutineEmitter::handlerCall(const ir::Inst& inst, HandlerCall callee) {
     storeStatement(stmtNumber(inst));
-    leaveOrAgain(b_.CreateCall(callee, {task_, frame_}));
+    leaveOrAgain(callee.call(b_, task_, frame_));
 }
 
 /// After the system handler: leaves the routine, or, started again in the stepping profile, goes on with the statement
@@ -103,18 +102,18 @@ void RoutineEmitter::leaveOrAgain(Value* status) {
     }
     BasicBlock* again = newBlock("again");
     BasicBlock* leave = joinFrom(leaveJoin(), status);
-    b_.CreateCondBr(b_.CreateICmpEQ(status, b_.getInt32(static_cast<uint32_t>(rt::kAgain))), again, leave);
+    b_.CreateCondBr(b_.CreateICmpEQ(status, statusValue(rt::kAgain)), again, leave);
     b_.SetInsertPoint(again);
-    Value* stmt = b_.CreateLoad(b_.getInt32Ty(), b_.CreateStructGEP(m_.runtime().frame, frame_, 2));
+    Value* stmt = abi::loadField<&rt::Frame::statement>(b_, frame_);
     b_.CreateBr(joinFrom(makeJoin(steps_, "step"), stmt));
 }
 
 void RoutineEmitter::retry(const ir::Inst& inst) {
     storeStatement(stmtNumber(inst));
-    Value* status = b_.CreateCall(m_.runtime().retry, {task_, frame_});
+    Value* status = m_.runtime().retry.call(b_, task_, frame_);
     BasicBlock* again = newBlock("retry");
     BasicBlock* fail = joinFrom(leaveJoin(), status);
-    b_.CreateCondBr(b_.CreateICmpEQ(status, b_.getInt32(rt::kOk)), again, fail, m_.unlikely());
+    b_.CreateCondBr(b_.CreateICmpEQ(status, statusValue(rt::kOk)), again, fail, m_.unlikely());
     b_.SetInsertPoint(again);
     resumeSwitch(&ir::Statement::start);
 }
@@ -153,7 +152,7 @@ void RoutineEmitter::emitErrorBlocks() {
 void RoutineEmitter::emitRaise(ErrorJoin& join, bool handled) {
     b_.SetInsertPoint(join.block);
     if (!frameInPrologue_) fillFrame(); // it may not have been filled on the way here
-    Value* status = b_.CreateCall(m_.runtime().raise, {task_, frame_, join.number});
+    Value* status = m_.runtime().raise.call(b_, task_, frame_, join.number);
     if (&join == &raiseUndo_) {
         returnFromUndo(status);
         return;
@@ -163,7 +162,7 @@ void RoutineEmitter::emitRaise(ErrorJoin& join, bool handled) {
     if (routine_.stepping) {
         BasicBlock* taken = newBlock("taken");
         BasicBlock* untaken = newBlock("untaken");
-        b_.CreateCondBr(b_.CreateICmpSGT(status, b_.getInt32(0)), taken, untaken);
+        b_.CreateCondBr(b_.CreateICmpSGT(status, statusValue(rt::kOk)), taken, untaken);
         b_.SetInsertPoint(untaken);
         leaveOrAgain(status);
         b_.SetInsertPoint(taken);
@@ -175,7 +174,7 @@ void RoutineEmitter::emitRaise(ErrorJoin& join, bool handled) {
 /// An UNDO handler that ends early: the runtime may have told to skip those of the callers, too (kUnwindSilent).
 void RoutineEmitter::returnFromUndo(Value* status) {
     Value* unwinding = b_.CreateLoad(b_.getInt32Ty(), unwinding_);
-    returnStatus(b_.CreateSelect(b_.CreateICmpSLT(status, b_.getInt32(0)), status, unwinding));
+    returnStatus(b_.CreateSelect(b_.CreateICmpSLT(status, statusValue(rt::kOk)), status, unwinding));
 }
 
 /// An error on its way meets this routine's handler: notes the statement, and takes the error if the list lets it.
@@ -188,15 +187,15 @@ void RoutineEmitter::emitDispatch() {
     auto lists = [&](int32_t number) { return std::find(list.begin(), list.end(), number) != list.end(); };
     if (!routine_.errorFilterGlobals.empty()) {
         BasicBlock* ask = newBlock("listed");
-        b_.CreateCondBr(b_.CreateICmpSGT(dispatch_.number, b_.getInt32(0)), ask, leaving.block);
+        b_.CreateCondBr(b_.CreateICmpSGT(dispatch_.number, statusValue(rt::kOk)), ask, leaving.block);
         b_.SetInsertPoint(ask);
-        Value* takes = b_.CreateCall(m_.runtime().takesError, {task_, frame_, dispatch_.number});
+        Value* takes = m_.runtime().takesError.call(b_, task_, frame_, dispatch_.number);
         leaving.number->addIncoming(dispatch_.number, ask);
         b_.CreateCondBr(b_.CreateICmpNE(takes, b_.getInt32(0)), handler, leaving.block);
         return;
     }
     if (list.empty() || lists(rt::kAllErrors) || lists(rt::kOtherErrors)) {
-        b_.CreateCondBr(b_.CreateICmpSGT(dispatch_.number, b_.getInt32(0)), handler, leaving.block);
+        b_.CreateCondBr(b_.CreateICmpSGT(dispatch_.number, statusValue(rt::kOk)), handler, leaving.block);
         return;
     }
     auto* filter = b_.CreateSwitch(dispatch_.number, leaving.block);
@@ -223,8 +222,7 @@ llvm::BasicBlock* RoutineEmitter::enterHandler() {
     if (enterHandler_) return enterHandler_;
     llvm::IRBuilder<>::InsertPointGuard guard(b_);
     b_.SetInsertPoint(enterHandler_ = newBlock("enter.handler"));
-    Value* stmt = b_.CreateStructGEP(m_.runtime().frame, frame_, 2);
-    b_.CreateStore(b_.CreateLoad(b_.getInt32Ty(), stmt), failed_);
+    b_.CreateStore(abi::loadField<&rt::Frame::statement>(b_, frame_), failed_);
     b_.CreateBr(blockOf(routine_.errorHandler));
     return enterHandler_;
 }
@@ -234,14 +232,13 @@ llvm::BasicBlock* RoutineEmitter::enterHandler() {
 void RoutineEmitter::emitLeave() {
     b_.SetInsertPoint(leave_.block);
     Value* status = leave_.number;
-    auto number = [&](rt::Status code) { return b_.getInt32(static_cast<uint32_t>(code)); };
     if (routine_.errorHandler != ir::kNone) {
         BasicBlock *jump = newBlock("jump"), *land = newBlock("land"), *out = newBlock("out");
         // Statuses from kJump downward are the long jumps.
-        b_.CreateCondBr(b_.CreateICmpSLE(status, number(rt::kJump)), jump, out);
+        b_.CreateCondBr(b_.CreateICmpSLE(status, statusValue(rt::kJump)), jump, out);
         b_.SetInsertPoint(jump);
-        Value* landed = b_.CreateCall(m_.runtime().land, {task_, frame_, status});
-        b_.CreateCondBr(b_.CreateICmpSGT(landed, b_.getInt32(0)), land, out);
+        Value* landed = m_.runtime().land.call(b_, task_, frame_, status);
+        b_.CreateCondBr(b_.CreateICmpSGT(landed, statusValue(rt::kOk)), land, out);
         b_.SetInsertPoint(land);
         b_.CreateBr(enterHandler());
         b_.SetInsertPoint(out);
@@ -255,8 +252,8 @@ void RoutineEmitter::emitLeave() {
         return;
     }
     BasicBlock *unwind = newBlock("unwind"), *pass = newBlock("pass");
-    Value* undo =
-        b_.CreateOr(b_.CreateICmpEQ(status, number(rt::kUnwind)), b_.CreateICmpEQ(status, number(rt::kJump)));
+    Value* undo = b_.CreateOr(b_.CreateICmpEQ(status, statusValue(rt::kUnwind)),
+                              b_.CreateICmpEQ(status, statusValue(rt::kJump)));
     b_.CreateCondBr(undo, unwind, pass);
     b_.SetInsertPoint(unwind);
     b_.CreateStore(status, unwinding_);
@@ -264,7 +261,8 @@ void RoutineEmitter::emitLeave() {
     markFrame(rt::kFrameInUndo);
     b_.CreateBr(blockOf(routine_.undoHandler));
     b_.SetInsertPoint(pass);
-    returnStatus(b_.CreateSelect(b_.CreateICmpEQ(status, number(rt::kJumpPast)), number(rt::kJump), status));
+    returnStatus(
+        b_.CreateSelect(b_.CreateICmpEQ(status, statusValue(rt::kJumpPast)), statusValue(rt::kJump), status));
 }
 
 } // namespace codegen

@@ -2,11 +2,8 @@
 
 #include <llvm/IR/Intrinsics.h>
 
-#include <cstddef>
-
 #include "codegen/routine_emitter.h"
 #include "ir/core/op_info.h"
-#include "runtime/abi/rt_abi.h"
 
 namespace codegen {
 
@@ -28,10 +25,8 @@ bool RoutineEmitter::memory(const ir::Inst& inst, ir::ValueId id) {
     case Op::ElemAddr: define(id, addressOf(inst)); return true;
     case Op::Sysvar: {
         bool intno = inst.extra == static_cast<int32_t>(ir::SysvarKind::Intno);
-        size_t offset = intno ? offsetof(rt::TaskCore, interruptNumber) : offsetof(rt::TaskCore, errorNumber);
-        auto* read = b_.CreateLoad(b_.getFloatTy(), taskField(offset, intno ? "intno" : "errno"));
-        read->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
-        define(id, read);
+        define(id, intno ? loadTask<&rt::TaskCore::interruptNumber>("intno")
+                         : loadTask<&rt::TaskCore::errorNumber>("errno"));
         return true;
     }
     case Op::Load: define(id, load(inst.type, operand(inst, 0))); return true;
@@ -94,7 +89,7 @@ llvm::Value* RoutineEmitter::stackAlloc(const ir::Inst& inst) {
     llvm::Type* i64 = b_.getInt64Ty();
     Value* bytes = operand(inst, 0);
     Value* top = b_.CreatePtrToInt(b_.CreateStackSave(), i64);
-    auto* limit = b_.CreateLoad(i64, taskField(offsetof(rt::TaskCore, stackLimit), "stackLimit"));
+    auto* limit = b_.CreateLoad(i64, taskField<&rt::TaskCore::stackLimit>("stackLimit"));
     limit->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
     // Unsigned and without wrapping: the distance to the limit, 0 when it has been passed.
     Value* room = b_.CreateBinaryIntrinsic(llvm::Intrinsic::usub_sat, top, limit);
@@ -103,7 +98,7 @@ llvm::Value* RoutineEmitter::stackAlloc(const ir::Inst& inst) {
     b_.SetInsertPoint(overflow);
     fillFrame();
     storeStatement(stmtNumber(inst));
-    Value* status = b_.CreateCall(m_.runtime().stackOverflow, {task_, frame_});
+    Value* status = m_.runtime().stackOverflow.call(b_, task_, frame_);
     b_.CreateBr(joinFrom(leaveJoin(), status));
     b_.SetInsertPoint(fits);
     auto* memory = b_.CreateAlloca(b_.getInt8Ty(), bytes);

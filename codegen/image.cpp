@@ -136,7 +136,7 @@ class ImageContext : public jitlink::JITLinkContext {
             }
         }
         for (const jitlink::Symbol* symbol : graph.defined_symbols())
-            if (symbol->hasName() && symbol->getName() == "rapidc_program")
+            if (symbol->hasName() && symbol->getName() == kProgramSymbol)
                 image_.program = symbol->getAddress().getValue() - kPlace;
         return llvm::Error::success();
     }

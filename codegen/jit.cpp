@@ -51,7 +51,7 @@ class OrcProgram : public JitProgram {
         if (!process) return take(process.takeError(), error);
         dylib.addGenerator(std::move(*process));
         if (!take(layer_->add(dylib, std::move(object)), error)) return false;
-        auto found = session_->lookup({&dylib}, "rapidc_program");
+        auto found = session_->lookup({&dylib}, kProgramSymbol);
         if (!found) return take(found.takeError(), error);
         program_ = found->getAddress().toPtr<const rt::ProgramDesc*>();
         return true;

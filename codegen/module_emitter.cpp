@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <llvm/IR/Verifier.h>
 
-#include <cstddef>
 #include <cstring>
 
 #include "codegen/routine_emitter.h"
-#include "runtime/abi/rt_abi.h"
 
 namespace codegen {
 namespace {
@@ -144,26 +142,20 @@ void ModuleEmitter::declareTypes() {
 }
 
 void ModuleEmitter::declareRuntime() {
-    runtime_.frame = llvm::StructType::create(context_, {ptr_, ptr_, i32_, i32_}, "rt.Frame");
-    static_assert(sizeof(rt::Frame) == 24 && offsetof(rt::Frame, statement) == 16);
-    auto declare = [&](const char* name, std::vector<llvm::Type*> params) {
-        auto* type = llvm::FunctionType::get(i32_, params, false);
-        auto* function = llvm::Function::Create(type, llvm::Function::ExternalLinkage, name, *target_);
-        function->setDoesNotThrow();
-        function->addFnAttr(llvm::Attribute::Cold);
-        return llvm::FunctionCallee(type, function);
+    const auto cold = [](auto callee) {
+        callee.function()->setDoesNotThrow();
+        callee.function()->addFnAttr(llvm::Attribute::Cold);
+        return callee;
     };
-    runtime_.raise = declare("rt_raise", {ptr_, ptr_, i32_});
-    runtime_.nativeFailed = declare("rt_nativeFailed", {ptr_, ptr_, i32_});
-    runtime_.land = declare("rt_land", {ptr_, ptr_, i32_});
-    runtime_.takesError = declare("rt_takesError", {ptr_, ptr_, i32_});
-    runtime_.propagate = declare("rt_propagate", {ptr_, ptr_});
-    runtime_.handlerEnd = declare("rt_handlerEnd", {ptr_, ptr_});
-    runtime_.retry = declare("rt_retry", {ptr_, ptr_});
-    runtime_.stackOverflow = declare("rt_stackOverflow", {ptr_, ptr_});
-    runtime_.step = declare("rt_step", {ptr_, ptr_});
-    runtime_.steppingFrame =
-        llvm::StructType::create(context_, {runtime_.frame, ptr_, i32_}, "rt.SteppingFrame");
+    runtime_.raise = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_raise));
+    runtime_.nativeFailed = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_nativeFailed));
+    runtime_.land = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_land));
+    runtime_.takesError = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_takesError));
+    runtime_.propagate = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_propagate));
+    runtime_.handlerEnd = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_handlerEnd));
+    runtime_.retry = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_retry));
+    runtime_.stackOverflow = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_stackOverflow));
+    runtime_.step = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_step));
 }
 
 llvm::Constant* ModuleEmitter::initialValue(const ir::Global& global) {
@@ -310,11 +302,12 @@ void ModuleEmitter::emitCEntry(uint32_t index) {
 }
 
 /// How the system starts a task: all parameters of the entry routine are optional and absent.
-llvm::Constant* ModuleEmitter::emitStart(uint32_t index) {
+llvm::Function* ModuleEmitter::emitStart(uint32_t index) {
     const ir::Routine& routine = module_.routines[index];
     if (routine.params.empty()) return cEntries_[index];
-    auto* start = llvm::Function::Create(llvm::FunctionType::get(i32_, {ptr_, ptr_}, false),
-                                         llvm::Function::InternalLinkage, routine.name + "$start", *target_);
+    llvm::Function* start = abi::makeFunction<rt::EntryFunction>(*target_, llvm::Function::InternalLinkage,
+                                                                 routine.name + "$start")
+                                .function();
     start->setDoesNotThrow();
     llvm::IRBuilder<> b(llvm::BasicBlock::Create(context_, "", start));
     std::vector<llvm::Value*> args{start->getArg(0), start->getArg(1)};
@@ -324,36 +317,33 @@ llvm::Constant* ModuleEmitter::emitStart(uint32_t index) {
     return start;
 }
 
-llvm::Constant* ModuleEmitter::emitLateEntry(const ir::NamedRoutine& named) {
-    static_assert(sizeof(rt::LateArg) == 24 && offsetof(rt::TypeDesc, dims) == 28);
+llvm::Function* ModuleEmitter::emitLateEntry(const ir::NamedRoutine& named) {
     const ir::Routine& routine = module_.routines[named.routine];
-    auto* type = llvm::FunctionType::get(i32_, {ptr_, ptr_, ptr_, ptr_}, false);
-    auto* late =
-        llvm::Function::Create(type, llvm::Function::InternalLinkage, routine.name + "$late", *target_);
+    llvm::Function* late =
+        abi::makeFunction<rt::LateEntry>(*target_, llvm::Function::InternalLinkage, routine.name + "$late")
+            .function();
     late->setDoesNotThrow();
     llvm::IRBuilder<> b(llvm::BasicBlock::Create(context_, "", late));
-    llvm::Type* row = llvm::StructType::get(context_, {ptr_, ptr_, ptr_});
     std::vector<llvm::Value*> args{late->getArg(0), late->getArg(1)};
     if (routine.result != ir::kVoid) args.push_back(late->getArg(3));
     uint32_t next = 0;
     for (uint32_t i = 0; i < named.params.size(); ++i) {
         const ir::ParamEntry& param = named.params[i];
-        auto field = [&](unsigned number) {
-            llvm::Value* address = b.CreateConstInBoundsGEP1_32(row, late->getArg(2), i);
-            return b.CreateLoad(ptr_, b.CreateStructGEP(row, address, number));
+        const auto row = [&] {
+            return b.CreateConstInBoundsGEP1_32(abi::structType<rt::LateArg>(context_), late->getArg(2), i);
         };
-        llvm::Value* data = field(0);
+        llvm::Value* data = abi::loadField<&rt::LateArg::data>(b, row());
         const ir::TypeId wanted = routine.params[next++].type;
         if (param.typeDesc == ir::kNone)
             args.push_back(b.CreateZExt(b.CreateIsNotNull(data), i8_));
         else
             args.push_back(wanted == ir::kPtr ? data : b.CreateLoad(memoryType(wanted), data));
-        for (unsigned k = 0; k < param.rank; ++k, ++next)
-            args.push_back(b.CreateLoad(
-                i32_,
-                b.CreateConstInBoundsGEP1_64(i8_, field(1), offsetof(rt::TypeDesc, dims) + size_t{4} * k)));
+        for (unsigned k = 0; k < param.rank; ++k, ++next) {
+            llvm::Value* type = abi::loadField<&rt::LateArg::type>(b, row());
+            args.push_back(b.CreateLoad(i32_, abi::elementAddress<&rt::TypeDesc::dims>(b, type, k)));
+        }
         if (param.passesName) {
-            args.push_back(field(2));
+            args.push_back(abi::loadField<&rt::LateArg::name>(b, row()));
             ++next;
         }
     }
@@ -363,27 +353,24 @@ llvm::Constant* ModuleEmitter::emitLateEntry(const ir::NamedRoutine& named) {
     return late;
 }
 
-/// Fills the frame record and calls rt_safepoint. Keeps every register, so that the loop around pays nothing for the
-/// path that is hardly ever taken.
+/// Keeps every register, so that the loop around pays nothing for the path that is hardly ever taken.
 void ModuleEmitter::emitSafepointSlow() {
-    auto* type = llvm::FunctionType::get(i32_, {ptr_, ptr_, ptr_, ptr_, i32_}, false);
-    auto* function =
-        llvm::Function::Create(type, llvm::Function::InternalLinkage, "rapidc.safepoint", *target_);
+    runtime_.safepointSlow =
+        abi::makeFunction<SafepointSlow>(*target_, llvm::Function::InternalLinkage, "rapidc.safepoint");
+    llvm::Function* function = runtime_.safepointSlow.function();
     function->setCallingConv(llvm::CallingConv::PreserveAll);
     function->setDoesNotThrow();
     function->addFnAttr(llvm::Attribute::NoInline);
     function->addFnAttr(llvm::Attribute::Cold);
     llvm::IRBuilder<> b(llvm::BasicBlock::Create(context_, "", function));
     llvm::Value *task = function->getArg(0), *frame = function->getArg(1);
-    b.CreateStore(function->getArg(2), b.CreateStructGEP(runtime_.frame, frame, 0));
-    b.CreateStore(function->getArg(3), b.CreateStructGEP(runtime_.frame, frame, 1));
-    b.CreateStore(function->getArg(4), b.CreateStructGEP(runtime_.frame, frame, 2));
-    auto* callType = llvm::FunctionType::get(i32_, {ptr_, ptr_}, false);
-    llvm::FunctionCallee callee = target_->getOrInsertFunction("rt_safepoint", callType);
-    llvm::CallInst* call = b.CreateCall(callee, {task, frame});
+    abi::storeField<&rt::Frame::caller>(b, frame, function->getArg(2));
+    abi::storeField<&rt::Frame::routine>(b, frame, function->getArg(3));
+    abi::storeField<&rt::Frame::statement>(b, frame, function->getArg(4));
+    const auto callee = RAPIDC_DECLARE_RUNTIME(*target_, rt_safepoint);
+    llvm::CallInst* call = callee.call(b, task, frame);
     call->setDoesNotThrow();
     b.CreateRet(call);
-    runtime_.safepointSlow = function;
 }
 
 } // namespace codegen

@@ -10,9 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "codegen/abi_types.h"
 #include "codegen/codegen.h"
 #include "codegen/debug_info.h"
 #include "ir/core/ir.h"
+#include "runtime/abi/rt_abi.h"
 
 namespace codegen {
 
@@ -23,12 +25,22 @@ struct AccessTags {
     llvm::MDNode* frame = nullptr;
 };
 
-/// The runtime's functions and the structures of rt_abi.h.
+/// Fills the frame record and calls rt_safepoint; what follows the frame goes into the record.
+using SafepointSlow = rt::Status(rt::TaskCore*, rt::Frame* frame, rt::Frame* caller, const rt::RoutineDesc*,
+                                 int32_t statement);
+
+/// The runtime's functions.
 struct RuntimeParts {
-    llvm::StructType *frame = nullptr, *steppingFrame = nullptr;
-    llvm::FunctionCallee raise, nativeFailed, land, takesError, propagate, handlerEnd, retry, stackOverflow,
-        step;
-    llvm::Function* safepointSlow = nullptr; ///< own function that keeps all registers, calls rt_safepoint
+    abi::Callee<decltype(rt_raise)> raise;
+    abi::Callee<decltype(rt_nativeFailed)> nativeFailed;
+    abi::Callee<decltype(rt_land)> land;
+    abi::Callee<decltype(rt_takesError)> takesError;
+    abi::Callee<decltype(rt_propagate)> propagate;
+    abi::Callee<decltype(rt_handlerEnd)> handlerEnd;
+    abi::Callee<decltype(rt_retry)> retry;
+    abi::Callee<decltype(rt_stackOverflow)> stackOverflow;
+    abi::Callee<decltype(rt_step)> step;
+    abi::Callee<SafepointSlow> safepointSlow; ///< own function that keeps all registers
 };
 
 /// The locals that a routine of the stepping profile describes, in the order of their table: numbers in
@@ -74,9 +86,9 @@ class ModuleEmitter {
     void declareRoutines();
     void emitSafepointSlow();
     void emitCEntry(uint32_t index);
+    llvm::Function* emitStart(uint32_t index);
     /// The entry that takes its arguments out of a table (rt::LateEntry).
-    llvm::Constant* emitStart(uint32_t index);
-    llvm::Constant* emitLateEntry(const ir::NamedRoutine& named);
+    llvm::Function* emitLateEntry(const ir::NamedRoutine& named);
     llvm::Constant* initialValue(const ir::Global& global);
     // emit_tables.cpp
     void declareTables();
@@ -86,20 +98,35 @@ class ModuleEmitter {
     /// A private array and its address; null when empty.
     llvm::Constant* array(llvm::Type* element, const std::vector<llvm::Constant*>& values,
                           const std::string& name);
+    /// The same for rows of T.
+    template <class T>
+    llvm::Constant* table(const std::vector<llvm::Constant*>& rows, const std::string& name) {
+        return array(abi::structType<T>(context_), rows, name);
+    }
     llvm::Constant* fileName(uint32_t file);
     llvm::Constant* i32(int64_t value);
-    llvm::Constant* i8(int64_t value);
+    llvm::Constant* null();
+    llvm::Constant* typeDescOrNull(uint32_t index); ///< null for ir::kNone
+    llvm::Function* entryOrNull(uint32_t routine);  ///< the same for the C entry of a routine
     llvm::Constant* typeDescValue(const ir::TypeDesc& desc);
+    llvm::Constant* statementTable(const ir::Routine& routine);
+    std::vector<llvm::Constant*> localRows(const ir::Routine& routine);
     llvm::Constant* routineDescValue(const ir::Routine& routine);
     llvm::Constant* tasks();
+    /// How data are declared in one place.
+    struct DataDeclaration {
+        const std::string &name, &moduleName;
+        uint32_t task, file, line;
+    };
+    llvm::Constant* dataRow(uint32_t global, const DataDeclaration& declared);
     llvm::Constant* globalTable(uint32_t& count);
     llvm::Constant* aliasTable(uint32_t& count);
     llvm::Constant* externals();
     llvm::Constant* routineTable(uint32_t& count);
+    std::vector<llvm::Constant*> paramRows(const ir::NamedRoutine& named);
     llvm::Constant* routineRow(uint32_t index, const ir::NamedRoutine& named);
     llvm::Constant* moduleTable();
     llvm::Constant* routineDataTable();
-    llvm::Constant* null();
     int64_t taskOf(const ir::Routine& routine);
     /// As the run-time tables say it: -1 = shared. Units loaded at run time belong to one task of the program.
     int64_t taskNumber(uint32_t task) const;
@@ -116,11 +143,6 @@ class ModuleEmitter {
     std::vector<llvm::Function*> routines_, natives_, cEntries_;
     std::vector<llvm::GlobalVariable*> globals_, typeDescs_, routineDescs_;
     std::map<std::string, llvm::Constant*> texts_;
-    // Layout of rt_abi.h
-    llvm::StructType *typeDescType_ = nullptr, *stmtDescType_ = nullptr, *routineDescType_ = nullptr,
-                     *taskDescType_ = nullptr, *globalDescType_ = nullptr, *externalDescType_ = nullptr,
-                     *routineEntryType_ = nullptr, *programDescType_ = nullptr, *localDescType_ = nullptr,
-                     *paramDescType_ = nullptr, *routineDataType_ = nullptr, *moduleDescType_ = nullptr;
     llvm::PointerType* ptr_ = nullptr;
     llvm::IntegerType *i32_ = nullptr, *i64_ = nullptr, *i8_ = nullptr;
 };

@@ -1,12 +1,10 @@
 #include "codegen/routine_emitter.h"
 
 #include <algorithm>
-#include <cstddef>
 
 #include "codegen/joined_rounds.h"
 #include "codegen/wide_loop.h"
 #include "ir/core/op_info.h"
-#include "runtime/abi/rt_abi.h"
 
 namespace codegen {
 namespace {
@@ -143,12 +141,15 @@ void RoutineEmitter::allocate() {
     if (!module_.isScalar(routine_.result)) result_ = function_->getArg(2);
     const size_t addresses = addressedLocals(routine_).size();
     const bool extended = routine_.stepping || addresses > 0;
-    frame_ = b_.CreateAlloca(extended ? m_.runtime().steppingFrame : m_.runtime().frame, nullptr, "frame");
+    frame_ = b_.CreateAlloca(extended ? abi::structType<rt::SteppingFrame>(m_.context())
+                                      : abi::structType<rt::Frame>(m_.context()),
+                             nullptr, "frame");
     if (addresses > 0)
         addresses_ = b_.CreateAlloca(llvm::ArrayType::get(b_.getPtrTy(), addresses), nullptr, "addresses");
     llvm::Type* i32 = b_.getInt32Ty();
+    static_assert(std::is_same_v<abi::TypeOf<&rt::SteppingFrame::failed>, int32_t>, "as in the alloca");
     if (routine_.errorHandler != ir::kNone)
-        failed_ = extended ? b_.CreateStructGEP(m_.runtime().steppingFrame, frame_, 2, "failed")
+        failed_ = extended ? abi::fieldAddress<&rt::SteppingFrame::failed>(b_, frame_, "failed")
                            : b_.CreateAlloca(i32, nullptr, "failed");
     if (routine_.undoHandler != ir::kNone) unwinding_ = b_.CreateAlloca(i32, nullptr, "unwinding");
     for (const ir::Local& local : routine_.locals) {
@@ -202,7 +203,7 @@ void RoutineEmitter::fillAddresses() {
         b_.CreateStore(locals_[addressed[i]],
                        b_.CreateConstInBoundsGEP2_32(addresses_->getAllocatedType(), addresses_, 0, i));
     }
-    b_.CreateStore(addresses_, b_.CreateStructGEP(m_.runtime().steppingFrame, frame_, 1));
+    abi::storeField<&rt::SteppingFrame::addresses>(b_, frame_, addresses_);
 }
 
 /// Checks that the stack suffices and fills the frame record.
@@ -212,35 +213,29 @@ void RoutineEmitter::enterFrame() {
         bytes += module_.size(local.type);
     llvm::Value* lowest = b_.CreatePtrToInt(frame_, b_.getInt64Ty());
     if (bytes > kLargeLocal) lowest = b_.CreateSub(lowest, b_.getInt64(bytes));
-    auto* limit = b_.CreateLoad(b_.getInt64Ty(), taskField(offsetof(rt::TaskCore, stackLimit), "stackLimit"));
+    auto* limit = b_.CreateLoad(b_.getInt64Ty(), taskField<&rt::TaskCore::stackLimit>("stackLimit"));
     limit->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
     BasicBlock *ok = newBlock("enter"), *overflow = newBlock("overflow");
     b_.CreateCondBr(b_.CreateICmpUGE(lowest, limit), ok, overflow, m_.unlikely());
     b_.SetInsertPoint(overflow);
     fillFrame();
     storeStatement(b_.getInt32(0));
-    returnStatus(b_.CreateCall(m_.runtime().stackOverflow, {task_, frame_}));
+    returnStatus(m_.runtime().stackOverflow.call(b_, task_, frame_));
     b_.SetInsertPoint(ok);
     fillFrame();
 }
 
 /// Everything but the statement.
 void RoutineEmitter::fillFrame() {
-    auto fill = [&](unsigned field, Value* content) {
-        b_.CreateStore(content, b_.CreateStructGEP(m_.runtime().frame, frame_, field))
-            ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().frame);
-    };
-    fill(0, caller_);
-    fill(1, desc_);
+    storeFrame<&rt::Frame::caller>(caller_);
+    storeFrame<&rt::Frame::routine>(desc_);
     // The runtime counts retries here and finds out whether the routine is in its UNDO handler.
-    if (routine_.errorHandler != ir::kNone || unwinding_ || routine_.stepping) fill(3, b_.getInt32(0));
+    if (routine_.errorHandler != ir::kNone || unwinding_ || routine_.stepping) markFrame(0);
 }
 
 /// What the runtime counts RETRYs by.
 void RoutineEmitter::markFrame(int32_t content) {
-    b_.CreateStore(b_.getInt32(static_cast<uint32_t>(content)),
-                   b_.CreateStructGEP(m_.runtime().frame, frame_, 3))
-        ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().frame);
+    storeFrame<&rt::Frame::reserved>(b_.getInt32(static_cast<uint32_t>(content)));
 }
 
 void RoutineEmitter::block(ir::BlockId id) {
@@ -314,14 +309,14 @@ void RoutineEmitter::ret(const ir::Inst& inst) {
         returnStatus(b_.CreateLoad(b_.getInt32Ty(), unwinding_));
         return;
     }
-    llvm::Value* status = b_.getInt32(rt::kOk);
-    if (inst.operands.empty()) return returnStatus(status); // no result, or the end of what nothing reaches
+    llvm::Value* ok = statusValue(rt::kOk);
+    if (inst.operands.empty()) return returnStatus(ok); // no result, or the end of what nothing reaches
     if (!function_->getReturnType()->isStructTy()) {
-        b_.CreateRet(status);
+        b_.CreateRet(ok);
         return;
     }
     llvm::Value* both = llvm::PoisonValue::get(function_->getReturnType());
-    both = b_.CreateInsertValue(both, status, 0);
+    both = b_.CreateInsertValue(both, ok, 0);
     b_.CreateRet(b_.CreateInsertValue(both, operand(inst, 0), 1));
 }
 

@@ -43,6 +43,10 @@ class RoutineEmitter {
     bool isEmpty(ir::BlockId id) const;
     void enterStatement();
     void markFrame(int32_t content);
+    template <auto member> void storeFrame(Value* content) {
+        abi::storeField<member>(b_, frame_, content)
+            ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().frame);
+    }
     void returnFromUndo(llvm::Value* status);
     void block(ir::BlockId id);
     void instruction(ir::ValueId id);
@@ -103,7 +107,17 @@ class RoutineEmitter {
     void storeStatement(Value* stmt);
     void noteStatement(const ir::Inst& inst);
     llvm::AllocaInst* resultSlot(ir::TypeId type);
-    Value* taskField(size_t offset, const char* name);
+    /// Address of a field of the task.
+    template <auto member> Value* taskField(const char* name) {
+        static_assert(std::is_same_v<abi::StructOf<member>, rt::TaskCore>);
+        return b_.CreateInBoundsGEP(b_.getInt8Ty(), task_, b_.getInt64(abi::kOffsetOf<member>), name);
+    }
+    template <auto member> Value* loadTask(const char* name) {
+        auto* address = taskField<member>(name);
+        auto* read = b_.CreateLoad(abi::typeOf<abi::TypeOf<member>>(m_.context()), address);
+        read->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
+        return read;
+    }
     Value* stmtNumber(const ir::Inst& inst) const;
 
     // emit_errors.cpp
@@ -120,7 +134,10 @@ class RoutineEmitter {
     void raise(const ir::Inst& inst);
     void continueIfOk(const ir::Inst& inst, Value* status);
     void continueIfNativeOk(const ir::Inst& inst, Value* status, BasicBlock* call);
-    void handlerCall(const ir::Inst& inst, llvm::FunctionCallee callee);
+    /// rt_propagate and rt_handlerEnd.
+    using HandlerCall = abi::Callee<rt::Status(rt::TaskCore*, rt::Frame*)>;
+    void handlerCall(const ir::Inst& inst, HandlerCall callee);
+    llvm::ConstantInt* statusValue(rt::Status value) { return b_.getInt32(static_cast<uint32_t>(value)); }
     void retry(const ir::Inst& inst);
     void tryNext(const ir::Inst& inst);
     void resumeSwitch(ir::BlockId ir::Statement::* where);

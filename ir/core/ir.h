@@ -203,11 +203,12 @@ enum DataFlag : uint8_t {
     kDataPredefined = 2 ///< belongs to the language
 };
 
+enum class ParamMode : uint8_t { In, Variable, Persistent, Either };
 /// A parameter as the source language sees it (one or more entries of Routine::params).
 struct ParamEntry {
     std::string name;
     uint32_t typeDesc = kNone; ///< kNone: a switch
-    uint8_t mode = 0;          ///< 0 in, 1 variable, 2 persistent, 3 either
+    ParamMode mode = ParamMode::In;
     bool optional = false;
     uint8_t rank = 0;        ///< > 0: an array of elements of that type
     uint8_t group = 0;       ///< equal for mutually exclusive parameters; 0 = none

@@ -259,11 +259,11 @@ void ProgramLowering::addNamedRoutine(const RoutineSymbol& symbol, uint32_t task
         entry.name = param->name;
         if (!param->isSwitch) entry.typeDesc = typeDesc({param->type.type, 0, {0, 0, 0}});
         switch (param->mode) {
-        case ParamMode::In: entry.mode = 0; break;
-        case ParamMode::Var: entry.mode = 1; break;
-        case ParamMode::Pers: entry.mode = 2; break;
+        case ParamMode::In: entry.mode = ir::ParamMode::In; break;
+        case ParamMode::Var: entry.mode = ir::ParamMode::Variable; break;
+        case ParamMode::Pers: entry.mode = ir::ParamMode::Persistent; break;
         case ParamMode::Inout:
-        case ParamMode::Ref: entry.mode = 3; break;
+        case ParamMode::Ref: entry.mode = ir::ParamMode::Either; break;
         }
         entry.optional = param->optional;
         entry.rank = param->type.rank;

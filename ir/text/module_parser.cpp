@@ -91,7 +91,7 @@ class ModuleParser {
     bool namedParam(ParamEntry& param) {
         size_t mode = 0;
         if (!in_.string(param.name) || !in_.oneOf(kParamModeNames, "a parameter mode", mode)) return false;
-        param.mode = static_cast<uint8_t>(mode);
+        param.mode = static_cast<ParamMode>(mode);
         if (in_.takeWord("desc") && !in_.unsignedInt(param.typeDesc)) return false;
         if (in_.takeWord("rank") && !small(param.rank, 3)) return false;
         param.optional = in_.takeWord("optional");

@@ -295,7 +295,7 @@ void printNamed(Out& out, const Module& module, const NamedRoutine& named) {
     put(out, " (");
     for (size_t i = 0; i < named.params.size(); ++i) {
         const ParamEntry& p = named.params[i];
-        put(out, "{}{} {}", i ? ", " : "", quoted(p.name), kParamModeNames[p.mode]);
+        put(out, "{}{} {}", i ? ", " : "", quoted(p.name), kParamModeNames[static_cast<size_t>(p.mode)]);
         if (p.typeDesc != kNone) put(out, " desc {}", p.typeDesc);
         if (p.rank > 0) put(out, " rank {}", p.rank);
         if (p.optional) put(out, " optional");

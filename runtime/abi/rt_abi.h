@@ -64,11 +64,20 @@ struct AnyRef {
 
 struct StmtDesc {
     uint32_t line, column, endLine, endColumn; ///< from 1
-    uint8_t kind;                              ///< ir::StmtKind; kStmtHandler: in an error or UNDO handler
+    uint8_t kind;                              ///< StmtKind
     uint8_t handled;                           ///< 1: an error here goes to the routine's error handler
-    uint8_t flags;                             ///< ir::StatementFlag; stepping profile
+    uint8_t flags;                             ///< StmtFlag; stepping profile
     uint8_t canStart;                          ///< StartMark
     int32_t previous;                          ///< the statement before it in its list, -1: it is the first
+};
+
+enum StmtKind : uint8_t {
+    kStmtPlain,
+    kStmtCall,
+    kStmtMotion,
+    kStmtControl,
+    kStmtReturn,
+    kStmtHandler ///< in an error or UNDO handler
 };
 
 /// StmtDesc::canStart: whether rt_step may name the statement. kCannotStart always in the release profile.
@@ -78,7 +87,7 @@ enum StartMark : uint8_t {
     kStartsEarlier = 2 ///< a further condition of an IF: execution begins at the first one
 };
 
-/// StmtDesc::flags: what executing the statement backwards means. Equal to ir::StatementFlag.
+/// StmtDesc::flags: what executing the statement backwards means.
 enum StmtFlag : uint8_t {
     kStmtCallsRoutine = 1,
     kStmtCallsBackward = 2,
@@ -104,8 +113,6 @@ struct LocalDesc {
         rank; ///< array with dimensions known at run time: they are the `rank` entries (int32_t) that follow
     uint8_t pad;
 };
-
-inline constexpr uint8_t kStmtHandler = 5;
 
 /// How a detached error handler tells to go on.
 enum HandlerDecision : int32_t { kNotDecided, kDecidedRetry, kDecidedTryNext, kDecidedReturn, kDecidedRaise };
@@ -201,13 +208,14 @@ struct GlobalDesc { ///< module data, for SetDataVal, the debugger, saving of pe
     const char* module;
     void* address;
     const TypeDesc* type;
-    uint8_t kind;  ///< ir::GlobalKind
+    uint8_t kind;  ///< GlobalKind
     uint8_t flags; ///< DataFlag
     int32_t task;  ///< index into tasks; -1 = shared
     const char* file;
     uint32_t line;
 };
-/// GlobalDesc::flags. Equal to ir::DataFlag.
+enum GlobalKind : uint8_t { kGlobalVariable, kGlobalPersistent, kGlobalConstant };
+/// GlobalDesc::flags.
 enum DataFlag : uint8_t {
     kDataLocal = 1,      ///< visible in its module only
     kDataPredefined = 2, ///< belongs to the language, not to the program
@@ -219,7 +227,7 @@ struct RoutineDataDesc {
     const char* routine;
     const TypeDesc* type;
     int32_t task;
-    uint8_t kind; ///< ir::GlobalKind
+    uint8_t kind; ///< GlobalKind
 };
 struct ModuleDesc {
     const char* name;
@@ -323,4 +331,7 @@ rt::Status rt_retry(rt::TaskCore* task, rt::Frame* frame);
 int32_t rt_step(rt::TaskCore* task, rt::Frame* frame);
 /// The stack of the task is used up. Returns kUnwind.
 rt::Status rt_stackOverflow(rt::TaskCore* task, rt::Frame* frame);
+
+/// What a compiled program says about itself; defined by the program.
+extern const rt::ProgramDesc rapidc_program;
 }

@@ -34,9 +34,8 @@ DebugVariable dataOf(const GlobalDesc& desc) {
     variable.module = desc.module;
     variable.type = desc.type;
     variable.data = desc.address;
-    // ir::GlobalKind: var, persistent, const
-    variable.isPersistent = desc.kind == 1;
-    variable.isConstant = desc.kind == 2;
+    variable.isPersistent = desc.kind == kGlobalPersistent;
+    variable.isConstant = desc.kind == kGlobalConstant;
     return variable;
 }
 
@@ -69,7 +68,8 @@ std::vector<DebugVariable> Debugger::globals(const Task& task) const {
     std::vector<DebugVariable> result;
     for (const GlobalDesc* desc : controller_.tables().globals())
         if (controller_.tables().isDeclaredIn(*desc, static_cast<int32_t>(task.index())))
-            if (desc->kind != 2 || (desc->flags & kDataPredefined) == 0) result.push_back(dataOf(*desc));
+            if (desc->kind != kGlobalConstant || (desc->flags & kDataPredefined) == 0)
+                result.push_back(dataOf(*desc));
     return result;
 }
 

@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint8_t kPersistent = 1; // ir::GlobalKind::Persistent
-
 bool belongsTo(const GlobalDesc& data, int32_t task) {
     return task < 0 || data.task < 0 || data.task == task;
 }
@@ -36,7 +34,7 @@ void ModuleSaver::remember() {
 }
 
 void ModuleSaver::remember(const GlobalDesc& data) {
-    if (data.kind != kPersistent || data.file == nullptr) return;
+    if (data.kind != kGlobalPersistent || data.file == nullptr) return;
     declared_.push_back({&data, std::string(static_cast<const char*>(data.address), data.type->size)});
 }
 
@@ -136,7 +134,7 @@ void ModuleSaver::addUnit(const LoadedModule& module, ModuleText& text) const {
     for (uint32_t i = 0; i < module.unit->globalCount; ++i) {
         const GlobalDesc& data = module.unit->globals[i];
         std::string value;
-        if (data.kind == kPersistent && sameName(data.module, module.name) &&
+        if (data.kind == kGlobalPersistent && sameName(data.module, module.name) &&
             valueToSource(data.address, *data.type, value))
             text.values.push_back({data.module, data.name, std::move(value)});
     }

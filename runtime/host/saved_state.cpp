@@ -26,8 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint8_t kVariable = 0, kPersistent = 1; // ir::GlobalKind
-constexpr std::size_t kMostNamed = 5;             // names in one event
+constexpr std::size_t kMostNamed = 5; // names in one event
 constexpr std::size_t kKeptEvents = 100;
 constexpr std::chrono::seconds kPeriod{1};
 constexpr std::chrono::milliseconds kRetryPeriod{5};
@@ -101,15 +100,15 @@ void SavedState::remember() {
         const GlobalDesc& data = program.globals[i];
         std::string initial;
         data_.add(data, keyOf(data));
-        if (data.kind != kVariable && data.kind != kPersistent) continue;
+        if (data.kind != kGlobalVariable && data.kind != kGlobalPersistent) continue;
         if (!known.try_emplace(data.address, true).second) continue;
         // Variables of handles begin without an object. Where nobody keeps what they name, it is made anew.
         if (!valueToSource(data.address, *data.type, initial) &&
             !valueToImage(data.address, *data.type, 1, controller_.service<StateKeepers>(), initial))
             continue;
-        Rows& rows = namesInterrupts(*data.type) ? interruptNumbers_
-                     : data.kind == kPersistent  ? persistents_
-                                                 : variables_;
+        Rows& rows = namesInterrupts(*data.type)      ? interruptNumbers_
+                     : data.kind == kGlobalPersistent ? persistents_
+                                                      : variables_;
         rows.emplace_back(&data, std::move(initial));
     }
     data_.sort();
@@ -125,7 +124,7 @@ const Task* SavedState::ownerOf(const GlobalDesc& data) const {
 /// Shared persistents are known by their name alone.
 std::string SavedState::keyOf(const GlobalDesc& data) const {
     const Task* owner = ownerOf(data);
-    if (owner == nullptr && (data.kind != kPersistent || (data.flags & kDataLocal) != 0))
+    if (owner == nullptr && (data.kind != kGlobalPersistent || (data.flags & kDataLocal) != 0))
         return upperCase(fmt::format("{}/{}", data.module, data.name));
     return upperCase(owner == nullptr ? data.name
                                       : fmt::format("{}/{}/{}", owner->name(), data.module, data.name));

@@ -14,9 +14,6 @@
 namespace rt {
 namespace {
 
-// ir::GlobalKind
-constexpr uint8_t kPersistent = 1, kConst = 2;
-
 /// Code and data of a unit are never given back, because data may be referred to: that bounds their number.
 constexpr std::size_t kMostUnits = 1000;
 
@@ -43,7 +40,8 @@ std::vector<std::pair<void*, std::string>> initialData(const ProgramDesc& unit,
     std::vector<std::pair<void*, std::string>> result;
     for (uint32_t i = 0; i < unit.globalCount; ++i) {
         const GlobalDesc& data = unit.globals[i];
-        if ((data.flags & kDataPredefined) == 0 && data.kind < kConst && !elsewhere.contains(data.address))
+        if ((data.flags & kDataPredefined) == 0 && data.kind != kGlobalConstant &&
+            !elsewhere.contains(data.address))
             result.emplace_back(data.address,
                                 std::string(static_cast<const char*>(data.address), data.type->size));
     }
@@ -71,7 +69,7 @@ const void* nativeAddress(const std::string& symbol) {
 const GlobalDesc* findUnitData(const ProgramTables& present, std::string_view name, std::string_view module,
                                int32_t task) {
     const GlobalDesc* data = present.findGlobal(name, module, task, !module.empty());
-    return data != nullptr && module.empty() && data->kind != kPersistent ? nullptr : data;
+    return data != nullptr && module.empty() && data->kind != kGlobalPersistent ? nullptr : data;
 }
 
 LoadResult UnitLoader::make(const LoadRequest& request, const ProgramTables& present) {
@@ -176,7 +174,8 @@ void UnitLoader::memoryChanged(const ProgramTables& present) {
 void UnitLoader::bind(Unit& unit, const ProgramTables& present) {
     for (Binding& binding : unit.bindings) {
         const GlobalDesc* object = present.findGlobal(binding.name, binding.module, unit.task, true);
-        if (object == nullptr && binding.bound->kind == kPersistent) // another module may declare it, too
+        if (object == nullptr &&
+            binding.bound->kind == kGlobalPersistent) // another module may declare it, too
             object = findUnitData(present, binding.name, "", unit.task);
         if (object != nullptr && ((object->flags & kDataLocal) != 0 || !isLike(*object, *binding.bound)))
             object = nullptr;

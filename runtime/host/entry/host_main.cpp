@@ -10,8 +10,6 @@
 
 #include <string>
 
-extern "C" const rt::ProgramDesc rapidc_program;
-
 int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of memory may end it
     rt::guardLimits(rapidc_program.name);
     rt::guardStandardStreams();

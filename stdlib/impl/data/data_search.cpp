@@ -17,9 +17,6 @@ using namespace rt;
 
 namespace {
 
-// ir::GlobalKind
-constexpr uint8_t kVariable = 0, kPersistent = 1, kConstant = 2;
-
 struct Hit {
     std::string name;
     lib::DataPosition position;
@@ -35,7 +32,7 @@ struct Search {
 struct Criteria {
     std::string_view type;
     lib::NamePattern pattern;
-    bool kinds[3] = {true, true, true}; ///< by ir::GlobalKind
+    bool kinds[3] = {true, true, true}; ///< by GlobalKind
     bool global = true, local = true;
 };
 
@@ -61,7 +58,7 @@ Status readPattern(TaskCore* task, const String* text, lib::NamePattern& pattern
 }
 
 bool wanted(const Criteria& criteria, const char* name, const TypeDesc& type, uint8_t kind, bool isLocal) {
-    return kind <= kConstant && criteria.kinds[kind] && (isLocal ? criteria.local : criteria.global) &&
+    return kind <= kGlobalConstant && criteria.kinds[kind] && (isLocal ? criteria.local : criteria.global) &&
            sameName(lib::elementOf(type).name, criteria.type) && criteria.pattern.matches(name);
 }
 
@@ -146,9 +143,9 @@ Status rt_SetDataSearch(TaskCore* task, const String* Type, const String* TypeMo
     if (const Status status = checkType(task, *Type, TypeMod); status != kOk) return status;
     if (const Status status = readPattern(task, Object, criteria.pattern); status != kOk) return status;
     if (PersSym || VarSym || ConstSym) {
-        criteria.kinds[kVariable] = VarSym;
-        criteria.kinds[kPersistent] = PersSym;
-        criteria.kinds[kConstant] = ConstSym;
+        criteria.kinds[kGlobalVariable] = VarSym;
+        criteria.kinds[kGlobalPersistent] = PersSym;
+        criteria.kinds[kGlobalConstant] = ConstSym;
     }
     criteria.global = !LocalSym;
     criteria.local = !GlobalSym;
@@ -196,7 +193,7 @@ Status rt_SetAllDataVal(TaskCore* task, const String* Type, const String* TypeMo
     };
     for (const GlobalDesc* data : tables.globals()) {
         const bool own = tables.isDeclaredIn(*data, static_cast<int32_t>(owner.index()));
-        if (own && (data->flags & kDataPredefined) == 0 && data->kind != kConstant &&
+        if (own && (data->flags & kDataPredefined) == 0 && data->kind != kGlobalConstant &&
             wanted(criteria, data->name, *data->type, data->kind, false))
             set(dataOf(*data));
     }
@@ -204,7 +201,7 @@ Status rt_SetAllDataVal(TaskCore* task, const String* Type, const String* TypeMo
         const bool hides =
             tables.findGlobal(variable.name, "", static_cast<int32_t>(owner.index()), false) != nullptr;
         if (variable.data != nullptr && (Hidden || !hides) && variable.rank == 0 &&
-            wanted(criteria, variable.name.c_str(), *variable.type, kVariable, false))
+            wanted(criteria, variable.name.c_str(), *variable.type, kGlobalVariable, false))
             set(variable);
     }
     return kOk;

@@ -53,11 +53,10 @@ bool executes(const Controller& controller, const LoadedModule& module) {
 }
 
 std::vector<std::string> persistentsOf(const ProgramDesc& unit) {
-    constexpr uint8_t kPersistent = 1; // ir::GlobalKind::Persistent
     std::vector<std::string> values;
     for (uint32_t i = 0; i < unit.globalCount; ++i)
         if (const GlobalDesc& data = unit.globals[i];
-            data.kind == kPersistent && (data.flags & kDataPredefined) == 0)
+            data.kind == kGlobalPersistent && (data.flags & kDataPredefined) == 0)
             values.emplace_back(static_cast<const char*>(data.address), data.type->size);
     return values;
 }

@@ -4,12 +4,6 @@
 #include <functional>
 
 namespace rt::lib {
-namespace {
-
-constexpr uint8_t kPersistent = 1; // ir::GlobalKind::Persistent
-
-} // namespace
-
 const GlobalDesc* dataAt(const Controller& controller, const void* address) {
     const auto& rows = controller.tables().globals();
     const auto found = std::find_if(rows.begin(), rows.end(), [address](const GlobalDesc* row) {
@@ -22,7 +16,7 @@ const GlobalDesc* dataAt(const Controller& controller, const void* address) {
 
 bool isPersistent(const Controller& controller, const void* address) {
     const GlobalDesc* data = dataAt(controller, address);
-    return data != nullptr && data->kind == kPersistent;
+    return data != nullptr && data->kind == kGlobalPersistent;
 }
 
 std::string nameOfData(const Controller& controller, const void* data) {
