@@ -9,35 +9,6 @@ namespace codegen {
 
 using ir::Op;
 
-bool RoutineEmitter::arithmetic(const ir::Inst& inst, ir::ValueId id) {
-    Value* result = nullptr;
-    if (inst.op == Op::Const)
-        result = constant(inst);
-    else if ((inst.op >= Op::FAdd && inst.op <= Op::FNeg) || inst.op == Op::FTrunc)
-        result = floatArithmetic(inst);
-    else if (inst.op >= Op::IAdd && inst.op <= Op::INeg)
-        result = intArithmetic(inst);
-    else if (inst.op == Op::IsFinite)
-        result = isFinite(operand(inst, 0));
-    else if (inst.op >= Op::FEq && inst.op <= Op::IULt)
-        result = comparison(inst);
-    else if (inst.op == Op::And)
-        result = b_.CreateAnd(operand(inst, 0), operand(inst, 1));
-    else if (inst.op == Op::Or)
-        result = b_.CreateOr(operand(inst, 0), operand(inst, 1));
-    else if (inst.op == Op::Xor)
-        result = b_.CreateXor(operand(inst, 0), operand(inst, 1));
-    else if (inst.op == Op::Not)
-        result = b_.CreateNot(operand(inst, 0));
-    else if (inst.op == Op::Select)
-        result = b_.CreateSelect(operand(inst, 0), operand(inst, 1), operand(inst, 2));
-    else if (ir::conversionFrom(inst.op) != ir::kVoid)
-        result = conversion(inst);
-    if (!result) return false;
-    define(id, result);
-    return true;
-}
-
 llvm::Value* RoutineEmitter::constant(const ir::Inst& inst) {
     switch (inst.type) {
     case ir::kBool: return b_.getInt1(inst.number != 0);
@@ -51,14 +22,26 @@ llvm::Value* RoutineEmitter::constant(const ir::Inst& inst) {
 
 llvm::Value* RoutineEmitter::floatArithmetic(const ir::Inst& inst) {
     Value* a = operand(inst, 0);
-    switch (inst.op) {
-    case Op::FAdd: return b_.CreateFAdd(a, operand(inst, 1));
-    case Op::FSub: return b_.CreateFSub(a, operand(inst, 1));
-    case Op::FMul: return b_.CreateFMul(a, operand(inst, 1));
-    case Op::FDiv: return b_.CreateFDiv(a, operand(inst, 1));
-    case Op::FNeg: return b_.CreateFNeg(a);
-    default: return b_.CreateUnaryIntrinsic(llvm::Intrinsic::trunc, a);
+    switch (ir::as<ir::FloatOp>(inst.op)) {
+    case ir::FloatOp::FAdd: return b_.CreateFAdd(a, operand(inst, 1));
+    case ir::FloatOp::FSub: return b_.CreateFSub(a, operand(inst, 1));
+    case ir::FloatOp::FMul: return b_.CreateFMul(a, operand(inst, 1));
+    case ir::FloatOp::FDiv: return b_.CreateFDiv(a, operand(inst, 1));
+    case ir::FloatOp::FNeg: return b_.CreateFNeg(a);
+    case ir::FloatOp::FTrunc: return b_.CreateUnaryIntrinsic(llvm::Intrinsic::trunc, a);
     }
+    return nullptr;
+}
+
+llvm::Value* RoutineEmitter::logic(const ir::Inst& inst) {
+    switch (ir::as<ir::LogicOp>(inst.op)) {
+    case ir::LogicOp::And: return b_.CreateAnd(operand(inst, 0), operand(inst, 1));
+    case ir::LogicOp::Or: return b_.CreateOr(operand(inst, 0), operand(inst, 1));
+    case ir::LogicOp::Xor: return b_.CreateXor(operand(inst, 0), operand(inst, 1));
+    case ir::LogicOp::Not: return b_.CreateNot(operand(inst, 0));
+    case ir::LogicOp::Select: return b_.CreateSelect(operand(inst, 0), operand(inst, 1), operand(inst, 2));
+    }
+    return nullptr;
 }
 
 /// A comparison of what costs the processor least: for binary32 the bits without the sign.
@@ -73,13 +56,15 @@ llvm::Value* RoutineEmitter::isFinite(Value* number) {
 
 llvm::Value* RoutineEmitter::intArithmetic(const ir::Inst& inst) {
     Value* a = operand(inst, 0);
-    switch (inst.op) {
-    case Op::IAdd: return b_.CreateAdd(a, operand(inst, 1), "", false, inst.extra == 1);
-    case Op::ISub: return b_.CreateSub(a, operand(inst, 1));
-    case Op::IMul: return b_.CreateMul(a, operand(inst, 1));
-    case Op::INeg: return b_.CreateNeg(a);
-    default: return divide(inst);
+    switch (ir::as<ir::IntOp>(inst.op)) {
+    case ir::IntOp::IAdd: return b_.CreateAdd(a, operand(inst, 1), "", false, inst.extra == 1);
+    case ir::IntOp::ISub: return b_.CreateSub(a, operand(inst, 1));
+    case ir::IntOp::IMul: return b_.CreateMul(a, operand(inst, 1));
+    case ir::IntOp::INeg: return b_.CreateNeg(a);
+    case ir::IntOp::IDiv:
+    case ir::IntOp::IRem: return divide(inst);
     }
+    return nullptr;
 }
 
 /// The smallest integer divided by -1 overflows, which the processor answers with a trap: -1 is set apart.
@@ -96,41 +81,49 @@ llvm::Value* RoutineEmitter::divide(const ir::Inst& inst) {
 }
 
 llvm::Value* RoutineEmitter::comparison(const ir::Inst& inst) {
+    if (inst.op == Op::IsFinite) return isFinite(operand(inst, 0));
     Value *a = operand(inst, 0), *b = operand(inst, 1);
-    switch (inst.op) {
-    case Op::FEq: return b_.CreateFCmpOEQ(a, b);
-    case Op::FNe: return b_.CreateFCmpUNE(a, b);
-    case Op::FLt: return b_.CreateFCmpOLT(a, b);
-    case Op::FLe: return b_.CreateFCmpOLE(a, b);
-    case Op::FGt: return b_.CreateFCmpOGT(a, b);
-    case Op::FGe: return b_.CreateFCmpOGE(a, b);
-    case Op::IEq: return b_.CreateICmpEQ(a, b);
-    case Op::INe: return b_.CreateICmpNE(a, b);
-    case Op::ILt: return b_.CreateICmpSLT(a, b);
-    case Op::ILe: return b_.CreateICmpSLE(a, b);
-    case Op::IGt: return b_.CreateICmpSGT(a, b);
-    case Op::IGe: return b_.CreateICmpSGE(a, b);
-    default: return b_.CreateICmpULT(a, b);
+    switch (ir::as<ir::CompareOp>(inst.op)) {
+    case ir::CompareOp::FEq: return b_.CreateFCmpOEQ(a, b);
+    case ir::CompareOp::FNe: return b_.CreateFCmpUNE(a, b);
+    case ir::CompareOp::FLt: return b_.CreateFCmpOLT(a, b);
+    case ir::CompareOp::FLe: return b_.CreateFCmpOLE(a, b);
+    case ir::CompareOp::FGt: return b_.CreateFCmpOGT(a, b);
+    case ir::CompareOp::FGe: return b_.CreateFCmpOGE(a, b);
+    case ir::CompareOp::IEq: return b_.CreateICmpEQ(a, b);
+    case ir::CompareOp::INe: return b_.CreateICmpNE(a, b);
+    case ir::CompareOp::ILt: return b_.CreateICmpSLT(a, b);
+    case ir::CompareOp::ILe: return b_.CreateICmpSLE(a, b);
+    case ir::CompareOp::IGt: return b_.CreateICmpSGT(a, b);
+    case ir::CompareOp::IGe: return b_.CreateICmpSGE(a, b);
+    case ir::CompareOp::IULt: return b_.CreateICmpULT(a, b);
+    case ir::CompareOp::IsFinite: break;
     }
+    return nullptr;
 }
 
 llvm::Value* RoutineEmitter::conversion(const ir::Inst& inst) {
     Value* a = operand(inst, 0);
     llvm::Type* to = m_.valueType(inst.type);
-    switch (inst.op) {
-    case Op::F32ToIndex:
-    case Op::F64ToIndex: // out of range: arbitrary, but one and the same value
+    switch (ir::as<ir::ConvertOp>(inst.op)) {
+    case ir::ConvertOp::F32ToIndex:
+    case ir::ConvertOp::F64ToIndex: // out of range: arbitrary, but one and the same value
         return b_.CreateFreeze(b_.CreateFPToSI(a, to));
-    case Op::F32ToI32:
-    case Op::F64ToI32:
-    case Op::F32ToI64:
-    case Op::F64ToI64: return b_.CreateIntrinsic(llvm::Intrinsic::fptosi_sat, {to, a->getType()}, {a});
-    case Op::F32ToF64: return b_.CreateFPExt(a, to);
-    case Op::F64ToF32: return b_.CreateFPTrunc(a, to);
-    case Op::I32ToI64: return b_.CreateSExt(a, to);
-    case Op::I64ToI32: return b_.CreateTrunc(a, to);
-    default: return b_.CreateSIToFP(a, to);
+    case ir::ConvertOp::F32ToI32:
+    case ir::ConvertOp::F64ToI32:
+    case ir::ConvertOp::F32ToI64:
+    case ir::ConvertOp::F64ToI64:
+        return b_.CreateIntrinsic(llvm::Intrinsic::fptosi_sat, {to, a->getType()}, {a});
+    case ir::ConvertOp::F32ToF64: return b_.CreateFPExt(a, to);
+    case ir::ConvertOp::F64ToF32: return b_.CreateFPTrunc(a, to);
+    case ir::ConvertOp::I32ToI64: return b_.CreateSExt(a, to);
+    case ir::ConvertOp::I64ToI32: return b_.CreateTrunc(a, to);
+    case ir::ConvertOp::I32ToF32:
+    case ir::ConvertOp::I32ToF64:
+    case ir::ConvertOp::I64ToF32:
+    case ir::ConvertOp::I64ToF64: return b_.CreateSIToFP(a, to);
     }
+    return nullptr;
 }
 
 } // namespace codegen

@@ -7,44 +7,45 @@
 
 namespace codegen {
 
-using ir::Op;
+llvm::Value* RoutineEmitter::leaf(const ir::Inst& inst) {
+    switch (ir::as<ir::LeafOp>(inst.op)) {
+    case ir::LeafOp::Const: return constant(inst);
+    case ir::LeafOp::ParamVal: return function_->getArg((result_ ? 3 : 2) + inst.index);
+    case ir::LeafOp::LocalAddr: return locals_[inst.index];
+    case ir::LeafOp::GlobalAddr: return m_.global(inst.index);
+    case ir::LeafOp::TypeDescAddr: return m_.typeDesc(inst.index);
+    case ir::LeafOp::RoutineAddr: return m_.cEntry(inst.index);
+    case ir::LeafOp::ResultAddr: return result_;
+    case ir::LeafOp::Sysvar:
+        return inst.extra == static_cast<int32_t>(ir::SysvarKind::Intno)
+                   ? loadTask<&rt::TaskCore::interruptNumber>("intno")
+                   : loadTask<&rt::TaskCore::errorNumber>("errno");
+    }
+    return nullptr;
+}
 
-bool RoutineEmitter::memory(const ir::Inst& inst, ir::ValueId id) {
-    switch (inst.op) {
-    case Op::ParamVal: {
-        unsigned first = result_ ? 3 : 2;
-        define(id, function_->getArg(first + inst.index));
-        return true;
+void RoutineEmitter::memory(const ir::Inst& inst, ir::ValueId id) {
+    switch (ir::as<ir::MemoryOp>(inst.op)) {
+    case ir::MemoryOp::FieldAddr: return define(id, fieldOf(inst));
+    case ir::MemoryOp::ElemAddr: {
+        Value* index = b_.CreateSExt(operand(inst, 1), b_.getInt64Ty());
+        return define(id, b_.CreateInBoundsGEP(m_.memoryType(inst.type), operand(inst, 0), index));
     }
-    case Op::LocalAddr:
-    case Op::GlobalAddr:
-    case Op::TypeDescAddr:
-    case Op::RoutineAddr:
-    case Op::ResultAddr:
-    case Op::FieldAddr:
-    case Op::ElemAddr: define(id, addressOf(inst)); return true;
-    case Op::Sysvar: {
-        bool intno = inst.extra == static_cast<int32_t>(ir::SysvarKind::Intno);
-        define(id, intno ? loadTask<&rt::TaskCore::interruptNumber>("intno")
-                         : loadTask<&rt::TaskCore::errorNumber>("errno"));
-        return true;
-    }
-    case Op::Load: define(id, load(inst.type, operand(inst, 0))); return true;
-    case Op::Store: store(inst.type, operand(inst, 0), operand(inst, 1)); return true;
-    case Op::Copy: copy(inst); return true;
-    case Op::CopyDynamic:
+    case ir::MemoryOp::Load: return define(id, load(inst.type, operand(inst, 0)));
+    case ir::MemoryOp::Store: return store(inst.type, operand(inst, 0), operand(inst, 1));
+    case ir::MemoryOp::Copy: return copy(inst);
+    case ir::MemoryOp::CopyDynamic:
         b_.CreateMemMove(operand(inst, 0), llvm::Align(1), operand(inst, 1), llvm::Align(1),
                          operand(inst, 2));
-        return true;
-    case Op::StackAlloc: define(id, stackAlloc(inst)); return true;
-    case Op::Zero:
+        return;
+    case ir::MemoryOp::StackAlloc: return define(id, stackAlloc(inst));
+    case ir::MemoryOp::Zero:
         if (module_.isScalar(inst.type))
             store(inst.type, llvm::Constant::getNullValue(m_.valueType(inst.type)), operand(inst, 0));
         else
             b_.CreateMemSet(operand(inst, 0), b_.getInt8(0), module_.size(inst.type),
                             llvm::Align(module_.align(inst.type)));
-        return true;
-    default: return false;
+        return;
     }
 }
 
@@ -52,23 +53,10 @@ llvm::Value* RoutineEmitter::byteOffset(Value* pointer, Value* offset) {
     return b_.CreateInBoundsGEP(b_.getInt8Ty(), pointer, offset);
 }
 
-llvm::Value* RoutineEmitter::addressOf(const ir::Inst& inst) {
-    switch (inst.op) {
-    case Op::LocalAddr: return locals_[inst.index];
-    case Op::GlobalAddr: return m_.global(inst.index);
-    case Op::TypeDescAddr: return m_.typeDesc(inst.index);
-    case Op::RoutineAddr: return m_.cEntry(inst.index);
-    case Op::ResultAddr: return result_;
-    case Op::FieldAddr: {
-        uint32_t offset = module_.fieldOffset(inst.type, inst.index);
-        Value* base = operand(inst, 0);
-        return offset ? byteOffset(base, b_.getInt64(offset)) : base;
-    }
-    default: {
-        Value* index = b_.CreateSExt(operand(inst, 1), b_.getInt64Ty());
-        return b_.CreateInBoundsGEP(m_.memoryType(inst.type), operand(inst, 0), index);
-    }
-    }
+llvm::Value* RoutineEmitter::fieldOf(const ir::Inst& inst) {
+    const uint32_t offset = module_.fieldOffset(inst.type, inst.index);
+    Value* base = operand(inst, 0);
+    return offset ? byteOffset(base, b_.getInt64(offset)) : base;
 }
 
 llvm::Value* RoutineEmitter::load(ir::TypeId type, Value* pointer) {

@@ -78,8 +78,7 @@ bool JoinedRounds::readBody(const ir::Module& module, const ir::Routine& routine
 /// The value takes over an infinity that the local had at the beginning of the round.
 bool JoinedRounds::reaches(const ir::Routine& routine, ValueId value, uint32_t local) const {
     const Inst& inst = routine.insts[value];
-    switch (inst.op) {
-    case Op::Load: {
+    if (inst.op == Op::Load) {
         const Inst& address = routine.insts[inst.operands[0]];
         if (address.op != Op::LocalAddr || address.index != local) return false;
         // Not after the round has stored something else there.
@@ -90,13 +89,10 @@ bool JoinedRounds::reaches(const ir::Routine& routine, ValueId value, uint32_t l
         }
         return false;
     }
-    case Op::FAdd:
-    case Op::FSub:
-    case Op::FMul:
-        return reaches(routine, inst.operands[0], local) || reaches(routine, inst.operands[1], local);
-    case Op::FNeg: return reaches(routine, inst.operands[0], local);
-    default: return false;
-    }
+    const bool keeps =
+        ir::familyOf(inst.op) == ir::Family::Float && inst.op != Op::FDiv && inst.op != Op::FTrunc;
+    return keeps && std::any_of(inst.operands.begin(), inst.operands.end(),
+                                [&](ValueId id) { return reaches(routine, id, local); });
 }
 
 bool JoinedRounds::isKept(ValueId value) const {
@@ -137,12 +133,9 @@ llvm::Value* RoutineEmitter::hasRounds(const ir::CountedLoop& counted, unsigned 
     Value* last = b_.CreateAdd(b_.CreateSExt(load(ir::kI32, locals_[counted.counter]), i64),
                                llvm::ConstantInt::getSigned(i64, distance));
     Value* to = b_.CreateSExt(bound, i64);
-    switch (counted.comparison) {
-    case Op::ILe: return b_.CreateICmpSLE(last, to);
-    case Op::ILt: return b_.CreateICmpSLT(last, to);
-    case Op::IGe: return b_.CreateICmpSGE(last, to);
-    default: return b_.CreateICmpSGT(last, to);
-    }
+    if (counted.comparison == Op::ILe) return b_.CreateICmpSLE(last, to);
+    if (counted.comparison == Op::ILt) return b_.CreateICmpSLT(last, to);
+    return counted.comparison == Op::IGe ? b_.CreateICmpSGE(last, to) : b_.CreateICmpSGT(last, to);
 }
 
 void RoutineEmitter::joinedRounds(const JoinedRounds& joined) {

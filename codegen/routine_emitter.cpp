@@ -261,39 +261,51 @@ llvm::Value* RoutineEmitter::value(ir::ValueId id) {
 void RoutineEmitter::instruction(ir::ValueId id) {
     const ir::Inst& inst = routine_.insts[id];
     if (m_.debug()) b_.SetCurrentDebugLocation(m_.debug()->location(routine_, inst.stmt));
-    if (ir::opInfo(inst.op).terminator) return terminator(inst);
-    if (arithmetic(inst, id) || memory(inst, id)) return;
-    switch (inst.op) {
-    case ir::Op::Check: return check(inst, operand(inst, 0));
-    case ir::Op::CheckFinite: return check(inst, isFinite(operand(inst, 0)));
-    case ir::Op::Call: return call(inst, id);
-    case ir::Op::CallNative: return nativeCall(inst, id);
-    case ir::Op::Charge: pay(costOf(inst)); return;
-    case ir::Op::Safepoint: return safepoint(inst);
-    case ir::Op::Step: return step(inst);
-    default: return; // Stmt: its number travels with the instructions
+    switch (ir::familyOf(inst.op)) {
+    case ir::Family::Leaf: return define(id, leaf(inst));
+    case ir::Family::Memory: return memory(inst, id);
+    case ir::Family::Float: return define(id, floatArithmetic(inst));
+    case ir::Family::Int: return define(id, intArithmetic(inst));
+    case ir::Family::Compare: return define(id, comparison(inst));
+    case ir::Family::Logic: return define(id, logic(inst));
+    case ir::Family::Convert: return define(id, conversion(inst));
+    case ir::Family::Action: return action(inst, id);
+    case ir::Family::End: return terminator(inst);
+    }
+}
+
+void RoutineEmitter::action(const ir::Inst& inst, ir::ValueId id) {
+    switch (ir::as<ir::ActionOp>(inst.op)) {
+    case ir::ActionOp::Check: return check(inst, operand(inst, 0));
+    case ir::ActionOp::CheckFinite: return check(inst, isFinite(operand(inst, 0)));
+    case ir::ActionOp::Call: return call(inst, id);
+    case ir::ActionOp::CallNative: return nativeCall(inst, id);
+    case ir::ActionOp::Charge: pay(costOf(inst)); return;
+    case ir::ActionOp::Safepoint: return safepoint(inst);
+    case ir::ActionOp::Step: return step(inst);
+    case ir::ActionOp::Stmt: return; // its number travels with the instructions
     }
 }
 
 void RoutineEmitter::terminator(const ir::Inst& inst) {
     enterStatement();
-    switch (inst.op) {
-    case ir::Op::Br:
+    switch (ir::as<ir::EndOp>(inst.op)) {
+    case ir::EndOp::Br:
         if (entersFastLoop()) return;
         b_.CreateBr(blockOf(inst.target[0]));
         return;
-    case ir::Op::CondBr:
+    case ir::EndOp::CondBr:
         b_.CreateCondBr(operand(inst, 0), blockOf(inst.target[0]), blockOf(inst.target[1]),
                         inst.extra == 1 ? m_.unlikely() : nullptr);
         return;
-    case ir::Op::Switch: return switchOn(inst);
-    case ir::Op::Ret: return ret(inst);
-    case ir::Op::Raise: return raise(inst);
-    case ir::Op::Propagate: return handlerCall(inst, m_.runtime().propagate);
-    case ir::Op::HandlerEnd: return handlerCall(inst, m_.runtime().handlerEnd);
-    case ir::Op::Retry: return retry(inst);
-    case ir::Op::TryNext: return tryNext(inst);
-    default: b_.CreateUnreachable(); return;
+    case ir::EndOp::Switch: return switchOn(inst);
+    case ir::EndOp::Ret: return ret(inst);
+    case ir::EndOp::Raise: return raise(inst);
+    case ir::EndOp::Propagate: return handlerCall(inst, m_.runtime().propagate);
+    case ir::EndOp::HandlerEnd: return handlerCall(inst, m_.runtime().handlerEnd);
+    case ir::EndOp::Retry: return retry(inst);
+    case ir::EndOp::TryNext: return tryNext(inst);
+    case ir::EndOp::Unreachable: b_.CreateUnreachable(); return;
     }
 }
 

@@ -53,6 +53,7 @@ class RoutineEmitter {
     void define(ir::ValueId id, Value* value);
     Value* value(ir::ValueId id);
     Value* operand(const ir::Inst& inst, size_t i) { return value(inst.operands[i]); }
+    void action(const ir::Inst& inst, ir::ValueId id);
     void terminator(const ir::Inst& inst);
     void ret(const ir::Inst& inst);
     void switchOn(const ir::Inst& inst);
@@ -60,11 +61,11 @@ class RoutineEmitter {
     BasicBlock* blockOf(ir::BlockId id) { return blocks_[id]; }
 
     // emit_arith.cpp
-    bool arithmetic(const ir::Inst& inst, ir::ValueId id);
     Value* floatArithmetic(const ir::Inst& inst);
     Value* intArithmetic(const ir::Inst& inst);
     Value* divide(const ir::Inst& inst);
     Value* comparison(const ir::Inst& inst);
+    Value* logic(const ir::Inst& inst);
     Value* conversion(const ir::Inst& inst);
     Value* constant(const ir::Inst& inst);
     Value* isFinite(Value* number);
@@ -87,8 +88,9 @@ class RoutineEmitter {
     Value* allFinite(const WideLoop& wide, const std::unordered_map<ir::ValueId, Value*>& values);
 
     // emit_memory.cpp
-    bool memory(const ir::Inst& inst, ir::ValueId id);
-    Value* addressOf(const ir::Inst& inst);
+    Value* leaf(const ir::Inst& inst);
+    void memory(const ir::Inst& inst, ir::ValueId id);
+    Value* fieldOf(const ir::Inst& inst);
     Value* load(ir::TypeId type, Value* pointer);
     void store(ir::TypeId type, Value* value, Value* pointer);
     void copy(const ir::Inst& inst);

@@ -23,7 +23,8 @@ bool isFloat(ir::TypeId type) {
 }
 
 bool isVectorOp(Op op) {
-    return (op >= Op::FAdd && op <= Op::FNeg) || op == Op::F32ToF64 || op == Op::F64ToF32;
+    if (ir::familyOf(op) == ir::Family::Float) return op != Op::FTrunc;
+    return op == Op::F32ToF64 || op == Op::F64ToF32;
 }
 
 } // namespace
@@ -310,15 +311,17 @@ llvm::Value* RoutineEmitter::wideValue(const WideLoop& wide, ir::ValueId id, Val
         return b_.CreateSIToFP(numbers, wideType(m_.valueType(inst.type)));
     }
     const auto operand = [&](size_t i) { return wideOperand(wide, inst, i, values); };
-    switch (inst.op) {
-    case Op::FAdd: return b_.CreateFAdd(operand(0), operand(1));
-    case Op::FSub: return b_.CreateFSub(operand(0), operand(1));
-    case Op::FMul: return b_.CreateFMul(operand(0), operand(1));
-    case Op::FDiv: return b_.CreateFDiv(operand(0), operand(1));
-    case Op::FNeg: return b_.CreateFNeg(operand(0));
-    case Op::F32ToF64: return b_.CreateFPExt(operand(0), wideType(b_.getDoubleTy()));
-    default: return b_.CreateFPTrunc(operand(0), wideType(b_.getFloatTy()));
+    if (inst.op == Op::F32ToF64) return b_.CreateFPExt(operand(0), wideType(b_.getDoubleTy()));
+    if (inst.op == Op::F64ToF32) return b_.CreateFPTrunc(operand(0), wideType(b_.getFloatTy()));
+    switch (ir::as<ir::FloatOp>(inst.op)) {
+    case ir::FloatOp::FAdd: return b_.CreateFAdd(operand(0), operand(1));
+    case ir::FloatOp::FSub: return b_.CreateFSub(operand(0), operand(1));
+    case ir::FloatOp::FMul: return b_.CreateFMul(operand(0), operand(1));
+    case ir::FloatOp::FDiv: return b_.CreateFDiv(operand(0), operand(1));
+    case ir::FloatOp::FNeg: return b_.CreateFNeg(operand(0));
+    case ir::FloatOp::FTrunc: break; // not among those that plan() takes
     }
+    return nullptr;
 }
 
 /// One look at all results: a sum of them shows infinities and NaN. It may overflow where none of them does; then the

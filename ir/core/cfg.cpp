@@ -109,16 +109,24 @@ std::vector<BlockId> successors(const Routine& routine, BlockId block) {
     const std::vector<ValueId>& insts = routine.blocks[block].insts;
     if (insts.empty()) return result;
     const Inst& last = routine.insts[insts.back()];
-    switch (last.op) {
-    case Op::Br: return {last.target[0]};
-    case Op::CondBr: return {last.target[0], last.target[1]};
-    case Op::Switch:
+    if (familyOf(last.op) != Family::End) return result;
+    switch (as<EndOp>(last.op)) {
+    case EndOp::Br: return {last.target[0]};
+    case EndOp::CondBr: return {last.target[0], last.target[1]};
+    case EndOp::Switch:
         result.push_back(last.target[0]);
         for (const SwitchCase& entry : last.cases)
             result.push_back(entry.target);
         return result;
-    default: return result;
+    case EndOp::Ret:
+    case EndOp::Raise:
+    case EndOp::Propagate:
+    case EndOp::Retry:
+    case EndOp::TryNext:
+    case EndOp::HandlerEnd:
+    case EndOp::Unreachable: return result; // leaves the routine, or goes where a handler decides
     }
+    return result;
 }
 
 bool mayRaise(const Module& module, const Inst& inst) {

@@ -55,9 +55,9 @@ using ConstData = std::vector<ConstScalar>; ///< empty = all zero
 
 // ---- Instructions ----------------------------------------------------------------------------------------
 
-/// Opcodes: see instructions.def (operands, result, may it raise, is it a terminator).
+/// Opcodes: see instructions.def (family, form, operands, result, may it raise, is it a terminator).
 enum class Op : uint8_t {
-#define INST(name, text, operands, result, flags) name,
+#define INST(family, name, text, form, operands, result, flags) name,
 #include "ir/core/instructions.def"
 };
 

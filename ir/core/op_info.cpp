@@ -10,14 +10,17 @@ constexpr bool hasFlag(std::string_view flags, char flag) {
 }
 
 constexpr OpInfo kOps[] = {
-#define INST(name, text, operands, result, flags)                                                            \
+#define INST(family, name, text, form, operands, result, flags)                                              \
     {#name,                                                                                                  \
      text,                                                                                                   \
+     Family::family,                                                                                         \
+     Form::form,                                                                                             \
      operands,                                                                                               \
      static_cast<ResultRule>(#result[0]),                                                                    \
      hasFlag(#flags, 'R'),                                                                                   \
      hasFlag(#flags, 'T'),                                                                                   \
-     hasFlag(#flags, 'M')},
+     hasFlag(#flags, 'M'),                                                                                   \
+     hasFlag(#flags, 'Y')},
 #include "ir/core/instructions.def"
 };
 
@@ -26,11 +29,8 @@ struct Conversion {
     TypeId from, to;
 };
 constexpr Conversion kConversions[] = {
-    {Op::I32ToF32, kI32, kF32},   {Op::I32ToF64, kI32, kF64},   {Op::F32ToI32, kF32, kI32},
-    {Op::F32ToIndex, kF32, kI32}, {Op::F64ToIndex, kF64, kI32}, {Op::F64ToI32, kF64, kI32},
-    {Op::F32ToI64, kF32, kI64},   {Op::F64ToI64, kF64, kI64},   {Op::I64ToF32, kI64, kF32},
-    {Op::I64ToF64, kI64, kF64},   {Op::F32ToF64, kF32, kF64},   {Op::F64ToF32, kF64, kF32},
-    {Op::I32ToI64, kI32, kI64},   {Op::I64ToI32, kI64, kI32},
+#define CONVERT_INST(name, text, from, to) {Op::name, from, to},
+#include "ir/core/instructions.def"
 };
 
 } // namespace
@@ -71,19 +71,6 @@ TypeId conversionTo(Op op) {
     for (const Conversion& c : kConversions)
         if (c.op == op) return c.to;
     return kVoid;
-}
-
-bool showsType(Op op) {
-    switch (op) {
-    case Op::Const:
-    case Op::Load:
-    case Op::Store:
-    case Op::Copy:
-    case Op::Zero:
-    case Op::FieldAddr:
-    case Op::ElemAddr: return true;
-    default: return false;
-    }
 }
 
 } // namespace ir

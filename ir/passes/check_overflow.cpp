@@ -55,19 +55,27 @@ class OverflowChecker {
 
     /// Marks the operands whose infinity would not show in the result.
     void noteUses(const Inst& user) {
-        switch (user.op) {
-        case Op::FAdd:
-        case Op::FSub:
-        case Op::FMul:
-        case Op::FNeg:
-        case Op::F32ToF64:
-        case Op::F64ToF32:
-        case Op::Select: return;
-        case Op::FDiv: lossy_[user.operands[1]] = true; return;
-        default:
+        if (user.op == Op::FDiv)
+            lossy_[user.operands[1]] = true;
+        else if (!keepsInfinity(user.op))
             for (ValueId operand : user.operands)
                 lossy_[operand] = true;
+    }
+
+    /// An infinite operand makes the result infinite or NaN.
+    static bool keepsInfinity(Op op) {
+        switch (familyOf(op)) {
+        case Family::Float: return op != Op::FTrunc;
+        case Family::Convert: return op == Op::F32ToF64 || op == Op::F64ToF32;
+        case Family::Logic: return op == Op::Select;
+        case Family::Leaf:
+        case Family::Memory:
+        case Family::Int:
+        case Family::Compare:
+        case Family::Action:
+        case Family::End: return false;
         }
+        return false;
     }
 
     void visit(Block& block) {
@@ -92,30 +100,47 @@ class OverflowChecker {
 
     /// What the magnitude of the value cannot exceed; infinity: anything may come out.
     double boundOf(const Inst& value, TypeId type) const {
+        switch (familyOf(value.op)) {
+        case Family::Float: return boundOfFloat(value, type);
+        case Family::Convert: return boundOfConversion(value, type);
+        case Family::Leaf:
+            return value.op == Op::Const ? rounded(type, std::abs(value.number)) : largest(type);
+        case Family::Logic: // Select: no other gives a floating-point number
+            return std::max(bound_[value.operands[1]], bound_[value.operands[2]]);
+        case Family::Action:
+            if (value.op == Op::CallNative && module_.natives[value.index].nativeClass != NativeClass::Const)
+                return kInfinity;
+            return largest(type);
+        case Family::Memory: // memory, parameters and results of routines hold finite values
+        case Family::Int:
+        case Family::Compare:
+        case Family::End: return largest(type);
+        }
+        return kInfinity;
+    }
+
+    double boundOfFloat(const Inst& value, TypeId type) const {
         const auto operand = [&](size_t i) { return bound_[value.operands[i]]; };
-        switch (value.op) {
-        case Op::Const: return rounded(type, std::abs(value.number));
-        case Op::FAdd:
-        case Op::FSub: return rounded(type, operand(0) + operand(1));
-        case Op::FMul: return rounded(type, operand(0) * operand(1));
-        case Op::FDiv: {
+        switch (as<FloatOp>(value.op)) {
+        case FloatOp::FAdd:
+        case FloatOp::FSub: return rounded(type, operand(0) + operand(1));
+        case FloatOp::FMul: return rounded(type, operand(0) * operand(1));
+        case FloatOp::FDiv: {
             const Inst& divisor = inst(value.operands[1]);
             if (divisor.op != Op::Const || divisor.number == 0) return kInfinity;
             return rounded(type, operand(0) / rounded(type, std::abs(divisor.number)));
         }
-        case Op::FNeg:
-        case Op::FTrunc:
-        case Op::F32ToF64: return operand(0);
-        case Op::F64ToF32: return rounded(type, operand(0));
-        case Op::Select: return std::max(operand(1), operand(2));
-        case Op::I32ToF32:
-        case Op::I32ToF64: return 0x1p31;
-        case Op::I64ToF32:
-        case Op::I64ToF64: return 0x1p63;
-        case Op::CallNative:
-            return module_.natives[value.index].nativeClass == NativeClass::Const ? largest(type) : kInfinity;
-        default: return largest(type); // memory, parameters and results of routines hold finite values
+        case FloatOp::FNeg:
+        case FloatOp::FTrunc: return operand(0);
         }
+        return kInfinity;
+    }
+
+    double boundOfConversion(const Inst& value, TypeId type) const {
+        const TypeId from = conversionFrom(value.op);
+        if (from == kI32) return 0x1p31;
+        if (from == kI64) return 0x1p63;
+        return rounded(type, bound_[value.operands[0]]); // exact where it widens
     }
 
     const Module& module_;

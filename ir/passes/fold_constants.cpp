@@ -22,86 +22,113 @@ template <class Int> double saturate(double value) {
 /// Integers beyond this are not exact in Inst::number.
 constexpr double kExact = 9007199254740992.0;
 
-template <class Float> bool floatArithmetic(Op op, double x, double y, double& out) {
+template <class Float> double floatArithmetic(FloatOp op, double x, double y) {
     auto a = static_cast<Float>(x), b = static_cast<Float>(y);
     switch (op) {
-    case Op::FAdd: out = a + b; return true;
-    case Op::FSub: out = a - b; return true;
-    case Op::FMul: out = a * b; return true;
-    case Op::FDiv: out = b == 0 ? std::nan("") : a / b; return true;
-    case Op::FNeg: out = -a; return true;
-    case Op::FTrunc: out = std::trunc(a); return true;
-    default: return false;
+    case FloatOp::FAdd: return a + b;
+    case FloatOp::FSub: return a - b;
+    case FloatOp::FMul: return a * b;
+    case FloatOp::FDiv: return b == 0 ? std::nan("") : a / b;
+    case FloatOp::FNeg: return -a;
+    case FloatOp::FTrunc: return std::trunc(a);
     }
+    return std::nan("");
 }
 
-bool compare(Op op, double a, double b, double& out) {
+bool compare(CompareOp op, double a, double b) {
     switch (op) {
-    case Op::FEq:
-    case Op::IEq: out = a == b; return true;
-    case Op::FNe:
-    case Op::INe: out = a != b; return true;
-    case Op::FLt:
-    case Op::ILt: out = a < b; return true;
-    case Op::FLe:
-    case Op::ILe: out = a <= b; return true;
-    case Op::FGt:
-    case Op::IGt: out = a > b; return true;
-    case Op::FGe:
-    case Op::IGe: out = a >= b; return true;
-    case Op::IULt: out = static_cast<uint64_t>(int64_t(a)) < static_cast<uint64_t>(int64_t(b)); return true;
-    case Op::And: out = a != 0 && b != 0; return true;
-    case Op::Or: out = a != 0 || b != 0; return true;
-    case Op::Xor: out = (a != 0) != (b != 0); return true;
-    case Op::Not: out = a == 0; return true;
-    default: return false;
+    case CompareOp::FEq:
+    case CompareOp::IEq: return a == b;
+    case CompareOp::FNe:
+    case CompareOp::INe: return a != b;
+    case CompareOp::FLt:
+    case CompareOp::ILt: return a < b;
+    case CompareOp::FLe:
+    case CompareOp::ILe: return a <= b;
+    case CompareOp::FGt:
+    case CompareOp::IGt: return a > b;
+    case CompareOp::FGe:
+    case CompareOp::IGe: return a >= b;
+    case CompareOp::IULt: return static_cast<uint64_t>(int64_t(a)) < static_cast<uint64_t>(int64_t(b));
+    case CompareOp::IsFinite: return std::isfinite(a);
     }
+    return false;
 }
 
-bool intArithmetic(Op op, TypeId type, double x, double y, double& out) {
+/// Select is dealt with before its operands are constant.
+bool logic(LogicOp op, bool a, bool b) {
+    switch (op) {
+    case LogicOp::And: return a && b;
+    case LogicOp::Or: return a || b;
+    case LogicOp::Xor: return a != b;
+    case LogicOp::Not: return !a;
+    case LogicOp::Select: break;
+    }
+    return false;
+}
+
+bool intArithmetic(IntOp op, TypeId type, double x, double y, double& out) {
     auto a = static_cast<int64_t>(x), b = static_cast<int64_t>(y);
     int64_t result = 0;
     bool overflow = false;
     switch (op) {
-    case Op::IAdd: overflow = __builtin_add_overflow(a, b, &result); break;
-    case Op::ISub: overflow = __builtin_sub_overflow(a, b, &result); break;
-    case Op::IMul: overflow = __builtin_mul_overflow(a, b, &result); break;
-    case Op::INeg: overflow = __builtin_sub_overflow(int64_t{0}, a, &result); break;
-    case Op::IDiv:
+    case IntOp::IAdd: overflow = __builtin_add_overflow(a, b, &result); break;
+    case IntOp::ISub: overflow = __builtin_sub_overflow(a, b, &result); break;
+    case IntOp::IMul: overflow = __builtin_mul_overflow(a, b, &result); break;
+    case IntOp::INeg: overflow = __builtin_sub_overflow(int64_t{0}, a, &result); break;
+    case IntOp::IDiv:
         if (b == 0 || b == -1) return false;
         result = a / b;
         break;
-    case Op::IRem:
+    case IntOp::IRem:
         if (b == 0 || b == -1) return false;
         result = a % b;
         break;
-    default: return false;
     }
     if (overflow) return false;
     out = type == kI32 ? static_cast<double>(static_cast<int32_t>(result)) : static_cast<double>(result);
     return std::abs(out) <= kExact;
 }
 
-bool convert(Op op, double value, double& out) {
+bool convert(ConvertOp op, double value, double& out) {
     switch (op) {
-    case Op::I32ToF32:
-    case Op::F64ToF32: out = static_cast<float>(value); return true;
-    case Op::I64ToF32: out = static_cast<float>(static_cast<int64_t>(value)); return true;
-    case Op::F32ToIndex:
-    case Op::F64ToIndex:
-    case Op::F32ToI32:
-    case Op::F64ToI32: out = saturate<int32_t>(value); return true;
-    case Op::F32ToI64:
-    case Op::F64ToI64: out = saturate<int64_t>(value); return std::abs(out) <= kExact;
-    case Op::I64ToI32:
+    case ConvertOp::I32ToF32:
+    case ConvertOp::F64ToF32: out = static_cast<float>(value); return true;
+    case ConvertOp::I64ToF32: out = static_cast<float>(static_cast<int64_t>(value)); return true;
+    case ConvertOp::F32ToIndex:
+    case ConvertOp::F64ToIndex:
+    case ConvertOp::F32ToI32:
+    case ConvertOp::F64ToI32: out = saturate<int32_t>(value); return true;
+    case ConvertOp::F32ToI64:
+    case ConvertOp::F64ToI64: out = saturate<int64_t>(value); return std::abs(out) <= kExact;
+    case ConvertOp::I64ToI32:
         out = static_cast<int32_t>(static_cast<uint32_t>(static_cast<int64_t>(value)));
         return true;
-    case Op::I32ToF64:
-    case Op::I64ToF64:
-    case Op::F32ToF64:
-    case Op::I32ToI64: out = value; return true;
-    default: return false;
+    case ConvertOp::I32ToF64:
+    case ConvertOp::I64ToF64:
+    case ConvertOp::F32ToF64:
+    case ConvertOp::I32ToI64: out = value; return true;
     }
+    return false;
+}
+
+/// The value of an instruction whose operands are constants. False when it has none that can be kept.
+bool compute(const Inst& inst, TypeId type, double a, double b, double& out) {
+    switch (familyOf(inst.op)) {
+    case Family::Float:
+        out = type == kF32 ? floatArithmetic<float>(as<FloatOp>(inst.op), a, b)
+                           : floatArithmetic<double>(as<FloatOp>(inst.op), a, b);
+        return true;
+    case Family::Int: return intArithmetic(as<IntOp>(inst.op), type, a, b, out);
+    case Family::Compare: out = compare(as<CompareOp>(inst.op), a, b); return true;
+    case Family::Logic: out = logic(as<LogicOp>(inst.op), a != 0, b != 0); return inst.op != Op::Select;
+    case Family::Convert: return convert(as<ConvertOp>(inst.op), a, out);
+    case Family::Leaf:
+    case Family::Memory:
+    case Family::Action:
+    case Family::End: return false;
+    }
+    return false;
 }
 
 class Folder {
@@ -164,11 +191,7 @@ class Folder {
         double a = numberOf(inst.operands[0]);
         double b = inst.operands.size() > 1 ? numberOf(inst.operands[1]) : 0;
         double out = 0;
-        bool done = compare(inst.op, a, b, out) || convert(inst.op, a, out);
-        if (!done && type == kF32) done = floatArithmetic<float>(inst.op, a, b, out);
-        if (!done && type == kF64) done = floatArithmetic<double>(inst.op, a, b, out);
-        if (!done && (type == kI32 || type == kI64)) done = intArithmetic(inst.op, type, a, b, out);
-        if (!done || !std::isfinite(out)) return false;
+        if (!compute(inst, type, a, b, out) || !std::isfinite(out)) return false;
         inst.op = Op::Const;
         inst.type = type;
         inst.operands.clear();

@@ -96,17 +96,25 @@ class CheckMerger {
 
     /// The operands whose infinity the value takes over.
     std::vector<ValueId> passedOn(ValueId id, const std::vector<ValueId>& source) const {
-        switch (inst(id).op) {
-        case Op::FAdd:
-        case Op::FSub:
-        case Op::FMul:
-        case Op::FNeg:
-        case Op::F32ToF64:
-        case Op::F64ToF32: return inst(id).operands;
-        case Op::FDiv: return {inst(id).operands[0]};
-        case Op::Load: return source[id] == kNone ? std::vector<ValueId>() : std::vector<ValueId>{source[id]};
-        default: return {};
+        const Inst& value = inst(id);
+        switch (familyOf(value.op)) {
+        case Family::Float:
+            if (value.op == Op::FTrunc) return {};
+            return value.op == Op::FDiv ? std::vector<ValueId>{value.operands[0]} : value.operands;
+        case Family::Convert:
+            if (value.op == Op::F32ToF64 || value.op == Op::F64ToF32) return value.operands;
+            return {};
+        case Family::Memory:
+            if (value.op != Op::Load || source[id] == kNone) return {};
+            return {source[id]};
+        case Family::Leaf:
+        case Family::Int:
+        case Family::Compare:
+        case Family::Logic:
+        case Family::Action:
+        case Family::End: return {};
         }
+        return {};
     }
 
     void merge(BlockId b, const Region& region) {

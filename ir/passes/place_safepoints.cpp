@@ -156,30 +156,30 @@ class Placer {
     }
 
     bool mayCauseInterrupt(const Inst& inst) const {
-        switch (inst.op) {
-        case Op::CallNative: {
+        if (inst.op == Op::CallNative) {
             const Native& native = module_.natives[inst.index];
             return native.nativeClass == NativeClass::Plain && native.result == kVoid;
         }
-        case Op::Store: return dataWatched_ && mayBePersistent(inst.operands[1]);
-        case Op::Copy:
-        case Op::CopyDynamic:
-        case Op::Zero: return dataWatched_ && mayBePersistent(inst.operands[0]);
-        default: return false;
+        if (!dataWatched_ || familyOf(inst.op) != Family::Memory) return false;
+        switch (as<MemoryOp>(inst.op)) {
+        case MemoryOp::Store: return mayBePersistent(inst.operands[1]);
+        case MemoryOp::Copy:
+        case MemoryOp::CopyDynamic:
+        case MemoryOp::Zero: return mayBePersistent(inst.operands[0]);
+        case MemoryOp::Load:
+        case MemoryOp::StackAlloc:
+        case MemoryOp::FieldAddr:
+        case MemoryOp::ElemAddr: return false;
         }
+        return false;
     }
 
+    /// Unknown addresses are those of parameters: the caller may have passed a persistent.
     bool mayBePersistent(ValueId address) const {
         const Inst& inst = routine_.insts[address];
-        switch (inst.op) {
-        case Op::FieldAddr:
-        case Op::ElemAddr: return mayBePersistent(inst.operands[0]);
-        case Op::GlobalAddr: return module_.globals[inst.index].kind == GlobalKind::Persistent;
-        case Op::LocalAddr:
-        case Op::ResultAddr:
-        case Op::StackAlloc: return false;
-        default: return true; // a parameter: the caller may have passed a persistent
-        }
+        if (inst.op == Op::FieldAddr || inst.op == Op::ElemAddr) return mayBePersistent(inst.operands[0]);
+        if (inst.op == Op::GlobalAddr) return module_.globals[inst.index].kind == GlobalKind::Persistent;
+        return inst.op != Op::LocalAddr && inst.op != Op::ResultAddr && inst.op != Op::StackAlloc;
     }
 
     /// The step of a counted loop cannot wrap.

@@ -94,8 +94,7 @@ class RoutineParser {
     bool blockHeader();
     bool instruction();
     bool body(Inst& inst);
-    bool bodyWithIndex(Inst& inst, bool& known);
-    bool bodyOfControl(Inst& inst, bool& known);
+    bool sysvar(Inst& inst);
     bool call(Inst& inst, Fixup::Kind kind);
     bool switchOn(Inst& inst);
     bool value(Inst& inst);

@@ -229,40 +229,37 @@ class RoutinePrinter {
     void instruction(const Inst& inst) {
         put(out_, "{}", opInfo(inst.op).text);
         if (inst.op == Op::IAdd && inst.extra == 1) put(out_, " nsw");
-        if (showsType(inst.op)) put(out_, " {}", typeName(inst.type));
-        switch (inst.op) {
-        case Op::Const: put(out_, " {}", number(inst.number)); return;
-        case Op::ParamVal:
-        case Op::LocalAddr:
-        case Op::TypeDescAddr:
-        case Op::Stmt:
-        case Op::Step: put(out_, " {}", inst.index); return;
-        case Op::GlobalAddr: put(out_, " @{}", nameIn(module_.globals, inst.index)); return;
-        case Op::RoutineAddr: put(out_, " @{}", nameIn(module_.routines, inst.index)); return;
-        case Op::Sysvar: put(out_, " {}", inst.extra == 0 ? "errno" : "intno"); return;
-        case Op::FieldAddr:
+        if (opInfo(inst.op).showsType) put(out_, " {}", typeName(inst.type));
+        switch (opInfo(inst.op).form) {
+        case Form::Plain: operands(inst); return;
+        case Form::Number: put(out_, " {}", number(inst.number)); return;
+        case Form::Param:
+        case Form::Local:
+        case Form::TypeDesc:
+        case Form::Statement: put(out_, " {}", inst.index); return;
+        case Form::Global: put(out_, " @{}", nameIn(module_.globals, inst.index)); return;
+        case Form::Routine: put(out_, " @{}", nameIn(module_.routines, inst.index)); return;
+        case Form::Sysvar: put(out_, " {}", inst.extra == 0 ? "errno" : "intno"); return;
+        case Form::Field:
             operands(inst);
             put(out_, ", {}", inst.index);
             return;
-        case Op::Check:
-        case Op::CheckFinite:
+        case Form::Error:
             operands(inst);
             put(out_, ", {}", inst.extra);
             return;
-        case Op::Call: call(inst, nameIn(module_.routines, inst.index)); return;
-        case Op::CallNative: call(inst, nameIn(module_.natives, inst.index)); return;
-        case Op::Charge:
-        case Op::Safepoint:
+        case Form::CallRoutine: call(inst, nameIn(module_.routines, inst.index)); return;
+        case Form::CallNative: call(inst, nameIn(module_.natives, inst.index)); return;
+        case Form::Cost:
             put(out_, " {}", inst.extra);
             operands(inst);
             return;
-        case Op::Br: put(out_, " b{}", inst.target[0]); return;
-        case Op::CondBr:
+        case Form::Jump: put(out_, " b{}", inst.target[0]); return;
+        case Form::Branch:
             operands(inst);
             put(out_, ", b{}, b{}", inst.target[0], inst.target[1]);
             return;
-        case Op::Switch: switchOn(inst); return;
-        default: operands(inst); return;
+        case Form::Switch: switchOn(inst); return;
         }
     }
 

@@ -160,57 +160,42 @@ bool RoutineParser::switchOn(Inst& inst) {
     return in_.punct(']');
 }
 
-bool RoutineParser::bodyWithIndex(Inst& inst, bool& known) {
-    switch (inst.op) {
-    case Op::Const: return in_.number(inst.number);
-    case Op::ParamVal:
-    case Op::LocalAddr:
-    case Op::TypeDescAddr: return in_.unsignedInt(inst.index);
-    case Op::Stmt:
-    case Op::Step:
-        if (!in_.unsignedInt(inst.index)) return false;
-        stmt_ = inst.index;
-        return true;
-    case Op::GlobalAddr: return reference(Fixup::Kind::Global);
-    case Op::RoutineAddr: return reference(Fixup::Kind::Routine);
-    case Op::Sysvar: {
-        constexpr std::string_view kNames[] = {"errno", "intno"};
-        size_t index = 0;
-        if (!in_.oneOf(kNames, "errno or intno", index)) return false;
-        inst.extra = static_cast<int32_t>(index);
-        return true;
-    }
-    default: known = false; return true;
-    }
-}
-
-bool RoutineParser::bodyOfControl(Inst& inst, bool& known) {
-    switch (inst.op) {
-    case Op::Call: return call(inst, Fixup::Kind::Routine);
-    case Op::CallNative: return call(inst, Fixup::Kind::Native);
-    case Op::Charge:
-    case Op::Safepoint: return in_.signedInt(inst.extra) && values(inst);
-    case Op::Br: return in_.block(inst.target[0]);
-    case Op::FieldAddr: return value(inst) && in_.punct(',') && in_.unsignedInt(inst.index);
-    case Op::Check:
-    case Op::CheckFinite: return value(inst) && in_.punct(',') && in_.signedInt(inst.extra);
-    case Op::CondBr:
-        return value(inst) && in_.punct(',') && in_.block(inst.target[0]) && in_.punct(',') &&
-               in_.block(inst.target[1]);
-    case Op::Switch: return value(inst) && switchOn(inst);
-    default: known = false; return true;
-    }
+bool RoutineParser::sysvar(Inst& inst) {
+    constexpr std::string_view kNames[] = {"errno", "intno"};
+    size_t index = 0;
+    if (!in_.oneOf(kNames, "errno or intno", index)) return false;
+    inst.extra = static_cast<int32_t>(index);
+    return true;
 }
 
 bool RoutineParser::body(Inst& inst) {
     if (inst.op == Op::IAdd && in_.takeWord("nsw")) inst.extra = 1;
-    if (showsType(inst.op) && !in_.type(module_, inst.type)) return false;
-    bool known = true;
-    if (!bodyWithIndex(inst, known)) return false;
-    if (known) return true;
-    known = true;
-    if (!bodyOfControl(inst, known)) return false;
-    return known || values(inst);
+    if (opInfo(inst.op).showsType && !in_.type(module_, inst.type)) return false;
+    switch (opInfo(inst.op).form) {
+    case Form::Plain: return values(inst);
+    case Form::Number: return in_.number(inst.number);
+    case Form::Param:
+    case Form::Local:
+    case Form::TypeDesc: return in_.unsignedInt(inst.index);
+    case Form::Statement:
+        if (!in_.unsignedInt(inst.index)) return false;
+        stmt_ = inst.index;
+        return true;
+    case Form::Global: return reference(Fixup::Kind::Global);
+    case Form::Routine: return reference(Fixup::Kind::Routine);
+    case Form::Sysvar: return sysvar(inst);
+    case Form::Field: return value(inst) && in_.punct(',') && in_.unsignedInt(inst.index);
+    case Form::Error: return value(inst) && in_.punct(',') && in_.signedInt(inst.extra);
+    case Form::CallRoutine: return call(inst, Fixup::Kind::Routine);
+    case Form::CallNative: return call(inst, Fixup::Kind::Native);
+    case Form::Cost: return in_.signedInt(inst.extra) && values(inst);
+    case Form::Jump: return in_.block(inst.target[0]);
+    case Form::Branch:
+        return value(inst) && in_.punct(',') && in_.block(inst.target[0]) && in_.punct(',') &&
+               in_.block(inst.target[1]);
+    case Form::Switch: return value(inst) && switchOn(inst);
+    }
+    return false;
 }
 
 bool RoutineParser::instruction() {
@@ -256,7 +241,7 @@ void RoutineParser::inferTypes() {
         case ResultRule::Bool: inst.type = kBool; break;
         case ResultRule::Fixed: inst.type = conversionTo(inst.op); break;
         case ResultRule::Ptr:
-            if (!showsType(inst.op)) inst.type = kPtr;
+            if (!opInfo(inst.op).showsType) inst.type = kPtr;
             break;
         case ResultRule::Typed:
             if (inst.op == Op::Sysvar) inst.type = kF32;

@@ -29,124 +29,116 @@ void RoutineVerifier::want(const Inst& inst, size_t operand, TypeId type) {
 }
 
 void RoutineVerifier::types(const Inst& inst) {
-    switch (inst.op) {
-    case Op::Const:
-    case Op::ParamVal:
-    case Op::LocalAddr:
-    case Op::GlobalAddr:
-    case Op::TypeDescAddr:
-    case Op::RoutineAddr:
-    case Op::ResultAddr:
-    case Op::Sysvar:
-    case Op::Load:
-    case Op::Store:
-    case Op::Copy:
-    case Op::CopyDynamic:
-    case Op::StackAlloc:
-    case Op::Zero:
-    case Op::FieldAddr:
-    case Op::ElemAddr: typesOfMemory(inst); return;
-    case Op::Check:
-    case Op::CheckFinite:
-    case Op::Call:
-    case Op::CallNative:
-    case Op::Charge:
-    case Op::Safepoint:
-    case Op::Stmt:
-    case Op::Step:
-    case Op::Br:
-    case Op::CondBr:
-    case Op::Switch:
-    case Op::Ret:
-    case Op::Raise:
-    case Op::Propagate:
-    case Op::Retry:
-    case Op::TryNext:
-    case Op::HandlerEnd:
-    case Op::Unreachable: typesOfControl(inst); return;
-    default: typesOfArithmetic(inst); return;
+    switch (familyOf(inst.op)) {
+    case Family::Leaf: typesOfLeaf(inst); return;
+    case Family::Memory: typesOfMemory(inst); return;
+    case Family::Float: sameTypes(inst, isFloat(operandType(inst, 0))); return;
+    case Family::Int: sameTypes(inst, isInt(operandType(inst, 0))); return;
+    case Family::Compare: typesOfComparison(inst); return;
+    case Family::Logic: typesOfLogic(inst); return;
+    case Family::Convert:
+        want(inst, 0, conversionFrom(inst.op));
+        if (inst.type != conversionTo(inst.op)) add("result type does not fit the conversion");
+        return;
+    case Family::Action: typesOfAction(inst); return;
+    case Family::End: typesOfEnd(inst); return;
     }
 }
 
-void RoutineVerifier::typesOfArithmetic(const Inst& inst) {
-    TypeId from = conversionFrom(inst.op);
-    if (from != kVoid) {
-        want(inst, 0, from);
-        if (inst.type != conversionTo(inst.op)) add("result type does not fit the conversion");
-        return;
+/// All operands have the type of the first; the result has it as well, or is Bool. `fits`: the instruction works on that type.
+void RoutineVerifier::sameTypes(const Inst& inst, bool fits) {
+    const TypeId type = operandType(inst, 0);
+    for (size_t i = 1; i < inst.operands.size(); ++i)
+        want(inst, i, type);
+    if (!fits) add(fmt::format("cannot work on type {}", type));
+    const TypeId result = opInfo(inst.op).result == ResultRule::Bool ? kBool : type;
+    if (inst.type != result) add("result type differs from the operands");
+}
+
+void RoutineVerifier::typesOfComparison(const Inst& inst) {
+    const TypeId type = operandType(inst, 0);
+    switch (as<CompareOp>(inst.op)) {
+    case CompareOp::FEq:
+    case CompareOp::FNe:
+    case CompareOp::FLt:
+    case CompareOp::FLe:
+    case CompareOp::FGt:
+    case CompareOp::FGe:
+    case CompareOp::IsFinite: return sameTypes(inst, isFloat(type));
+    case CompareOp::IEq:
+    case CompareOp::INe: return sameTypes(inst, isInt(type) || type == kBool || type == kPtr);
+    case CompareOp::ILt:
+    case CompareOp::ILe:
+    case CompareOp::IGt:
+    case CompareOp::IGe:
+    case CompareOp::IULt: return sameTypes(inst, isInt(type));
     }
-    if (inst.op == Op::Select) {
+}
+
+void RoutineVerifier::typesOfLogic(const Inst& inst) {
+    switch (as<LogicOp>(inst.op)) {
+    case LogicOp::And:
+    case LogicOp::Or:
+    case LogicOp::Xor:
+    case LogicOp::Not: return sameTypes(inst, operandType(inst, 0) == kBool);
+    case LogicOp::Select:
         want(inst, 0, kBool);
         want(inst, 2, operandType(inst, 1));
         if (inst.type != operandType(inst, 1) || inst.type == kVoid)
             add("result type differs from the operands");
         return;
     }
-    TypeId type = operandType(inst, 0);
-    for (size_t i = 1; i < inst.operands.size(); ++i)
-        want(inst, i, type);
-    bool ok = false;
-    if (inst.op >= Op::FAdd && inst.op <= Op::FNeg)
-        ok = isFloat(type);
-    else if (inst.op == Op::IsFinite)
-        ok = isFloat(type);
-    else if (inst.op >= Op::IAdd && inst.op <= Op::INeg)
-        ok = isInt(type);
-    else if (inst.op == Op::FTrunc || (inst.op >= Op::FEq && inst.op <= Op::FGe))
-        ok = isFloat(type);
-    else if (inst.op == Op::IEq || inst.op == Op::INe)
-        ok = isInt(type) || type == kBool || type == kPtr;
-    else if (inst.op >= Op::ILt && inst.op <= Op::IULt)
-        ok = isInt(type);
-    else if (inst.op >= Op::And && inst.op <= Op::Not)
-        ok = type == kBool;
-    if (!ok) add(fmt::format("cannot work on type {}", type));
-    TypeId result = opInfo(inst.op).result == ResultRule::Bool ? kBool : type;
-    if (inst.type != result) add("result type differs from the operands");
 }
 
-void RoutineVerifier::typesOfMemory(const Inst& inst) {
-    bool scalar = module_.isScalar(inst.type) && inst.type != kVoid;
-    switch (inst.op) {
-    case Op::Const:
-        if (!scalar) add("constant that is not a scalar");
+void RoutineVerifier::typesOfLeaf(const Inst& inst) {
+    switch (as<LeafOp>(inst.op)) {
+    case LeafOp::Const:
+        if (!module_.isScalar(inst.type) || inst.type == kVoid) add("constant that is not a scalar");
         if (inst.type == kPtr && inst.number != 0) add("the only pointer constant is 0");
         return;
-    case Op::ParamVal:
+    case LeafOp::ParamVal:
         if (inst.type != routine_.params[inst.index].type) add("type differs from the parameter's");
         return;
-    case Op::RoutineAddr:
+    case LeafOp::RoutineAddr:
         if (!module_.routines[inst.index].exported) add("address of a routine that is not exported");
         return;
-    case Op::ResultAddr:
+    case LeafOp::ResultAddr:
         if (module_.isScalar(routine_.result)) add("the routine has no result in memory");
         return;
-    case Op::Sysvar:
+    case LeafOp::Sysvar:
         if (inst.type != kF32) add("system variables are f32");
         if (inst.extra < 0 || inst.extra > 1) add("no such system variable");
         return;
-    case Op::Load:
+    case LeafOp::LocalAddr:
+    case LeafOp::GlobalAddr:
+    case LeafOp::TypeDescAddr: return;
+    }
+}
+
+void RoutineVerifier::typesOfMemory(const Inst& inst) {
+    const bool scalar = module_.isScalar(inst.type) && inst.type != kVoid;
+    switch (as<MemoryOp>(inst.op)) {
+    case MemoryOp::Load:
         if (!scalar) add("loads something that is not a scalar");
         want(inst, 0, kPtr);
         return;
-    case Op::Store:
+    case MemoryOp::Store:
         if (!scalar) add("stores something that is not a scalar");
         want(inst, 0, inst.type);
         want(inst, 1, kPtr);
         return;
-    case Op::StackAlloc: want(inst, 0, kI64); return;
-    case Op::CopyDynamic: want(inst, 2, kI64); [[fallthrough]];
-    case Op::Copy: want(inst, 1, kPtr); [[fallthrough]];
-    case Op::Zero:
+    case MemoryOp::StackAlloc: want(inst, 0, kI64); return;
+    case MemoryOp::CopyDynamic: want(inst, 2, kI64); [[fallthrough]];
+    case MemoryOp::Copy: want(inst, 1, kPtr); [[fallthrough]];
+    case MemoryOp::Zero:
         want(inst, 0, kPtr);
         if (inst.op != Op::CopyDynamic && inst.type == kVoid) add("has no type");
         return;
-    case Op::ElemAddr:
+    case MemoryOp::ElemAddr:
         want(inst, 1, kI32);
         if (inst.type == kVoid) add("has no element type");
         [[fallthrough]];
-    case Op::FieldAddr: want(inst, 0, kPtr); return;
-    default: return;
+    case MemoryOp::FieldAddr: want(inst, 0, kPtr); return;
     }
 }
 
@@ -172,48 +164,60 @@ void RoutineVerifier::ret(const Inst& inst) {
         want(inst, 0, routine_.result);
 }
 
-void RoutineVerifier::typesOfControl(const Inst& inst) {
-    switch (inst.op) {
-    case Op::CheckFinite:
+void RoutineVerifier::typesOfAction(const Inst& inst) {
+    switch (as<ActionOp>(inst.op)) {
+    case ActionOp::CheckFinite:
         if (!isFloat(operandType(inst, 0))) add("checks something that is not a floating-point number");
         if (inst.extra <= 0) add(fmt::format("error number {}", inst.extra));
         return;
-    case Op::Check:
+    case ActionOp::Check:
         want(inst, 0, kBool);
         if (inst.extra <= 0) add(fmt::format("error number {}", inst.extra));
         return;
-    case Op::Call: {
+    case ActionOp::Call: {
         std::vector<TypeId> params;
         for (const Param& param : module_.routines[inst.index].params)
             params.push_back(param.type);
         arguments(inst, params, module_.routines[inst.index].result);
         return;
     }
-    case Op::CallNative:
+    case ActionOp::CallNative:
         arguments(inst, module_.natives[inst.index].params, module_.natives[inst.index].result);
         return;
-    case Op::Charge:
-    case Op::Safepoint:
+    case ActionOp::Charge:
+    case ActionOp::Safepoint:
         if (!inst.operands.empty()) want(inst, 0, kI64);
         if (inst.extra < 0) add("negative cost");
         return;
-    case Op::CondBr: want(inst, 0, kBool); return;
-    case Op::Switch: {
+    case ActionOp::Stmt:
+    case ActionOp::Step: return;
+    }
+}
+
+void RoutineVerifier::typesOfEnd(const Inst& inst) {
+    switch (as<EndOp>(inst.op)) {
+    case EndOp::CondBr: want(inst, 0, kBool); return;
+    case EndOp::Switch: {
         want(inst, 0, kI32);
         std::vector<int32_t> values;
         for (const SwitchCase& entry : inst.cases)
             values.push_back(entry.value);
         std::sort(values.begin(), values.end());
         if (std::adjacent_find(values.begin(), values.end()) != values.end())
-            add("a case value stands twice");
+            add("a case value is listed twice");
         return;
     }
-    case Op::Ret: ret(inst); return;
-    case Op::Raise:
+    case EndOp::Ret: ret(inst); return;
+    case EndOp::Raise:
         if (operandType(inst, 0) != kF32 && operandType(inst, 0) != kI32)
             add("error number is neither i32 nor f32");
         return;
-    default: return;
+    case EndOp::Br:
+    case EndOp::Propagate:
+    case EndOp::Retry:
+    case EndOp::TryNext:
+    case EndOp::HandlerEnd:
+    case EndOp::Unreachable: return;
     }
 }
 

@@ -227,26 +227,32 @@ bool RoutineVerifier::operandCount(const Inst& inst) {
 }
 
 void RoutineVerifier::indices(const Inst& inst) {
-    switch (inst.op) {
-    case Op::ParamVal: inRange(inst.index, routine_.params.size(), "parameter"); return;
-    case Op::LocalAddr: inRange(inst.index, routine_.locals.size(), "local"); return;
-    case Op::GlobalAddr: inRange(inst.index, module_.globals.size(), "global"); return;
-    case Op::TypeDescAddr: inRange(inst.index, module_.typeDescs.size(), "type description"); return;
-    case Op::RoutineAddr:
-    case Op::Call: inRange(inst.index, module_.routines.size(), "routine"); return;
-    case Op::CallNative: inRange(inst.index, module_.natives.size(), "native"); return;
-    case Op::Stmt: inRange(inst.index, routine_.statements.size(), "statement"); return;
-    case Op::Step:
+    switch (opInfo(inst.op).form) {
+    case Form::Param: inRange(inst.index, routine_.params.size(), "parameter"); return;
+    case Form::Local: inRange(inst.index, routine_.locals.size(), "local"); return;
+    case Form::Global: inRange(inst.index, module_.globals.size(), "global"); return;
+    case Form::TypeDesc: inRange(inst.index, module_.typeDescs.size(), "type description"); return;
+    case Form::Routine:
+    case Form::CallRoutine: inRange(inst.index, module_.routines.size(), "routine"); return;
+    case Form::CallNative: inRange(inst.index, module_.natives.size(), "native"); return;
+    case Form::Statement:
         inRange(inst.index, routine_.statements.size(), "statement");
-        if (!routine_.stepping) add("the routine is not made for stepping");
+        if (inst.op == Op::Step && !routine_.stepping) add("the routine is not made for stepping");
         return;
-    case Op::FieldAddr:
+    case Form::Field:
         if (module_.types[inst.type].kind != TypeKind::Record)
             add("type is not a record");
         else
             inRange(inst.index, module_.types[inst.type].fields.size(), "field");
         return;
-    default: return;
+    case Form::Plain:
+    case Form::Number:
+    case Form::Sysvar:
+    case Form::Error:
+    case Form::Cost:
+    case Form::Jump:
+    case Form::Branch:
+    case Form::Switch: return; // no index
     }
 }
 

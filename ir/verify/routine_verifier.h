@@ -26,9 +26,13 @@ class RoutineVerifier {
     bool operandCount(const Inst& inst);
     void indices(const Inst& inst);
     void types(const Inst& inst);
-    void typesOfArithmetic(const Inst& inst);
+    void sameTypes(const Inst& inst, bool fits);
+    void typesOfLeaf(const Inst& inst);
     void typesOfMemory(const Inst& inst);
-    void typesOfControl(const Inst& inst);
+    void typesOfComparison(const Inst& inst);
+    void typesOfLogic(const Inst& inst);
+    void typesOfAction(const Inst& inst);
+    void typesOfEnd(const Inst& inst);
     void arguments(const Inst& inst, const std::vector<TypeId>& params, TypeId result);
     void ret(const Inst& inst);
     void raising(const Inst& inst);

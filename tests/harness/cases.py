@@ -202,7 +202,9 @@ class ProgramTest:
         if context.update and mode == "jit":
             with open(expected_path, "w", encoding="utf-8", newline="") as file:
                 file.write(output.stdout)
-        expected = read(expected_path) if os.path.exists(expected_path) else ""
+        if not os.path.exists(expected_path):
+            return [f"there is no {expected_path}: write what the program must print, an empty file for nothing"]
+        expected = read(expected_path)
         if output.stdout != expected:
             problems.append(difference(expected, output.stdout, "stdout"))
         if output.status != expected_status:

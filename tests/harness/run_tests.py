@@ -49,7 +49,10 @@ def write_ctest(path, source, build):
                      f"WORKING_DIRECTORY {bracket(build)})")
 
     program = os.path.join(build, "rapidc_unit_tests")
-    for name in unit_cases(program):
+    names = unit_cases(program)
+    if not names:  # fails: there is no such program
+        add("unit/rapidc_unit_tests is not built; build the target rapidc_tests", [program], 60)
+    for name in names:
         add("unit/" + name, [program, "-w", "NoTests", case_filter(name)], 240)
     runner = os.path.join(source, "tests", "harness", "run_tests.py")
     for name in sorted(cases.discover(source)):

@@ -39,7 +39,7 @@ TEST_CASE("the corpus holds every instruction", "[ir]") {
                 seen.insert(ir::opInfo(inst.op).name);
     }
     std::vector<std::string_view> all = {
-#define INST(name, text, operands, result, flags) #name,
+#define INST(family, name, text, form, operands, result, flags) #name,
 #include "ir/core/instructions.def"
     };
     for (std::string_view name : all) {
