@@ -58,7 +58,8 @@ Catalog::Catalog(const sema::CheckedProgram& library, bool (*implemented)(std::s
                 typeOf(*data->type.type))
                 constants_[typeOf(*data->type.type)].push_back(data->name);
         for (const sema::RoutineSymbol* routine : module->routines) {
-            const bool hasCode = !routine->native || !sema::hasCode(routine->role) || implemented(routine->name);
+            const bool hasCode =
+                !routine->native || !sema::hasCode(routine->role) || implemented(routine->name);
             if (!hasCode || isLeftOut(folded(routine->name))) continue;
             if (routine->routineKind == syntax::RoutineKind::Proc)
                 procedures_.push_back(routine);

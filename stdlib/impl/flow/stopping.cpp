@@ -1,8 +1,8 @@
 // Manual 1.5: stopping and ending.
 
+#include "runtime/abi/support_natives.h"
 #include "runtime/host/controller.h"
 #include "stdlib/impl/support/fail.h"
-#include "runtime/abi/support_natives.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"

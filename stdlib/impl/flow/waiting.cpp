@@ -1,8 +1,8 @@
 // Manual 1.6: waiting for a time, a condition, the robot.
 
+#include "runtime/abi/support_natives.h"
 #include "runtime/host/controller.h"
 #include "stdlib/impl/support/fail.h"
-#include "runtime/abi/support_natives.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"

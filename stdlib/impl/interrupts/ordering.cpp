@@ -1,11 +1,11 @@
 // Manual 1.11: connecting, ordering and switching interrupts.
 
 #include "stdlib/impl/interrupts/ordering.h"
+#include "runtime/abi/support_natives.h"
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/queues/message_queue.h"
 #include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
-#include "runtime/abi/support_natives.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"

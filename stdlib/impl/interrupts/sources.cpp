@@ -1,9 +1,9 @@
 // Manual 1.11: interrupts from persistents and from the event log, and what a trap can ask about its cause.
 
+#include "runtime/abi/support_natives.h"
 #include "stdlib/impl/interrupts/ordering.h"
 #include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
-#include "runtime/abi/support_natives.h"
 #include "stdlib/impl/support/utf8.h"
 
 #include "stdlib_constants.h"

@@ -1,9 +1,9 @@
 #include "stdlib/impl/io/signals.h"
 
+#include "runtime/abi/support_natives.h"
 #include "runtime/host/state_keepers.h"
 #include "runtime/value/value_text.h"
 #include "stdlib/impl/support/fail.h"
-#include "runtime/abi/support_natives.h"
 
 #include "stdlib_constants.h"
 

@@ -1,8 +1,8 @@
 // Manual 1.7, 1.8: the system variables that tell which settings are in force and which robot the task controls.
 
+#include "runtime/abi/support_natives.h"
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/motion/state.h"
-#include "runtime/abi/support_natives.h"
 
 #include "runtime/io/text_util.h"
 

@@ -1,7 +1,7 @@
 // What compiled code leaves to be settled at run time: descriptions of conformant arrays, missing natives.
 
-#include "runtime/host/controller.h"
 #include "runtime/abi/support_natives.h"
+#include "runtime/host/controller.h"
 
 #include <algorithm>
 #include <map>

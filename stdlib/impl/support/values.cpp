@@ -1,7 +1,7 @@
 // Strings and values of any type for compiled code.
 
-#include "stdlib/impl/support/fail.h"
 #include "runtime/abi/support_natives.h"
+#include "stdlib/impl/support/fail.h"
 
 #include "stdlib_constants.h"
 
