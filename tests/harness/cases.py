@@ -13,6 +13,8 @@ import subprocess
 SOURCE_SUFFIXES = (".modx", ".sysx", ".mod", ".sys")
 COMPILE_OPTIONS = ("--task=", "--config=", "--robot-config=")
 DIRECTIVE = re.compile(r"^\s*!@\s*([a-z]+):\s*(.*?)\s*$")
+# A command of a .test file that takes longer hangs; generous, because other work may slow the machine down.
+HANGS_AFTER_S = 60
 KNOWN_DIRECTIVES = {"test", "exit", "args", "modes", "manual", "timeout", "inputs", "issue", "fragment"}
 
 
@@ -406,7 +408,7 @@ class CommandTest:
         for command_line, expectations in self.steps():
             command = [context.rapidc if word == "rapidc" else fill(word) for word in shlex.split(command_line)]
             stdin = "".join(value + "\n" for key, value in expectations if key == "stdin")
-            output = execute(command, scratch, 20, stdin.encode())
+            output = execute(command, scratch, HANGS_AFTER_S, stdin.encode())
             for problem in self.judge(expectations, output, scratch):
                 problems.append(problem + "\n" + describe_failure(command, output) +
                                 "\nstdout: " + output.stdout[:1500])
