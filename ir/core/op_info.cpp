@@ -18,7 +18,7 @@ constexpr OpInfo kOps[] = {
      operands,                                                                                               \
      static_cast<ResultRule>(#result[0]),                                                                    \
      hasFlag(#flags, 'R'),                                                                                   \
-     hasFlag(#flags, 'T'),                                                                                   \
+     Family::family == Family::End,                                                                          \
      hasFlag(#flags, 'M'),                                                                                   \
      hasFlag(#flags, 'Y')},
 #include "ir/core/instructions.def"

@@ -38,9 +38,8 @@ void RoutineLowering::shareData() {
     };
     for (const DataSymbol* param : symbol_.params) {
         const Slot& slot = slots_.at(param);
-        const Passing passing = passingOf(*param);
-        const uint32_t dims = passing == Passing::Pointer ? param->type.rank : 0U;
-        for (uint32_t k = 0; passing != Passing::Value && k <= dims; ++k)
+        const rt::ParamShape shape = shapeOf(*param);
+        for (uint32_t k = 0; rt::passingOf(shape) != Passing::Value && k < rt::slotCount(shape); ++k)
             shareParameter(slot.param + k);
         if (slot.name != ir::kNone) shareParameter(slot.name);
         if (slot.local != ir::kNone) shared_.objects[param] = share(slot.local);

@@ -374,20 +374,32 @@ ir::ValueId RoutineLowering::lowerErasableCall(const BoundCall& call, ValueId re
     return scalar ? b_.load(type, result) : ir::kNone;
 }
 
-void RoutineLowering::collectForeignData(const Node& node, std::vector<const DataSymbol*>& out) const {
+/// The data that a node names and that pass the test, each once; statements nested in it and the expression `except` are
+/// left out.
+void RoutineLowering::collectData(const Node& node, const Expr* except, const DataTest& test,
+                                  std::vector<const DataSymbol*>& out) const {
+    if (&node == except) return;
     if (node.kind == NodeKind::Name) {
         const sema::Symbol* symbol = info(as<NameExpr>(node)).symbol;
         if (!symbol || symbol->kind != sema::SymbolKind::Data) return;
         const auto* data = static_cast<const DataSymbol*>(symbol);
-        const bool foreign = program_.isForeign(*data) || program_.mayBeErased(*data, module_);
-        if (foreign && data->storage == Storage::ModuleData &&
-            std::find(out.begin(), out.end(), data) == out.end())
-            out.push_back(data);
+        if (test(*data) && std::find(out.begin(), out.end(), data) == out.end()) out.push_back(data);
         return;
     }
     forEachChild(node, [&](const Node& child) {
-        if (!isStmt(child.kind)) collectForeignData(child, out);
+        if (!isStmt(child.kind)) collectData(child, except, test, out);
     });
+}
+
+/// The instruction raises `error`, which names what is missing, unless the condition holds.
+void RoutineLowering::requireData(ValueId condition, const char* error, std::string_view missing) {
+    const ir::BlockId absent = b_.addBlock("absent");
+    const ir::BlockId there = b_.addBlock("present");
+    b_.condBr(condition, there, absent);
+    b_.setBlock(absent);
+    raiseUnresolved(error, missing);
+    b_.br(there);
+    b_.setBlock(there);
 }
 
 /// Data that are not in memory or have no value yet raise an error when the instruction begins. `part`: the statement itself
@@ -401,19 +413,17 @@ void RoutineLowering::checkData(const Node& part) {
 void RoutineLowering::checkForeignData(const Node& part) {
     if (!program_.dataMayBeAbsent()) return;
     std::vector<const DataSymbol*> used;
-    collectForeignData(part, used);
+    const auto mayBeAbsent = [&](const DataSymbol& data) {
+        return data.storage == Storage::ModuleData &&
+               (program_.isForeign(data) || program_.mayBeErased(data, module_));
+    };
+    collectData(part, nullptr, mayBeAbsent, used);
     for (const DataSymbol* data : used) {
         const ValueId present =
             program_.isForeign(*data)
                 ? b_.binary(ir::Op::INe, b_.globalAddr(program_.globalFor(*data, task_)), b_.nullPtr())
                 : isInMemory(*data);
-        const ir::BlockId absent = b_.addBlock("absent");
-        const ir::BlockId there = b_.addBlock("present");
-        b_.condBr(present, there, absent);
-        b_.setBlock(absent);
-        raiseUnresolved("ERR_REFUNKDAT", data->name);
-        b_.br(there);
-        b_.setBlock(there);
+        requireData(present, "ERR_REFUNKDAT", data->name);
     }
 }
 

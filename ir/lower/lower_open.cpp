@@ -163,49 +163,33 @@ std::string_view RoutineLowering::missingReference(const Node& node, const char*
                            : std::string_view();
 }
 
-/// The name of a variable of a module that has no value until it is assigned.
-bool RoutineLowering::beginsWithoutValue(const Expr& expr) const {
-    if (expr.kind != NodeKind::Name) return false;
-    const sema::Symbol* symbol = info(expr).symbol;
-    return symbol && symbol->kind == sema::SymbolKind::Data && !program_.isForeign(*symbol) &&
-           isVariableWithoutValue(static_cast<const DataSymbol&>(*symbol));
+/// A variable of this program or unit that has no value until it is assigned.
+bool RoutineLowering::beginsWithoutValue(const DataSymbol& data) const {
+    return !program_.isForeign(data) && isVariableWithoutValue(data);
 }
 
-/// Such variables as the node uses; the target of an assignment gets its value from it.
-void RoutineLowering::collectWithoutValue(const Node& node, std::vector<const DataSymbol*>& out) const {
-    if (isExpr(node.kind) && beginsWithoutValue(static_cast<const Expr&>(node))) {
-        const auto* data = static_cast<const DataSymbol*>(info(static_cast<const Expr&>(node)).symbol);
-        if (std::find(out.begin(), out.end(), data) == out.end()) out.push_back(data);
-        return;
-    }
-    const Expr* assigned = node.kind == NodeKind::Assign ? as<AssignStmt>(node).target : nullptr;
-    forEachChild(node, [&](const Node& child) {
-        const bool target = &child == assigned && child.kind == NodeKind::Name;
-        if (!isStmt(child.kind) && !target) collectWithoutValue(child, out);
-    });
-}
-
-/// Variables that no assignment has given a value yet.
+/// Variables that no assignment has given a value yet; the target of an assignment gets its value from it.
 void RoutineLowering::checkAssigned(const Node& part) {
     if (!program_.hasOpenInitialValues()) return;
+    const Expr* target = part.kind == NodeKind::Assign ? as<AssignStmt>(part).target : nullptr;
     std::vector<const DataSymbol*> used;
-    collectWithoutValue(part, used);
+    collectData(
+        part, target && target->kind == NodeKind::Name ? target : nullptr,
+        [this](const DataSymbol& data) { return beginsWithoutValue(data); }, used);
     for (const DataSymbol* data : used) {
         const ValueId flag = b_.load(ir::kI32, b_.globalAddr(program_.valueFlag(*data, task_)));
-        const ir::BlockId open = b_.addBlock("open");
-        const ir::BlockId assigned = b_.addBlock("assigned");
-        b_.condBr(b_.binary(ir::Op::INe, flag, b_.constI32(0)), assigned, open);
-        b_.setBlock(open);
-        raiseUnresolved(hasPlaceholderIn(*data) ? "ERR_EXECPHR" : "ERR_REFUNKDAT", openName(*data));
-        b_.br(assigned);
-        b_.setBlock(assigned);
+        requireData(b_.binary(ir::Op::INe, flag, b_.constI32(0)),
+                    hasPlaceholderIn(*data) ? "ERR_EXECPHR" : "ERR_REFUNKDAT", openName(*data));
     }
 }
 
 void RoutineLowering::noteAssigned(const Expr& target) {
-    if (!program_.hasOpenInitialValues() || !beginsWithoutValue(target)) return;
-    const auto& data = static_cast<const DataSymbol&>(*info(target).symbol);
-    b_.store(ir::kI32, b_.constI32(1), b_.globalAddr(program_.valueFlag(data, task_)));
+    if (!program_.hasOpenInitialValues() || target.kind != NodeKind::Name) return;
+    const sema::Symbol* symbol = info(target).symbol;
+    if (!symbol || symbol->kind != sema::SymbolKind::Data) return;
+    const auto& data = static_cast<const DataSymbol&>(*symbol);
+    if (beginsWithoutValue(data))
+        b_.store(ir::kI32, b_.constI32(1), b_.globalAddr(program_.valueFlag(data, task_)));
 }
 
 /// An instruction whose references stay open until it is executed (manual 1.6). True when it has been dealt with.

@@ -71,7 +71,7 @@ void RoutineLowering::lowerParameters() {
         slot.param = number;
         const Passing passing = passingOf(*param);
         const ir::TypeId type = program_.irType(param->type.type);
-        rt::forEachSlot(shapeOf(*param), [&](rt::Slot) { ++number; });
+        number += rt::slotCount(shapeOf(*param));
         if (program_.passesName(*param)) slot.name = number++;
         if (passing == Passing::Switch) {
             if (describesData_) describeSwitch(*param, slot);

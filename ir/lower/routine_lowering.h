@@ -244,7 +244,10 @@ class RoutineLowering {
     ValueId lowerForeignCall(const sema::BoundCall& call, ValueId resultAddr);
     ValueId lowerErasableCall(const sema::BoundCall& call, ValueId resultAddr);
     ValueId isInMemory(const sema::Symbol& symbol);
-    void collectForeignData(const syntax::Node& node, std::vector<const sema::DataSymbol*>& out) const;
+    using DataTest = std::function<bool(const sema::DataSymbol&)>;
+    void collectData(const syntax::Node& node, const Expr* except, const DataTest& test,
+                     std::vector<const sema::DataSymbol*>& out) const;
+    void requireData(ValueId condition, const char* error, std::string_view missing);
     void checkForeignData(const syntax::Node& part);
     void checkData(const syntax::Node& part);
     void lowerLateCall(const syntax::CallStmt& stmt);
@@ -271,8 +274,7 @@ class RoutineLowering {
     void raiseUnresolved(const char* error, std::string_view name);
     bool lowerUnresolved(const syntax::Node& statement, const syntax::Node& part, ir::StmtKind kind);
     bool lowerOpenHead(const Expr& expr);
-    bool beginsWithoutValue(const Expr& expr) const;
-    void collectWithoutValue(const syntax::Node& node, std::vector<const sema::DataSymbol*>& out) const;
+    bool beginsWithoutValue(const sema::DataSymbol& data) const;
     void checkAssigned(const syntax::Node& part);
     void noteAssigned(const Expr& target);
     std::string_view missingReference(const syntax::Node& node, const char*& error) const;

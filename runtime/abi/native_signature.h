@@ -38,8 +38,7 @@ constexpr Passing passingOf(const ParamShape& param) {
 /// One machine argument. A parameter takes one or more of them.
 enum class Slot : uint8_t { Value, Switch, Address, Type, Dimension };
 
-/// Calls `add(slot)` for each machine argument of a parameter, in order. `describesType`: natives get the type of data of any
-/// type; routines of the program have no such parameters.
+/// Calls `add(slot)` for each machine argument of a parameter, in order.
 template <class Add> constexpr void forEachSlot(const ParamShape& param, Add add) {
     switch (passingOf(param)) {
     case Passing::Value: return add(Slot::Value);
@@ -51,6 +50,12 @@ template <class Add> constexpr void forEachSlot(const ParamShape& param, Add add
             add(Slot::Dimension);
         return;
     }
+}
+
+constexpr uint32_t slotCount(const ParamShape& param) {
+    uint32_t count = 0;
+    forEachSlot(param, [&](Slot) { ++count; });
+    return count;
 }
 
 /// Natives that return their value and get no task: functions without effects (`effects: const`) whose result and parameters

@@ -50,7 +50,7 @@ def write_ctest(path, source, build):
 
     program = os.path.join(build, "rapidc_unit_tests")
     names = unit_cases(program)
-    if not names:  # fails: there is no such program
+    if not names:  # the test fails, because the program is missing
         add("unit/rapidc_unit_tests is not built; build the target rapidc_tests", [program], 60)
     for name in names:
         add("unit/" + name, [program, "-w", "NoTests", case_filter(name)], 240)

@@ -6,28 +6,17 @@
 #include "runtime/abi/support_natives.h"
 #include "stdlib/gen/emit.h"
 #include "stdlib/stdlib_text.h"
+#include "tests/unit/stdlib/declaration_files.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <type_traits>
 
 namespace {
 
 using rt::AbiType;
 using rt::Slot;
-
-stdlibgen::Model declarations() {
-    namespace fs = std::filesystem;
-    std::vector<std::string> files;
-    for (const char* folder : {"decl", "data"})
-        for (const auto& entry : fs::directory_iterator(fs::path(RAPIDC_SOURCE_DIR) / "stdlib" / folder))
-            if (entry.path().extension() == ".sysx") files.push_back(entry.path().string());
-    std::sort(files.begin(), files.end());
-    return stdlibgen::readDeclarations(files);
-}
 
 /// The program lowered, which has no errors.
 ir::Module lower(const std::string& text) {
@@ -118,8 +107,7 @@ TEST_CASE("a native is called with the types of its prototype", "[boundary]") {
 }
 
 TEST_CASE("programs lay every predefined record out as its C++ structure", "[boundary]") {
-    const stdlibgen::Model model = declarations();
-    REQUIRE(model.errors.empty());
+    const stdlibgen::Model model = projectDeclarations();
     std::string program = "MODULE m\n";
     size_t records = 0;
     for (const stdlibgen::TypeInfo& type : model.types)
@@ -144,8 +132,8 @@ TEST_CASE("programs lay every predefined record out as its C++ structure", "[bou
 }
 
 TEST_CASE("an altered declaration gives another prototype and another layout check", "[boundary]") {
-    const stdlibgen::Model model = declarations();
-    stdlibgen::Model altered = declarations();
+    const stdlibgen::Model model = projectDeclarations();
+    stdlibgen::Model altered = projectDeclarations();
     for (stdlibgen::Routine& routine : altered.routines)
         if (routine.name == "StrPart") routine.params[1].type = "dnum";
     for (stdlibgen::TypeInfo& type : altered.types)

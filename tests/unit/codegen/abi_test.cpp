@@ -107,7 +107,7 @@ struct Derived : Nested {
     const char* text;
     bool last;
 };
-/// C++ puts `after` into the gap at the end of the base, which is no plain C struct.
+/// C++ puts `after` into the gap at the end of the base: not the layout of a plain C struct.
 struct Gap {
     int64_t number = 0;
     char letter = 0;
@@ -201,8 +201,8 @@ TEST_CASE("a row takes values of the right kind only, each field once", "[codege
     static_assert(CanSet<ModuleRow, &ModuleDesc::task, bool>);
     static_assert(CanSet<ModuleRow, &ModuleDesc::name, Constant*>);
     static_assert(CanSet<ModuleRow, &ModuleDesc::name, std::nullptr_t>);
-    static_assert(!CanSet<ModuleRow, &ModuleDesc::name, int>, "an integer is no pointer");
-    static_assert(!CanSet<ModuleRow, &ModuleDesc::task, Constant*>, "an address is no integer");
+    static_assert(!CanSet<ModuleRow, &ModuleDesc::name, int>, "a pointer field takes no integer");
+    static_assert(!CanSet<ModuleRow, &ModuleDesc::task, Constant*>, "an integer field takes no address");
     static_assert(!CanSet<ModuleRow, &ModuleDesc::task, double>);
     static_assert(!CanSet<ModuleRow, &ModuleDesc::task, ir::GlobalKind>, "enums of the IR are translated");
     static_assert(!CanSet<ModuleRow, &TaskDesc::name, Constant*>, "a field of another struct");
