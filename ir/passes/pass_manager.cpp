@@ -23,6 +23,7 @@ std::vector<std::string> runPasses(Module& module, const PassOptions& options) {
 std::vector<std::string> runPasses(Module& module, const PassOptions& options,
                                    const std::vector<std::string_view>& names) {
     if (auto findings = verifyAfter(module, "input"); !findings.empty()) return findings;
+    if (!options.overflowChecks) module.overflowError = 0;
     for (std::string_view name : names) {
         if (name == "simplify-cfg")
             simplifyCfg(module);

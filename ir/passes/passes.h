@@ -16,6 +16,7 @@ enum class Profile : uint8_t {
 
 struct PassOptions {
     Profile profile = Profile::Release;
+    bool overflowChecks = true; ///< off to measure what they cost; results are then not those of a controller
 };
 
 /// Runs checkOverflow, simplifyCfg, foldConstants, simplifyCfg, mergeChecks, placeSafepoints. Returns the verifier's

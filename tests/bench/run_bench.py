@@ -18,8 +18,9 @@ import time
 import generate_project
 
 GOAL_MEAN, GOAL_WORST = 1.15, 2.0  # beside C
+GOAL_OVERFLOW = 1.03  # checked arithmetic beside the same without checks, in the mean
 GOAL_HELLO_MS, GOAL_LIGHT_MS = 25, 10  # a program; commands that compile nothing
-ALONE = (["check"], ["tasks"], ["start"])  # parts that can be asked for by name
+ALONE = (["check"], ["tasks"], ["start"], ["overflow"])  # parts that can be asked for by name
 GOAL_LINES, GOAL_CLANG, GOAL_MB, GOAL_EDIT_MS = 1_000_000, 10, 1024, 10
 GOAL_ROUND_US = 1
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -86,6 +87,27 @@ def compare(names, rapidc, work, rounds, rate):
     for line in wrong:
         print("DIFFERENT RESULTS", line)
     return not wrong
+
+
+def overflow(names, rapidc, work, rounds, rate):
+    """What it costs to notice results that are out of range: all programs with and without the checks."""
+    print(f"checks of overflow, {rounds} rounds in turns, processor time (best)\n")
+    print(f"{'program':16} {'with s':>9} {'without s':>9} {'ratio':>7}")
+    ratios = []
+    for name in names:
+        source, checked = os.path.join(PROGRAMS, name + ".modx"), os.path.join(work, name + ".rapid")
+        unchecked = os.path.join(work, name + ".unchecked")
+        must([rapidc, "build", source, "-o", checked])
+        must([rapidc, "build", source, "--without-overflow-checks", "-o", unchecked])
+        times = ([], [])
+        for _ in range(rounds):
+            for side, program in enumerate((checked, unchecked)):
+                times[side].append(run_timed([program, f"--rate={rate}"])[0])
+        best = [min(t) for t in times]
+        ratios.append(best[0] / best[1])
+        print(f"{name:16} {best[0]:9.3f} {best[1]:9.3f} {ratios[-1]:7.2f}", flush=True)
+    mean = math.exp(statistics.mean(math.log(r) for r in ratios))
+    print(f"\ngeometric mean {mean:.3f} (goal: at most {GOAL_OVERFLOW})")
 
 
 def start_up(rapidc, work):
@@ -201,7 +223,8 @@ def scheduler(rapidc, work, rounds):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", help="only these programs; start: only the start-up; check: only the checker; "
+    parser.add_argument("names", nargs="*", help="only these programs; start: only the start-up; "
+                                                 "overflow: only what the checks of overflow cost; check: only the checker; "
                                                  "tasks: only the scheduler")
     parser.add_argument("--rapidc", default=os.path.join(HERE, "..", "..", "build", "rapidc"))
     parser.add_argument("--rounds", type=int, default=5)
@@ -220,6 +243,9 @@ def main():
     if options.names == ["start"]:
         start_up(rapidc, work)
         return 0
+    if options.names == ["overflow"]:
+        overflow(known, rapidc, work, options.rounds, options.rate)
+        return 0
     if options.names == ["tasks"]:
         scheduler(rapidc, work, options.rounds)
         return 0
@@ -229,6 +255,8 @@ def main():
         return 0
     fine = compare(options.names or known, rapidc, work, options.rounds, options.rate)
     if not options.names:
+        print()
+        overflow(known, rapidc, work, options.rounds, options.rate)
         print()
         start_up(rapidc, work)
         scheduler(rapidc, work, options.rounds)

@@ -29,6 +29,7 @@ struct BuildSettings {
     bool noOptimise = false;
     bool strip = false;
     bool stepping = false;
+    bool withoutOverflowChecks = false;
 };
 
 fs::path ownFolder() {
@@ -126,6 +127,7 @@ int build(BuildSettings& settings) {
     keepRobot(*compilation, settings.inputs.robot);
     std::error_code ignored;
     compilation->folder = fs::current_path(ignored).string();
+    compilation->overflowChecks = !settings.withoutOverflowChecks;
     ir::Module module;
     const bool lowered =
         !compilation->sink.hasErrors() &&
@@ -159,6 +161,10 @@ void addBuildCommand(CLI::App& app, int& status) {
     command->add_flag("--stepping", settings->stepping,
                       "Compile for the stepping profile: the program can be stepped forward and backward");
     command->add_flag("--strip", settings->strip, "Leave out debug information");
+    command
+        ->add_flag("--without-overflow-checks", settings->withoutOverflowChecks,
+                   "For benchmarks only: results out of range go unnoticed")
+        ->group(""); // not in the help
     command->callback([settings, &status] { status = build(*settings); });
 }
 

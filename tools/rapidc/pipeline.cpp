@@ -5,7 +5,6 @@
 #include "frontend/project/project.h"
 #include "frontend/project/system_parameters.h"
 #include "ir/lower/lower.h"
-#include "ir/passes/passes.h"
 #include "runtime/io/cfg_parser.h"
 #include "runtime/robot/robot_model.h"
 #include "stdlib/native_table.h"
@@ -389,13 +388,14 @@ bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping,
     const bool lowered = rapid::lower::lowerProgram(*compilation.program, options, compilation.sink, out);
     rapid::lint::applyLevels(compilation.warningLevels, compilation.sink);
     if (!lowered || compilation.sink.hasErrors()) return false;
-    return runIrPasses(out, stepping, compilation.sink);
+    return runIrPasses(out,
+                       {.profile = stepping ? ir::Profile::Stepping : ir::Profile::Release,
+                        .overflowChecks = compilation.overflowChecks},
+                       compilation.sink);
 }
 
-bool runIrPasses(ir::Module& module, bool stepping, diag::Sink& sink) {
-    ir::PassOptions passes;
-    passes.profile = stepping ? ir::Profile::Stepping : ir::Profile::Release;
-    const std::vector<std::string> findings = ir::runPasses(module, passes);
+bool runIrPasses(ir::Module& module, const ir::PassOptions& options, diag::Sink& sink) {
+    const std::vector<std::string> findings = ir::runPasses(module, options);
     for (const std::string& finding : findings)
         sink.report(diag::Code::InternalIr, nullptr, {}, {finding});
     return findings.empty();

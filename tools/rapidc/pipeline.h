@@ -5,6 +5,7 @@
 #include "frontend/lint/warnings.h"
 #include "frontend/sema/checker.h"
 #include "ir/core/ir.h"
+#include "ir/passes/passes.h"
 #include "tools/rapidc/signal_uses.h"
 
 #include <initializer_list>
@@ -46,6 +47,7 @@ struct Compilation {
     std::set<std::string> sharedModules;    ///< installed once for all tasks; lower case
     std::set<std::string> eventRoutines;    ///< that the configuration names; lower case
     std::vector<std::string> usageErrors;   ///< e.g. a --task that cannot be read
+    bool overflowChecks = true;             ///< off in benchmarks that measure what they cost
     std::string folder;                     ///< kept in the program: where relative paths begin; may be empty
     std::string homeFolder;                 ///< HOME of a backup; empty if there is none
     std::vector<std::string> filesRead;     ///< which no output may overwrite
@@ -68,7 +70,7 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs);
 bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping, ir::Module& out);
 
 /// Verifies a module and runs the passes of the profile; findings are internal errors in the sink.
-bool runIrPasses(ir::Module& module, bool stepping, rapid::diag::Sink& sink);
+bool runIrPasses(ir::Module& module, const ir::PassOptions& options, rapid::diag::Sink& sink);
 
 /// Writes all diagnostics to stderr in the form for people, and a closing line when there are errors. What a backup
 /// holds (notes 605x) is told only by `check`.
