@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,11 +19,18 @@ struct UnitImage;
 
 namespace codegen {
 
+/// Natives whose bodies are known (codegen/bodies): optimised programs inline them.
+struct NativeBodies {
+    std::string_view bitcode;
+    std::span<const std::string_view> names; ///< in ascending order
+};
+
 struct CodegenOptions {
     bool optimise =
         true; ///< LLVM's O2 pipeline; off for the stepping profile, where variables stay in memory
     bool debugInfo =
         true; ///< DWARF line tables that name the lines of the source; in the JIT gdb gets them, too
+    NativeBodies bodies = {}; ///< none: every native is called
 };
 
 /// A C function (or datum) that compiled code may refer to.

@@ -11,6 +11,7 @@
 #include <llvm/TargetParser/Triple.h>
 
 #include "codegen/module_emitter.h"
+#include "codegen/native_bodies.h"
 
 namespace codegen {
 
@@ -91,6 +92,7 @@ std::unique_ptr<llvm::Module> compile(const ir::Module& module, const CodegenOpt
         return nullptr;
     }
     if (!options.optimise) return result;
+    if (!linkNativeBodies(*result, options.bodies, error)) return nullptr;
     const bool huge = spareHugeRoutines(*result);
     optimise(*result, machine);
     // One register allocator serves the whole module.

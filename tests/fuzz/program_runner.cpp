@@ -4,6 +4,7 @@
 #include "ir/lower/lower.h"
 #include "ir/passes/passes.h"
 #include "runtime/host/controller.h"
+#include "stdlib/native_bodies.h"
 #include "stdlib/native_table.h"
 #include "stdlib/stdlib_text.h"
 #include "tests/fuzz/fuzz_support.h"
@@ -132,6 +133,7 @@ RunResult ProgramRunner::run(Way way) {
     codegen::CodegenOptions codegenOptions;
     codegenOptions.optimise = way.optimise;
     codegenOptions.debugInfo = false;
+    codegenOptions.bodies = {rt::nativeBodies(), rt::nativesWithBody()};
     static const std::vector<codegen::NativeSymbol> symbols = natives();
     std::string error;
     const auto code = codegen::jit(module, codegenOptions, symbols, error);

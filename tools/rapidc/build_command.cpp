@@ -1,10 +1,10 @@
 // rapidc build: a native executable that needs no rapidc.
 
 #include "tools/rapidc/commands.h"
+#include "tools/rapidc/native_library.h"
 #include "tools/rapidc/pipeline.h"
 #include "tools/rapidc/program_sources.h"
 
-#include "codegen/codegen.h"
 #include "config/temporary.h"
 #include "runtime/host/run_options.h"
 
@@ -93,8 +93,7 @@ bool makeExecutable(const BuildSettings& settings, const ir::Module& module, boo
     }
     const std::string object = (fs::path(folder.path()) / "program.o").string();
     const std::string executable = (fs::path(folder.path()) / "program").string();
-    codegen::CodegenOptions options;
-    options.optimise = !settings.noOptimise;
+    codegen::CodegenOptions options = codegenOptions(!settings.noOptimise);
     options.debugInfo = !settings.strip;
     if (!codegen::emitObject(module, object, options, error) ||
         !codegen::linkExecutable(object, executable, linkOptions(settings.strip, wholeLibrary), error))

@@ -1,9 +1,9 @@
 // rapidc emit: shows a stage of the compiler.
 
 #include "tools/rapidc/commands.h"
+#include "tools/rapidc/native_library.h"
 #include "tools/rapidc/pipeline.h"
 
-#include "codegen/codegen.h"
 #include "frontend/syntax/parser.h"
 #include "ir/text/text.h"
 #include "runtime/host/run_options.h"
@@ -67,8 +67,7 @@ int write(const EmitSettings& settings, const std::string& text) {
 }
 
 std::string emitMachine(const EmitSettings& settings, const ir::Module& module, std::string& error) {
-    codegen::CodegenOptions options;
-    options.optimise = !settings.noOptimise;
+    const codegen::CodegenOptions options = codegenOptions(!settings.noOptimise);
     if (settings.as == "llvm") return codegen::emitLlvm(module, options, error);
     if (settings.as == "asm") return codegen::emitAsm(module, options, error);
     if (settings.output.empty())

@@ -3,11 +3,11 @@
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/line_debugger.h"
 #include "tools/rapidc/module_store.h"
+#include "tools/rapidc/native_library.h"
 #include "tools/rapidc/path_picture.h"
 #include "tools/rapidc/pipeline.h"
 #include "tools/rapidc/unit_compiler.h"
 
-#include "codegen/codegen.h"
 #include "config/read_file.h"
 #include "config/temporary.h"
 #include "runtime/host/controller.h"
@@ -43,15 +43,6 @@ struct RunSettings {
     bool noStepping = false;  ///< not even for --state
     bool interactive = false; ///< --step
 };
-
-std::vector<codegen::NativeSymbol> nativeSymbols() {
-    std::vector<codegen::NativeSymbol> symbols;
-    for (const rt::NativeEntry& entry : rt::nativeTable())
-        if (entry.address) symbols.push_back({entry.symbol, entry.address});
-    for (const rt::SupportEntry& entry : rt::supportTable())
-        if (entry.address) symbols.push_back({entry.symbol, entry.address});
-    return symbols;
-}
 
 /// A folder may hold the stimulus its program is meant to be run with.
 void findStimulus(RunSettings& settings) {
@@ -176,8 +167,7 @@ int run(RunSettings& settings) {
                                    settings.stepping, module);
     printDiagnostics(*compilation);
     if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
-    codegen::CodegenOptions options;
-    options.optimise = !settings.noOptimise;
+    const codegen::CodegenOptions options = codegenOptions(!settings.noOptimise);
     const std::vector<codegen::NativeSymbol> natives = nativeSymbols();
     const auto program = codegen::jit(module, options, natives, error);
     if (!program) {

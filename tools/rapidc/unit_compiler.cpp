@@ -1,9 +1,9 @@
 #include "tools/rapidc/unit_compiler.h"
 
-#include "codegen/codegen.h"
 #include "ir/lower/lower.h"
 #include "runtime/host/program_tables.h"
 #include "stdlib/native_table.h"
+#include "tools/rapidc/native_library.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -171,9 +171,7 @@ bool SourceCompiler::generate(const sema::CheckedProgram& program, const sema::M
             const bool anywhere = global.typeDesc != ir::kNone; // a persistent that others declare, too
             result.data.push_back({global.name, global.displayName, anywhere ? "" : global.moduleName});
         }
-    codegen::CodegenOptions options;
-    options.optimise = sources_.optimise;
-    return codegen::emitImage(made, options, result.image, result.problems);
+    return codegen::emitImage(made, codegenOptions(sources_.optimise), result.image, result.problems);
 }
 
 rt::OpenReferences SourceCompiler::unresolved(const std::string& task, const rt::ProgramState& state) {

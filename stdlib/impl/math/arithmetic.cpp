@@ -7,6 +7,7 @@
 #include "stdlib_natives.h"
 
 #include <cmath>
+#include <iterator>
 
 using namespace rt;
 
@@ -14,10 +15,16 @@ namespace rt::lib {
 
 namespace {
 
+double powerOfTen(int exponent) {
+    constexpr double kExact[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    return static_cast<size_t>(exponent) < std::size(kExact) ? kExact[exponent] : std::pow(10.0, exponent);
+}
+
 /// `step` is round or trunc. Beyond the precision of the type there is nothing left to cut.
 template <class T> T atDecimals(T value, int decimals, T (*step)(T)) {
     if (decimals <= 0) return step(value);
-    const double scale = std::pow(10.0, decimals);
+    const double scale = powerOfTen(decimals);
     const T scaled = static_cast<T>(static_cast<double>(value) * scale);
     if (!std::isfinite(scaled) || step(scaled) == scaled) return value;
     return static_cast<T>(static_cast<double>(step(scaled)) / scale);
@@ -47,7 +54,9 @@ constexpr double kNumInteger = 8388608;
 /// Number of decimals of an optional argument; negative when it is not valid.
 int decimalsOf(const float* dec) {
     if (!dec) return 0;
-    return *dec >= 0 && *dec <= 300 && std::trunc(*dec) == *dec ? static_cast<int>(*dec) : -1;
+    if (!(*dec >= 0 && *dec <= 300)) return -1;
+    const int whole = static_cast<int>(*dec);
+    return static_cast<float>(whole) == *dec ? whole : -1;
 }
 
 Status badDecimals(TaskCore* task) {

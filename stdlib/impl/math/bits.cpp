@@ -5,7 +5,6 @@
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
 
-#include <cmath>
 
 using namespace rt;
 
@@ -18,18 +17,32 @@ uint64_t maskOf(int bits) {
     return (uint64_t{1} << bits) - 1;
 }
 
-/// A non-negative whole number of at most `bits` bits.
-bool readBits(double value, int bits, uint64_t& out) {
-    if (!(value >= 0 && value <= static_cast<double>(maskOf(bits))) || std::trunc(value) != value)
-        return false;
-    out = static_cast<uint64_t>(value);
-    return true;
+/// A whole number from `low` to `high`. LLVM recognizes the conversions: of what was a whole number before it leaves
+/// nothing.
+template <class T> bool readWhole(T value, T low, T high, int64_t& out) {
+    if (!(value >= low && value <= high)) return false;
+    out = static_cast<int64_t>(value);
+    return static_cast<T>(out) == value;
 }
 
-bool readCount(double value, int limit, int& out) {
-    if (!(value >= 1 && value <= limit) || std::trunc(value) != value) return false;
-    out = static_cast<int>(value);
-    return true;
+/// A non-negative whole number of at most `bits` bits.
+template <class T> bool readBits(T value, int bits, uint64_t& out) {
+    int64_t whole = 0;
+    const bool fine = readWhole(value, T{0}, static_cast<T>(maskOf(bits)), whole);
+    out = static_cast<uint64_t>(whole) & maskOf(bits);
+    return fine;
+}
+
+bool readCount(float value, int limit, int& out) {
+    int64_t whole = 0;
+    const bool fine = readWhole(value, 1.0F, static_cast<float>(limit), whole);
+    out = static_cast<int>(whole);
+    return fine;
+}
+
+/// At most 52 bits: the conversion of a signed number is one instruction.
+template <class T> T fromBits(uint64_t bits) {
+    return static_cast<T>(static_cast<int64_t>(bits));
 }
 
 Status badBits(TaskCore* task, int bits) {
@@ -39,22 +52,22 @@ Status badBits(TaskCore* task, int bits) {
 }
 
 Status badCount(TaskCore* task, int limit) {
-    return lib::fail(task, err::ERR_ARGVALERR,
-                     "bit position, steps and size must be whole numbers from 1 to " + std::to_string(limit));
+    return lib::failWith(task, err::ERR_ARGVALERR,
+                         "bit position, steps and size must be whole numbers from 1 to {}", limit);
 }
 
 template <class T, class Op> Status combine(TaskCore* task, T* result, int bits, T a, T b, Op op) {
     uint64_t x = 0;
     uint64_t y = 0;
     if (!readBits(a, bits, x) || !readBits(b, bits, y)) return badBits(task, bits);
-    *result = static_cast<T>(op(x, y));
+    *result = fromBits<T>(op(x, y));
     return kOk;
 }
 
 template <class T> Status negate(TaskCore* task, T* result, int bits, T value, int size) {
     uint64_t x = 0;
     if (!readBits(value, bits, x)) return badBits(task, bits);
-    *result = static_cast<T>(~x & maskOf(size));
+    *result = fromBits<T>(~x & maskOf(size));
     return kOk;
 }
 
@@ -64,7 +77,7 @@ Status shift(TaskCore* task, T* result, int bits, T value, float steps, bool lef
     int count = 0;
     if (!readBits(value, bits, x)) return badBits(task, bits);
     if (!readCount(steps, bits, count)) return badCount(task, bits);
-    *result = static_cast<T>(left ? (x << count) & maskOf(size) : x >> count);
+    *result = fromBits<T>(left ? (x << count) & maskOf(size) : x >> count);
     return kOk;
 }
 
@@ -83,7 +96,7 @@ template <class T> Status change(TaskCore* task, T* data, int bits, float positi
     if (!readBits(*data, bits, x)) return badBits(task, bits);
     if (!readCount(position, bits, bit)) return badCount(task, bits);
     const uint64_t mask = uint64_t{1} << (bit - 1);
-    *data = static_cast<T>(set ? x | mask : x & ~mask);
+    *data = fromBits<T>(set ? x | mask : x & ~mask);
     return kOk;
 }
 

@@ -1,4 +1,4 @@
-// Manual 1.8: positions, computed and read.
+// Manual 1.8: positions that are read.
 
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/motion/state.h"
@@ -52,26 +52,6 @@ motion::RobTarget currentTarget(TaskCore* task, const data::Tooldata* tool,
 } // namespace
 
 extern "C" {
-
-Status rt_Offs(TaskCore* task, data::Robtarget* result, const data::Robtarget* Point, float XOffset,
-               float YOffset, float ZOffset) {
-    data::Robtarget out = *Point;
-    out.trans.x += XOffset;
-    out.trans.y += YOffset;
-    out.trans.z += ZOffset;
-    return lib::give(task, result, out);
-}
-
-Status rt_RelTool(TaskCore* task, data::Robtarget* result, const data::Robtarget* Point, float Dx, float Dy,
-                  float Dz, const float* Rx, const float* Ry, const float* Rz) {
-    const auto degrees = [](const float* angle) { return angle ? static_cast<double>(*angle) : 0.0; };
-    const robot::Pose moved =
-        robot::relTool(lib::toFrame(*Point), Dx, Dy, Dz, degrees(Rx), degrees(Ry), degrees(Rz));
-    data::Robtarget out = *Point;
-    out.trans = lib::toPos(moved.pos);
-    out.rot = lib::toOrient(moved.rot);
-    return lib::give(task, result, out);
-}
 
 Status rt_CRobT(TaskCore* task, data::Robtarget* result, Handle* TaskRef, const String* TaskName,
                 data::Tooldata* Tool, data::Wobjdata* WObj) {

@@ -106,23 +106,6 @@ Status rt_StrToByte(TaskCore* task, float* result, const String* ConStr, bool He
     return kOk;
 }
 
-Status rt_StrMap(TaskCore* task, String* result, const String* Str, const String* FromMap,
-                 const String* ToMap) {
-    const auto from = lib::characters(FromMap->view());
-    const auto to = lib::characters(ToMap->view());
-    if (from.size() != to.size())
-        return lib::fail(task, err::ERR_ARGVALERR,
-                         "FromMap and ToMap must have the same number of characters");
-    std::string mapped;
-    for (const std::string_view character : lib::characters(Str->view())) {
-        size_t i = 0;
-        while (i < from.size() && from[i] != character)
-            ++i;
-        mapped += i < from.size() ? to[i] : character;
-    }
-    return store(task, result, mapped);
-}
-
 Status rt_StrFormat(TaskCore* task, String* result, const String* Str, const String* Arg1, const String* Arg2,
                     const String* Arg3, const String* Arg4, const String* Arg5, const String* Arg6) {
     const String* args[] = {Arg1, Arg2, Arg3, Arg4, Arg5, Arg6};

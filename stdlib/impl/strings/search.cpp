@@ -6,41 +6,41 @@
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 using namespace rt;
 
 namespace {
 
-using Characters = std::vector<std::string_view>;
-
-bool contains(const Characters& set, std::string_view character) {
-    return std::find(set.begin(), set.end(), character) != set.end();
-}
-
 /// A whole number from `low` to `high`.
 bool readPosition(float value, size_t low, size_t high, size_t& out) {
-    if (!(value >= static_cast<float>(low) && value <= static_cast<float>(high)) ||
-        std::trunc(value) != value)
-        return false;
-    out = static_cast<size_t>(value);
-    return true;
+    if (!(value >= static_cast<float>(low) && value <= static_cast<float>(high))) return false;
+    const auto whole = static_cast<int32_t>(value); // a string is short
+    out = static_cast<size_t>(whole);
+    return static_cast<float>(whole) == value;
 }
 
 Status badPosition(TaskCore* task, float position, size_t length) {
-    return lib::fail(
-        task, err::ERR_ARGVALERR,
-        fmt::format("position {} is outside the string, which has {} characters", position, length));
+    return lib::failWith(task, err::ERR_ARGVALERR,
+                         "position {} is outside the string, which has {} characters", position,
+                         static_cast<double>(length));
+}
+
+/// Whether one of the bytes is `wanted`.
+bool hasByte(std::string_view bytes, char wanted) {
+    for (const char byte : bytes)
+        if (byte == wanted) return true;
+    return false;
 }
 
 /// Rank of a character under an ordering: its first place in it; characters not listed come after, by code point.
-size_t rankOf(std::string_view character, const Characters& order) {
-    const auto found = std::find(order.begin(), order.end(), character);
-    return found != order.end() ? static_cast<size_t>(found - order.begin())
-                                : order.size() + lib::codePoint(character);
+size_t rankOf(std::string_view character, std::string_view order) {
+    size_t rank = 0;
+    for (; !order.empty(); ++rank, order.remove_prefix(lib::characterSize(order)))
+        if (lib::first(order) == character) return rank;
+    return rank + lib::codePoint(character);
 }
 
 /// Not found: the length plus 1.
@@ -88,23 +88,26 @@ Status rt_StrPart(TaskCore* task, String* result, const String* Str, float ChPos
     if (!readPosition(Len, 0, length - first + 1, count))
         return lib::fail(task, err::ERR_ARGVALERR,
                          "the part is negative or reaches beyond the end of the string");
-    if (length == bytes.size()) {
-        result->assign(bytes.substr(first - 1, count));
-        return kOk;
+    size_t begin = first - 1;
+    if (length != bytes.size()) {
+        begin = lib::bytesOf(bytes, begin);
+        count = lib::bytesOf(lib::rest(bytes, begin), count);
     }
-    const Characters text = lib::characters(bytes);
-    std::string part;
-    for (size_t i = 0; i < count; ++i)
-        part += text[first - 1 + i];
-    result->assign(part);
+    std::memmove(result->bytes, bytes.data() + begin, count); // the result may be the string itself
+    result->length = static_cast<uint32_t>(count);
     return kOk;
 }
 
 Status rt_StrMemb(TaskCore* task, bool* result, const String* Str, float ChPos, const String* Set) {
-    const Characters text = lib::characters(Str->view());
     size_t position = 0;
+    if (lib::isAscii(Str->view())) {
+        if (!readPosition(ChPos, 1, Str->length, position)) return badPosition(task, ChPos, Str->length);
+        *result = hasByte(Set->view(), Str->bytes[position - 1]);
+        return kOk;
+    }
+    const lib::Characters text(Str->view());
     if (!readPosition(ChPos, 1, text.size(), position)) return badPosition(task, ChPos, text.size());
-    *result = contains(lib::characters(Set->view()), text[position - 1]);
+    *result = lib::Characters(Set->view()).contains(text[position - 1]);
     return kOk;
 }
 
@@ -112,13 +115,13 @@ Status rt_StrFind(TaskCore* task, float* result, const String* Str, float ChPos,
                   bool NotInSet) {
     if (lib::isAscii(Str->view()) && lib::isAscii(Set->view()))
         return findAscii(task, result, *Str, ChPos, *Set, NotInSet);
-    const Characters text = lib::characters(Str->view());
-    const Characters set = lib::characters(Set->view());
+    const lib::Characters text(Str->view());
+    const lib::Characters set(Set->view());
     size_t position = 0;
     // Nothing can be found in an empty string, but looking there is no mistake.
     if (!readPosition(ChPos, 1, std::max<size_t>(text.size(), 1), position))
         return badPosition(task, ChPos, text.size());
-    while (position <= text.size() && contains(set, text[position - 1]) == NotInSet)
+    while (position <= text.size() && set.contains(text[position - 1]) == NotInSet)
         ++position;
     *result = static_cast<float>(std::min(position, text.size() + 1));
     return kOk;
@@ -133,24 +136,30 @@ Status rt_StrMatch(TaskCore* task, float* result, const String* Str, float ChPos
         *result = offsetToPosition(bytes.find(Pattern->view(), position - 1), bytes.size());
         return kOk;
     }
-    const Characters text = lib::characters(bytes);
+    const lib::Characters text(bytes);
     if (!readPosition(ChPos, 1, std::max<size_t>(text.size(), 1), position))
         return badPosition(task, ChPos, text.size());
     for (; position <= text.size(); ++position) {
         const size_t offset = static_cast<size_t>(text[position - 1].data() - bytes.data());
-        if (bytes.substr(offset).starts_with(Pattern->view())) break;
+        if (lib::rest(bytes, offset).starts_with(Pattern->view())) break;
     }
     *result = static_cast<float>(std::min(position, text.size() + 1));
     return kOk;
 }
 
 Status rt_StrOrder(TaskCore*, bool* result, const String* Str1, const String* Str2, const String* Order) {
-    const Characters a = lib::characters(Str1->view());
-    const Characters b = lib::characters(Str2->view());
-    const Characters order = lib::characters(Order->view());
-    *result = !std::lexicographical_compare(
-        b.begin(), b.end(), a.begin(), a.end(),
-        [&](std::string_view x, std::string_view y) { return rankOf(x, order) < rankOf(y, order); });
+    // Different characters have different ranks: the first difference decides.
+    std::string_view a = Str1->view();
+    std::string_view b = Str2->view();
+    while (!a.empty() && !b.empty() && lib::first(a) == lib::first(b)) {
+        const size_t size = lib::characterSize(a);
+        a.remove_prefix(size);
+        b.remove_prefix(size);
+    }
+    if (a.empty() || b.empty())
+        *result = a.empty();
+    else
+        *result = rankOf(lib::first(a), Order->view()) < rankOf(lib::first(b), Order->view());
     return kOk;
 }
 }

@@ -12,11 +12,9 @@ uint8_t byteAt(std::string_view text, size_t i) {
 
 } // namespace
 
-size_t characterSize(std::string_view text) {
-    if (text.empty()) return 0;
+size_t longCharacterSize(std::string_view text) {
     const uint8_t lead = byteAt(text, 0);
-    const size_t size = lead < 0x80   ? 1
-                        : lead < 0xC2 ? 0
+    const size_t size = lead < 0xC2   ? 0
                         : lead < 0xE0 ? 2
                         : lead < 0xF0 ? 3
                         : lead < 0xF5 ? 4
@@ -48,11 +46,11 @@ size_t characterCount(std::string_view text) {
     return count;
 }
 
-std::vector<std::string_view> characters(std::string_view text) {
-    std::vector<std::string_view> out;
-    for (; !text.empty(); text.remove_prefix(out.back().size()))
-        out.push_back(text.substr(0, characterSize(text)));
-    return out;
+size_t bytesOf(std::string_view text, size_t count) {
+    size_t size = 0;
+    while (count-- > 0)
+        size += characterSize(rest(text, size));
+    return size;
 }
 
 std::string encodeUtf8(uint32_t codePoint) {
@@ -76,7 +74,7 @@ uint32_t codePoint(std::string_view character) {
 std::string_view cutToString(std::string_view text) {
     size_t size = 0;
     while (size < text.size()) {
-        const size_t next = characterSize(text.substr(size));
+        const size_t next = characterSize(rest(text, size));
         if (size + next > sizeof(String::bytes)) break;
         size += next;
     }

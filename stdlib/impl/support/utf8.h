@@ -7,23 +7,64 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace rt::lib {
 
+/// What follows `offset`, which is at most the size. Cannot throw as substr can: inlined natives do not.
+inline std::string_view rest(std::string_view text, size_t offset) {
+    return {text.data() + offset, text.size() - offset};
+}
+/// Bytes of a character whose first byte is above 0x7F.
+size_t longCharacterSize(std::string_view text);
 /// Bytes of the character that `text` begins with; 0 for an empty text.
-size_t characterSize(std::string_view text);
+inline size_t characterSize(std::string_view text) {
+    if (text.empty()) return 0;
+    return static_cast<uint8_t>(text[0]) < 0x80 ? 1 : longCharacterSize(text);
+}
+/// The first character of a text that is not empty.
+inline std::string_view first(std::string_view text) {
+    return {text.data(), characterSize(text)};
+}
 /// True when every byte is a character of its own (no byte above 0x7F): positions are offsets then.
 bool isAscii(std::string_view text);
 /// Number of characters.
 size_t characterCount(std::string_view text);
-/// The characters one by one, views into `text`.
-std::vector<std::string_view> characters(std::string_view text);
+/// Bytes of the first `count` characters.
+size_t bytesOf(std::string_view text, size_t count);
 /// UTF-8 of a code point up to 0x10FFFF.
 std::string encodeUtf8(uint32_t codePoint);
 /// Code point of one character as `characters` gives it; a stray byte is its own value.
 uint32_t codePoint(std::string_view character);
 /// At most 80 bytes, cut between characters.
 std::string_view cutToString(std::string_view text);
+
+
+/// The characters of a string (at most 80 bytes) one by one, views into `text`.
+class Characters {
+  public:
+    explicit Characters(std::string_view text) : text_(text.data()) {
+        while (begins_[size_] < text.size()) {
+            const size_t begin = begins_[size_];
+            begins_[++size_] = static_cast<uint8_t>(begin + characterSize(rest(text, begin)));
+        }
+    }
+    size_t size() const { return size_; }
+    std::string_view operator[](size_t i) const {
+        return {text_ + begins_[i], static_cast<size_t>(begins_[i + 1] - begins_[i])};
+    }
+    /// Where the character is; size() when it is not among them.
+    size_t find(std::string_view character) const {
+        size_t i = 0;
+        while (i < size_ && (*this)[i] != character)
+            ++i;
+        return i;
+    }
+    bool contains(std::string_view character) const { return find(character) < size_; }
+
+  private:
+    const char* text_;
+    size_t size_ = 0;
+    uint8_t begins_[sizeof(String::bytes) + 1] = {};
+};
 
 } // namespace rt::lib

@@ -51,9 +51,9 @@ Status rt_strConcat(TaskCore* task, String* result, const String* a, const Strin
     String joined; // result may be a or b
     const size_t size = size_t{a->length} + b->length;
     if (size > sizeof joined.bytes)
-        return lib::fail(task, err::ERR_STRTOOLNG,
-                         "the joined string has " + std::to_string(size) +
-                             " bytes; a string holds at most 80");
+        return lib::failWith(task, err::ERR_STRTOOLNG,
+                             "the joined string has {} bytes; a string holds at most 80",
+                             static_cast<double>(size));
     std::memcpy(joined.bytes, a->bytes, a->length);
     std::memcpy(joined.bytes + a->length, b->bytes, b->length);
     joined.length = static_cast<uint32_t>(size);

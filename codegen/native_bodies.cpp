@@ -1,0 +1,86 @@
+#include "codegen/native_bodies.h"
+
+#include <llvm/ADT/StringSwitch.h>
+#include <llvm/Bitcode/BitcodeReader.h>
+#include <llvm/IR/InstIterator.h>
+#include <llvm/IR/Instructions.h>
+#include <llvm/Linker/Linker.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace codegen {
+namespace {
+
+/// LLVM instructions of a routine from which on calls in it stay calls: long straight code (a program of many movements)
+/// would only grow.
+constexpr unsigned kLong = 2000;
+
+/// LLVM knows these by name and nature, and replaces short ones by instructions.
+bool isMemoryFunction(llvm::StringRef name) {
+    return llvm::StringSwitch<bool>(name)
+        .Cases("memcpy", "memmove", "memset", "memcmp", "bcmp", "memchr", "strlen", true)
+        .Default(false);
+}
+
+void keepCallsOfLongRoutines(llvm::Module& program, const std::vector<llvm::Function*>& bodies) {
+    for (llvm::Function& function : program) {
+        if (function.getInstructionCount() <= kLong) continue;
+        for (llvm::Instruction& inst : llvm::instructions(function))
+            if (auto* call = llvm::dyn_cast<llvm::CallInst>(&inst);
+                call && std::find(bodies.begin(), bodies.end(), call->getCalledFunction()) != bodies.end())
+                call->setIsNoInline();
+    }
+}
+
+} // namespace
+
+bool isLibraryFunction(llvm::StringRef name) {
+    return isMemoryFunction(name) ||
+           llvm::StringSwitch<bool>(name)
+               .Cases("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "log", "pow", true)
+               .Cases("fmod", "fmodf", "remquo", "round", "roundf", true)
+               .Default(false);
+}
+
+bool linkNativeBodies(llvm::Module& program, const NativeBodies& bodies, std::string& error) {
+    std::vector<llvm::Function*> wanted;
+    for (llvm::Function& function : program) {
+        const std::string_view name(function.getName().data(), function.getName().size());
+        if (function.isDeclaration() && !function.use_empty() &&
+            std::binary_search(bodies.names.begin(), bodies.names.end(), name))
+            wanted.push_back(&function);
+    }
+    if (wanted.empty()) return true;
+    std::vector<std::string> names;
+    for (const llvm::Function* function : wanted)
+        names.push_back(function->getName().str());
+    auto library = llvm::getLazyBitcodeModule(
+        llvm::MemoryBufferRef({bodies.bitcode.data(), bodies.bitcode.size()}, "natives"), program.getContext());
+    if (!library) {
+        error = "internal error: " + llvm::toString(library.takeError());
+        return false;
+    }
+    if (llvm::Linker::linkModules(program, std::move(*library), llvm::Linker::Flags::LinkOnlyNeeded)) {
+        error = "internal error: the bodies of natives do not fit to the program";
+        return false;
+    }
+    std::vector<llvm::Function*> defined;
+    for (const std::string& name : names) {
+        llvm::Function* function = program.getFunction(name);
+        function->setLinkage(llvm::GlobalValue::InternalLinkage);
+        function->addFnAttr(llvm::Attribute::InlineHint);
+        defined.push_back(function);
+    }
+    for (llvm::Function& function : program) {
+        if (!function.isDeclaration() || !isLibraryFunction(function.getName()) ||
+            isMemoryFunction(function.getName()))
+            continue;
+        function.addFnAttr(llvm::Attribute::NoBuiltin);
+        function.setDoesNotThrow();
+    }
+    keepCallsOfLongRoutines(program, defined);
+    return true;
+}
+
+} // namespace codegen
