@@ -10,6 +10,7 @@
 #include <llvm/TargetParser/Host.h>
 #include <llvm/TargetParser/Triple.h>
 
+#include "codegen/integral_values.h"
 #include "codegen/module_emitter.h"
 #include "codegen/native_bodies.h"
 
@@ -49,6 +50,8 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
         return !(function ? *function : (*loop)->getHeader()->getParent())->hasOptNone();
     });
     llvm::PassBuilder builder(&machine, tuning, std::nullopt, &callbacks);
+    builder.registerScalarOptimizerLateEPCallback(
+        [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) { passes.addPass(IntegralValues()); });
     llvm::LoopAnalysisManager loops;
     llvm::FunctionAnalysisManager functions;
     llvm::CGSCCAnalysisManager sccs;

@@ -56,7 +56,8 @@ bool linkNativeBodies(llvm::Module& program, const NativeBodies& bodies, std::st
     for (const llvm::Function* function : wanted)
         names.push_back(function->getName().str());
     auto library = llvm::getLazyBitcodeModule(
-        llvm::MemoryBufferRef({bodies.bitcode.data(), bodies.bitcode.size()}, "natives"), program.getContext());
+        llvm::MemoryBufferRef({bodies.bitcode.data(), bodies.bitcode.size()}, "natives"),
+        program.getContext());
     if (!library) {
         error = "internal error: " + llvm::toString(library.takeError());
         return false;
@@ -78,6 +79,9 @@ bool linkNativeBodies(llvm::Module& program, const NativeBodies& bodies, std::st
             continue;
         function.addFnAttr(llvm::Attribute::NoBuiltin);
         function.setDoesNotThrow();
+        function.setWillReturn();
+        if (function.getReturnType()->isFloatingPointTy() && function.getName() != "remquo")
+            function.setDoesNotAccessMemory(); // nothing looks at errno
     }
     keepCallsOfLongRoutines(program, defined);
     return true;

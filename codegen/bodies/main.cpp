@@ -44,7 +44,8 @@ bool readAll(const std::vector<std::string>& paths, llvm::Module& all) {
             all.setDataLayout((*module)->getDataLayout());
             all.setTargetTriple((*module)->getTargetTriple());
         }
-        if (llvm::Linker::linkModules(all, std::move(*module))) return fail(path + " does not fit to the others");
+        if (llvm::Linker::linkModules(all, std::move(*module)))
+            return fail(path + " does not fit to the others");
     }
     return true;
 }
@@ -55,8 +56,8 @@ void stripOrigin(llvm::Module& module) {
     while (!module.named_metadata_empty())
         module.eraseNamedMetadata(&*module.named_metadata_begin());
     llvm::AttributeMask origin;
-    for (const char* name : {"target-cpu", "target-features", "tune-cpu", "frame-pointer", "min-legal-vector-width",
-                             "no-trapping-math", "stack-protector-buffer-size"})
+    for (const char* name : {"target-cpu", "target-features", "tune-cpu", "frame-pointer",
+                             "min-legal-vector-width", "no-trapping-math", "stack-protector-buffer-size"})
         origin.addAttribute(name);
     origin.addAttribute(llvm::Attribute::UWTable);
     for (llvm::Function& function : module)
@@ -91,7 +92,8 @@ void useSquareRoots(llvm::Module& module) {
 
 /// A bool travels as a byte in programs (codegen/README.md); clang passes it as i1.
 void passBoolsAsBytes(llvm::Module& module, llvm::Function& native) {
-    llvm::Type *i1 = llvm::Type::getInt1Ty(module.getContext()), *i8 = llvm::Type::getInt8Ty(module.getContext());
+    llvm::Type *i1 = llvm::Type::getInt1Ty(module.getContext()),
+               *i8 = llvm::Type::getInt8Ty(module.getContext());
     const auto asByte = [&](llvm::Type* type) { return type == i1 ? i8 : type; };
     std::vector<llvm::Type*> types;
     for (llvm::Type* type : native.getFunctionType()->params())
@@ -148,7 +150,8 @@ bool write(const llvm::Module& module, const std::string& path) {
     llvm::WriteBitcodeToFile(module, stream);
     std::vector<std::string> names;
     for (const llvm::Function& function : module)
-        if (!function.isDeclaration() && !function.hasLocalLinkage()) names.push_back(function.getName().str());
+        if (!function.isDeclaration() && !function.hasLocalLinkage())
+            names.push_back(function.getName().str());
     std::sort(names.begin(), names.end());
     std::ofstream out(path, std::ios::binary | std::ios::trunc);
     out << "// Made by native_bodies.\n#include \"stdlib/native_bodies.h\"\n\nnamespace {\n"
@@ -157,11 +160,13 @@ bool write(const llvm::Module& module, const std::string& path) {
         out << "    \"" << name << "\",\n";
     out << "};\nalignas(16) constexpr unsigned char kBitcode[] = {";
     for (size_t i = 0; i < bitcode.size(); ++i)
-        out << (i % 32 == 0 ? "\n" : "") << static_cast<unsigned>(static_cast<unsigned char>(bitcode[i])) << ',';
+        out << (i % 32 == 0 ? "\n" : "") << static_cast<unsigned>(static_cast<unsigned char>(bitcode[i]))
+            << ',';
     out << "};\n} // namespace\n\nnamespace rt {\n"
         << "std::string_view nativeBodies() {\n"
         << "    return {reinterpret_cast<const char*>(kBitcode), sizeof kBitcode};\n}\n"
-        << "std::span<const std::string_view> nativesWithBody() {\n    return kNames;\n}\n} // namespace rt\n";
+        << "std::span<const std::string_view> nativesWithBody() {\n    return kNames;\n}\n} // namespace "
+           "rt\n";
     out.close();
     return out ? true : fail("cannot write " + path);
 }

@@ -5,7 +5,6 @@
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
 
-
 using namespace rt;
 
 namespace {

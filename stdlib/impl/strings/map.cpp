@@ -10,6 +10,10 @@ using namespace rt;
 
 namespace {
 
+bool isAsciiByte(char byte) {
+    return static_cast<uint8_t>(byte) < 0x80;
+}
+
 /// Where positions are offsets. The first place of a character in `from` counts.
 void mapAscii(String& result, std::string_view text, std::string_view from, std::string_view to) {
     uint8_t table[128];
@@ -43,8 +47,13 @@ Status rt_StrMap(TaskCore* task, String* result, const String* Str, const String
     const lib::Characters old(from);
     const lib::Characters replacements(to);
     const lib::Characters characters(text);
+    uint8_t places[128]; // of ASCII characters
+    std::memset(places, static_cast<int>(old.size()), sizeof places);
+    for (size_t i = old.size(); i-- > 0;)
+        if (isAsciiByte(old[i][0])) places[static_cast<uint8_t>(old[i][0])] = static_cast<uint8_t>(i);
     for (size_t i = 0; i < characters.size(); ++i) {
-        const size_t found = old.find(characters[i]);
+        const char lead = characters[i][0];
+        const size_t found = isAsciiByte(lead) ? places[static_cast<uint8_t>(lead)] : old.find(characters[i]);
         const std::string_view next = found < old.size() ? replacements[found] : characters[i];
         if (mapped.length + next.size() > sizeof mapped.bytes)
             return lib::fail(task, err::ERR_STRTOOLNG,

@@ -35,12 +35,16 @@ bool hasByte(std::string_view bytes, char wanted) {
     return false;
 }
 
-/// Rank of a character under an ordering: its first place in it; characters not listed come after, by code point.
+/// A number that grows with the rank of a character under an ordering: its first place in it; characters not listed come
+/// after, by code point.
 size_t rankOf(std::string_view character, std::string_view order) {
-    size_t rank = 0;
-    for (; !order.empty(); ++rank, order.remove_prefix(lib::characterSize(order)))
-        if (lib::first(order) == character) return rank;
-    return rank + lib::codePoint(character);
+    if (static_cast<uint8_t>(character[0]) < 0x80) { // such a byte is never part of another character
+        const size_t place = order.find(character[0]);
+        return place < order.size() ? place : order.size() + lib::codePoint(character);
+    }
+    for (size_t place = 0; place < order.size(); place += lib::first(lib::rest(order, place)).size())
+        if (lib::same(lib::first(lib::rest(order, place)), character)) return place;
+    return order.size() + lib::codePoint(character);
 }
 
 /// Not found: the length plus 1.
@@ -151,7 +155,7 @@ Status rt_StrOrder(TaskCore*, bool* result, const String* Str1, const String* St
     // Different characters have different ranks: the first difference decides.
     std::string_view a = Str1->view();
     std::string_view b = Str2->view();
-    while (!a.empty() && !b.empty() && lib::first(a) == lib::first(b)) {
+    while (!a.empty() && !b.empty() && lib::same(lib::first(a), lib::first(b))) {
         const size_t size = lib::characterSize(a);
         a.remove_prefix(size);
         b.remove_prefix(size);

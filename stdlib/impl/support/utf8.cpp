@@ -14,11 +14,7 @@ uint8_t byteAt(std::string_view text, size_t i) {
 
 size_t longCharacterSize(std::string_view text) {
     const uint8_t lead = byteAt(text, 0);
-    const size_t size = lead < 0xC2   ? 0
-                        : lead < 0xE0 ? 2
-                        : lead < 0xF0 ? 3
-                        : lead < 0xF5 ? 4
-                                      : 0;
+    const size_t size = lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : lead < 0xF5 ? 4 : 0;
     if (size == 0 || size > text.size()) return 1;
     for (size_t i = 1; i < size; ++i)
         if ((byteAt(text, i) & 0xC0) != 0x80) return 1;

@@ -25,6 +25,13 @@ inline size_t characterSize(std::string_view text) {
 inline std::string_view first(std::string_view text) {
     return {text.data(), characterSize(text)};
 }
+/// Whether two characters are equal: without a call, for a few bytes.
+inline bool same(std::string_view a, std::string_view b) {
+    if (a.size() != b.size()) return false;
+    for (size_t i = 0; i < a.size(); ++i)
+        if (a[i] != b[i]) return false;
+    return true;
+}
 /// True when every byte is a character of its own (no byte above 0x7F): positions are offsets then.
 bool isAscii(std::string_view text);
 /// Number of characters.
@@ -37,7 +44,6 @@ std::string encodeUtf8(uint32_t codePoint);
 uint32_t codePoint(std::string_view character);
 /// At most 80 bytes, cut between characters.
 std::string_view cutToString(std::string_view text);
-
 
 /// The characters of a string (at most 80 bytes) one by one, views into `text`.
 class Characters {
@@ -55,7 +61,7 @@ class Characters {
     /// Where the character is; size() when it is not among them.
     size_t find(std::string_view character) const {
         size_t i = 0;
-        while (i < size_ && (*this)[i] != character)
+        while (i < size_ && !same((*this)[i], character))
             ++i;
         return i;
     }

@@ -31,7 +31,7 @@ static int set_bits(uint8_t value) {
 int main(void) {
     uint8_t state = 1, flags = 0;
     int ones = 0, sum = 0, alarms = 0;
-    for (int n = 1; n <= 350000; n++) {
+    for (int n = 1; n <= 600000; n++) {
         // The next byte of the telegram: eight steps of the shift register.
         for (int k = 0; k < 8; k++) {
             const uint8_t taps = (state >> 7) ^ (state >> 5) ^ (state >> 4) ^ (state >> 3);

@@ -1,4 +1,4 @@
-// Functions called by name: looked up in a table of names, from a name put together, with arguments, and by number.
+// Functions called by name: from a table, from a name put together, with arguments, and by number.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,0 +1,184 @@
+#include "codegen/integral_values.h"
+
+#include <llvm/ADT/MapVector.h>
+#include <llvm/Analysis/ValueTracking.h>
+#include <llvm/IR/IRBuilder.h>
+#include <llvm/IR/InstIterator.h>
+#include <llvm/IR/Instructions.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace codegen {
+namespace {
+
+using llvm::Value;
+
+/// A phi or a select: it has the value of one of its operands.
+std::vector<unsigned> choices(const llvm::Instruction& node) {
+    if (llvm::isa<llvm::SelectInst>(node)) return {1, 2};
+    std::vector<unsigned> all(node.getNumOperands());
+    for (unsigned i = 0; i < all.size(); ++i)
+        all[i] = i;
+    return all;
+}
+
+class Web {
+  public:
+    explicit Web(llvm::Function& function) : function_(function), layout_(function.getDataLayout()) {}
+
+    bool run() {
+        for (llvm::Instruction& inst : llvm::instructions(function_))
+            if ((llvm::isa<llvm::PHINode>(inst) || llvm::isa<llvm::SelectInst>(inst)) &&
+                (inst.getType()->isFloatTy() || inst.getType()->isDoubleTy()))
+                nodes_.insert({&inst, nullptr});
+        dropUnless([&](const llvm::Instruction& node) { return isOneOfWholes(node); });
+        // Where nothing is converted back, the floating-point number is what is wanted.
+        dropUnless([&](const llvm::Instruction& node) {
+            return std::any_of(node.user_begin(), node.user_end(), [&](const llvm::User* user) {
+                return llvm::isa<llvm::FPToSIInst>(user) || llvm::isa<llvm::FPToUIInst>(user) ||
+                       contains(user);
+            });
+        });
+        dropUnless([&](const llvm::Instruction& node) { return isOneOfWholes(node); });
+        if (nodes_.empty()) return false;
+        replace();
+        return true;
+    }
+
+  private:
+    bool contains(const Value* value) const {
+        const auto* inst = llvm::dyn_cast<llvm::Instruction>(value);
+        return inst && nodes_.contains(const_cast<llvm::Instruction*>(inst));
+    }
+
+    /// Removes nodes until all that are left meet the condition.
+    template <class Keep> void dropUnless(Keep keep) {
+        for (bool changed = true; changed;) {
+            changed = false;
+            std::vector<llvm::Instruction*> others;
+            for (const auto& [node, made] : nodes_)
+                if (!keep(*node)) others.push_back(node);
+            for (llvm::Instruction* node : others)
+                changed |= nodes_.erase(node) > 0;
+        }
+    }
+
+    bool isOneOfWholes(const llvm::Instruction& node) const {
+        const std::vector<unsigned> operands = choices(node);
+        return std::all_of(operands.begin(), operands.end(),
+                           [&](unsigned i) { return isWhole(node.getOperand(i)); });
+    }
+
+    /// Bits of the whole numbers that the type holds exactly.
+    static unsigned exactBits(const llvm::Type* type) { return type->isFloatTy() ? 24 : 53; }
+
+    bool isWhole(const Value* value) const {
+        if (contains(value) || llvm::isa<llvm::UndefValue>(value)) return true;
+        if (const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(value)) {
+            const double number = constant->getValueAPF().convertToDouble();
+            return number >= 0 && !std::signbit(number) && number == std::trunc(number) &&
+                   number < std::ldexp(1.0, static_cast<int>(exactBits(value->getType())));
+        }
+        return source(value) != nullptr;
+    }
+
+    /// The number that is converted; null when it may be negative or too large to be kept exactly.
+    Value* source(const Value* value) const {
+        const auto* cast = llvm::dyn_cast<llvm::CastInst>(value);
+        if (!cast || (cast->getOpcode() != llvm::Instruction::SIToFP &&
+                      cast->getOpcode() != llvm::Instruction::UIToFP))
+            return nullptr;
+        Value* from = cast->getOperand(0);
+        if (from->getType()->isVectorTy()) return nullptr;
+        const llvm::KnownBits known = llvm::computeKnownBits(from, layout_);
+        return known.countMaxActiveBits() <= exactBits(value->getType()) ? from : nullptr;
+    }
+
+    /// One width for all: the widest number that comes in.
+    unsigned widest(const llvm::Type* type) const {
+        unsigned bits = 1;
+        for (const auto& [node, made] : nodes_) {
+            if (node->getType() != type) continue;
+            for (const unsigned i : choices(*node)) {
+                const Value* operand = node->getOperand(i);
+                if (const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(operand))
+                    bits = std::max(bits, static_cast<unsigned>(std::ilogb(
+                                              std::max(1.0, constant->getValueAPF().convertToDouble()))) +
+                                              1);
+                else if (const Value* from = source(operand))
+                    bits = std::max(bits, llvm::computeKnownBits(from, layout_).countMaxActiveBits());
+            }
+        }
+        return bits;
+    }
+
+    llvm::IntegerType* integerFor(const llvm::Type* type) const {
+        return llvm::IntegerType::get(function_.getContext(), type->isFloatTy() ? 32 : 64);
+    }
+
+    Value* integer(Value* value, llvm::Instruction* before) {
+        llvm::IntegerType* type = integerFor(value->getType());
+        if (const auto found = nodes_.find(llvm::dyn_cast<llvm::Instruction>(value)); found != nodes_.end())
+            return found->second;
+        if (llvm::isa<llvm::UndefValue>(value)) return llvm::ConstantInt::get(type, 0);
+        if (const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(value))
+            return llvm::ConstantInt::get(type,
+                                          static_cast<uint64_t>(constant->getValueAPF().convertToDouble()));
+        return llvm::IRBuilder<>(before).CreateZExtOrTrunc(source(value), type);
+    }
+
+    void replace() {
+        const unsigned narrow = widest(llvm::Type::getFloatTy(function_.getContext()));
+        const unsigned wide = widest(llvm::Type::getDoubleTy(function_.getContext()));
+        for (auto& [node, made] : nodes_) {
+            llvm::IRBuilder<> b(node);
+            llvm::IntegerType* type = integerFor(node->getType());
+            if (const auto* phi = llvm::dyn_cast<llvm::PHINode>(node))
+                made = b.CreatePHI(type, phi->getNumIncomingValues());
+            else
+                made = llvm::cast<llvm::Instruction>(
+                    llvm::SelectInst::Create(node->getOperand(0), llvm::PoisonValue::get(type),
+                                             llvm::PoisonValue::get(type), "", node->getIterator()));
+        }
+        for (auto& [node, made] : nodes_) {
+            if (const auto* phi = llvm::dyn_cast<llvm::PHINode>(node)) {
+                for (unsigned i = 0; i < phi->getNumIncomingValues(); ++i)
+                    llvm::cast<llvm::PHINode>(made)->addIncoming(
+                        integer(phi->getIncomingValue(i), phi->getIncomingBlock(i)->getTerminator()),
+                        phi->getIncomingBlock(i));
+            } else {
+                made->setOperand(1, integer(node->getOperand(1), node));
+                made->setOperand(2, integer(node->getOperand(2), node));
+            }
+        }
+        for (auto& [node, made] : nodes_) {
+            const unsigned bits = node->getType()->isFloatTy() ? narrow : wide;
+            llvm::Instruction* after = llvm::isa<llvm::PHINode>(node)
+                                           ? &*node->getParent()->getFirstInsertionPt()
+                                           : made->getNextNode();
+            llvm::IRBuilder<> b(after);
+            // What is known of the numbers gets lost in loops; the mask says it.
+            Value* bounded =
+                b.CreateAnd(made, llvm::ConstantInt::get(made->getType(), (uint64_t{1} << bits) - 1));
+            node->replaceAllUsesWith(b.CreateUIToFP(bounded, node->getType()));
+        }
+        for (auto& [node, made] : nodes_)
+            node->eraseFromParent();
+    }
+
+    llvm::Function& function_;
+    const llvm::DataLayout& layout_;
+    llvm::MapVector<llvm::Instruction*, llvm::Instruction*> nodes_; ///< and what replaces them
+};
+
+} // namespace
+
+llvm::PreservedAnalyses IntegralValues::run(llvm::Function& function, llvm::FunctionAnalysisManager&) {
+    if (!Web(function).run()) return llvm::PreservedAnalyses::all();
+    llvm::PreservedAnalyses preserved;
+    preserved.preserveSet<llvm::CFGAnalyses>();
+    return preserved;
+}
+
+} // namespace codegen
