@@ -31,6 +31,8 @@ struct CodegenOptions {
     bool debugInfo =
         true; ///< DWARF line tables that name the lines of the source; in the JIT gdb gets them, too
     NativeBodies bodies = {}; ///< none: every native is called
+    size_t lazyAbove =
+        15'000; ///< IR instructions of a program from which on jit() compiles routines when they are called
 };
 
 /// A C function (or datum) that compiled code may refer to.
@@ -48,7 +50,7 @@ class JitProgram {
 };
 
 /// Compiles `module` in memory. Natives and globals of kind External are looked up in `symbols`; names that are
-/// missing there make it fail. Returns null and a message in `error` on failure. Nothing of `module` is kept.
+/// missing there make it fail. Returns null and a message in `error` on failure. `module` must outlive the program.
 std::unique_ptr<JitProgram> jit(const ir::Module& module, const CodegenOptions& options,
                                 const std::vector<NativeSymbol>& symbols, std::string& error);
 

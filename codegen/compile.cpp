@@ -84,9 +84,9 @@ bool spareHugeRoutines(llvm::Module& module) {
 
 std::unique_ptr<llvm::Module> compile(const ir::Module& module, const CodegenOptions& options,
                                       llvm::TargetMachine& machine, llvm::LLVMContext& context,
-                                      std::string& error) {
+                                      std::string& error, const Part* part) {
     std::unique_ptr<llvm::Module> result =
-        ModuleEmitter(module, options, context)
+        ModuleEmitter(module, options, context, part)
             .run(machine.createDataLayout(), machine.getTargetTriple().str());
     std::string findings;
     llvm::raw_string_ostream stream(findings);

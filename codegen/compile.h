@@ -20,11 +20,13 @@ inline constexpr const char* kProgramSymbol = RAPIDC_SYMBOL(rapidc_program);
 /// Machine code is made for one fixed feature set, never for the host's: results and objects must not depend on it.
 std::unique_ptr<llvm::TargetMachine> makeTargetMachine(const CodegenOptions& options, std::string& error);
 
-/// Emits `module`, checks the result and optimises it. When the module has a huge routine, sets `machine` to generate code
+struct Part;
+
+/// Emits `module`, or a part of it, checks the result and optimises it. When the module has a huge routine, sets `machine` to generate code
 /// without optimisation. Null and `error` when LLVM's verifier objects (our bug).
 std::unique_ptr<llvm::Module> compile(const ir::Module& module, const CodegenOptions& options,
                                       llvm::TargetMachine& machine, llvm::LLVMContext& context,
-                                      std::string& error);
+                                      std::string& error, const Part* part = nullptr);
 
 /// Machine code of a compiled module as the bytes of an object file, or its assembly.
 bool generate(llvm::Module& module, llvm::TargetMachine& machine, llvm::CodeGenFileType type,

@@ -41,12 +41,11 @@ void RoutineEmitter::noteStatement(const ir::Inst& inst) {
 
 void RoutineEmitter::call(const ir::Inst& inst, ir::ValueId id) {
     const ir::Routine& callee = module_.routines[inst.index];
-    llvm::Function* function = m_.routine(inst.index);
     std::vector<Value*> args{task_, frame_};
     for (ir::ValueId operandId : inst.operands)
         args.push_back(value(operandId));
     noteStatement(inst);
-    llvm::CallInst* result = b_.CreateCall(function, args);
+    llvm::CallInst* result = b_.CreateCall(m_.callee(b_, inst.index), args);
     result->setCallingConv(llvm::CallingConv::Fast);
     result->setDoesNotThrow();
     bool byValue = callee.result != ir::kVoid && module_.isScalar(callee.result);

@@ -9,14 +9,6 @@
 
 namespace codegen {
 
-namespace {
-
-llvm::GlobalVariable* placeholder(llvm::Module& module, llvm::Type* type, const std::string& name) {
-    return new llvm::GlobalVariable(module, type, true, llvm::GlobalValue::PrivateLinkage, nullptr, name);
-}
-
-} // namespace
-
 llvm::Constant* ModuleEmitter::i32(int64_t value) {
     return llvm::ConstantInt::getSigned(i32_, value);
 }
@@ -48,20 +40,33 @@ llvm::Constant* ModuleEmitter::fileName(uint32_t file) {
     return text(module_.files[file]);
 }
 
-void ModuleEmitter::declareTables() {
-    for (const ir::TypeDesc& desc : module_.typeDescs)
-        typeDescs_.push_back(
-            placeholder(*target_, abi::structType<rt::TypeDesc>(context_), "type." + desc.name));
-    for (const ir::Routine& routine : module_.routines)
-        routineDescs_.push_back(
-            placeholder(*target_, abi::structType<rt::RoutineDesc>(context_), "routine." + routine.name));
+llvm::GlobalVariable* ModuleEmitter::tableVariable(std::vector<llvm::GlobalVariable*>& known, uint32_t index,
+                                                   llvm::Type* type, const char* kind,
+                                                   const std::string& name) {
+    llvm::GlobalVariable*& variable = known[index];
+    if (variable) return variable;
+    variable = new llvm::GlobalVariable(
+        *target_, type, true, part_ ? llvm::GlobalValue::ExternalLinkage : llvm::GlobalValue::PrivateLinkage,
+        nullptr, part_ ? std::string(kind) + "#" + std::to_string(index) : std::string(kind) + "." + name);
+    if (part_ && !part_->callsBySlot) variable->setVisibility(llvm::GlobalValue::HiddenVisibility);
+    return variable;
+}
+
+llvm::GlobalVariable* ModuleEmitter::typeDesc(uint32_t index) {
+    return tableVariable(typeDescs_, index, abi::structType<rt::TypeDesc>(context_), "type",
+                         module_.typeDescs[index].name);
+}
+
+llvm::GlobalVariable* ModuleEmitter::routineDesc(uint32_t index) {
+    return tableVariable(routineDescs_, index, abi::structType<rt::RoutineDesc>(context_), "routine",
+                         module_.routines[index].name);
 }
 
 llvm::Constant* ModuleEmitter::typeDescValue(const ir::TypeDesc& desc) {
     const ir::Type& type = module_.type(desc.type);
     std::vector<llvm::Constant*> fields, names, offsets;
     for (uint32_t part : desc.fieldDescs)
-        fields.push_back(typeDescs_[part]);
+        fields.push_back(typeDesc(part));
     for (const std::string& name : desc.fieldNames)
         names.push_back(text(name));
     int64_t count = 0;
@@ -142,7 +147,7 @@ llvm::Constant* ModuleEmitter::routineDescValue(const ir::Routine& routine) {
     for (int32_t number : routine.errorFilter)
         filter.push_back(i32(number));
     for (uint32_t global : routine.errorFilterGlobals)
-        variables.push_back(globals_[global]);
+        variables.push_back(this->global(global));
     using Desc = rt::RoutineDesc;
     return abi::Row<Desc>(context_)
         .set<&Desc::name>(text(routine.displayName))
@@ -208,8 +213,8 @@ llvm::Constant* ModuleEmitter::dataRow(uint32_t number, const DataDeclaration& d
     return abi::Row<Desc>(context_)
         .set<&Desc::name>(text(declared.name))
         .set<&Desc::module>(text(declared.moduleName))
-        .set<&Desc::address>(globals_[number])
-        .set<&Desc::type>(typeDescs_[global.typeDesc])
+        .set<&Desc::address>(this->global(number))
+        .set<&Desc::type>(typeDesc(global.typeDesc))
         .set<&Desc::kind>(abi::kindOf(global.kind))
         .set<&Desc::flags>(global.flags)
         .set<&Desc::task>(taskNumber(declared.task))
@@ -249,7 +254,7 @@ llvm::Constant* ModuleEmitter::externals() {
         rows.push_back(abi::Row<Desc>(context_)
                            .set<&Desc::name>(text(external.name))
                            .set<&Desc::kind>(text(external.kind))
-                           .set<&Desc::slot>(globals_[external.global])
+                           .set<&Desc::slot>(global(external.global))
                            .set<&Desc::file>(fileName(external.file))
                            .set<&Desc::line>(external.line)
                            .set<&Desc::column>(external.column)
@@ -262,11 +267,11 @@ llvm::Constant* ModuleEmitter::null() {
 }
 
 llvm::Constant* ModuleEmitter::typeDescOrNull(uint32_t index) {
-    return index == ir::kNone ? null() : typeDescs_[index];
+    return index == ir::kNone ? null() : typeDesc(index);
 }
 
 llvm::Function* ModuleEmitter::entryOrNull(uint32_t routine) {
-    return routine == ir::kNone ? nullptr : cEntries_[routine];
+    return routine == ir::kNone ? nullptr : cEntry(routine);
 }
 
 int64_t ModuleEmitter::taskNumber(uint32_t task) const {
@@ -306,8 +311,8 @@ llvm::Constant* ModuleEmitter::routineRow(uint32_t index, const ir::NamedRoutine
         .set<&Desc::task>(taskOf(routine))
         .set<&Desc::kind>(abi::kindOf(named.kind))
         .set<&Desc::isLocal>(named.isLocal)
-        .set<&Desc::address>(cEntries_[index])
-        .set<&Desc::desc>(routineDescs_[index])
+        .set<&Desc::address>(cEntry(index))
+        .set<&Desc::desc>(routineDesc(index))
         .set<&Desc::late>(named.late ? emitLateEntry(named) : nullptr)
         .set<&Desc::params>(table<rt::ParamDesc>(params, "params"))
         .set<&Desc::paramCount>(params.size())
@@ -335,7 +340,7 @@ llvm::Constant* ModuleEmitter::moduleTable() {
                            .set<&Desc::name>(text(entry.name))
                            .set<&Desc::file>(fileName(entry.file))
                            .set<&Desc::task>(taskNumber(entry.task))
-                           .set<&Desc::gone>(entry.gone == ir::kNone ? null() : globals_[entry.gone])
+                           .set<&Desc::gone>(entry.gone == ir::kNone ? null() : global(entry.gone))
                            .finish());
     return table<Desc>(rows, "modules");
 }
@@ -348,7 +353,7 @@ llvm::Constant* ModuleEmitter::routineDataTable() {
                            .set<&Desc::name>(text(data.name))
                            .set<&Desc::module>(text(data.moduleName))
                            .set<&Desc::routine>(text(data.routine))
-                           .set<&Desc::type>(typeDescs_[data.typeDesc])
+                           .set<&Desc::type>(typeDesc(data.typeDesc))
                            .set<&Desc::task>(taskNumber(data.task))
                            .set<&Desc::kind>(abi::kindOf(data.kind))
                            .finish());
@@ -357,9 +362,9 @@ llvm::Constant* ModuleEmitter::routineDataTable() {
 
 void ModuleEmitter::emitTables() {
     for (uint32_t i = 0; i < module_.typeDescs.size(); ++i)
-        typeDescs_[i]->setInitializer(typeDescValue(module_.typeDescs[i]));
+        typeDesc(i)->setInitializer(typeDescValue(module_.typeDescs[i]));
     for (uint32_t i = 0; i < module_.routines.size(); ++i)
-        routineDescs_[i]->setInitializer(routineDescValue(module_.routines[i]));
+        routineDesc(i)->setInitializer(routineDescValue(module_.routines[i]));
     emitProgram();
 }
 
@@ -370,7 +375,7 @@ void ModuleEmitter::emitProgram() {
     llvm::Constant* routineRows = routineTable(routineCount);
     std::vector<llvm::Constant*> names, texts, types;
     for (uint32_t desc : module_.searchTypes)
-        types.push_back(typeDescs_[desc]);
+        types.push_back(typeDesc(desc));
     for (const std::string& name : module_.configNames)
         names.push_back(text(name));
     for (const std::string& config : module_.configTexts)

@@ -78,9 +78,23 @@ class DataImage {
 
 } // namespace
 
+std::string symbolOf(const ir::Module& module, uint32_t routine) {
+    return module.routines[routine].name + "#" + std::to_string(routine);
+}
+
 ModuleEmitter::ModuleEmitter(const ir::Module& module, const CodegenOptions& options,
-                             llvm::LLVMContext& context)
-    : module_(module), options_(options), context_(context) {}
+                             llvm::LLVMContext& context, const Part* part)
+    : module_(module), options_(options), context_(context), part_(part),
+      defined_(module.routines.size(), part == nullptr), copied_(module.routines.size(), false),
+      routines_(module.routines.size()), natives_(module.natives.size()), cEntries_(module.routines.size()),
+      globals_(module.globals.size()), typeDescs_(module.typeDescs.size()),
+      routineDescs_(module.routines.size()) {
+    if (part == nullptr) return;
+    for (const uint32_t index : part->routines)
+        defined_[index] = true;
+    for (const uint32_t index : part->copies)
+        copied_[index] = !defined_[index];
+}
 
 std::unique_ptr<llvm::Module> ModuleEmitter::run(const llvm::DataLayout& layout, const std::string& triple) {
     target_ = std::make_unique<llvm::Module>(module_.name, context_);
@@ -91,16 +105,17 @@ std::unique_ptr<llvm::Module> ModuleEmitter::run(const llvm::DataLayout& layout,
     if (options_.debugInfo) debug_ = std::make_unique<DebugInfo>(module_, *target_, options_.optimise);
     declareTypes();
     declareRuntime();
-    declareNatives();
-    declareGlobals();
-    declareRoutines();
-    declareTables();
+    findExported();
     emitSafepointSlow();
-    for (uint32_t i = 0; i < module_.routines.size(); ++i)
-        RoutineEmitter(*this, i).run();
-    for (uint32_t i = 0; i < module_.routines.size(); ++i)
-        if (cEntries_[i]) emitCEntry(i);
-    emitTables();
+    if (hasTables())
+        for (uint32_t i = 0; i < module_.globals.size(); ++i)
+            defineGlobal(i);
+    emitBodies();
+    if (hasTables()) {
+        for (uint32_t i = 0; i < module_.routines.size(); ++i)
+            if (exported_[i]) emitCEntry(i);
+        emitTables();
+    }
     if (debug_) debug_->finish();
     return std::move(target_);
 }
@@ -166,114 +181,176 @@ llvm::Constant* ModuleEmitter::initialValue(const ir::Global& global) {
     return llvm::ConstantDataArray::getRaw(image, image.size(), i8_);
 }
 
-void ModuleEmitter::declareGlobals() {
-    constexpr uint32_t kVectorAlign = 16;
-    for (const ir::Global& global : module_.globals) {
-        bool external = global.kind == ir::GlobalKind::External;
-        llvm::Constant* init = external ? nullptr : initialValue(global);
-        llvm::Type* type = init ? init->getType() : memoryType(global.type);
-        // Data of another unit may be absent: its address is null then.
-        auto linkage = external ? llvm::GlobalValue::ExternalWeakLinkage : llvm::GlobalValue::InternalLinkage;
-        auto* variable =
-            new llvm::GlobalVariable(*target_, type, global.kind == ir::GlobalKind::Const, linkage, init,
-                                     external ? global.name : internalName(global.name));
-        uint32_t align = module_.align(global.type);
-        if (!external && module_.size(global.type) >= kVectorAlign) align = kVectorAlign;
-        variable->setAlignment(llvm::Align(align));
-        if (!external) variable->setDSOLocal(true);
-        globals_.push_back(variable);
-    }
+llvm::GlobalVariable* ModuleEmitter::global(uint32_t index) {
+    constexpr uint32_t kVectorAlign = 16, kLargestKnown = 4096;
+    llvm::GlobalVariable*& variable = globals_[index];
+    if (variable) return variable;
+    const ir::Global& global = module_.globals[index];
+    const bool external = global.kind == ir::GlobalKind::External;
+    // The value of a constant of another part is known, too.
+    llvm::Constant* value =
+        global.kind == ir::GlobalKind::Const && !hasTables() && module_.size(global.type) <= kLargestKnown
+            ? initialValue(global)
+            : nullptr;
+    // Data of another unit may be absent: its address is null then.
+    auto linkage = external ? llvm::GlobalValue::ExternalWeakLinkage
+                   : value  ? llvm::GlobalValue::AvailableExternallyLinkage
+                   : part_  ? llvm::GlobalValue::ExternalLinkage
+                            : llvm::GlobalValue::InternalLinkage;
+    const std::string name = external ? global.name
+                             : part_  ? "data#" + std::to_string(index)
+                                      : internalName(global.name);
+    variable = new llvm::GlobalVariable(*target_, value ? value->getType() : memoryType(global.type),
+                                        global.kind == ir::GlobalKind::Const, linkage, value, name);
+    uint32_t align = module_.align(global.type);
+    if (!external && module_.size(global.type) >= kVectorAlign) align = kVectorAlign;
+    variable->setAlignment(llvm::Align(align));
+    if (!external && part_ && !part_->callsBySlot)
+        variable->setVisibility(llvm::GlobalValue::HiddenVisibility);
+    if (!external && !part_) variable->setDSOLocal(true);
+    return variable;
 }
 
-void ModuleEmitter::declareNatives() {
-    for (const ir::Native& native : module_.natives) {
-        bool constant = native.nativeClass == ir::NativeClass::Const;
-        std::vector<llvm::Type*> params;
-        if (!constant) params.push_back(ptr_);
-        if (!constant && native.result != ir::kVoid) params.push_back(ptr_);
-        size_t first = params.size();
-        for (ir::TypeId param : native.params)
-            params.push_back(memoryType(param));
-        llvm::Type* result = constant ? memoryType(native.result) : i32_;
-        auto* type = llvm::FunctionType::get(result, params, false);
-        auto* function =
-            llvm::cast<llvm::Function>(target_->getOrInsertFunction(native.symbol, type).getCallee());
-        function->setDoesNotThrow();
-        // LLVM must not fold calls by the host's mathematical library: results are those of the run-time library.
-        function->addFnAttr(llvm::Attribute::NoBuiltin);
-        if (constant) {
-            // Strings and records to be compared lie in memory: two calls with one address may differ.
-            if (std::find(native.params.begin(), native.params.end(), ir::kPtr) != native.params.end())
-                function->setOnlyReadsMemory();
-            else
-                function->setDoesNotAccessMemory();
-            function->setWillReturn();
-            if (native.result == ir::kBool) function->addRetAttr(llvm::Attribute::ZExt);
-        }
-        for (size_t i = 0; i < native.params.size(); ++i)
-            if (native.params[i] == ir::kBool)
-                function->addParamAttr(static_cast<unsigned>(first + i), llvm::Attribute::ZExt);
-        natives_.push_back(function);
+void ModuleEmitter::defineGlobal(uint32_t index) {
+    const ir::Global& source = module_.globals[index];
+    if (source.kind == ir::GlobalKind::External) {
+        global(index);
+        return;
     }
+    llvm::GlobalVariable* variable = global(index);
+    llvm::Constant* value = initialValue(source);
+    if (value->getType() != variable->getValueType()) {
+        auto* typed = new llvm::GlobalVariable(*target_, value->getType(), variable->isConstant(),
+                                               variable->getLinkage(), nullptr);
+        typed->copyAttributesFrom(variable);
+        typed->takeName(variable);
+        variable->replaceAllUsesWith(typed);
+        variable->eraseFromParent();
+        globals_[index] = variable = typed;
+    }
+    variable->setInitializer(value);
 }
 
-void ModuleEmitter::declareRoutines() {
-    for (const ir::Routine& routine : module_.routines) {
-        bool inMemory = !module_.isScalar(routine.result);
-        std::vector<llvm::Type*> params{ptr_, ptr_};
-        if (inMemory) params.push_back(ptr_);
-        for (const ir::Param& param : routine.params)
-            params.push_back(valueType(param.type));
-        llvm::Type* result = i32_;
-        if (!inMemory && routine.result != ir::kVoid)
-            result = llvm::StructType::get(context_, {i32_, valueType(routine.result)});
-        auto* function =
-            llvm::Function::Create(llvm::FunctionType::get(result, params, false),
-                                   llvm::Function::InternalLinkage, internalName(routine.name), *target_);
-        function->setCallingConv(llvm::CallingConv::Fast);
-        function->setDoesNotThrow();
-        function->addFnAttr(llvm::Attribute::MustProgress);
-        if (routine.insts.size() > kLargestInlined) function->addFnAttr(llvm::Attribute::NoInline);
-        function->addParamAttr(0, llvm::Attribute::NoAlias);
-        function->addParamAttr(0, llvm::Attribute::NonNull);
-        function->addDereferenceableParamAttr(0, sizeof(rt::TaskCore));
-        function->getArg(0)->setName("task");
-        function->getArg(1)->setName("caller");
-        if (inMemory) {
-            function->addParamAttr(2, llvm::Attribute::NonNull);
-            function->getArg(2)->setName("result");
-        }
-        routines_.push_back(function);
-        cEntries_.push_back(nullptr);
+llvm::Function* ModuleEmitter::nativeFunction(uint32_t index) {
+    llvm::Function*& function = natives_[index];
+    if (function) return function;
+    const ir::Native& native = module_.natives[index];
+    bool constant = native.nativeClass == ir::NativeClass::Const;
+    std::vector<llvm::Type*> params;
+    if (!constant) params.push_back(ptr_);
+    if (!constant && native.result != ir::kVoid) params.push_back(ptr_);
+    size_t first = params.size();
+    for (ir::TypeId param : native.params)
+        params.push_back(memoryType(param));
+    llvm::Type* result = constant ? memoryType(native.result) : i32_;
+    auto* type = llvm::FunctionType::get(result, params, false);
+    function = llvm::cast<llvm::Function>(target_->getOrInsertFunction(native.symbol, type).getCallee());
+    function->setDoesNotThrow();
+    // LLVM must not fold calls by the host's mathematical library: results are those of the run-time library.
+    function->addFnAttr(llvm::Attribute::NoBuiltin);
+    if (constant) {
+        // Strings and records to be compared lie in memory: two calls with one address may differ.
+        if (std::find(native.params.begin(), native.params.end(), ir::kPtr) != native.params.end())
+            function->setOnlyReadsMemory();
+        else
+            function->setDoesNotAccessMemory();
+        function->setWillReturn();
+        if (native.result == ir::kBool) function->addRetAttr(llvm::Attribute::ZExt);
     }
-    auto exportRoutine = [&](uint32_t index) {
-        if (index == ir::kNone || cEntries_[index]) return;
-        const ir::Routine& routine = module_.routines[index];
-        std::vector<llvm::Type*> params{ptr_, ptr_};
-        if (routine.result != ir::kVoid) params.push_back(ptr_);
-        for (const ir::Param& param : routine.params)
-            params.push_back(memoryType(param.type));
-        auto* function =
-            llvm::Function::Create(llvm::FunctionType::get(i32_, params, false),
-                                   llvm::Function::InternalLinkage, routine.name + "$entry", *target_);
-        function->setDoesNotThrow();
-        cEntries_[index] = function;
+    for (size_t i = 0; i < native.params.size(); ++i)
+        if (native.params[i] == ir::kBool)
+            function->addParamAttr(static_cast<unsigned>(first + i), llvm::Attribute::ZExt);
+    return function;
+}
+
+llvm::Function* ModuleEmitter::routine(uint32_t index) {
+    llvm::Function*& function = routines_[index];
+    if (function) return function;
+    const ir::Routine& routine = module_.routines[index];
+    bool inMemory = !module_.isScalar(routine.result);
+    std::vector<llvm::Type*> params{ptr_, ptr_};
+    if (inMemory) params.push_back(ptr_);
+    for (const ir::Param& param : routine.params)
+        params.push_back(valueType(param.type));
+    llvm::Type* result = i32_;
+    if (!inMemory && routine.result != ir::kVoid)
+        result = llvm::StructType::get(context_, {i32_, valueType(routine.result)});
+    const bool internal = !part_ || copied_[index];
+    function =
+        llvm::Function::Create(llvm::FunctionType::get(result, params, false),
+                               internal ? llvm::Function::InternalLinkage : llvm::Function::ExternalLinkage,
+                               internal ? internalName(routine.name) : symbolOf(module_, index), *target_);
+    if (!internal && !part_->callsBySlot) function->setVisibility(llvm::GlobalValue::HiddenVisibility);
+    function->setCallingConv(llvm::CallingConv::Fast);
+    function->setDoesNotThrow();
+    function->addFnAttr(llvm::Attribute::MustProgress);
+    if (routine.insts.size() > kLargestInlined) function->addFnAttr(llvm::Attribute::NoInline);
+    function->addParamAttr(0, llvm::Attribute::NoAlias);
+    function->addParamAttr(0, llvm::Attribute::NonNull);
+    function->addDereferenceableParamAttr(0, sizeof(rt::TaskCore));
+    function->getArg(0)->setName("task");
+    function->getArg(1)->setName("caller");
+    if (inMemory) {
+        function->addParamAttr(2, llvm::Attribute::NonNull);
+        function->getArg(2)->setName("result");
+    }
+    return function;
+}
+
+llvm::FunctionCallee ModuleEmitter::callee(llvm::IRBuilderBase& b, uint32_t index) {
+    llvm::Function* function = routine(index);
+    if (!part_ || !part_->callsBySlot || defined_[index] || copied_[index]) return function;
+    llvm::Constant* slots = target_->getOrInsertGlobal(kRoutineSlots, ptr_);
+    return {function->getFunctionType(),
+            b.CreateLoad(ptr_, b.CreateConstInBoundsGEP1_64(ptr_, slots, index), "routine")};
+}
+
+bool ModuleEmitter::countsCalls(uint32_t index) const {
+    return part_ && part_->countsCalls && defined_[index];
+}
+
+void ModuleEmitter::findExported() {
+    exported_.assign(module_.routines.size(), false);
+    const auto add = [&](uint32_t index) {
+        if (index != ir::kNone) exported_[index] = true;
     };
-    for (uint32_t i = 0; i < module_.routines.size(); ++i)
-        if (module_.routines[i].exported) exportRoutine(i);
-    for (const ir::Routine& routine : module_.routines)
-        exportRoutine(routine.detachedHandler);
-    for (const ir::TaskEntry& task : module_.tasks) {
-        exportRoutine(task.entry);
-        exportRoutine(task.reset);
+    for (uint32_t i = 0; i < module_.routines.size(); ++i) {
+        if (module_.routines[i].exported) add(i);
+        add(module_.routines[i].detachedHandler);
     }
-    exportRoutine(module_.unitReset);
+    for (const ir::TaskEntry& task : module_.tasks) {
+        add(task.entry);
+        add(task.reset);
+    }
+    add(module_.unitReset);
+}
+
+llvm::Function* ModuleEmitter::cEntry(uint32_t index) {
+    llvm::Function*& function = cEntries_[index];
+    if (function || !exported_[index]) return function;
+    const ir::Routine& routine = module_.routines[index];
+    std::vector<llvm::Type*> params{ptr_, ptr_};
+    if (routine.result != ir::kVoid) params.push_back(ptr_);
+    for (const ir::Param& param : routine.params)
+        params.push_back(memoryType(param.type));
+    function = llvm::Function::Create(
+        llvm::FunctionType::get(i32_, params, false),
+        part_ ? llvm::Function::ExternalLinkage : llvm::Function::InternalLinkage,
+        part_ ? "entry#" + symbolOf(module_, index) : routine.name + "$entry", *target_);
+    if (part_ && !part_->callsBySlot) function->setVisibility(llvm::GlobalValue::HiddenVisibility);
+    function->setDoesNotThrow();
+    return function;
+}
+
+void ModuleEmitter::emitBodies() {
+    for (uint32_t i = 0; i < module_.routines.size(); ++i)
+        if (defined_[i] || copied_[i]) RoutineEmitter(*this, i).run();
 }
 
 /// C entry: Bool travels as a byte, a scalar result through a pointer.
 void ModuleEmitter::emitCEntry(uint32_t index) {
     const ir::Routine& routine = module_.routines[index];
-    llvm::Function* entry = cEntries_[index];
+    llvm::Function* entry = cEntry(index);
     llvm::IRBuilder<> b(llvm::BasicBlock::Create(context_, "", entry));
     bool inMemory = !module_.isScalar(routine.result);
     bool byValue = !inMemory && routine.result != ir::kVoid;
@@ -286,7 +363,7 @@ void ModuleEmitter::emitCEntry(uint32_t index) {
         if (param.type == ir::kBool) value = b.CreateICmpNE(value, llvm::ConstantInt::get(i8_, 0));
         args.push_back(value);
     }
-    llvm::CallInst* call = b.CreateCall(routines_[index], args);
+    llvm::CallInst* call = b.CreateCall(callee(b, index), args);
     call->setCallingConv(llvm::CallingConv::Fast);
     // The entry has no line table of its own: a body inlined here would lose its lines.
     call->setIsNoInline();
@@ -304,7 +381,7 @@ void ModuleEmitter::emitCEntry(uint32_t index) {
 /// How the system starts a task: all parameters of the entry routine are optional and absent.
 llvm::Function* ModuleEmitter::emitStart(uint32_t index) {
     const ir::Routine& routine = module_.routines[index];
-    if (routine.params.empty()) return cEntries_[index];
+    if (routine.params.empty()) return cEntry(index);
     llvm::Function* start = abi::makeFunction<rt::EntryFunction>(*target_, llvm::Function::InternalLinkage,
                                                                  routine.name + "$start")
                                 .function();
@@ -313,7 +390,7 @@ llvm::Function* ModuleEmitter::emitStart(uint32_t index) {
     std::vector<llvm::Value*> args{start->getArg(0), start->getArg(1)};
     for (const ir::Param& param : routine.params)
         args.push_back(llvm::Constant::getNullValue(memoryType(param.type)));
-    b.CreateRet(b.CreateCall(cEntries_[index], args));
+    b.CreateRet(b.CreateCall(cEntry(index), args));
     return start;
 }
 
@@ -347,7 +424,7 @@ llvm::Function* ModuleEmitter::emitLateEntry(const ir::NamedRoutine& named) {
             ++next;
         }
     }
-    llvm::CallInst* call = b.CreateCall(cEntries_[named.routine], args);
+    llvm::CallInst* call = b.CreateCall(cEntry(named.routine), args);
     call->setIsNoInline();
     b.CreateRet(call);
     return late;

@@ -18,6 +18,23 @@
 
 namespace codegen {
 
+/// What one LLVM module contains of a program that is compiled in several.
+struct Part {
+    bool tables = false;            ///< data, tables, C entries
+    std::vector<uint32_t> routines; ///< that other parts call
+    std::vector<uint32_t> copies;   ///< of routines of other parts, to be inlined
+    bool countsCalls = false;       ///< in memory only: of `routines`, in the table kCallCounts
+    bool callsBySlot = false; ///< in memory only: other parts are reached through the table kRoutineSlots
+};
+/// Table of the present addresses of all routines, and that of their countdowns (int32_t): the call that brings one to 0
+/// reports the routine to kRoutineIsHot(program, uint32_t).
+inline constexpr const char* kRoutineSlots = "rapidc.slots";
+inline constexpr const char* kCallCounts = "rapidc.counts";
+inline constexpr const char* kRoutineIsHot = "rapidc.hot";
+inline constexpr const char* kThisProgram = "rapidc.this"; ///< its first argument
+/// Symbol of a routine that other parts call.
+std::string symbolOf(const ir::Module& module, uint32_t routine);
+
 /// Metadata that keeps accesses to program data, to the task and to frame records apart.
 struct AccessTags {
     llvm::MDNode* data[8] = {}; ///< by scalar TypeId
@@ -51,7 +68,9 @@ std::vector<uint32_t> addressedLocals(const ir::Routine& routine);
 
 class ModuleEmitter {
   public:
-    ModuleEmitter(const ir::Module& module, const CodegenOptions& options, llvm::LLVMContext& context);
+    /// `part`: null for the whole program.
+    ModuleEmitter(const ir::Module& module, const CodegenOptions& options, llvm::LLVMContext& context,
+                  const Part* part = nullptr);
     std::unique_ptr<llvm::Module> run(const llvm::DataLayout& layout, const std::string& triple);
 
     const ir::Module& source() const { return module_; }
@@ -69,21 +88,26 @@ class ModuleEmitter {
         return unlikely_;
     } ///< weights of a branch whose first target is the usual one
 
-    llvm::Function* routine(uint32_t index) { return routines_[index]; }
-    llvm::Function* nativeFunction(uint32_t index) { return natives_[index]; }
-    llvm::Constant* global(uint32_t index) { return globals_[index]; }
-    llvm::Constant* typeDesc(uint32_t index) { return typeDescs_[index]; }
-    llvm::Constant* routineDesc(uint32_t index) { return routineDescs_[index]; }
+    // Declared when they are used first.
+    llvm::Function* routine(uint32_t index);
+    llvm::Function* nativeFunction(uint32_t index);
+    llvm::GlobalVariable* global(uint32_t index);
+    llvm::GlobalVariable* typeDesc(uint32_t index);
+    llvm::GlobalVariable* routineDesc(uint32_t index);
     /// The entry with the C calling convention of an exported routine.
-    llvm::Function* cEntry(uint32_t index) { return cEntries_[index]; }
+    llvm::Function* cEntry(uint32_t index);
+    /// What a call of the routine at the place of the builder calls.
+    llvm::FunctionCallee callee(llvm::IRBuilderBase& b, uint32_t index);
+    bool countsCalls(uint32_t index) const;
 
   private:
     // module_emitter.cpp
     void declareTypes();
     void declareRuntime();
-    void declareGlobals();
-    void declareNatives();
-    void declareRoutines();
+    bool hasTables() const { return part_ == nullptr || part_->tables; }
+    void defineGlobal(uint32_t index);
+    void findExported();
+    void emitBodies();
     void emitSafepointSlow();
     void emitCEntry(uint32_t index);
     llvm::Function* emitStart(uint32_t index);
@@ -91,7 +115,8 @@ class ModuleEmitter {
     llvm::Function* emitLateEntry(const ir::NamedRoutine& named);
     llvm::Constant* initialValue(const ir::Global& global);
     // emit_tables.cpp
-    void declareTables();
+    llvm::GlobalVariable* tableVariable(std::vector<llvm::GlobalVariable*>& known, uint32_t index,
+                                        llvm::Type* type, const char* kind, const std::string& name);
     void emitTables();
     llvm::Constant* text(const std::string& value);
     llvm::Constant* constant(llvm::Constant* value, const std::string& name);
@@ -135,6 +160,8 @@ class ModuleEmitter {
     const ir::Module& module_;
     const CodegenOptions& options_;
     llvm::LLVMContext& context_;
+    const Part* part_;
+    std::vector<bool> defined_, copied_, exported_; ///< routines, by index; those of `part_`
     std::unique_ptr<llvm::Module> target_;
     std::unique_ptr<DebugInfo> debug_;
     AccessTags tags_;

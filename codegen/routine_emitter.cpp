@@ -15,7 +15,7 @@ constexpr uint64_t kLargeLocal = 4096;
 } // namespace
 
 RoutineEmitter::RoutineEmitter(ModuleEmitter& module, uint32_t index)
-    : m_(module), module_(module.source()), routine_(module_.routines[index]),
+    : m_(module), module_(module.source()), index_(index), routine_(module_.routines[index]),
       function_(module.routine(index)), desc_(module.routineDesc(index)), b_(module.context()) {}
 
 RoutineEmitter::~RoutineEmitter() = default;
@@ -29,6 +29,7 @@ void RoutineEmitter::run() {
     b_.SetInsertPoint(entry);
     if (m_.debug()) b_.SetCurrentDebugLocation(m_.debug()->location(routine_, ir::kNone));
     allocate();
+    if (m_.countsCalls(index_)) countCall();
     prologue();
     b_.CreateBr(blocks_[0]);
     // Reverse postorder: definitions are met before their uses in other blocks.
@@ -40,6 +41,22 @@ void RoutineEmitter::run() {
         b_.CreateUnreachable();
     }
     emitErrorBlocks();
+}
+
+/// The call that brings the countdown to 0 orders better code for the calls to come.
+void RoutineEmitter::countCall() {
+    llvm::Module& target = m_.target();
+    llvm::Type* i32 = b_.getInt32Ty();
+    Value* counter = b_.CreateConstInBoundsGEP1_64(i32, target.getOrInsertGlobal(kCallCounts, i32), index_);
+    Value* left = b_.CreateSub(b_.CreateLoad(i32, counter), b_.getInt32(1));
+    b_.CreateStore(left, counter);
+    BasicBlock *hot = newBlock("hot"), *go = newBlock("counted");
+    b_.CreateCondBr(b_.CreateICmpNE(left, b_.getInt32(0)), go, hot, m_.unlikely());
+    b_.SetInsertPoint(hot);
+    b_.CreateCall(target.getOrInsertFunction(kRoutineIsHot, b_.getVoidTy(), b_.getPtrTy(), i32),
+                  {target.getOrInsertGlobal(kThisProgram, b_.getInt8Ty()), b_.getInt32(index_)});
+    b_.CreateBr(go);
+    b_.SetInsertPoint(go);
 }
 
 bool RoutineEmitter::needsFrame(const ir::Inst& inst) const {

@@ -35,6 +35,7 @@ class RoutineEmitter {
     bool needsFrame(const ir::Inst& inst) const;
     void findFrameBlock();
     void allocate();
+    void countCall();
     void prologue();
     void enterFrame();
     void fillFrame();
@@ -157,6 +158,7 @@ class RoutineEmitter {
 
     ModuleEmitter& m_;
     const ir::Module& module_;
+    uint32_t index_;
     const ir::Routine& routine_;
     llvm::Function* function_;
     llvm::Constant* desc_;

@@ -42,6 +42,7 @@ struct RunSettings {
     bool stepping = false;    ///< compile for the stepping profile
     bool noStepping = false;  ///< not even for --state
     bool interactive = false; ///< --step
+    bool inParts = false;     ///< compile each routine when it is called, as in large programs
 };
 
 /// A folder may hold the stimulus its program is meant to be run with.
@@ -167,7 +168,8 @@ int run(RunSettings& settings) {
                                    settings.stepping, module);
     printDiagnostics(*compilation);
     if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
-    const codegen::CodegenOptions options = codegenOptions(!settings.noOptimise);
+    codegen::CodegenOptions options = codegenOptions(!settings.noOptimise);
+    if (settings.inParts) options.lazyAbove = 0;
     const std::vector<codegen::NativeSymbol> natives = nativeSymbols();
     const auto program = codegen::jit(module, options, natives, error);
     if (!program) {
@@ -219,6 +221,10 @@ void addRunCommand(CLI::App& app, int& status) {
             "With --state: fast code, but a program that is interrupted begins at main in the next run")
         ->excludes(stepping);
     command->add_flag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
+    command
+        ->add_flag("--in-parts", settings->inParts,
+                   "Compile each routine when it is called first, also in a small program")
+        ->group(""); // for tests
     command->callback([settings, &status] { status = run(*settings); });
 }
 

@@ -1,0 +1,246 @@
+// In-memory compilation of large programs: data and tables at once, a routine when it is called first. All calls between
+// parts go through a table of addresses, which at first name trampolines that order the routine. A routine without loops gets quick code
+// that counts its calls; one with loops, or one that is called often, optimised code with what it calls compiled into it.
+// A thread of its own compiles, because tasks run on small stacks, and better code is made while the program goes on.
+// Results do not depend on which code runs.
+
+#include <llvm/ADT/SmallVector.h>
+#include <llvm/ExecutionEngine/Orc/IndirectionUtils.h>
+#include <llvm/ExecutionEngine/Orc/OrcABISupport.h>
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <cstdio>
+#include <cstdlib>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "codegen/compile.h"
+#include "codegen/module_emitter.h"
+#include "codegen/orc_session.h"
+#include "ir/core/cfg.h"
+#include "ir/core/ir.h"
+
+namespace codegen {
+namespace {
+
+#if defined(__aarch64__)
+using ReentryAbi = llvm::orc::OrcAArch64;
+#else
+using ReentryAbi = llvm::orc::OrcX86_64_SysV;
+#endif
+
+/// Calls after which quick code is replaced.
+constexpr int32_t kHotCalls = 200;
+/// IR instructions of the routines that are compiled into another one, together and each.
+constexpr size_t kMostCopied = 1500, kLargestCopied = 400;
+
+bool hasLoop(const ir::Module& module, const ir::Routine& routine) {
+    const ir::Cfg cfg = ir::buildCfg(module, routine, ir::HandlerEdges::Yes);
+    const ir::LoopInfo loops = ir::findLoops(cfg);
+    return !loops.loops.empty() || !loops.irreducible.empty();
+}
+
+class LazyProgram : public JitProgram {
+  public:
+    LazyProgram(const ir::Module& module, const CodegenOptions& options)
+        : module_(module), options_(options), slots_(module.routines.size()),
+          counts_(module.routines.size(), kHotCalls), quality_(module.routines.size(), Quality::None) {
+        options_.debugInfo = false; // it would take longer than the code
+    }
+
+    ~LazyProgram() override {
+        {
+            const std::lock_guard lock(mutex_);
+            ended_ = true;
+        }
+        changed_.notify_all();
+        if (compiler_.joinable()) compiler_.join();
+    }
+
+    const rt::ProgramDesc* program() const override { return program_; }
+
+    bool load(const std::vector<NativeSymbol>& symbols, std::string& error) {
+        auto machine = makeTargetMachine(quick(), error);
+        if (!machine || !session_.open(machine->createDataLayout(), false, error)) return false;
+        std::vector<NativeSymbol> known = symbols;
+        known.push_back({kRoutineSlots, slots_.data()});
+        known.push_back({kCallCounts, counts_.data()});
+        known.push_back({kRoutineIsHot, reinterpret_cast<const void*>(&LazyProgram::isHot)});
+        known.push_back({kThisProgram, this});
+        if (!session_.define(known, error) || !makeTrampolines(error)) return false;
+        Part tables;
+        tables.tables = tables.callsBySlot = true;
+        auto object = objectOf(tables, quick(), error);
+        if (!object || !session_.addShared(std::move(object), error)) return false;
+        program_ = static_cast<const rt::ProgramDesc*>(session_.find(kProgramSymbol, error));
+        if (!program_) return false;
+        compiler_ = std::thread([this] { compileOrders(); });
+        return true;
+    }
+
+  private:
+    enum class Quality : uint8_t { None, Quick, Optimised };
+
+    struct Order {
+        uint32_t routine;
+        Quality quality;
+    };
+
+    CodegenOptions quick() const {
+        CodegenOptions options = options_;
+        options.optimise = false;
+        return options;
+    }
+
+    bool makeTrampolines(std::string& error) {
+        auto pool = llvm::orc::LocalTrampolinePool<ReentryAbi>::Create(
+            [this](llvm::orc::ExecutorAddr trampoline, const auto& landed) {
+                landed(llvm::orc::ExecutorAddr::fromPtr(obtain(byTrampoline_.at(trampoline.getValue()))));
+            });
+        if (!pool) return take(pool.takeError(), error);
+        trampolines_ = std::move(*pool);
+        for (uint32_t i = 0; i < slots_.size(); ++i) {
+            auto trampoline = trampolines_->getTrampoline();
+            if (!trampoline) return take(trampoline.takeError(), error);
+            byTrampoline_.emplace(trampoline->getValue(), i);
+            slots_[i] = trampoline->toPtr<void*>();
+        }
+        return true;
+    }
+
+    /// Called by a trampoline, on the stack of a task: waits until the routine is compiled.
+    void* obtain(uint32_t routine) {
+        std::unique_lock lock(mutex_);
+        if (quality_[routine] == Quality::None) {
+            orders_.push_front({routine, Quality::Quick});
+            changed_.notify_all();
+            changed_.wait(lock, [&] { return quality_[routine] != Quality::None; });
+        }
+        return slots_[routine].load();
+    }
+
+    /// Called by quick code.
+    static void isHot(LazyProgram* program, uint32_t routine) {
+        const std::lock_guard lock(program->mutex_);
+        program->orders_.push_back({routine, Quality::Optimised});
+        program->changed_.notify_all();
+    }
+
+    void compileOrders() {
+        std::unique_lock lock(mutex_);
+        while (true) {
+            changed_.wait(lock, [&] { return ended_ || !orders_.empty(); });
+            if (ended_) return;
+            const Order order = orders_.front();
+            orders_.pop_front();
+            if (quality_[order.routine] >= order.quality) continue;
+            lock.unlock();
+            const Quality made = compileRoutine(order);
+            lock.lock();
+            quality_[order.routine] = made;
+            changed_.notify_all();
+        }
+    }
+
+    Quality compileRoutine(const Order& order) {
+        const ir::Routine& routine = module_.routines[order.routine];
+        const bool optimise =
+            options_.optimise && (order.quality == Quality::Optimised || hasLoop(module_, routine));
+        Part part;
+        part.callsBySlot = true;
+        part.routines = {order.routine};
+        part.countsCalls = options_.optimise && !optimise;
+        if (optimise) part.copies = inlinedInto(order.routine);
+        std::string error;
+        auto object = objectOf(part, optimise ? options_ : quick(), error);
+        const void* address =
+            object ? session_.addPrivate(std::move(object), symbolOf(module_, order.routine), error)
+                   : nullptr;
+        if (!address) {
+            // The program is in the middle of a call that cannot be carried out.
+            std::fprintf(stderr, "rapidc: internal error: %s cannot be compiled: %s\n", routine.name.c_str(),
+                         error.c_str());
+            std::_Exit(kInternalError);
+        }
+        slots_[order.routine].store(const_cast<void*>(address));
+        return optimise ? Quality::Optimised : Quality::Quick;
+    }
+
+    /// Small routines that it calls, and those that they call.
+    std::vector<uint32_t> inlinedInto(uint32_t routine) const {
+        std::vector<uint32_t> found;
+        size_t size = 0;
+        for (size_t next = 0; next <= found.size(); ++next) {
+            for (const ir::Inst& inst : module_.routines[next == 0 ? routine : found[next - 1]].insts) {
+                if (inst.op != ir::Op::Call || inst.index == routine ||
+                    std::find(found.begin(), found.end(), inst.index) != found.end())
+                    continue;
+                const size_t more = module_.routines[inst.index].insts.size();
+                if (more > kLargestCopied || size + more > kMostCopied) continue;
+                size += more;
+                found.push_back(inst.index);
+            }
+        }
+        return found;
+    }
+
+    std::unique_ptr<llvm::MemoryBuffer> objectOf(const Part& part, const CodegenOptions& options,
+                                                 std::string& error) const {
+        auto machine = makeTargetMachine(options, error);
+        if (!machine) return nullptr;
+        llvm::LLVMContext context;
+        auto compiled = compile(module_, options, *machine, context, error, &part);
+        llvm::SmallVector<char, 0> bytes;
+        if (!compiled || !generate(*compiled, *machine, llvm::CodeGenFileType::ObjectFile, bytes, error))
+            return nullptr;
+        return llvm::MemoryBuffer::getMemBufferCopy(llvm::StringRef(bytes.data(), bytes.size()),
+                                                    module_.name);
+    }
+
+    static constexpr int kInternalError = 2;
+
+    const ir::Module& module_;
+    CodegenOptions options_;
+    OrcSession session_;
+    std::vector<std::atomic<void*>> slots_;
+    std::vector<int32_t> counts_;
+    std::unique_ptr<llvm::orc::LocalTrampolinePool<ReentryAbi>> trampolines_;
+    std::unordered_map<uint64_t, uint32_t> byTrampoline_;
+    const rt::ProgramDesc* program_ = nullptr;
+    std::mutex mutex_; ///< of what follows
+    std::condition_variable changed_;
+    std::vector<Quality> quality_;
+    std::deque<Order> orders_;
+    bool ended_ = false;
+    std::thread compiler_;
+};
+
+static_assert(sizeof(std::atomic<void*>) == sizeof(void*) && std::atomic<void*>::is_always_lock_free);
+
+} // namespace
+
+std::unique_ptr<JitProgram> lazyJit(const ir::Module& module, const CodegenOptions& options,
+                                    const std::vector<NativeSymbol>& symbols, std::string& error) {
+    const SymbolTable table = tableOf(symbols);
+    std::vector<std::string> missing;
+    std::vector<NativeSymbol> present;
+    for (const NativeSymbol& symbol : symbols)
+        if (symbol.address) present.push_back(symbol);
+    for (const ir::Native& native : module.natives) {
+        const auto found = table.find(native.symbol);
+        if ((found == table.end() || !found->second) && native.symbol.starts_with("rt_"))
+            missing.push_back(native.symbol);
+    }
+    if (!missing.empty()) {
+        error = notImplemented(missing);
+        return nullptr;
+    }
+    auto program = std::make_unique<LazyProgram>(module, options);
+    if (!program->load(present, error)) return nullptr;
+    return program;
+}
+
+} // namespace codegen
