@@ -164,7 +164,7 @@ class ProgramTest:
         expected_status = int(directives.get("exit", "0"))
         timeout = float(directives.get("timeout", "30"))
         problems = []
-        for mode in directives.get("modes", "jit aot step").split():
+        for mode in directives.get("modes", "jit parts aot step").split():
             if mode not in context.modes:
                 continue
             outputs = {".signals": os.path.join(scratch, mode + ".signals.csv"),
@@ -174,8 +174,8 @@ class ProgramTest:
                 extra.append("--signals=" + outputs[".signals"])
             if self.expectation(".events"):
                 extra.append("--events=" + outputs[".events"])
-            if mode in ("jit", "step"):
-                profile = ["--stepping"] if mode == "step" else []
+            if mode in ("jit", "parts", "step"):
+                profile = {"step": ["--stepping"], "parts": ["--in-parts"]}.get(mode, [])
                 command = [context.rapidc, "run", *profile, *inputs, *compile_options, *run_options, *extra]
             elif mode == "aot":
                 program = os.path.join(scratch, "program")

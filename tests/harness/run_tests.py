@@ -81,7 +81,7 @@ def main():
     parser.add_argument("--write-ctest", metavar="FILE", help="write a ctest file that registers all tests")
     parser.add_argument("--one", help="run exactly this test")
     parser.add_argument("--update", action="store_true", help="rewrite expected output")
-    parser.add_argument("--modes", default="jit aot step", help="modes of running programs")
+    parser.add_argument("--modes", default="jit parts aot step", help="modes of running programs")
     parser.add_argument("-j", type=int, default=os.cpu_count() or 2)
     options = parser.parse_args()
 
