@@ -38,6 +38,8 @@ LAYERS = {
     "runtime/io": ["runtime/", "config"],
     "runtime/sched": ["runtime/"],
     "runtime/sim": ["runtime/"],
+    "runtime/base": ["config"],
+    "runtime/program": ["runtime/abi", "runtime/base"],
     "runtime/value": ["runtime/abi"],
     "runtime/debug": ["runtime/"],
     "runtime/host": ["runtime/", "stdlib", "config"],

@@ -2,8 +2,8 @@
 
 #include "runtime/debug/debugger.h"
 
+#include "runtime/base/text_util.h"
 #include "runtime/host/controller.h"
-#include "runtime/io/text_util.h"
 #include "runtime/sched/error_search.h"
 #include "runtime/sched/interrupts.h"
 

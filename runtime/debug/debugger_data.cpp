@@ -1,8 +1,8 @@
 // The call chain and the data of a stopped program.
 
+#include "runtime/base/text_util.h"
 #include "runtime/debug/debugger.h"
 #include "runtime/host/controller.h"
-#include "runtime/io/text_util.h"
 #include "runtime/sched/error_search.h"
 #include "runtime/sched/interrupts.h"
 

@@ -1,8 +1,8 @@
 #include "runtime/debug/reentry.h"
 
+#include "runtime/base/text_util.h"
 #include "runtime/host/controller.h"
 #include "runtime/host/state_keepers.h"
-#include "runtime/io/text_util.h"
 
 #include <fmt/format.h>
 

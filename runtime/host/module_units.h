@@ -2,7 +2,7 @@
 // Modules that come and go while a program runs: who compiles them, and what the controller does with them.
 
 #include "runtime/host/module_loader.h"
-#include "runtime/host/program_tables.h"
+#include "runtime/program/program_tables.h"
 #include "runtime/sched/task.h"
 
 #include <map>

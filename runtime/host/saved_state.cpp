@@ -3,10 +3,10 @@
 #include "config/atomic_file.h"
 #include "config/read_file.h"
 #include "config/temporary.h"
+#include "runtime/base/text_util.h"
 #include "runtime/host/controller.h"
 #include "runtime/host/run_files.h"
 #include "runtime/host/state_keepers.h"
-#include "runtime/io/text_util.h"
 #include "runtime/value/value_text.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "runtime/host/unit_loader.h"
 
-#include "runtime/host/program_tables.h"
+#include "runtime/program/program_tables.h"
 #include "stdlib/native_table.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 // Event: one entry of the event log.
 
+#include "runtime/base/time.h"
 #include "runtime/sched/task.h"
-#include "runtime/sched/time.h"
 
 #include <cstdint>
 #include <string>

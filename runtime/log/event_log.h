@@ -4,7 +4,7 @@
 // event_texts.def.
 
 #include "runtime/abi/rt_abi.h"
-#include "runtime/io/output_file.h"
+#include "runtime/base/output_file.h"
 #include "runtime/log/event.h"
 #include "runtime/log/event_output.h"
 

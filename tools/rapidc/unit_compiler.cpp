@@ -2,7 +2,7 @@
 
 #include "codegen/codegen.h"
 #include "ir/lower/lower.h"
-#include "runtime/host/program_tables.h"
+#include "runtime/program/program_tables.h"
 #include "stdlib/native_table.h"
 
 #include <algorithm>

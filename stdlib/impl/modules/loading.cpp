@@ -2,11 +2,11 @@
 
 #include "stdlib/impl/modules/loading.h"
 
+#include "runtime/base/text_util.h"
 #include "runtime/host/module_saver.h"
 #include "runtime/host/module_units.h"
 #include "runtime/host/rapidc_compiler.h"
 #include "runtime/host/unit_loader.h"
-#include "runtime/io/text_util.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib_constants.h"
