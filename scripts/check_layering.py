@@ -29,7 +29,7 @@ LAYERS = {
     "ir/lower": ["ir/core", "ir/text", "ir/verify", "ir/passes", "frontend/", "runtime/abi"],
     # code generation and the runtime share the C layout of runtime/abi and nothing else
     "codegen": ["ir/core", "ir/text", "ir/verify", "ir/passes", "runtime/abi"],
-    # the headers of runtime/abi stand alone (codegen includes them); see also ABI_SOURCES
+    # the headers of runtime/abi stand alone (codegen includes them)
     "runtime/abi": [],
     "runtime/robot": [],
     "runtime/motion": ["runtime/robot"],
@@ -49,9 +49,6 @@ LAYERS = {
     "tools": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/"],
     "tests": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools"],
 }
-
-# What compiled code calls is implemented beside its header, and may know the controller.
-ABI_SOURCES = re.compile(r"^runtime/abi/.*\.cpp$")
 
 # Third-party headers and the only layers that may see them.
 RESTRICTED = [
@@ -117,8 +114,6 @@ def check_includes(path, lines, errors):
         target_layer = layer_of(target)
         if target_layer is None:
             errors.append(f'{path}:{number}: "{name}" is in no layer')
-        elif ABI_SOURCES.match(path) and target.startswith("runtime/"):
-            continue
         elif not allowed(layer, target_layer):
             errors.append(f'{path}:{number}: {layer} may not include {target_layer} ("{name}")')
 
