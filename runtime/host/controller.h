@@ -132,6 +132,8 @@ class Controller final : public TaskHost {
     void taskExited(Task& task) override;
     void eventRoutinesEnded(Task& task, SystemEvent event) override;
     void programReset(Task& task) override;
+    /// Variables of loaded modules, too; modules loaded with \Dynamic leave memory.
+    Status resetUnits(Task& task) override;
     int retryLimit() const override { return settings_.noOfRetry; }
     /// NORMAL tasks stop; when a STATIC or SEMISTATIC task failed, its TrustLevel decides (manual 1.20).
     void taskFailed(Task& task) override;

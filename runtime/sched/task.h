@@ -118,6 +118,8 @@ class TaskHost {
     virtual void taskStopped(Task&) {}
     /// The variables of the task have got their initial values because its program begins anew.
     virtual void programReset(Task&) {}
+    /// Module data outside the program the task was made from (modules loaded later) get their initial values, too.
+    virtual Status resetUnits(Task&) { return kOk; }
     /// The routines of this event have ended or were unwound.
     virtual void eventRoutinesEnded(Task&, SystemEvent) {}
     /// The task executed EXIT and will not go on by itself.
