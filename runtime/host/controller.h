@@ -174,7 +174,7 @@ class Controller final : public TaskHost {
     Scheduler scheduler_;
     IoSystem io_;
     SystemSignals systemSignals_{*this};
-    OperatorPanel panel_{*this};
+    OperatorPanel panel_{log_};
     HomeFolder home_;
     std::unique_ptr<MotionDriver> motion_;
     std::unique_ptr<TraceWriter> trace_;
