@@ -4,6 +4,7 @@
 
 #include "runtime/abi/rt_abi.h"
 #include "runtime/debug/debugger.h"
+#include "runtime/debug/state_keepers.h"
 #include "runtime/host/clock_object.h"
 #include "runtime/host/handle_table.h"
 #include "runtime/host/home_folder.h"
@@ -40,7 +41,7 @@ struct SystemSettings {
     int noOfRetry = 4; ///< SYS_MISC NoOfRetry
 };
 
-class Controller final : public TaskHost {
+class Controller final : public DebugHost {
   public:
     explicit Controller(const RunOptions& options);
     ~Controller();
@@ -55,6 +56,7 @@ class Controller final : public TaskHost {
     HomeFolder& home() { return home_; }
     /// Present as soon as prepare() succeeded.
     MotionDriver& motion() { return *motion_; }
+    SteppedArm& arm() override { return *motion_; }
     HandleTable<ClockObject>& clocks() { return clocks_; }
     Debugger& debugger() { return debugger_; }
     ModuleSaver& saver() { return *saver_; }
@@ -81,17 +83,19 @@ class Controller final : public TaskHost {
     }
 
     // ---- Program ------------------------------------------------------------------------------------------
-    const ProgramDesc& program() const { return *program_; }
+    const ProgramDesc& program() const override { return *program_; }
     /// Everything in program memory, modules loaded at run time included.
     ProgramTables& tables() { return tables_; }
-    const ProgramTables& tables() const { return tables_; }
-    const std::vector<std::unique_ptr<Task>>& tasks() const { return tasks_; }
+    const ProgramTables& tables() const override { return tables_; }
+    const std::vector<std::unique_ptr<Task>>& tasks() const override { return tasks_; }
     /// Without regard to case; null when there is none.
     Task* findTask(std::string_view name);
     /// Module data visible in the task: its own, then shared; `module` may be empty. Null when there is none.
-    const GlobalDesc* findGlobal(std::string_view name, std::string_view module, const Task& task) const;
+    const GlobalDesc* findGlobal(std::string_view name, std::string_view module,
+                                 const Task& task) const override;
     /// Routine for late binding; `module` may be empty.
-    const RoutineEntry* findRoutine(std::string_view name, std::string_view module, const Task& task) const;
+    const RoutineEntry* findRoutine(std::string_view name, std::string_view module,
+                                    const Task& task) const override;
 
     /// Reads configuration, robot, HOME:, stimulus; opens output files; makes the tasks; connects what the
     /// program names. Problems are written to stderr. Ended when all is well.
@@ -113,11 +117,12 @@ class Controller final : public TaskHost {
     void actionPowerOn();
     void actionStart();
     /// Refused with an event unless the program is stopped.
-    void actionPpToMain();
+    void actionPpToMain() override;
     void actionStep(bool forward);
 
     /// The stopped task is about to execute continuously: START at main, else RESTART becomes due.
-    void oweStart(Task& task);
+    void oweStart(Task& task) override;
+    const StateKeepers& stateKeepers() override { return service<StateKeepers>(); }
 
     /// A NORMAL task was stopped by an error, or a background task stopped the NORMAL tasks.
     bool stoppedByError() const;

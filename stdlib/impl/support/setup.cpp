@@ -7,7 +7,7 @@
 #include "stdlib/impl/time/clocks.h"
 #include "stdlib/native_table.h"
 
-#include "runtime/host/state_keepers.h"
+#include "runtime/debug/state_keepers.h"
 
 namespace rt {
 
