@@ -42,7 +42,7 @@ LAYERS = {
     "runtime/program": ["runtime/abi", "runtime/base"],
     "runtime/value": ["runtime/abi"],
     "runtime/debug": ["runtime/"],
-    "runtime/host": ["runtime/", "stdlib", "config"],
+    "runtime/host": ["runtime/", "config"],
     "stdlib/gen": ["frontend/", "ir/core", "runtime/abi"],
     "stdlib/impl": ["runtime/", "stdlib"],
     "stdlib": ["runtime/abi"],

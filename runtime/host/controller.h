@@ -213,8 +213,4 @@ using ControllerSetup = void (*)(Controller&);
 /// was asked for. Returns the exit status of the process (see ExitStatus). `setup` may be null.
 int runProgram(const ProgramDesc& program, const RunOptions& options, ControllerSetup setup);
 
-/// Supplied by the standard library: tells the event log the names of the errors. Executables pass it to
-/// runProgram.
-void setUpStandardLibrary(Controller& controller);
-
 } // namespace rt

@@ -5,6 +5,7 @@
 #include "ir/passes/passes.h"
 #include "runtime/host/controller.h"
 #include "stdlib/native_table.h"
+#include "stdlib/standard_library.h"
 #include "stdlib/stdlib_text.h"
 #include "tests/fuzz/fuzz_support.h"
 

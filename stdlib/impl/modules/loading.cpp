@@ -8,6 +8,7 @@
 #include "runtime/host/rapidc_compiler.h"
 #include "runtime/host/unit_loader.h"
 #include "stdlib/impl/support/fail.h"
+#include "stdlib/native_table.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
@@ -76,7 +77,8 @@ std::string joined(const std::vector<std::string>& lines) {
 
 /// In a built executable the installed rapidc compiles.
 struct RapidcLoader {
-    RapidcLoader(std::string_view sources, const IoSystem& io) : compiler(sources, io), loader(compiler) {}
+    RapidcLoader(std::string_view sources, const IoSystem& io)
+        : compiler(sources, io), loader(compiler, findNativeAddress) {}
     RapidcCompiler compiler;
     UnitLoader loader;
 };

@@ -6,6 +6,7 @@
 #include "stdlib/impl/queues/message_queue.h"
 #include "stdlib/impl/time/clocks.h"
 #include "stdlib/native_table.h"
+#include "stdlib/standard_library.h"
 
 #include "runtime/debug/state_keepers.h"
 
