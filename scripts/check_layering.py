@@ -9,47 +9,51 @@ import os
 import re
 import sys
 
-# Layer of a file = the longest of these prefixes. The value lists the layers it may include besides itself.
+# Layer of a file = the longest of these prefixes. The value lists the layers it may include besides itself; all of them
+# stand further up in this table (check_table), so that no two layers need each other.
 LAYERS = {
+    # configuration text: needed by the front end and by the runtime, and knows neither
+    "config": [],
     "frontend/source": [],
     "frontend/diag": ["frontend/source"],
     "frontend/syntax": ["frontend/source", "frontend/diag"],
     "frontend/sema": ["frontend/source", "frontend/diag", "frontend/syntax"],
+    "frontend/edit": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema"],
+    "frontend/project": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "config"],
     "frontend/format": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/edit",
                         "frontend/project"],
-    "frontend/edit": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema"],
-    # configuration text: needed by the front end and by the runtime, and knows neither
-    "config": [],
-    "frontend/project": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "config"],
     "frontend/lint": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/project"],
     "ir/core": [],
-    "ir/text": ["ir/core", "ir/verify"],
     "ir/verify": ["ir/core"],
+    "ir/text": ["ir/core", "ir/verify"],
     "ir/passes": ["ir/core", "ir/text", "ir/verify"],
+    # C layout, shared by code generation and runtime; the headers stand alone
+    "runtime/abi": [],
     "ir/lower": ["ir/core", "ir/text", "ir/verify", "ir/passes", "frontend/", "runtime/abi"],
     # code generation and the runtime share the C layout of runtime/abi and nothing else
     "codegen": ["ir/core", "ir/text", "ir/verify", "ir/passes", "runtime/abi"],
-    # the headers of runtime/abi stand alone (codegen includes them); see also ABI_SOURCES
-    "runtime/abi": [],
+    # arms and paths, which know nothing of the rest
     "runtime/robot": [],
     "runtime/motion": ["runtime/robot"],
-    # the controller itself: tasks, time, errors, signals, events, simulated motion
-    "runtime/log": ["runtime/"],
-    "runtime/io": ["runtime/", "config"],
-    "runtime/sched": ["runtime/"],
-    "runtime/sim": ["runtime/"],
+    # the controller, from what all of it shares up to the whole
+    "runtime/base": ["config"],
     "runtime/value": ["runtime/abi"],
-    "runtime/debug": ["runtime/"],
-    "runtime/host": ["runtime/", "stdlib", "config"],
+    "runtime/program": ["runtime/abi", "runtime/base"],
+    "runtime/log": ["runtime/base"],
+    "runtime/sched": ["runtime/abi", "runtime/base", "runtime/log"],
+    "runtime/io": ["runtime/abi", "runtime/base", "runtime/sched", "config"],
+    "runtime/sim": ["runtime/base", "runtime/log", "runtime/sched", "runtime/motion"],
+    "runtime/debug": ["runtime/abi", "runtime/base", "runtime/value", "runtime/program", "runtime/log", "runtime/sched",
+                      "runtime/motion"],
+    "runtime/host": ["runtime/", "config"],
+    "stdlib": ["runtime/abi"],
     "stdlib/gen": ["frontend/", "ir/core", "runtime/abi"],
     "stdlib/impl": ["runtime/", "stdlib"],
-    "stdlib": ["runtime/abi"],
+    # main of built executables: no part of the compiler
+    "tools/program_main": ["runtime/", "stdlib"],
     "tools": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/"],
     "tests": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools"],
 }
-
-# What compiled code calls is implemented beside its header, and may know the controller.
-ABI_SOURCES = re.compile(r"^runtime/abi/.*\.cpp$")
 
 # Third-party headers and the only layers that may see them.
 RESTRICTED = [
@@ -80,6 +84,18 @@ def allowed(source, target):
     """A rule ending in `/` allows the whole tree below it, any other rule one layer."""
     return source == target or any(target == rule or (rule.endswith("/") and target.startswith(rule))
                                    for rule in LAYERS[source])
+
+
+def check_table(layers, errors):
+    """Every rule names layers further up: then no chain of includes comes back to where it began."""
+    order = list(layers)
+    for place, layer in enumerate(order):
+        for rule in layers[layer]:
+            named = [name for name in order if name == rule or (rule.endswith("/") and name.startswith(rule))]
+            errors.extend(f"{layer} may include {name}, which is not further up in the table of layers"
+                          for name in named if name != layer and order.index(name) > place)
+            if not named:
+                errors.append(f"{layer} may include {rule}, which is in no layer")
 
 
 def files_below(root):
@@ -115,8 +131,6 @@ def check_includes(path, lines, errors):
         target_layer = layer_of(target)
         if target_layer is None:
             errors.append(f'{path}:{number}: "{name}" is in no layer')
-        elif ABI_SOURCES.match(path) and target.startswith("runtime/"):
-            continue
         elif not allowed(layer, target_layer):
             errors.append(f'{path}:{number}: {layer} may not include {target_layer} ("{name}")')
 
@@ -140,11 +154,10 @@ def function_lengths(lines):
             start = None
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--source", default=os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-    root = os.path.abspath(parser.parse_args().source)
+def check_tree(root):
+    """Prints what is wrong below the folder; the exit status."""
     errors, notes, count = [], [], 0
+    check_table(LAYERS, errors)
     for path in files_below(root):
         with open(os.path.join(root, path), encoding="utf-8", errors="replace") as file:
             lines = file.readlines()
@@ -166,6 +179,12 @@ def main():
         print("error: no source files found below", root)
         return 1
     return 1 if errors else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--source", default=os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+    return check_tree(os.path.abspath(parser.parse_args().source))
 
 
 if __name__ == "__main__":

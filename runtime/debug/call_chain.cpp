@@ -1,8 +1,6 @@
 #include "runtime/debug/call_chain.h"
 
-#include "runtime/host/controller.h"
-#include "runtime/host/saved_state.h"
-#include "runtime/host/state_keepers.h"
+#include "runtime/debug/state_keepers.h"
 #include "runtime/sched/error_search.h"
 #include "runtime/value/value_text.h"
 
@@ -127,16 +125,14 @@ std::string localAt(const std::vector<Frame*>& frames, const char* address, uint
     return {};
 }
 
-SavedFrame takeFrame(const std::vector<Frame*>& frames, std::size_t depth, const DataIndex& data,
-                     const Task& task) {
+SavedFrame takeFrame(const std::vector<Frame*>& frames, std::size_t depth, const TaskData& data) {
     const auto& frame = *static_cast<const SteppingFrame*>(frames[depth]);
     const RoutineDesc& routine = *frame.routine;
     SavedFrame saved{routine.module, routine.name, routine.textHash, frame.statement, -1, {}};
     const StmtDesc* statement = statementOf(frame);
     if (statement != nullptr && (statement->flags & kStmtInHandler) != 0) saved.failed = frame.failed;
     for (uint32_t i = 0; i < routine.localCount; i += 1U + routine.locals[i].rank)
-        if (routine.locals[i].type != nullptr)
-            saved.locals.push_back(takeLocal(frame, i, frames, data, task));
+        if (routine.locals[i].type != nullptr) saved.locals.push_back(takeLocal(frame, i, frames, data));
     return saved;
 }
 
@@ -235,7 +231,7 @@ bool imageToValue(const std::string& text, void* data, const TypeDesc& type, uin
 // ---- Chain ---------------------------------------------------------------------------------------------------------
 
 SavedLocal takeLocal(const SteppingFrame& frame, uint32_t index, const std::vector<Frame*>& frames,
-                     const DataIndex& data, const Task& task) {
+                     const TaskData& data) {
     const LocalDesc& desc = frame.routine->locals[index];
     SavedLocal saved;
     saved.type = typeOf(frame, index);
@@ -248,21 +244,21 @@ SavedLocal takeLocal(const SteppingFrame& frame, uint32_t index, const std::vect
     }
     if (reference) {
         saved.kind = SavedLocal::Kind::Object;
-        if (const std::string* key = data.find(address, saved.offset))
+        if (const std::string* key = data.index.find(address, saved.offset))
             saved.object = *key;
-        else if (task.ownsAddress(address))
+        else if (data.task.ownsAddress(address))
             saved.object = localAt(frames, static_cast<const char*>(address), saved.offset);
         if (!saved.object.empty()) return saved;
         saved.offset = 0;
         saved.kind = SavedLocal::Kind::Copy;
     }
-    const StateKeepers& keepers = task.controller().service<StateKeepers>();
-    if (!valueToImage(address, *desc.type, elementsOf(frame, index), keepers, saved.value))
+    if (!valueToImage(address, *desc.type, elementsOf(frame, index), data.keepers, saved.value))
         saved.kind = SavedLocal::Kind::Fresh;
     return saved;
 }
 
-std::string takeChain(const Task& task, const DataIndex& data, CallChain& chain) {
+std::string takeChain(const TaskData& data, CallChain& chain) {
+    const Task& task = data.task;
     if (task.isUnwinding()) return "the program pointer was being moved";
     std::vector<Frame*> frames = task.frames();
     for (const Frame* frame : frames)
@@ -288,7 +284,7 @@ std::string takeChain(const Task& task, const DataIndex& data, CallChain& chain)
         if (std::string why = refusalAt(*statement, standing); !why.empty()) return why;
     }
     for (std::size_t depth = 0; depth < frames.size(); ++depth)
-        chain.frames.push_back(takeFrame(frames, depth, data, task));
+        chain.frames.push_back(takeFrame(frames, depth, data));
     chain.behindStop = standing == Standing::BehindStop;
     chain.errors = task.errorMemory();
     return {};

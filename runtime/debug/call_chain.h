@@ -10,7 +10,6 @@
 
 namespace rt {
 
-class Controller;
 struct StateKeepers;
 
 /// One parameter or variable of a routine in progress.
@@ -60,12 +59,19 @@ class DataIndex {
     std::vector<Row> rows_;
 };
 
+/// A task, and what tells how its data are named and kept.
+struct TaskData {
+    const Task& task;
+    const DataIndex& index;
+    const StateKeepers& keepers;
+};
+
 /// "" or why a later process cannot go on where the task stands. The task must not execute.
-std::string takeChain(const Task& task, const DataIndex& data, CallChain& chain);
+std::string takeChain(const TaskData& data, CallChain& chain);
 
 /// What a local of a frame is now.
 SavedLocal takeLocal(const SteppingFrame& frame, uint32_t index, const std::vector<Frame*>& frames,
-                     const DataIndex& data, const Task& task);
+                     const TaskData& data);
 
 /// Any value as text: as in a declaration, its bytes ("#...") where it has no literal, or what its handles name ("@[...]").
 /// False for types without values whose objects nobody keeps.

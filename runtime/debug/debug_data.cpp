@@ -1,6 +1,6 @@
 #include "runtime/debug/debug_data.h"
 
-#include "runtime/io/text_util.h"
+#include "runtime/base/text_util.h"
 #include "runtime/value/value_text.h"
 
 #include <fmt/format.h>

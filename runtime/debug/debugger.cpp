@@ -2,8 +2,8 @@
 
 #include "runtime/debug/debugger.h"
 
-#include "runtime/host/controller.h"
-#include "runtime/io/text_util.h"
+#include "runtime/base/text_util.h"
+#include "runtime/log/event_log.h"
 #include "runtime/sched/error_search.h"
 #include "runtime/sched/interrupts.h"
 
@@ -42,7 +42,7 @@ bool isPlace(const RoutineDesc& routine, std::string_view where) {
 } // namespace
 
 bool Debugger::available() const {
-    const ProgramDesc& program = controller_.program();
+    const ProgramDesc& program = host_.program();
     for (uint32_t i = 0; i < program.routineCount; ++i)
         if (program.routines[i].desc->stepping != 0) return true;
     return false;
@@ -54,13 +54,13 @@ void Debugger::setClient(DebugClient* client) {
 }
 
 void Debugger::watch() {
-    for (const auto& task : controller_.tasks())
+    for (const auto& task : host_.tasks())
         task->askSteps = 1;
 }
 
 void Debugger::stopAtEntry() {
     watch();
-    for (const auto& task : controller_.tasks()) {
+    for (const auto& task : host_.tasks()) {
         if (task->kind() != TaskKind::Normal) continue;
         stateOf(*task).mode = Mode::In;
         stateOf(*task).entry = true;
@@ -71,7 +71,7 @@ bool Debugger::poll() {
     const auto isBusy = [](const auto& task) { return task->hasWorkWhileStopped(); };
     while (client_ != nullptr && stoppedTask_ != nullptr && !quit_) {
         // UNDO handlers and event routines run first.
-        if (std::any_of(controller_.tasks().begin(), controller_.tasks().end(), isBusy)) return false;
+        if (std::any_of(host_.tasks().begin(), host_.tasks().end(), isBusy)) return false;
         Task& task = *stoppedTask_;
         stoppedTask_ = nullptr;
         client_->stopped(*this, task, stopReason_);
@@ -100,7 +100,7 @@ Breakpoint Debugger::addBreakpoint(std::string_view where, uint32_t line) {
 void Debugger::findLine(Breakpoint& breakpoint) const {
     breakpoint.actualLine = 0;
     breakpoint.waits = true;
-    for (const RoutineEntry* entry : controller_.tables().routines()) {
+    for (const RoutineEntry* entry : host_.tables().routines()) {
         const RoutineDesc& routine = *entry->desc;
         if (!isPlace(routine, breakpoint.file)) continue;
         breakpoint.waits = false;
@@ -159,7 +159,7 @@ int32_t Debugger::beforeStatement(Task& task, Frame* at) {
     } else if (state.pendingBackward) {
         state.pendingBackward = false;
         if (const std::string problem = startBackward(task, state, at); !problem.empty())
-            controller_.log().write(EventId::StepRefused, &task, {"Stepping backward", problem});
+            host_.log().write(EventId::StepRefused, &task, {"Stepping backward", problem});
         if (state.backwardFrame != nullptr) return goOn(state, at, here);
     } else if (!shouldStop(state, at, reason)) {
         return here;
@@ -207,8 +207,8 @@ int32_t Debugger::stopHere(Task& task, State& state, Frame* at, int32_t here, St
     noteStop(task, reason);
     task.setStepwise(true);
     task.stop(StopCause::Step);
-    controller_.stopNormalTasks(StopCause::Order);
-    controller_.motion().programStop();
+    host_.stopNormalTasks(StopCause::Order);
+    host_.arm().programStop();
     const Status status = task.suspendStopped();
     state.standing = nullptr;
     if (status < 0) {
@@ -225,7 +225,7 @@ Status Debugger::stopInside(Task& task) {
     state.insideCircle = true;
     noteStop(task, StopReason::CirclePoint);
     task.stop(StopCause::Step);
-    controller_.stopNormalTasks(StopCause::Order);
+    host_.stopNormalTasks(StopCause::Order);
     const Status status = task.suspendStopped();
     state.insideCircle = false;
     return status;
@@ -265,16 +265,16 @@ std::string Debugger::begin(Task& task, Mode mode, bool alone) {
     state.passFirst = task.stopCause() == StopCause::AtMain && mode != Mode::Cursor;
     state.depth = depthOf(state.standing != nullptr ? state.standing : task.frame);
     task.setStepwise(mode != Mode::Run && mode != Mode::Cursor);
-    for (const auto& other : controller_.tasks()) {
+    for (const auto& other : host_.tasks()) {
         if (alone || other.get() == &task || other->kind() != TaskKind::Normal || !other->isStopped())
             continue;
         other->setStepwise(false);
         if (other->canResume()) other->resume();
     }
-    controller_.motion().programStart();
+    host_.arm().programStart();
     // What the program pointer was moved to by hand decides between START and RESTART; a step is neither.
     if (mode == Mode::Run || mode == Mode::Cursor)
-        controller_.oweStart(task);
+        host_.oweStart(task);
     else
         task.events().owe(SystemEvent::Step);
     task.resume();
@@ -289,7 +289,7 @@ void Debugger::continuous(Task& task) {
 }
 
 std::string Debugger::run() {
-    for (const auto& task : controller_.tasks()) {
+    for (const auto& task : host_.tasks()) {
         if (task->kind() != TaskKind::Normal || !task->isStopped() || task->state() == TaskState::Finished)
             continue;
         continuous(*task);
@@ -317,7 +317,7 @@ std::string Debugger::stepMove(Task& task) {
 
 std::string Debugger::runToLine(Task& task, std::string_view where, uint32_t line) {
     bool exists = false;
-    for (const RoutineEntry* entry : controller_.tables().routines()) {
+    for (const RoutineEntry* entry : host_.tables().routines()) {
         const RoutineDesc& routine = *entry->desc;
         if (!isPlace(routine, where)) continue;
         for (uint32_t s = 0; s < routine.statementCount; ++s)
@@ -346,7 +346,7 @@ std::string Debugger::pointerToLine(Task& task, uint32_t line) {
         state.backwardLast = false;
         state.backwardFrame = nullptr;
         task.notePointerMoved(false);
-        controller_.motion().clearPath();
+        host_.arm().clearPath();
         return "";
     }
     return fmt::format("no instruction of routine {} begins in line {}", routine.name, line);
@@ -357,12 +357,12 @@ std::string Debugger::pointerToRoutine(Task& task, std::string_view name) {
     if (!task.isStopped()) return fmt::format("task {} is executing: stop it first", task.name());
     const std::size_t colon = name.find(':');
     const std::string_view module = colon == std::string_view::npos ? "" : name.substr(0, colon);
-    const RoutineEntry* routine = controller_.findRoutine(
-        colon == std::string_view::npos ? name : name.substr(colon + 1), module, task);
+    const RoutineEntry* routine =
+        host_.findRoutine(colon == std::string_view::npos ? name : name.substr(colon + 1), module, task);
     if (routine == nullptr) return fmt::format("there is no routine '{}' in task {}", name, task.name());
     if (routine->desc->callable == 0)
         return fmt::format("'{}' is no procedure without parameters", routine->name);
-    controller_.motion().clearPath();
+    host_.arm().clearPath();
     task.moveToRoutine(reinterpret_cast<EntryFunction>(routine->address));
     forget(task);
     noteStop(task, StopReason::Pointer);
@@ -370,11 +370,11 @@ std::string Debugger::pointerToRoutine(Task& task, std::string_view name) {
 }
 
 std::string Debugger::pointerToMain() {
-    for (const auto& task : controller_.tasks())
+    for (const auto& task : host_.tasks())
         if (task->kind() == TaskKind::Normal && task->isExecuting())
             return fmt::format("task {} is executing: stop it first", task->name());
-    controller_.actionPpToMain();
-    for (const auto& task : controller_.tasks())
+    host_.actionPpToMain();
+    for (const auto& task : host_.tasks())
         forget(*task);
     return "";
 }

@@ -4,6 +4,7 @@
 // editor, a stimulus file) is a DebugClient or calls the orders directly.
 
 #include "runtime/debug/debug_data.h"
+#include "runtime/debug/debug_host.h"
 #include "runtime/sched/step_hook.h"
 #include "runtime/sched/task.h"
 
@@ -14,7 +15,6 @@
 
 namespace rt {
 
-class Controller;
 class Debugger;
 
 enum class StopReason : uint8_t {
@@ -56,7 +56,7 @@ struct DebugFrame {
 
 class Debugger final : public StepHook {
   public:
-    explicit Debugger(Controller& controller) : controller_(controller) {}
+    explicit Debugger(DebugHost& host) : host_(host) {}
 
     /// Null: nobody looks; then only orders of the stimulus step the program.
     void setClient(DebugClient* client);
@@ -164,7 +164,7 @@ class Debugger final : public StepHook {
     /// The first step forward after one backward moves the pointer only. False: it is not needed.
     bool turnForward(Task& task, State& state);
 
-    Controller& controller_;
+    DebugHost& host_;
     DebugClient* client_ = nullptr;
     bool quit_ = false;
     std::map<const Task*, State> states_;

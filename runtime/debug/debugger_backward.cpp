@@ -3,7 +3,7 @@
 // the motion pointer's.
 
 #include "runtime/debug/debugger.h"
-#include "runtime/host/controller.h"
+#include "runtime/log/event_log.h"
 #include "runtime/sched/error_search.h"
 
 #include <fmt/format.h>
@@ -46,7 +46,7 @@ std::string Debugger::stepBackward(Task& task) {
     Frame* at = state.standing;
     if (state.insideCircle) {
         const std::string problem = "the direction cannot be changed while the robot executes MoveC";
-        controller_.log().write(EventId::StepRefused, &task, {"Stepping backward", problem});
+        host_.log().write(EventId::StepRefused, &task, {"Stepping backward", problem});
         return problem;
     }
     if (at == nullptr) { // inside an instruction: it is finished first
@@ -54,7 +54,7 @@ std::string Debugger::stepBackward(Task& task) {
         return begin(task, Mode::Backward, true);
     }
     if (std::string problem = startBackward(task, state, at); !problem.empty()) {
-        controller_.log().write(EventId::StepRefused, &task, {"Stepping backward", problem});
+        host_.log().write(EventId::StepRefused, &task, {"Stepping backward", problem});
         return problem;
     }
     const bool insidePart = (row(*at, at->statement).flags & kStmtInBackward) != 0;
@@ -70,7 +70,7 @@ std::string Debugger::startBackward(Task& task, State& state, Frame* at) {
     if ((statement.flags & (kStmtInBackward | kStmtInHandler)) != 0)
         return "instructions of a handler cannot be executed backwards";
     if (!state.backwardLast) {
-        const int32_t movement = lastMovement(controller_.motion().pointer(), *at);
+        const int32_t movement = lastMovement(host_.arm().pointer(), *at);
         const int32_t above = row(*at, movement >= 0 ? movement : at->statement).previous;
         if (above < 0) return kTop;
         state.backwardLast = true;
@@ -88,7 +88,7 @@ std::string Debugger::startBackward(Task& task, State& state, Frame* at) {
         return fmt::format("the procedure called in line {} has no BACKWARD handler", statement.line);
     if (call || (statement.flags & kStmtMovement) != 0) {
         task.orderBackward(call ? at : nullptr);
-        controller_.motion().setBackward(true);
+        host_.arm().setBackward(true);
         state.backwardFrame = at;
         state.backwardStatement = at->statement;
         return "";
@@ -101,7 +101,7 @@ std::string Debugger::startBackward(Task& task, State& state, Frame* at) {
 
 /// The statement is done; its frame is asked about the one behind it.
 void Debugger::finishBackward(Task& task, State& state, Frame* at) {
-    controller_.motion().setBackward(false);
+    host_.arm().setBackward(false);
     task.orderBackward(nullptr);
     state.backwardFrame = nullptr;
     if (std::exchange(state.backwardRefused, false)) { // the program pointer stays
@@ -118,7 +118,7 @@ bool Debugger::allowsCall(Task& task, const Frame* caller, const RoutineDesc& ca
     if (found == states_.end() || found->second.backwardFrame != caller || callee.hasBackward != 0)
         return true;
     found->second.backwardRefused = true;
-    controller_.log().write(
+    host_.log().write(
         EventId::StepRefused, &task,
         {"Stepping backward", fmt::format("procedure '{}', called in line {}, has no BACKWARD handler",
                                           callee.name, row(*caller, caller->statement).line)});
@@ -128,7 +128,7 @@ bool Debugger::allowsCall(Task& task, const Frame* caller, const RoutineDesc& ca
 bool Debugger::turnForward(Task&, State& state) {
     state.backwardLast = state.backwardTop = false;
     Frame* at = state.standing;
-    const MotionPointer& pointer = controller_.motion().pointer();
+    const MotionPointer& pointer = host_.arm().pointer();
     const bool here = pointer.valid && pointer.frame == at && pointer.routine == at->routine;
     const int32_t next = statementAfter(*at->routine, here ? pointer.statement : at->statement);
     if (next < 0) return false;

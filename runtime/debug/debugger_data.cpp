@@ -1,8 +1,7 @@
 // The call chain and the data of a stopped program.
 
+#include "runtime/base/text_util.h"
 #include "runtime/debug/debugger.h"
-#include "runtime/host/controller.h"
-#include "runtime/io/text_util.h"
 #include "runtime/sched/error_search.h"
 #include "runtime/sched/interrupts.h"
 
@@ -66,8 +65,8 @@ std::vector<DebugVariable> Debugger::locals(const DebugFrame& frame) const {
 
 std::vector<DebugVariable> Debugger::globals(const Task& task) const {
     std::vector<DebugVariable> result;
-    for (const GlobalDesc* desc : controller_.tables().globals())
-        if (controller_.tables().isDeclaredIn(*desc, static_cast<int32_t>(task.index())))
+    for (const GlobalDesc* desc : host_.tables().globals())
+        if (host_.tables().isDeclaredIn(*desc, static_cast<int32_t>(task.index())))
             if (desc->kind != kGlobalConstant || (desc->flags & kDataPredefined) == 0)
                 result.push_back(dataOf(*desc));
     return result;
@@ -86,8 +85,8 @@ DebugVariable Debugger::find(const Task& task, const DebugFrame* frame, std::str
     const std::string_view plain = colon == std::string_view::npos ? name : name.substr(colon + 1);
     // Data of the module the routine stands in come first: they may be LOCAL.
     const GlobalDesc* found = nullptr;
-    if (module.empty() && frame != nullptr) found = controller_.findGlobal(plain, frame->place.module, task);
-    if (found == nullptr) found = controller_.findGlobal(plain, module, task);
+    if (module.empty() && frame != nullptr) found = host_.findGlobal(plain, frame->place.module, task);
+    if (found == nullptr) found = host_.findGlobal(plain, module, task);
     if (found != nullptr) return partOf(dataOf(*found), path.substr(end), error);
     error = fmt::format("there is no data '{}'", name);
     return {};

@@ -1,15 +1,15 @@
 #include "runtime/debug/reentry.h"
 
-#include "runtime/host/controller.h"
-#include "runtime/host/state_keepers.h"
-#include "runtime/io/text_util.h"
+#include "runtime/base/text_util.h"
+#include "runtime/debug/state_keepers.h"
+#include "runtime/log/event_log.h"
 
 #include <fmt/format.h>
 
 namespace rt {
 
 const RoutineEntry* Reentry::find(const SavedFrame& frame, const Task& task) const {
-    for (const RoutineEntry* entry : controller_.tables().routines())
+    for (const RoutineEntry* entry : host_.tables().routines())
         if ((entry->task < 0 || entry->task == static_cast<int32_t>(task.index())) &&
             sameName(entry->desc->module, frame.module) && sameName(entry->desc->name, frame.routine))
             return entry;
@@ -97,7 +97,8 @@ std::string Reentry::entered(Task& task, Frame* at) {
 std::string Reentry::restoreLocal(const SteppingFrame& frame, uint32_t index, const SavedLocal& saved,
                                   const Task& task) {
     const LocalDesc& desc = frame.routine->locals[index];
-    const SavedLocal now = takeLocal(frame, index, task.frames(), data_, task);
+    const StateKeepers& keepers = host_.stateKeepers();
+    const SavedLocal now = takeLocal(frame, index, task.frames(), {task, data_, keepers});
     const auto differs = [&desc](const char* how) { return fmt::format("'{}' {}", desc.name, how); };
     if (now.type != saved.type) return differs("has another type or another size");
     if (now.kind != saved.kind) return differs("is not what it was");
@@ -117,7 +118,6 @@ std::string Reentry::restoreLocal(const SteppingFrame& frame, uint32_t index, co
     uint64_t elements = 1;
     for (uint32_t k = 0; k < desc.rank; ++k)
         elements *= static_cast<uint64_t>(*static_cast<const int32_t*>(frame.addresses[index + 1 + k]));
-    const auto& keepers = controller_.service<StateKeepers>();
     return imageToValue(saved.value, address, *desc.type, elements, keepers) ? ""
                                                                              : differs("has no such value");
 }
@@ -127,7 +127,7 @@ Status Reentry::failed(Task& task) {
 }
 
 Status Reentry::giveUp(Task& task, const std::string& why) {
-    controller_.log().write(EventId::PointerLost, &task, {task.name(), place_, why});
+    host_.log().write(EventId::PointerLost, &task, {task.name(), place_, why});
     return task.abandonReentry();
 }
 

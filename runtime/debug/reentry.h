@@ -4,18 +4,17 @@
 // innermost one goes on with its statement. The step hook of the task meanwhile (Task::reenter).
 
 #include "runtime/debug/call_chain.h"
+#include "runtime/debug/debug_host.h"
 #include "runtime/sched/step_hook.h"
 
 namespace rt {
-
-class Controller;
 
 class Reentry final : public StepHook {
   public:
     /// `data` must outlive it. The task is to be given to begin().
     /// `place`: where the task stood, for people.
-    Reentry(Controller& controller, CallChain chain, std::string place, const DataIndex& data)
-        : controller_(controller), chain_(std::move(chain)), place_(std::move(place)), data_(data) {}
+    Reentry(DebugHost& host, CallChain chain, std::string place, const DataIndex& data)
+        : host_(host), chain_(std::move(chain)), place_(std::move(place)), data_(data) {}
 
     /// "" or why the chain does not fit the program. Then nothing has changed.
     std::string begin(Task& task);
@@ -31,7 +30,7 @@ class Reentry final : public StepHook {
     Status giveUp(Task& task, const std::string& why);
     const RoutineEntry* find(const SavedFrame& frame, const Task& task) const;
 
-    Controller& controller_;
+    DebugHost& host_;
     CallChain chain_;
     std::string place_;
     const DataIndex& data_;

@@ -1,7 +1,7 @@
 #pragma once
 // ClockObject: RAPID's clock, a stop-watch on virtual time (manual 1.14).
 
-#include "runtime/sched/time.h"
+#include "runtime/base/time.h"
 
 namespace rt {
 

@@ -2,11 +2,11 @@
 
 #include "runtime/host/controller.h"
 
+#include "runtime/base/text_util.h"
 #include "runtime/host/module_saver.h"
 #include "runtime/host/run_files.h"
 #include "runtime/host/saved_state.h"
 #include "runtime/host/stop_signals.h"
-#include "runtime/io/text_util.h"
 #include "runtime/sim/csv_writers.h"
 
 #include <fmt/format.h>

@@ -4,16 +4,17 @@
 
 #include "runtime/abi/rt_abi.h"
 #include "runtime/debug/debugger.h"
+#include "runtime/debug/state_keepers.h"
 #include "runtime/host/clock_object.h"
 #include "runtime/host/handle_table.h"
 #include "runtime/host/home_folder.h"
 #include "runtime/host/motion_driver.h"
-#include "runtime/host/program_tables.h"
 #include "runtime/host/run_options.h"
 #include "runtime/host/system_signals.h"
 #include "runtime/io/cfg_parser.h"
 #include "runtime/io/io_system.h"
 #include "runtime/log/event_log.h"
+#include "runtime/program/program_tables.h"
 #include "runtime/sched/scheduler.h"
 #include "runtime/sched/task.h"
 #include "runtime/sim/operator_panel.h"
@@ -40,7 +41,7 @@ struct SystemSettings {
     int noOfRetry = 4; ///< SYS_MISC NoOfRetry
 };
 
-class Controller final : public TaskHost {
+class Controller final : public DebugHost {
   public:
     explicit Controller(const RunOptions& options);
     ~Controller();
@@ -55,6 +56,7 @@ class Controller final : public TaskHost {
     HomeFolder& home() { return home_; }
     /// Present as soon as prepare() succeeded.
     MotionDriver& motion() { return *motion_; }
+    SteppedArm& arm() override { return *motion_; }
     HandleTable<ClockObject>& clocks() { return clocks_; }
     Debugger& debugger() { return debugger_; }
     ModuleSaver& saver() { return *saver_; }
@@ -81,17 +83,19 @@ class Controller final : public TaskHost {
     }
 
     // ---- Program ------------------------------------------------------------------------------------------
-    const ProgramDesc& program() const { return *program_; }
+    const ProgramDesc& program() const override { return *program_; }
     /// Everything in program memory, modules loaded at run time included.
     ProgramTables& tables() { return tables_; }
-    const ProgramTables& tables() const { return tables_; }
-    const std::vector<std::unique_ptr<Task>>& tasks() const { return tasks_; }
+    const ProgramTables& tables() const override { return tables_; }
+    const std::vector<std::unique_ptr<Task>>& tasks() const override { return tasks_; }
     /// Without regard to case; null when there is none.
     Task* findTask(std::string_view name);
     /// Module data visible in the task: its own, then shared; `module` may be empty. Null when there is none.
-    const GlobalDesc* findGlobal(std::string_view name, std::string_view module, const Task& task) const;
+    const GlobalDesc* findGlobal(std::string_view name, std::string_view module,
+                                 const Task& task) const override;
     /// Routine for late binding; `module` may be empty.
-    const RoutineEntry* findRoutine(std::string_view name, std::string_view module, const Task& task) const;
+    const RoutineEntry* findRoutine(std::string_view name, std::string_view module,
+                                    const Task& task) const override;
 
     /// Reads configuration, robot, HOME:, stimulus; opens output files; makes the tasks; connects what the
     /// program names. Problems are written to stderr. Ended when all is well.
@@ -113,11 +117,12 @@ class Controller final : public TaskHost {
     void actionPowerOn();
     void actionStart();
     /// Refused with an event unless the program is stopped.
-    void actionPpToMain();
+    void actionPpToMain() override;
     void actionStep(bool forward);
 
     /// The stopped task is about to execute continuously: START at main, else RESTART becomes due.
-    void oweStart(Task& task);
+    void oweStart(Task& task) override;
+    const StateKeepers& stateKeepers() override { return service<StateKeepers>(); }
 
     /// A NORMAL task was stopped by an error, or a background task stopped the NORMAL tasks.
     bool stoppedByError() const;
@@ -132,6 +137,8 @@ class Controller final : public TaskHost {
     void taskExited(Task& task) override;
     void eventRoutinesEnded(Task& task, SystemEvent event) override;
     void programReset(Task& task) override;
+    /// Variables of loaded modules, too; modules loaded with \Dynamic leave memory.
+    Status resetUnits(Task& task) override;
     int retryLimit() const override { return settings_.noOfRetry; }
     /// NORMAL tasks stop; when a STATIC or SEMISTATIC task failed, its TrustLevel decides (manual 1.20).
     void taskFailed(Task& task) override;
@@ -172,7 +179,7 @@ class Controller final : public TaskHost {
     Scheduler scheduler_;
     IoSystem io_;
     SystemSignals systemSignals_{*this};
-    OperatorPanel panel_{*this};
+    OperatorPanel panel_{log_};
     HomeFolder home_;
     std::unique_ptr<MotionDriver> motion_;
     std::unique_ptr<TraceWriter> trace_;
@@ -205,9 +212,5 @@ using ControllerSetup = void (*)(Controller&);
 /// Runs a compiled program from beginning to end with these options: builds the controller, runs, writes what
 /// was asked for. Returns the exit status of the process (see ExitStatus). `setup` may be null.
 int runProgram(const ProgramDesc& program, const RunOptions& options, ControllerSetup setup);
-
-/// Supplied by the standard library: tells the event log the names of the errors. Executables pass it to
-/// runProgram.
-void setUpStandardLibrary(Controller& controller);
 
 } // namespace rt

@@ -2,10 +2,10 @@
 
 #include "runtime/host/controller.h"
 
+#include "runtime/base/text_util.h"
 #include "runtime/host/module_saver.h"
 #include "runtime/host/module_units.h"
 #include "runtime/host/saved_state.h"
-#include "runtime/io/text_util.h"
 #include "runtime/robot/robot_model.h"
 #include "runtime/sim/csv_writers.h"
 

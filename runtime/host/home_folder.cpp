@@ -1,6 +1,6 @@
 #include "runtime/host/home_folder.h"
 
-#include "runtime/io/text_util.h"
+#include "runtime/base/text_util.h"
 
 #include <fmt/format.h>
 

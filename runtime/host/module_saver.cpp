@@ -1,8 +1,8 @@
 #include "runtime/host/module_saver.h"
 
+#include "runtime/base/text_util.h"
 #include "runtime/host/controller.h"
 #include "runtime/host/rapidc_process.h"
-#include "runtime/io/text_util.h"
 #include "runtime/value/value_text.h"
 
 #include <fmt/format.h>

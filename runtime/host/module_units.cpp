@@ -1,7 +1,7 @@
 #include "runtime/host/module_units.h"
 
+#include "runtime/base/text_util.h"
 #include "runtime/host/controller.h"
-#include "runtime/io/text_util.h"
 
 #include <fmt/format.h>
 
@@ -76,11 +76,11 @@ bool connectUnit(Controller& controller, const ProgramDesc& unit) {
     return all;
 }
 
-Status resetUnits(Controller& controller, Task& task) {
+Status Controller::resetUnits(Task& task) {
     const auto index = static_cast<int32_t>(task.index());
     std::vector<std::string> gone;
     Status status = kOk;
-    for (const LoadedModule& module : controller.tables().modules()) {
+    for (const LoadedModule& module : tables_.modules()) {
         if (module.unit == nullptr || module.task != index) continue;
         if (module.dynamic)
             gone.push_back(module.name);
@@ -88,7 +88,7 @@ Status resetUnits(Controller& controller, Task& task) {
             status = module.unit->reset(&task, nullptr);
     }
     for (const std::string& name : gone)
-        removeModule(controller, index, name);
+        removeModule(*this, index, name);
     return status;
 }
 

@@ -2,7 +2,7 @@
 // Modules that come and go while a program runs: who compiles them, and what the controller does with them.
 
 #include "runtime/host/module_loader.h"
-#include "runtime/host/program_tables.h"
+#include "runtime/program/program_tables.h"
 #include "runtime/sched/task.h"
 
 #include <map>
@@ -29,7 +29,5 @@ void addModule(Controller& controller, const ProgramDesc& unit, LoadedModule mod
 void removeModule(Controller& controller, int32_t task, const std::string& module);
 /// All those of a unit.
 bool connectUnit(Controller& controller, const ProgramDesc& unit);
-/// Variables of a task get their initial values: those of loaded modules, too; modules loaded with \Dynamic leave memory.
-Status resetUnits(Controller& controller, Task& task);
 
 } // namespace rt

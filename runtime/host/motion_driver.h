@@ -2,6 +2,7 @@
 // MotionDriver: the MotionSystem of the robot on the scheduler's clock: tasks wait for moves, triggers call
 // back at their exact times, the trace is sampled.
 
+#include "runtime/debug/stepped_arm.h"
 #include "runtime/motion/motion_system.h"
 #include "runtime/sched/scheduler.h"
 #include "runtime/sched/wait_queue.h"
@@ -19,15 +20,6 @@ namespace rt {
 class Task;
 class TraceSink;
 
-/// The movement instruction executed last: where it stands and what it ordered (manual 1.21).
-struct MotionPointer {
-    bool valid = false;
-    const Frame* frame = nullptr;
-    const RoutineDesc* routine = nullptr;
-    int32_t statement = -1;
-    motion::MoveCommand command;
-};
-
 /// Something to do when the TCP passes a place of the path (manual 1.8, TriggIO and friends).
 struct PathAction {
     motion::PathTrigger place; ///< its id is given by the driver
@@ -43,7 +35,7 @@ enum class ArmNews : uint8_t {
     Start       ///< the program starts again
 };
 
-class MotionDriver {
+class MotionDriver final : public SteppedArm {
   public:
     MotionDriver(Scheduler& scheduler, robot::RobotModel model);
     ~MotionDriver();
@@ -80,10 +72,10 @@ class MotionDriver {
     void stopMove();
     void startMove();
     bool isStopMoveActive() const { return stopMove_; }
-    void programStop();
+    void programStop() override;
     /// The program stops by itself, with the arm standing still.
     void noteStop() { tell(ArmNews::StopOnPath); }
-    void programStart();
+    void programStart() override;
     /// The motors go off: the arm leaves its path; programStart() brings it back first. `powerFailure`: notes that a path
     /// was interrupted.
     void emergencyStop(bool powerFailure);
@@ -93,7 +85,7 @@ class MotionDriver {
     /// is nothing more to step back on.
     Status stepBack(Task& task, double mm, double mmPerSecond, bool& possible);
     /// ClearPath, program pointer moved.
-    void clearPath();
+    void clearPath() override;
 
     /// What an earlier process left of its path.
     struct EarlierPath {
@@ -110,9 +102,9 @@ class MotionDriver {
     /// `errorNumber`. Executed again (RETRY) such an instruction goes on with the movement it has ordered.
     void raiseProcessError(Status errorNumber);
 
-    const MotionPointer& pointer() const { return pointer_; }
+    const MotionPointer& pointer() const override { return pointer_; }
     /// Movements are executed backwards from now on: to their target, with type and speed of the motion pointer's.
-    void setBackward(bool backward) { backward_ = backward; }
+    void setBackward(bool backward) override { backward_ = backward; }
 
     /// Gets every sample from now on; must outlive the driver.
     void addTrace(TraceSink& trace) { traces_.push_back(&trace); }

@@ -1,6 +1,6 @@
 #include "runtime/host/run_options.h"
 
-#include "runtime/io/text_util.h"
+#include "runtime/base/text_util.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>

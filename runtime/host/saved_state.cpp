@@ -3,10 +3,10 @@
 #include "config/atomic_file.h"
 #include "config/read_file.h"
 #include "config/temporary.h"
+#include "runtime/base/text_util.h"
+#include "runtime/debug/state_keepers.h"
 #include "runtime/host/controller.h"
 #include "runtime/host/run_files.h"
-#include "runtime/host/state_keepers.h"
-#include "runtime/io/text_util.h"
 #include "runtime/value/value_text.h"
 
 #include <fmt/format.h>
@@ -146,7 +146,7 @@ StateImage::TaskImage SavedState::presentTask(Task& task) const {
         state.pointer = StateImage::Pointer::Inside;
         state.place = fmt::format("{}:{}", place.module, place.line);
         CallChain chain;
-        state.refusal = takeChain(task, data_, chain);
+        state.refusal = takeChain({task, data_, controller_.stateKeepers()}, chain);
         if (!state.refusal.empty()) return state;
         state.chain = std::move(chain);
         state.interruptsEnabled = task.interrupts().enabled();

@@ -63,8 +63,6 @@ struct StateImage {
     std::vector<Event> events;
 };
 
-/// "num", "{x:num,y:num}", "[3,4]string": equal for types with the same values.
-std::string describeType(const TypeDesc& type);
 /// Reads and writes the text of a state file. The reader never throws: "" or what is wrong.
 std::string readImage(const std::string& text, StateImage& image);
 std::string writeImage(const StateImage& image);

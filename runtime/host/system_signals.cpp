@@ -1,7 +1,7 @@
 #include "runtime/host/system_signals.h"
 
+#include "runtime/base/text_util.h"
 #include "runtime/host/controller.h"
-#include "runtime/io/text_util.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Controller: what SYS.cfg says about tasks: foreground, trust level, event routines (manual 1.20).
 
+#include "runtime/base/text_util.h"
 #include "runtime/host/controller.h"
-#include "runtime/io/text_util.h"
 
 #include <algorithm>
 #include <map>

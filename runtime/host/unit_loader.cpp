@@ -1,7 +1,6 @@
 #include "runtime/host/unit_loader.h"
 
-#include "runtime/host/program_tables.h"
-#include "stdlib/native_table.h"
+#include "runtime/program/program_tables.h"
 
 #include <algorithm>
 #include <cstring>
@@ -56,12 +55,6 @@ std::string_view elementName(const TypeDesc& type) {
 bool isLike(const GlobalDesc& a, const GlobalDesc& b) {
     return a.kind == b.kind && a.type->size == b.type->size && elementName(*a.type) == elementName(*b.type) &&
            std::equal(std::begin(a.type->dims), std::end(a.type->dims), std::begin(b.type->dims));
-}
-
-/// A native, or what LLVM's code generator calls on its own account: memcpy, fmodf and the like.
-const void* nativeAddress(const std::string& symbol) {
-    const void* address = findNativeAddress(symbol);
-    return address != nullptr ? address : ::dlsym(RTLD_DEFAULT, symbol.c_str());
 }
 
 } // namespace
@@ -121,6 +114,12 @@ LoadResult UnitLoader::reuse(Unit& unit, const LoadRequest& request, const Progr
     for (const auto& [address, bytes] : unit.initial)
         std::memcpy(address, bytes.data(), bytes.size());
     return result;
+}
+
+/// A native, or what LLVM's code generator calls on its own account: memcpy, fmodf and the like.
+const void* UnitLoader::nativeAddress(const std::string& symbol) const {
+    const void* address = findNative_(symbol);
+    return address != nullptr ? address : ::dlsym(RTLD_DEFAULT, symbol.c_str());
 }
 
 bool UnitLoader::map(const CompiledUnit& compiled, const ProgramTables& present, Unit& unit,

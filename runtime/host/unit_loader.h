@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,8 +15,12 @@ namespace rt {
 
 class UnitLoader final : public ModuleLoader {
   public:
+    /// Address of a native or support entry point by its symbol; null if there is none.
+    using FindNative = void* (*)(std::string_view symbol);
+
     /// `compiler` must outlive the loader.
-    explicit UnitLoader(UnitCompiler& compiler) : compiler_(compiler) {}
+    UnitLoader(UnitCompiler& compiler, FindNative findNative)
+        : compiler_(compiler), findNative_(findNative) {}
 
     LoadResult make(const LoadRequest& request, const ProgramTables& present) override;
     OpenReferences unresolved(const std::string& task, int32_t taskIndex,
@@ -47,7 +52,10 @@ class UnitLoader final : public ModuleLoader {
     void remember(const LoadedFile& file);
     static void bind(Unit& unit, const ProgramTables& present);
 
+    const void* nativeAddress(const std::string& symbol) const;
+
     UnitCompiler& compiler_;
+    FindNative findNative_;
     std::deque<LoadedFile> files_;
     std::map<std::string, Unit> units_;
 };

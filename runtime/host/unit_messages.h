@@ -2,8 +2,8 @@
 // What a built executable and the installed rapidc say to each other when a module is to be compiled: CBOR on the standard
 // input and output of `rapidc compile-unit`.
 
-#include "runtime/host/program_tables.h"
 #include "runtime/host/unit_compiler.h"
+#include "runtime/program/program_tables.h"
 
 #include <memory>
 #include <optional>

@@ -1,8 +1,8 @@
 // IoSystem: from EIO parameters to signals and cross connections.
 
+#include "runtime/base/text_util.h"
 #include "runtime/io/io_system.h"
 #include "runtime/io/signal.h"
-#include "runtime/io/text_util.h"
 
 #include <fmt/format.h>
 

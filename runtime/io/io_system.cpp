@@ -2,8 +2,8 @@
 
 #include "runtime/io/io_system.h"
 
+#include "runtime/base/text_util.h"
 #include "runtime/io/signal.h"
-#include "runtime/io/text_util.h"
 #include "runtime/sched/scheduler.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 // pulses. Inputs change by stimulus and cross connections only. A signal's handle in a program is its id + 1.
 
 #include "runtime/abi/rt_abi.h"
+#include "runtime/base/time.h"
 #include "runtime/io/cfg_parser.h"
-#include "runtime/sched/time.h"
 #include "runtime/sched/wait_queue.h"
 
 #include <cstdint>

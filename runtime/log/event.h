@@ -1,9 +1,10 @@
 #pragma once
 // Event: one entry of the event log.
 
-#include "runtime/sched/task.h"
-#include "runtime/sched/time.h"
+#include "runtime/base/source_place.h"
+#include "runtime/base/time.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,6 +13,20 @@ namespace rt {
 
 /// The figures that controllers use for the type of a message.
 enum class EventType : uint8_t { Information = 1, Warning = 2, Error = 3 };
+
+/// What an event is about: a task and where it stands; null: the controller.
+struct EventOrigin {
+    std::string task; ///< empty: the controller
+    SourcePlace place;
+
+    EventOrigin(std::nullptr_t) {}
+    /// From a Task: the log is below the tasks and knows none, so whatever has a name and a place will do. May be null.
+    template <class Source> EventOrigin(const Source* source) {
+        if (source == nullptr) return;
+        task = source->name();
+        place = source->place();
+    }
+};
 
 struct Event {
     uint64_t sequence = 0; ///< from 1, given by the log; of the last one when it stands for several

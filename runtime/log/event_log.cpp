@@ -92,12 +92,13 @@ const Event* EventLog::find(uint64_t sequence) const {
     return found != events_.end() && sequence + found->count > found->sequence ? &*found : nullptr;
 }
 
-uint64_t EventLog::write(EventId id, const Task* task, std::initializer_list<std::string> arguments) {
+uint64_t EventLog::write(EventId id, EventOrigin origin, std::initializer_list<std::string> arguments) {
     const EventText row = eventText(id);
-    return write(row.type, static_cast<int>(id), row.title, fill(row.text, arguments), task, arguments);
+    return write(row.type, static_cast<int>(id), row.title, fill(row.text, arguments), std::move(origin),
+                 arguments);
 }
 
-uint64_t EventLog::write(EventType type, int number, std::string title, std::string text, const Task* task,
+uint64_t EventLog::write(EventType type, int number, std::string title, std::string text, EventOrigin origin,
                          std::vector<std::string> arguments) {
     Event event;
     event.number = number;
@@ -106,10 +107,8 @@ uint64_t EventLog::write(EventType type, int number, std::string title, std::str
     event.text = std::move(text);
     event.time = -1;
     event.arguments = std::move(arguments);
-    if (task != nullptr) {
-        event.task = task->name();
-        event.place = task->place();
-    }
+    event.task = std::move(origin.task);
+    event.place = std::move(origin.place);
     return write(std::move(event));
 }
 

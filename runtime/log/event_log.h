@@ -3,8 +3,7 @@
 // domain * 10000 + number). Shown on stderr for people and, when asked for, as JSON lines. Texts:
 // event_texts.def.
 
-#include "runtime/abi/rt_abi.h"
-#include "runtime/io/output_file.h"
+#include "runtime/base/output_file.h"
 #include "runtime/log/event.h"
 #include "runtime/log/event_output.h"
 
@@ -54,11 +53,10 @@ class EventLog {
 
     /// Keeps and shows an event; sequence is set here, time when it is negative. Returns the sequence number.
     uint64_t write(Event event);
-    /// An event from event_texts.def; {0} {1} ... in its text are replaced. `task` (may be null) gives name
-    /// and place.
-    uint64_t write(EventId id, const Task* task, std::initializer_list<std::string> arguments = {});
+    /// An event from event_texts.def; {0} {1} ... in its text are replaced. `origin`: a `const Task*`, may be null.
+    uint64_t write(EventId id, EventOrigin origin, std::initializer_list<std::string> arguments = {});
     /// ErrWrite, ErrLog: number in full (domain * 10000 + number), texts as given.
-    uint64_t write(EventType type, int number, std::string title, std::string text, const Task* task,
+    uint64_t write(EventType type, int number, std::string title, std::string text, EventOrigin origin,
                    std::vector<std::string> arguments = {});
 
     /// The newest 1000, oldest first. One that repeats the one before it is counted there.

@@ -1,6 +1,6 @@
 #include "runtime/sched/event_routines.h"
 
-#include "runtime/io/text_util.h"
+#include "runtime/base/text_util.h"
 #include "runtime/sched/task.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // They run on the task's own fibre: ahead of main, or on top of what was interrupted, as traps do.
 
 #include "runtime/abi/rt_abi.h"
-#include "runtime/sched/time.h"
+#include "runtime/base/time.h"
 
 #include <array>
 #include <cstdint>

@@ -2,8 +2,8 @@
 // Scheduler: one thread, one virtual clock, one queue of timed events, tasks on fibres. Deterministic: the
 // order of everything follows from times and sequence numbers alone. See README.md for the rules of time.
 
+#include "runtime/base/time.h"
 #include "runtime/sched/task.h"
-#include "runtime/sched/time.h"
 
 #include <cstdint>
 #include <deque>

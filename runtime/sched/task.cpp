@@ -1,7 +1,6 @@
 // Task: cycles of main on a fibre, waiting, stopping and ending. Errors: task_errors.cpp.
 
 #include "runtime/sched/task.h"
-#include "runtime/host/module_units.h"
 
 #include "runtime/log/event_log.h"
 #include "runtime/sched/error_search.h"
@@ -80,7 +79,7 @@ bool Task::runCycle() {
         interrupts_.clear();
         needsReset_ = false;
         if (desc_.reset != nullptr) status = desc_.reset(this, nullptr);
-        if (status == kOk && controller_ != nullptr) status = resetUnits(*controller_, *this);
+        if (status == kOk) status = host_.resetUnits(*this);
         frame = nullptr; // the record of the routine that did it is gone
         if (entryOverride_ == nullptr) host_.programReset(*this);
     }

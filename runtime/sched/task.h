@@ -12,9 +12,10 @@
 // positive ERRNO.
 
 #include "runtime/abi/rt_abi.h"
+#include "runtime/base/source_place.h"
+#include "runtime/base/time.h"
 #include "runtime/sched/event_routines.h"
 #include "runtime/sched/interrupts.h"
-#include "runtime/sched/time.h"
 
 #include <functional>
 #include <initializer_list>
@@ -40,15 +41,6 @@ struct ErrorRoute; // sched/error_search.h
 enum class EventId : int; // log/event_log.h
 
 enum class TaskKind : uint8_t { Normal, Static, SemiStatic };
-
-/// Where a task is, was, or was called from.
-struct SourcePlace {
-    std::string module, routine, file;
-    uint32_t line = 0, column = 0; ///< from 1; 0 = not known
-
-    /// "Module/routine:line", as programs get it (ERRSTR_CONTEXT, ReadErrData).
-    std::string reference() const;
-};
 
 enum class TaskState : uint8_t {
     Ready,    ///< can run
@@ -126,6 +118,8 @@ class TaskHost {
     virtual void taskStopped(Task&) {}
     /// The variables of the task have got their initial values because its program begins anew.
     virtual void programReset(Task&) {}
+    /// Module data outside the program the task was made from (modules loaded later) get their initial values, too.
+    virtual Status resetUnits(Task&) { return kOk; }
     /// The routines of this event have ended or were unwound.
     virtual void eventRoutinesEnded(Task&, SystemEvent) {}
     /// The task executed EXIT and will not go on by itself.

@@ -70,10 +70,6 @@ std::string unaskedText(const Frame* from, int number) {
 
 } // namespace
 
-std::string SourcePlace::reference() const {
-    return fmt::format("{}/{}:{}", module, routine, line);
-}
-
 SourcePlace Task::place() const {
     for (const Frame* at = callSeenByUser(frame); at != nullptr; at = callSeenByUser(at->caller)) {
         if (at->routine != &kTrapBoundary && at->routine != &kEventBoundary) return placeOf(at);

@@ -1,6 +1,6 @@
 #include "runtime/sim/csv_writers.h"
 
-#include "runtime/io/text_util.h"
+#include "runtime/base/text_util.h"
 
 #include <fmt/format.h>
 

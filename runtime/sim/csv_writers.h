@@ -1,9 +1,9 @@
 #pragma once
 // The files a run leaves: every change of a signal, the robot's trace. Fixed formats, the same bytes on every machine.
 
-#include "runtime/io/output_file.h"
+#include "runtime/base/output_file.h"
+#include "runtime/base/time.h"
 #include "runtime/motion/planned_motion.h"
-#include "runtime/sched/time.h"
 
 #include <string>
 #include <string_view>

@@ -1,7 +1,7 @@
 #include "runtime/sim/operator_panel.h"
 
-#include "runtime/host/controller.h"
-#include "runtime/io/text_util.h"
+#include "runtime/base/text_util.h"
+#include "runtime/log/event_log.h"
 
 #include <fmt/format.h>
 
@@ -94,7 +94,7 @@ Status OperatorPanel::ask(Task& task, const Dialog& dialog, DialogEnd& end, std:
         if (status == kOk && end == DialogEnd::Answered) answer = std::string(trimmed(answer));
         return status;
     } else if (answersToCome_ == 0 && !canEndByItself(dialog)) {
-        controller_.log().write(EventId::NoOperator, &task, {questionOf(dialog)});
+        log_.write(EventId::NoOperator, &task, {questionOf(dialog)});
         end = DialogEnd::NoClient;
         return kOk;
     }
@@ -106,7 +106,7 @@ Status OperatorPanel::ask(Task& task, const Dialog& dialog, DialogEnd& end, std:
     }
     end = asking.answered ? DialogEnd::Answered : broken ? DialogEnd::Broken : DialogEnd::Timeout;
     if (!asking.answered && result == WaitResult::Done && !broken) { // the last answer went to another dialog
-        controller_.log().write(EventId::NoOperator, &task, {questionOf(dialog)});
+        log_.write(EventId::NoOperator, &task, {questionOf(dialog)});
         end = DialogEnd::NoClient;
     }
     if (asking.answered) {
@@ -165,7 +165,7 @@ Status OperatorPanel::askTerminal(Task& task, const Dialog& dialog, DialogEnd& e
         const ssize_t got = read(STDIN_FILENO, buffer, sizeof buffer);
         if (got <= 0) { // end of input: nobody there any more
             terminal_ = 0;
-            controller_.log().write(EventId::NoOperator, &task, {questionOf(dialog)});
+            log_.write(EventId::NoOperator, &task, {questionOf(dialog)});
             end = DialogEnd::NoClient;
             return kOk;
         }

@@ -36,11 +36,10 @@ enum class DialogEnd : uint8_t {
               ///< written
 };
 
-class Controller;
-
 class OperatorPanel {
   public:
-    explicit OperatorPanel(Controller& controller) : controller_(controller) {}
+    /// Questions that nobody can answer are reported to `log`.
+    explicit OperatorPanel(EventLog& log) : log_(log) {}
 
     /// TPWrite: a line on stdout.
     void writeLine(std::string_view text);
@@ -82,7 +81,7 @@ class OperatorPanel {
     Status askTerminal(Task& task, const Dialog& dialog, DialogEnd& end, std::string& answer);
     bool terminalUsable() const;
 
-    Controller& controller_;
+    EventLog& log_;
     std::FILE* lines_ = stdout;
     bool unseen_ = false; ///< lines were written since the last flush
     std::chrono::steady_clock::time_point seen_ = std::chrono::steady_clock::now();

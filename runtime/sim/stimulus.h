@@ -2,7 +2,7 @@
 // Stimulus: what happens around the controller at which virtual time, from a CSV file
 // (`time_s,target,value`).
 
-#include "runtime/sched/time.h"
+#include "runtime/base/time.h"
 
 #include <cstdint>
 #include <string>

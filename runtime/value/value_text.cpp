@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fmt/format.h>
 #include <system_error>
 #include <vector>
 
@@ -354,6 +355,31 @@ bool parseRapidNumber(std::string_view text, double& value) {
     }
     if (negative) value = -value;
     return true;
+}
+
+std::string describeType(const TypeDesc& type) {
+    switch (type.kind) {
+    case DescKind::Num: return "num";
+    case DescKind::Dnum: return "dnum";
+    case DescKind::Bool: return "bool";
+    case DescKind::String: return "string";
+    case DescKind::Record: {
+        std::string text = "{";
+        for (uint32_t i = 0; i < type.count; ++i)
+            text +=
+                fmt::format("{}{}:{}", i > 0 ? "," : "", type.fieldNames[i], describeType(*type.fields[i]));
+        return text + "}";
+    }
+    case DescKind::Array: {
+        std::string text = "[";
+        for (int k = 0; k < 3 && type.dims[k] > 0; ++k)
+            text += fmt::format("{}{}", k > 0 ? "," : "", type.dims[k]);
+        return text + "]" + describeType(*type.fields[0]);
+    }
+    case DescKind::Handle:
+    case DescKind::Other: break;
+    }
+    return type.baseName;
 }
 
 } // namespace rt

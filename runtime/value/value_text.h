@@ -37,4 +37,7 @@ bool sourceToValue(std::string_view text, void* data, const TypeDesc& type);
 /// Reads a RAPID number (sign, decimals, exponent, 0x 0o 0b), the whole text, blanks around it allowed.
 bool parseRapidNumber(std::string_view text, double& value);
 
+/// "num", "{x:num,y:num}", "[3,4]string": equal for types with the same values.
+std::string describeType(const TypeDesc& type);
+
 } // namespace rt

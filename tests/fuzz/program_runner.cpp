@@ -6,6 +6,7 @@
 #include "runtime/host/controller.h"
 #include "stdlib/native_bodies.h"
 #include "stdlib/native_table.h"
+#include "stdlib/standard_library.h"
 #include "stdlib/stdlib_text.h"
 #include "tests/fuzz/fuzz_support.h"
 

@@ -64,6 +64,9 @@ def write_ctest(path, source, build):
                                        os.path.join(build, "rapidc_replay_" + entry.name), entry.path], 240)
     scripts = os.path.join(source, "scripts")
     add("layering", [sys.executable, os.path.join(scripts, "check_layering.py"), "--source", source], 60)
+    layers = os.path.join(source, "tests", "layers")
+    add("layers/layering_test", [sys.executable, os.path.join(layers, "layering_test.py")], 60)
+    add("layers/runtime_alone", [os.path.join(build, "rapidc_runtime_alone")], 60)
     add("stdlib", [sys.executable, os.path.join(scripts, "check_stdlib.py"), "--rapidc", os.path.join(build, "rapidc")],
         60)
     with open(path, "w", encoding="utf-8") as file:

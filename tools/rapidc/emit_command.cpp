@@ -6,8 +6,8 @@
 
 #include "frontend/syntax/parser.h"
 #include "ir/text/text.h"
+#include "runtime/base/output_file.h"
 #include "runtime/host/run_options.h"
-#include "runtime/io/output_file.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

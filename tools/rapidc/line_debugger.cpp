@@ -1,6 +1,6 @@
 #include "tools/rapidc/line_debugger.h"
 
-#include "runtime/io/text_util.h"
+#include "runtime/base/text_util.h"
 
 #include <charconv>
 #include <cmath>

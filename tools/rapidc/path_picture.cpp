@@ -1,6 +1,6 @@
 #include "tools/rapidc/path_picture.h"
 
-#include "runtime/io/output_file.h"
+#include "runtime/base/output_file.h"
 
 #include <algorithm>
 #include <cmath>

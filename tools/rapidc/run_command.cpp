@@ -19,6 +19,7 @@
 #include "runtime/host/unit_loader.h"
 #include "runtime/sim/stimulus.h"
 #include "stdlib/native_table.h"
+#include "stdlib/standard_library.h"
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -195,7 +196,7 @@ int run(RunSettings& settings) {
     }
     const auto sources = sourcesOf(*compilation, settings.stepping, options.optimise);
     SourceCompiler compiler(*sources);
-    rt::UnitLoader loader(compiler);
+    rt::UnitLoader loader(compiler, rt::findNativeAddress);
     return execute(settings, *program->program(), loader);
 }
 

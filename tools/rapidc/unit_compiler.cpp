@@ -1,7 +1,7 @@
 #include "tools/rapidc/unit_compiler.h"
 
 #include "ir/lower/lower.h"
-#include "runtime/host/program_tables.h"
+#include "runtime/program/program_tables.h"
 #include "stdlib/native_table.h"
 #include "tools/rapidc/native_library.h"
 

@@ -2,7 +2,7 @@
 
 #include "stdlib/impl/data/data_access.h"
 
-#include "runtime/io/text_util.h"
+#include "runtime/base/text_util.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/task_asked.h"
 #include "stdlib/impl/support/type_match.h"

@@ -1,6 +1,6 @@
 // Manual 1.17: SetDataSearch, GetNextSym, SetAllDataVal; ArgName.
 
-#include "runtime/io/text_util.h"
+#include "runtime/base/text_util.h"
 #include "stdlib/impl/data/data_access.h"
 #include "stdlib/impl/data/name_pattern.h"
 #include "stdlib/impl/support/fail.h"

@@ -1,7 +1,7 @@
 // Manual 1.12: what programs ask about errors.
 
+#include "runtime/debug/state_keepers.h"
 #include "runtime/host/controller.h"
-#include "runtime/host/state_keepers.h"
 #include "runtime/sched/error_search.h"
 #include "stdlib/impl/flow/booked_numbers.h"
 #include "stdlib/impl/support/data_names.h"

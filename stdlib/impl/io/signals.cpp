@@ -1,7 +1,7 @@
 #include "stdlib/impl/io/signals.h"
 
 #include "runtime/abi/support_natives.h"
-#include "runtime/host/state_keepers.h"
+#include "runtime/debug/state_keepers.h"
 #include "runtime/value/value_text.h"
 #include "stdlib/impl/support/fail.h"
 

@@ -2,12 +2,13 @@
 
 #include "stdlib/impl/modules/loading.h"
 
+#include "runtime/base/text_util.h"
 #include "runtime/host/module_saver.h"
 #include "runtime/host/module_units.h"
 #include "runtime/host/rapidc_compiler.h"
 #include "runtime/host/unit_loader.h"
-#include "runtime/io/text_util.h"
 #include "stdlib/impl/support/fail.h"
+#include "stdlib/native_table.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
@@ -76,7 +77,8 @@ std::string joined(const std::vector<std::string>& lines) {
 
 /// In a built executable the installed rapidc compiles.
 struct RapidcLoader {
-    RapidcLoader(std::string_view sources, const IoSystem& io) : compiler(sources, io), loader(compiler) {}
+    RapidcLoader(std::string_view sources, const IoSystem& io)
+        : compiler(sources, io), loader(compiler, findNativeAddress) {}
     RapidcCompiler compiler;
     UnitLoader loader;
 };

@@ -3,8 +3,8 @@
 
 #include "stdlib/impl/motion/state.h"
 
+#include "runtime/debug/state_keepers.h"
 #include "runtime/host/path_image.h"
-#include "runtime/host/state_keepers.h"
 
 #include <nlohmann/json.hpp>
 

@@ -3,8 +3,8 @@
 
 #include "stdlib/impl/motion/triggers.h"
 
+#include "runtime/debug/state_keepers.h"
 #include "runtime/host/json_numbers.h"
-#include "runtime/host/state_keepers.h"
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/support/data_names.h"
 

@@ -4,7 +4,7 @@
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/motion/state.h"
 
-#include "runtime/io/text_util.h"
+#include "runtime/base/text_util.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,7 +1,7 @@
 // Manual 1.20: WaitSyncTask: tasks wait for each other at a point that the name of a syncident identifies.
 
+#include "runtime/base/text_util.h"
 #include "runtime/host/controller.h"
-#include "runtime/io/text_util.h"
 #include "stdlib/impl/support/fail.h"
 
 #include <fmt/format.h>

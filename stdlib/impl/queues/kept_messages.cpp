@@ -4,9 +4,9 @@
 #include "stdlib/impl/queues/message_queue.h"
 
 #include "runtime/debug/call_chain.h"
+#include "runtime/debug/state_keepers.h"
 #include "runtime/host/json_numbers.h"
-#include "runtime/host/saved_state.h"
-#include "runtime/host/state_keepers.h"
+#include "runtime/value/value_text.h"
 
 #include <stdexcept>
 

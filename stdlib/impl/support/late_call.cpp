@@ -1,8 +1,8 @@
 // Calls whose target is found by name when they are executed (manual 1.1.5).
 
 #include "runtime/abi/support_natives.h"
+#include "runtime/base/text_util.h"
 #include "runtime/host/controller.h"
-#include "runtime/io/text_util.h"
 #include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/type_match.h"

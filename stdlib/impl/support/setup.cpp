@@ -6,8 +6,9 @@
 #include "stdlib/impl/queues/message_queue.h"
 #include "stdlib/impl/time/clocks.h"
 #include "stdlib/native_table.h"
+#include "stdlib/standard_library.h"
 
-#include "runtime/host/state_keepers.h"
+#include "runtime/debug/state_keepers.h"
 
 namespace rt {
 

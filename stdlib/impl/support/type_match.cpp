@@ -1,6 +1,6 @@
 #include "stdlib/impl/support/type_match.h"
 
-#include "runtime/io/text_util.h"
+#include "runtime/base/text_util.h"
 
 namespace rt::lib {
 

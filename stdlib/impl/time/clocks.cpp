@@ -2,9 +2,9 @@
 
 #include "stdlib/impl/time/clocks.h"
 
+#include "runtime/debug/state_keepers.h"
 #include "runtime/host/controller.h"
 #include "runtime/host/json_numbers.h"
-#include "runtime/host/state_keepers.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib_constants.h"

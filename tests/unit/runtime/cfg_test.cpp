@@ -1,5 +1,5 @@
+#include "runtime/base/text_util.h"
 #include "runtime/io/cfg_parser.h"
-#include "runtime/io/text_util.h"
 
 #include <catch2/catch.hpp>
 

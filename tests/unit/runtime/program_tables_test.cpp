@@ -1,6 +1,6 @@
 // What the modules in program memory declare: loading and unloading leaves nothing.
 
-#include "runtime/host/program_tables.h"
+#include "runtime/program/program_tables.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,6 @@
 // Entry points of compiled code into the runtime; the work is done by Task.
 
 #include "runtime/abi/rt_abi.h"
-
 #include "runtime/sched/error_search.h"
 #include "runtime/sched/task.h"
 

@@ -1,4 +1,4 @@
-#include "runtime/sched/time.h"
+#include "runtime/base/time.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
-#include "runtime/host/program_tables.h"
+#include "runtime/program/program_tables.h"
 
-#include "runtime/io/text_util.h"
+#include "runtime/base/text_util.h"
 
 #include <algorithm>
 #include <sys/stat.h>

@@ -1,4 +1,4 @@
-#include "runtime/io/output_file.h"
+#include "runtime/base/output_file.h"
 
 #include <cerrno>
 #include <chrono>

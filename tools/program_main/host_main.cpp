@@ -3,6 +3,7 @@
 #include "runtime/host/controller.h"
 #include "runtime/host/standard_streams.h"
 #include "runtime/host/usage.h"
+#include "stdlib/standard_library.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""The script that checks layers refuses what it has to: a folder with one wrong include, a table with a cycle."""
+
+import contextlib
+import io
+import os
+import sys
+import tempfile
+import unittest
+
+ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+sys.path.insert(0, os.path.join(ROOT, "scripts"))
+
+import check_layering  # noqa: E402
+
+# From the bottom up. An include of a folder further down this list is wrong in each of them.
+RUNTIME = ["abi", "robot", "motion", "base", "value", "program", "log", "sched", "io", "sim", "debug", "host"]
+
+
+def check(files):
+    """Exit status and output of the script for a source tree of these files."""
+    with tempfile.TemporaryDirectory() as root:
+        for path, text in files.items():
+            os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
+            with open(os.path.join(root, path), "w", encoding="utf-8") as file:
+                file.write(text)
+        output = io.StringIO()
+        with contextlib.redirect_stdout(output):
+            status = check_layering.check_tree(root)
+        return status, output.getvalue()
+
+
+class Includes(unittest.TestCase):
+    def test_upward_includes_in_the_runtime_are_refused(self):
+        for below, lower in enumerate(RUNTIME):
+            for upper in RUNTIME[below + 1:]:
+                status, output = check({f"runtime/{lower}/x.cpp": f'#include "runtime/{upper}/y.h"\n'})
+                self.assertEqual(status, 1, f"{lower} includes {upper}")
+                self.assertIn(f"runtime/{lower}/x.cpp:1: runtime/{lower} may not include runtime/{upper}", output)
+
+    def test_host_may_include_every_other_folder(self):
+        for lower in RUNTIME:
+            status, output = check({"runtime/host/x.h": f'#include "runtime/{lower}/y.h"\n'})
+            self.assertEqual(status, 0, output)
+
+    def test_the_runtime_does_not_know_the_standard_library_or_the_compiler(self):
+        for folder in RUNTIME:
+            for target in ("stdlib/native_table.h", "stdlib/impl/support/fail.h", "ir/core/module.h",
+                           "frontend/sema/types.h", "codegen/codegen.h", "tools/rapidc/commands.h"):
+                status, output = check({f"runtime/{folder}/x.h": f'#include "{target}"\n'})
+                self.assertEqual(status, 1, f"runtime/{folder} includes {target}: {output}")
+
+    def test_every_folder_of_the_runtime_has_its_place(self):
+        folders = [entry.name for entry in os.scandir(os.path.join(ROOT, "runtime")) if entry.is_dir()]
+        self.assertEqual(sorted(folders), sorted(RUNTIME))
+
+    def test_a_folder_without_layer_is_refused(self):
+        status, output = check({"runtime/elsewhere/x.h": "\n"})
+        self.assertEqual(status, 1)
+        self.assertIn("no layer is defined", output)
+
+
+class Table(unittest.TestCase):
+    def problems(self, layers):
+        errors = []
+        check_layering.check_table(layers, errors)
+        return errors
+
+    def test_the_table_of_the_project_is_in_order(self):
+        self.assertEqual(self.problems(check_layering.LAYERS), [])
+
+    def test_a_cycle_is_refused(self):
+        self.assertEqual(len(self.problems({"a": ["b"], "b": ["a"]})), 1)
+        self.assertEqual(len(self.problems({"a/x": ["a/"], "a/y": []})), 1)
+
+    def test_a_rule_without_layer_is_refused(self):
+        self.assertEqual(len(self.problems({"a": ["gone"]})), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
