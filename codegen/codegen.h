@@ -3,6 +3,7 @@
 // compiler does not pay for them. A module must have passed ir::verify (ir::runPasses does that).
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -19,6 +20,11 @@ struct UnitImage;
 
 namespace codegen {
 
+inline constexpr size_t kLargeProgram = 15'000;
+
+/// Makes a routine of the module ready to be compiled. False and a message when it is not well formed.
+using PrepareRoutine = std::function<bool(uint32_t routine, std::string& error)>;
+
 /// Natives whose bodies are known (codegen/bodies): optimised programs inline them.
 struct NativeBodies {
     std::string_view bitcode;
@@ -31,8 +37,10 @@ struct CodegenOptions {
     bool debugInfo =
         true; ///< DWARF line tables that name the lines of the source; in the JIT gdb gets them, too
     NativeBodies bodies = {}; ///< none: every native is called
-    size_t lazyAbove =
-        15'000; ///< IR instructions of a program from which on jit() compiles routines when they are called
+    /// IR instructions of a program from which on jit() compiles each routine when it is called first.
+    size_t lazyAbove = kLargeProgram;
+    /// Called for each routine ahead of that, on another thread than the program's; empty: all are ready.
+    PrepareRoutine prepare = {};
 };
 
 /// A C function (or datum) that compiled code may refer to.

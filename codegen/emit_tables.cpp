@@ -22,7 +22,7 @@ llvm::Constant* ModuleEmitter::constant(llvm::Constant* value, const std::string
 llvm::Constant* ModuleEmitter::text(const std::string& value) {
     llvm::Constant*& known = texts_[value];
     if (!known) {
-        known = constant(llvm::ConstantDataArray::getString(context_, value), "text");
+        known = constant(llvm::ConstantDataArray::getString(context_, value), ""); // a name would cost time
         llvm::cast<llvm::GlobalVariable>(known)->setUnnamedAddr(llvm::GlobalValue::UnnamedAddr::Global);
         llvm::cast<llvm::GlobalVariable>(known)->setAlignment(llvm::Align(1));
     }
@@ -33,6 +33,13 @@ llvm::Constant* ModuleEmitter::array(llvm::Type* element, const std::vector<llvm
                                      const std::string& name) {
     if (values.empty()) return null();
     return constant(llvm::ConstantArray::get(llvm::ArrayType::get(element, values.size()), values), name);
+}
+
+llvm::Constant* ModuleEmitter::rawArray(llvm::StringRef bytes, size_t align, const std::string& name) {
+    if (bytes.empty()) return null();
+    llvm::Constant* variable = constant(llvm::ConstantDataArray::getRaw(bytes, bytes.size(), i8_), name);
+    llvm::cast<llvm::GlobalVariable>(variable)->setAlignment(llvm::Align(align));
+    return variable;
 }
 
 llvm::Constant* ModuleEmitter::fileName(uint32_t file) {
@@ -107,21 +114,14 @@ rt::StartMark startMark(const ir::Routine& routine, const ir::Statement& stateme
 
 llvm::Constant* ModuleEmitter::statementTable(const ir::Routine& routine) {
     using Desc = rt::StmtDesc;
-    std::vector<llvm::Constant*> rows;
+    std::vector<Desc> rows;
     std::set<ir::BlockId> starts;
     for (const ir::Statement& s : routine.statements)
-        rows.push_back(abi::Row<Desc>(context_)
-                           .set<&Desc::line>(s.line)
-                           .set<&Desc::column>(s.column)
-                           .set<&Desc::endLine>(s.endLine)
-                           .set<&Desc::endColumn>(s.endColumn)
-                           .set<&Desc::kind>(abi::kindOf(s.kind))
-                           .set<&Desc::handled>(s.handled)
-                           .set<&Desc::flags>(s.flags)
-                           .set<&Desc::canStart>(startMark(routine, s, starts))
-                           .set<&Desc::previous>(s.previous == ir::kNone ? -1 : int64_t{s.previous})
-                           .finish());
-    return table<Desc>(rows, "statements");
+        // A field that is added to StmtDesc and has no value here does not compile (missing initializer).
+        rows.push_back({s.line, s.column, s.endLine, s.endColumn, abi::kindOf(s.kind), s.handled, s.flags,
+                        startMark(routine, s, starts),
+                        s.previous == ir::kNone ? -1 : static_cast<int32_t>(s.previous)});
+    return rawTable(rows, "statements");
 }
 
 std::vector<llvm::Constant*> ModuleEmitter::localRows(const ir::Routine& routine) {

@@ -52,18 +52,11 @@ std::vector<NativeSymbol> resolve(const llvm::Module& compiled, const ir::Module
     return result;
 }
 
-bool isLarge(const ir::Module& module, size_t limit) {
-    size_t size = 0;
-    for (const ir::Routine& routine : module.routines)
-        size += routine.insts.size();
-    return size > limit;
-}
-
 } // namespace
 
 std::unique_ptr<JitProgram> jit(const ir::Module& module, const CodegenOptions& options,
                                 const std::vector<NativeSymbol>& symbols, std::string& error) {
-    if (isLarge(module, options.lazyAbove)) return lazyJit(module, options, symbols, error);
+    if (module.instructionCount() > options.lazyAbove) return lazyJit(module, options, symbols, error);
     auto machine = makeTargetMachine(options, error);
     if (!machine) return nullptr;
     llvm::LLVMContext context;

@@ -47,7 +47,8 @@ class LazyProgram : public JitProgram {
   public:
     LazyProgram(const ir::Module& module, const CodegenOptions& options)
         : module_(module), options_(options), slots_(module.routines.size()),
-          counts_(module.routines.size(), kHotCalls), quality_(module.routines.size(), Quality::None) {
+          counts_(module.routines.size(), kHotCalls), prepared_(module.routines.size(), !options.prepare),
+          quality_(module.routines.size(), Quality::None) {
         options_.debugInfo = false; // it would take longer than the code
     }
 
@@ -147,6 +148,7 @@ class LazyProgram : public JitProgram {
 
     Quality compileRoutine(const Order& order) {
         const ir::Routine& routine = module_.routines[order.routine];
+        prepare(order.routine);
         const bool optimise =
             options_.optimise && (order.quality == Quality::Optimised || hasLoop(module_, routine));
         Part part;
@@ -154,19 +156,30 @@ class LazyProgram : public JitProgram {
         part.routines = {order.routine};
         part.countsCalls = options_.optimise && !optimise;
         if (optimise) part.copies = inlinedInto(order.routine);
+        for (const uint32_t copy : part.copies)
+            prepare(copy);
         std::string error;
         auto object = objectOf(part, optimise ? options_ : quick(), error);
         const void* address =
             object ? session_.addPrivate(std::move(object), symbolOf(module_, order.routine), error)
                    : nullptr;
-        if (!address) {
-            // The program is in the middle of a call that cannot be carried out.
-            std::fprintf(stderr, "rapidc: internal error: %s cannot be compiled: %s\n", routine.name.c_str(),
-                         error.c_str());
-            std::_Exit(kInternalError);
-        }
+        if (!address) giveUp(order.routine, error);
         slots_[order.routine].store(const_cast<void*>(address));
         return optimise ? Quality::Optimised : Quality::Quick;
+    }
+
+    void prepare(uint32_t routine) {
+        std::string error;
+        if (prepared_[routine]) return;
+        if (!options_.prepare(routine, error)) giveUp(routine, error);
+        prepared_[routine] = true;
+    }
+
+    /// The program is in the middle of a call that cannot be carried out.
+    [[noreturn]] void giveUp(uint32_t routine, const std::string& error) const {
+        std::fprintf(stderr, "rapidc: internal error: %s cannot be compiled: %s\n",
+                     module_.routines[routine].name.c_str(), error.c_str());
+        std::_Exit(kInternalError);
     }
 
     /// Small routines that it calls, and those that they call.
@@ -209,6 +222,7 @@ class LazyProgram : public JitProgram {
     std::vector<int32_t> counts_;
     std::unique_ptr<llvm::orc::LocalTrampolinePool<ReentryAbi>> trampolines_;
     std::unordered_map<uint64_t, uint32_t> byTrampoline_;
+    std::vector<bool> prepared_; ///< used by the compiling thread
     const rt::ProgramDesc* program_ = nullptr;
     std::mutex mutex_; ///< of what follows
     std::condition_variable changed_;

@@ -5,9 +5,9 @@
 #include <llvm/IR/MDBuilder.h>
 #include <llvm/IR/Module.h>
 
-#include <map>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "codegen/abi_types.h"
@@ -128,6 +128,14 @@ class ModuleEmitter {
     llvm::Constant* table(const std::vector<llvm::Constant*>& rows, const std::string& name) {
         return array(abi::structType<T>(context_), rows, name);
     }
+    /// The same for rows without addresses: the bytes as they lie in memory (code is made for the host's architecture). There are
+    /// many statements, and a constant of LLVM for each field takes a large part of the time.
+    template <class T> llvm::Constant* rawTable(const std::vector<T>& rows, const std::string& name) {
+        static_assert(std::has_unique_object_representations_v<T>);
+        return rawArray({reinterpret_cast<const char*>(rows.data()), rows.size() * sizeof(T)}, alignof(T),
+                        name);
+    }
+    llvm::Constant* rawArray(llvm::StringRef bytes, size_t align, const std::string& name);
     llvm::Constant* fileName(uint32_t file);
     llvm::Constant* i32(int64_t value);
     llvm::Constant* null();
@@ -169,7 +177,7 @@ class ModuleEmitter {
     llvm::MDNode* unlikely_ = nullptr;
     std::vector<llvm::Function*> routines_, natives_, cEntries_;
     std::vector<llvm::GlobalVariable*> globals_, typeDescs_, routineDescs_;
-    std::map<std::string, llvm::Constant*> texts_;
+    std::unordered_map<std::string, llvm::Constant*> texts_;
     llvm::PointerType* ptr_ = nullptr;
     llvm::IntegerType *i32_ = nullptr, *i64_ = nullptr, *i8_ = nullptr;
 };

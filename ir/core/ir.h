@@ -304,6 +304,8 @@ struct Module {
     std::vector<std::string> configNames;
 
     Module();
+    /// Of all routines: what compiling takes.
+    size_t instructionCount() const;
     const Type& type(TypeId id) const { return types[id]; }
     TypeId arrayOf(TypeId element, std::vector<int32_t> dims); ///< interned
     TypeId addRecord(std::string name, std::vector<Field> fields);

@@ -22,6 +22,13 @@ Module::Module() {
     }
 }
 
+size_t Module::instructionCount() const {
+    size_t count = 0;
+    for (const Routine& routine : routines)
+        count += routine.insts.size();
+    return count;
+}
+
 TypeId Module::arrayOf(TypeId element, std::vector<int32_t> dims) {
     for (TypeId id = 0; id < types.size(); ++id) {
         const Type& t = types[id];

@@ -151,10 +151,8 @@ class OverflowChecker {
 
 } // namespace
 
-void checkOverflow(Module& module) {
-    if (module.overflowError == 0) return;
-    for (Routine& routine : module.routines)
-        OverflowChecker(module, routine).run();
+void checkOverflow(const Module& module, Routine& routine) {
+    if (module.overflowError != 0) OverflowChecker(module, routine).run();
 }
 
 } // namespace ir

@@ -178,13 +178,11 @@ class CheckMerger {
 
 } // namespace
 
-void mergeChecks(Module& module) {
+void mergeChecks(const Module& module, Routine& routine) {
     // What watches data is asked after each store of it.
     const bool watched = std::any_of(module.natives.begin(), module.natives.end(),
                                      [](const Native& native) { return native.watches; });
-    if (watched) return;
-    for (Routine& routine : module.routines)
-        if (!routine.stepping) CheckMerger(module, routine).run();
+    if (!watched && !routine.stepping) CheckMerger(module, routine).run();
 }
 
 } // namespace ir

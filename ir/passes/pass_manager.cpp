@@ -4,41 +4,61 @@
 namespace ir {
 namespace {
 
-std::vector<std::string> verifyAfter(const Module& module, std::string_view pass) {
-    std::vector<std::string> findings = verify(module);
+using Findings = std::vector<std::string>;
+
+// Checks first: they decide which places TRYNEXT and RETRY can lead to.
+const std::vector<std::string_view> kAllPasses = {"check-overflow", "simplify-cfg", "fold-constants",
+                                                  "simplify-cfg",   "merge-checks", "place-safepoints"};
+
+Findings prefixed(Findings findings, std::string_view pass) {
     for (std::string& finding : findings)
         finding = std::string(pass) + ": " + finding;
     return findings;
 }
 
+/// False when there is no such pass.
+bool runPass(std::string_view name, const Module& module, Routine& routine, const PassOptions& options) {
+    if (name == "simplify-cfg")
+        simplifyCfg(module, routine);
+    else if (name == "fold-constants")
+        foldConstants(module, routine);
+    else if (name == "check-overflow" && options.overflowChecks)
+        checkOverflow(module, routine);
+    else if (name == "merge-checks")
+        mergeChecks(module, routine);
+    else if (name == "place-safepoints")
+        placeSafepoints(module, routine, options.profile);
+    else
+        return name == "check-overflow";
+    return true;
+}
+
+Findings runPasses(Module& module, uint32_t index, const PassOptions& options,
+                   const std::vector<std::string_view>& names) {
+    Routine& routine = module.routines[index];
+    if (auto findings = verifyRoutine(module, index); !findings.empty()) return prefixed(findings, "input");
+    for (const std::string_view name : names) {
+        if (!runPass(name, module, routine, options)) return {"there is no pass '" + std::string(name) + "'"};
+        if (auto findings = verifyRoutine(module, index); !findings.empty()) return prefixed(findings, name);
+    }
+    return {};
+}
+
 } // namespace
 
 std::vector<std::string> runPasses(Module& module, const PassOptions& options) {
-    return runPasses(module, options,
-                     // Checks first: they decide which places TRYNEXT and RETRY can lead to.
-                     {"check-overflow", "simplify-cfg", "fold-constants", "simplify-cfg", "merge-checks",
-                      "place-safepoints"});
+    return runPasses(module, options, kAllPasses);
+}
+
+std::vector<std::string> runPasses(Module& module, uint32_t routine, const PassOptions& options) {
+    return runPasses(module, routine, options, kAllPasses);
 }
 
 std::vector<std::string> runPasses(Module& module, const PassOptions& options,
                                    const std::vector<std::string_view>& names) {
-    if (auto findings = verifyAfter(module, "input"); !findings.empty()) return findings;
-    if (!options.overflowChecks) module.overflowError = 0;
-    for (std::string_view name : names) {
-        if (name == "simplify-cfg")
-            simplifyCfg(module);
-        else if (name == "fold-constants")
-            foldConstants(module);
-        else if (name == "check-overflow")
-            checkOverflow(module);
-        else if (name == "merge-checks")
-            mergeChecks(module);
-        else if (name == "place-safepoints")
-            placeSafepoints(module, options.profile);
-        else
-            return {"there is no pass '" + std::string(name) + "'"};
-        if (auto findings = verifyAfter(module, name); !findings.empty()) return findings;
-    }
+    if (auto findings = verifyTables(module); !findings.empty()) return prefixed(findings, "input");
+    for (uint32_t i = 0; i < module.routines.size(); ++i)
+        if (auto findings = runPasses(module, i, options, names); !findings.empty()) return findings;
     return {};
 }
 

@@ -19,25 +19,30 @@ struct PassOptions {
     bool overflowChecks = true; ///< off to measure what they cost; results are then not those of a controller
 };
 
-/// Runs checkOverflow, simplifyCfg, foldConstants, simplifyCfg, mergeChecks, placeSafepoints. Returns the verifier's
-/// findings, each prefixed with the pass after which it appeared ("input: " when the module came in broken); empty = fine.
-/// Stops at the first pass with findings.
+/// Runs checkOverflow, simplifyCfg, foldConstants, simplifyCfg, mergeChecks, placeSafepoints on all routines. Returns the
+/// verifier's findings, each prefixed with the pass after which it appeared ("input: " when the module came in broken);
+/// empty = fine. Stops at the first pass with findings.
 std::vector<std::string> runPasses(Module& module, const PassOptions& options);
+
+/// The same for one routine. What lies outside of routines is not verified (verifyTables).
+std::vector<std::string> runPasses(Module& module, uint32_t routine, const PassOptions& options);
 
 /// Runs the named passes only ("check-overflow", "simplify-cfg", "fold-constants", "merge-checks", "place-safepoints"),
 /// for tests and for emit.
 std::vector<std::string> runPasses(Module& module, const PassOptions& options,
                                    const std::vector<std::string_view>& names);
 
+// Passes look at nothing of other routines but their signatures, so routines may be transformed in any order.
+
 /// Removes unreachable blocks, threads jumps through empty blocks, merges a block into its only predecessor.
-void simplifyCfg(Module& module);
+void simplifyCfg(const Module& module, Routine& routine);
 /// Evaluates instructions whose operands are constants, and branches on constants.
-void foldConstants(Module& module);
+void foldConstants(const Module& module, Routine& routine);
 /// Raises Module::overflowError where a floating-point result is out of range; does nothing when that is 0.
-void checkOverflow(Module& module);
+void checkOverflow(const Module& module, Routine& routine);
 /// One look at several values in place of a check of each; release profile only.
-void mergeChecks(Module& module);
+void mergeChecks(const Module& module, Routine& routine);
 /// Inserts the safepoints (design chapter 4); the input must contain none.
-void placeSafepoints(Module& module, Profile profile);
+void placeSafepoints(const Module& module, Routine& routine, Profile profile);
 
 } // namespace ir

@@ -284,11 +284,10 @@ class Placer {
 
 } // namespace
 
-void placeSafepoints(Module& module, Profile profile) {
+void placeSafepoints(const Module& module, Routine& routine, Profile profile) {
     const bool dataWatched = std::any_of(module.natives.begin(), module.natives.end(),
                                          [](const Native& native) { return native.watches; });
-    for (Routine& routine : module.routines)
-        Placer(module, routine, dataWatched).run(profile);
+    Placer(module, routine, dataWatched).run(profile);
 }
 
 } // namespace ir

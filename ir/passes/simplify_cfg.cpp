@@ -131,9 +131,8 @@ class Simplifier {
 
 } // namespace
 
-void simplifyCfg(Module& module) {
-    for (Routine& routine : module.routines)
-        Simplifier(module, routine).run();
+void simplifyCfg(const Module& module, Routine& routine) {
+    Simplifier(module, routine).run();
 }
 
 } // namespace ir

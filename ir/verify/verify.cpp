@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <set>
+#include <unordered_set>
 
 #include "ir/core/op_info.h"
 #include "ir/verify/routine_verifier.h"
@@ -96,7 +96,7 @@ void checkDescs(const Module& module, Findings& out) {
 }
 
 void checkGlobals(const Module& module, Findings& out) {
-    std::set<std::string_view> names;
+    std::unordered_set<std::string_view> names;
     for (const Global& global : module.globals) {
         auto add = [&](const std::string& text) {
             out.push_back(fmt::format("global {}: {}", global.name, text));
@@ -123,7 +123,7 @@ void checkGlobals(const Module& module, Findings& out) {
 }
 
 void checkNatives(const Module& module, Findings& out) {
-    std::set<std::string_view> names;
+    std::unordered_set<std::string_view> names;
     for (const Native& native : module.natives) {
         auto add = [&](const std::string& text) {
             out.push_back(fmt::format("native {}: {}", native.symbol, text));
@@ -222,7 +222,7 @@ void checkNamed(const Module& module, Findings& out) {
 
 } // namespace
 
-std::vector<std::string> verify(const Module& module) {
+std::vector<std::string> verifyTables(const Module& module) {
     Findings out;
     if (!checkTypes(module, out)) return out; // everything else asks for sizes
     checkDescs(module, out);
@@ -230,12 +230,24 @@ std::vector<std::string> verify(const Module& module) {
     checkNatives(module, out);
     checkTables(module, out);
     checkNamed(module, out);
-    std::set<std::string_view> names;
-    for (const Routine& routine : module.routines) {
+    std::unordered_set<std::string_view> names;
+    for (const Routine& routine : module.routines)
         if (!names.insert(routine.name).second)
             out.push_back(fmt::format("routine {}: name used twice", routine.name));
+    return out;
+}
+
+std::vector<std::string> verifyRoutine(const Module& module, uint32_t routine) {
+    Findings out;
+    RoutineVerifier(module, module.routines[routine], out).run();
+    return out;
+}
+
+std::vector<std::string> verify(const Module& module) {
+    Findings out = verifyTables(module);
+    if (!out.empty()) return out; // routines ask for sizes
+    for (const Routine& routine : module.routines)
         RoutineVerifier(module, routine, out).run();
-    }
     return out;
 }
 

@@ -5,6 +5,7 @@
 #include "frontend/project/project.h"
 #include "frontend/project/system_parameters.h"
 #include "ir/lower/lower.h"
+#include "ir/verify/verify.h"
 #include "runtime/io/cfg_parser.h"
 #include "runtime/robot/robot_model.h"
 #include "stdlib/native_table.h"
@@ -373,7 +374,17 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     return compilation;
 }
 
-bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping, ir::Module& out) {
+namespace {
+/// False when there are any.
+bool reportFindings(const std::vector<std::string>& findings, diag::Sink& sink) {
+    for (const std::string& finding : findings)
+        sink.report(diag::Code::InternalIr, nullptr, {}, {finding});
+    return findings.empty();
+}
+} // namespace
+
+bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping, ir::Module& out,
+               size_t passesBelow) {
     rapid::lower::Options options;
     options.programName = name;
     options.stepping = stepping;
@@ -388,17 +399,18 @@ bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping,
     const bool lowered = rapid::lower::lowerProgram(*compilation.program, options, compilation.sink, out);
     rapid::lint::applyLevels(compilation.warningLevels, compilation.sink);
     if (!lowered || compilation.sink.hasErrors()) return false;
-    return runIrPasses(out,
-                       {.profile = stepping ? ir::Profile::Stepping : ir::Profile::Release,
-                        .overflowChecks = compilation.overflowChecks},
-                       compilation.sink);
+    if (out.instructionCount() < passesBelow)
+        return runIrPasses(out, irPasses(compilation, stepping), compilation.sink);
+    return reportFindings(ir::verifyTables(out), compilation.sink);
+}
+
+ir::PassOptions irPasses(const Compilation& compilation, bool stepping) {
+    return {.profile = stepping ? ir::Profile::Stepping : ir::Profile::Release,
+            .overflowChecks = compilation.overflowChecks};
 }
 
 bool runIrPasses(ir::Module& module, const ir::PassOptions& options, diag::Sink& sink) {
-    const std::vector<std::string> findings = ir::runPasses(module, options);
-    for (const std::string& finding : findings)
-        sink.report(diag::Code::InternalIr, nullptr, {}, {finding});
-    return findings.empty();
+    return reportFindings(ir::runPasses(module, options), sink);
 }
 
 namespace {

@@ -66,8 +66,13 @@ void addRobotOption(CLI::App& command, Inputs& inputs);
 /// cannot be read.
 std::unique_ptr<Compilation> checkInputs(const Inputs& inputs);
 
-/// Lowers and runs the IR passes. False with diagnostics in the sink when something stands against it.
-bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping, ir::Module& out);
+/// Lowers and runs the IR passes. False with diagnostics in the sink when something stands against it. `passesBelow`: a
+/// program of as many IR instructions is only verified outside its routines; whoever compiles it runs the passes (irPasses).
+bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping, ir::Module& out,
+               size_t passesBelow = SIZE_MAX);
+
+/// The passes of the profile.
+ir::PassOptions irPasses(const Compilation& compilation, bool stepping);
 
 /// Verifies a module and runs the passes of the profile; findings are internal errors in the sink.
 bool runIrPasses(ir::Module& module, const ir::PassOptions& options, rapid::diag::Sink& sink);
