@@ -37,10 +37,13 @@ struct CodegenOptions {
     bool debugInfo =
         true; ///< DWARF line tables that name the lines of the source; in the JIT gdb gets them, too
     NativeBodies bodies = {}; ///< none: every native is called
-    /// IR instructions of a program from which on jit() compiles each routine when it is called first.
-    size_t lazyAbove = kLargeProgram;
-    /// Called for each routine ahead of that, on another thread than the program's; empty: all are ready.
+    /// IR instructions of a program from which on it is compiled in parts: by jit() each routine when it is called first, by
+    /// emitObjects() a module of the source at a time, on all processors.
+    size_t partsAbove = kLargeProgram;
+    /// Called once for each routine of such a program before it is compiled, on any thread, never twice at a time for one; empty:
+    /// all are ready.
     PrepareRoutine prepare = {};
+    std::string cacheFolder = {}; ///< where emitObjects() keeps the objects of parts; empty: nowhere
 };
 
 /// A C function (or datum) that compiled code may refer to.
@@ -70,6 +73,11 @@ void guardMemory(void (*outOfMemory)());
 bool emitObject(const ir::Module& module, const std::string& path, const CodegenOptions& options,
                 std::string& error);
 
+/// Writes the objects of `module` into an existing folder: one, or those of its parts. Their paths are added to `paths`. Parts
+/// that are the same as in an earlier build come from the cache.
+bool emitObjects(const ir::Module& module, const std::string& folder, const CodegenOptions& options,
+                 std::vector<std::string>& paths, std::string& error);
+
 /// Compiles `module` into an image that any process can map, without debug information. False and a message in `error` on
 /// failure.
 bool emitImage(const ir::Module& module, const CodegenOptions& options, rt::UnitImage& image,
@@ -90,8 +98,8 @@ struct LinkOptions {
     bool stripDebug = false;
 };
 
-/// Links object and libraries into an executable. `error` names what is missing (a linker driver, a library, a symbol).
-bool linkExecutable(const std::string& objectPath, const std::string& outputPath, const LinkOptions& options,
-                    std::string& error);
+/// Links objects and libraries into an executable. `error` names what is missing (a linker driver, a library, a symbol).
+bool linkExecutable(const std::vector<std::string>& objects, const std::string& outputPath,
+                    const LinkOptions& options, std::string& error);
 
 } // namespace codegen

@@ -82,9 +82,9 @@ bool spareHugeRoutines(llvm::Module& module) {
 
 } // namespace
 
-std::unique_ptr<llvm::Module> compile(const ir::Module& module, const CodegenOptions& options,
-                                      llvm::TargetMachine& machine, llvm::LLVMContext& context,
-                                      std::string& error, const Part* part) {
+std::unique_ptr<llvm::Module> emit(const ir::Module& module, const CodegenOptions& options,
+                                   llvm::TargetMachine& machine, llvm::LLVMContext& context,
+                                   std::string& error, const Part* part) {
     std::unique_ptr<llvm::Module> result =
         ModuleEmitter(module, options, context, part)
             .run(machine.createDataLayout(), machine.getTargetTriple().str());
@@ -94,13 +94,25 @@ std::unique_ptr<llvm::Module> compile(const ir::Module& module, const CodegenOpt
         error = "internal error: LLVM rejects the module '" + module.name + "': " + stream.str();
         return nullptr;
     }
-    if (!options.optimise) return result;
-    if (!linkNativeBodies(*result, options.bodies, error)) return nullptr;
-    const bool huge = spareHugeRoutines(*result);
-    optimise(*result, machine);
+    return result;
+}
+
+bool finish(llvm::Module& module, const CodegenOptions& options, llvm::TargetMachine& machine,
+            std::string& error) {
+    if (!options.optimise) return true;
+    if (!linkNativeBodies(module, options.bodies, error)) return false;
+    const bool huge = spareHugeRoutines(module);
+    optimise(module, machine);
     // One register allocator serves the whole module.
     if (huge) machine.setOptLevel(llvm::CodeGenOptLevel::None);
-    return result;
+    return true;
+}
+
+std::unique_ptr<llvm::Module> compile(const ir::Module& module, const CodegenOptions& options,
+                                      llvm::TargetMachine& machine, llvm::LLVMContext& context,
+                                      std::string& error, const Part* part) {
+    auto result = emit(module, options, machine, context, error, part);
+    return result && finish(*result, options, machine, error) ? std::move(result) : nullptr;
 }
 
 bool generate(llvm::Module& module, llvm::TargetMachine& machine, llvm::CodeGenFileType type,

@@ -22,8 +22,14 @@ std::unique_ptr<llvm::TargetMachine> makeTargetMachine(const CodegenOptions& opt
 
 struct Part;
 
-/// Emits `module`, or a part of it, checks the result and optimises it. When the module has a huge routine, sets `machine` to generate code
-/// without optimisation. Null and `error` when LLVM's verifier objects (our bug).
+/// Emits `module`, or a part of it, and checks the result. Null and `error` when LLVM's verifier objects (our bug).
+std::unique_ptr<llvm::Module> emit(const ir::Module& module, const CodegenOptions& options,
+                                   llvm::TargetMachine& machine, llvm::LLVMContext& context,
+                                   std::string& error, const Part* part = nullptr);
+/// Optimises what was emitted. When it has a huge routine, sets `machine` to generate code without optimisation.
+bool finish(llvm::Module& module, const CodegenOptions& options, llvm::TargetMachine& machine,
+            std::string& error);
+/// Both.
 std::unique_ptr<llvm::Module> compile(const ir::Module& module, const CodegenOptions& options,
                                       llvm::TargetMachine& machine, llvm::LLVMContext& context,
                                       std::string& error, const Part* part = nullptr);

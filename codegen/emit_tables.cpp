@@ -48,25 +48,23 @@ llvm::Constant* ModuleEmitter::fileName(uint32_t file) {
 }
 
 llvm::GlobalVariable* ModuleEmitter::tableVariable(std::vector<llvm::GlobalVariable*>& known, uint32_t index,
-                                                   llvm::Type* type, const char* kind,
-                                                   const std::string& name) {
+                                                   llvm::Type* type, const std::string& name) {
     llvm::GlobalVariable*& variable = known[index];
     if (variable) return variable;
-    variable = new llvm::GlobalVariable(
-        *target_, type, true, part_ ? llvm::GlobalValue::ExternalLinkage : llvm::GlobalValue::PrivateLinkage,
-        nullptr, part_ ? std::string(kind) + "#" + std::to_string(index) : std::string(kind) + "." + name);
-    if (part_ && !part_->callsBySlot) variable->setVisibility(llvm::GlobalValue::HiddenVisibility);
+    variable =
+        new llvm::GlobalVariable(*target_, type, true, llvm::GlobalValue::PrivateLinkage, nullptr, name);
+    share(*variable);
     return variable;
 }
 
 llvm::GlobalVariable* ModuleEmitter::typeDesc(uint32_t index) {
-    return tableVariable(typeDescs_, index, abi::structType<rt::TypeDesc>(context_), "type",
-                         module_.typeDescs[index].name);
+    return tableVariable(typeDescs_, index, abi::structType<rt::TypeDesc>(context_),
+                         "type." + std::to_string(index));
 }
 
 llvm::GlobalVariable* ModuleEmitter::routineDesc(uint32_t index) {
-    return tableVariable(routineDescs_, index, abi::structType<rt::RoutineDesc>(context_), "routine",
-                         module_.routines[index].name);
+    return tableVariable(routineDescs_, index, abi::structType<rt::RoutineDesc>(context_),
+                         "routine." + module_.routines[index].name);
 }
 
 llvm::Constant* ModuleEmitter::typeDescValue(const ir::TypeDesc& desc) {

@@ -56,7 +56,7 @@ std::vector<NativeSymbol> resolve(const llvm::Module& compiled, const ir::Module
 
 std::unique_ptr<JitProgram> jit(const ir::Module& module, const CodegenOptions& options,
                                 const std::vector<NativeSymbol>& symbols, std::string& error) {
-    if (module.instructionCount() > options.lazyAbove) return lazyJit(module, options, symbols, error);
+    if (module.instructionCount() > options.partsAbove) return lazyJit(module, options, symbols, error);
     auto machine = makeTargetMachine(options, error);
     if (!machine) return nullptr;
     llvm::LLVMContext context;

@@ -8,7 +8,6 @@
 #include <llvm/ExecutionEngine/Orc/IndirectionUtils.h>
 #include <llvm/ExecutionEngine/Orc/OrcABISupport.h>
 
-#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <cstdio>
@@ -20,6 +19,7 @@
 #include "codegen/compile.h"
 #include "codegen/module_emitter.h"
 #include "codegen/orc_session.h"
+#include "codegen/parts.h"
 #include "ir/core/cfg.h"
 #include "ir/core/ir.h"
 
@@ -34,9 +34,6 @@ using ReentryAbi = llvm::orc::OrcX86_64_SysV;
 
 /// Calls after which quick code is replaced.
 constexpr int32_t kHotCalls = 200;
-/// IR instructions of the routines that are compiled into another one, together and each.
-constexpr size_t kMostCopied = 1500, kLargestCopied = 400;
-
 bool hasLoop(const ir::Module& module, const ir::Routine& routine) {
     const ir::Cfg cfg = ir::buildCfg(module, routine, ir::HandlerEdges::Yes);
     const ir::LoopInfo loops = ir::findLoops(cfg);
@@ -155,14 +152,13 @@ class LazyProgram : public JitProgram {
         part.callsBySlot = true;
         part.routines = {order.routine};
         part.countsCalls = options_.optimise && !optimise;
-        if (optimise) part.copies = inlinedInto(order.routine);
+        if (optimise) part.copies = copiesFor(module_, part.routines);
         for (const uint32_t copy : part.copies)
             prepare(copy);
         std::string error;
         auto object = objectOf(part, optimise ? options_ : quick(), error);
         const void* address =
-            object ? session_.addPrivate(std::move(object), symbolOf(module_, order.routine), error)
-                   : nullptr;
+            object ? session_.addPrivate(std::move(object), symbolOf(routine), error) : nullptr;
         if (!address) giveUp(order.routine, error);
         slots_[order.routine].store(const_cast<void*>(address));
         return optimise ? Quality::Optimised : Quality::Quick;
@@ -180,24 +176,6 @@ class LazyProgram : public JitProgram {
         std::fprintf(stderr, "rapidc: internal error: %s cannot be compiled: %s\n",
                      module_.routines[routine].name.c_str(), error.c_str());
         std::_Exit(kInternalError);
-    }
-
-    /// Small routines that it calls, and those that they call.
-    std::vector<uint32_t> inlinedInto(uint32_t routine) const {
-        std::vector<uint32_t> found;
-        size_t size = 0;
-        for (size_t next = 0; next <= found.size(); ++next) {
-            for (const ir::Inst& inst : module_.routines[next == 0 ? routine : found[next - 1]].insts) {
-                if (inst.op != ir::Op::Call || inst.index == routine ||
-                    std::find(found.begin(), found.end(), inst.index) != found.end())
-                    continue;
-                const size_t more = module_.routines[inst.index].insts.size();
-                if (more > kLargestCopied || size + more > kMostCopied) continue;
-                size += more;
-                found.push_back(inst.index);
-            }
-        }
-        return found;
     }
 
     std::unique_ptr<llvm::MemoryBuffer> objectOf(const Part& part, const CodegenOptions& options,

@@ -56,8 +56,8 @@ bool runDriver(const std::vector<std::string>& arguments, std::string& error) {
 
 } // namespace
 
-bool linkExecutable(const std::string& objectPath, const std::string& outputPath, const LinkOptions& options,
-                    std::string& error) {
+bool linkExecutable(const std::vector<std::string>& objects, const std::string& outputPath,
+                    const LinkOptions& options, std::string& error) {
     std::string driver = findDriver(options.driver, error);
     if (driver.empty()) return false;
     for (const auto* libraries : {&options.libraries, &options.wholeLibraries})
@@ -66,7 +66,8 @@ bool linkExecutable(const std::string& objectPath, const std::string& outputPath
             error = "the library " + library + " is missing: the installation of rapidc is incomplete";
             return false;
         }
-    std::vector<std::string> arguments{driver, objectPath};
+    std::vector<std::string> arguments{driver};
+    arguments.insert(arguments.end(), objects.begin(), objects.end());
     if (canUseLld()) arguments.push_back("-fuse-ld=lld");
     if (options.stripDebug) arguments.push_back("-Wl,--strip-debug");
     if (!options.wholeLibraries.empty()) {

@@ -78,8 +78,8 @@ class DataImage {
 
 } // namespace
 
-std::string symbolOf(const ir::Module& module, uint32_t routine) {
-    return module.routines[routine].name + "#" + std::to_string(routine);
+std::string symbolOf(const ir::Routine& routine) {
+    return internalName(routine.name);
 }
 
 ModuleEmitter::ModuleEmitter(const ir::Module& module, const CodegenOptions& options,
@@ -188,31 +188,40 @@ llvm::GlobalVariable* ModuleEmitter::global(uint32_t index) {
     const ir::Global& global = module_.globals[index];
     const bool external = global.kind == ir::GlobalKind::External;
     // The value of a constant of another part is known, too.
-    llvm::Constant* value =
-        global.kind == ir::GlobalKind::Const && !hasTables() && module_.size(global.type) <= kLargestKnown
-            ? initialValue(global)
-            : nullptr;
+    const bool isKnown = global.kind == ir::GlobalKind::Const &&
+                         (!isShared(global) || (!hasTables() && module_.size(global.type) <= kLargestKnown));
+    llvm::Constant* value = isKnown ? initialValue(global) : nullptr;
     // Data of another unit may be absent: its address is null then.
-    auto linkage = external ? llvm::GlobalValue::ExternalWeakLinkage
-                   : value  ? llvm::GlobalValue::AvailableExternallyLinkage
-                   : part_  ? llvm::GlobalValue::ExternalLinkage
-                            : llvm::GlobalValue::InternalLinkage;
-    const std::string name = external ? global.name
-                             : part_  ? "data#" + std::to_string(index)
-                                      : internalName(global.name);
+    auto linkage = external ? llvm::GlobalValue::ExternalWeakLinkage : llvm::GlobalValue::InternalLinkage;
+    const std::string name = external ? global.name : isShared(global) ? internalName(global.name) : "";
     variable = new llvm::GlobalVariable(*target_, value ? value->getType() : memoryType(global.type),
                                         global.kind == ir::GlobalKind::Const, linkage, value, name);
     uint32_t align = module_.align(global.type);
     if (!external && module_.size(global.type) >= kVectorAlign) align = kVectorAlign;
     variable->setAlignment(llvm::Align(align));
-    if (!external && part_ && !part_->callsBySlot)
-        variable->setVisibility(llvm::GlobalValue::HiddenVisibility);
-    if (!external && !part_) variable->setDSOLocal(true);
+    if (external) return variable;
+    if (isShared(global)) share(*variable);
+    if (part_ && isShared(global) && value)
+        variable->setLinkage(llvm::GlobalValue::AvailableExternallyLinkage);
+    if (!part_) variable->setDSOLocal(true);
     return variable;
+}
+
+void ModuleEmitter::share(llvm::GlobalValue& value) const {
+    if (!part_) return;
+    value.setLinkage(llvm::GlobalValue::ExternalLinkage);
+    // In memory a part is a library of its own.
+    if (!part_->callsBySlot) value.setVisibility(llvm::GlobalValue::HiddenVisibility);
+}
+
+/// Constants without name, which the compiler made, are part of the code that uses them: their numbers change with every edit.
+bool ModuleEmitter::isShared(const ir::Global& global) const {
+    return !part_ || global.kind != ir::GlobalKind::Const || !global.displayName.empty();
 }
 
 void ModuleEmitter::defineGlobal(uint32_t index) {
     const ir::Global& source = module_.globals[index];
+    if (!isShared(source)) return;
     if (source.kind == ir::GlobalKind::External) {
         global(index);
         return;
@@ -275,12 +284,9 @@ llvm::Function* ModuleEmitter::routine(uint32_t index) {
     llvm::Type* result = i32_;
     if (!inMemory && routine.result != ir::kVoid)
         result = llvm::StructType::get(context_, {i32_, valueType(routine.result)});
-    const bool internal = !part_ || copied_[index];
-    function =
-        llvm::Function::Create(llvm::FunctionType::get(result, params, false),
-                               internal ? llvm::Function::InternalLinkage : llvm::Function::ExternalLinkage,
-                               internal ? internalName(routine.name) : symbolOf(module_, index), *target_);
-    if (!internal && !part_->callsBySlot) function->setVisibility(llvm::GlobalValue::HiddenVisibility);
+    function = llvm::Function::Create(llvm::FunctionType::get(result, params, false),
+                                      llvm::Function::InternalLinkage, symbolOf(routine), *target_);
+    if (!copied_[index]) share(*function);
     function->setCallingConv(llvm::CallingConv::Fast);
     function->setDoesNotThrow();
     function->addFnAttr(llvm::Attribute::MustProgress);
@@ -333,11 +339,9 @@ llvm::Function* ModuleEmitter::cEntry(uint32_t index) {
     if (routine.result != ir::kVoid) params.push_back(ptr_);
     for (const ir::Param& param : routine.params)
         params.push_back(memoryType(param.type));
-    function = llvm::Function::Create(
-        llvm::FunctionType::get(i32_, params, false),
-        part_ ? llvm::Function::ExternalLinkage : llvm::Function::InternalLinkage,
-        part_ ? "entry#" + symbolOf(module_, index) : routine.name + "$entry", *target_);
-    if (part_ && !part_->callsBySlot) function->setVisibility(llvm::GlobalValue::HiddenVisibility);
+    function = llvm::Function::Create(llvm::FunctionType::get(i32_, params, false),
+                                      llvm::Function::InternalLinkage, routine.name + "$entry", *target_);
+    share(*function);
     function->setDoesNotThrow();
     return function;
 }

@@ -32,8 +32,8 @@ inline constexpr const char* kRoutineSlots = "rapidc.slots";
 inline constexpr const char* kCallCounts = "rapidc.counts";
 inline constexpr const char* kRoutineIsHot = "rapidc.hot";
 inline constexpr const char* kThisProgram = "rapidc.this"; ///< its first argument
-/// Symbol of a routine that other parts call.
-std::string symbolOf(const ir::Module& module, uint32_t routine);
+/// Symbol of a routine.
+std::string symbolOf(const ir::Routine& routine);
 
 /// Metadata that keeps accesses to program data, to the task and to frame records apart.
 struct AccessTags {
@@ -104,6 +104,9 @@ class ModuleEmitter {
     // module_emitter.cpp
     void declareTypes();
     void declareRuntime();
+    /// Of what other parts refer to, and of what they do not.
+    void share(llvm::GlobalValue& value) const;
+    bool isShared(const ir::Global& global) const;
     bool hasTables() const { return part_ == nullptr || part_->tables; }
     void defineGlobal(uint32_t index);
     void findExported();
@@ -116,7 +119,7 @@ class ModuleEmitter {
     llvm::Constant* initialValue(const ir::Global& global);
     // emit_tables.cpp
     llvm::GlobalVariable* tableVariable(std::vector<llvm::GlobalVariable*>& known, uint32_t index,
-                                        llvm::Type* type, const char* kind, const std::string& name);
+                                        llvm::Type* type, const std::string& name);
     void emitTables();
     llvm::Constant* text(const std::string& value);
     llvm::Constant* constant(llvm::Constant* value, const std::string& name);

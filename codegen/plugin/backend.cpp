@@ -2,7 +2,7 @@
 
 const codegen::Backend* rapidc_codegen_backend() {
     using namespace codegen;
-    static const Backend backend = {&jit,      &guardMemory, &emitObject,    &emitImage,
+    static const Backend backend = {&jit,      &guardMemory, &emitObject, &emitObjects,    &emitImage,
                                     &emitLlvm, &emitAsm,     &linkExecutable};
     return &backend;
 }

@@ -10,6 +10,7 @@ struct Backend {
     decltype(&codegen::jit) jit;
     decltype(&codegen::guardMemory) guardMemory;
     decltype(&codegen::emitObject) emitObject;
+    decltype(&codegen::emitObjects) emitObjects;
     decltype(&codegen::emitImage) emitImage;
     decltype(&codegen::emitLlvm) emitLlvm;
     decltype(&codegen::emitAsm) emitAsm;

@@ -54,6 +54,12 @@ bool emitObject(const ir::Module& module, const std::string& path, const Codegen
     return used && used->emitObject(module, path, options, error);
 }
 
+bool emitObjects(const ir::Module& module, const std::string& folder, const CodegenOptions& options,
+                 std::vector<std::string>& paths, std::string& error) {
+    const Backend* used = backend(error);
+    return used && used->emitObjects(module, folder, options, paths, error);
+}
+
 bool emitImage(const ir::Module& module, const CodegenOptions& options, rt::UnitImage& image,
                std::string& error) {
     const Backend* used = backend(error);
@@ -70,10 +76,10 @@ std::string emitAsm(const ir::Module& module, const CodegenOptions& options, std
     return used ? used->emitAsm(module, options, error) : std::string();
 }
 
-bool linkExecutable(const std::string& objectPath, const std::string& outputPath, const LinkOptions& options,
+bool linkExecutable(const std::vector<std::string>& objects, const std::string& outputPath, const LinkOptions& options,
                     std::string& error) {
     const Backend* used = backend(error);
-    return used && used->linkExecutable(objectPath, outputPath, options, error);
+    return used && used->linkExecutable(objects, outputPath, options, error);
 }
 
 } // namespace codegen

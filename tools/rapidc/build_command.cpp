@@ -30,6 +30,8 @@ struct BuildSettings {
     bool strip = false;
     bool stepping = false;
     bool withoutOverflowChecks = false;
+    bool noCache = false;
+    bool inParts = false; ///< as large programs are compiled
 };
 
 fs::path ownFolder() {
@@ -79,8 +81,8 @@ void keepRobot(Compilation& compilation, const std::string& robot) {
 
 /// Object file and executable are made in a folder beside the output, which is replaced in one step: whatever goes
 /// wrong, the old one is whole.
-bool makeExecutable(const BuildSettings& settings, const ir::Module& module, bool wholeLibrary,
-                    std::string& error) {
+bool makeExecutable(const BuildSettings& settings, const codegen::CodegenOptions& options,
+                    const ir::Module& module, bool wholeLibrary, std::string& error) {
     std::error_code missing;
     const fs::path real = fs::canonical(settings.output, missing); // a link stays a link
     const fs::path output = missing ? fs::path(settings.output) : real;
@@ -91,12 +93,10 @@ bool makeExecutable(const BuildSettings& settings, const ir::Module& module, boo
         error = fmt::format("cannot write {}: {}", settings.output, std::strerror(problem));
         return false;
     }
-    const std::string object = (fs::path(folder.path()) / "program.o").string();
     const std::string executable = (fs::path(folder.path()) / "program").string();
-    codegen::CodegenOptions options = codegenOptions(!settings.noOptimise);
-    options.debugInfo = !settings.strip;
-    if (!codegen::emitObject(module, object, options, error) ||
-        !codegen::linkExecutable(object, executable, linkOptions(settings.strip, wholeLibrary), error))
+    std::vector<std::string> objects;
+    if (!codegen::emitObjects(module, folder.path(), options, objects, error) ||
+        !codegen::linkExecutable(objects, executable, linkOptions(settings.strip, wholeLibrary), error))
         return false;
     std::error_code problem;
     fs::rename(executable, output, problem);
@@ -128,15 +128,20 @@ int build(BuildSettings& settings) {
     compilation->folder = fs::current_path(ignored).string();
     compilation->overflowChecks = !settings.withoutOverflowChecks;
     ir::Module module;
-    const bool lowered =
-        !compilation->sink.hasErrors() &&
-        lowerToIr(*compilation, fs::path(settings.output).filename().string(), settings.stepping, module);
+    codegen::CodegenOptions options = codegenOptions(!settings.noOptimise);
+    options.debugInfo = !settings.strip;
+    options.cacheFolder = settings.noCache ? "" : cacheFolder();
+    if (settings.inParts) options.partsAbove = 0;
+    const bool lowered = !compilation->sink.hasErrors() &&
+                         lowerToIr(*compilation, fs::path(settings.output).filename().string(),
+                                   settings.stepping, module, options.partsAbove + 1);
     printDiagnostics(*compilation);
     if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
     const bool loads = compilation->program->uses(rapid::sema::Trait::NeedsSources);
     if (loads) module.sources = pack(*sourcesOf(*compilation, settings.stepping, !settings.noOptimise));
+    runPassesInParts(options, module, irPasses(*compilation, settings.stepping));
     std::string error;
-    if (!makeExecutable(settings, module, loads, error)) {
+    if (!makeExecutable(settings, options, module, loads, error)) {
         fmt::print(stderr, "rapidc build: {}\n", error);
         return static_cast<int>(rt::ExitStatus::BadProgram);
     }
@@ -160,6 +165,11 @@ void addBuildCommand(CLI::App& app, int& status) {
     command->add_flag("--stepping", settings->stepping,
                       "Compile for the stepping profile: the program can be stepped forward and backward");
     command->add_flag("--strip", settings->strip, "Leave out debug information");
+    command->add_flag("--no-cache", settings->noCache,
+                      "Compile every module of a large program again, and keep nothing in the cache");
+    command
+        ->add_flag("--in-parts", settings->inParts, "Compile each module by itself, also in a small program")
+        ->group(""); // for tests
     command
         ->add_flag("--without-overflow-checks", settings->withoutOverflowChecks,
                    "For benchmarks only: results out of range go unnoticed")

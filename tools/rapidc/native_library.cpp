@@ -3,6 +3,8 @@
 #include "stdlib/native_bodies.h"
 #include "stdlib/native_table.h"
 
+#include <cstdlib>
+
 namespace rapidc {
 
 std::vector<codegen::NativeSymbol> nativeSymbols() {
@@ -19,6 +21,26 @@ codegen::CodegenOptions codegenOptions(bool optimise) {
     options.optimise = optimise;
     options.bodies = {rt::nativeBodies(), rt::nativesWithBody()};
     return options;
+}
+
+void runPassesInParts(codegen::CodegenOptions& options, ir::Module& module, const ir::PassOptions& passes) {
+    if (module.instructionCount() <= options.partsAbove) return;
+    options.prepare = [&module, passes](uint32_t routine, std::string& problem) {
+        const std::vector<std::string> findings = ir::runPasses(module, routine, passes);
+        problem = findings.empty() ? "" : findings.front();
+        return findings.empty();
+    };
+}
+
+std::string cacheFolder() {
+    const auto variable = [](const char* name) {
+        const char* value = std::getenv(name);
+        return std::string(value ? value : "");
+    };
+    if (const char* wanted = std::getenv("RAPIDC_CACHE")) return wanted;
+    if (const std::string caches = variable("XDG_CACHE_HOME"); !caches.empty()) return caches + "/rapidc";
+    const std::string home = variable("HOME");
+    return home.empty() ? "" : home + "/.cache/rapidc";
 }
 
 } // namespace rapidc

@@ -2,6 +2,8 @@
 // What the code generator needs to know of the standard library that rapidc contains.
 
 #include "codegen/codegen.h"
+#include "ir/core/ir.h"
+#include "ir/passes/passes.h"
 
 #include <vector>
 
@@ -12,5 +14,11 @@ std::vector<codegen::NativeSymbol> nativeSymbols();
 
 /// With the bodies of natives that can be inlined.
 codegen::CodegenOptions codegenOptions(bool optimise);
+
+/// For programs that are compiled in parts: the passes run on each routine ahead of that. `module` must outlive the options.
+void runPassesInParts(codegen::CodegenOptions& options, ir::Module& module, const ir::PassOptions& passes);
+
+/// Where compiled parts are kept: $RAPIDC_CACHE, else rapidc in $XDG_CACHE_HOME or ~/.cache; "" when there is no such place.
+std::string cacheFolder();
 
 } // namespace rapidc

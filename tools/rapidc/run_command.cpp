@@ -165,19 +165,13 @@ int run(RunSettings& settings) {
                         (!settings.options.state.empty() && !settings.noStepping);
     ir::Module module;
     codegen::CodegenOptions options = codegenOptions(!settings.noOptimise);
-    if (settings.inParts) options.lazyAbove = 0;
+    if (settings.inParts) options.partsAbove = 0;
     const bool lowered = !compilation->sink.hasErrors() &&
                          lowerToIr(*compilation, fs::path(settings.inputs.paths[0]).stem().string(),
-                                   settings.stepping, module, options.lazyAbove + 1);
+                                   settings.stepping, module, options.partsAbove + 1);
     printDiagnostics(*compilation);
     if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
-    if (module.instructionCount() > options.lazyAbove)
-        options.prepare = [&module, passes = irPasses(*compilation, settings.stepping)](
-                              uint32_t routine, std::string& problem) {
-            const std::vector<std::string> findings = ir::runPasses(module, routine, passes);
-            problem = findings.empty() ? "" : findings.front();
-            return findings.empty();
-        };
+    runPassesInParts(options, module, irPasses(*compilation, settings.stepping));
     const std::vector<codegen::NativeSymbol> natives = nativeSymbols();
     const auto program = codegen::jit(module, options, natives, error);
     if (!program) {

@@ -1,0 +1,53 @@
+#include "codegen/parts.h"
+
+namespace codegen {
+namespace {
+
+/// IR instructions of a part, and of a routine that gets one of its own.
+constexpr size_t kLargestPart = 8000, kLargeRoutine = 4000;
+
+} // namespace
+
+std::vector<uint32_t> copiesFor(const ir::Module& module, const std::vector<uint32_t>& routines,
+                                CopyLimit limit) {
+    std::vector<bool> known(module.routines.size(), false);
+    for (const uint32_t routine : routines)
+        known[routine] = true;
+    std::vector<uint32_t> callers = routines, copies;
+    size_t size = 0;
+    for (size_t next = 0; next < callers.size(); ++next)
+        for (const ir::Inst& inst : module.routines[callers[next]].insts) {
+            if (inst.op != ir::Op::Call || known[inst.index]) continue;
+            const size_t more = module.routines[inst.index].insts.size();
+            if (more > limit.each || size + more > limit.together) continue;
+            known[inst.index] = true;
+            size += more;
+            copies.push_back(inst.index);
+            callers.push_back(inst.index);
+        }
+    return copies;
+}
+
+std::vector<Part> divide(const ir::Module& module) {
+    std::vector<Part> parts(1);
+    parts[0].tables = true;
+    std::string_view current;
+    size_t size = kLargestPart;
+    const auto begin = [&] {
+        parts.emplace_back();
+        size = 0;
+    };
+    for (uint32_t i = 0; i < module.routines.size(); ++i) {
+        const ir::Routine& routine = module.routines[i];
+        const size_t more = routine.insts.size();
+        if (routine.moduleName != current || size + more > kLargestPart || more > kLargeRoutine) begin();
+        parts.back().routines.push_back(i);
+        size += more > kLargeRoutine ? kLargestPart : more;
+        current = routine.moduleName;
+    }
+    for (Part& part : parts)
+        part.copies = copiesFor(module, part.routines);
+    return parts;
+}
+
+} // namespace codegen

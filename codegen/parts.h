@@ -1,0 +1,24 @@
+#pragma once
+// How a large program is divided for compilation.
+
+#include <vector>
+
+#include "codegen/module_emitter.h"
+#include "ir/core/ir.h"
+
+namespace codegen {
+
+/// IR instructions of the routines that are compiled into those of another part: together, and each.
+struct CopyLimit {
+    size_t together = 1500, each = 150;
+};
+
+/// Small routines that `routines` call, and those that these call.
+std::vector<uint32_t> copiesFor(const ir::Module& module, const std::vector<uint32_t>& routines,
+                                CopyLimit limit = {});
+
+/// Tables first; then a part for each module of the source, or several when it is large. A very large routine has a part of its
+/// own, because it is compiled differently. An edit of one module leaves the parts of the others as they are.
+std::vector<Part> divide(const ir::Module& module);
+
+} // namespace codegen
