@@ -175,6 +175,7 @@ class LazyProgram : public JitProgram {
     [[noreturn]] void giveUp(uint32_t routine, const std::string& error) const {
         std::fprintf(stderr, "rapidc: internal error: %s cannot be compiled: %s\n",
                      module_.routines[routine].name.c_str(), error.c_str());
+        std::fflush(nullptr);
         std::_Exit(kInternalError);
     }
 

@@ -178,7 +178,7 @@ int main() {
     }
     codegen::LinkOptions options;
     options.extraArguments = {"-x", "c++", host, std::string("-I") + RAPIDC_SOURCE_DIR};
-    REQUIRE(codegen::linkExecutable(object, executable, options, error));
+    REQUIRE(codegen::linkExecutable({object}, executable, options, error));
     CHECK(std::system((executable + " > " + (folder.path / "out").string()).c_str()) == 0);
     CHECK(readText(folder.path / "out") == "832040\n");
 }
@@ -187,14 +187,14 @@ TEST_CASE("linking says what is missing", "[codegen]") {
     std::string error;
     codegen::LinkOptions options;
     options.driver = "no-such-driver-anywhere";
-    CHECK_FALSE(codegen::linkExecutable("a.o", "a", options, error));
+    CHECK_FALSE(codegen::linkExecutable({"a.o"}, "a", options, error));
     CHECK(error == "the linker driver 'no-such-driver-anywhere' was not found");
     options.driver.clear();
     options.libraries = {"/no/such/library.a"};
-    CHECK_FALSE(codegen::linkExecutable("a.o", "a", options, error));
+    CHECK_FALSE(codegen::linkExecutable({"a.o"}, "a", options, error));
     CHECK(error.find("/no/such/library.a") != std::string::npos);
     options.libraries.clear();
-    CHECK_FALSE(codegen::linkExecutable("/no/such/object.o", "/tmp/never", options, error));
+    CHECK_FALSE(codegen::linkExecutable({"/no/such/object.o"}, "/tmp/never", options, error));
     CHECK(error.find("linking failed") == 0);
 }
 
