@@ -2,7 +2,8 @@
 
 const codegen::Backend* rapidc_codegen_backend() {
     using namespace codegen;
-    static const Backend backend = {&jit,      &guardMemory, &emitObject, &emitObjects,    &emitImage,
-                                    &emitLlvm, &emitAsm,     &linkExecutable};
+    static const Backend backend = {layoutOfInterface(), &jit,         &guardMemory,
+                                    &emitObject,         &emitObjects, &emitImage,
+                                    &emitLlvm,           &emitAsm,     &linkExecutable};
     return &backend;
 }

@@ -25,6 +25,10 @@ const Backend* load(std::string& error) {
         return nullptr;
     }
     const Backend* backend = reinterpret_cast<decltype(&rapidc_codegen_backend)>(entry)();
+    if (backend->layout != layoutOfInterface()) {
+        error = "the code generator " + path + " belongs to another version of rapidc; install both again";
+        return nullptr;
+    }
     if (outOfMemoryHandler) backend->guardMemory(outOfMemoryHandler);
     return backend;
 }
@@ -76,8 +80,8 @@ std::string emitAsm(const ir::Module& module, const CodegenOptions& options, std
     return used ? used->emitAsm(module, options, error) : std::string();
 }
 
-bool linkExecutable(const std::vector<std::string>& objects, const std::string& outputPath, const LinkOptions& options,
-                    std::string& error) {
+bool linkExecutable(const std::vector<std::string>& objects, const std::string& outputPath,
+                    const LinkOptions& options, std::string& error) {
     const Backend* used = backend(error);
     return used && used->linkExecutable(objects, outputPath, options, error);
 }

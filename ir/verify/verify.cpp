@@ -222,9 +222,10 @@ void checkNamed(const Module& module, Findings& out) {
 
 } // namespace
 
-std::vector<std::string> verifyTables(const Module& module) {
-    Findings out;
-    if (!checkTypes(module, out)) return out; // everything else asks for sizes
+namespace {
+/// False when nothing else can be checked.
+bool checkOutside(const Module& module, Findings& out) {
+    if (!checkTypes(module, out)) return false; // everything else asks for sizes
     checkDescs(module, out);
     checkGlobals(module, out);
     checkNatives(module, out);
@@ -234,6 +235,13 @@ std::vector<std::string> verifyTables(const Module& module) {
     for (const Routine& routine : module.routines)
         if (!names.insert(routine.name).second)
             out.push_back(fmt::format("routine {}: name used twice", routine.name));
+    return true;
+}
+} // namespace
+
+std::vector<std::string> verifyTables(const Module& module) {
+    Findings out;
+    checkOutside(module, out);
     return out;
 }
 
@@ -244,8 +252,8 @@ std::vector<std::string> verifyRoutine(const Module& module, uint32_t routine) {
 }
 
 std::vector<std::string> verify(const Module& module) {
-    Findings out = verifyTables(module);
-    if (!out.empty()) return out; // routines ask for sizes
+    Findings out;
+    if (!checkOutside(module, out)) return out;
     for (const Routine& routine : module.routines)
         RoutineVerifier(module, routine, out).run();
     return out;

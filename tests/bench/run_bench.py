@@ -15,12 +15,13 @@ import subprocess
 import sys
 import time
 
+import compile_bench
 import generate_project
 
 GOAL_MEAN, GOAL_WORST = 1.15, 2.0  # beside C
 GOAL_OVERFLOW = 1.03  # checked arithmetic beside the same without checks, in the mean
 GOAL_HELLO_MS, GOAL_LIGHT_MS = 25, 10  # a program; commands that compile nothing
-ALONE = (["check"], ["tasks"], ["start"], ["overflow"])  # parts that can be asked for by name
+ALONE = (["check"], ["tasks"], ["start"], ["overflow"], ["compile"])  # parts that can be asked for by name
 GOAL_LINES, GOAL_CLANG, GOAL_MB, GOAL_EDIT_MS = 1_000_000, 10, 1024, 10
 GOAL_ROUND_US = 1
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -224,7 +225,7 @@ def scheduler(rapidc, work, rounds):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", help="only these programs; start: only the start-up; "
-                                                 "overflow: only what the checks of overflow cost; check: only the checker; "
+                                                 "overflow: only what the checks of overflow cost; compile: only the time that compiling takes; check: only the checker; "
                                                  "tasks: only the scheduler")
     parser.add_argument("--rapidc", default=os.path.join(HERE, "..", "..", "build", "rapidc"))
     parser.add_argument("--rounds", type=int, default=5)
@@ -243,6 +244,9 @@ def main():
     if options.names == ["start"]:
         start_up(rapidc, work)
         return 0
+    if options.names == ["compile"]:
+        compile_bench.run(rapidc, work)
+        return 0
     if options.names == ["overflow"]:
         overflow(known, rapidc, work, options.rounds, options.rate)
         return 0
@@ -259,6 +263,8 @@ def main():
         overflow(known, rapidc, work, options.rounds, options.rate)
         print()
         start_up(rapidc, work)
+        print()
+        compile_bench.run(rapidc, work)
         scheduler(rapidc, work, options.rounds)
         print()
         checker(rapidc, work, options.rounds)
