@@ -43,6 +43,7 @@ struct CodegenOptions {
     /// Called once for each routine of such a program before it is compiled, on any thread, never twice at a time for one; empty:
     /// all are ready.
     PrepareRoutine prepare = {};
+    bool trustCache = true;       ///< off: objects are made again and replace those in the cache
     std::string cacheFolder = {}; ///< where emitObjects() keeps the objects of parts; empty: nowhere
 };
 
@@ -99,6 +100,8 @@ struct LinkOptions {
 };
 
 /// Links objects and libraries into an executable. `error` names what is missing (a linker driver, a library, a symbol).
+inline constexpr std::string_view kLinkingFailed =
+    "linking failed"; ///< how `error` begins when the linker objects
 bool linkExecutable(const std::vector<std::string>& objects, const std::string& outputPath,
                     const LinkOptions& options, std::string& error);
 

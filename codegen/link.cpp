@@ -48,7 +48,7 @@ bool runDriver(const std::vector<std::string>& arguments, std::string& error) {
     std::string said;
     if (auto buffer = llvm::MemoryBuffer::getFile(file)) said = (*buffer)->getBuffer().str();
     if (status == 0) return true;
-    error = "linking failed (" + arguments[0] + ", status " + std::to_string(status) + ")";
+    error = std::string(kLinkingFailed) + " (" + arguments[0] + ", status " + std::to_string(status) + ")";
     if (!message.empty()) error += ": " + message;
     if (!said.empty()) error += ":\n" + said;
     return false;

@@ -106,7 +106,7 @@ class PartCompiler {
         auto emitted = emit(module_, options, *machine, context, error, &parts_[i]);
         if (!emitted) return false;
         const std::string key = cache_.keyOf(*emitted, options);
-        if (cache_.fetch(key, pathOf(i))) return true;
+        if (options_.trustCache && cache_.fetch(key, pathOf(i))) return true;
         llvm::SmallVector<char, 0> bytes;
         if (!finish(*emitted, options, *machine, error) ||
             !generate(*emitted, *machine, llvm::CodeGenFileType::ObjectFile, bytes, error) ||

@@ -94,10 +94,21 @@ bool makeExecutable(const BuildSettings& settings, const codegen::CodegenOptions
         return false;
     }
     const std::string executable = (fs::path(folder.path()) / "program").string();
-    std::vector<std::string> objects;
-    if (!codegen::emitObjects(module, folder.path(), options, objects, error) ||
-        !codegen::linkExecutable(objects, executable, linkOptions(settings.strip, wholeLibrary), error))
-        return false;
+    const auto compileAndLink = [&](const codegen::CodegenOptions& how) {
+        std::vector<std::string> objects;
+        error.clear();
+        return codegen::emitObjects(module, folder.path(), how, objects, error) &&
+               codegen::linkExecutable(objects, executable, linkOptions(settings.strip, wholeLibrary), error);
+    };
+    if (!compileAndLink(options)) {
+        if (!error.starts_with(codegen::kLinkingFailed) || options.cacheFolder.empty() ||
+            module.instructionCount() <= options.partsAbove)
+            return false;
+        codegen::CodegenOptions again = options; // an object of the cache may be damaged
+        again.trustCache = false;
+        again.prepare = {}; // has been done
+        if (!compileAndLink(again)) return false;
+    }
     std::error_code problem;
     fs::rename(executable, output, problem);
     if (problem) error = fmt::format("cannot write {}: {}", settings.output, problem.message());
