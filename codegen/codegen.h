@@ -99,9 +99,9 @@ struct LinkOptions {
     bool stripDebug = false;
 };
 
+/// How `error` begins when the linker objects.
+inline constexpr std::string_view kLinkingFailed = "linking failed";
 /// Links objects and libraries into an executable. `error` names what is missing (a linker driver, a library, a symbol).
-inline constexpr std::string_view kLinkingFailed =
-    "linking failed"; ///< how `error` begins when the linker objects
 bool linkExecutable(const std::vector<std::string>& objects, const std::string& outputPath,
                     const LinkOptions& options, std::string& error);
 
