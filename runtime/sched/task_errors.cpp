@@ -407,7 +407,8 @@ void Task::resetRetryCount() {
 bool Task::isInside(const HandledError& handled) const {
     const auto isHandled = [&handled](const Detached& handler) { return handler.user == handled.frame; };
     if (std::any_of(detached_.begin(), detached_.end(), isHandled)) return true;
-    if (!isInProgress(frame, handled.frame) || handled.frame->routine != handled.routine) return false;
+    const bool inProgress = handled.frame == frame || isInProgress(frame, handled.frame);
+    if (!inProgress || handled.frame->routine != handled.routine) return false;
     const StmtDesc* statement = statementOf(*handled.frame);
     return statement != nullptr && !statement->handled;
 }
