@@ -25,6 +25,12 @@ std::string fill(std::string_view text, std::initializer_list<std::string> argum
     return result;
 }
 
+void countAgain(Event& last, uint64_t sequence, Time time) {
+    if (last.count++ == 1) last.since = last.time;
+    last.sequence = sequence;
+    last.time = time;
+}
+
 } // namespace
 
 EventText eventText(EventId id) {
@@ -43,6 +49,7 @@ std::string formatEventText(EventId id, std::initializer_list<std::string> argum
 
 void EventLog::addErrorName(int number, const char* name, const char* text) {
     names_[number] = {name, text != nullptr ? text : ""};
+    repeatable_ = 0;
 }
 
 std::string EventLog::errorName(int number) const {
@@ -60,7 +67,7 @@ uint64_t EventLog::write(Event event) {
     if (event.time < 0) event.time = now_ ? now_() : 0;
     shown_.take(event);
     keep(event);
-    const uint64_t sequence = sequence_;
+    const uint64_t sequence = repeatable_ = sequence_;
     if (!listeners_.empty()) {
         const auto listeners = listeners_; // a listener may write events, and remove itself
         for (const auto& [id, listener] : listeners)
@@ -69,12 +76,17 @@ uint64_t EventLog::write(Event event) {
     return sequence;
 }
 
+bool EventLog::repeatLast(uint64_t sequence, Time time) {
+    if (sequence == 0 || sequence != repeatable_ || !listeners_.empty()) return false;
+    if (!shown_.repeat(sequence, time)) return false;
+    repeatable_ = ++sequence_;
+    countAgain(events_.back(), sequence_, time);
+    return true;
+}
+
 void EventLog::keep(const Event& event) {
     if (!events_.empty() && event.repeats(events_.back())) {
-        Event& last = events_.back();
-        if (last.count++ == 1) last.since = last.time;
-        last.sequence = event.sequence;
-        last.time = event.time;
+        countAgain(events_.back(), event.sequence, event.time);
         return;
     }
     events_.push_back(event);
@@ -136,6 +148,7 @@ void EventLog::restore(const std::vector<Event>& events) {
         if (events_.size() < kKept) events_.push_front(*event);
     // Those written already keep their order.
     sequence_ += last;
+    repeatable_ = 0;
     uint64_t number = sequence_;
     for (auto event = events_.rbegin(); event != events_.rend(); ++event) {
         event->sequence = number;

@@ -53,6 +53,9 @@ class EventLog {
 
     /// Keeps and shows an event; sequence is set here, time when it is negative. Returns the sequence number.
     uint64_t write(Event event);
+    /// The event with this sequence number has occurred once more, as if it were written again; the number of that occurrence
+    /// is the next one. False, and nothing is done, when it is not the last event, or when it might read otherwise by now.
+    bool repeatLast(uint64_t sequence, Time time);
     /// An event from event_texts.def; {0} {1} ... in its text are replaced. `origin`: a `const Task*`, may be null.
     uint64_t write(EventId id, EventOrigin origin, std::initializer_list<std::string> arguments = {});
     /// ErrWrite, ErrLog: number in full (domain * 10000 + number), texts as given.
@@ -88,6 +91,7 @@ class EventLog {
     BoundedOutput toFile_{kMostInFile, [this](const Event& event) { putJson(event); }};
     RepeatFilter shown_{[this](const Event& event) { show(event); }};
     uint64_t sequence_ = 0;
+    uint64_t repeatable_ = 0; ///< the event that repeatLast may repeat; 0: none
 };
 
 /// The row of event_texts.def.

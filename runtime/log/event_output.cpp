@@ -42,15 +42,28 @@ void RepeatFilter::take(const Event& event) {
     const auto found = std::find_if(known_.rbegin(), known_.rend(),
                                     [&event](const Known& known) { return event.repeats(known.event); });
     if (found != known_.rend()) {
-        if (found->repeats++ == 0) found->since = event.time;
-        found->event.sequence = event.sequence;
-        found->event.time = event.time;
+        count(*found, event.sequence, event.time);
         return;
     }
     flush();
     put_(event);
     known_.push_back({event, 0, 0});
     if (known_.size() > kWindow) known_.pop_front();
+}
+
+bool RepeatFilter::repeat(uint64_t sequence, Time time) {
+    const auto found = std::find_if(known_.rbegin(), known_.rend(), [sequence](const Known& known) {
+        return known.event.sequence == sequence;
+    });
+    if (found == known_.rend()) return false;
+    count(*found, sequence + 1, time);
+    return true;
+}
+
+void RepeatFilter::count(Known& known, uint64_t sequence, Time time) {
+    if (known.repeats++ == 0) known.since = time;
+    known.event.sequence = sequence;
+    known.event.time = time;
 }
 
 void RepeatFilter::flush() {

@@ -17,6 +17,8 @@ class RepeatFilter {
   public:
     explicit RepeatFilter(std::function<void(const Event&)> put) : put_(std::move(put)) {}
     void take(const Event& event);
+    /// The event that was taken last, with this sequence number, has come again, as the next one. False: it is not counted.
+    bool repeat(uint64_t sequence, Time time);
     /// The counts that are open.
     void flush();
 
@@ -27,6 +29,7 @@ class RepeatFilter {
         uint64_t repeats = 0; ///< not passed on yet
         Time since = 0;       ///< of the first of them
     };
+    static void count(Known& known, uint64_t sequence, Time time);
     std::function<void(const Event&)> put_;
     std::deque<Known> known_; ///< the latest one last
 };

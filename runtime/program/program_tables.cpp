@@ -63,6 +63,7 @@ void ProgramTables::take(const ProgramDesc& unit) {
 }
 
 void ProgramTables::index() {
+    calls_.clear();
     globalByName_.clear();
     routineByName_.clear();
     for (const GlobalDesc* global : globals_)

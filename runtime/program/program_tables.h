@@ -3,6 +3,7 @@
 // loaded while it runs. Names are compared without regard to case.
 
 #include "runtime/abi/rt_abi.h"
+#include "runtime/program/call_cache.h"
 
 #include <cstdint>
 #include <deque>
@@ -56,6 +57,8 @@ class ProgramTables {
     /// A routine; `module` may be empty: then a LOCAL one counts only for its own module `from`, and comes first.
     const RoutineEntry* findRoutine(std::string_view name, std::string_view module, std::string_view from,
                                     int32_t task) const;
+    /// What names in calls have led to with the present modules; empty after each change.
+    CallCache& calls() { return calls_; }
 
   private:
     void take(const ProgramDesc& unit);
@@ -68,6 +71,7 @@ class ProgramTables {
     std::unordered_set<const ProgramDesc*> taken_; ///< the program, and units that are or were in memory
     std::unordered_multimap<std::string, const GlobalDesc*> globalByName_;
     std::unordered_multimap<std::string, const RoutineEntry*> routineByName_;
+    CallCache calls_;
 };
 
 } // namespace rt

@@ -25,7 +25,7 @@ bool inUndoHandler(const Frame& frame) {
 
 /// Not a place where the system calls a routine.
 bool isOfProgram(const Frame& frame) {
-    return frame.routine != nullptr && frame.routine != &kTrapBoundary && frame.routine != &kEventBoundary;
+    return frame.routine != nullptr && !isBoundary(frame);
 }
 
 /// The nearest handler from `at` outwards that lists the number, past trap routines too; null: none. The search ends at a
@@ -44,7 +44,8 @@ Frame* listingHandler(Frame* at, int errorNumber) {
 } // namespace
 
 bool listsError(const RoutineDesc& routine, int errorNumber) {
-    if (!routine.hasErrorHandler) return false;
+    if (!routine.hasErrorHandler || (routine.errorFilterCount == 0 && routine.errorVariableCount == 0))
+        return false;
     const float* const* const end = routine.errorVariables + routine.errorVariableCount;
     return inFilter(routine, errorNumber) || inFilter(routine, kAllErrors) ||
            std::any_of(routine.errorVariables, end,
@@ -57,26 +58,9 @@ bool takesError(const RoutineDesc& routine, int errorNumber) {
     return withoutList || inFilter(routine, kOtherErrors) || listsError(routine, errorNumber);
 }
 
-const StmtDesc* statementOf(const Frame& frame) {
-    const RoutineDesc* routine = frame.routine;
-    if (routine == nullptr || frame.statement < 0) return nullptr;
-    if (static_cast<uint32_t>(frame.statement) >= routine->statementCount) return nullptr;
-    return &routine->statements[frame.statement];
-}
-
 bool inErrorHandler(const Frame& frame) {
     const StmtDesc* statement = statementOf(frame);
     return statement != nullptr && statement->kind == kStmtHandler && !inUndoHandler(frame);
-}
-
-const Frame* callSeenByUser(const Frame* at) {
-    while (at != nullptr && at->routine != nullptr && at->routine->isBuiltin != 0)
-        at = at->caller;
-    return at;
-}
-
-Frame* callSeenByUser(Frame* at) {
-    return const_cast<Frame*>(callSeenByUser(static_cast<const Frame*>(at)));
 }
 
 bool handles(const Frame& frame, int errorNumber) {
@@ -130,18 +114,22 @@ Frame* userLevelHandler(Frame* at, int errorNumber) {
     return nullptr;
 }
 
-SourcePlace placeOf(const Frame* frame) {
+SourcePlace placeOf(const RoutineDesc& routine, int32_t statement) {
     SourcePlace place;
-    if (frame == nullptr || frame->routine == nullptr) return place;
     const auto text = [](const char* chars) { return std::string(chars != nullptr ? chars : ""); };
-    place.module = text(frame->routine->module);
-    place.routine = text(frame->routine->name);
-    place.file = text(frame->routine->file);
-    if (const StmtDesc* statement = statementOf(*frame)) {
-        place.line = statement->line;
-        place.column = statement->column;
+    place.module = text(routine.module);
+    place.routine = text(routine.name);
+    place.file = text(routine.file);
+    if (const StmtDesc* row = statementOf(routine, statement)) {
+        place.line = row->line;
+        place.column = row->column;
     }
     return place;
+}
+
+SourcePlace placeOf(const Frame* frame) {
+    if (frame == nullptr || frame->routine == nullptr) return {};
+    return placeOf(*frame->routine, frame->statement);
 }
 
 } // namespace rt

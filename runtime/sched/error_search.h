@@ -12,8 +12,19 @@ namespace rt {
 bool takesError(const RoutineDesc& routine, int errorNumber);
 /// True when the routine's handler lists this error (or all), so that it takes it from any depth and from traps.
 bool listsError(const RoutineDesc& routine, int errorNumber);
+/// A statement of a routine; null when it has none of that number.
+inline const StmtDesc* statementOf(const RoutineDesc& routine, int32_t number) {
+    const bool isThere = number >= 0 && static_cast<uint32_t>(number) < routine.statementCount;
+    return isThere ? &routine.statements[number] : nullptr;
+}
 /// The statement in progress of a frame; null when the record names none.
-const StmtDesc* statementOf(const Frame& frame);
+inline const StmtDesc* statementOf(const Frame& frame) {
+    return frame.routine != nullptr ? statementOf(*frame.routine, frame.statement) : nullptr;
+}
+/// The record of a place where the system calls a routine.
+inline bool isBoundary(const Frame& frame) {
+    return frame.routine == &kTrapBoundary || frame.routine == &kEventBoundary;
+}
 /// The statement in progress belongs to the routine's error handler.
 bool inErrorHandler(const Frame& frame);
 
@@ -33,8 +44,14 @@ ErrorRoute routeFromCall(Frame* at, int errorNumber);
 bool handles(const Frame& frame, int errorNumber);
 /// The frame whose statement the user sees as the instruction in progress: instructions of the standard library that are
 /// written in RAPID belong to their caller's statement.
-Frame* callSeenByUser(Frame* at);
-const Frame* callSeenByUser(const Frame* at);
+inline const Frame* callSeenByUser(const Frame* at) {
+    while (at != nullptr && at->routine != nullptr && at->routine->isBuiltin != 0)
+        at = at->caller;
+    return at;
+}
+inline Frame* callSeenByUser(Frame* at) {
+    return const_cast<Frame*>(callSeenByUser(static_cast<const Frame*>(at)));
+}
 
 /// For the event of an error that nothing takes.
 struct UnaskedHandlers {
@@ -47,6 +64,7 @@ struct UnaskedHandlers {
 UnaskedHandlers unaskedHandlers(const Frame* stoppedAt, int errorNumber);
 /// RaiseToUser: the innermost routine in progress that is not NOSTEPIN, when its handler takes errors there.
 Frame* userLevelHandler(Frame* at, int errorNumber);
+SourcePlace placeOf(const RoutineDesc& routine, int32_t statement);
 SourcePlace placeOf(const Frame* frame);
 
 } // namespace rt

@@ -16,6 +16,8 @@
 #include "runtime/base/time.h"
 #include "runtime/sched/event_routines.h"
 #include "runtime/sched/interrupts.h"
+#include "runtime/sched/raised_error.h"
+#include "runtime/sched/retry_counts.h"
 
 #include <functional>
 #include <initializer_list>
@@ -241,14 +243,12 @@ class Task : public TaskCore {
     /// What a trap routine must leave as it was: the error that the interrupted code handles.
     struct ErrorInProgress {
         float number = 0;
-        std::string text;
-        SourcePlace place;
+        RaisedError error;
     };
-    ErrorInProgress errorInProgress() const { return {errorNumber, errorText_, errorPlace_}; }
-    void setErrorInProgress(ErrorInProgress error) {
-        errorNumber = error.number;
-        errorText_ = std::move(error.text);
-        errorPlace_ = std::move(error.place);
+    ErrorInProgress errorInProgress() const { return {errorNumber, error_}; }
+    void setErrorInProgress(ErrorInProgress before) {
+        errorNumber = before.number;
+        error_ = std::move(before.error);
     }
     /// In that handler: how to go on; it returns to continueAtUser then.
     void endDetached(HandlerDecision decision) { detached_.back().decision = decision; }
@@ -265,8 +265,8 @@ class Task : public TaskCore {
     SourcePlace place() const;
     std::vector<SourcePlace> callChain() const;
     /// Sentence about the last error raised in this task ("ERR_DIVZERO (1003): division by zero."); where it was raised.
-    const std::string& errorText() const { return errorText_; }
-    const SourcePlace& errorPlace() const { return errorPlace_; }
+    std::string errorText() const { return error_.text(host_.log()); }
+    SourcePlace errorPlace() const { return error_.place(); }
 
     InterruptTable& interrupts() { return interrupts_; }
     EventRoutines& events() { return events_; }
@@ -368,7 +368,7 @@ class Task : public TaskCore {
         int32_t statement = -1;
         int32_t id = 0;
         int number = 0; ///< of the error being handled
-        std::map<int, int> counts;
+        RetryCounts counts;
     };
     /// A detached error handler at work.
     struct Detached {
@@ -379,16 +379,14 @@ class Task : public TaskCore {
     struct Jump {
         Frame* target = nullptr;
         int number = 0;
-        std::string text;
-        SourcePlace place;
+        RaisedError error;
         HandlerDecision decision = kNotDecided; ///< of the handler, which has been executed already
     };
     struct HandledError {
         Frame* frame = nullptr; ///< of the routine whose handler took it
         const RoutineDesc* routine = nullptr;
         int number = 0;
-        std::string text;
-        SourcePlace place;
+        RaisedError error;
     };
 
     void fibreMain();
@@ -415,7 +413,8 @@ class Task : public TaskCore {
     void abortUndo(std::string why);
     /// Code of the stepping profile can execute the faulty statement again.
     bool canExecuteAgain() const;
-    std::string describeError(int number) const;
+    void noteRaised(int number);
+    Status reportUnhandled(int number, const std::string& hint = {});
     RetryCount* nearestRetryCount(const Frame* from);
     RetryCount* retryCountOf(Frame* handler);
     void noteHandled(Frame* handler, int number);
@@ -468,11 +467,13 @@ class Task : public TaskCore {
 
     std::string endReason_;
     SourcePlace endPlace_;
-    std::string errorDetail_, errorText_;
-    SourcePlace errorPlace_;
+    std::string errorDetail_; // of the error that is raised next
+    RaisedError error_;       // raised last
     std::vector<RetryCount> retries_;
     int32_t lastRetryId_ = 0;
     std::vector<HandledError> handled_; // not reported yet; innermost handler last
+    HandledError warned_;               // reported last,
+    uint64_t warnedEvent_ = 0;          // and the sequence number of its event
 
     static constexpr int32_t kAsksForReentry = 2; // beside what a debugger asks
     Standing standing_ = Standing::Between;

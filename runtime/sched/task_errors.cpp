@@ -18,17 +18,28 @@ namespace {
 /// Callers listed in an event; an endless recursion has a hundred thousand.
 constexpr std::size_t kMaxCalls = 24;
 
-/// Is `wanted` the frame record `from` or one of its callers'? Records of routines that were compiled into each other lie in
-/// any order within one frame of the machine; beyond, those of callers lie above. So a few callers settle it, however long the
-/// chain is.
+/// Records of routines that were compiled into each other lie in any order within one frame of the machine; beyond, those of
+/// callers lie above. So a few callers settle where a record is, however long the chain is.
+constexpr int kMostMerged = 256;
+
+/// Is `wanted`, a record in use, the frame record `from` or one of its callers'?
 bool isAmongCallers(const Frame* from, const Frame* wanted) {
-    constexpr int kMostMerged = 256;
     const Frame* highest = from;
     for (int i = 0; i < kMostMerged; ++i, from = from->caller) {
         if (from == nullptr || from == wanted) return from == wanted;
         highest = std::max(highest, from, std::less<>());
     }
     return std::less<>()(highest, wanted);
+}
+
+/// The same for a record that may have been left.
+bool isInProgress(const Frame* from, const Frame* wanted) {
+    int above = 0; // without one that lies below
+    for (const Frame* at = from; at != nullptr && above <= kMostMerged; at = at->caller) {
+        if (at == wanted) return true;
+        above = std::less<>()(wanted, at) ? above + 1 : 0;
+    }
+    return false;
 }
 
 /// "a", "a and b", "a, b and c".
@@ -72,7 +83,7 @@ std::string unaskedText(const Frame* from, int number) {
 
 SourcePlace Task::place() const {
     for (const Frame* at = callSeenByUser(frame); at != nullptr; at = callSeenByUser(at->caller)) {
-        if (at->routine != &kTrapBoundary && at->routine != &kEventBoundary) return placeOf(at);
+        if (!isBoundary(*at)) return placeOf(at);
     }
     return {};
 }
@@ -86,24 +97,21 @@ std::vector<SourcePlace> Task::callChain() const {
     return chain;
 }
 
-std::string Task::describeError(int number) const {
-    const EventLog& log = host_.log();
-    const std::string name = log.errorName(number);
-    std::string text = name.empty() ? fmt::format("Error {}", number) : fmt::format("{} ({})", name, number);
-    const std::string& why = errorDetail_.empty() ? log.errorText(number) : errorDetail_;
-    text += why.empty() ? "." : ": " + why;
-    if (text.back() != '.' && text.back() != '!' && text.back() != '?') text += '.';
-    return text;
+/// The error raised last is this one, at the statement in progress.
+void Task::noteRaised(int number) {
+    const Frame* at = callSeenByUser(frame);
+    while (at != nullptr && isBoundary(*at))
+        at = callSeenByUser(at->caller);
+    error_.set(number, at, errorDetail_);
 }
 
 /// What codegen calls for a check or RAISE: started again after the system handler, the instruction fails again.
 Status Task::raiseAt(Frame* at, int number) {
     const std::string detail = errorDetail_;
-    Status status = kAgain;
-    while (status == kAgain) {
+    Status status = raiseOnce(at, number);
+    while (status == kAgain && !canExecuteAgain()) {
         errorDetail_ = detail;
         status = raiseOnce(at, number);
-        if (canExecuteAgain()) break;
     }
     return status;
 }
@@ -119,8 +127,7 @@ Status Task::raiseOnce(Frame* at, int number) {
     const bool toCaller = std::exchange(raiseToCaller_, false) && at != nullptr;
     if (!toCaller || errorNumber != static_cast<float>(number)) {
         if (!toCaller) flushHandledWarning();
-        errorPlace_ = place();
-        errorText_ = describeError(number);
+        noteRaised(number);
     }
     errorDetail_.clear(); // the next error has a reason of its own
     if (toCaller) return dispatchError(routeFromCall(at->caller, number), number, at->caller);
@@ -142,7 +149,7 @@ Status Task::propagateFrom(Frame* handler) {
         Frame* const caller = handler != nullptr ? handler->caller : nullptr;
         status =
             detached ? leaveDetached(number) : dispatchError(routeFromCall(caller, number), number, caller);
-        if (canExecuteAgain()) break;
+        if (status != kAgain || canExecuteAgain()) break;
     }
     return status;
 }
@@ -161,13 +168,16 @@ Status Task::dispatchError(const ErrorRoute& route, int number, const Frame* fro
     }
     handled_.clear(); // reported as unhandled instead
     const std::string hint = backward ? std::string() : unaskedText(from, number);
-    return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText_, errorPlace_, hint);
+    return reportUnhandled(number, hint);
+}
+
+Status Task::reportUnhandled(int number, const std::string& hint) {
+    return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText(), errorPlace(), hint);
 }
 
 Status Task::errorNotListed() {
     handled_.clear();
-    return systemHandler(static_cast<int>(EventId::UnhandledError), static_cast<int>(errorNumber), errorText_,
-                         errorPlace_);
+    return reportUnhandled(static_cast<int>(errorNumber));
 }
 
 Status Task::handlerEndAt(Frame* handler) {
@@ -176,8 +186,8 @@ Status Task::handlerEndAt(Frame* handler) {
     while (status == kAgain) {
         frame = handler;
         handled_.clear();
-        const std::string text = formatEventText(EventId::HandlerEnd, {errorText_, place().routine});
-        status = systemHandler(static_cast<int>(EventId::HandlerEnd), number, text, errorPlace_);
+        const std::string text = formatEventText(EventId::HandlerEnd, {errorText(), place().routine});
+        status = systemHandler(static_cast<int>(EventId::HandlerEnd), number, text, errorPlace());
         if (canExecuteAgain()) break;
     }
     return status;
@@ -242,14 +252,14 @@ Status Task::startJump(Frame* target, int number, HandlerDecision decision) {
     flushHandledWarning();
     dropHandled(target); // the handlers at work pass it on
     if (unwinding_ == Unwind::None) unwinding_ = Unwind::Jump;
-    jumps_.push_back({target, number, errorText_, errorPlace_, decision});
+    jumps_.push_back({target, number, error_, decision});
     return kJump;
 }
 
 Status Task::landAt(Frame* at, Status status) {
     if (jumps_.empty() || jumps_.back().target != at)
         return status == kJumpPast && at->routine->hasUndo == 0 ? kJump : status;
-    const Jump jump = std::move(jumps_.back());
+    Jump jump = std::move(jumps_.back());
     jumps_.pop_back();
     if (jumps_.empty() && unwinding_ == Unwind::Jump) {
         unwinding_ = Unwind::None;
@@ -264,8 +274,7 @@ Status Task::landAt(Frame* at, Status status) {
     while (delivered == kAgain)
         delivered = interrupts_.deliver();
     if (delivered != kOk) return landAt(at, delivered);
-    errorText_ = jump.text;
-    errorPlace_ = jump.place;
+    error_ = std::move(jump.error);
     if (jump.decision == kNotDecided) noteHandled(at, jump.number);
     decision_ = jump.decision;
     return jump.number;
@@ -276,7 +285,7 @@ Status Task::landAt(Frame* at, Status status) {
 /// ERRNO is `number` from now on. Null: the system handler is to report it.
 Frame* Task::findUserLevel(int number) {
     const bool allowed = frame != nullptr && frame->routine->noStepIn != 0 && inErrorHandler(*frame);
-    if (static_cast<float>(number) != errorNumber) errorText_ = describeError(number);
+    if (static_cast<float>(number) != errorNumber) error_.renumber(number, errorDetail_);
     errorNumber = static_cast<float>(number);
     dropHandled(frame); // the handler at work passes it on
     return allowed ? userLevelHandler(frame, number) : nullptr;
@@ -284,8 +293,7 @@ Frame* Task::findUserLevel(int number) {
 
 Status Task::breakOffToUser(int number) {
     Frame* const user = findUserLevel(number);
-    if (user == nullptr)
-        return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText_, errorPlace_);
+    if (user == nullptr) return reportUnhandled(number);
     (void)startJump(user, number);
     return kJumpPast;
 }
@@ -293,12 +301,11 @@ Status Task::breakOffToUser(int number) {
 Status Task::continueAtUser(int number, HandlerDecision& decision) {
     Frame* const from = frame;
     Frame* const user = findUserLevel(number);
-    if (user == nullptr)
-        return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText_, errorPlace_);
+    if (user == nullptr) return reportUnhandled(number);
     const RoutineDesc& routine = *user->routine;
     if (routine.detachedHandler == nullptr)
         return fatal(static_cast<int>(EventId::HandlerNotDetached), routine.name);
-    handled_.push_back({user, &routine, number, errorText_, errorPlace_});
+    handled_.push_back({user, &routine, number, error_});
     detached_.push_back({user});
     void* const* data = static_cast<const SteppingFrame*>(user)->addresses + routine.localCount;
     const Status status = routine.detachedHandler(this, from, data);
@@ -315,14 +322,11 @@ Status Task::continueAtUser(int number, HandlerDecision& decision) {
 /// RAISE in a detached handler: at once to the system handler when nobody further out takes the error. Positive: the handler
 /// returns, and its routine raises the error when the stack has been unwound to it.
 Status Task::leaveDetached(int number) {
-    if (static_cast<float>(number) != errorNumber) {
-        errorPlace_ = place();
-        errorText_ = describeError(number);
-    }
+    if (static_cast<float>(number) != errorNumber) noteRaised(number);
     errorNumber = static_cast<float>(number);
     if (routeFromCall(detached_.back().user->caller, number).handler == nullptr) {
         handled_.clear();
-        return systemHandler(static_cast<int>(EventId::UnhandledError), number, errorText_, errorPlace_);
+        return reportUnhandled(number);
     }
     detached_.back().decision = kDecidedRaise;
     return number;
@@ -340,11 +344,15 @@ void Task::abortUndo(std::string why) {
 void Task::noteHandled(Frame* handler, int number) {
     flushHandledWarning();
     dropHandled(handler);
-    handled_.push_back({handler, handler->routine, number, errorText_, errorPlace_});
+    handled_.emplace_back(handler, handler->routine, number, error_);
     RetryCount* entry = retryCountOf(handler);
     if (entry == nullptr) entry = &retries_.emplace_back();
-    if (entry->frame != handler || entry->statement != handler->statement || entry->id != handler->reserved)
-        *entry = {handler, handler->statement, 0, number, {}};
+    if (entry->frame != handler || entry->statement != handler->statement || entry->id != handler->reserved) {
+        entry->frame = handler;
+        entry->statement = handler->statement;
+        entry->id = 0;
+        entry->counts.clear();
+    }
     entry->number = number;
 }
 
@@ -369,11 +377,12 @@ Status Task::retryAt(Frame* handler) {
     if (undoAborted_ || unwinding_ == Unwind::Abandon) return silentStatus();
     RetryCount* entry = retryCountOf(handler);
     if (entry == nullptr) return kOk;
-    int& count = entry->counts[entry->number];
+    int& count = entry->counts.of(entry->number);
     if (count >= host_.retryLimit()) {
-        const std::string text = formatEventText(EventId::RetryExceeded, {errorText_, std::to_string(count)});
+        const std::string text =
+            formatEventText(EventId::RetryExceeded, {errorText(), std::to_string(count)});
         const Status status =
-            systemHandler(static_cast<int>(EventId::RetryExceeded), entry->number, text, errorPlace_);
+            systemHandler(static_cast<int>(EventId::RetryExceeded), entry->number, text, errorPlace());
         if (status != kAgain) return status;
         count = 0; // started again
     }
@@ -385,10 +394,9 @@ Status Task::retryAt(Frame* handler) {
 
 int Task::remainingRetries() {
     const int limit = host_.retryLimit();
-    const RetryCount* entry = nearestRetryCount(frame);
+    RetryCount* const entry = nearestRetryCount(frame);
     if (entry == nullptr) return limit;
-    const auto found = entry->counts.find(entry->number);
-    return found == entry->counts.end() ? limit : std::max(0, limit - found->second);
+    return std::max(0, limit - entry->counts.of(entry->number));
 }
 
 void Task::resetRetryCount() {
@@ -399,13 +407,10 @@ void Task::resetRetryCount() {
 bool Task::isInside(const HandledError& handled) const {
     const auto isHandled = [&handled](const Detached& handler) { return handler.user == handled.frame; };
     if (std::any_of(detached_.begin(), detached_.end(), isHandled)) return true;
-    for (const Frame* at = frame; at != nullptr; at = at->caller) {
-        if (at != handled.frame) continue;
-        if (at->routine != handled.routine) return false;
-        const StmtDesc* statement = statementOf(*at);
-        return statement != nullptr && !statement->handled;
-    }
-    return false;
+    const bool inProgress = handled.frame == frame || isInProgress(frame, handled.frame);
+    if (!inProgress || handled.frame->routine != handled.routine) return false;
+    const StmtDesc* statement = statementOf(*handled.frame);
+    return statement != nullptr && !statement->handled;
 }
 
 void Task::flushHandledWarning() {
@@ -426,20 +431,29 @@ void Task::skipWarn() {
 }
 
 void Task::writeHandledWarning() {
-    const HandledError handled = std::move(handled_.back());
+    HandledError handled = std::move(handled_.back());
     handled_.pop_back();
+    // A loop that handles one error again and again only counts its event.
+    const bool isSame = handled.routine == warned_.routine && handled.number == warned_.number &&
+                        handled.error.isLike(warned_.error);
+    if (isSame && host_.log().repeatLast(warnedEvent_, now())) {
+        ++warnedEvent_;
+        return;
+    }
+    const std::string text = handled.error.text(host_.log());
     Event event;
     event.number = static_cast<int>(EventId::HandledError);
     event.type = EventType::Warning;
     event.title = eventText(EventId::HandledError).title;
-    event.text = formatEventText(EventId::HandledError, {handled.text, handled.routine->name});
-    event.arguments = {name_, handled.place.reference(), handled.text, handled.routine->name};
+    event.text = formatEventText(EventId::HandledError, {text, handled.routine->name});
+    event.place = handled.error.place();
+    event.arguments = {name_, event.place.reference(), text, handled.routine->name};
     event.time = now(); // until here SkipWarn may take it back, and the log is in order of time
     event.task = name_;
-    event.place = handled.place;
     event.errorNumber = handled.number;
     event.errorName = host_.log().errorName(handled.number);
-    host_.log().write(std::move(event));
+    warnedEvent_ = host_.log().write(std::move(event));
+    warned_ = std::move(handled);
 }
 
 } // namespace rt

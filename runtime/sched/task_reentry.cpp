@@ -32,8 +32,7 @@ void Task::finishReentry(const ErrorMemory& errors, bool behindStop) {
     passStop_ = behindStop;
     errorNumber = errors.errorNumber;
     interruptNumber = errors.interruptNumber;
-    errorText_ = errors.text;
-    errorPlace_ = errors.place;
+    error_ = RaisedError::described(errors.text, errors.place);
     errorDetail_.clear();
     const std::vector<Frame*> chain = frames();
     retries_.clear();
@@ -41,13 +40,13 @@ void Task::finishReentry(const ErrorMemory& errors, bool behindStop) {
         if (saved.depth >= chain.size()) continue;
         Frame* const at = chain[saved.depth];
         at->reserved = ++lastRetryId_;
-        retries_.push_back({at, saved.statement, at->reserved, saved.number, saved.counts});
+        retries_.push_back({at, saved.statement, at->reserved, saved.number, RetryCounts(saved.counts)});
     }
     handled_.clear();
     if (errors.handled && errors.handled->depth < chain.size()) {
         Frame* const at = chain[errors.handled->depth];
-        handled_.push_back(
-            {at, at->routine, errors.handled->number, errors.handled->text, errors.handled->place});
+        handled_.push_back({at, at->routine, errors.handled->number,
+                            RaisedError::described(errors.handled->text, errors.handled->place)});
     }
 }
 
@@ -72,16 +71,17 @@ ErrorMemory Task::errorMemory() const {
     ErrorMemory memory;
     memory.errorNumber = errorNumber;
     memory.interruptNumber = interruptNumber;
-    memory.text = errorText_;
-    memory.place = errorPlace_;
+    const EventLog& log = host_.log();
+    memory.text = error_.text(log);
+    memory.place = error_.place();
     const std::vector<Frame*> chain = frames();
     for (std::size_t depth = 0; depth < chain.size(); ++depth) {
         for (const RetryCount& entry : retries_)
             if (entry.frame == chain[depth] && entry.id == chain[depth]->reserved)
-                memory.retries.push_back({depth, entry.statement, entry.number, entry.counts});
+                memory.retries.push_back({depth, entry.statement, entry.number, entry.counts.all()});
         for (const HandledError& handled : handled_)
             if (handled.frame == chain[depth] && handled.routine == chain[depth]->routine)
-                memory.handled = {depth, handled.number, handled.text, handled.place};
+                memory.handled = {depth, handled.number, handled.error.text(log), handled.error.place()};
     }
     return memory;
 }

@@ -22,9 +22,21 @@ std::string printed(const char* format, int digits, double value) {
     return {buffer, static_cast<size_t>(size)};
 }
 
+/// What %.*f of printf gives, to the byte.
+std::string fixed(double value, int decimals) {
+    char buffer[400]; // the largest number has 309 digits in front of the point
+    char* const end = buffer + sizeof buffer;
+    if (decimals == 0 && std::fabs(value) < 9007199254740992.0) {
+        const double whole = std::nearbyint(value); // halves to the even neighbour, as printf does
+        if (whole != 0 || !std::signbit(whole))
+            return {buffer, std::to_chars(buffer, end, static_cast<int64_t>(whole)).ptr};
+    }
+    return {buffer, std::to_chars(buffer, end, value, std::chars_format::fixed, decimals).ptr};
+}
+
 std::string formatGeneral(double value, double integerLimit, int digits) {
     if (value == 0) return "0"; // also -0
-    if (std::trunc(value) == value && std::fabs(value) <= integerLimit) return printed("%.*f", 0, value);
+    if (std::trunc(value) == value && std::fabs(value) <= integerLimit) return fixed(value, 0);
     return printed("%.*G", digits, value);
 }
 
@@ -185,7 +197,7 @@ size_t characterLength(std::string_view text) {
 template <class T> std::string shortestDigits(T value, double integerLimit, int plainExponent) {
     if (value == 0) return std::signbit(value) ? "-0" : "0";
     if (std::trunc(value) == value && std::fabs(static_cast<double>(value)) <= integerLimit)
-        return printed("%.*f", 0, static_cast<double>(value));
+        return fixed(static_cast<double>(value), 0);
     char buffer[64];
     const char* end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific).ptr;
     std::string text(buffer, static_cast<size_t>(end - buffer));
@@ -312,7 +324,7 @@ std::string formatDisplayDnum(double value) {
 }
 
 std::string formatDecimals(double value, int decimals, bool exponent) {
-    return printed(exponent ? "%.*E" : "%.*f", decimals, value);
+    return exponent ? printed("%.*E", decimals, value) : fixed(value, decimals);
 }
 
 std::string valueToText(const void* data, const TypeDesc& type) {

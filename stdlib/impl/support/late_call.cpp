@@ -27,15 +27,46 @@ bool isIdentifier(std::string_view text) {
                        [](unsigned char c) { return std::isalnum(c) || c == '_' || c >= 0x80; });
 }
 
+/// "name" or "Module:name".
+struct CalledName {
+    std::string_view module, routine;
+    bool isValid = false;
+
+    explicit CalledName(std::string_view written) {
+        const std::size_t colon = written.find(':');
+        if (colon != std::string_view::npos) module = trimmed(written.substr(0, colon));
+        routine = trimmed(written.substr(colon + 1)); // npos + 1 is 0: the whole text
+        isValid = isIdentifier(routine) && (colon == std::string_view::npos || isIdentifier(module));
+    }
+};
+
 /// What absent arguments are described by: no dimensions.
 const TypeDesc kAbsent = {"", "", DescKind::Other, 0, 0, {0, 0, 0}, nullptr, nullptr, nullptr};
+
+/// So many objects of a type, in place as long as they are few.
+template <class T, std::size_t Few> class FewObjects {
+  public:
+    FewObjects(std::size_t count, const T& value) : many_(count > Few ? count : 0, value) {
+        if (count <= Few) std::fill_n(few_, count, value);
+        data_ = count > Few ? many_.data() : few_;
+    }
+    FewObjects(const FewObjects&) = delete;
+    FewObjects& operator=(const FewObjects&) = delete;
+    T& operator[](std::size_t i) { return data_[i]; }
+    const T* data() const { return data_; }
+
+  private:
+    T few_[Few];
+    std::vector<T> many_;
+    T* data_;
+};
 
 /// Matches the arguments of a call to the parameters of a routine: required ones in order, optional ones by name.
 class Binder {
   public:
     Binder(const Controller& controller, const RoutineEntry& routine)
         : controller_(controller), routine_(routine),
-          bound_(routine.paramCount, LateArg{nullptr, &kAbsent, nullptr}), taken_(routine.paramCount) {}
+          bound_(routine.paramCount, LateArg{nullptr, &kAbsent, nullptr}), taken_(routine.paramCount, 0) {}
 
     /// "" or what does not fit.
     std::string bind(const LateCallArg* args, int32_t count) {
@@ -47,7 +78,7 @@ class Binder {
                            : fmt::format("it takes fewer arguments than the {} given", count);
             if (taken_[number])
                 return fmt::format("parameter '{}' is given twice", routine_.params[number].name);
-            taken_[number] = true;
+            taken_[number] = 1;
             if (std::string problem = take(args[i], routine_.params[number], bound_[number]);
                 !problem.empty())
                 return problem;
@@ -101,17 +132,38 @@ class Binder {
     void* copyOf(const LateCallArg& arg) {
         const DescKind kind = lib::elementOf(*arg.type).kind;
         if (kind == DescKind::Handle || kind == DescKind::Other) return arg.data;
-        auto& copy = copies_.emplace_back(std::make_unique<std::byte[]>(arg.type->size));
-        std::memcpy(copy.get(), arg.data, arg.type->size);
-        return copy.get();
+        std::byte* const copy = roomFor(arg.type->size);
+        std::memcpy(copy, arg.data, arg.type->size);
+        return copy;
+    }
+
+    std::byte* roomFor(std::size_t size) {
+        if (size > sizeof few_ - used_)
+            return copies_.emplace_back(std::make_unique<std::byte[]>(size)).get();
+        std::byte* const room = few_ + used_;
+        constexpr std::size_t kAlign = alignof(std::max_align_t);
+        used_ = std::min(sizeof few_, used_ + (size + kAlign - 1) / kAlign * kAlign);
+        return room;
     }
 
     const Controller& controller_;
     const RoutineEntry& routine_;
-    std::vector<LateArg> bound_;
-    std::vector<bool> taken_;
-    std::vector<std::unique_ptr<std::byte[]>> copies_;
+    FewObjects<LateArg, 6> bound_;
+    FewObjects<char, 6> taken_;                   // not 0: there is an argument for this parameter
+    alignas(std::max_align_t) std::byte few_[96]; // small copies,
+    std::size_t used_ = 0;
+    std::vector<std::unique_ptr<std::byte[]>> copies_; // and the others
 };
+
+/// Null: there is none.
+const RoutineEntry* findCalled(Task& task, const String& name, const CalledName& called) {
+    ProgramTables& tables = task.controller().tables();
+    const char* const from = task.frame->routine->module;
+    const auto index = static_cast<int32_t>(task.index());
+    const RoutineEntry* routine = tables.findRoutine(called.routine, called.module, from, index);
+    if (routine != nullptr) tables.calls().keep(name, from, index, *routine);
+    return routine;
+}
 
 const char* wordFor(int32_t kind) {
     return kind == kRoutineFunc ? "function" : kind == kRoutineTrap ? "trap routine" : "procedure";
@@ -125,19 +177,20 @@ Status rt_lateCall(TaskCore* core, const String* name, const LateCallArg* args, 
                    void* result) {
     Task& task = taskOf(core);
     const Controller& controller = task.controller();
-    const std::string_view written = name->view();
-    const std::size_t colon = written.find(':');
-    const std::string_view module = colon == std::string_view::npos ? "" : trimmed(written.substr(0, colon));
-    const std::string_view wanted = trimmed(written.substr(colon + 1)); // npos + 1 is 0: the whole text
-    if (!isIdentifier(wanted) || (colon != std::string_view::npos && !isIdentifier(module)))
-        return lib::fail(core, err::ERR_CALLPROC,
-                         fmt::format("\"{}\" is not the name of a procedure", written));
     Frame* const caller = core->frame;
-    const RoutineEntry* routine = controller.tables().findRoutine(wanted, module, caller->routine->module,
-                                                                  static_cast<int32_t>(task.index()));
+    const RoutineEntry* routine = task.controller().tables().calls().find(*name, caller->routine->module,
+                                                                          static_cast<int32_t>(task.index()));
+    if (routine == nullptr) {
+        const CalledName called(name->view());
+        if (!called.isValid)
+            return lib::fail(core, err::ERR_CALLPROC,
+                             fmt::format("\"{}\" is not the name of a procedure", name->view()));
+        routine = findCalled(task, *name, called);
+    }
     if (routine == nullptr) {
         const Status number = kind == kRoutineFunc ? err::ERR_REFUNKFUN : err::ERR_REFUNKPRC;
-        return lib::fail(core, number, fmt::format("there is no {} named \"{}\"", wordFor(kind), written));
+        return lib::fail(core, number,
+                         fmt::format("there is no {} named \"{}\"", wordFor(kind), name->view()));
     }
     const auto refuse = [&](const std::string& why) {
         return lib::fail(core, err::ERR_CALLPROC,

@@ -19,10 +19,6 @@ float handlerOf(const Frame& frame) {
     return backward ? k::HANDLER_BWD : k::HANDLER_NONE;
 }
 
-bool isBoundary(const Frame& frame) {
-    return frame.routine == &kTrapBoundary || frame.routine == &kEventBoundary;
-}
-
 } // namespace
 
 extern "C" {

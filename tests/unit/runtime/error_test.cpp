@@ -292,3 +292,64 @@ TEST_CASE("TrustLevel decides what the failure of a background task does", "[err
     CHECK(lax.run() == ExitStatus::Ended);
     CHECK(lax.now() == 2 * kSecond);
 }
+
+TEST_CASE("an error is described by what was known when it was raised", "[errors]") {
+    EventLog log;
+    log.setHumanOutput(nullptr);
+    log.addErrorName(1003, "ERR_DIVZERO", "division by zero");
+    const Routine main("main", 5), other("other", 5);
+    Frame frame{nullptr, &main.desc, 1, 0};
+    CHECK(RaisedError().text(log).empty());
+    CHECK(RaisedError().place().line == 0);
+    const RaisedError plain(1003, &frame, "");
+    RaisedError explained(7, &frame, "why not?");
+    frame = {nullptr, &other.desc, 4, 0}; // the record is used for another routine
+    CHECK(plain.text(log) == "ERR_DIVZERO (1003): division by zero.");
+    CHECK(plain.place().reference() == "TestModule/main:2");
+    CHECK(explained.text(log) == "Error 7: why not?");
+    explained.renumber(8, "");
+    CHECK(explained.text(log) == "Error 8.");
+    CHECK(explained.place().routine == "main");
+    CHECK_FALSE(explained.isLike(plain));
+
+    RaisedError kept = RaisedError::described("as it was.", plain.place()); // by an earlier process
+    CHECK(kept.text(log) == "as it was.");
+    kept.renumber(1003, "");
+    CHECK(kept.text(log) == "ERR_DIVZERO (1003): division by zero.");
+    CHECK(kept.place().routine == "main");
+}
+
+TEST_CASE("an error that is handled again and again is one event with a count, another one ends it",
+          "[errors]") {
+    static const Routine main("main", 5, 3);
+    Run run;
+    run.task("T", [](TaskCore* core, Frame* caller) -> Status {
+        Frame frame{caller, &main.desc, 1, 0};
+        for (const int number : {42, 42, 42, 43, 43, 42}) {
+            frame.statement = 1;
+            if (number == 43) taskOf(core).setErrorDetail("the reason");
+            CHECK(rt_raise(core, &frame, number) == number);
+            frame.statement = 3; // in the handler, which is left by the next error
+        }
+        return kOk;
+    });
+    CHECK(run.run() == ExitStatus::Ended);
+    std::vector<std::string> texts;
+    for (const Event& event : run.controller->log().events())
+        if (event.number == static_cast<int>(EventId::HandledError))
+            texts.push_back(std::to_string(event.count) + " " + event.arguments[2]);
+    CHECK(texts == std::vector<std::string>{"3 Error 42.", "2 Error 43: the reason.", "1 Error 42."});
+}
+
+TEST_CASE("RETRYs are counted for each error of a statement", "[errors]") {
+    RetryCounts counts;
+    CHECK(counts.of(7) == 0);
+    counts.of(42) = 2;
+    counts.of(7) = 1;
+    ++counts.of(42);
+    CHECK(counts.all() == std::map<int, int>{{7, 1}, {42, 3}});
+    CHECK(RetryCounts(counts.all()).all() == counts.all());
+    counts.clear();
+    CHECK(counts.of(42) == 0);
+    CHECK(counts.all().empty());
+}

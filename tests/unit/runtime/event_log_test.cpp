@@ -110,3 +110,39 @@ TEST_CASE("every occurrence reaches the listeners", "[log]") {
         bench.write("a");
     CHECK(heard == 10);
 }
+
+TEST_CASE("an event that is only counted again leaves what writing it again leaves", "[log]") {
+    Bench written, counted;
+    for (Bench* bench : {&written, &counted}) {
+        uint64_t last = 0;
+        for (const char* title : {"a", "a", "b", "b", "b", "a", "a"}) {
+            bench->now += kMillisecond;
+            const bool again = bench == &counted && bench->log.count() > 0 &&
+                               bench->log.events().back().title == title &&
+                               bench->log.repeatLast(last, bench->now);
+            last = again ? last + 1 : bench->log.write(EventType::Warning, 80001, title, "text", nullptr);
+            CHECK(last == bench->log.count());
+        }
+    }
+    CHECK_FALSE(counted.log.repeatLast(6, 9 * kMillisecond)); // not the last one
+    REQUIRE(counted.log.events().size() == written.log.events().size());
+    for (std::size_t i = 0; i < written.log.events().size(); ++i) {
+        const Event &a = written.log.events()[i], &b = counted.log.events()[i];
+        CHECK(a.title == b.title);
+        CHECK(std::tie(a.sequence, a.count, a.since, a.time) ==
+              std::tie(b.sequence, b.count, b.since, b.time));
+    }
+    CHECK(counted.lines() == written.lines());
+}
+
+TEST_CASE("an event is written anew when somebody hears each, or the error has another name by now",
+          "[log]") {
+    Bench bench;
+    bench.write("a");
+    CHECK(bench.log.repeatLast(1, kMillisecond));
+    bench.log.addErrorName(10001, "other", "");
+    CHECK_FALSE(bench.log.repeatLast(2, kMillisecond));
+    bench.write("a");
+    bench.log.addListener([](const Event&) {});
+    CHECK_FALSE(bench.log.repeatLast(3, kMillisecond));
+}

@@ -40,3 +40,48 @@ TEST_CASE("a module that is loaded and unloaded again and again leaves nothing i
     load();
     CHECK(tables.findGlobal("reg1", "", 0, true) == &data[1]);
 }
+
+TEST_CASE("what names in calls have led to is forgotten when modules come and go", "[runtime]") {
+    rt::RoutineEntry routine{};
+    routine.name = "work";
+    routine.module = "Part";
+    rt::ProgramDesc unit{};
+    unit.routines = &routine;
+    unit.routineCount = 1;
+    rt::ProgramTables tables;
+    rt::LoadedModule module;
+    module.name = "Part";
+    module.task = 0;
+    rt::String name;
+    name.assign("work");
+    const char* const from = "Main";
+    tables.addUnit(unit, module);
+    CHECK(tables.calls().find(name, from, 0) == nullptr);
+    tables.calls().keep(name, from, 0, routine);
+    CHECK(tables.calls().find(name, from, 0) == &routine);
+    CHECK(tables.calls().find(name, from, 1) == nullptr);
+    CHECK(tables.calls().find(name, routine.module, 0) == nullptr);
+    CHECK(tables.remove(0, "Part"));
+    CHECK(tables.calls().find(name, from, 0) == nullptr);
+    tables.calls().keep(name, from, 0, routine);
+    tables.addUnit(unit, module);
+    CHECK(tables.calls().find(name, from, 0) == nullptr);
+}
+
+TEST_CASE("names in calls count up to their length, whatever lies after it", "[runtime]") {
+    const rt::RoutineEntry routine{};
+    const char* const from = "Main";
+    for (const std::size_t length : {1U, 7U, 8U, 9U, 16U, 79U, 80U}) {
+        rt::CallCache calls;
+        rt::String name, same, other, shorter;
+        std::memset(same.bytes, '?', sizeof same.bytes);
+        name.assign(std::string(length, 'n'));
+        same.assign(std::string(length, 'n'));
+        other.assign(std::string(length - 1, 'n') + 'm');
+        shorter.assign(std::string(length - 1, 'n'));
+        calls.keep(name, from, 0, routine);
+        CHECK(calls.find(same, from, 0) == &routine);
+        CHECK(calls.find(other, from, 0) == nullptr);
+        CHECK(calls.find(shorter, from, 0) == nullptr);
+    }
+}

@@ -4,7 +4,14 @@
 
 #include <catch2/catch.hpp>
 
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <cstring>
+#include <limits>
+#include <random>
+#include <string>
 
 using namespace rt;
 using namespace rt;
@@ -119,4 +126,42 @@ TEST_CASE("text that does not fit leaves the data alone", "[stdlib][format]") {
     String string;
     CHECK_FALSE(textToValue('"' + std::string(81, 'x') + '"', &string, kString));
     CHECK(textToValue('"' + std::string(80, 'x') + '"', &string, kString));
+}
+
+namespace {
+
+std::string asPrintf(double value, int decimals) {
+    char buffer[500];
+    std::snprintf(buffer, sizeof buffer, "%.*f", decimals, value);
+    return buffer;
+}
+
+} // namespace
+
+TEST_CASE("decimals are those of printf: ties, large numbers, signs of zero, no numbers",
+          "[stdlib][format]") {
+    const double big = std::numeric_limits<double>::max(), none = std::numeric_limits<double>::quiet_NaN();
+    for (const double value :
+         {0.0, 0.5, 1.5, 2.5, 0.4, 0.125, 0.375, 2.675, 1e15, 9007199254740991.0, 9007199254740993.5, 1e22,
+          1e23, big, 5e-324, static_cast<double>(0.1F), std::numeric_limits<double>::infinity(), none}) {
+        for (const double with : {value, -value})
+            for (const int decimals : {0, 1, 2, 3, 6, 15, 20, 80})
+                CHECK(formatDecimals(with, decimals, false) == asPrintf(with, decimals));
+    }
+}
+
+TEST_CASE("decimals are those of printf for any number", "[stdlib][format]") {
+    std::mt19937_64 random(1);
+    int wrong = 0;
+    const auto compare = [&wrong](double value, int decimals) {
+        if (formatDecimals(value, decimals, false) != asPrintf(value, decimals)) ++wrong;
+    };
+    for (int i = 0; i < 100'000; ++i) {
+        const uint64_t bits = random();
+        const int decimals = static_cast<int>(bits % 12);
+        compare(std::bit_cast<double>(random()), decimals); // of any size
+        compare(static_cast<double>(std::bit_cast<float>(static_cast<uint32_t>(bits >> 32))), decimals);
+        compare(static_cast<double>(static_cast<int64_t>(random()) >> 20) / 16, decimals % 5); // many ties
+    }
+    CHECK(wrong == 0);
 }
