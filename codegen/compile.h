@@ -12,6 +12,10 @@
 #include "codegen/codegen.h"
 #include "runtime/abi/rt_abi.h"
 
+namespace llvm {
+class PassBuilder;
+}
+
 namespace codegen {
 
 /// The symbol of the description that every compiled program holds.
@@ -33,6 +37,9 @@ bool finish(llvm::Module& module, const CodegenOptions& options, llvm::TargetMac
 std::unique_ptr<llvm::Module> compile(const ir::Module& module, const CodegenOptions& options,
                                       llvm::TargetMachine& machine, llvm::LLVMContext& context,
                                       std::string& error, const Part* part = nullptr);
+
+/// Runs LLVM's O2 pipeline, with the extensions of `builder`.
+void runO2(llvm::Module& module, llvm::PassBuilder& builder);
 
 /// Machine code of a compiled module as the bytes of an object file, or its assembly.
 bool generate(llvm::Module& module, llvm::TargetMachine& machine, llvm::CodeGenFileType type,

@@ -1,7 +1,7 @@
 // In-memory compilation of large programs: data and tables at once, a routine when it is called first. All calls between
 // parts go through a table of addresses, which at first name trampolines that order the routine. A routine without loops gets quick code
 // that counts its calls; one with loops, or one that is called often, optimised code with what it calls compiled into it.
-// A thread of its own compiles, because tasks run on small stacks, and better code is made while the program goes on.
+// A separate thread compiles, because tasks run on small stacks and because better code is made while the program continues.
 // Results do not depend on which code runs.
 
 #include <llvm/ADT/SmallVector.h>
@@ -34,6 +34,7 @@ using ReentryAbi = llvm::orc::OrcX86_64_SysV;
 
 /// Calls after which quick code is replaced.
 constexpr int32_t kHotCalls = 200;
+
 bool hasLoop(const ir::Module& module, const ir::Routine& routine) {
     const ir::Cfg cfg = ir::buildCfg(module, routine, ir::HandlerEdges::Yes);
     const ir::LoopInfo loops = ir::findLoops(cfg);

@@ -109,7 +109,7 @@ std::unique_ptr<llvm::Module> ModuleEmitter::run(const llvm::DataLayout& layout,
     emitSafepointSlow();
     if (hasTables())
         for (uint32_t i = 0; i < module_.globals.size(); ++i)
-            defineGlobal(i);
+            if (isShared(module_.globals[i])) global(i);
     emitBodies();
     if (hasTables()) {
         for (uint32_t i = 0; i < module_.routines.size(); ++i)
@@ -188,20 +188,20 @@ llvm::GlobalVariable* ModuleEmitter::global(uint32_t index) {
     const ir::Global& global = module_.globals[index];
     const bool external = global.kind == ir::GlobalKind::External;
     // The value of a constant of another part is known, too.
-    const bool isKnown = global.kind == ir::GlobalKind::Const &&
-                         (!isShared(global) || (!hasTables() && module_.size(global.type) <= kLargestKnown));
-    llvm::Constant* value = isKnown ? initialValue(global) : nullptr;
+    const bool isConstant = global.kind == ir::GlobalKind::Const;
+    const bool isKnown = isConstant && (!isShared(global) || module_.size(global.type) <= kLargestKnown);
+    llvm::Constant* value = !external && (hasTables() || isKnown) ? initialValue(global) : nullptr;
     // Data of another unit may be absent: its address is null then.
     auto linkage = external ? llvm::GlobalValue::ExternalWeakLinkage : llvm::GlobalValue::InternalLinkage;
     const std::string name = external ? global.name : isShared(global) ? internalName(global.name) : "";
     variable = new llvm::GlobalVariable(*target_, value ? value->getType() : memoryType(global.type),
-                                        global.kind == ir::GlobalKind::Const, linkage, value, name);
+                                        isConstant, linkage, value, name);
     uint32_t align = module_.align(global.type);
     if (!external && module_.size(global.type) >= kVectorAlign) align = kVectorAlign;
     variable->setAlignment(llvm::Align(align));
     if (external) return variable;
     if (isShared(global)) share(*variable);
-    if (part_ && isShared(global) && value)
+    if (!hasTables() && isShared(global) && value)
         variable->setLinkage(llvm::GlobalValue::AvailableExternallyLinkage);
     if (!part_) variable->setDSOLocal(true);
     return variable;
@@ -217,27 +217,6 @@ void ModuleEmitter::share(llvm::GlobalValue& value) const {
 /// Constants without name, which the compiler made, are part of the code that uses them: their numbers change with every edit.
 bool ModuleEmitter::isShared(const ir::Global& global) const {
     return !part_ || global.kind != ir::GlobalKind::Const || !global.displayName.empty();
-}
-
-void ModuleEmitter::defineGlobal(uint32_t index) {
-    const ir::Global& source = module_.globals[index];
-    if (!isShared(source)) return;
-    if (source.kind == ir::GlobalKind::External) {
-        global(index);
-        return;
-    }
-    llvm::GlobalVariable* variable = global(index);
-    llvm::Constant* value = initialValue(source);
-    if (value->getType() != variable->getValueType()) {
-        auto* typed = new llvm::GlobalVariable(*target_, value->getType(), variable->isConstant(),
-                                               variable->getLinkage(), nullptr);
-        typed->copyAttributesFrom(variable);
-        typed->takeName(variable);
-        variable->replaceAllUsesWith(typed);
-        variable->eraseFromParent();
-        globals_[index] = variable = typed;
-    }
-    variable->setInitializer(value);
 }
 
 llvm::Function* ModuleEmitter::nativeFunction(uint32_t index) {

@@ -108,7 +108,6 @@ class ModuleEmitter {
     void share(llvm::GlobalValue& value) const;
     bool isShared(const ir::Global& global) const;
     bool hasTables() const { return part_ == nullptr || part_->tables; }
-    void defineGlobal(uint32_t index);
     void findExported();
     void emitBodies();
     void emitSafepointSlow();

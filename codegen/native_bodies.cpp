@@ -63,7 +63,7 @@ bool linkNativeBodies(llvm::Module& program, const NativeBodies& bodies, std::st
         return false;
     }
     if (llvm::Linker::linkModules(program, std::move(*library), llvm::Linker::Flags::LinkOnlyNeeded)) {
-        error = "internal error: the bodies of natives do not fit to the program";
+        error = "internal error: the bodies of natives do not match the program";
         return false;
     }
     std::vector<llvm::Function*> defined;

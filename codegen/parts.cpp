@@ -5,11 +5,12 @@ namespace {
 
 /// IR instructions of a part, and of a routine that gets one of its own.
 constexpr size_t kLargestPart = 8000, kLargeRoutine = 4000;
+/// Of a routine that is copied into another part, and of all copies in a part.
+constexpr size_t kLargestCopy = 150, kMostCopied = 1500;
 
 } // namespace
 
-std::vector<uint32_t> copiesFor(const ir::Module& module, const std::vector<uint32_t>& routines,
-                                CopyLimit limit) {
+std::vector<uint32_t> copiesFor(const ir::Module& module, const std::vector<uint32_t>& routines) {
     std::vector<bool> known(module.routines.size(), false);
     for (const uint32_t routine : routines)
         known[routine] = true;
@@ -19,7 +20,7 @@ std::vector<uint32_t> copiesFor(const ir::Module& module, const std::vector<uint
         for (const ir::Inst& inst : module.routines[callers[next]].insts) {
             if (inst.op != ir::Op::Call || known[inst.index]) continue;
             const size_t more = module.routines[inst.index].insts.size();
-            if (more > limit.each || size + more > limit.together) continue;
+            if (more > kLargestCopy || size + more > kMostCopied) continue;
             known[inst.index] = true;
             size += more;
             copies.push_back(inst.index);

@@ -8,14 +8,8 @@
 
 namespace codegen {
 
-/// IR instructions of the routines that are compiled into those of another part: together, and each.
-struct CopyLimit {
-    size_t together = 1500, each = 150;
-};
-
-/// Small routines that `routines` call, and those that these call.
-std::vector<uint32_t> copiesFor(const ir::Module& module, const std::vector<uint32_t>& routines,
-                                CopyLimit limit = {});
+/// Small routines that `routines` call, and those that these call: to be compiled into the same part.
+std::vector<uint32_t> copiesFor(const ir::Module& module, const std::vector<uint32_t>& routines);
 
 /// Tables first; then a part for each module of the source, or several when it is large. A very large routine has a part of its
 /// own, because it is compiled differently. An edit of one module leaves the parts of the others as they are.

@@ -1,6 +1,6 @@
 // native_bodies: puts the bodies of small natives, compiled to LLVM bitcode, into one module that compiled programs
-// inline from (codegen/native_bodies.h), and writes it as a C++ source. A native that could not be inlined everywhere
-// stops it: its file does not belong into the list of stdlib/CMakeLists.txt.
+// inline from (codegen/native_bodies.h), and writes it as a C++ source. Stops at a native that cannot be inlined
+// everywhere: remove its file from the list in stdlib/CMakeLists.txt.
 
 #include <llvm/Bitcode/BitcodeReader.h>
 #include <llvm/Bitcode/BitcodeWriter.h>
@@ -15,6 +15,7 @@
 #include <llvm/Support/MemoryBuffer.h>
 #include <llvm/Support/raw_ostream.h>
 
+#include "codegen/compile.h"
 #include "codegen/native_bodies.h"
 
 #include <algorithm>
@@ -45,12 +46,12 @@ bool readAll(const std::vector<std::string>& paths, llvm::Module& all) {
             all.setTargetTriple((*module)->getTargetTriple());
         }
         if (llvm::Linker::linkModules(all, std::move(*module)))
-            return fail(path + " does not fit to the others");
+            return fail(path + " does not match the other files");
     }
     return true;
 }
 
-/// Takes out what belongs to the way the files were compiled and would hinder inlining.
+/// Removes traces of how the files were compiled, which would prevent inlining.
 void stripOrigin(llvm::Module& module) {
     llvm::StripDebugInfo(module);
     while (!module.named_metadata_empty())
@@ -64,7 +65,7 @@ void stripOrigin(llvm::Module& module) {
         function.removeFnAttrs(origin);
 }
 
-/// Only natives can be reached from outside; the rest of the files goes where nothing of them needs it.
+/// Only natives can be reached from outside; the optimiser removes what they do not use.
 void internalize(llvm::Module& module) {
     for (llvm::GlobalObject& object : module.global_objects()) {
         object.setComdat(nullptr);
@@ -75,7 +76,7 @@ void internalize(llvm::Module& module) {
     }
 }
 
-/// The square root of IEEE 754 has an instruction; what the C library does beside it is to set errno.
+/// The square root of IEEE 754 has an instruction; the C library only sets errno besides.
 void useSquareRoots(llvm::Module& module) {
     for (const char* name : {"sqrt", "sqrtf"}) {
         llvm::Function* library = module.getFunction(name);
@@ -113,20 +114,6 @@ void passBoolsAsBytes(llvm::Module& module, llvm::Function& native) {
     llvm::Value* result = b.CreateCall(&native, args);
     if (result->getType() == i1) result = b.CreateZExt(result, i8);
     b.CreateRet(result);
-}
-
-void optimise(llvm::Module& module) {
-    llvm::PassBuilder builder;
-    llvm::LoopAnalysisManager loops;
-    llvm::FunctionAnalysisManager functions;
-    llvm::CGSCCAnalysisManager sccs;
-    llvm::ModuleAnalysisManager modules;
-    builder.registerModuleAnalyses(modules);
-    builder.registerCGSCCAnalyses(sccs);
-    builder.registerFunctionAnalyses(functions);
-    builder.registerLoopAnalyses(loops);
-    builder.crossRegisterProxies(loops, functions, sccs, modules);
-    builder.buildPerModuleDefaultPipeline(llvm::OptimizationLevel::O2).run(module, modules);
 }
 
 /// Bodies may use what every program has: natives, the C library's mathematics and memory functions, constants.
@@ -189,7 +176,8 @@ int main(int argc, char** argv) {
         if (isNative(function) && !function.isDeclaration()) natives.push_back(&function);
     for (llvm::Function* native : natives)
         passBoolsAsBytes(all, *native);
-    optimise(all);
+    llvm::PassBuilder builder;
+    codegen::runO2(all, builder);
     if (llvm::verifyModule(all, &llvm::errs())) return 1;
     return isSelfContained(all) && write(all, argv[2]) ? 0 : 1;
 }

@@ -16,7 +16,7 @@ Findings prefixed(Findings findings, std::string_view pass) {
     return findings;
 }
 
-/// False when there is no such pass.
+/// False for an unknown name.
 bool runPass(std::string_view name, const Module& module, Routine& routine, const PassOptions& options) {
     if (name == "simplify-cfg")
         simplifyCfg(module, routine);

@@ -38,7 +38,7 @@ enum class DialogEnd : uint8_t {
 
 class OperatorPanel {
   public:
-    /// Questions that nobody can answer are reported to `log`.
+    /// Questions without an operator are reported to `log`.
     explicit OperatorPanel(EventLog& log) : log_(log) {}
 
     /// TPWrite: a line on stdout.

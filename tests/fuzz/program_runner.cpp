@@ -4,11 +4,11 @@
 #include "ir/lower/lower.h"
 #include "ir/passes/passes.h"
 #include "runtime/host/controller.h"
-#include "stdlib/native_bodies.h"
 #include "stdlib/native_table.h"
 #include "stdlib/standard_library.h"
 #include "stdlib/stdlib_text.h"
 #include "tests/fuzz/fuzz_support.h"
+#include "tools/rapidc/native_library.h"
 
 #include <algorithm>
 #include <fcntl.h>
@@ -54,15 +54,6 @@ class Capture {
   private:
     int descriptor_, saved_, memory_;
 };
-
-std::vector<codegen::NativeSymbol> natives() {
-    std::vector<codegen::NativeSymbol> symbols;
-    for (const rt::NativeEntry& entry : rt::nativeTable())
-        if (entry.address) symbols.push_back({entry.symbol, entry.address});
-    for (const rt::SupportEntry& entry : rt::supportTable())
-        if (entry.address) symbols.push_back({entry.symbol, entry.address});
-    return symbols;
-}
 
 std::string show(const diag::Sink& sink) {
     std::string text;
@@ -131,11 +122,9 @@ RunResult ProgramRunner::run(Way way) {
     for (const std::string& finding : ir::runPasses(module, passes))
         findings += finding + "\n";
     demand(findings.empty(), "checked, but the IR is wrong:\n" + findings);
-    codegen::CodegenOptions codegenOptions;
-    codegenOptions.optimise = way.optimise;
+    codegen::CodegenOptions codegenOptions = rapidc::codegenOptions(way.optimise);
     codegenOptions.debugInfo = false;
-    codegenOptions.bodies = {rt::nativeBodies(), rt::nativesWithBody()};
-    static const std::vector<codegen::NativeSymbol> symbols = natives();
+    static const std::vector<codegen::NativeSymbol> symbols = rapidc::nativeSymbols();
     std::string error;
     const auto code = codegen::jit(module, codegenOptions, symbols, error);
     demand(code != nullptr, "checked, but no machine code: " + error);

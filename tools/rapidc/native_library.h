@@ -15,10 +15,10 @@ std::vector<codegen::NativeSymbol> nativeSymbols();
 /// With the bodies of natives that can be inlined.
 codegen::CodegenOptions codegenOptions(bool optimise);
 
-/// For programs that are compiled in parts: the passes run on each routine ahead of that. `module` must outlive the options.
+/// Makes options.prepare run the passes on each routine of a program that is compiled in parts. `module` must outlive the options.
 void runPassesInParts(codegen::CodegenOptions& options, ir::Module& module, const ir::PassOptions& passes);
 
-/// Where compiled parts are kept: $RAPIDC_CACHE, else rapidc in $XDG_CACHE_HOME or ~/.cache; "" when there is no such place.
+/// Where compiled parts are kept: $RAPIDC_CACHE, else rapidc in $XDG_CACHE_HOME or ~/.cache; "" when none of them is set.
 std::string cacheFolder();
 
 } // namespace rapidc

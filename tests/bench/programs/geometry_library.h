@@ -1,14 +1,5 @@
 // The geometry functions of RAPID as a C library, compiled by itself as a library is.
-typedef struct {
-    float x, y, z;
-} pos;
-typedef struct {
-    float q1, q2, q3, q4;
-} orient;
-typedef struct {
-    pos trans;
-    orient rot;
-} pose;
+#include "geometry_types.h"
 
 pose pose_mult(pose a, pose b);
 pose pose_inv(pose a);

@@ -1,67 +1,17 @@
 // Frames of a palletising cell: places of a layer in chained frames, and back into the frame of the pallet.
-#include <math.h>
+#include "frames.h"
 #include <stdio.h>
 
-typedef struct {
-    float x, y, z;
-} pos;
-typedef struct {
-    float q1, q2, q3, q4;
-} orient;
-typedef struct {
-    pos trans;
-    orient rot;
-} pose;
-typedef struct {
-    pos trans;
-    orient rot;
-    float cf1, cf4, cf6, cfx;
-    float eax[6];
-} robtarget;
-
-static inline pos add(pos a, pos b) {
-    return (pos){a.x + b.x, a.y + b.y, a.z + b.z};
-}
-static inline pos subtract(pos a, pos b) {
-    return (pos){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-static inline pos scale(pos a, float k) {
-    return (pos){a.x * k, a.y * k, a.z * k};
-}
 static inline float vect_magn(pos a) {
     return sqrtf(a.x * a.x + a.y * a.y + a.z * a.z);
 }
 
-static inline orient multiply(orient a, orient b) {
-    return (orient){a.q1 * b.q1 - a.q2 * b.q2 - a.q3 * b.q3 - a.q4 * b.q4,
-                    a.q1 * b.q2 + a.q2 * b.q1 + a.q3 * b.q4 - a.q4 * b.q3,
-                    a.q1 * b.q3 - a.q2 * b.q4 + a.q3 * b.q1 + a.q4 * b.q2,
-                    a.q1 * b.q4 + a.q2 * b.q3 - a.q3 * b.q2 + a.q4 * b.q1};
-}
-static inline pos cross_prod(pos a, pos b) {
-    return (pos){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-static inline pos rotate(orient q, pos p) {
-    const pos u = {q.q2, q.q3, q.q4};
-    const pos t = scale(cross_prod(u, p), 2);
-    return add(add(p, scale(t, q.q1)), cross_prod(u, t));
-}
-static inline pose pose_mult(pose a, pose b) {
-    return (pose){add(a.trans, rotate(a.rot, b.trans)), multiply(a.rot, b.rot)};
-}
 static inline pose pose_inv(pose a) {
     const orient inverse = {a.rot.q1, -a.rot.q2, -a.rot.q3, -a.rot.q4};
     return (pose){scale(rotate(inverse, a.trans), -1), inverse};
 }
 static inline pos pose_vect(pose a, pos p) {
     return add(a.trans, rotate(a.rot, p));
-}
-static inline orient orient_zyx(float z, float y, float x) {
-    const float half = 3.14159265f / 360;
-    const orient rz = {cosf(z * half), 0, 0, sinf(z * half)};
-    const orient ry = {cosf(y * half), 0, sinf(y * half), 0};
-    const orient rx = {cosf(x * half), sinf(x * half), 0, 0};
-    return multiply(multiply(rz, ry), rx);
 }
 static inline robtarget offs(robtarget p, float x, float y, float z) {
     p.trans = add(p.trans, (pos){x, y, z});
