@@ -11,8 +11,11 @@ find_package(LLVM 19.1 REQUIRED CONFIG)
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
-  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  # The cache must trust precompiled headers by their contents, not by their time.
+  set(CCACHE_LAUNCHER ${CMAKE_COMMAND} -E env
+    CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${CCACHE_PROGRAM})
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_LAUNCHER})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_LAUNCHER})
 endif()
 
 option(RAPIDC_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
@@ -21,7 +24,7 @@ option(RAPIDC_COVERAGE "Instrument for coverage reports" OFF)
 
 add_library(rapidc_options INTERFACE)
 target_compile_options(rapidc_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror
-  -ffp-contract=off $<$<CXX_COMPILER_ID:Clang>:-fcolor-diagnostics>)
+  -ffp-contract=off $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp> $<$<CXX_COMPILER_ID:Clang>:-fcolor-diagnostics>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC bug 105329: reports overlapping copies in operator+(const char*, std::string&&) that cannot happen
   target_compile_options(rapidc_options INTERFACE -Wno-restrict)
@@ -41,10 +44,26 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   add_link_options(-fuse-ld=lld)
 endif()
 
+# fmt without its shared library, and the precompiled headers that all other targets reuse.
+add_library(rapidc_fmt STATIC ${CMAKE_CURRENT_LIST_DIR}/fmt_compiled.cpp)
+target_link_libraries(rapidc_fmt PRIVATE rapidc_options)
+target_precompile_headers(rapidc_fmt PRIVATE ${CMAKE_CURRENT_LIST_DIR}/standard_headers.h)
+
+# rapidc_precompiled(TARGET): includes the standard headers precompiled. All who share them need the same code model, so
+# executables are compiled like libraries.
+function(rapidc_precompiled target)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "EXECUTABLE")
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_compile_options(${target} PRIVATE -fPIC)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM rapidc_fmt)
+endfunction()
+
 # rapidc_library(NAME DIRS dir... DEPS lib...): a static library of all .cpp files below the given
-# folders (relative to the current one).
+# folders (relative to the current one). PRECOMPILED header: in place of the standard headers.
 function(rapidc_library name)
-  cmake_parse_arguments(ARG "" "" "DIRS;DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "" "PRECOMPILED" "DIRS;DEPS" ${ARGN})
   set(sources)
   foreach(dir ${ARG_DIRS})
     file(GLOB found CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${dir}/*.cpp)
@@ -54,6 +73,11 @@ function(rapidc_library name)
     add_library(${name} STATIC ${sources})
     target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
     target_link_libraries(${name} PRIVATE rapidc_options PUBLIC ${ARG_DEPS})
+    if(ARG_PRECOMPILED)
+      target_precompile_headers(${name} PRIVATE ${ARG_PRECOMPILED})
+    else()
+      rapidc_precompiled(${name})
+    endif()
   else()
     add_library(${name} INTERFACE)
     target_include_directories(${name} INTERFACE ${CMAKE_SOURCE_DIR})

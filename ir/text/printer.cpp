@@ -15,7 +15,7 @@ template <class... Args> void put(Out& out, fmt::format_string<Args...> format, 
     fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
 }
 
-std::string quoted(std::string_view text) {
+std::string quotedText(std::string_view text) {
     std::string result = "\"";
     for (char c : text) {
         auto byte = static_cast<unsigned char>(c);
@@ -44,21 +44,21 @@ void printType(Out& out, const Module& module, TypeId id) {
         put(out, "type {} array {} [{}]\n", id, typeName(t.element), fmt::join(t.dims, ", "));
         return;
     }
-    put(out, "type {} record {} {{", id, quoted(t.name));
+    put(out, "type {} record {} {{", id, quotedText(t.name));
     for (size_t i = 0; i < t.fields.size(); ++i)
-        put(out, "{} {} {}", i ? "," : "", typeName(t.fields[i].type), quoted(t.fields[i].name));
+        put(out, "{} {} {}", i ? "," : "", typeName(t.fields[i].type), quotedText(t.fields[i].name));
     put(out, " }}\n");
 }
 
 void printDesc(Out& out, const TypeDesc& desc, size_t index) {
-    put(out, "desc {} {} base {} {} {}", index, quoted(desc.name), quoted(desc.baseName),
+    put(out, "desc {} {} base {} {} {}", index, quotedText(desc.name), quotedText(desc.baseName),
         kDescKindNames[static_cast<size_t>(desc.kind)], typeName(desc.type));
     if (desc.kind == DescKind::Array) {
         put(out, " of {}", desc.fieldDescs.empty() ? 0 : desc.fieldDescs[0]);
     } else if (!desc.fieldDescs.empty()) {
         put(out, " {{");
         for (size_t i = 0; i < desc.fieldDescs.size(); ++i)
-            put(out, "{} {}: {}", i ? "," : "", quoted(desc.fieldNames[i]), desc.fieldDescs[i]);
+            put(out, "{} {}: {}", i ? "," : "", quotedText(desc.fieldNames[i]), desc.fieldDescs[i]);
         put(out, " }}");
     }
     put(out, "\n");
@@ -84,7 +84,7 @@ void printData(Out& out, const ConstData& data) {
             continue;
         }
         if (s.kind == TypeKind::Str)
-            put(out, "str {}", quoted(s.text));
+            put(out, "str {}", quotedText(s.text));
         else
             put(out, "{} {}", kind, number(s.number));
         ++i;
@@ -97,8 +97,9 @@ void printPlace(Out& out, uint32_t file, uint32_t line) {
 }
 
 void printGlobal(Out& out, const Global& global) {
-    put(out, "global @{} {} in {} {} {}", quoted(global.name), quoted(global.displayName),
-        quoted(global.moduleName), typeName(global.type), kGlobalKindNames[static_cast<size_t>(global.kind)]);
+    put(out, "global @{} {} in {} {} {}", quotedText(global.name), quotedText(global.displayName),
+        quotedText(global.moduleName), typeName(global.type),
+        kGlobalKindNames[static_cast<size_t>(global.kind)]);
     if (global.typeDesc != kNone) put(out, " desc {}", global.typeDesc);
     if (global.task != kNone) put(out, " task {}", global.task);
     printPlace(out, global.file, global.line);
@@ -108,7 +109,7 @@ void printGlobal(Out& out, const Global& global) {
 }
 
 void printNative(Out& out, const Native& native) {
-    put(out, "native @{} {} {} (", quoted(native.symbol),
+    put(out, "native @{} {} {} (", quotedText(native.symbol),
         native.nativeClass == NativeClass::Const ? "const" : "plain", typeName(native.result));
     for (size_t i = 0; i < native.params.size(); ++i)
         put(out, "{}{}", i ? ", " : "", typeName(native.params[i]));
@@ -131,8 +132,8 @@ class RoutinePrinter {
 
   private:
     void header() {
-        put(out_, "routine @{} {} in {}", quoted(routine_.name), quoted(routine_.displayName),
-            quoted(routine_.moduleName));
+        put(out_, "routine @{} {} in {}", quotedText(routine_.name), quotedText(routine_.displayName),
+            quotedText(routine_.moduleName));
         printPlace(out_, routine_.file, routine_.line);
         if (routine_.exported) put(out_, " exported");
         if (routine_.noStepIn) put(out_, " nostepin");
@@ -145,14 +146,14 @@ class RoutinePrinter {
         put(out_, " {} (", typeName(routine_.result));
         for (size_t i = 0; i < routine_.params.size(); ++i)
             put(out_, "{}{} {}", i ? ", " : "", typeName(routine_.params[i].type),
-                quoted(routine_.params[i].name));
+                quotedText(routine_.params[i].name));
         put(out_, ") {{\n");
     }
 
     void tables() {
         for (size_t i = 0; i < routine_.locals.size(); ++i) {
             const Local& local = routine_.locals[i];
-            put(out_, "  local {} {} {}{}", i, typeName(local.type), quoted(local.name),
+            put(out_, "  local {} {} {}{}", i, typeName(local.type), quotedText(local.name),
                 local.isParam ? " param" : "");
             if (local.typeDesc != kNone) put(out_, " desc {}", local.typeDesc);
             if (local.reference) put(out_, " ref");
@@ -193,7 +194,7 @@ class RoutinePrinter {
     }
 
     void block(BlockId b) {
-        put(out_, "  b{} {}:\n", b, quoted(routine_.blocks[b].name));
+        put(out_, "  b{} {}:\n", b, quotedText(routine_.blocks[b].name));
         StmtId current = kNone;
         for (ValueId id : routine_.blocks[b].insts) {
             const Inst& inst = routine_.insts[id];
@@ -223,7 +224,7 @@ class RoutinePrinter {
     }
 
     template <class Table> std::string nameIn(const Table& table, uint32_t index) const {
-        return index < table.size() ? quoted(nameOf(table[index])) : "\"?\"";
+        return index < table.size() ? quotedText(nameOf(table[index])) : "\"?\"";
     }
 
     void instruction(const Inst& inst) {
@@ -285,14 +286,14 @@ class RoutinePrinter {
 };
 
 void printNamed(Out& out, const Module& module, const NamedRoutine& named) {
-    put(out, "named @{} {}", quoted(module.routines[named.routine].name),
+    put(out, "named @{} {}", quotedText(module.routines[named.routine].name),
         kRoutineKindNames[static_cast<size_t>(named.kind)]);
     if (named.isLocal) put(out, " local");
     if (named.late) put(out, " late");
     put(out, " (");
     for (size_t i = 0; i < named.params.size(); ++i) {
         const ParamEntry& p = named.params[i];
-        put(out, "{}{} {}", i ? ", " : "", quoted(p.name), kParamModeNames[static_cast<size_t>(p.mode)]);
+        put(out, "{}{} {}", i ? ", " : "", quotedText(p.name), kParamModeNames[static_cast<size_t>(p.mode)]);
         if (p.typeDesc != kNone) put(out, " desc {}", p.typeDesc);
         if (p.rank > 0) put(out, " rank {}", p.rank);
         if (p.optional) put(out, " optional");
@@ -303,12 +304,12 @@ void printNamed(Out& out, const Module& module, const NamedRoutine& named) {
 }
 
 std::string globalName(const Module& module, uint32_t index) {
-    return index < module.globals.size() ? quoted(module.globals[index].name) : "\"?\"";
+    return index < module.globals.size() ? quotedText(module.globals[index].name) : "\"?\"";
 }
 
 void printSearchTables(Out& out, const Module& module) {
     for (const ModuleEntry& entry : module.modules) {
-        put(out, "source {}", quoted(entry.name));
+        put(out, "source {}", quotedText(entry.name));
         if (entry.file != kNone) put(out, " file {}", entry.file);
         if (entry.task != kNone) put(out, " task {}", entry.task);
         if (entry.gone != kNone) put(out, " gone @{}", globalName(module, entry.gone));
@@ -317,8 +318,8 @@ void printSearchTables(Out& out, const Module& module) {
     for (uint32_t desc : module.searchTypes)
         put(out, "search {}\n", desc);
     for (const RoutineData& data : module.routineData) {
-        put(out, "within {} {} {} {} desc {}", quoted(data.moduleName), quoted(data.routine),
-            quoted(data.name), kGlobalKindNames[static_cast<size_t>(data.kind)], data.typeDesc);
+        put(out, "within {} {} {} {} desc {}", quotedText(data.moduleName), quotedText(data.routine),
+            quotedText(data.name), kGlobalKindNames[static_cast<size_t>(data.kind)], data.typeDesc);
         if (data.task != kNone) put(out, " task {}", data.task);
         put(out, "\n");
     }
@@ -328,29 +329,29 @@ void printSearchTables(Out& out, const Module& module) {
 
 void printTails(Out& out, const Module& module) {
     auto routineName = [&](uint32_t i) {
-        return i < module.routines.size() ? quoted(module.routines[i].name) : "\"?\"";
+        return i < module.routines.size() ? quotedText(module.routines[i].name) : "\"?\"";
     };
     for (const ExternalRef& external : module.externals) {
-        put(out, "external {} {}", quoted(external.name), quoted(external.kind));
+        put(out, "external {} {}", quotedText(external.name), quotedText(external.kind));
         if (external.global != kNone) put(out, " @{}", globalName(module, external.global));
         if (external.file != kNone) put(out, " at {}:{}:{}", external.file, external.line, external.column);
         put(out, "\n");
     }
     for (const GlobalAlias& alias : module.aliases) {
-        put(out, "alias @{} {} in {} task {}", globalName(module, alias.global), quoted(alias.displayName),
-            quoted(alias.moduleName), alias.task);
+        put(out, "alias @{} {} in {} task {}", globalName(module, alias.global),
+            quotedText(alias.displayName), quotedText(alias.moduleName), alias.task);
         printPlace(out, alias.file, alias.line);
         put(out, "\n");
     }
     for (const TaskEntry& task : module.tasks) {
-        put(out, "task {} {}", quoted(task.name), quoted(task.type));
+        put(out, "task {} {}", quotedText(task.name), quotedText(task.type));
         if (task.entry != kNone) put(out, " entry @{}", routineName(task.entry));
         if (task.reset != kNone) put(out, " reset @{}", routineName(task.reset));
         put(out, "{}\n", task.motionTask ? " motion" : "");
     }
     printSearchTables(out, module);
     for (size_t i = 0; i < module.configTexts.size(); ++i)
-        put(out, "config {} {}\n", quoted(module.configNames[i]), quoted(module.configTexts[i]));
+        put(out, "config {} {}\n", quotedText(module.configNames[i]), quotedText(module.configTexts[i]));
 }
 
 } // namespace
@@ -363,11 +364,11 @@ std::string printRoutine(const Module& module, const Routine& routine) {
 
 std::string printModule(const Module& module) {
     Out out;
-    put(out, "module {}\n", quoted(module.name));
+    put(out, "module {}\n", quotedText(module.name));
     for (size_t i = 0; i < module.files.size(); ++i)
-        put(out, "file {} {}\n", i, quoted(module.files[i]));
-    if (!module.folder.empty()) put(out, "folder {}\n", quoted(module.folder));
-    if (!module.sources.empty()) put(out, "sources {}\n", quoted(module.sources));
+        put(out, "file {} {}\n", i, quotedText(module.files[i]));
+    if (!module.folder.empty()) put(out, "folder {}\n", quotedText(module.folder));
+    if (!module.sources.empty()) put(out, "sources {}\n", quotedText(module.sources));
     if (module.overflowError != 0) put(out, "overflow {}\n", module.overflowError);
     for (TypeId id = kPtr + 1; id < module.types.size(); ++id)
         printType(out, module, id);

@@ -81,7 +81,7 @@ void emitRecord(const Model& model, const TypeInfo& type, std::set<std::string>&
     out += "};\n";
 }
 
-std::string quoted(std::string_view text) {
+std::string quotedText(std::string_view text) {
     std::string out = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') out += '\\';
@@ -204,9 +204,9 @@ std::string emitNativeTable(const Model& model) {
         const char* kind = r.returnType.empty() ? "Instruction" : "Function";
         const char* how = !r.native ? "Rapid" : hasPrototype(r) ? "Native" : "Compiler";
         out +=
-            fmt::format("        {{{}, {}, {}, NativeKind::{}, NativeForm::{}, {}, {}}},\n", quoted(r.name),
-                        quoted(symbolOf(r)), hasPrototype(r) ? "address(" + symbolOf(r) + ")" : "nullptr",
-                        kind, how, quoted(r.doc.get("manual")), quoted(r.doc.get("option")));
+            fmt::format("        {{{}, {}, {}, NativeKind::{}, NativeForm::{}, {}, {}}},\n", quotedText(r.name),
+                        quotedText(symbolOf(r)), hasPrototype(r) ? "address(" + symbolOf(r) + ")" : "nullptr",
+                        kind, how, quotedText(r.doc.get("manual")), quotedText(r.doc.get("option")));
     }
     return out + "    };\n    return table;\n}\n\n} // namespace rt\n";
 }
@@ -223,8 +223,8 @@ std::string emitErrorTable(const Model& model) {
         return *a->number != *b->number ? *a->number < *b->number : a < b;
     });
     for (const Datum* d : errors)
-        out += fmt::format("        {{{}, {}, {}}},\n", static_cast<int>(*d->number), quoted(d->name),
-                           quoted(d->doc.summary()));
+        out += fmt::format("        {{{}, {}, {}}},\n", static_cast<int>(*d->number), quotedText(d->name),
+                           quotedText(d->doc.summary()));
     return out + "    };\n    return table;\n}\n\n} // namespace rt\n";
 }
 
@@ -243,7 +243,7 @@ std::string emitSources(const Model& model) {
            "    return {reinterpret_cast<const char*>(bytes), size};\n}\n} // namespace\n\n"
            "std::span<const StdlibSource> sources() {\n    static const StdlibSource all[] = {\n";
     for (size_t i = 0; i < model.sources.size(); ++i)
-        out += fmt::format("        {{{}, view(kText{}, {})}},\n", quoted(model.sources[i].name), i,
+        out += fmt::format("        {{{}, view(kText{}, {})}},\n", quotedText(model.sources[i].name), i,
                            model.sources[i].text.size());
     if (model.sources.empty()) out += "        {\"\", {}}\n";
     return out + fmt::format("    }};\n    return std::span<const StdlibSource>(all, {});\n}}\n\n"

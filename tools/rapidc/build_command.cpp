@@ -46,7 +46,8 @@ codegen::LinkOptions linkOptions(bool strip, bool wholeLibrary) {
     const auto path = [](const char* name) {
         return (ownFolder() / "lib" / fmt::format("lib{}.a", name)).string();
     };
-    for (const char* name : {"rapidc_host_main", "rapidc_runtime", "rapidc_motion", "rapidc_config"})
+    for (const char* name :
+         {"rapidc_host_main", "rapidc_runtime", "rapidc_motion", "rapidc_config", "rapidc_fmt"})
         options.libraries.push_back(path(name));
     (wholeLibrary ? options.wholeLibraries : options.libraries).push_back(path("rapidc_stdlib"));
     options.libraries.emplace_back(RAPIDC_BOOST_CONTEXT);
