@@ -2,6 +2,7 @@
 // From IR to machine code: in memory (ORC JIT) or as an object file. Free of LLVM headers, so that the rest of the
 // compiler does not pay for them. A module must have passed ir::verify (ir::runPasses does that).
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -29,6 +30,10 @@ using PrepareRoutine = std::function<bool(uint32_t routine, std::string& error)>
 struct NativeBodies {
     std::string_view bitcode;
     std::span<const std::string_view> names; ///< in ascending order
+
+    bool contains(std::string_view name) const {
+        return std::binary_search(names.begin(), names.end(), name);
+    }
 };
 
 struct CodegenOptions {

@@ -53,7 +53,7 @@ void RoutineEmitter::call(const ir::Inst& inst, ir::ValueId id) {
     if (byValue) define(id, b_.CreateExtractValue(result, 1));
 }
 
-void RoutineEmitter::nativeCall(const ir::Inst& inst, ir::ValueId id) {
+void RoutineEmitter::nativeCall(const ir::Inst& inst, ir::ValueId id, bool thenSafepoint) {
     const ir::Native& native = module_.natives[inst.index];
     if (native.nativeClass == ir::NativeClass::Const) return constNative(inst, id);
     std::vector<Value*> args{task_};
@@ -68,14 +68,25 @@ void RoutineEmitter::nativeCall(const ir::Inst& inst, ir::ValueId id) {
         args.push_back(argument);
     }
     noteStatement(inst);
-    BasicBlock* again = newBlock("native");
-    b_.CreateBr(again);
-    b_.SetInsertPoint(again);
-    b_.CreateStore(frame_, taskField<&rt::TaskCore::frame>("taskFrame"))
-        ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
-    llvm::CallInst* status = b_.CreateCall(m_.nativeFunction(inst.index), args);
-    continueIfNativeOk(inst, status, again);
+    if (callsChecked(native)) {
+        llvm::CallInst* status = b_.CreateCall(m_.checkedNative(inst.index, thenSafepoint), args);
+        status->setCallingConv(llvm::CallingConv::Fast);
+        continueIfOk(inst, status);
+    } else {
+        BasicBlock* again = newBlock("native");
+        b_.CreateBr(again);
+        b_.SetInsertPoint(again);
+        continueIfNativeOk(inst, b_.CreateCall(m_.nativeFunction(inst.index), args), again);
+        if (thenSafepoint) checkBudget(inst, budgetLeft());
+    }
     if (byValue) define(id, load(native.result, slot));
+}
+
+/// Whether a function of the module calls the native and looks after its errors: where the body is not inlined, and where
+/// the statement is not to be executed again from its start.
+bool RoutineEmitter::callsChecked(const ir::Native& native) const {
+    if (routine_.stepping && !inUndo()) return false;
+    return !m_.options().optimise || isLong() || !m_.options().bodies.contains(native.symbol);
 }
 
 /// One slot for each type is enough: the result is taken out at once.
@@ -127,10 +138,14 @@ llvm::Value* RoutineEmitter::costOf(const ir::Inst& inst) {
 }
 
 void RoutineEmitter::safepoint(const ir::Inst& inst) {
-    llvm::Type* i64 = b_.getInt64Ty();
-    Value* after = pay(costOf(inst));
+    const bool isFree = inst.operands.empty() && inst.extra == 0;
+    checkBudget(inst, isFree ? budgetLeft() : pay(costOf(inst)));
+}
+
+/// Calls the runtime when the budget is used up.
+void RoutineEmitter::checkBudget(const ir::Inst& inst, Value* left) {
     BasicBlock *go = newBlock("go"), *slow = newBlock("safepoint");
-    b_.CreateCondBr(b_.CreateICmpSGE(after, llvm::ConstantInt::get(i64, 0)), go, slow, m_.unlikely());
+    b_.CreateCondBr(b_.CreateICmpSGE(left, b_.getInt64(0)), go, slow, m_.unlikely());
     b_.SetInsertPoint(slow);
     llvm::CallInst* outcome =
         m_.runtime().safepointSlow.call(b_, task_, frame_, caller_, desc_, stmtNumber(inst));

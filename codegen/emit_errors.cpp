@@ -222,6 +222,7 @@ llvm::BasicBlock* RoutineEmitter::enterHandler() {
     if (enterHandler_) return enterHandler_;
     llvm::IRBuilder<>::InsertPointGuard guard(b_);
     b_.SetInsertPoint(enterHandler_ = newBlock("enter.handler"));
+    setTaskFrame(frame_);
     b_.CreateStore(abi::loadField<&rt::Frame::statement>(b_, frame_), failed_);
     b_.CreateBr(blockOf(routine_.errorHandler));
     return enterHandler_;
@@ -259,6 +260,7 @@ void RoutineEmitter::emitLeave() {
     b_.CreateStore(status, unwinding_);
     if (!frameInPrologue_) fillFrame();
     markFrame(rt::kFrameInUndo);
+    setTaskFrame(frame_);
     b_.CreateBr(blockOf(routine_.undoHandler));
     b_.SetInsertPoint(pass);
     returnStatus(

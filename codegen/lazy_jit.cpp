@@ -20,6 +20,7 @@
 #include "codegen/module_emitter.h"
 #include "codegen/orc_session.h"
 #include "codegen/parts.h"
+#include "codegen/task_frame.h"
 #include "ir/core/cfg.h"
 #include "ir/core/ir.h"
 
@@ -46,6 +47,7 @@ class LazyProgram : public JitProgram {
     LazyProgram(const ir::Module& module, const CodegenOptions& options)
         : module_(module), options_(options), slots_(module.routines.size()),
           counts_(module.routines.size(), kHotCalls), prepared_(module.routines.size(), !options.prepare),
+          settingTaskFrame_(std::make_shared<const std::vector<bool>>(routinesSettingTaskFrame(module))),
           quality_(module.routines.size(), Quality::None) {
         options_.debugInfo = false; // it would take longer than the code
     }
@@ -72,6 +74,7 @@ class LazyProgram : public JitProgram {
         if (!session_.define(known, error) || !makeTrampolines(error)) return false;
         Part tables;
         tables.tables = tables.callsBySlot = true;
+        tables.settingTaskFrame = settingTaskFrame_;
         auto object = objectOf(tables, quick(), error);
         if (!object || !session_.addShared(std::move(object), error)) return false;
         program_ = static_cast<const rt::ProgramDesc*>(session_.find(kProgramSymbol, error));
@@ -152,6 +155,7 @@ class LazyProgram : public JitProgram {
         Part part;
         part.callsBySlot = true;
         part.routines = {order.routine};
+        part.settingTaskFrame = settingTaskFrame_;
         part.countsCalls = options_.optimise && !optimise;
         if (optimise) part.copies = copiesFor(module_, part.routines);
         for (const uint32_t copy : part.copies)
@@ -203,6 +207,7 @@ class LazyProgram : public JitProgram {
     std::unique_ptr<llvm::orc::LocalTrampolinePool<ReentryAbi>> trampolines_;
     std::unordered_map<uint64_t, uint32_t> byTrampoline_;
     std::vector<bool> prepared_; ///< used by the compiling thread
+    std::shared_ptr<const std::vector<bool>> settingTaskFrame_;
     const rt::ProgramDesc* program_ = nullptr;
     std::mutex mutex_; ///< of what follows
     std::condition_variable changed_;

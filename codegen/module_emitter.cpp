@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "codegen/routine_emitter.h"
+#include "codegen/task_frame.h"
 
 namespace codegen {
 namespace {
@@ -89,6 +90,9 @@ ModuleEmitter::ModuleEmitter(const ir::Module& module, const CodegenOptions& opt
       routines_(module.routines.size()), natives_(module.natives.size()), cEntries_(module.routines.size()),
       globals_(module.globals.size()), typeDescs_(module.typeDescs.size()),
       routineDescs_(module.routines.size()) {
+    if (part != nullptr) settingTaskFrame_ = part->settingTaskFrame;
+    if (!settingTaskFrame_)
+        settingTaskFrame_ = std::make_shared<const std::vector<bool>>(routinesSettingTaskFrame(module));
     if (part == nullptr) return;
     for (const uint32_t index : part->routines)
         defined_[index] = true;
@@ -163,6 +167,7 @@ void ModuleEmitter::declareRuntime() {
         return callee;
     };
     runtime_.raise = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_raise));
+    runtime_.safepoint = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_safepoint));
     runtime_.nativeFailed = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_nativeFailed));
     runtime_.land = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_land));
     runtime_.takesError = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_takesError));
@@ -427,9 +432,11 @@ void ModuleEmitter::emitSafepointSlow() {
     abi::storeField<&rt::Frame::caller>(b, frame, function->getArg(2));
     abi::storeField<&rt::Frame::routine>(b, frame, function->getArg(3));
     abi::storeField<&rt::Frame::statement>(b, frame, function->getArg(4));
-    const auto callee = RAPIDC_DECLARE_RUNTIME(*target_, rt_safepoint);
-    llvm::CallInst* call = callee.call(b, task, frame);
-    call->setDoesNotThrow();
+    // Routines that do not call natives leave the record of their caller in the task.
+    llvm::Value* taskFrame = b.CreateConstInBoundsGEP1_64(i8_, task, abi::kOffsetOf<&rt::TaskCore::frame>);
+    llvm::Value* before = b.CreateLoad(ptr_, taskFrame);
+    llvm::CallInst* call = runtime_.safepoint.call(b, task, frame);
+    b.CreateStore(before, taskFrame);
     b.CreateRet(call);
 }
 

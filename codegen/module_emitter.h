@@ -5,6 +5,7 @@
 #include <llvm/IR/MDBuilder.h>
 #include <llvm/IR/Module.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -23,7 +24,9 @@ struct Part {
     bool tables = false;            ///< data, tables, C entries
     std::vector<uint32_t> routines; ///< that other parts call
     std::vector<uint32_t> copies;   ///< of routines of other parts, to be inlined
-    bool countsCalls = false;       ///< in memory only: of `routines`, in the table kCallCounts
+    /// routinesSettingTaskFrame() of the program, made once for all parts.
+    std::shared_ptr<const std::vector<bool>> settingTaskFrame;
+    bool countsCalls = false; ///< in memory only: of `routines`, in the table kCallCounts
     bool callsBySlot = false; ///< in memory only: other parts are reached through the table kRoutineSlots
 };
 /// Table of the present addresses of all routines, and that of their countdowns (int32_t): the call that brings one to 0
@@ -48,6 +51,7 @@ using SafepointSlow = rt::Status(rt::TaskCore*, rt::Frame* frame, rt::Frame* cal
 
 /// The runtime's functions.
 struct RuntimeParts {
+    abi::Callee<decltype(rt_safepoint)> safepoint;
     abi::Callee<decltype(rt_raise)> raise;
     abi::Callee<decltype(rt_nativeFailed)> nativeFailed;
     abi::Callee<decltype(rt_land)> land;
@@ -91,6 +95,10 @@ class ModuleEmitter {
     // Declared when they are used first.
     llvm::Function* routine(uint32_t index);
     llvm::Function* nativeFunction(uint32_t index);
+    /// Calls the native, reports its error, and then calls the runtime when the budget is used up. `fastcc`, arguments of the native;
+    /// 0, or the outcome of the error.
+    llvm::Function* checkedNative(uint32_t index, bool thenSafepoint);
+    bool setsTaskFrame(uint32_t routine) const { return (*settingTaskFrame_)[routine]; }
     llvm::GlobalVariable* global(uint32_t index);
     llvm::GlobalVariable* typeDesc(uint32_t index);
     llvm::GlobalVariable* routineDesc(uint32_t index);
@@ -178,6 +186,8 @@ class ModuleEmitter {
     RuntimeParts runtime_;
     llvm::MDNode* unlikely_ = nullptr;
     std::vector<llvm::Function*> routines_, natives_, cEntries_;
+    std::map<std::pair<uint32_t, bool>, llvm::Function*> checkedNatives_;
+    std::shared_ptr<const std::vector<bool>> settingTaskFrame_;
     std::vector<llvm::GlobalVariable*> globals_, typeDescs_, routineDescs_;
     std::unordered_map<std::string, llvm::Constant*> texts_;
     llvm::PointerType* ptr_ = nullptr;

@@ -2,7 +2,6 @@
 
 #include <llvm/ADT/StringSwitch.h>
 #include <llvm/Bitcode/BitcodeReader.h>
-#include <llvm/IR/InstIterator.h>
 #include <llvm/IR/Instructions.h>
 #include <llvm/Linker/Linker.h>
 
@@ -12,25 +11,11 @@
 namespace codegen {
 namespace {
 
-/// LLVM instructions of a routine from which on calls in it stay calls: long straight code (a program of many movements)
-/// would only grow.
-constexpr unsigned kLong = 2000;
-
 /// LLVM knows these by name and nature, and replaces short ones by instructions.
 bool isMemoryFunction(llvm::StringRef name) {
     return llvm::StringSwitch<bool>(name)
         .Cases("memcpy", "memmove", "memset", "memcmp", "bcmp", "memchr", "strlen", true)
         .Default(false);
-}
-
-void keepCallsOfLongRoutines(llvm::Module& program, const std::vector<llvm::Function*>& bodies) {
-    for (llvm::Function& function : program) {
-        if (function.getInstructionCount() <= kLong) continue;
-        for (llvm::Instruction& inst : llvm::instructions(function))
-            if (auto* call = llvm::dyn_cast<llvm::CallInst>(&inst);
-                call && std::find(bodies.begin(), bodies.end(), call->getCalledFunction()) != bodies.end())
-                call->setIsNoInline();
-    }
 }
 
 } // namespace
@@ -46,9 +31,7 @@ bool isLibraryFunction(llvm::StringRef name) {
 bool linkNativeBodies(llvm::Module& program, const NativeBodies& bodies, std::string& error) {
     std::vector<llvm::Function*> wanted;
     for (llvm::Function& function : program) {
-        const std::string_view name(function.getName().data(), function.getName().size());
-        if (function.isDeclaration() && !function.use_empty() &&
-            std::binary_search(bodies.names.begin(), bodies.names.end(), name))
+        if (function.isDeclaration() && !function.use_empty() && bodies.contains(function.getName()))
             wanted.push_back(&function);
     }
     if (wanted.empty()) return true;
@@ -66,12 +49,10 @@ bool linkNativeBodies(llvm::Module& program, const NativeBodies& bodies, std::st
         error = "internal error: the bodies of natives do not match the program";
         return false;
     }
-    std::vector<llvm::Function*> defined;
     for (const std::string& name : names) {
         llvm::Function* function = program.getFunction(name);
         function->setLinkage(llvm::GlobalValue::InternalLinkage);
         function->addFnAttr(llvm::Attribute::InlineHint);
-        defined.push_back(function);
     }
     for (llvm::Function& function : program) {
         if (!function.isDeclaration() || !isLibraryFunction(function.getName()) ||
@@ -83,7 +64,6 @@ bool linkNativeBodies(llvm::Module& program, const NativeBodies& bodies, std::st
         if (function.getReturnType()->isFloatingPointTy() && function.getName() != "remquo")
             function.setDoesNotAccessMemory(); // nothing looks at errno
     }
-    keepCallsOfLongRoutines(program, defined);
     return true;
 }
 

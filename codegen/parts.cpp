@@ -1,4 +1,5 @@
 #include "codegen/parts.h"
+#include "codegen/task_frame.h"
 
 namespace codegen {
 namespace {
@@ -46,8 +47,11 @@ std::vector<Part> divide(const ir::Module& module) {
         size += more > kLargeRoutine ? kLargestPart : more;
         current = routine.moduleName;
     }
-    for (Part& part : parts)
+    const auto setting = std::make_shared<const std::vector<bool>>(routinesSettingTaskFrame(module));
+    for (Part& part : parts) {
         part.copies = copiesFor(module, part.routines);
+        part.settingTaskFrame = setting;
+    }
     return parts;
 }
 

@@ -16,7 +16,8 @@ constexpr uint64_t kLargeLocal = 4096;
 
 RoutineEmitter::RoutineEmitter(ModuleEmitter& module, uint32_t index)
     : m_(module), module_(module.source()), index_(index), routine_(module_.routines[index]),
-      function_(module.routine(index)), desc_(module.routineDesc(index)), b_(module.context()) {}
+      function_(module.routine(index)), desc_(module.routineDesc(index)), b_(module.context()),
+      setsTaskFrame_(module.setsTaskFrame(index)) {}
 
 RoutineEmitter::~RoutineEmitter() = default;
 
@@ -248,6 +249,21 @@ void RoutineEmitter::fillFrame() {
     storeFrame<&rt::Frame::routine>(desc_);
     // The runtime counts retries here and finds out whether the routine is in its UNDO handler.
     if (routine_.errorHandler != ir::kNone || unwinding_ || routine_.stepping) markFrame(0);
+    setTaskFrame(frame_);
+}
+
+/// Natives find the record of their caller in the task. It is set where the record is filled and where a handler begins, and set back
+/// to the caller's wherever the routine is left.
+void RoutineEmitter::setTaskFrame(Value* frame) {
+    if (!setsTaskFrame_) return;
+    b_.CreateStore(frame, taskField<&rt::TaskCore::frame>("taskFrame"))
+        ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
+}
+
+/// Long straight code (a program of many movements) would only grow by inlined natives.
+bool RoutineEmitter::isLong() const {
+    constexpr size_t kLong = 2000;
+    return routine_.insts.size() > kLong;
 }
 
 /// What the runtime counts RETRYs by.
@@ -260,8 +276,25 @@ void RoutineEmitter::block(ir::BlockId id) {
     storedStmt_.reset();
     b_.SetInsertPoint(blocks_[id]);
     if (id == frameBlock_ && !frameInPrologue_) enterFrame();
-    for (ir::ValueId inst : routine_.blocks[id].insts)
-        instruction(inst);
+    const std::vector<ir::ValueId>& insts = routine_.blocks[id].insts;
+    for (size_t i = 0; i < insts.size(); ++i) {
+        if (i + 1 < insts.size() && isNativeThenSafepoint(insts[i], insts[i + 1])) {
+            locate(routine_.insts[insts[i]]);
+            nativeCall(routine_.insts[insts[i]], insts[i], true);
+            ++i;
+        } else {
+            instruction(insts[i]);
+        }
+    }
+}
+
+/// A native and the look at what it caused: one call.
+bool RoutineEmitter::isNativeThenSafepoint(ir::ValueId id, ir::ValueId next) const {
+    if (routine_.insts[id].op != ir::Op::CallNative) return false;
+    const ir::Inst& after = routine_.insts[next];
+    return after.op == ir::Op::Safepoint && after.operands.empty() && after.extra == 0 &&
+           after.stmt == routine_.insts[id].stmt &&
+           module_.natives[routine_.insts[id].index].nativeClass != ir::NativeClass::Const;
 }
 
 void RoutineEmitter::define(ir::ValueId id, Value* result) {
@@ -275,9 +308,13 @@ llvm::Value* RoutineEmitter::value(ir::ValueId id) {
     return values_[id];
 }
 
+void RoutineEmitter::locate(const ir::Inst& inst) {
+    if (m_.debug()) b_.SetCurrentDebugLocation(m_.debug()->location(routine_, inst.stmt));
+}
+
 void RoutineEmitter::instruction(ir::ValueId id) {
     const ir::Inst& inst = routine_.insts[id];
-    if (m_.debug()) b_.SetCurrentDebugLocation(m_.debug()->location(routine_, inst.stmt));
+    locate(inst);
     switch (ir::familyOf(inst.op)) {
     case ir::Family::Leaf: return define(id, leaf(inst));
     case ir::Family::Memory: return memory(inst, id);
@@ -296,7 +333,7 @@ void RoutineEmitter::action(const ir::Inst& inst, ir::ValueId id) {
     case ir::ActionOp::Check: return check(inst, operand(inst, 0));
     case ir::ActionOp::CheckFinite: return check(inst, isFinite(operand(inst, 0)));
     case ir::ActionOp::Call: return call(inst, id);
-    case ir::ActionOp::CallNative: return nativeCall(inst, id);
+    case ir::ActionOp::CallNative: return nativeCall(inst, id, false);
     case ir::ActionOp::Charge: pay(costOf(inst)); return;
     case ir::ActionOp::Safepoint: return safepoint(inst);
     case ir::ActionOp::Step: return step(inst);
@@ -339,17 +376,16 @@ void RoutineEmitter::ret(const ir::Inst& inst) {
         return;
     }
     llvm::Value* ok = statusValue(rt::kOk);
-    if (inst.operands.empty()) return returnStatus(ok); // no result, or the end of what nothing reaches
-    if (!function_->getReturnType()->isStructTy()) {
-        b_.CreateRet(ok);
-        return;
-    }
+    // No result, or the end of what nothing reaches.
+    if (inst.operands.empty() || !function_->getReturnType()->isStructTy()) return returnStatus(ok);
+    setTaskFrame(caller_);
     llvm::Value* both = llvm::PoisonValue::get(function_->getReturnType());
     both = b_.CreateInsertValue(both, ok, 0);
     b_.CreateRet(b_.CreateInsertValue(both, operand(inst, 0), 1));
 }
 
 void RoutineEmitter::returnStatus(Value* status) {
+    setTaskFrame(caller_);
     if (!function_->getReturnType()->isStructTy()) {
         b_.CreateRet(status);
         return;

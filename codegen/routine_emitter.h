@@ -39,6 +39,7 @@ class RoutineEmitter {
     void prologue();
     void enterFrame();
     void fillFrame();
+    void setTaskFrame(Value* frame);
     void fillAddresses();
     void findRetried();
     bool isEmpty(ir::BlockId id) const;
@@ -51,6 +52,8 @@ class RoutineEmitter {
     void returnFromUndo(llvm::Value* status);
     void block(ir::BlockId id);
     void instruction(ir::ValueId id);
+    void locate(const ir::Inst& inst);
+    bool isNativeThenSafepoint(ir::ValueId id, ir::ValueId next) const;
     void define(ir::ValueId id, Value* value);
     Value* value(ir::ValueId id);
     Value* operand(const ir::Inst& inst, size_t i) { return value(inst.operands[i]); }
@@ -100,12 +103,15 @@ class RoutineEmitter {
 
     // emit_calls.cpp
     void call(const ir::Inst& inst, ir::ValueId id);
-    void nativeCall(const ir::Inst& inst, ir::ValueId id);
+    void nativeCall(const ir::Inst& inst, ir::ValueId id, bool thenSafepoint);
+    bool callsChecked(const ir::Native& native) const;
+    bool isLong() const;
     void constNative(const ir::Inst& inst, ir::ValueId id);
     Value* pay(Value* cost);
     Value* budgetLeft();
     Value* costOf(const ir::Inst& inst);
     void safepoint(const ir::Inst& inst);
+    void checkBudget(const ir::Inst& inst, Value* left);
     void step(const ir::Inst& inst);
     void storeStatement(Value* stmt);
     void noteStatement(const ir::Inst& inst);
@@ -179,6 +185,7 @@ class RoutineEmitter {
     Value* failed_ = nullptr;            ///< address: the statement that failed
     ir::BlockId frameBlock_ = ir::kNone; ///< where the frame record is filled; kNone: only on cold paths
     bool frameInPrologue_ = false;
+    bool setsTaskFrame_; ///< TaskCore::frame is this routine's record while it runs
     ir::BlockId current_ = 0;
     std::optional<ir::StmtId> storedStmt_; ///< what the frame record is known to hold at this point
     std::map<std::pair<ir::StmtId, int32_t>, BasicBlock*> failedChecks_;
