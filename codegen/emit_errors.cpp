@@ -129,7 +129,8 @@ void RoutineEmitter::resumeSwitch(ir::BlockId ir::Statement::* where) {
     for (uint32_t s = 0; s < routine_.statements.size(); ++s) {
         const ir::Statement& statement = routine_.statements[s];
         ir::BlockId target = statement.*where;
-        if (statement.handled && target != ir::kNone) branch->addCase(b_.getInt32(s), blockOf(target));
+        if (statement.handled && mayFail_[s] && target != ir::kNone)
+            branch->addCase(b_.getInt32(s), blockOf(target));
     }
     b_.SetInsertPoint(never);
     b_.CreateUnreachable();

@@ -37,7 +37,7 @@ using ReentryAbi = llvm::orc::OrcX86_64_SysV;
 constexpr int32_t kHotCalls = 200;
 
 bool hasLoop(const ir::Module& module, const ir::Routine& routine) {
-    const ir::Cfg cfg = ir::buildCfg(module, routine, ir::HandlerEdges::Yes);
+    const ir::Cfg cfg = ir::buildCfg(module, routine, ir::HandlerEdges::No);
     const ir::LoopInfo loops = ir::findLoops(cfg);
     return !loops.loops.empty() || !loops.irreducible.empty();
 }

@@ -83,7 +83,12 @@ void RoutineEmitter::analyse() {
         for (ir::BlockId succ : ir::successors(routine_, b))
             work.push_back(succ);
     }
+    findFailing();
     findRetried();
+    // Ways back out of error handlers do not count as loops.
+    const ir::LoopInfo loops = ir::findLoops(ir::buildCfg(module_, routine_, ir::HandlerEdges::No));
+    for (ir::BlockId b = 0; b < routine_.blocks.size(); ++b)
+        inLoop_.push_back(!loops.irreducible.empty() || loops.loopOf[b] != ir::kNone);
     findFrameBlock();
     findFastLoops();
 }
@@ -93,23 +98,28 @@ bool RoutineEmitter::isEmpty(ir::BlockId id) const {
     return block.insts.size() == 1 && routine_.insts[block.insts.back()].op == ir::Op::Br;
 }
 
+/// The statements that the error handler may come from.
+void RoutineEmitter::findFailing() {
+    if (routine_.errorHandler == ir::kNone) return;
+    // A handler with a list takes errors of trap routines, too, which run at safepoints anywhere.
+    const bool anywhere = !routine_.errorFilter.empty() || !routine_.errorFilterGlobals.empty();
+    mayFail_.assign(routine_.statements.size(), anywhere);
+    for (ir::BlockId b : cfg_.order)
+        for (ir::ValueId id : routine_.blocks[b].insts)
+            if (const ir::Inst& inst = routine_.insts[id]; inst.stmt < mayFail_.size())
+                mayFail_[inst.stmt] = mayFail_[inst.stmt] || ir::mayRaise(module_, inst);
+}
+
 /// Where statements begin that RETRY may execute again.
 void RoutineEmitter::findRetried() {
     const auto isRetry = [&](ir::BlockId b) {
         return routine_.insts[routine_.blocks[b].insts.back()].op == ir::Op::Retry;
     };
     if (std::none_of(cfg_.order.begin(), cfg_.order.end(), isRetry)) return;
-    // A handler with a list takes errors of trap routines, too, which run at safepoints anywhere.
-    const bool anywhere = !routine_.errorFilter.empty() || !routine_.errorFilterGlobals.empty();
-    std::vector<bool> fails(routine_.statements.size(), anywhere);
-    for (ir::BlockId b : cfg_.order)
-        for (ir::ValueId id : routine_.blocks[b].insts)
-            if (const ir::Inst& inst = routine_.insts[id]; inst.stmt < fails.size())
-                fails[inst.stmt] = fails[inst.stmt] || ir::mayRaise(module_, inst);
     beginsRetried_.assign(routine_.blocks.size(), false);
-    for (size_t s = 0; s < fails.size(); ++s) {
+    for (size_t s = 0; s < mayFail_.size(); ++s) {
         ir::BlockId start = routine_.statements[s].start;
-        if (!fails[s] || !routine_.statements[s].handled || start == ir::kNone) continue;
+        if (!mayFail_[s] || !routine_.statements[s].handled || start == ir::kNone) continue;
         beginsRetried_[start] = true;
         // A loop goes back to the block behind.
         if (isEmpty(start)) beginsRetried_[routine_.insts[routine_.blocks[start].insts[0]].target[0]] = true;
@@ -142,9 +152,7 @@ void RoutineEmitter::findFrameBlock() {
             frameBlock_ = cfg_.idom[frameBlock_];
     }
     if (frameBlock_ == ir::kNone) return;
-    ir::LoopInfo loops = ir::findLoops(cfg_);
-    bool irreducible = !loops.irreducible.empty();
-    while (frameBlock_ != 0 && (irreducible || loops.loopOf[frameBlock_] != ir::kNone))
+    while (frameBlock_ != 0 && inLoop_[frameBlock_])
         frameBlock_ = cfg_.idom[frameBlock_];
     if (frameBlock_ == 0 || !m_.options().optimise) frameInPrologue_ = true;
 }
@@ -258,12 +266,6 @@ void RoutineEmitter::setTaskFrame(Value* frame) {
     if (!setsTaskFrame_) return;
     b_.CreateStore(frame, taskField<&rt::TaskCore::frame>("taskFrame"))
         ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
-}
-
-/// Long straight code (a program of many movements) would only grow by inlined natives.
-bool RoutineEmitter::isLong() const {
-    constexpr size_t kLong = 2000;
-    return routine_.insts.size() > kLong;
 }
 
 /// What the runtime counts RETRYs by.

@@ -41,6 +41,7 @@ class RoutineEmitter {
     void fillFrame();
     void setTaskFrame(Value* frame);
     void fillAddresses();
+    void findFailing();
     void findRetried();
     bool isEmpty(ir::BlockId id) const;
     void enterStatement();
@@ -105,7 +106,7 @@ class RoutineEmitter {
     void call(const ir::Inst& inst, ir::ValueId id);
     void nativeCall(const ir::Inst& inst, ir::ValueId id, bool thenSafepoint);
     bool callsChecked(const ir::Native& native) const;
-    bool isLong() const;
+    bool isHot() const;
     void constNative(const ir::Inst& inst, ir::ValueId id);
     Value* pay(Value* cost);
     Value* budgetLeft();
@@ -171,6 +172,8 @@ class RoutineEmitter {
     llvm::IRBuilder<> b_;
     ir::Cfg cfg_;
     std::vector<bool> inUndo_;
+    std::vector<bool> inLoop_;        ///< by block; all of them when loops have several entries
+    std::vector<bool> mayFail_;       ///< by statement; empty: the routine has no error handler
     std::vector<bool> beginsRetried_; ///< by block; empty: the routine has no RETRY
     std::vector<BasicBlock*> blocks_;
     std::vector<Value*> values_;

@@ -48,10 +48,7 @@ RoutineLowering::Place RoutineLowering::placeOf(const DataSymbol& symbol) {
     const Slot* slot = findSlot(symbol);
     if (!slot) {
         if (symbol.storage == Storage::RoutineData && symbol.dataKind == DataKind::Const) {
-            ir::ConstData data;
-            if (symbol.value().kind != sema::ConstValue::Kind::None)
-                program_.flatten(symbol.value(), symbol.type, data);
-            p.addr = b_.globalAddr(program_.constGlobal(program_.irType(symbol.type), std::move(data)));
+            p.addr = constantAddress(symbol.value(), symbol.type);
             return p;
         }
         p.addr = b_.globalAddr(program_.globalFor(symbol, task_));

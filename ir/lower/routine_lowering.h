@@ -178,6 +178,8 @@ class RoutineLowering {
     void lowerInto(const Expr& expr, const sema::DataType& type, ValueId dst);
     ValueId lowerBool(const Expr& expr);
     ValueId keptUntil(const Expr& later, const Expr& expr, const sema::DataType& type, ValueId address);
+    /// Of constant data with the value.
+    ValueId constantAddress(const sema::ConstValue& value, const sema::DataType& type);
     void storeExpr(const Expr& expr, const sema::DataType& type, ValueId dst);
     void lowerCond(const Expr& expr, ir::BlockId ifTrue, ir::BlockId ifFalse);
     ValueId lowerBinary(const syntax::BinaryExpr& expr);
