@@ -5,7 +5,7 @@
 
 namespace codegen {
 
-/// Emits such a function, whose parameters are those of the native.
+/// Emits such a function: its parameters are the task, the statement, then those of the native.
 class CheckedNative {
   public:
     CheckedNative(ModuleEmitter& module, llvm::Function* native, llvm::Function* function)
@@ -15,6 +15,7 @@ class CheckedNative {
         llvm::BasicBlock *entry = block("entry"), *attempt = block("attempt"), *failed = block("failed"),
                          *leave = block("leave"), *done = block("done");
         b_.SetInsertPoint(entry);
+        abi::storeField<&rt::Frame::statement>(b_, frame(), function_->getArg(1));
         b_.CreateBr(attempt);
         b_.SetInsertPoint(attempt);
         llvm::Value* status = callNative();
@@ -46,7 +47,7 @@ class CheckedNative {
     llvm::Value* callNative() {
         std::vector<llvm::Value*> arguments;
         for (llvm::Argument& argument : function_->args())
-            arguments.push_back(&argument);
+            if (argument.getArgNo() != 1) arguments.push_back(&argument);
         return b_.CreateCall(native_, arguments);
     }
 
@@ -71,9 +72,11 @@ llvm::Function* ModuleEmitter::checkedNative(uint32_t index, bool thenSafepoint)
     llvm::Function*& function = checkedNatives_[{index, thenSafepoint}];
     if (function) return function;
     llvm::Function* native = nativeFunction(index);
-    function =
-        llvm::Function::Create(native->getFunctionType(), llvm::GlobalValue::InternalLinkage,
-                               (thenSafepoint ? "step." : "try.") + module_.natives[index].symbol, *target_);
+    std::vector<llvm::Type*> params = native->getFunctionType()->params().vec();
+    params.insert(params.begin() + 1, i32_);
+    function = llvm::Function::Create(
+        llvm::FunctionType::get(i32_, params, false), llvm::GlobalValue::InternalLinkage,
+        (thenSafepoint ? "step." : "try.") + module_.natives[index].symbol, *target_);
     function->setCallingConv(llvm::CallingConv::Fast);
     function->setDoesNotThrow();
     function->addFnAttr(llvm::Attribute::NoInline);

@@ -95,7 +95,9 @@ std::unique_ptr<llvm::Module> emit(const ir::Module& module, const CodegenOption
     std::string findings;
     llvm::raw_string_ostream stream(findings);
     if (llvm::verifyModule(*result, &stream)) {
-        error = "internal error: LLVM rejects the module '" + module.name + "': " + stream.str();
+        constexpr size_t kShown = 2000; // there may be a finding for each instruction
+        error = "internal error: LLVM rejects the module '" + module.name +
+                "': " + stream.str().substr(0, kShown);
         return nullptr;
     }
     return result;

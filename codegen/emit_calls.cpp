@@ -67,12 +67,14 @@ void RoutineEmitter::nativeCall(const ir::Inst& inst, ir::ValueId id, bool thenS
             argument = b_.CreateZExt(argument, b_.getInt8Ty());
         args.push_back(argument);
     }
-    noteStatement(inst);
     if (callsChecked(native)) {
+        args.insert(args.begin() + 1, stmtNumber(inst));
         llvm::CallInst* status = b_.CreateCall(m_.checkedNative(inst.index, thenSafepoint), args);
         status->setCallingConv(llvm::CallingConv::Fast);
         continueIfOk(inst, status);
+        storedStmt_ = inst.stmt;
     } else {
+        noteStatement(inst);
         BasicBlock* again = newBlock("native");
         b_.CreateBr(again);
         b_.SetInsertPoint(again);

@@ -1,5 +1,5 @@
-// Errors: cold blocks shared by all places of the routine. Whoever jumps there has stored its statement in the frame
-// record; a phi node carries the number. A check costs one compare and one branch.
+// Errors: cold blocks shared by all places of the routine. Phi nodes carry the number of the error and, where it is raised, the
+// statement. A check costs one compare and one branch.
 
 #include <algorithm>
 
@@ -20,9 +20,17 @@ RoutineEmitter::ErrorJoin& RoutineEmitter::makeJoin(ErrorJoin& join, const char*
     return join;
 }
 
-RoutineEmitter::ErrorJoin& RoutineEmitter::raiseJoin(bool handled) {
-    if (inUndo()) return makeJoin(raiseUndo_, "raise.undo");
-    return handled ? makeJoin(raiseHandled_, "raise.handled") : makeJoin(raiseUnhandled_, "raise");
+/// Where errors of the instruction are raised; the current block is added as a way there, with the number of the error.
+llvm::BasicBlock* RoutineEmitter::raiseFrom(const ir::Inst& inst, Value* number) {
+    ErrorJoin& join = inUndo()          ? makeJoin(raiseUndo_, "raise.undo")
+                      : isHandled(inst) ? makeJoin(raiseHandled_, "raise.handled")
+                                        : makeJoin(raiseUnhandled_, "raise");
+    if (!join.statement) {
+        llvm::IRBuilder<> b(join.block);
+        join.statement = b.CreatePHI(b.getInt32Ty(), 4, "statement");
+    }
+    join.statement->addIncoming(stmtNumber(inst), b_.GetInsertBlock());
+    return joinFrom(join, number);
 }
 RoutineEmitter::ErrorJoin& RoutineEmitter::dispatchJoin() {
     return makeJoin(dispatch_, "dispatch");
@@ -39,14 +47,8 @@ llvm::BasicBlock* RoutineEmitter::joinFrom(ErrorJoin& join, Value* number) {
 
 void RoutineEmitter::check(const ir::Inst& inst, Value* condition) {
     BasicBlock* ok = newBlock("ok");
-    BasicBlock*& fail = failedChecks_[{inst.stmt, inst.extra}];
-    BasicBlock* target = fail ? fail : fail = newBlock("fail");
-    b_.CreateCondBr(condition, ok, target, m_.unlikely());
-    if (target->empty()) {
-        b_.SetInsertPoint(target);
-        storeStatement(stmtNumber(inst));
-        b_.CreateBr(joinFrom(raiseJoin(isHandled(inst)), b_.getInt32(static_cast<uint32_t>(inst.extra))));
-    }
+    BasicBlock* fail = raiseFrom(inst, b_.getInt32(static_cast<uint32_t>(inst.extra)));
+    b_.CreateCondBr(condition, ok, fail, m_.unlikely());
     b_.SetInsertPoint(ok);
 }
 
@@ -55,8 +57,7 @@ void RoutineEmitter::raise(const ir::Inst& inst) {
     if (number->getType()->isFloatTy())
         number =
             b_.CreateIntrinsic(llvm::Intrinsic::fptosi_sat, {b_.getInt32Ty(), number->getType()}, {number});
-    storeStatement(stmtNumber(inst));
-    b_.CreateBr(joinFrom(raiseJoin(isHandled(inst)), number));
+    b_.CreateBr(raiseFrom(inst, number));
 }
 
 /// Goes on when the status of a routine is 0. Its errors have been raised already.
@@ -153,6 +154,7 @@ void RoutineEmitter::emitErrorBlocks() {
 void RoutineEmitter::emitRaise(ErrorJoin& join, bool handled) {
     b_.SetInsertPoint(join.block);
     if (!frameInPrologue_) fillFrame(); // it may not have been filled on the way here
+    storeStatement(join.statement);
     Value* status = m_.runtime().raise.call(b_, task_, frame_, join.number);
     if (&join == &raiseUndo_) {
         returnFromUndo(status);

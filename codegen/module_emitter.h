@@ -95,8 +95,8 @@ class ModuleEmitter {
     // Declared when they are used first.
     llvm::Function* routine(uint32_t index);
     llvm::Function* nativeFunction(uint32_t index);
-    /// Calls the native, reports its error, and then calls the runtime when the budget is used up. `fastcc`, arguments of the native;
-    /// 0, or the outcome of the error.
+    /// Notes the statement, calls the native, reports its error, and then calls the runtime when the budget is used up. `fastcc`;
+    /// arguments: the task, the number of the statement, those of the native. Returns 0 or the outcome of the error.
     llvm::Function* checkedNative(uint32_t index, bool thenSafepoint);
     bool setsTaskFrame(uint32_t routine) const { return (*settingTaskFrame_)[routine]; }
     llvm::GlobalVariable* global(uint32_t index);

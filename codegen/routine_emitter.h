@@ -3,7 +3,6 @@
 
 #include <llvm/IR/IRBuilder.h>
 
-#include <map>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -135,6 +134,7 @@ class RoutineEmitter {
     struct ErrorJoin {
         BasicBlock* block = nullptr;
         llvm::PHINode* number = nullptr;
+        llvm::PHINode* statement = nullptr; ///< where errors are raised
     };
     bool isHandled(const ir::Inst& inst) const;
     bool inUndo() const { return inUndo_[current_]; }
@@ -151,7 +151,7 @@ class RoutineEmitter {
     void retry(const ir::Inst& inst);
     void tryNext(const ir::Inst& inst);
     void resumeSwitch(ir::BlockId ir::Statement::* where);
-    ErrorJoin& raiseJoin(bool handled);
+    BasicBlock* raiseFrom(const ir::Inst& inst, Value* number);
     ErrorJoin& dispatchJoin();
     ErrorJoin& leaveJoin();
     void emitErrorBlocks();
@@ -190,8 +190,7 @@ class RoutineEmitter {
     bool frameInPrologue_ = false;
     bool setsTaskFrame_; ///< TaskCore::frame is this routine's record while it runs
     ir::BlockId current_ = 0;
-    std::optional<ir::StmtId> storedStmt_; ///< what the frame record is known to hold at this point
-    std::map<std::pair<ir::StmtId, int32_t>, BasicBlock*> failedChecks_;
+    std::optional<ir::StmtId> storedStmt_;  ///< what the frame record is known to hold at this point
     ErrorJoin steps_;                       ///< stepping: `number` is the statement to go on with
     llvm::AllocaInst* addresses_ = nullptr; ///< stepping: of the locals that are described
     BasicBlock* enterHandler_ = nullptr;
