@@ -1,5 +1,6 @@
 #include "codegen/compile.h"
 
+#include <llvm/Analysis/LazyCallGraph.h>
 #include <llvm/Analysis/LoopInfo.h>
 #include <llvm/IR/LegacyPassManager.h>
 #include <llvm/IR/Verifier.h>
@@ -13,6 +14,7 @@
 #include "codegen/integral_values.h"
 #include "codegen/module_emitter.h"
 #include "codegen/native_bodies.h"
+#include "codegen/paced_routines.h"
 
 namespace codegen {
 
@@ -50,17 +52,46 @@ void runO2(llvm::Module& module, llvm::PassBuilder& builder) {
 
 namespace {
 
+const llvm::Function* functionOf(const llvm::Any& unit) {
+    if (const auto* function = llvm::any_cast<const llvm::Function*>(&unit)) return *function;
+    if (const auto* loop = llvm::any_cast<const llvm::Loop*>(&unit)) return (*loop)->getHeader()->getParent();
+    if (const auto* scc = llvm::any_cast<const llvm::LazyCallGraph::SCC*>(&unit);
+        scc != nullptr && (*scc)->size() == 1)
+        return &(*scc)->begin()->getFunction();
+    return nullptr;
+}
+
+/// What routines that are paced by natives get: variables in registers, and no instruction twice. Once each.
+class FewPasses {
+  public:
+    bool wants(llvm::StringRef pass, const llvm::Function& function) {
+        const auto* found = std::find(std::begin(kFew), std::end(kFew), pass);
+        if (found == std::end(kFew)) return false;
+        unsigned& done = done_[&function];
+        const unsigned bit = 1U << (found - std::begin(kFew));
+        if ((done & bit) != 0) return false;
+        done |= bit;
+        return true;
+    }
+
+  private:
+    static constexpr llvm::StringLiteral kFew[] = {"SROAPass", "EarlyCSEPass", "InstCombinePass",
+                                                   "SimplifyCFGPass"};
+    llvm::DenseMap<const llvm::Function*, unsigned> done_;
+};
+
 void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
     llvm::PipelineTuningOptions tuning;
     tuning.LoopVectorization = true;
     tuning.LoopInterleaving = true;
     tuning.SLPVectorization = true;
     llvm::PassInstrumentationCallbacks callbacks;
-    callbacks.registerShouldRunOptionalPassCallback([](llvm::StringRef, const llvm::Any& unit) {
-        const auto* function = llvm::any_cast<const llvm::Function*>(&unit);
-        const auto* loop = llvm::any_cast<const llvm::Loop*>(&unit);
-        if (function == nullptr && loop == nullptr) return true;
-        return !(function ? *function : (*loop)->getHeader()->getParent())->hasOptNone();
+    FewPasses few;
+    callbacks.registerShouldRunOptionalPassCallback([&few](llvm::StringRef pass, const llvm::Any& unit) {
+        const llvm::Function* function = functionOf(unit);
+        if (function == nullptr) return true;
+        if (function->hasOptNone()) return false;
+        return !function->hasFnAttribute(kPaced) || few.wants(pass, *function);
     });
     llvm::PassBuilder builder(&machine, tuning, std::nullopt, &callbacks);
     builder.registerScalarOptimizerLateEPCallback(
@@ -109,6 +140,11 @@ bool finish(llvm::Module& module, const CodegenOptions& options, llvm::TargetMac
     if (!linkNativeBodies(module, options.bodies, error)) return false;
     const bool huge = spareHugeRoutines(module);
     optimise(module, machine);
+    for (llvm::Function& function : module) {
+        if (!function.hasFnAttribute(kPaced)) continue;
+        function.addFnAttr(llvm::Attribute::OptimizeNone);
+        function.addFnAttr(llvm::Attribute::NoInline);
+    }
     // One register allocator serves the whole module.
     if (huge) machine.setOptLevel(llvm::CodeGenOptLevel::None);
     return true;

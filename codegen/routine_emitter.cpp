@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "codegen/joined_rounds.h"
+#include "codegen/paced_routines.h"
 #include "codegen/wide_loop.h"
 #include "ir/core/op_info.h"
 
@@ -86,7 +87,10 @@ void RoutineEmitter::analyse() {
     findFailing();
     findRetried();
     // Ways back out of error handlers do not count as loops.
-    const ir::LoopInfo loops = ir::findLoops(ir::buildCfg(module_, routine_, ir::HandlerEdges::No));
+    const ir::Cfg straight = ir::buildCfg(module_, routine_, ir::HandlerEdges::No);
+    const ir::LoopInfo loops = ir::findLoops(straight);
+    if (m_.options().optimise && isPacedByNatives(module_, routine_, straight, loops, m_.options().bodies))
+        function_->addFnAttr(kPaced);
     for (ir::BlockId b = 0; b < routine_.blocks.size(); ++b)
         inLoop_.push_back(!loops.irreducible.empty() || loops.loopOf[b] != ir::kNone);
     findFrameBlock();
