@@ -5,11 +5,12 @@
 
 namespace codegen {
 
-/// Emits such a function: its parameters are the task, the statement, then those of the native.
+/// Emits such a function: its parameters are the task, the statement, then those of the native that are not absent.
 class CheckedNative {
   public:
-    CheckedNative(ModuleEmitter& module, llvm::Function* native, llvm::Function* function)
-        : m_(module), native_(native), function_(function), b_(module.context()) {}
+    CheckedNative(ModuleEmitter& module, llvm::Function* native, llvm::Function* function,
+                  const std::vector<bool>& absent)
+        : m_(module), native_(native), function_(function), absent_(absent), b_(module.context()) {}
 
     void emit(bool thenSafepoint) {
         llvm::BasicBlock *entry = block("entry"), *attempt = block("attempt"), *failed = block("failed"),
@@ -45,9 +46,12 @@ class CheckedNative {
     }
 
     llvm::Value* callNative() {
-        std::vector<llvm::Value*> arguments;
-        for (llvm::Argument& argument : function_->args())
-            if (argument.getArgNo() != 1) arguments.push_back(&argument);
+        std::vector<llvm::Value*> arguments{task()};
+        unsigned next = 2;
+        for (size_t i = 1; i < absent_.size(); ++i)
+            arguments.push_back(absent_[i] ? static_cast<llvm::Value*>(llvm::Constant::getNullValue(
+                                                 native_->getArg(static_cast<unsigned>(i))->getType()))
+                                           : function_->getArg(next++));
         return b_.CreateCall(native_, arguments);
     }
 
@@ -65,22 +69,25 @@ class CheckedNative {
     ModuleEmitter& m_;
     llvm::Function* native_;
     llvm::Function* function_;
+    const std::vector<bool>& absent_;
     llvm::IRBuilder<> b_;
 };
 
-llvm::Function* ModuleEmitter::checkedNative(uint32_t index, bool thenSafepoint) {
-    llvm::Function*& function = checkedNatives_[{index, thenSafepoint}];
+llvm::Function* ModuleEmitter::checkedNative(uint32_t index, bool thenSafepoint,
+                                             const std::vector<bool>& absent) {
+    llvm::Function*& function = checkedNatives_[{index, thenSafepoint, absent}];
     if (function) return function;
     llvm::Function* native = nativeFunction(index);
-    std::vector<llvm::Type*> params = native->getFunctionType()->params().vec();
-    params.insert(params.begin() + 1, i32_);
+    std::vector<llvm::Type*> params{ptr_, i32_};
+    for (unsigned i = 1; i < native->arg_size(); ++i)
+        if (!absent[i]) params.push_back(native->getArg(i)->getType());
     function = llvm::Function::Create(
         llvm::FunctionType::get(i32_, params, false), llvm::GlobalValue::InternalLinkage,
         (thenSafepoint ? "step." : "try.") + module_.natives[index].symbol, *target_);
     function->setCallingConv(llvm::CallingConv::Fast);
     function->setDoesNotThrow();
     function->addFnAttr(llvm::Attribute::NoInline);
-    CheckedNative(*this, native, function).emit(thenSafepoint);
+    CheckedNative(*this, native, function, absent).emit(thenSafepoint);
     return function;
 }
 

@@ -136,9 +136,9 @@ std::unique_ptr<llvm::Module> emit(const ir::Module& module, const CodegenOption
 
 bool finish(llvm::Module& module, const CodegenOptions& options, llvm::TargetMachine& machine,
             std::string& error) {
+    const bool huge = spareHugeRoutines(module);
     if (!options.optimise) return true;
     if (!linkNativeBodies(module, options.bodies, error)) return false;
-    const bool huge = spareHugeRoutines(module);
     optimise(module, machine);
     for (llvm::Function& function : module) {
         if (!function.hasFnAttribute(kPaced)) continue;

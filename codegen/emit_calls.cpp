@@ -20,6 +20,17 @@ llvm::Intrinsic::ID exactIntrinsic(llvm::StringRef symbol) {
         .Default(llvm::Intrinsic::not_intrinsic);
 }
 
+/// Optional parameters without argument, and switches that are off.
+std::vector<bool> absentArguments(const std::vector<llvm::Value*>& arguments) {
+    std::vector<bool> absent;
+    for (const llvm::Value* argument : arguments) {
+        const auto* constant = llvm::dyn_cast<llvm::Constant>(argument);
+        absent.push_back(constant != nullptr && constant->isNullValue() &&
+                         !constant->getType()->isFloatingPointTy());
+    }
+    return absent;
+}
+
 } // namespace
 
 llvm::Value* RoutineEmitter::stmtNumber(const ir::Inst& inst) const {
@@ -68,8 +79,11 @@ void RoutineEmitter::nativeCall(const ir::Inst& inst, ir::ValueId id, bool thenS
         args.push_back(argument);
     }
     if (callsChecked(native)) {
-        args.insert(args.begin() + 1, stmtNumber(inst));
-        llvm::CallInst* status = b_.CreateCall(m_.checkedNative(inst.index, thenSafepoint), args);
+        const std::vector<bool> absent = absentArguments(args);
+        std::vector<Value*> passed{task_, stmtNumber(inst)};
+        for (size_t i = 1; i < args.size(); ++i)
+            if (!absent[i]) passed.push_back(args[i]);
+        llvm::CallInst* status = b_.CreateCall(m_.checkedNative(inst.index, thenSafepoint, absent), passed);
         status->setCallingConv(llvm::CallingConv::Fast);
         continueIfOk(inst, status);
         storedStmt_ = inst.stmt;

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -97,7 +98,8 @@ class ModuleEmitter {
     llvm::Function* nativeFunction(uint32_t index);
     /// Notes the statement, calls the native, reports its error, and then calls the runtime when the budget is used up. `fastcc`;
     /// arguments: the task, the number of the statement, those of the native. Returns 0 or the outcome of the error.
-    llvm::Function* checkedNative(uint32_t index, bool thenSafepoint);
+    /// `absent`: by argument of the native (the first is the task); it is 0 or null and not passed.
+    llvm::Function* checkedNative(uint32_t index, bool thenSafepoint, const std::vector<bool>& absent);
     bool setsTaskFrame(uint32_t routine) const { return (*settingTaskFrame_)[routine]; }
     llvm::GlobalVariable* global(uint32_t index);
     llvm::GlobalVariable* typeDesc(uint32_t index);
@@ -186,7 +188,7 @@ class ModuleEmitter {
     RuntimeParts runtime_;
     llvm::MDNode* unlikely_ = nullptr;
     std::vector<llvm::Function*> routines_, natives_, cEntries_;
-    std::map<std::pair<uint32_t, bool>, llvm::Function*> checkedNatives_;
+    std::map<std::tuple<uint32_t, bool, std::vector<bool>>, llvm::Function*> checkedNatives_;
     std::shared_ptr<const std::vector<bool>> settingTaskFrame_;
     std::vector<llvm::GlobalVariable*> globals_, typeDescs_, routineDescs_;
     std::unordered_map<std::string, llvm::Constant*> texts_;
