@@ -83,11 +83,27 @@ ValueId Builder::constI32(int32_t value) {
 ValueId Builder::constI64(int64_t value) {
     return emit(makeConst(kI64, static_cast<double>(value)));
 }
+void Builder::beginShared() {
+    if (sharedIn_ == block_ && !terminated()) return;
+    if (terminated()) block_ = addBlock("dead");
+    sharedIn_ = block_;
+    null_ = false_ = kNone;
+    globalAddresses_.clear();
+}
+
+ValueId Builder::shared(ValueId& known, Inst inst) {
+    if (known == kNone) known = emit(std::move(inst));
+    return known;
+}
+
 ValueId Builder::constBool(bool value) {
-    return emit(makeConst(kBool, value ? 1 : 0));
+    if (value) return emit(makeConst(kBool, 1));
+    beginShared();
+    return shared(false_, makeConst(kBool, 0));
 }
 ValueId Builder::nullPtr() {
-    return emit(makeConst(kPtr, 0));
+    beginShared();
+    return shared(null_, makeConst(kPtr, 0));
 }
 
 ValueId Builder::param(uint32_t index) {
@@ -97,7 +113,9 @@ ValueId Builder::localAddr(uint32_t local) {
     return emit(makeIndexed(Op::LocalAddr, kPtr, local));
 }
 ValueId Builder::globalAddr(uint32_t global) {
-    return emit(makeIndexed(Op::GlobalAddr, kPtr, global));
+    beginShared();
+    return shared(globalAddresses_.try_emplace(global, kNone).first->second,
+                  makeIndexed(Op::GlobalAddr, kPtr, global));
 }
 ValueId Builder::typeDescAddr(uint32_t desc) {
     return emit(makeIndexed(Op::TypeDescAddr, kPtr, desc));

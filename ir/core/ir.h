@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace ir {
@@ -393,9 +394,17 @@ class Builder {
   private:
     TypeId typeOf(ValueId value) const { return valueType(routine_.insts[value]); }
     Module& module_;
+    /// Null, false and addresses of data, which calls with many optional arguments need again and again: one instruction each
+    /// in a block.
+    ValueId shared(ValueId& known, Inst inst);
+    void beginShared();
+
     Routine& routine_;
     BlockId block_ = 0;
     StmtId stmt_ = kNone;
+    BlockId sharedIn_ = kNone; ///< the block that those below are in
+    ValueId null_ = kNone, false_ = kNone;
+    std::unordered_map<uint32_t, ValueId> globalAddresses_;
 };
 
 } // namespace ir
