@@ -9,10 +9,12 @@
 #include <llvm/Support/raw_ostream.h>
 #include <llvm/TargetParser/Host.h>
 #include <llvm/TargetParser/Triple.h>
+#include <llvm/Transforms/InstCombine/InstCombine.h>
 
 #include "codegen/integral_values.h"
 #include "codegen/module_emitter.h"
 #include "codegen/native_bodies.h"
+#include "codegen/peepholes.h"
 
 namespace codegen {
 
@@ -63,8 +65,16 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
         return !(function ? *function : (*loop)->getHeader()->getParent())->hasOptNone();
     });
     llvm::PassBuilder builder(&machine, tuning, std::nullopt, &callbacks);
+    builder.registerPeepholeEPCallback([](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
+        passes.addPass(SplitResults());
+        passes.addPass(FiniteChecks());
+    });
     builder.registerScalarOptimizerLateEPCallback(
-        [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) { passes.addPass(IntegralValues()); });
+        [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
+            passes.addPass(WholeAfterCheck());
+            passes.addPass(llvm::InstCombinePass());
+            passes.addPass(IntegralValues());
+        });
     runO2(module, builder);
 }
 

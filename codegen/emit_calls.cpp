@@ -67,12 +67,14 @@ void RoutineEmitter::nativeCall(const ir::Inst& inst, ir::ValueId id) {
             argument = b_.CreateZExt(argument, b_.getInt8Ty());
         args.push_back(argument);
     }
-    noteStatement(inst);
+    const bool looksAtFrame = !m_.isSelfContained(native);
+    if (looksAtFrame) noteStatement(inst);
     BasicBlock* again = newBlock("native");
     b_.CreateBr(again);
     b_.SetInsertPoint(again);
-    b_.CreateStore(frame_, taskField<&rt::TaskCore::frame>("taskFrame"))
-        ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
+    if (looksAtFrame)
+        b_.CreateStore(frame_, taskField<&rt::TaskCore::frame>("taskFrame"))
+            ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
     llvm::CallInst* status = b_.CreateCall(m_.nativeFunction(inst.index), args);
     continueIfNativeOk(inst, status, again);
     if (byValue) define(id, load(native.result, slot));

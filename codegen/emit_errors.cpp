@@ -73,6 +73,10 @@ void RoutineEmitter::continueIfNativeOk(const ir::Inst& inst, Value* status, Bas
     BasicBlock *ok = newBlock("ok"), *failed = newBlock("native.failed");
     b_.CreateCondBr(b_.CreateICmpEQ(status, statusValue(rt::kOk)), ok, failed, m_.unlikely());
     b_.SetInsertPoint(failed);
+    if (m_.isSelfContained(module_.natives[inst.index])) {
+        if (!frameInPrologue_) fillFrame(); // it may not have been filled on the way here
+        storeStatement(stmtNumber(inst));
+    }
     Value* outcome = m_.runtime().nativeFailed.call(b_, task_, frame_, status);
     if (routine_.stepping && !inUndo() && inst.stmt < routine_.statements.size() &&
         routine_.statements[inst.stmt].start != ir::kNone) {

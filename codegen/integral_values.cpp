@@ -1,6 +1,7 @@
 #include "codegen/integral_values.h"
 
 #include <llvm/ADT/MapVector.h>
+#include <llvm/Analysis/LazyValueInfo.h>
 #include <llvm/Analysis/ValueTracking.h>
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/InstIterator.h>
@@ -25,7 +26,8 @@ std::vector<unsigned> choices(const llvm::Instruction& node) {
 
 class Web {
   public:
-    explicit Web(llvm::Function& function) : function_(function), layout_(function.getDataLayout()) {}
+    Web(llvm::Function& function, llvm::LazyValueInfo& ranges)
+        : function_(function), layout_(function.getDataLayout()), ranges_(ranges) {}
 
     bool run() {
         for (llvm::Instruction& inst : llvm::instructions(function_))
@@ -67,32 +69,45 @@ class Web {
     bool isOneOfWholes(const llvm::Instruction& node) const {
         const std::vector<unsigned> operands = choices(node);
         return std::all_of(operands.begin(), operands.end(),
-                           [&](unsigned i) { return isWhole(node.getOperand(i)); });
+                           [&](unsigned i) { return isWhole(node.getOperand(i), whereUsed(node, i)); });
+    }
+
+    /// Where the operand takes effect: checks on the way there bound it.
+    static llvm::Instruction* whereUsed(const llvm::Instruction& node, unsigned operand) {
+        const auto* phi = llvm::dyn_cast<llvm::PHINode>(&node);
+        return phi ? phi->getIncomingBlock(operand)->getTerminator() : const_cast<llvm::Instruction*>(&node);
     }
 
     /// Bits of the whole numbers that the type holds exactly.
     static unsigned exactBits(const llvm::Type* type) { return type->isFloatTy() ? 24 : 53; }
 
-    bool isWhole(const Value* value) const {
+    bool isWhole(const Value* value, llvm::Instruction* at) const {
         if (contains(value) || llvm::isa<llvm::UndefValue>(value)) return true;
         if (const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(value)) {
             const double number = constant->getValueAPF().convertToDouble();
             return number >= 0 && !std::signbit(number) && number == std::trunc(number) &&
                    number < std::ldexp(1.0, static_cast<int>(exactBits(value->getType())));
         }
-        return source(value) != nullptr;
+        const Value* from = source(value);
+        return from && bitsOf(from, at) <= exactBits(value->getType());
     }
 
-    /// The number that is converted; null when it may be negative or too large to be kept exactly.
-    Value* source(const Value* value) const {
+    /// Bits of a whole number, as many as it has when it may be negative.
+    unsigned bitsOf(const Value* whole, llvm::Instruction* at) const {
+        const unsigned known = llvm::computeKnownBits(whole, layout_).countMaxActiveBits();
+        const llvm::ConstantRange range =
+            ranges_.getConstantRange(const_cast<Value*>(whole), at, /*UndefAllowed=*/false);
+        return std::min(known, range.getUnsignedMax().getActiveBits());
+    }
+
+    /// The whole number that is converted; null: none is.
+    static Value* source(const Value* value) {
         const auto* cast = llvm::dyn_cast<llvm::CastInst>(value);
         if (!cast || (cast->getOpcode() != llvm::Instruction::SIToFP &&
                       cast->getOpcode() != llvm::Instruction::UIToFP))
             return nullptr;
         Value* from = cast->getOperand(0);
-        if (from->getType()->isVectorTy()) return nullptr;
-        const llvm::KnownBits known = llvm::computeKnownBits(from, layout_);
-        return known.countMaxActiveBits() <= exactBits(value->getType()) ? from : nullptr;
+        return from->getType()->isVectorTy() ? nullptr : from;
     }
 
     /// One width for all: the widest number that comes in.
@@ -106,8 +121,8 @@ class Web {
                     bits = std::max(bits, static_cast<unsigned>(std::ilogb(
                                               std::max(1.0, constant->getValueAPF().convertToDouble()))) +
                                               1);
-                else if (const Value* from = source(operand))
-                    bits = std::max(bits, llvm::computeKnownBits(from, layout_).countMaxActiveBits());
+                else if (const Value* from = contains(operand) ? nullptr : source(operand))
+                    bits = std::max(bits, bitsOf(from, whereUsed(*node, i)));
             }
         }
         return bits;
@@ -169,13 +184,16 @@ class Web {
 
     llvm::Function& function_;
     const llvm::DataLayout& layout_;
+    llvm::LazyValueInfo& ranges_;
     llvm::MapVector<llvm::Instruction*, llvm::Instruction*> nodes_; ///< and what replaces them
 };
 
 } // namespace
 
-llvm::PreservedAnalyses IntegralValues::run(llvm::Function& function, llvm::FunctionAnalysisManager&) {
-    if (!Web(function).run()) return llvm::PreservedAnalyses::all();
+llvm::PreservedAnalyses IntegralValues::run(llvm::Function& function,
+                                            llvm::FunctionAnalysisManager& analyses) {
+    if (!Web(function, analyses.getResult<llvm::LazyValueAnalysis>(function)).run())
+        return llvm::PreservedAnalyses::all();
     llvm::PreservedAnalyses preserved;
     preserved.preserveSet<llvm::CFGAnalyses>();
     return preserved;

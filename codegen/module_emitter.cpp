@@ -219,6 +219,11 @@ bool ModuleEmitter::isShared(const ir::Global& global) const {
     return !part_ || global.kind != ir::GlobalKind::Const || !global.displayName.empty();
 }
 
+bool ModuleEmitter::isSelfContained(const ir::Native& native) const {
+    const auto& names = options_.bodies.names;
+    return std::binary_search(names.begin(), names.end(), std::string_view(native.symbol));
+}
+
 llvm::Function* ModuleEmitter::nativeFunction(uint32_t index) {
     llvm::Function*& function = natives_[index];
     if (function) return function;

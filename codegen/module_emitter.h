@@ -91,6 +91,8 @@ class ModuleEmitter {
     // Declared when they are used first.
     llvm::Function* routine(uint32_t index);
     llvm::Function* nativeFunction(uint32_t index);
+    /// Its body is known and looks at no frame record (codegen/bodies).
+    bool isSelfContained(const ir::Native& native) const;
     llvm::GlobalVariable* global(uint32_t index);
     llvm::GlobalVariable* typeDesc(uint32_t index);
     llvm::GlobalVariable* routineDesc(uint32_t index);

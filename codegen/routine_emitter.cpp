@@ -61,7 +61,8 @@ void RoutineEmitter::countCall() {
 
 bool RoutineEmitter::needsFrame(const ir::Inst& inst) const {
     if (inst.op == ir::Op::Call) return true;
-    return inst.op == ir::Op::CallNative && ir::mayRaise(module_, inst);
+    return inst.op == ir::Op::CallNative && ir::mayRaise(module_, inst) &&
+           !m_.isSelfContained(module_.natives[inst.index]);
 }
 
 void RoutineEmitter::analyse() {
