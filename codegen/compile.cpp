@@ -9,7 +9,6 @@
 #include <llvm/Support/raw_ostream.h>
 #include <llvm/TargetParser/Host.h>
 #include <llvm/TargetParser/Triple.h>
-#include <llvm/Transforms/InstCombine/InstCombine.h>
 
 #include "codegen/integral_values.h"
 #include "codegen/module_emitter.h"
@@ -70,11 +69,7 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
         passes.addPass(FiniteChecks());
     });
     builder.registerScalarOptimizerLateEPCallback(
-        [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
-            passes.addPass(WholeAfterCheck());
-            passes.addPass(llvm::InstCombinePass());
-            passes.addPass(IntegralValues());
-        });
+        [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) { passes.addPass(IntegralValues()); });
     runO2(module, builder);
 }
 

@@ -1,14 +1,16 @@
 #include "codegen/integral_values.h"
 
 #include <llvm/ADT/MapVector.h>
-#include <llvm/Analysis/LazyValueInfo.h>
-#include <llvm/Analysis/ValueTracking.h>
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/Instructions.h>
+#include <llvm/Transforms/InstCombine/InstCombine.h>
+#include <llvm/Transforms/Scalar/EarlyCSE.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "codegen/peepholes.h"
 
 namespace codegen {
 namespace {
@@ -26,8 +28,8 @@ std::vector<unsigned> choices(const llvm::Instruction& node) {
 
 class Web {
   public:
-    Web(llvm::Function& function, llvm::LazyValueInfo& ranges)
-        : function_(function), layout_(function.getDataLayout()), ranges_(ranges) {}
+    Web(llvm::Function& function, llvm::FunctionAnalysisManager& analyses)
+        : function_(function), analyses_(analyses) {}
 
     bool run() {
         for (llvm::Instruction& inst : llvm::instructions(function_))
@@ -78,9 +80,6 @@ class Web {
         return phi ? phi->getIncomingBlock(operand)->getTerminator() : const_cast<llvm::Instruction*>(&node);
     }
 
-    /// Bits of the whole numbers that the type holds exactly.
-    static unsigned exactBits(const llvm::Type* type) { return type->isFloatTy() ? 24 : 53; }
-
     bool isWhole(const Value* value, llvm::Instruction* at) const {
         if (contains(value) || llvm::isa<llvm::UndefValue>(value)) return true;
         if (const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(value)) {
@@ -88,44 +87,40 @@ class Web {
             return number >= 0 && !std::signbit(number) && number == std::trunc(number) &&
                    number < std::ldexp(1.0, static_cast<int>(exactBits(value->getType())));
         }
-        const Value* from = source(value);
+        Value* from = convertedWhole(value);
         return from && bitsOf(from, at) <= exactBits(value->getType());
     }
 
     /// Bits of a whole number, as many as it has when it may be negative.
-    unsigned bitsOf(const Value* whole, llvm::Instruction* at) const {
-        const unsigned known = llvm::computeKnownBits(whole, layout_).countMaxActiveBits();
-        const llvm::ConstantRange range =
-            ranges_.getConstantRange(const_cast<Value*>(whole), at, /*UndefAllowed=*/false);
-        return std::min(known, range.getUnsignedMax().getActiveBits());
+    unsigned bitsOf(Value* whole, llvm::Instruction* at) const {
+        return rangeOfWhole(whole, at, analyses_).getUnsignedMax().getActiveBits();
     }
 
-    /// The whole number that is converted; null: none is.
-    static Value* source(const Value* value) {
-        const auto* cast = llvm::dyn_cast<llvm::CastInst>(value);
-        if (!cast || (cast->getOpcode() != llvm::Instruction::SIToFP &&
-                      cast->getOpcode() != llvm::Instruction::UIToFP))
-            return nullptr;
-        Value* from = cast->getOperand(0);
-        return from->getType()->isVectorTy() ? nullptr : from;
+    unsigned bitsOfOperand(const llvm::Instruction& node, unsigned i) const {
+        Value* operand = node.getOperand(i);
+        if (const auto found = bits_.find(operand); found != bits_.end()) return found->second;
+        if (const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(operand))
+            return static_cast<unsigned>(
+                       std::ilogb(std::max(1.0, constant->getValueAPF().convertToDouble()))) +
+                   1;
+        Value* from = convertedWhole(operand);
+        return from ? bitsOf(from, whereUsed(node, i)) : 1;
     }
 
-    /// One width for all: the widest number that comes in.
-    unsigned widest(const llvm::Type* type) const {
-        unsigned bits = 1;
-        for (const auto& [node, made] : nodes_) {
-            if (node->getType() != type) continue;
-            for (const unsigned i : choices(*node)) {
-                const Value* operand = node->getOperand(i);
-                if (const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(operand))
-                    bits = std::max(bits, static_cast<unsigned>(std::ilogb(
-                                              std::max(1.0, constant->getValueAPF().convertToDouble()))) +
-                                              1);
-                else if (const Value* from = contains(operand) ? nullptr : source(operand))
-                    bits = std::max(bits, bitsOf(from, whereUsed(*node, i)));
+    /// The widest number that comes into each node.
+    void measure() {
+        for (const auto& [node, made] : nodes_)
+            bits_[node] = 1;
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (const auto& [node, made] : nodes_) {
+                unsigned& bits = bits_[node];
+                const unsigned before = bits;
+                for (const unsigned i : choices(*node))
+                    bits = std::max(bits, bitsOfOperand(*node, i));
+                changed |= bits != before;
             }
         }
-        return bits;
     }
 
     llvm::IntegerType* integerFor(const llvm::Type* type) const {
@@ -140,12 +135,11 @@ class Web {
         if (const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(value))
             return llvm::ConstantInt::get(type,
                                           static_cast<uint64_t>(constant->getValueAPF().convertToDouble()));
-        return llvm::IRBuilder<>(before).CreateZExtOrTrunc(source(value), type);
+        return llvm::IRBuilder<>(before).CreateZExtOrTrunc(convertedWhole(value), type);
     }
 
     void replace() {
-        const unsigned narrow = widest(llvm::Type::getFloatTy(function_.getContext()));
-        const unsigned wide = widest(llvm::Type::getDoubleTy(function_.getContext()));
+        measure();
         for (auto& [node, made] : nodes_) {
             llvm::IRBuilder<> b(node);
             llvm::IntegerType* type = integerFor(node->getType());
@@ -168,14 +162,13 @@ class Web {
             }
         }
         for (auto& [node, made] : nodes_) {
-            const unsigned bits = node->getType()->isFloatTy() ? narrow : wide;
             llvm::Instruction* after = llvm::isa<llvm::PHINode>(node)
                                            ? &*node->getParent()->getFirstInsertionPt()
                                            : made->getNextNode();
             llvm::IRBuilder<> b(after);
             // What is known of the numbers gets lost in loops; the mask says it.
             Value* bounded =
-                b.CreateAnd(made, llvm::ConstantInt::get(made->getType(), (uint64_t{1} << bits) - 1));
+                b.CreateAnd(made, llvm::ConstantInt::get(made->getType(), (uint64_t{1} << bits_[node]) - 1));
             node->replaceAllUsesWith(b.CreateUIToFP(bounded, node->getType()));
         }
         for (auto& [node, made] : nodes_)
@@ -183,20 +176,39 @@ class Web {
     }
 
     llvm::Function& function_;
-    const llvm::DataLayout& layout_;
-    llvm::LazyValueInfo& ranges_;
+    llvm::FunctionAnalysisManager& analyses_;
+    llvm::DenseMap<Value*, unsigned> bits_;
     llvm::MapVector<llvm::Instruction*, llvm::Instruction*> nodes_; ///< and what replaces them
 };
+
+/// True when something has changed.
+bool simplifyWholes(llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {
+    const llvm::PreservedAnalyses replaced = WholeAfterCheck().run(function, analyses);
+    analyses.invalidate(function, replaced);
+    const llvm::PreservedAnalyses computed = WholeArithmetic().run(function, analyses);
+    if (computed.areAllPreserved()) return !replaced.areAllPreserved();
+    analyses.invalidate(function, computed);
+    analyses.invalidate(function, llvm::InstCombinePass().run(function, analyses));
+    return true;
+}
 
 } // namespace
 
 llvm::PreservedAnalyses IntegralValues::run(llvm::Function& function,
                                             llvm::FunctionAnalysisManager& analyses) {
-    if (!Web(function, analyses.getResult<llvm::LazyValueAnalysis>(function)).run())
-        return llvm::PreservedAnalyses::all();
+    constexpr int kMostRounds = 4; // a variable may depend on another one that has become an integer
     llvm::PreservedAnalyses preserved;
     preserved.preserveSet<llvm::CFGAnalyses>();
-    return preserved;
+    bool changed = simplifyWholes(function, analyses);
+    for (int round = 0; round < kMostRounds && Web(function, analyses).run(); ++round) {
+        changed = true;
+        analyses.invalidate(function, preserved);
+        analyses.invalidate(function, llvm::InstCombinePass().run(function, analyses));
+        analyses.invalidate(function, llvm::EarlyCSEPass().run(function, analyses));
+        analyses.invalidate(function, llvm::InstCombinePass().run(function, analyses));
+        simplifyWholes(function, analyses);
+    }
+    return changed ? llvm::PreservedAnalyses::none() : llvm::PreservedAnalyses::all();
 }
 
 } // namespace codegen

@@ -1,6 +1,7 @@
 #pragma once
 // Simplifications that LLVM's own passes leave out. They run after each of LLVM's peephole passes.
 
+#include <llvm/IR/ConstantRange.h>
 #include <llvm/IR/PassManager.h>
 
 namespace codegen {
@@ -24,5 +25,20 @@ class WholeAfterCheck : public llvm::PassInfoMixin<WholeAfterCheck> {
   public:
     llvm::PreservedAnalyses run(llvm::Function& function, llvm::FunctionAnalysisManager& analyses);
 };
+
+/// Sums, differences, products, comparisons and conversions of converted whole numbers are computed with integers where the
+/// floating-point result is exact.
+class WholeArithmetic : public llvm::PassInfoMixin<WholeArithmetic> {
+  public:
+    llvm::PreservedAnalyses run(llvm::Function& function, llvm::FunctionAnalysisManager& analyses);
+};
+
+/// The whole number that a conversion to floating point converts; null: the value is none, or a vector.
+llvm::Value* convertedWhole(const llvm::Value* value);
+/// What is known of a whole number at an instruction: from its bits, from checks on the way there, from counted loops.
+llvm::ConstantRange rangeOfWhole(llvm::Value* whole, llvm::Instruction* at,
+                                 llvm::FunctionAnalysisManager& analyses);
+/// Bits of the whole numbers that the floating-point type holds exactly.
+unsigned exactBits(const llvm::Type* type);
 
 } // namespace codegen
