@@ -1,6 +1,7 @@
 #include "codegen/integral_values.h"
 
 #include <llvm/ADT/MapVector.h>
+#include <llvm/Analysis/LazyValueInfo.h>
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/Instructions.h>
@@ -199,6 +200,9 @@ llvm::PreservedAnalyses IntegralValues::run(llvm::Function& function,
     constexpr int kMostRounds = 4; // a variable may depend on another one that has become an integer
     llvm::PreservedAnalyses preserved;
     preserved.preserveSet<llvm::CFGAnalyses>();
+    llvm::PreservedAnalyses asKnownBefore = llvm::PreservedAnalyses::all();
+    asKnownBefore.abandon<llvm::LazyValueAnalysis>(); // it keeps what it once could not tell
+    analyses.invalidate(function, asKnownBefore);
     bool changed = simplifyWholes(function, analyses);
     for (int round = 0; round < kMostRounds && Web(function, analyses).run(); ++round) {
         changed = true;

@@ -233,15 +233,28 @@ llvm::Value* convertedWhole(const llvm::Value* value) {
 }
 
 llvm::ConstantRange rangeOfWhole(llvm::Value* whole, llvm::Instruction* at,
-                                 llvm::FunctionAnalysisManager& analyses) {
+                                 llvm::FunctionAnalysisManager& analyses, unsigned depth) {
     llvm::Function& function = *at->getFunction();
     llvm::ConstantRange range = llvm::ConstantRange::fromKnownBits(
         llvm::computeKnownBits(whole, function.getDataLayout()), /*IsSigned=*/false);
     auto& ranges = analyses.getResult<llvm::LazyValueAnalysis>(function);
     range = range.intersectWith(ranges.getConstantRange(whole, at, /*UndefAllowed=*/false));
     auto& evolution = analyses.getResult<llvm::ScalarEvolutionAnalysis>(function);
-    if (!evolution.isSCEVable(whole->getType())) return range;
-    return range.intersectWith(evolution.getUnsignedRange(evolution.getSCEV(whole)));
+    if (evolution.isSCEVable(whole->getType()))
+        range = range.intersectWith(evolution.getUnsignedRange(evolution.getSCEV(whole)));
+    // In large routines LazyValueInfo gives up soon.
+    const auto* inst = llvm::dyn_cast<llvm::Instruction>(whole);
+    if (depth == 0 || !inst) return range;
+    const auto operand = [&](unsigned i) {
+        return rangeOfWhole(inst->getOperand(i), const_cast<llvm::Instruction*>(inst), analyses, depth - 1);
+    };
+    if (const auto* operation = llvm::dyn_cast<llvm::BinaryOperator>(inst))
+        return range.intersectWith(operand(0).binaryOp(operation->getOpcode(), operand(1)));
+    if (llvm::isa<llvm::ZExtInst>(inst) || llvm::isa<llvm::SExtInst>(inst) ||
+        llvm::isa<llvm::TruncInst>(inst))
+        return range.intersectWith(operand(0).castOp(llvm::cast<llvm::CastInst>(inst)->getOpcode(),
+                                                     inst->getType()->getIntegerBitWidth()));
+    return range;
 }
 
 unsigned exactBits(const llvm::Type* type) {

@@ -35,9 +35,10 @@ class WholeArithmetic : public llvm::PassInfoMixin<WholeArithmetic> {
 
 /// The whole number that a conversion to floating point converts; null: the value is none, or a vector.
 llvm::Value* convertedWhole(const llvm::Value* value);
-/// What is known of a whole number at an instruction: from its bits, from checks on the way there, from counted loops.
+/// What is known of a whole number at an instruction: from its bits, from checks on the way there, from counted loops,
+/// from its operands up to some depth.
 llvm::ConstantRange rangeOfWhole(llvm::Value* whole, llvm::Instruction* at,
-                                 llvm::FunctionAnalysisManager& analyses);
+                                 llvm::FunctionAnalysisManager& analyses, unsigned depth = 4);
 /// Bits of the whole numbers that the floating-point type holds exactly.
 unsigned exactBits(const llvm::Type* type);
 
