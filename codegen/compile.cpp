@@ -10,6 +10,7 @@
 #include <llvm/TargetParser/Host.h>
 #include <llvm/TargetParser/Triple.h>
 
+#include "codegen/budget_loops.h"
 #include "codegen/integral_values.h"
 #include "codegen/module_emitter.h"
 #include "codegen/native_bodies.h"
@@ -70,6 +71,8 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
     });
     builder.registerScalarOptimizerLateEPCallback(
         [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) { passes.addPass(IntegralValues()); });
+    builder.registerVectorizerStartEPCallback(
+        [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) { passes.addPass(BudgetLoops()); });
     runO2(module, builder);
 }
 

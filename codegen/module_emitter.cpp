@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "codegen/budget_loops.h"
 #include "codegen/routine_emitter.h"
 
 namespace codegen {
@@ -274,6 +275,7 @@ llvm::Function* ModuleEmitter::routine(uint32_t index) {
     function->setCallingConv(llvm::CallingConv::Fast);
     function->setDoesNotThrow();
     function->addFnAttr(llvm::Attribute::MustProgress);
+    function->addFnAttr(kTakesTask);
     if (routine.insts.size() > kLargestInlined) function->addFnAttr(llvm::Attribute::NoInline);
     function->addParamAttr(0, llvm::Attribute::NoAlias);
     function->addParamAttr(0, llvm::Attribute::NonNull);
