@@ -169,7 +169,14 @@ RoutineLowering::Place RoutineLowering::reference(const Expr& outer) {
     Place p;
     p.type = info(expr).type;
     if (p.type.isArray() && !isOfKnownSize(expr, p.type)) return arrayTemporary(expr);
-    p.addr = tempAddr(program_.irType(p.type));
+    const ir::TypeId type = program_.irType(p.type);
+    if (const auto* constant = info(expr).constant; constant && !program_.module().isScalar(type)) {
+        ir::ConstData data;
+        program_.flatten(*constant, p.type, data);
+        p.addr = b_.globalAddr(program_.constGlobal(type, std::move(data)));
+        return p;
+    }
+    p.addr = tempAddr(type);
     lowerInto(expr, p.type, p.addr);
     return p;
 }
