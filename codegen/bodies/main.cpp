@@ -105,6 +105,7 @@ void passBoolsAsBytes(llvm::Module& module, llvm::Function& native) {
     native.setName(name + ".body");
     native.setLinkage(llvm::GlobalValue::InternalLinkage);
     auto* outer = llvm::Function::Create(type, llvm::GlobalValue::ExternalLinkage, name, module);
+    if (native.hasFnAttribute(llvm::Attribute::AlwaysInline)) outer->addFnAttr(llvm::Attribute::AlwaysInline);
     llvm::IRBuilder<> b(llvm::BasicBlock::Create(module.getContext(), "", outer));
     std::vector<llvm::Value*> args;
     for (llvm::Argument& arg : outer->args()) {

@@ -170,10 +170,8 @@ RoutineLowering::Place RoutineLowering::reference(const Expr& outer) {
     p.type = info(expr).type;
     if (p.type.isArray() && !isOfKnownSize(expr, p.type)) return arrayTemporary(expr);
     const ir::TypeId type = program_.irType(p.type);
-    if (const auto* constant = info(expr).constant; constant && !program_.module().isScalar(type)) {
-        ir::ConstData data;
-        program_.flatten(*constant, p.type, data);
-        p.addr = b_.globalAddr(program_.constGlobal(type, std::move(data)));
+    if (info(expr).constant && !program_.module().isScalar(type)) {
+        p.addr = constantAddress(expr, p.type);
         return p;
     }
     p.addr = tempAddr(type);

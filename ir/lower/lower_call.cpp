@@ -29,6 +29,11 @@ ir::ValueId RoutineLowering::argumentAddress(const BoundArg& arg) {
         if (reference && sameShape) return place(value);
         Place temporary;
         temporary.type = wanted.isArray() ? info(value).type : wanted;
+        if (info(value).constant && arg.param->mode == ParamMode::In &&
+            !program_.module().isScalar(program_.irType(temporary.type))) {
+            temporary.addr = constantAddress(value, temporary.type);
+            return temporary;
+        }
         temporary.addr = tempAddr(program_.irType(temporary.type));
         storeExpr(value, temporary.type, temporary.addr);
         return temporary;

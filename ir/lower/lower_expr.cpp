@@ -296,6 +296,13 @@ ir::ValueId RoutineLowering::lowerAddr(const Expr& outer) {
     return place(expr).addr;
 }
 
+/// Where the value of a constant expression lies; nothing may be stored there.
+ir::ValueId RoutineLowering::constantAddress(const Expr& expr, const sema::DataType& type) {
+    ir::ConstData data;
+    program_.flatten(*info(expr).constant, type, data);
+    return b_.globalAddr(program_.constGlobal(program_.irType(type), std::move(data)));
+}
+
 void RoutineLowering::storeExpr(const Expr& expr, const sema::DataType& type, ValueId dst) {
     const ir::TypeId irType = program_.irType(type);
     if (!type.isArray() && program_.module().isScalar(irType) && irType != ir::kI64)
@@ -310,11 +317,7 @@ void RoutineLowering::lowerInto(const Expr& outer, const sema::DataType& type, V
     if (isIncomplete(expr) && expr.kind != NodeKind::Aggregate) return reachPlaceholder(expr);
     if (!type.isArray() && program_.module().isScalar(irType) && irType != ir::kI64)
         return b_.store(irType, lowerValueAs(expr, type.type), dst);
-    if (const auto* constant = info(expr).constant) {
-        ir::ConstData data;
-        program_.flatten(*constant, type, data);
-        return b_.copy(irType, dst, b_.globalAddr(program_.constGlobal(irType, std::move(data))));
-    }
+    if (info(expr).constant) return b_.copy(irType, dst, constantAddress(expr, type));
     switch (expr.kind) {
     case NodeKind::Aggregate: {
         const std::span<Expr*> elements = as<AggregateExpr>(expr).elements();

@@ -104,8 +104,10 @@ size_t findText(std::string_view text, size_t offset, std::string_view pattern) 
 
 extern "C" {
 
-RAPIDC_ALWAYS_INLINED Status rt_StrLen(TaskCore*, float* result, const String* Str) {
-    *result = static_cast<float>(lib::characterCount(Str->view()));
+[[gnu::always_inline]] Status rt_StrLen(TaskCore*, float* result, const String* Str) {
+    const size_t count = lib::characterCount(Str->view());
+    __builtin_assume(count <= sizeof Str->bytes); // loops up to the length count with integers
+    *result = static_cast<float>(count);
     return kOk;
 }
 
@@ -114,8 +116,8 @@ Status rt_StrSize(TaskCore*, float* result, const String* Str) {
     return kOk;
 }
 
-RAPIDC_ALWAYS_INLINED Status rt_StrPart(TaskCore* task, String* result, const String* Str, float ChPos,
-                                        float Len) {
+[[gnu::always_inline]] Status rt_StrPart(TaskCore* task, String* result, const String* Str, float ChPos,
+                                         float Len) {
     const std::string_view bytes = Str->view();
     const size_t length = lib::characterCount(bytes);
     size_t first = 0;
@@ -134,8 +136,8 @@ RAPIDC_ALWAYS_INLINED Status rt_StrPart(TaskCore* task, String* result, const St
     return kOk;
 }
 
-RAPIDC_ALWAYS_INLINED Status rt_StrMemb(TaskCore* task, bool* result, const String* Str, float ChPos,
-                                        const String* Set) {
+[[gnu::always_inline]] Status rt_StrMemb(TaskCore* task, bool* result, const String* Str, float ChPos,
+                                         const String* Set) {
     size_t position = 0;
     const lib::AsciiSet set(Set->view());
     // What follows the position does not matter.
@@ -146,8 +148,8 @@ RAPIDC_ALWAYS_INLINED Status rt_StrMemb(TaskCore* task, bool* result, const Stri
     return kOk;
 }
 
-RAPIDC_ALWAYS_INLINED Status rt_StrFind(TaskCore* task, float* result, const String* Str, float ChPos,
-                                        const String* Set, bool NotInSet) {
+[[gnu::always_inline]] Status rt_StrFind(TaskCore* task, float* result, const String* Str, float ChPos,
+                                         const String* Set, bool NotInSet) {
     const std::string_view bytes = Str->view();
     const lib::AsciiSet set(Set->view());
     size_t position = 0;

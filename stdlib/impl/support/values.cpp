@@ -48,7 +48,7 @@ bool sameValue(const char* a, const char* b, const TypeDesc& type) {
 extern "C" {
 
 /// The result may be one of the operands; nothing is written when it does not fit.
-RAPIDC_ALWAYS_INLINED Status rt_strConcat(TaskCore* task, String* result, const String* a, const String* b) {
+[[gnu::always_inline]] Status rt_strConcat(TaskCore* task, String* result, const String* a, const String* b) {
     const size_t front = a->length;
     const size_t size = front + b->length;
     if (size > sizeof result->bytes)
