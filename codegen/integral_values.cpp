@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "codegen/peepholes.h"
+#include "codegen/whole_numbers.h"
 
 namespace codegen {
 namespace {

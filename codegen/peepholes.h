@@ -1,7 +1,6 @@
 #pragma once
 // Simplifications that LLVM's own passes leave out. They run after each of LLVM's peephole passes.
 
-#include <llvm/IR/ConstantRange.h>
 #include <llvm/IR/PassManager.h>
 
 namespace codegen {
@@ -18,28 +17,5 @@ class FiniteChecks : public llvm::PassInfoMixin<FiniteChecks> {
   public:
     llvm::PreservedAnalyses run(llvm::Function& function, llvm::FunctionAnalysisManager& analyses);
 };
-
-/// Where a number equals a converted whole number other than 0 (the check of an index), the converted one takes its place:
-/// the ranges of integers are known, those of floating-point numbers are not.
-class WholeAfterCheck : public llvm::PassInfoMixin<WholeAfterCheck> {
-  public:
-    llvm::PreservedAnalyses run(llvm::Function& function, llvm::FunctionAnalysisManager& analyses);
-};
-
-/// Sums, differences, products, comparisons and conversions of converted whole numbers are computed with integers where the
-/// floating-point result is exact.
-class WholeArithmetic : public llvm::PassInfoMixin<WholeArithmetic> {
-  public:
-    llvm::PreservedAnalyses run(llvm::Function& function, llvm::FunctionAnalysisManager& analyses);
-};
-
-/// The whole number that a conversion to floating point converts; null: the value is none, or a vector.
-llvm::Value* convertedWhole(const llvm::Value* value);
-/// What is known of a whole number at an instruction: from its bits, from checks on the way there, from counted loops,
-/// from its operands up to some depth.
-llvm::ConstantRange rangeOfWhole(llvm::Value* whole, llvm::Instruction* at,
-                                 llvm::FunctionAnalysisManager& analyses, unsigned depth = 4);
-/// Bits of the whole numbers that the floating-point type holds exactly.
-unsigned exactBits(const llvm::Type* type);
 
 } // namespace codegen
