@@ -41,7 +41,7 @@ class Budget {
     }
 
   private:
-    /// The outermost loops that pay, and call what looks at the budget on cold paths only.
+    /// The outermost loops where it is worthwhile.
     void choose(llvm::Loop& loop, std::vector<llvm::Loop*>& chosen) const {
         if (isWorthwhile(loop))
             chosen.push_back(&loop);
@@ -50,20 +50,20 @@ class Budget {
                 choose(*inner, chosen);
     }
 
+    /// A call that may look at the budget costs a store and a load; each payment that stays in the register saves both, and the
+    /// time that the load waits for the store before.
     bool isWorthwhile(const llvm::Loop& loop) const {
-        constexpr uint64_t kCold = 64;
-        bool pays = false;
+        double payments = 0, calls = 0;
         for (const BasicBlock* block : loop.blocks()) {
-            const bool isCold = frequencies_.getBlockFreq(block).getFrequency() * kCold <
-                                frequencies_.getBlockFreq(loop.getHeader()).getFrequency();
+            const auto often = static_cast<double>(frequencies_.getBlockFreq(block).getFrequency());
             for (const llvm::Instruction& inst : *block) {
                 if (isAccess(inst))
-                    pays |= llvm::isa<llvm::StoreInst>(inst);
-                else if (!isCold && mayAccess(inst))
-                    return false;
+                    payments += llvm::isa<llvm::StoreInst>(inst) ? often : 0;
+                else if (mayAccess(inst))
+                    calls += often;
             }
         }
-        return pays;
+        return payments > 0 && payments >= 2 * calls;
     }
 
     bool isAccess(const llvm::Instruction& inst) const {

@@ -7,6 +7,7 @@
 #include <llvm/IR/PatternMatch.h>
 #include <llvm/Transforms/Utils/Local.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace codegen {
@@ -33,6 +34,12 @@ llvm::PHINode* memberPhi(llvm::PHINode& whole, unsigned index) {
                          block);
     }
     return phi;
+}
+
+/// The routine has not been inlined: two nodes would need a register more than one.
+bool isOnlyReturned(const llvm::PHINode& whole) {
+    return std::all_of(whole.user_begin(), whole.user_end(),
+                       [](const llvm::User* user) { return llvm::isa<llvm::ReturnInst>(user); });
 }
 
 void split(llvm::PHINode& whole) {
@@ -84,7 +91,7 @@ llvm::PreservedAnalyses SplitResults::run(llvm::Function& function, llvm::Functi
     std::vector<llvm::PHINode*> found;
     for (llvm::BasicBlock& block : function)
         for (llvm::PHINode& phi : block.phis())
-            if (phi.getType()->isStructTy()) found.push_back(&phi);
+            if (phi.getType()->isStructTy() && !isOnlyReturned(phi)) found.push_back(&phi);
     for (llvm::PHINode* phi : found)
         split(*phi);
     if (found.empty()) return llvm::PreservedAnalyses::all();
