@@ -11,10 +11,12 @@
 #include <llvm/TargetParser/Host.h>
 #include <llvm/TargetParser/Triple.h>
 
+#include "codegen/budget_loops.h"
 #include "codegen/integral_values.h"
 #include "codegen/module_emitter.h"
 #include "codegen/native_bodies.h"
 #include "codegen/paced_routines.h"
+#include "codegen/peepholes.h"
 
 namespace codegen {
 
@@ -94,8 +96,14 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
         return !function->hasFnAttribute(kPaced) || few.wants(pass, *function);
     });
     llvm::PassBuilder builder(&machine, tuning, std::nullopt, &callbacks);
+    builder.registerPeepholeEPCallback([](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
+        passes.addPass(SplitResults());
+        passes.addPass(FiniteChecks());
+    });
     builder.registerScalarOptimizerLateEPCallback(
         [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) { passes.addPass(IntegralValues()); });
+    builder.registerVectorizerStartEPCallback(
+        [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) { passes.addPass(BudgetLoops()); });
     runO2(module, builder);
 }
 

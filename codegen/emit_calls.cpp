@@ -88,7 +88,7 @@ void RoutineEmitter::nativeCall(const ir::Inst& inst, ir::ValueId id, bool thenS
         continueIfOk(inst, status);
         storedStmt_ = inst.stmt;
     } else {
-        noteStatement(inst);
+        if (!m_.isSelfContained(native)) noteStatement(inst);
         BasicBlock* again = newBlock("native");
         b_.CreateBr(again);
         b_.SetInsertPoint(again);
@@ -102,14 +102,13 @@ void RoutineEmitter::nativeCall(const ir::Inst& inst, ir::ValueId id, bool thenS
 /// the statement is not to be executed again from its start.
 bool RoutineEmitter::callsChecked(const ir::Native& native) const {
     if (routine_.stepping && !inUndo()) return false;
-    return !m_.options().optimise || !isHot() || !m_.options().bodies.contains(native.symbol);
+    return !m_.options().optimise || !isHot() || !m_.isSelfContained(native);
 }
 
 /// Whether the place that is being compiled may be executed often enough to be worth more code: a loop, or a routine so short that
 /// others may call it in theirs.
 bool RoutineEmitter::isHot() const {
-    constexpr size_t kShort = 150;
-    return routine_.insts.size() <= kShort || inLoop_[current_];
+    return isShort(routine_) || inLoop_[current_];
 }
 
 /// One slot for each type is enough: the result is taken out at once.

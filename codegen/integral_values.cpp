@@ -1,13 +1,17 @@
 #include "codegen/integral_values.h"
 
 #include <llvm/ADT/MapVector.h>
-#include <llvm/Analysis/ValueTracking.h>
+#include <llvm/Analysis/LazyValueInfo.h>
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/Instructions.h>
+#include <llvm/Transforms/InstCombine/InstCombine.h>
+#include <llvm/Transforms/Scalar/EarlyCSE.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "codegen/whole_numbers.h"
 
 namespace codegen {
 namespace {
@@ -25,7 +29,8 @@ std::vector<unsigned> choices(const llvm::Instruction& node) {
 
 class Web {
   public:
-    explicit Web(llvm::Function& function) : function_(function), layout_(function.getDataLayout()) {}
+    Web(llvm::Function& function, llvm::FunctionAnalysisManager& analyses)
+        : function_(function), analyses_(analyses) {}
 
     bool run() {
         for (llvm::Instruction& inst : llvm::instructions(function_))
@@ -67,50 +72,56 @@ class Web {
     bool isOneOfWholes(const llvm::Instruction& node) const {
         const std::vector<unsigned> operands = choices(node);
         return std::all_of(operands.begin(), operands.end(),
-                           [&](unsigned i) { return isWhole(node.getOperand(i)); });
+                           [&](unsigned i) { return isWhole(node.getOperand(i), whereUsed(node, i)); });
     }
 
-    /// Bits of the whole numbers that the type holds exactly.
-    static unsigned exactBits(const llvm::Type* type) { return type->isFloatTy() ? 24 : 53; }
+    /// Where the operand takes effect: checks on the way there bound it.
+    static llvm::Instruction* whereUsed(const llvm::Instruction& node, unsigned operand) {
+        const auto* phi = llvm::dyn_cast<llvm::PHINode>(&node);
+        return phi ? phi->getIncomingBlock(operand)->getTerminator() : const_cast<llvm::Instruction*>(&node);
+    }
 
-    bool isWhole(const Value* value) const {
+    bool isWhole(const Value* value, llvm::Instruction* at) const {
         if (contains(value) || llvm::isa<llvm::UndefValue>(value)) return true;
         if (const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(value)) {
             const double number = constant->getValueAPF().convertToDouble();
             return number >= 0 && !std::signbit(number) && number == std::trunc(number) &&
                    number < std::ldexp(1.0, static_cast<int>(exactBits(value->getType())));
         }
-        return source(value) != nullptr;
+        Value* from = convertedWhole(value);
+        return from && bitsOf(from, at) <= exactBits(value->getType());
     }
 
-    /// The number that is converted; null when it may be negative or too large to be kept exactly.
-    Value* source(const Value* value) const {
-        const auto* cast = llvm::dyn_cast<llvm::CastInst>(value);
-        if (!cast || (cast->getOpcode() != llvm::Instruction::SIToFP &&
-                      cast->getOpcode() != llvm::Instruction::UIToFP))
-            return nullptr;
-        Value* from = cast->getOperand(0);
-        if (from->getType()->isVectorTy()) return nullptr;
-        const llvm::KnownBits known = llvm::computeKnownBits(from, layout_);
-        return known.countMaxActiveBits() <= exactBits(value->getType()) ? from : nullptr;
+    /// Bits of a whole number, as many as it has when it may be negative.
+    unsigned bitsOf(Value* whole, llvm::Instruction* at) const {
+        return rangeOfWhole(whole, at, analyses_).getUnsignedMax().getActiveBits();
     }
 
-    /// One width for all: the widest number that comes in.
-    unsigned widest(const llvm::Type* type) const {
-        unsigned bits = 1;
-        for (const auto& [node, made] : nodes_) {
-            if (node->getType() != type) continue;
-            for (const unsigned i : choices(*node)) {
-                const Value* operand = node->getOperand(i);
-                if (const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(operand))
-                    bits = std::max(bits, static_cast<unsigned>(std::ilogb(
-                                              std::max(1.0, constant->getValueAPF().convertToDouble()))) +
-                                              1);
-                else if (const Value* from = source(operand))
-                    bits = std::max(bits, llvm::computeKnownBits(from, layout_).countMaxActiveBits());
+    unsigned bitsOfOperand(const llvm::Instruction& node, unsigned i) const {
+        Value* operand = node.getOperand(i);
+        if (const auto found = bits_.find(operand); found != bits_.end()) return found->second;
+        if (const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(operand))
+            return static_cast<unsigned>(
+                       std::ilogb(std::max(1.0, constant->getValueAPF().convertToDouble()))) +
+                   1;
+        Value* from = convertedWhole(operand);
+        return from ? bitsOf(from, whereUsed(node, i)) : 1;
+    }
+
+    /// The widest number that comes into each node.
+    void measure() {
+        for (const auto& [node, made] : nodes_)
+            bits_[node] = 1;
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (const auto& [node, made] : nodes_) {
+                unsigned& bits = bits_[node];
+                const unsigned before = bits;
+                for (const unsigned i : choices(*node))
+                    bits = std::max(bits, bitsOfOperand(*node, i));
+                changed |= bits != before;
             }
         }
-        return bits;
     }
 
     llvm::IntegerType* integerFor(const llvm::Type* type) const {
@@ -125,12 +136,11 @@ class Web {
         if (const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(value))
             return llvm::ConstantInt::get(type,
                                           static_cast<uint64_t>(constant->getValueAPF().convertToDouble()));
-        return llvm::IRBuilder<>(before).CreateZExtOrTrunc(source(value), type);
+        return llvm::IRBuilder<>(before).CreateZExtOrTrunc(convertedWhole(value), type);
     }
 
     void replace() {
-        const unsigned narrow = widest(llvm::Type::getFloatTy(function_.getContext()));
-        const unsigned wide = widest(llvm::Type::getDoubleTy(function_.getContext()));
+        measure();
         for (auto& [node, made] : nodes_) {
             llvm::IRBuilder<> b(node);
             llvm::IntegerType* type = integerFor(node->getType());
@@ -153,14 +163,13 @@ class Web {
             }
         }
         for (auto& [node, made] : nodes_) {
-            const unsigned bits = node->getType()->isFloatTy() ? narrow : wide;
             llvm::Instruction* after = llvm::isa<llvm::PHINode>(node)
                                            ? &*node->getParent()->getFirstInsertionPt()
                                            : made->getNextNode();
             llvm::IRBuilder<> b(after);
             // What is known of the numbers gets lost in loops; the mask says it.
             Value* bounded =
-                b.CreateAnd(made, llvm::ConstantInt::get(made->getType(), (uint64_t{1} << bits) - 1));
+                b.CreateAnd(made, llvm::ConstantInt::get(made->getType(), (uint64_t{1} << bits_[node]) - 1));
             node->replaceAllUsesWith(b.CreateUIToFP(bounded, node->getType()));
         }
         for (auto& [node, made] : nodes_)
@@ -168,17 +177,42 @@ class Web {
     }
 
     llvm::Function& function_;
-    const llvm::DataLayout& layout_;
+    llvm::FunctionAnalysisManager& analyses_;
+    llvm::DenseMap<Value*, unsigned> bits_;
     llvm::MapVector<llvm::Instruction*, llvm::Instruction*> nodes_; ///< and what replaces them
 };
 
+/// True when something has changed.
+bool simplifyWholes(llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {
+    const llvm::PreservedAnalyses replaced = WholeAfterCheck().run(function, analyses);
+    analyses.invalidate(function, replaced);
+    const llvm::PreservedAnalyses computed = WholeArithmetic().run(function, analyses);
+    if (computed.areAllPreserved()) return !replaced.areAllPreserved();
+    analyses.invalidate(function, computed);
+    analyses.invalidate(function, llvm::InstCombinePass().run(function, analyses));
+    return true;
+}
+
 } // namespace
 
-llvm::PreservedAnalyses IntegralValues::run(llvm::Function& function, llvm::FunctionAnalysisManager&) {
-    if (!Web(function).run()) return llvm::PreservedAnalyses::all();
+llvm::PreservedAnalyses IntegralValues::run(llvm::Function& function,
+                                            llvm::FunctionAnalysisManager& analyses) {
+    constexpr int kMostRounds = 4; // a variable may depend on another one that has become an integer
     llvm::PreservedAnalyses preserved;
     preserved.preserveSet<llvm::CFGAnalyses>();
-    return preserved;
+    llvm::PreservedAnalyses asKnownBefore = llvm::PreservedAnalyses::all();
+    asKnownBefore.abandon<llvm::LazyValueAnalysis>(); // it keeps what it once could not tell
+    analyses.invalidate(function, asKnownBefore);
+    bool changed = simplifyWholes(function, analyses);
+    for (int round = 0; round < kMostRounds && Web(function, analyses).run(); ++round) {
+        changed = true;
+        analyses.invalidate(function, preserved);
+        analyses.invalidate(function, llvm::InstCombinePass().run(function, analyses));
+        analyses.invalidate(function, llvm::EarlyCSEPass().run(function, analyses));
+        analyses.invalidate(function, llvm::InstCombinePass().run(function, analyses));
+        simplifyWholes(function, analyses);
+    }
+    return changed ? llvm::PreservedAnalyses::none() : llvm::PreservedAnalyses::all();
 }
 
 } // namespace codegen

@@ -47,7 +47,7 @@ class LazyProgram : public JitProgram {
     LazyProgram(const ir::Module& module, const CodegenOptions& options)
         : module_(module), options_(options), slots_(module.routines.size()),
           counts_(module.routines.size(), kHotCalls), prepared_(module.routines.size(), !options.prepare),
-          settingTaskFrame_(std::make_shared<const std::vector<bool>>(routinesSettingTaskFrame(module))),
+          settingTaskFrame_(std::make_shared<const std::vector<bool>>(routinesSettingTaskFrame(module, {}))),
           quality_(module.routines.size(), Quality::None) {
         options_.debugInfo = false; // it would take longer than the code
     }

@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "codegen/budget_loops.h"
 #include "codegen/routine_emitter.h"
 #include "codegen/task_frame.h"
 
@@ -92,7 +93,8 @@ ModuleEmitter::ModuleEmitter(const ir::Module& module, const CodegenOptions& opt
       routineDescs_(module.routines.size()) {
     if (part != nullptr) settingTaskFrame_ = part->settingTaskFrame;
     if (!settingTaskFrame_)
-        settingTaskFrame_ = std::make_shared<const std::vector<bool>>(routinesSettingTaskFrame(module));
+        settingTaskFrame_ = std::make_shared<const std::vector<bool>>(
+            routinesSettingTaskFrame(module, options.optimise ? options.bodies : NativeBodies()));
     if (part == nullptr) return;
     for (const uint32_t index : part->routines)
         defined_[index] = true;
@@ -224,6 +226,10 @@ bool ModuleEmitter::isShared(const ir::Global& global) const {
     return !part_ || global.kind != ir::GlobalKind::Const || !global.displayName.empty();
 }
 
+bool ModuleEmitter::isSelfContained(const ir::Native& native) const {
+    return options_.bodies.contains(native.symbol);
+}
+
 llvm::Function* ModuleEmitter::nativeFunction(uint32_t index) {
     llvm::Function*& function = natives_[index];
     if (function) return function;
@@ -274,6 +280,7 @@ llvm::Function* ModuleEmitter::routine(uint32_t index) {
     function->setCallingConv(llvm::CallingConv::Fast);
     function->setDoesNotThrow();
     function->addFnAttr(llvm::Attribute::MustProgress);
+    function->addFnAttr(kTakesTask);
     if (routine.insts.size() > kLargestInlined) function->addFnAttr(llvm::Attribute::NoInline);
     function->addParamAttr(0, llvm::Attribute::NoAlias);
     function->addParamAttr(0, llvm::Attribute::NonNull);

@@ -101,6 +101,8 @@ class ModuleEmitter {
     /// `absent`: by argument of the native (the first is the task); it is 0 or null and not passed.
     llvm::Function* checkedNative(uint32_t index, bool thenSafepoint, const std::vector<bool>& absent);
     bool setsTaskFrame(uint32_t routine) const { return (*settingTaskFrame_)[routine]; }
+    /// Its body is known and looks at no frame record (codegen/bodies).
+    bool isSelfContained(const ir::Native& native) const;
     llvm::GlobalVariable* global(uint32_t index);
     llvm::GlobalVariable* typeDesc(uint32_t index);
     llvm::GlobalVariable* routineDesc(uint32_t index);

@@ -47,7 +47,7 @@ std::vector<Part> divide(const ir::Module& module) {
         size += more > kLargeRoutine ? kLargestPart : more;
         current = routine.moduleName;
     }
-    const auto setting = std::make_shared<const std::vector<bool>>(routinesSettingTaskFrame(module));
+    const auto setting = std::make_shared<const std::vector<bool>>(routinesSettingTaskFrame(module, {}));
     for (Part& part : parts) {
         part.copies = copiesFor(module, part.routines);
         part.settingTaskFrame = setting;

@@ -63,7 +63,8 @@ void RoutineEmitter::countCall() {
 
 bool RoutineEmitter::needsFrame(const ir::Inst& inst) const {
     if (inst.op == ir::Op::Call) return true;
-    return inst.op == ir::Op::CallNative && ir::mayRaise(module_, inst);
+    return inst.op == ir::Op::CallNative && ir::mayRaise(module_, inst) &&
+           (!m_.isSelfContained(module_.natives[inst.index]) || callsChecked(module_.natives[inst.index]));
 }
 
 void RoutineEmitter::analyse() {
@@ -148,6 +149,7 @@ void RoutineEmitter::findFrameBlock() {
     }
     for (ir::BlockId b : cfg_.order) {
         bool calls = false;
+        current_ = b;
         for (ir::ValueId id : routine_.blocks[b].insts)
             calls = calls || needsFrame(routine_.insts[id]);
         if (!calls) continue;
@@ -155,6 +157,7 @@ void RoutineEmitter::findFrameBlock() {
         while (!cfg_.dominates(frameBlock_, b))
             frameBlock_ = cfg_.idom[frameBlock_];
     }
+    current_ = 0;
     if (frameBlock_ == ir::kNone) return;
     while (frameBlock_ != 0 && inLoop_[frameBlock_])
         frameBlock_ = cfg_.idom[frameBlock_];

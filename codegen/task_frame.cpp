@@ -3,26 +3,34 @@
 namespace codegen {
 namespace {
 
-bool callsNatives(const ir::Module& module, const ir::Routine& routine) {
+bool callsNatives(const ir::Module& module, const ir::Routine& routine, const NativeBodies& inlined) {
     if (routine.stepping || routine.errorHandler != ir::kNone || routine.undoHandler != ir::kNone ||
         routine.isDetachedHandler)
         return true;
-    for (const ir::Inst& inst : routine.insts)
-        if (inst.op == ir::Op::CallNative && module.natives[inst.index].nativeClass != ir::NativeClass::Const)
-            return true;
+    for (const ir::Inst& inst : routine.insts) {
+        if (inst.op != ir::Op::CallNative) continue;
+        const ir::Native& native = module.natives[inst.index];
+        if (native.nativeClass == ir::NativeClass::Const) continue;
+        if (!isShort(routine) || !inlined.contains(native.symbol)) return true;
+    }
     return false;
 }
 
 } // namespace
 
-std::vector<bool> routinesSettingTaskFrame(const ir::Module& module) {
+bool isShort(const ir::Routine& routine) {
+    constexpr size_t kMost = 150;
+    return routine.insts.size() <= kMost;
+}
+
+std::vector<bool> routinesSettingTaskFrame(const ir::Module& module, const NativeBodies& inlined) {
     std::vector<std::vector<uint32_t>> callers(module.routines.size());
     std::vector<bool> result(module.routines.size(), false);
     std::vector<uint32_t> work;
     for (uint32_t i = 0; i < module.routines.size(); ++i) {
         for (const ir::Inst& inst : module.routines[i].insts)
             if (inst.op == ir::Op::Call) callers[inst.index].push_back(i);
-        if (!callsNatives(module, module.routines[i])) continue;
+        if (!callsNatives(module, module.routines[i], inlined)) continue;
         result[i] = true;
         work.push_back(i);
     }

@@ -166,7 +166,12 @@ RoutineLowering::Place RoutineLowering::reference(const Expr& outer) {
     Place p;
     p.type = info(expr).type;
     if (p.type.isArray() && !isOfKnownSize(expr, p.type)) return arrayTemporary(expr);
-    p.addr = tempAddr(program_.irType(p.type));
+    const ir::TypeId type = program_.irType(p.type);
+    if (info(expr).constant && !program_.module().isScalar(type)) {
+        p.addr = constantAddress(expr, p.type);
+        return p;
+    }
+    p.addr = tempAddr(type);
     lowerInto(expr, p.type, p.addr);
     return p;
 }

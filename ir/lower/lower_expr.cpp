@@ -344,19 +344,34 @@ void RoutineLowering::lowerInto(const Expr& outer, const sema::DataType& type, V
     case NodeKind::Unary:
     case NodeKind::Binary:
         if (isVectorOp(expr)) return lowerVectorInto(expr, dst);
-        {
-            const auto& binary = as<BinaryExpr>(expr); // string +
-            const ValueId a = keptUntil(*binary.right, *binary.left, type, lowerAddr(*binary.left));
-            const ValueId b = lowerAddr(*binary.right);
-            b_.callNative(program_.support(Support::rt_strConcat), {dst, a, b});
-        }
-        return;
+        return joinInto(as<BinaryExpr>(expr), type, dst, ir::kNone);
     default: {
         const Place source = place(expr);
         if (type.isArray()) checkSameSize({dst, type, {}}, source);
         b_.copy(irType, dst, source.addr);
     }
     }
+}
+
+bool RoutineLowering::isJoin(const Expr& outer) const {
+    const Expr& expr = unparen(outer);
+    return expr.kind == NodeKind::Binary && !info(expr).constant && !info(expr).type.isArray() &&
+           info(expr).type.type->base()->kind == TypeKind::String;
+}
+
+/// Strings joined by +. `a + b + c` grows in one temporary string (`buffer`, once there is one); the native writes the
+/// result last, and it may be one of the operands.
+void RoutineLowering::joinInto(const BinaryExpr& expr, const sema::DataType& type, ValueId dst,
+                               ValueId buffer) {
+    ValueId a = buffer;
+    if (isJoin(*expr.left)) {
+        if (a == ir::kNone) a = tempAddr(program_.irType(type));
+        joinInto(as<BinaryExpr>(unparen(*expr.left)), type, a, a);
+    } else {
+        a = keptUntil(*expr.right, *expr.left, type, lowerAddr(*expr.left));
+    }
+    const ValueId b = lowerAddr(*expr.right);
+    b_.callNative(program_.support(Support::rt_strConcat), {dst, a, b});
 }
 
 } // namespace rapid::lower

@@ -195,7 +195,7 @@ void RoutineLowering::lowerAssign(const AssignStmt& stmt) {
     const Expr& value = unparen(*stmt.value);
     if (target.type.isArray() && (value.kind == NodeKind::Name || !isOfKnownSize(value, target.type)))
         return assignArray(value, target, *stmt.target);
-    if (mayAlias(value, *stmt.target) || mayFailHalfway(value)) {
+    if (!isJoin(value) && (mayAlias(value, *stmt.target) || mayFailHalfway(value))) {
         const ValueId buffer = tempAddr(program_.irType(target.type));
         lowerInto(value, target.type, buffer);
         b_.copy(program_.irType(target.type), target.addr, buffer);

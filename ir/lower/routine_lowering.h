@@ -176,6 +176,8 @@ class RoutineLowering {
     ValueId lowerValueAs(const Expr& expr, const sema::Type* wanted);
     ValueId lowerAddr(const Expr& expr); ///< aggregate or handle: address of storage or temporary
     void lowerInto(const Expr& expr, const sema::DataType& type, ValueId dst);
+    bool isJoin(const Expr& expr) const;
+    void joinInto(const syntax::BinaryExpr& expr, const sema::DataType& type, ValueId dst, ValueId buffer);
     ValueId lowerBool(const Expr& expr);
     ValueId keptUntil(const Expr& later, const Expr& expr, const sema::DataType& type, ValueId address);
     /// Of constant data with the value.

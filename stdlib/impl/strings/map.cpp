@@ -14,7 +14,8 @@ bool isAsciiByte(char byte) {
     return static_cast<uint8_t>(byte) < 0x80;
 }
 
-/// Where positions are offsets. The first place of a character in `from` counts.
+/// Where positions are offsets. The first place of a character in `from` counts. `result` may be one of the texts: the
+/// table holds all that is needed of the others.
 void mapAscii(String& result, std::string_view text, std::string_view from, std::string_view to) {
     uint8_t table[128];
     for (size_t i = 0; i < sizeof table; ++i)
@@ -26,24 +27,41 @@ void mapAscii(String& result, std::string_view text, std::string_view from, std:
     result.length = static_cast<uint32_t>(text.size());
 }
 
-} // namespace
+/// A text without characters above 0x7F, as most are: STR_LOWER and STR_UPPER have some, which do not occur in it. False: the
+/// result would be too long, or FromMap and ToMap differ in their number of characters.
+bool mapAsciiText(String& result, std::string_view text, std::string_view from, std::string_view to) {
+    constexpr uint8_t kItself = 0xFF;
+    uint8_t offsets[128]; // in `to`
+    std::memset(offsets, kItself, sizeof offsets);
+    size_t offset = 0;
+    for (size_t i = 0; i < from.size();) {
+        if (offset >= to.size()) return false;
+        uint8_t& known = offsets[static_cast<uint8_t>(from[i]) & 0x7F];
+        if (isAsciiByte(from[i]) && known == kItself) known = static_cast<uint8_t>(offset);
+        i += lib::characterSize(lib::rest(from, i));
+        offset += lib::characterSize(lib::rest(to, offset));
+    }
+    if (offset != to.size()) return false;
+    String mapped; // the result may be one of the arguments
+    for (const char character : text) {
+        const size_t place = offsets[static_cast<uint8_t>(character)];
+        const std::string_view next =
+            place == kItself ? std::string_view(&character, 1) : lib::first(lib::rest(to, place));
+        if (mapped.length + next.size() > sizeof mapped.bytes) return false;
+        for (const char byte : next)
+            mapped.bytes[mapped.length++] = byte;
+    }
+    result = mapped;
+    return true;
+}
 
-extern "C" {
-
-Status rt_StrMap(TaskCore* task, String* result, const String* Str, const String* FromMap,
-                 const String* ToMap) {
-    const std::string_view text = Str->view();
-    const std::string_view from = FromMap->view();
-    const std::string_view to = ToMap->view();
+/// Any texts.
+[[gnu::cold, gnu::noinline]] Status mapMixed(TaskCore* task, String& result, std::string_view text,
+                                             std::string_view from, std::string_view to) {
     if (lib::characterCount(from) != lib::characterCount(to))
         return lib::fail(task, err::ERR_ARGVALERR,
                          "FromMap and ToMap must have the same number of characters");
     String mapped; // the result may be one of the arguments
-    if (lib::isAscii(text) && lib::isAscii(from) && lib::isAscii(to)) {
-        mapAscii(mapped, text, from, to);
-        *result = mapped;
-        return kOk;
-    }
     const lib::Characters old(from);
     const lib::Characters replacements(to);
     const lib::Characters characters(text);
@@ -61,7 +79,23 @@ Status rt_StrMap(TaskCore* task, String* result, const String* Str, const String
         std::memcpy(mapped.bytes + mapped.length, next.data(), next.size());
         mapped.length += static_cast<uint32_t>(next.size());
     }
-    *result = mapped;
+    result = mapped;
+    return kOk;
+}
+
+} // namespace
+
+extern "C" {
+
+Status rt_StrMap(TaskCore* task, String* result, const String* Str, const String* FromMap,
+                 const String* ToMap) {
+    const std::string_view text = Str->view();
+    const std::string_view from = FromMap->view();
+    const std::string_view to = ToMap->view();
+    if (!lib::isAscii(text)) return mapMixed(task, *result, text, from, to);
+    if (!lib::isAscii(from) || !lib::isAscii(to) || from.size() != to.size())
+        return mapAsciiText(*result, text, from, to) ? kOk : mapMixed(task, *result, text, from, to);
+    mapAscii(*result, text, from, to);
     return kOk;
 }
 }

@@ -28,13 +28,6 @@ Status badPosition(TaskCore* task, float position, size_t length) {
                          static_cast<double>(length));
 }
 
-/// Whether one of the bytes is `wanted`.
-bool hasByte(std::string_view bytes, char wanted) {
-    for (const char byte : bytes)
-        if (byte == wanted) return true;
-    return false;
-}
-
 /// A number that grows with the rank of a character under an ordering: its first place in it; characters not listed come
 /// after, by code point.
 size_t rankOf(std::string_view character, std::string_view order) {
@@ -52,29 +45,69 @@ float offsetToPosition(size_t offset, size_t length) {
     return static_cast<float>(offset < length ? offset + 1 : length + 1);
 }
 
-/// StrFind where positions are offsets.
-Status findAscii(TaskCore* task, float* result, const String& text, float from, const String& set,
-                 bool notInSet) {
-    const std::string_view bytes = text.view();
+/// StrMemb with characters above 0x7F ahead of the position or in the set, or with a position that is wrong.
+[[gnu::cold, gnu::noinline]] Status memberOfMixed(TaskCore* task, bool* result, const String& string,
+                                                  float at, const String& set) {
+    const lib::Characters text(string.view());
     size_t position = 0;
-    if (!readPosition(from, 1, std::max<size_t>(bytes.size(), 1), position))
-        return badPosition(task, from, bytes.size());
-    bool listed[128] = {};
-    for (const char character : set.view())
-        listed[static_cast<uint8_t>(character)] = true;
-    size_t offset = position - 1;
-    while (offset < bytes.size() && listed[static_cast<uint8_t>(bytes[offset])] == notInSet)
-        ++offset;
-    *result = offsetToPosition(offset, bytes.size());
+    if (!readPosition(at, 1, text.size(), position)) return badPosition(task, at, text.size());
+    *result = lib::Characters(set.view()).contains(text[position - 1]);
     return kOk;
+}
+
+/// StrFind with characters above 0x7F, or with a position that is wrong.
+[[gnu::cold, gnu::noinline]] Status findInMixed(TaskCore* task, float* result, const String& string,
+                                                float from, const String& ofSet, bool notInSet) {
+    const lib::Characters text(string.view());
+    const lib::Characters set(ofSet.view());
+    size_t position = 0;
+    // Nothing can be found in an empty string, but looking there is not a mistake.
+    if (!readPosition(from, 1, std::max<size_t>(text.size(), 1), position))
+        return badPosition(task, from, text.size());
+    while (position <= text.size() && set.contains(text[position - 1]) == notInSet)
+        ++position;
+    *result = static_cast<float>(std::min(position, text.size() + 1));
+    return kOk;
+}
+
+/// StrMatch in a text with characters above 0x7F.
+[[gnu::cold, gnu::noinline]] Status matchInMixed(TaskCore* task, float* result, const String& string,
+                                                 float from, const String& pattern) {
+    const std::string_view bytes = string.view();
+    const lib::Characters text(bytes);
+    size_t position = 0;
+    if (!readPosition(from, 1, std::max<size_t>(text.size(), 1), position))
+        return badPosition(task, from, text.size());
+    for (; position <= text.size(); ++position) {
+        const size_t offset = static_cast<size_t>(text[position - 1].data() - bytes.data());
+        if (lib::rest(bytes, offset).starts_with(pattern.view())) break;
+    }
+    *result = static_cast<float>(std::min(position, text.size() + 1));
+    return kOk;
+}
+
+/// Where `pattern` begins in `text` from `offset` on; the size of `text`: nowhere.
+size_t findText(std::string_view text, size_t offset, std::string_view pattern) {
+    if (pattern.empty()) return offset;
+    while (offset + pattern.size() <= text.size()) {
+        const void* found =
+            std::memchr(text.data() + offset, pattern[0], text.size() - pattern.size() + 1 - offset);
+        if (!found) break;
+        offset = static_cast<size_t>(static_cast<const char*>(found) - text.data());
+        if (std::memcmp(text.data() + offset, pattern.data(), pattern.size()) == 0) return offset;
+        ++offset;
+    }
+    return text.size();
 }
 
 } // namespace
 
 extern "C" {
 
-Status rt_StrLen(TaskCore*, float* result, const String* Str) {
-    *result = static_cast<float>(lib::characterCount(Str->view()));
+[[gnu::always_inline]] Status rt_StrLen(TaskCore*, float* result, const String* Str) {
+    const size_t count = lib::characterCount(Str->view());
+    __builtin_assume(count <= sizeof Str->bytes); // loops up to the length count with integers
+    *result = static_cast<float>(count);
     return kOk;
 }
 
@@ -83,7 +116,8 @@ Status rt_StrSize(TaskCore*, float* result, const String* Str) {
     return kOk;
 }
 
-Status rt_StrPart(TaskCore* task, String* result, const String* Str, float ChPos, float Len) {
+[[gnu::always_inline]] Status rt_StrPart(TaskCore* task, String* result, const String* Str, float ChPos,
+                                         float Len) {
     const std::string_view bytes = Str->view();
     const size_t length = lib::characterCount(bytes);
     size_t first = 0;
@@ -102,52 +136,40 @@ Status rt_StrPart(TaskCore* task, String* result, const String* Str, float ChPos
     return kOk;
 }
 
-Status rt_StrMemb(TaskCore* task, bool* result, const String* Str, float ChPos, const String* Set) {
+[[gnu::always_inline]] Status rt_StrMemb(TaskCore* task, bool* result, const String* Str, float ChPos,
+                                         const String* Set) {
     size_t position = 0;
-    if (lib::isAscii(Str->view())) {
-        if (!readPosition(ChPos, 1, Str->length, position)) return badPosition(task, ChPos, Str->length);
-        *result = hasByte(Set->view(), Str->bytes[position - 1]);
-        return kOk;
-    }
-    const lib::Characters text(Str->view());
-    if (!readPosition(ChPos, 1, text.size(), position)) return badPosition(task, ChPos, text.size());
-    *result = lib::Characters(Set->view()).contains(text[position - 1]);
+    const lib::AsciiSet set(Set->view());
+    // What follows the position does not matter.
+    if (!readPosition(ChPos, 1, Str->length, position) || !set.isComplete() ||
+        !lib::isAscii({Str->bytes, position}))
+        return memberOfMixed(task, result, *Str, ChPos, *Set);
+    *result = set.contains(Str->bytes[position - 1]);
     return kOk;
 }
 
-Status rt_StrFind(TaskCore* task, float* result, const String* Str, float ChPos, const String* Set,
-                  bool NotInSet) {
-    if (lib::isAscii(Str->view()) && lib::isAscii(Set->view()))
-        return findAscii(task, result, *Str, ChPos, *Set, NotInSet);
-    const lib::Characters text(Str->view());
-    const lib::Characters set(Set->view());
+[[gnu::always_inline]] Status rt_StrFind(TaskCore* task, float* result, const String* Str, float ChPos,
+                                         const String* Set, bool NotInSet) {
+    const std::string_view bytes = Str->view();
+    const lib::AsciiSet set(Set->view());
     size_t position = 0;
-    // Nothing can be found in an empty string, but looking there is no mistake.
-    if (!readPosition(ChPos, 1, std::max<size_t>(text.size(), 1), position))
-        return badPosition(task, ChPos, text.size());
-    while (position <= text.size() && set.contains(text[position - 1]) == NotInSet)
-        ++position;
-    *result = static_cast<float>(std::min(position, text.size() + 1));
+    if (!readPosition(ChPos, 1, std::max<size_t>(bytes.size(), 1), position) || !set.isComplete() ||
+        !lib::isAscii(bytes))
+        return findInMixed(task, result, *Str, ChPos, *Set, NotInSet);
+    size_t offset = position - 1;
+    while (offset < bytes.size() && set.contains(bytes[offset]) == NotInSet)
+        ++offset;
+    *result = offsetToPosition(offset, bytes.size());
     return kOk;
 }
 
 Status rt_StrMatch(TaskCore* task, float* result, const String* Str, float ChPos, const String* Pattern) {
     const std::string_view bytes = Str->view();
     size_t position = 0;
-    if (lib::isAscii(bytes)) {
-        if (!readPosition(ChPos, 1, std::max<size_t>(bytes.size(), 1), position))
-            return badPosition(task, ChPos, bytes.size());
-        *result = offsetToPosition(bytes.find(Pattern->view(), position - 1), bytes.size());
-        return kOk;
-    }
-    const lib::Characters text(bytes);
-    if (!readPosition(ChPos, 1, std::max<size_t>(text.size(), 1), position))
-        return badPosition(task, ChPos, text.size());
-    for (; position <= text.size(); ++position) {
-        const size_t offset = static_cast<size_t>(text[position - 1].data() - bytes.data());
-        if (lib::rest(bytes, offset).starts_with(Pattern->view())) break;
-    }
-    *result = static_cast<float>(std::min(position, text.size() + 1));
+    if (!lib::isAscii(bytes)) return matchInMixed(task, result, *Str, ChPos, *Pattern);
+    if (!readPosition(ChPos, 1, std::max<size_t>(bytes.size(), 1), position))
+        return badPosition(task, ChPos, bytes.size());
+    *result = offsetToPosition(findText(bytes, position - 1, Pattern->view()), bytes.size());
     return kOk;
 }
 

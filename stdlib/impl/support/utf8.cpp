@@ -21,21 +21,7 @@ size_t longCharacterSize(std::string_view text) {
     return size;
 }
 
-bool isAscii(std::string_view text) {
-    uint64_t seen = 0;
-    size_t i = 0;
-    for (; i + 8 <= text.size(); i += 8) {
-        uint64_t word = 0;
-        std::memcpy(&word, text.data() + i, 8);
-        seen |= word;
-    }
-    for (; i < text.size(); ++i)
-        seen |= byteAt(text, i);
-    return (seen & 0x8080808080808080u) == 0;
-}
-
-size_t characterCount(std::string_view text) {
-    if (isAscii(text)) return text.size();
+size_t mixedCharacterCount(std::string_view text) {
     size_t count = 0;
     for (; !text.empty(); text.remove_prefix(characterSize(text)))
         ++count;

@@ -5,6 +5,7 @@
 
 #include "runtime/abi/rt_abi.h"
 
+#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -19,7 +20,11 @@ size_t longCharacterSize(std::string_view text);
 /// Bytes of the character that `text` begins with; 0 for an empty text.
 inline size_t characterSize(std::string_view text) {
     if (text.empty()) return 0;
-    return static_cast<uint8_t>(text[0]) < 0x80 ? 1 : longCharacterSize(text);
+    const auto lead = static_cast<uint8_t>(text[0]);
+    if (lead < 0x80) return 1;
+    if (lead >= 0xC2 && lead < 0xE0 && text.size() > 1 && (static_cast<uint8_t>(text[1]) & 0xC0) == 0x80)
+        return 2; // letters of European languages
+    return longCharacterSize(text);
 }
 /// The first character of a text that is not empty.
 inline std::string_view first(std::string_view text) {
@@ -33,9 +38,52 @@ inline bool same(std::string_view a, std::string_view b) {
     return true;
 }
 /// True when every byte is a character of its own (no byte above 0x7F): positions are offsets then.
-bool isAscii(std::string_view text);
+inline bool isAscii(std::string_view text) {
+    constexpr uint64_t kHighBits = 0x8080808080808080u;
+    const auto load = [&text](auto word, size_t offset) {
+        std::memcpy(&word, text.data() + offset, sizeof word);
+        return uint64_t{word};
+    };
+    const size_t size = text.size();
+    if (size >= 8) {
+        uint64_t seen = load(uint64_t{}, size - 8); // the last word overlaps the one before
+#pragma clang loop vectorize(disable)               // at most nine rounds
+        for (size_t i = 0; i + 8 < size; i += 8)
+            seen |= load(uint64_t{}, i);
+        return (seen & kHighBits) == 0;
+    }
+    if (size >= 4) return ((load(uint32_t{}, 0) | load(uint32_t{}, size - 4)) & kHighBits) == 0;
+    if (size >= 2) return ((load(uint16_t{}, 0) | load(uint16_t{}, size - 2)) & kHighBits) == 0;
+    return size == 0 || static_cast<uint8_t>(text[0]) < 0x80;
+}
+/// Number of characters of a text with bytes above 0x7F.
+[[gnu::cold, gnu::noinline]] size_t mixedCharacterCount(std::string_view text);
 /// Number of characters.
-size_t characterCount(std::string_view text);
+inline size_t characterCount(std::string_view text) {
+    return isAscii(text) ? text.size() : mixedCharacterCount(text);
+}
+/// A set of characters up to 0x7F: two words of bits, which programs keep in registers, or know when they are compiled.
+class AsciiSet {
+  public:
+    explicit AsciiSet(std::string_view characters) {
+        for (const char character : characters) {
+            const auto code = static_cast<uint8_t>(character);
+            (code & 0x40 ? high_ : low_) |= uint64_t{1} << (code & 0x3F);
+            seen_ |= code;
+        }
+    }
+    /// False: the text has characters above 0x7F; contains() must not be asked.
+    bool isComplete() const { return seen_ < 0x80; }
+    bool contains(char character) const {
+        const auto code = static_cast<uint8_t>(character);
+        return ((code & 0x40 ? high_ : low_) >> (code & 0x3F) & 1) != 0;
+    }
+
+  private:
+    uint64_t low_ = 0;
+    uint64_t high_ = 0;
+    uint8_t seen_ = 0;
+};
 /// Bytes of the first `count` characters.
 size_t bytesOf(std::string_view text, size_t count);
 /// UTF-8 of a code point up to 0x10FFFF.

@@ -47,17 +47,17 @@ bool sameValue(const char* a, const char* b, const TypeDesc& type) {
 
 extern "C" {
 
-Status rt_strConcat(TaskCore* task, String* result, const String* a, const String* b) {
-    String joined; // result may be a or b
-    const size_t size = size_t{a->length} + b->length;
-    if (size > sizeof joined.bytes)
+/// The result may be one of the operands; nothing is written when it does not fit.
+[[gnu::always_inline]] Status rt_strConcat(TaskCore* task, String* result, const String* a, const String* b) {
+    const size_t front = a->length;
+    const size_t size = front + b->length;
+    if (size > sizeof result->bytes)
         return lib::failWith(task, err::ERR_STRTOOLNG,
                              "the joined string has {} bytes; a string holds at most 80",
                              static_cast<double>(size));
-    std::memcpy(joined.bytes, a->bytes, a->length);
-    std::memcpy(joined.bytes + a->length, b->bytes, b->length);
-    joined.length = static_cast<uint32_t>(size);
-    *result = joined;
+    std::memmove(result->bytes + front, b->bytes, size - front);
+    if (result != a) std::memcpy(result->bytes, a->bytes, front);
+    result->length = static_cast<uint32_t>(size);
     return kOk;
 }
 

@@ -1,0 +1,240 @@
+#include "codegen/whole_numbers.h"
+
+#include <llvm/ADT/APSInt.h>
+#include <llvm/Analysis/LazyValueInfo.h>
+#include <llvm/Analysis/ScalarEvolution.h>
+#include <llvm/Analysis/ValueTracking.h>
+#include <llvm/IR/Dominators.h>
+#include <llvm/IR/IRBuilder.h>
+#include <llvm/IR/InstIterator.h>
+#include <llvm/IR/Instructions.h>
+#include <llvm/IR/PatternMatch.h>
+#include <llvm/Transforms/Utils/Local.h>
+
+#include <optional>
+#include <vector>
+
+namespace codegen {
+namespace {
+
+using llvm::Value;
+using namespace llvm::PatternMatch;
+
+/// Whether the whole number is never 0 when the branch is taken.
+bool isNeverZero(Value* whole, llvm::BranchInst& branch, llvm::LazyValueInfo& ranges) {
+    const llvm::ConstantRange range =
+        ranges.getConstantRangeOnEdge(whole, branch.getParent(), branch.getSuccessor(0), &branch);
+    return !range.contains(llvm::APInt::getZero(range.getBitWidth()));
+}
+
+/// Computes with integers what floating-point instructions compute exactly.
+class Wholes {
+  public:
+    Wholes(llvm::Function& function, llvm::FunctionAnalysisManager& analyses)
+        : function_(function), analyses_(analyses) {}
+
+    bool run() {
+        std::vector<llvm::Instruction*> found;
+        for (llvm::Instruction& inst : llvm::instructions(function_))
+            if (!inst.getType()->isVectorTy() && isCandidate(inst)) found.push_back(&inst);
+        bool changed = false;
+        for (llvm::Instruction* inst : found) {
+            Value* made = replacement(*inst);
+            if (!made) continue;
+            inst->replaceAllUsesWith(made);
+            changed = true;
+        }
+        for (llvm::Instruction* inst : found)
+            if (inst->use_empty()) inst->eraseFromParent();
+        return changed;
+    }
+
+  private:
+    /// A whole number as a signed integer of kWide bits, and its bounds.
+    struct Whole {
+        Value* value = nullptr; ///< as converted; null: a constant
+        bool isSigned = true;
+        llvm::ConstantRange range{kWide, true};
+    };
+    static constexpr unsigned kWide = 128; // room for a product
+
+    static bool isCandidate(const llvm::Instruction& inst) {
+        switch (inst.getOpcode()) {
+        case llvm::Instruction::FAdd:
+        case llvm::Instruction::FSub:
+        case llvm::Instruction::FMul:
+        case llvm::Instruction::FCmp:
+            return convertedWhole(inst.getOperand(0)) || convertedWhole(inst.getOperand(1));
+        case llvm::Instruction::FPToSI: return convertedWhole(inst.getOperand(0));
+        default: return false;
+        }
+    }
+
+    std::optional<Whole> whole(Value* value, llvm::Instruction& at) {
+        Whole result;
+        if (const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(value)) {
+            llvm::APSInt number(kWide, /*isUnsigned=*/false);
+            bool isExact = false;
+            const llvm::APFloat& given = constant->getValueAPF();
+            if (given.isNegZero() ||
+                given.convertToInteger(number, llvm::APFloat::rmTowardZero, &isExact) != llvm::APFloat::opOK)
+                return std::nullopt;
+            result.range = llvm::ConstantRange(number);
+        } else if (Value* converted = convertedWhole(value)) {
+            result.value = converted;
+            result.isSigned = llvm::isa<llvm::SIToFPInst>(value);
+            const llvm::ConstantRange known = rangeOfWhole(converted, &at, analyses_);
+            result.range = result.isSigned ? known.signExtend(kWide) : known.zeroExtend(kWide);
+        } else {
+            return std::nullopt;
+        }
+        if (!fits(result.range, exactBits(value->getType()) + 1)) return std::nullopt;
+        return result;
+    }
+
+    static bool fits(const llvm::ConstantRange& range, unsigned bits) {
+        return !range.isEmptySet() && range.getSignedMin().isSignedIntN(bits) &&
+               range.getSignedMax().isSignedIntN(bits);
+    }
+
+    Value* replacement(llvm::Instruction& inst) {
+        const auto a = whole(inst.getOperand(0), inst);
+        if (!a) return nullptr;
+        llvm::IRBuilder<> b(&inst);
+        if (llvm::isa<llvm::FPToSIInst>(inst)) {
+            auto* type = llvm::cast<llvm::IntegerType>(inst.getType());
+            return fits(a->range, type->getBitWidth()) ? integer(b, *a, type) : nullptr;
+        }
+        const auto c = whole(inst.getOperand(1), inst);
+        if (!c) return nullptr;
+        auto* type = b.getIntNTy(inst.getOperand(0)->getType()->isFloatTy() ? 32 : 64);
+        if (const auto* compare = llvm::dyn_cast<llvm::FCmpInst>(&inst)) {
+            const auto predicate = integerPredicate(compare->getPredicate());
+            if (predicate == llvm::CmpInst::BAD_ICMP_PREDICATE) return nullptr;
+            return b.CreateICmp(predicate, integer(b, *a, type), integer(b, *c, type));
+        }
+        const auto operation = static_cast<llvm::Instruction::BinaryOps>(
+            inst.getOpcode() == llvm::Instruction::FAdd   ? llvm::Instruction::Add
+            : inst.getOpcode() == llvm::Instruction::FSub ? llvm::Instruction::Sub
+                                                          : llvm::Instruction::Mul);
+        if (operation == llvm::Instruction::Mul && mayGiveMinusZero(a->range, c->range)) return nullptr;
+        if (!fits(a->range.binaryOp(operation, c->range), exactBits(inst.getType()) + 1)) return nullptr;
+        auto* result = b.CreateBinOp(operation, integer(b, *a, type), integer(b, *c, type));
+        if (auto* made = llvm::dyn_cast<llvm::BinaryOperator>(result)) made->setHasNoSignedWrap();
+        return b.CreateSIToFP(result, inst.getType());
+    }
+
+    static bool mayGiveMinusZero(const llvm::ConstantRange& a, const llvm::ConstantRange& b) {
+        const llvm::APInt zero = llvm::APInt::getZero(kWide);
+        return (a.contains(zero) && b.getSignedMin().isNegative()) ||
+               (b.contains(zero) && a.getSignedMin().isNegative());
+    }
+
+    static Value* integer(llvm::IRBuilder<>& b, const Whole& whole, llvm::IntegerType* type) {
+        if (!whole.value)
+            return llvm::ConstantInt::get(type, whole.range.getSingleElement()->trunc(type->getBitWidth()));
+        return whole.isSigned ? b.CreateSExtOrTrunc(whole.value, type)
+                              : b.CreateZExtOrTrunc(whole.value, type);
+    }
+
+    /// Neither side is NaN.
+    static llvm::CmpInst::Predicate integerPredicate(llvm::FCmpInst::Predicate predicate) {
+        switch (predicate) {
+        case llvm::CmpInst::FCMP_OEQ:
+        case llvm::CmpInst::FCMP_UEQ: return llvm::CmpInst::ICMP_EQ;
+        case llvm::CmpInst::FCMP_ONE:
+        case llvm::CmpInst::FCMP_UNE: return llvm::CmpInst::ICMP_NE;
+        case llvm::CmpInst::FCMP_OLT:
+        case llvm::CmpInst::FCMP_ULT: return llvm::CmpInst::ICMP_SLT;
+        case llvm::CmpInst::FCMP_OLE:
+        case llvm::CmpInst::FCMP_ULE: return llvm::CmpInst::ICMP_SLE;
+        case llvm::CmpInst::FCMP_OGT:
+        case llvm::CmpInst::FCMP_UGT: return llvm::CmpInst::ICMP_SGT;
+        case llvm::CmpInst::FCMP_OGE:
+        case llvm::CmpInst::FCMP_UGE: return llvm::CmpInst::ICMP_SGE;
+        default: return llvm::CmpInst::BAD_ICMP_PREDICATE;
+        }
+    }
+
+    llvm::Function& function_;
+    llvm::FunctionAnalysisManager& analyses_;
+};
+
+} // namespace
+
+llvm::Value* convertedWhole(const llvm::Value* value) {
+    const auto* cast = llvm::dyn_cast<llvm::CastInst>(value);
+    const bool converts = cast && (cast->getOpcode() == llvm::Instruction::SIToFP ||
+                                   cast->getOpcode() == llvm::Instruction::UIToFP);
+    return converts && !cast->getType()->isVectorTy() ? cast->getOperand(0) : nullptr;
+}
+
+llvm::ConstantRange rangeOfWhole(llvm::Value* whole, llvm::Instruction* at,
+                                 llvm::FunctionAnalysisManager& analyses, unsigned depth) {
+    llvm::Function& function = *at->getFunction();
+    llvm::ConstantRange range = llvm::ConstantRange::fromKnownBits(
+        llvm::computeKnownBits(whole, function.getDataLayout()), /*IsSigned=*/false);
+    auto& ranges = analyses.getResult<llvm::LazyValueAnalysis>(function);
+    range = range.intersectWith(ranges.getConstantRange(whole, at, /*UndefAllowed=*/false));
+    auto& evolution = analyses.getResult<llvm::ScalarEvolutionAnalysis>(function);
+    if (evolution.isSCEVable(whole->getType()))
+        range = range.intersectWith(evolution.getUnsignedRange(evolution.getSCEV(whole)));
+    // In large routines LazyValueInfo gives up soon.
+    const auto* inst = llvm::dyn_cast<llvm::Instruction>(whole);
+    if (depth == 0 || !inst) return range;
+    const auto operand = [&](unsigned i) {
+        return rangeOfWhole(inst->getOperand(i), const_cast<llvm::Instruction*>(inst), analyses, depth - 1);
+    };
+    if (const auto* operation = llvm::dyn_cast<llvm::BinaryOperator>(inst))
+        return range.intersectWith(operand(0).binaryOp(operation->getOpcode(), operand(1)));
+    if (llvm::isa<llvm::ZExtInst>(inst) || llvm::isa<llvm::SExtInst>(inst) ||
+        llvm::isa<llvm::TruncInst>(inst))
+        return range.intersectWith(operand(0).castOp(llvm::cast<llvm::CastInst>(inst)->getOpcode(),
+                                                     inst->getType()->getIntegerBitWidth()));
+    return range;
+}
+
+unsigned exactBits(const llvm::Type* type) {
+    return type->isFloatTy() ? 24 : 53;
+}
+
+llvm::PreservedAnalyses WholeAfterCheck::run(llvm::Function& function,
+                                             llvm::FunctionAnalysisManager& analyses) {
+    auto& dominators = analyses.getResult<llvm::DominatorTreeAnalysis>(function);
+    auto& ranges = analyses.getResult<llvm::LazyValueAnalysis>(function);
+    bool changed = false;
+    for (llvm::BasicBlock& block : function) {
+        auto* branch = llvm::dyn_cast<llvm::BranchInst>(block.getTerminator());
+        if (!branch || !branch->isConditional() || branch->getSuccessor(0) == branch->getSuccessor(1))
+            continue;
+        llvm::FCmpInst::Predicate predicate = llvm::FCmpInst::BAD_FCMP_PREDICATE;
+        Value *number = nullptr, *converted = nullptr, *whole = nullptr;
+        if (!match(branch->getCondition(), m_FCmp(predicate, m_Value(number), m_Value(converted))) ||
+            predicate != llvm::CmpInst::FCMP_OEQ)
+            continue;
+        if (!match(converted, m_SIToFP(m_Value(whole))) && !match(converted, m_UIToFP(m_Value(whole))))
+            std::swap(number, converted);
+        if (!match(converted, m_SIToFP(m_Value(whole))) && !match(converted, m_UIToFP(m_Value(whole))))
+            continue;
+        if (llvm::isa<llvm::Constant>(number) || match(number, m_SIToFP(m_Value())) ||
+            match(number, m_UIToFP(m_Value())) || whole->getType()->isVectorTy() ||
+            !isNeverZero(whole, *branch, ranges))
+            continue;
+        const llvm::BasicBlockEdge edge(&block, branch->getSuccessor(0));
+        changed |= llvm::replaceDominatedUsesWith(number, converted, dominators, edge) > 0;
+    }
+    if (!changed) return llvm::PreservedAnalyses::all();
+    llvm::PreservedAnalyses preserved;
+    preserved.preserveSet<llvm::CFGAnalyses>();
+    return preserved;
+}
+
+llvm::PreservedAnalyses WholeArithmetic::run(llvm::Function& function,
+                                             llvm::FunctionAnalysisManager& analyses) {
+    if (!Wholes(function, analyses).run()) return llvm::PreservedAnalyses::all();
+    llvm::PreservedAnalyses preserved;
+    preserved.preserveSet<llvm::CFGAnalyses>();
+    return preserved;
+}
+
+} // namespace codegen
