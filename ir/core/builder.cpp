@@ -20,7 +20,7 @@ Inst makeIndexed(Op op, TypeId type, uint32_t index) {
     return inst;
 }
 
-Inst makeConst(TypeId type, double number) {
+Inst makeFloat(TypeId type, double number) {
     Inst inst = make(Op::Const, type);
     inst.number = number;
     return inst;
@@ -72,22 +72,21 @@ ValueId Builder::emit(Inst inst) {
 }
 
 ValueId Builder::constF32(double value) {
-    return emit(makeConst(kF32, static_cast<float>(value)));
+    return emit(makeFloat(kF32, static_cast<float>(value)));
 }
 ValueId Builder::constF64(double value) {
-    return emit(makeConst(kF64, value));
+    return emit(makeFloat(kF64, value));
 }
-ValueId Builder::constI32(int32_t value) {
-    return emit(makeConst(kI32, value));
-}
-ValueId Builder::constI64(int64_t value) {
-    return emit(makeConst(kI64, static_cast<double>(value)));
+ValueId Builder::constInt(TypeId type, int64_t value) {
+    Inst inst = make(Op::Const, type);
+    inst.integer = value;
+    return emit(std::move(inst));
 }
 ValueId Builder::constBool(bool value) {
-    return emit(makeConst(kBool, value ? 1 : 0));
+    return constInt(kBool, value ? 1 : 0);
 }
 ValueId Builder::nullPtr() {
-    return emit(makeConst(kPtr, 0));
+    return constInt(kPtr, 0);
 }
 
 ValueId Builder::param(uint32_t index) {
@@ -150,8 +149,8 @@ ValueId Builder::binary(Op op, ValueId a, ValueId b) {
 ValueId Builder::unary(Op op, ValueId a) {
     return emit(make(op, typeOf(a), {a}));
 }
-ValueId Builder::convert(Op op, ValueId a) {
-    return emit(make(op, conversionTo(op), {a}));
+ValueId Builder::convert(Op op, TypeId to, ValueId a) {
+    return emit(make(op, to, {a}));
 }
 ValueId Builder::select(ValueId cond, ValueId a, ValueId b) {
     return emit(make(Op::Select, typeOf(a), {cond, a, b}));

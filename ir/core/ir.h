@@ -17,8 +17,10 @@ namespace ir {
 enum class TypeKind : uint8_t {
     Void,
     Bool, ///< one byte in memory, 0 or 1
-    I32,  ///< counters, indices, dimensions, status
-    I64,  ///< handles of objects that the controller owns (signals, clocks, files ...)
+    I8,   ///< integers have no sign: an instruction says how it reads them where it matters
+    I16,
+    I32, ///< counters, indices, dimensions, status
+    I64, ///< handles of objects that the controller owns (signals, clocks, files ...)
     F32,
     F64,
     Str,    ///< { u32 length, 80 bytes }: 84 bytes, align 4
@@ -28,7 +30,26 @@ enum class TypeKind : uint8_t {
 };
 
 using TypeId = uint32_t; ///< index into Module::types; the scalar types have the fixed ids below
-inline constexpr TypeId kVoid = 0, kBool = 1, kI32 = 2, kI64 = 3, kF32 = 4, kF64 = 5, kStr = 6, kPtr = 7;
+inline constexpr TypeId kVoid = 0, kBool = 1, kI8 = 2, kI16 = 3, kI32 = 4, kI64 = 5, kF32 = 6, kF64 = 7,
+                        kStr = 8, kPtr = 9;
+
+constexpr bool isInteger(TypeId type) {
+    return type >= kI8 && type <= kI64;
+}
+constexpr bool isFloat(TypeId type) {
+    return type == kF32 || type == kF64;
+}
+/// Bits of an integer or floating-point type.
+constexpr unsigned bitsOf(TypeId type) {
+    return isInteger(type) ? 8u << (type - kI8) : type == kF32 ? 32 : type == kF64 ? 64 : 0;
+}
+/// The value with its lowest `bits` bits, as a signed and as an unsigned number.
+constexpr int64_t signExtended(uint64_t value, unsigned bits) {
+    return static_cast<int64_t>(value << (64 - bits)) >> (64 - bits);
+}
+constexpr uint64_t zeroExtended(int64_t value, unsigned bits) {
+    return static_cast<uint64_t>(value) << (64 - bits) >> (64 - bits);
+}
 
 struct Field {
     std::string name;
@@ -47,8 +68,9 @@ struct Type {
 
 /// One scalar of constant data. Aggregates are flattened in memory order.
 struct ConstScalar {
-    TypeKind kind = TypeKind::F32; ///< Bool, I32, I64, F32, F64 or Str
-    double number = 0;             ///< all numeric kinds and Bool
+    TypeKind kind = TypeKind::F32; ///< Bool, an integer, F32, F64 or Str
+    double number = 0;             ///< F32, F64
+    int64_t integer = 0;           ///< Bool and integers, sign-extended
     std::string text;              ///< Str: at most 80 bytes
 };
 using ConstData = std::vector<ConstScalar>; ///< empty = all zero
@@ -78,7 +100,8 @@ struct Inst {
     uint32_t index = kNone; ///< local, global, param, field, routine, native, statement or type-desc number
     BlockId target[2] = {kNone, kNone};
     std::vector<SwitchCase> cases; ///< Switch
-    double number = 0;             ///< Const
+    double number = 0;             ///< Const: F32, F64
+    int64_t integer = 0;           ///< Const: Bool, Ptr, and integers, sign-extended
     StmtId stmt = kNone;           ///< statement it belongs to
     /// Check, CheckFinite: error number; Charge, Safepoint: cost; Sysvar: SysvarKind; CondBr: 1 = seldom goes to target[1]
     int32_t extra = 0;
@@ -279,7 +302,7 @@ struct TaskEntry {
 
 struct Module {
     std::string name;
-    std::vector<Type> types; ///< ids 0 to 7 are the scalar types
+    std::vector<Type> types; ///< the first ones are the scalar types
     std::vector<Global> globals;
     std::vector<Native> natives;
     std::vector<Routine> routines;
@@ -316,6 +339,9 @@ struct Module {
     uint32_t findRoutine(std::string_view name) const; ///< kNone if absent
 };
 
+/// As the textual form names it: "f32", "%12".
+std::string typeName(TypeId type);
+
 /// Type of the value the instruction yields; kVoid when it yields none. Differs from Inst::type where that
 /// names the type accessed (FieldAddr, ElemAddr, Store ...).
 TypeId valueType(const Inst& inst);
@@ -343,8 +369,9 @@ class Builder {
 
     ValueId constF32(double value);
     ValueId constF64(double value);
-    ValueId constI32(int32_t value);
-    ValueId constI64(int64_t value);
+    ValueId constInt(TypeId type, int64_t value);
+    ValueId constI32(int32_t value) { return constInt(kI32, value); }
+    ValueId constI64(int64_t value) { return constInt(kI64, value); }
     ValueId constBool(bool value);
     ValueId nullPtr();
     ValueId param(uint32_t index);
@@ -363,7 +390,7 @@ class Builder {
     ValueId elemAddr(TypeId element, ValueId ptr, ValueId zeroBasedIndex);
     ValueId binary(Op op, ValueId a, ValueId b); ///< result type from the operands (comparisons: Bool)
     ValueId unary(Op op, ValueId a);             ///< FNeg, INeg, Not
-    ValueId convert(Op op, ValueId a);           ///< I32ToF32 ...
+    ValueId convert(Op op, TypeId to, ValueId a);
     ValueId select(ValueId cond, ValueId a, ValueId b);
     void check(ValueId cond, int32_t errorNumber); ///< raises errorNumber when cond is false
     /// Calls a routine. Scalar result: the value of this instruction. Str/Record/Array result: args[0] is the

@@ -13,9 +13,15 @@ uint32_t alignUp(uint32_t value, uint32_t align) {
 
 } // namespace
 
+std::string typeName(TypeId type) {
+    constexpr std::string_view kNames[] = {"void", "bool", "i8",  "i16", "i32",
+                                           "i64",  "f32",  "f64", "str", "ptr"};
+    return type <= kPtr ? std::string(kNames[type]) : "%" + std::to_string(type);
+}
+
 Module::Module() {
-    for (TypeKind kind : {TypeKind::Void, TypeKind::Bool, TypeKind::I32, TypeKind::I64, TypeKind::F32,
-                          TypeKind::F64, TypeKind::Str, TypeKind::Ptr}) {
+    for (TypeKind kind : {TypeKind::Void, TypeKind::Bool, TypeKind::I8, TypeKind::I16, TypeKind::I32,
+                          TypeKind::I64, TypeKind::F32, TypeKind::F64, TypeKind::Str, TypeKind::Ptr}) {
         Type type;
         type.kind = kind;
         types.push_back(std::move(type));
@@ -55,7 +61,9 @@ uint32_t Module::size(TypeId id) const {
     const Type& t = types[id];
     switch (t.kind) {
     case TypeKind::Void: return 0;
-    case TypeKind::Bool: return 1;
+    case TypeKind::Bool:
+    case TypeKind::I8: return 1;
+    case TypeKind::I16: return 2;
     case TypeKind::I32:
     case TypeKind::F32: return 4;
     case TypeKind::I64:
@@ -82,7 +90,9 @@ uint32_t Module::align(TypeId id) const {
     const Type& t = types[id];
     switch (t.kind) {
     case TypeKind::Void:
-    case TypeKind::Bool: return 1;
+    case TypeKind::Bool:
+    case TypeKind::I8: return 1;
+    case TypeKind::I16: return 2;
     case TypeKind::I32:
     case TypeKind::F32:
     case TypeKind::Str: return 4;

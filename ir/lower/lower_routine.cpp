@@ -162,7 +162,7 @@ void RoutineLowering::copyArrayParameter(const DataSymbol& param, Slot& slot) {
     for (uint32_t k = 1; k < param.type.rank; ++k)
         count = b_.binary(ir::Op::IMul, count, b_.param(slot.param + 1 + k));
     const ir::TypeId element = program_.irType(param.type.type);
-    const ValueId bytes = b_.binary(ir::Op::IMul, b_.convert(ir::Op::I32ToI64, count),
+    const ValueId bytes = b_.binary(ir::Op::IMul, b_.convert(ir::Op::SExt, ir::kI64, count),
                                     b_.constI64(program_.module().size(element)));
     const ValueId copy = b_.stackAlloc(bytes);
     b_.copyDynamic(copy, b_.param(slot.param), bytes);

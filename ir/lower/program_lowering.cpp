@@ -164,7 +164,7 @@ void ProgramLowering::flatten(const sema::ConstValue& value, const DataType& typ
     case TypeKind::AnyType: return;
     }
     if (value.kind == Kind::Number) scalar.number = value.number;
-    if (value.kind == Kind::Bool) scalar.number = value.boolean ? 1 : 0;
+    if (value.kind == Kind::Bool) scalar.integer = value.boolean ? 1 : 0;
     if (value.kind == Kind::String) scalar.text = value.text();
     out.push_back(std::move(scalar));
 }
@@ -288,7 +288,7 @@ uint32_t ProgramLowering::globalFor(const DataSymbol& symbol, uint32_t task) {
 uint32_t ProgramLowering::constGlobal(ir::TypeId type, ir::ConstData data) {
     std::string key = fmt::format("{}:", type);
     for (const ir::ConstScalar& s : data) {
-        key += fmt::format("{}|{:a}|{}:", static_cast<int>(s.kind), s.number, s.text.size());
+        key += fmt::format("{}|{:a}|{}|{}:", static_cast<int>(s.kind), s.number, s.integer, s.text.size());
         key += s.text;
     }
     auto [it, isNew] = constants_.try_emplace(std::move(key), static_cast<uint32_t>(module_.globals.size()));

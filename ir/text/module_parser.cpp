@@ -194,14 +194,15 @@ class ModuleParser {
         Token where = in_.peek();
         if (!in_.type(module_, type)) return false;
         if (type == kVoid || type >= kPtr)
-            return in_.failAt(where, "constant data are bool, i32, i64, f32, f64 or str");
+            return in_.failAt(where, "constant data are bool, integers, f32, f64 or str");
         ConstScalar value;
         value.kind = module_.types[type].kind;
         if (zero) {
             data.insert(data.end(), static_cast<size_t>(count), value);
             return true;
         }
-        if (!(type == kStr ? in_.string(value.text) : in_.number(value.number))) return false;
+        if (!(type == kStr ? in_.string(value.text) : in_.constant(type, value.number, value.integer)))
+            return false;
         data.push_back(std::move(value));
         return true;
     }

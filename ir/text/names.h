@@ -7,8 +7,6 @@
 
 namespace ir {
 
-inline constexpr std::string_view kScalarTypeNames[] = {"void", "bool", "i32", "i64",
-                                                        "f32",  "f64",  "str", "ptr"};
 inline constexpr std::string_view kDescKindNames[] = {"num",    "dnum",  "bool",   "string",
                                                       "record", "array", "handle", "other"};
 inline constexpr std::string_view kGlobalKindNames[] = {"var", "persistent", "const", "external"};

@@ -27,15 +27,11 @@ std::string quotedText(std::string_view text) {
     return result + '"';
 }
 
-std::string number(double value) {
+std::string number(TypeId type, double value, int64_t integer) {
+    if (!isFloat(type)) return std::to_string(integer);
     if (std::isnan(value)) return "nan";
     if (std::isinf(value)) return value < 0 ? "-inf" : "inf";
     return fmt::format("{}", value);
-}
-
-std::string typeName(TypeId id) {
-    if (id <= kPtr) return std::string(kScalarTypeNames[id]);
-    return fmt::format("%{}", id);
 }
 
 void printType(Out& out, const Module& module, TypeId id) {
@@ -66,7 +62,7 @@ void printDesc(Out& out, const TypeDesc& desc, size_t index) {
 
 bool isZero(const ConstScalar& scalar) {
     if (scalar.kind == TypeKind::Str) return scalar.text.empty();
-    return scalar.number == 0 && !std::signbit(scalar.number);
+    return scalar.integer == 0 && scalar.number == 0 && !std::signbit(scalar.number);
 }
 
 void printData(Out& out, const ConstData& data) {
@@ -77,7 +73,8 @@ void printData(Out& out, const ConstData& data) {
         size_t run = i;
         while (run < data.size() && isZero(data[run]) && data[run].kind == s.kind)
             ++run;
-        std::string_view kind = kScalarTypeNames[static_cast<size_t>(s.kind)];
+        const auto type = static_cast<TypeId>(s.kind);
+        const std::string kind = typeName(type);
         if (run - i > 1) {
             put(out, "zero {} {}", run - i, kind);
             i = run;
@@ -86,7 +83,7 @@ void printData(Out& out, const ConstData& data) {
         if (s.kind == TypeKind::Str)
             put(out, "str {}", quotedText(s.text));
         else
-            put(out, "{} {}", kind, number(s.number));
+            put(out, "{} {}", kind, number(type, s.number, s.integer));
         ++i;
     }
     put(out, " }}");
@@ -233,7 +230,7 @@ class RoutinePrinter {
         if (opInfo(inst.op).showsType) put(out_, " {}", typeName(inst.type));
         switch (opInfo(inst.op).form) {
         case Form::Plain: operands(inst); return;
-        case Form::Number: put(out_, " {}", number(inst.number)); return;
+        case Form::Number: put(out_, " {}", number(inst.type, inst.number, inst.integer)); return;
         case Form::Param:
         case Form::Local:
         case Form::TypeDesc:

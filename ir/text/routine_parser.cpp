@@ -173,7 +173,7 @@ bool RoutineParser::body(Inst& inst) {
     if (opInfo(inst.op).showsType && !in_.type(module_, inst.type)) return false;
     switch (opInfo(inst.op).form) {
     case Form::Plain: return values(inst);
-    case Form::Number: return in_.number(inst.number);
+    case Form::Number: return in_.constant(inst.type, inst.number, inst.integer);
     case Form::Param:
     case Form::Local:
     case Form::TypeDesc: return in_.unsignedInt(inst.index);
@@ -239,7 +239,6 @@ void RoutineParser::inferTypes() {
     for (Inst& inst : routine_.insts) {
         switch (opInfo(inst.op).result) {
         case ResultRule::Bool: inst.type = kBool; break;
-        case ResultRule::Fixed: inst.type = conversionTo(inst.op); break;
         case ResultRule::Ptr:
             if (!opInfo(inst.op).showsType) inst.type = kPtr;
             break;

@@ -122,6 +122,11 @@ void checkGlobals(const Module& module, Findings& out) {
     }
 }
 
+/// The C calling convention would have to know their sign.
+bool isNarrow(TypeId type) {
+    return isInteger(type) && bitsOf(type) < 32;
+}
+
 void checkNatives(const Module& module, Findings& out) {
     std::unordered_set<std::string_view> names;
     for (const Native& native : module.natives) {
@@ -132,6 +137,9 @@ void checkNatives(const Module& module, Findings& out) {
         for (TypeId param : native.params)
             if (param == kVoid || param >= module.types.size() || !module.isScalar(param))
                 add("parameter is neither scalar nor ptr");
+            else if (isNarrow(param))
+                add("integers below 32 bits are passed in memory only");
+        if (isNarrow(native.result)) add("integers below 32 bits are passed in memory only");
         if (native.result >= module.types.size())
             add("result type does not exist");
         else if (native.nativeClass == NativeClass::Const &&
