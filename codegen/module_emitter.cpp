@@ -60,12 +60,10 @@ class DataImage {
         case ir::TypeKind::I64: put(value.integer, at); break;
         case ir::TypeKind::F32: put(static_cast<float>(value.number), at); break;
         case ir::TypeKind::F64: put(value.number, at); break;
-        case ir::TypeKind::Str: {
-            rt::String string;
-            string.assign(value.text);
-            put(string, at);
+        case ir::TypeKind::Str:
+            put(static_cast<uint32_t>(value.text.size()), at);
+            putBytes(image_, at + sizeof(uint32_t), value.text.data(), value.text.size());
             break;
-        }
         case ir::TypeKind::Void: // not scalars of constant data
         case ir::TypeKind::Ptr:
         case ir::TypeKind::Record:
@@ -156,7 +154,7 @@ void ModuleEmitter::declareTypes() {
         llvm::MDNode* node = md.createTBAAScalarTypeNode(name, root);
         return md.createTBAAStructTagNode(node, node, 0);
     };
-    for (ir::TypeId t = ir::kBool; t <= ir::kPtr; ++t)
+    for (ir::TypeId t = ir::kBool; t < ir::kScalarTypes; ++t)
         tags_.data[t] = tag(ir::typeName(t));
     tags_.task = tag("task");
     tags_.frame = tag("frame");

@@ -37,7 +37,7 @@ std::string symbolOf(const ir::Routine& routine);
 
 /// Metadata that keeps accesses to program data, to the task and to frame records apart.
 struct AccessTags {
-    llvm::MDNode* data[ir::kPtr + 1] = {}; ///< by scalar TypeId
+    llvm::MDNode* data[ir::kScalarTypes] = {}; ///< by scalar TypeId
     llvm::MDNode* task = nullptr;
     llvm::MDNode* frame = nullptr;
 };

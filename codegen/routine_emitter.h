@@ -174,7 +174,7 @@ class RoutineEmitter {
     std::vector<WideLoop> wideLoops_;
     std::vector<JoinedRounds> joinedRounds_;
     std::vector<Value*> locals_;
-    llvm::AllocaInst* resultSlots_[ir::kPtr + 1] = {}; ///< for scalar results of natives, by type
+    llvm::AllocaInst* resultSlots_[ir::kScalarTypes] = {}; ///< for scalar results of natives, by type
     Value *task_ = nullptr, *caller_ = nullptr, *result_ = nullptr;
     llvm::AllocaInst *frame_ = nullptr, *unwinding_ = nullptr;
     Value* failed_ = nullptr;            ///< address: the statement that failed

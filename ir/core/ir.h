@@ -23,15 +23,16 @@ enum class TypeKind : uint8_t {
     I64, ///< handles of objects that the controller owns (signals, clocks, files ...)
     F32,
     F64,
-    Str,    ///< { u32 length, 80 bytes }: 84 bytes, align 4
     Ptr,    ///< reference; what it points to is said by the instruction that uses it
+    Str,    ///< { u32 length, Type::capacity bytes }, aligned as the length
     Record, ///< fields in order, natural C layout
     Array   ///< row-major, rank 1 to 3
 };
 
 using TypeId = uint32_t; ///< index into Module::types; the scalar types have the fixed ids below
 inline constexpr TypeId kVoid = 0, kBool = 1, kI8 = 2, kI16 = 3, kI32 = 4, kI64 = 5, kF32 = 6, kF64 = 7,
-                        kStr = 8, kPtr = 9;
+                        kPtr = 8;
+inline constexpr uint32_t kScalarTypes = kPtr + 1; ///< how many fixed ids there are
 
 constexpr bool isInteger(TypeId type) {
     return type >= kI8 && type <= kI64;
@@ -60,6 +61,7 @@ struct Type {
     TypeKind kind = TypeKind::Void;
     std::string name;          ///< records
     std::vector<Field> fields; ///< records
+    uint32_t capacity = 0;     ///< strings: the most bytes that one holds
     TypeId element = kVoid;    ///< arrays
     std::vector<int32_t> dims; ///< arrays, 1 to 3 entries > 0
 };
@@ -71,7 +73,7 @@ struct ConstScalar {
     TypeKind kind = TypeKind::F32; ///< Bool, an integer, F32, F64 or Str
     double number = 0;             ///< F32, F64
     int64_t integer = 0;           ///< Bool and integers, sign-extended
-    std::string text;              ///< Str: at most 80 bytes
+    std::string text;              ///< Str: no more bytes than its type holds
 };
 using ConstData = std::vector<ConstScalar>; ///< empty = all zero
 
@@ -331,11 +333,12 @@ struct Module {
     size_t instructionCount() const;
     const Type& type(TypeId id) const { return types[id]; }
     TypeId arrayOf(TypeId element, std::vector<int32_t> dims); ///< interned
+    TypeId stringOf(uint32_t capacity);                        ///< interned
     TypeId addRecord(std::string name, std::vector<Field> fields);
     uint32_t size(TypeId id) const; ///< bytes, C layout
     uint32_t align(TypeId id) const;
     uint32_t fieldOffset(TypeId record, uint32_t field) const;
-    bool isScalar(TypeId id) const { return id <= kF64 || id == kPtr; }
+    bool isScalar(TypeId id) const { return id < kScalarTypes; }
     uint32_t findRoutine(std::string_view name) const; ///< kNone if absent
 };
 

@@ -1,5 +1,6 @@
 #include "ir/lower/program_lowering.h"
 
+#include "frontend/syntax/limits.h"
 #include "ir/lower/routine_lowering.h"
 
 #include <algorithm>
@@ -20,6 +21,8 @@ std::string foldCase(std::string_view text) {
 }
 
 namespace {
+
+static_assert(syntax::kStringCapacity == rt::kStringCapacity);
 
 bool isScalarKind(TypeKind kind) {
     return kind == TypeKind::Num || kind == TypeKind::Dnum || kind == TypeKind::Bool;
@@ -84,7 +87,7 @@ ir::TypeId ProgramLowering::irType(const sema::Type* type) {
     case TypeKind::Dnum: return ir::kF64;
     case TypeKind::Bool:
     case TypeKind::Switch: return ir::kBool;
-    case TypeKind::String: return ir::kStr;
+    case TypeKind::String: return stringType();
     case TypeKind::NonValue:
     case TypeKind::SemiValue:
     case TypeKind::Error: return ir::kI64; // of a module that is not here: a place, which nothing reads
@@ -306,8 +309,8 @@ uint32_t ProgramLowering::constGlobal(ir::TypeId type, ir::ConstData data) {
 uint32_t ProgramLowering::stringGlobal(std::string_view text) {
     ir::ConstScalar scalar;
     scalar.kind = ir::TypeKind::Str;
-    scalar.text = std::string(text.substr(0, 80));
-    return constGlobal(ir::kStr, {scalar});
+    scalar.text = std::string(text.substr(0, rt::kStringCapacity));
+    return constGlobal(stringType(), {scalar});
 }
 
 int32_t ProgramLowering::errorNumber(std::string_view name) const {
@@ -319,7 +322,7 @@ bool ProgramLowering::implemented(const RoutineSymbol& symbol) const {
     return !options_.nativeImplemented || options_.nativeImplemented("rt_" + symbol.name);
 }
 
-ir::TypeId irTypeOf(rt::AbiType type) {
+ir::TypeId irTypeOf(ir::Module& module, rt::AbiType type) {
     switch (type) {
     case rt::AbiType::Void: return ir::kVoid;
     case rt::AbiType::Bool: return ir::kBool;
@@ -327,7 +330,7 @@ ir::TypeId irTypeOf(rt::AbiType type) {
     case rt::AbiType::I64: return ir::kI64;
     case rt::AbiType::F32: return ir::kF32;
     case rt::AbiType::F64: return ir::kF64;
-    case rt::AbiType::String: return ir::kStr;
+    case rt::AbiType::String: return module.stringOf(rt::kStringCapacity);
     case rt::AbiType::Pointer: return ir::kPtr;
     }
     return ir::kVoid;
@@ -345,9 +348,9 @@ uint32_t ProgramLowering::support(Support which) {
     ir::Native native;
     native.symbol = signature.symbol;
     native.nativeClass = signature.returnsValue ? ir::NativeClass::Const : ir::NativeClass::Plain;
-    native.result = irTypeOf(signature.result);
+    native.result = irTypeOf(module_, signature.result);
     for (const rt::AbiType type : signature.params)
-        native.params.push_back(irTypeOf(type));
+        native.params.push_back(irTypeOf(module_, type));
     return addNative(std::move(native));
 }
 

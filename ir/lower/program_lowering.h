@@ -21,9 +21,9 @@ inline Passing passingOf(const sema::DataSymbol& param) {
     return rt::passingOf(shapeOf(param));
 }
 
-ir::TypeId irTypeOf(rt::AbiType type);
-template <class T> ir::TypeId irTypeOf() {
-    return irTypeOf(rt::abiTypeOf<T>());
+ir::TypeId irTypeOf(ir::Module& module, rt::AbiType type);
+template <class T> ir::TypeId irTypeOf(ir::Module& module) {
+    return irTypeOf(module, rt::abiTypeOf<T>());
 }
 
 /// Of a type that a module declares which is not here: the instruction that uses such data raises an error.
@@ -70,6 +70,7 @@ class ProgramLowering {
     const sema::CheckedProgram& program() const { return program_; }
     diag::Sink& sink() { return sink_; }
 
+    ir::TypeId stringType() { return module_.stringOf(rt::kStringCapacity); }
     ir::TypeId irType(const sema::Type* type);
     ir::TypeId irType(const sema::DataType& type);
     uint32_t typeDesc(const sema::DataType& type);

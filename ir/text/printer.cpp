@@ -40,6 +40,10 @@ void printType(Out& out, const Module& module, TypeId id) {
         put(out, "type {} array {} [{}]\n", id, typeName(t.element), fmt::join(t.dims, ", "));
         return;
     }
+    if (t.kind == TypeKind::Str) {
+        put(out, "type {} string {}\n", id, t.capacity);
+        return;
+    }
     put(out, "type {} record {} {{", id, quotedText(t.name));
     for (size_t i = 0; i < t.fields.size(); ++i)
         put(out, "{} {} {}", i ? "," : "", typeName(t.fields[i].type), quotedText(t.fields[i].name));
@@ -74,7 +78,7 @@ void printData(Out& out, const ConstData& data) {
         while (run < data.size() && isZero(data[run]) && data[run].kind == s.kind)
             ++run;
         const auto type = static_cast<TypeId>(s.kind);
-        const std::string kind = typeName(type);
+        const std::string kind = s.kind == TypeKind::Str ? "str" : typeName(type);
         if (run - i > 1) {
             put(out, "zero {} {}", run - i, kind);
             i = run;
@@ -367,7 +371,7 @@ std::string printModule(const Module& module) {
     if (!module.folder.empty()) put(out, "folder {}\n", quotedText(module.folder));
     if (!module.sources.empty()) put(out, "sources {}\n", quotedText(module.sources));
     if (module.overflowError != 0) put(out, "overflow {}\n", module.overflowError);
-    for (TypeId id = kPtr + 1; id < module.types.size(); ++id)
+    for (TypeId id = kScalarTypes; id < module.types.size(); ++id)
         printType(out, module, id);
     for (size_t i = 0; i < module.typeDescs.size(); ++i)
         printDesc(out, module.typeDescs[i], i);

@@ -146,7 +146,7 @@ bool TokenStream::type(const Module& module, TypeId& out) {
         advance();
         return true;
     }
-    for (out = kVoid; out <= kPtr; ++out)
+    for (out = kVoid; out < kScalarTypes; ++out)
         if (takeWord(typeName(out))) return true;
     return expected("a type");
 }

@@ -8,19 +8,22 @@
 
 namespace rt {
 
-/// RAPID string: fixed, at most 80 bytes of UTF-8, a plain value (design chapter 3).
+/// Bytes that a string of the source language holds.
+inline constexpr uint32_t kStringCapacity = 80;
+
+/// A string: fixed, UTF-8, a plain value (design chapter 3).
 struct String {
     uint32_t length = 0;
-    char bytes[80] = {};
+    char bytes[kStringCapacity] = {};
 
     std::string_view view() const { return {bytes, length}; }
-    /// Takes at most 80 bytes; the caller raises ERR_STRTOOLNG when text is longer.
+    /// Takes no more than fits; the caller raises ERR_STRTOOLNG when text is longer.
     void assign(std::string_view text) {
-        length = static_cast<uint32_t>(text.size() < 80 ? text.size() : 80);
+        length = static_cast<uint32_t>(text.size() < kStringCapacity ? text.size() : kStringCapacity);
         std::memcpy(bytes, text.data(), length);
     }
 };
-static_assert(sizeof(String) == 84 && alignof(String) == 4);
+static_assert(sizeof(String) == sizeof(uint32_t) + kStringCapacity && alignof(String) == alignof(uint32_t));
 
 /// Result of every compiled routine and native call. 0: done. > 0: a recoverable error with this ERRNO is on its way
 /// to a handler. < 0: the stack is being unwound (EXIT, end of the run, program pointer moved).

@@ -123,17 +123,17 @@ TEST_CASE("integers of every width compute the same with and without optimisatio
 
 TEST_CASE("integers of every width lie in memory as in C", "[codegen]") {
     auto program = compile(parse(R"(
-type 10 record "ints" { i8 "small", i16 "middle", i64 "large" }
-desc 0 "ints" base "ints" other %10
-global @"g" "g" in "M" %10 var desc 0 = { i8 200, i16 -32768, i64 -9007199254740993 }
+type 9 record "ints" { i8 "small", i16 "middle", i64 "large" }
+desc 0 "ints" base "ints" other %9
+global @"g" "g" in "M" %9 var desc 0 = { i8 200, i16 -32768, i64 -9007199254740993 }
 routine @"r" "r" in "M" exported i64 (i64 "x") {
   stmt 0 plain 1:1 1:2
   b0:
     stmt 0
     %g = global @"g"
-    %small = field %10 %g, 0
+    %small = field %9 %g, 0
     %a = load i8 %small
-    %middle = field %10 %g, 1
+    %middle = field %9 %g, 1
     %b = load i16 %middle
     %c = zext i64 %a
     %d = sext i64 %b
@@ -191,12 +191,13 @@ TEST_CASE("NaN compares as IEEE 754 says", "[codegen]") {
 
 TEST_CASE("natives get and return values of every kind", "[codegen]") {
     auto program = compile(parse(R"(
+type 9 string 80
 native @"rt_everything" plain f32 (f32, bool, ptr, i64)
 native @"rt_pure" const f64 (f64, f64)
 native @"rt_truth" const bool (bool, i32)
-native @"rt_text" plain str (f32)
+native @"rt_text" plain %9 (f32)
 native @"sqrtf" const f32 (f32)
-routine @"r" "r" in "M" exported str (f32 "x", bool "flag") {
+routine @"r" "r" in "M" exported %9 (f32 "x", bool "flag") {
   local 0 f32 "out"
   stmt 0 plain 1:1 1:2
   b0:
@@ -229,12 +230,13 @@ routine @"r" "r" in "M" exported str (f32 "x", bool "flag") {
 
 TEST_CASE("records, strings and arrays lie in memory as in C", "[codegen]") {
     auto program = compile(corpusModule("everything.rir").tasks.empty() ? ir::Module() : parse(R"(
-type 10 record "mixed" { bool "flag", f64 "wide", str "text", f32 "x" }
+type 9 string 80
+type 10 record "mixed" { bool "flag", f64 "wide", %9 "text", f32 "x" }
 type 11 array %10 [3]
 desc 0 "num" base "num" num f32
 desc 1 "bool" base "bool" bool bool
 desc 2 "dnum" base "dnum" dnum f64
-desc 3 "string" base "string" string str
+desc 3 "string" base "string" string %9
 desc 4 "mixed" base "mixed" record %10 { "flag": 1, "wide": 2, "text": 3, "x": 0 }
 desc 5 "mixed{3}" base "mixed{3}" array %11 of 4
 global @"g" "g" in "M" %11 var desc 5 = { bool 1, f64 0.5, str "one", f32 1, bool 0, f64 1.5, str "two", f32 2, zero 1 bool, zero 1 f64, str "", f32 3 }
@@ -249,7 +251,7 @@ routine @"r" "r" in "M" exported void () {
     %third = elem %10 %g, %two
     copy %10 %third, %first
     %text = field %10 %first, 2
-    zero str %text
+    zero %9 %text
     %flag = field %10 %third, 0
     %f = load bool %flag
     %n = not %f
@@ -380,14 +382,14 @@ routine @"deep" "deep" in "M" exported f32 (f32 "x") {
 
 TEST_CASE("large locals and allocations of unknown size respect the limit of the stack", "[codegen]") {
     auto program = compile(parse(R"(
-type 10 array f64 [1000000]
+type 9 array f64 [1000000]
 routine @"large" "large" in "M" exported f64 (f64 "x") {
-  local 0 %10 "big"
+  local 0 %9 "big"
   stmt 0 plain 1:1 1:2
   b0:
     stmt 0
     %big = local 0
-    zero %10 %big
+    zero %9 %big
     %r = load f64 %big
     ret %r
 }

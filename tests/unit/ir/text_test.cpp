@@ -112,14 +112,17 @@ TEST_CASE("sizes and offsets are those of C", "[ir]") {
         float x;
     };
     ir::TypeId mixed = module.addRecord(
-        "mixed", {{"flag", ir::kBool}, {"wide", ir::kF64}, {"text", ir::kStr}, {"x", ir::kF32}});
+        "mixed", {{"flag", ir::kBool}, {"wide", ir::kF64}, {"text", module.stringOf(80)}, {"x", ir::kF32}});
     CHECK(module.size(mixed) == sizeof(Mixed));
     CHECK(module.align(mixed) == alignof(Mixed));
     CHECK(module.fieldOffset(mixed, 1) == offsetof(Mixed, wide));
     CHECK(module.fieldOffset(mixed, 2) == offsetof(Mixed, text));
     CHECK(module.fieldOffset(mixed, 3) == offsetof(Mixed, x));
     CHECK(module.size(module.arrayOf(mixed, {2, 3})) == 6 * sizeof(Mixed));
-    CHECK(module.size(ir::kStr) == 84);
+    CHECK(module.size(module.stringOf(80)) == 84);
+    CHECK(module.size(module.stringOf(5)) == 12); // 4 + 5, to a multiple of 4
+    CHECK(module.align(module.stringOf(5)) == 4);
+    CHECK(module.stringOf(80) == module.stringOf(80));
 }
 
 TEST_CASE("errors of the parser name the place and what was expected", "[ir]") {
@@ -130,8 +133,8 @@ TEST_CASE("errors of the parser name the place and what was expected", "[ir]") {
     CHECK(parseError("module \"open\n") == "1:8: string without closing quote");
     CHECK(parseError("module \"a\\q\"") == "1:8: '\\' in a string must be followed by two hex digits");
     CHECK(parseError("file 3 \"x\"") == "1:6: file 0 is expected here");
-    CHECK(parseError("type 10 array f32 [0]") == "1:20: '0' is outside 1 to 2147483647");
-    CHECK(parseError("type 10 array %11 [1]") == "1:15: there is no type %11 so far");
+    CHECK(parseError("type 9 array f32 [0]") == "1:19: '0' is outside 1 to 2147483647");
+    CHECK(parseError("type 9 array %10 [1]") == "1:14: there is no type %10 so far");
     std::string head = "routine @\"r\" \"r\" in \"M\" void () {\n";
     CHECK(parseError(head + "  b0:\n    fadd %0, %1\n}\n") == "3:10: %0 is not defined in this routine");
     CHECK(parseError(head + "  b0:\n    bogus\n}\n") == "3:5: 'bogus' where an instruction is expected");
