@@ -87,6 +87,9 @@ constexpr rt::DataFlag flagOf(ir::DataFlag flag) {
     return {};
 }
 
+static_assert(ir::kEveryError == rt::kAllErrors && ir::kOwnErrors == rt::kOtherErrors,
+              "error lists are passed on as they are");
+
 /// Sets of flags are passed on as they are: every flag must be the same bit on both sides.
 template <class Flag>
 constexpr bool kSameBits = [] {

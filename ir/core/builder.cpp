@@ -109,7 +109,7 @@ ValueId Builder::resultAddr() {
 }
 
 ValueId Builder::sysvar(SysvarKind kind) {
-    Inst inst = make(Op::Sysvar, kF32);
+    Inst inst = make(Op::Sysvar, kI32);
     inst.extra = static_cast<int32_t>(kind);
     return emit(std::move(inst));
 }

@@ -183,7 +183,7 @@ struct Routine {
     std::vector<Statement> statements;
     BlockId errorHandler = kNone;
     /// When one of them is not empty: numbers the handler takes, from any depth of calls and from interrupt routines; as
-    /// numbers and as global F32 variables. In errorFilter 999 means all, 0 those of the routine and its calls.
+    /// numbers and as global variables (I32 or F32). errorFilter may hold kEveryError and kOwnErrors.
     std::vector<int32_t> errorFilter;
     std::vector<uint32_t> errorFilterGlobals;
     /// The routine that does on top of others what the error handler would do after they are left; kNone: nobody asks. Its
@@ -193,6 +193,9 @@ struct Routine {
     bool isDetachedHandler = false; ///< of another routine; `propagate` and `handlerend` act for that one
     BlockId undoHandler = kNone;    ///< the UNDO part; a `ret` without value in it goes on unwinding
 };
+
+/// In Routine::errorFilter: every error, wherever it is raised; those of the routine and its calls.
+inline constexpr int32_t kEveryError = INT32_MIN, kOwnErrors = 0;
 
 /// What a native routine may do; decides how it is called (see codegen/README.md).
 enum class NativeClass : uint8_t {
@@ -349,7 +352,8 @@ std::string typeName(TypeId type);
 /// names the type accessed (FieldAddr, ElemAddr, Store ...).
 TypeId valueType(const Inst& inst);
 
-enum class SysvarKind : int32_t { Errno = 0, Intno = 1 };
+/// What the controller keeps for a task: the number of its latest error, and of the interrupt in progress. I32.
+enum class SysvarKind : int32_t { Error = 0, Interrupt = 1 };
 
 // ---- Builder ---------------------------------------------------------------------------------------------
 

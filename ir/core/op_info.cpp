@@ -30,6 +30,11 @@ constexpr Conversion kConversions[] = {
 #include "ir/core/instructions.def"
 };
 
+constexpr auto kFirstConversion = static_cast<size_t>(kConversions[0].op);
+static_assert(static_cast<size_t>(kConversions[std::size(kConversions) - 1].op) ==
+                  kFirstConversion + std::size(kConversions) - 1,
+              "the instructions of the family follow each other");
+
 } // namespace
 
 const OpInfo& opInfo(Op op) {
@@ -58,9 +63,7 @@ TypeId valueType(const Inst& inst) {
 }
 
 const Conversion& conversionOf(Op op) {
-    constexpr auto kFirst =
-        static_cast<size_t>(kConversions[0].op); // the instructions of a family follow each other
-    return kConversions[static_cast<size_t>(op) - kFirst];
+    return kConversions[static_cast<size_t>(op) - kFirstConversion];
 }
 
 bool converts(Op op, TypeId from, TypeId to) {

@@ -27,10 +27,10 @@ ir::ValueId RoutineLowering::addressIfPresent(const Slot& slot) {
 }
 
 void RoutineLowering::readSystemVariable(const DataSymbol& symbol, ir::ValueId address) {
-    const std::string name = foldCase(symbol.name);
-    if (name == "errno" || name == "intno") {
-        const auto kind = name == "intno" ? ir::SysvarKind::Intno : ir::SysvarKind::Errno;
-        b_.store(ir::kF32, b_.sysvar(kind), address);
+    if (symbol.meaning == sema::Meaning::ErrorNumber || symbol.meaning == sema::Meaning::InterruptNumber) {
+        const bool error = symbol.meaning == sema::Meaning::ErrorNumber;
+        const ValueId number = b_.sysvar(error ? ir::SysvarKind::Error : ir::SysvarKind::Interrupt);
+        b_.store(ir::kF32, b_.convert(Op::SIntToFloat, ir::kF32, number), address);
         return;
     }
     b_.callNative(program_.support(Support::rt_systemData),

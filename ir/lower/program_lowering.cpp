@@ -75,8 +75,11 @@ ProgramLowering::ProgramLowering(const sema::CheckedProgram& program, const Opti
       reachesRoutineData_(program.uses(sema::Trait::RoutineData)) {
     for (const sema::Module* lib : program.predefinedModules)
         for (const DataSymbol* data : lib->data)
-            if (data->name.starts_with("ERR_") || data->name == "LONG_JMP_ALL_ERR")
-                errorNumbers_[data->name] = static_cast<int32_t>(data->value().number);
+            if (data->dataKind == syntax::DataKind::Const && data->type.type->name == "errnum") {
+                const auto number = static_cast<int32_t>(data->value().number);
+                errorNumbers_[data->name] = number;
+                if (data->meaning == sema::Meaning::AllErrors) allErrors_ = number;
+            }
     module_.overflowError = errorNumber("ERR_OVERFLOW");
 }
 
@@ -314,8 +317,7 @@ uint32_t ProgramLowering::stringGlobal(std::string_view text) {
 }
 
 int32_t ProgramLowering::errorNumber(std::string_view name) const {
-    auto found = errorNumbers_.find(std::string(name));
-    return found == errorNumbers_.end() ? 1 : found->second;
+    return errorNumbers_.at(std::string(name));
 }
 
 bool ProgramLowering::implemented(const RoutineSymbol& symbol) const {

@@ -85,8 +85,10 @@ class ProgramLowering {
     /// Interned read-only data.
     uint32_t constGlobal(ir::TypeId type, ir::ConstData data);
     uint32_t stringGlobal(std::string_view text);
-    /// Value of a predefined ERR_ constant.
+    /// Value of a predefined error constant.
     int32_t errorNumber(std::string_view name) const;
+    /// The number that means every error in the list of a handler.
+    int32_t allErrors() const { return allErrors_; }
     uint32_t fileIndex(const std::string& path);
     /// The argument's name travels with this parameter, because ArgName asks for it.
     bool passesName(const sema::DataSymbol& param) const { return namedParams_.contains(&param); }
@@ -141,7 +143,8 @@ class ProgramLowering {
     std::map<std::pair<uint32_t, const sema::RoutineSymbol*>, uint32_t> routines_;
     std::unordered_map<std::string, uint32_t> natives_;
     std::map<std::string, uint32_t> constants_;
-    std::unordered_map<std::string, int32_t> errorNumbers_;
+    std::unordered_map<std::string, int32_t> errorNumbers_; ///< by name
+    int32_t allErrors_ = ir::kEveryError;
     std::unordered_map<std::string, uint32_t> files_;
     std::vector<Pending> pending_;
     const sema::Module* unit_ = nullptr;

@@ -13,6 +13,7 @@ inline constexpr std::string_view kGlobalKindNames[] = {"var", "persistent", "co
 inline constexpr std::string_view kStmtKindNames[] = {"plain",   "call",   "motion",
                                                       "control", "return", "handler"};
 inline constexpr std::string_view kRoutineKindNames[] = {"procedure", "function", "interrupt"};
+inline constexpr std::string_view kSysvarNames[] = {"error", "interrupt"};
 inline constexpr std::string_view kParamModeNames[] = {"in", "var", "pers", "inout"};
 
 /// The name by which the textual form refers to an item.

@@ -175,7 +175,9 @@ class RoutinePrinter {
             put(out_, "  errorhandler b{}", routine_.errorHandler);
             std::vector<std::string> filter;
             for (int32_t number : routine_.errorFilter)
-                filter.push_back(std::to_string(number));
+                filter.push_back(number == kEveryError  ? "all"
+                                 : number == kOwnErrors ? "own"
+                                                        : std::to_string(number));
             for (uint32_t global : routine_.errorFilterGlobals)
                 filter.push_back("@" + nameIn(module_.globals, global));
             if (!filter.empty()) put(out_, " [{}]", fmt::join(filter, ", "));
@@ -241,7 +243,7 @@ class RoutinePrinter {
         case Form::Statement: put(out_, " {}", inst.index); return;
         case Form::Global: put(out_, " @{}", nameIn(module_.globals, inst.index)); return;
         case Form::Routine: put(out_, " @{}", nameIn(module_.routines, inst.index)); return;
-        case Form::Sysvar: put(out_, " {}", inst.extra == 0 ? "errno" : "intno"); return;
+        case Form::Sysvar: put(out_, " {}", kSysvarNames[static_cast<size_t>(inst.extra)]); return;
         case Form::Field:
             operands(inst);
             put(out_, ", {}", inst.index);

@@ -84,7 +84,12 @@ bool RoutineParser::handler() {
                 continue;
             }
             int32_t number = 0;
-            if (!in_.signedInt(number)) return false;
+            if (in_.takeWord("all"))
+                number = kEveryError;
+            else if (in_.takeWord("own"))
+                number = kOwnErrors;
+            else if (!in_.signedInt(number))
+                return false;
             routine_.errorFilter.push_back(number);
         } while (in_.takePunct(','));
         if (!in_.punct(']')) return false;
@@ -161,9 +166,8 @@ bool RoutineParser::switchOn(Inst& inst) {
 }
 
 bool RoutineParser::sysvar(Inst& inst) {
-    constexpr std::string_view kNames[] = {"errno", "intno"};
     size_t index = 0;
-    if (!in_.oneOf(kNames, "errno or intno", index)) return false;
+    if (!in_.oneOf(kSysvarNames, "error or interrupt", index)) return false;
     inst.extra = static_cast<int32_t>(index);
     return true;
 }
@@ -243,7 +247,7 @@ void RoutineParser::inferTypes() {
             if (!opInfo(inst.op).showsType) inst.type = kPtr;
             break;
         case ResultRule::Typed:
-            if (inst.op == Op::Sysvar) inst.type = kF32;
+            if (inst.op == Op::Sysvar) inst.type = kI32;
             if (inst.op == Op::ParamVal && inst.index < routine_.params.size())
                 inst.type = routine_.params[inst.index].type;
             break;

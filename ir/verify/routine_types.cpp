@@ -105,7 +105,7 @@ void RoutineVerifier::typesOfLeaf(const Inst& inst) {
         if (module_.isScalar(routine_.result)) add("the routine has no result in memory");
         return;
     case LeafOp::Sysvar:
-        if (inst.type != kF32) add("system variables are f32");
+        if (inst.type != kI32) add("system variables are i32");
         if (inst.extra < 0 || inst.extra > 1) add("no such system variable");
         return;
     case LeafOp::LocalAddr:
@@ -207,10 +207,7 @@ void RoutineVerifier::typesOfEnd(const Inst& inst) {
         return;
     }
     case EndOp::Ret: ret(inst); return;
-    case EndOp::Raise:
-        if (operandType(inst, 0) != kF32 && operandType(inst, 0) != kI32)
-            add("error number is neither i32 nor f32");
-        return;
+    case EndOp::Raise: want(inst, 0, kI32); return;
     case EndOp::Br:
     case EndOp::Propagate:
     case EndOp::Retry:

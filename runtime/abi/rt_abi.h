@@ -121,7 +121,7 @@ struct LocalDesc {
 enum HandlerDecision : int32_t { kNotDecided, kDecidedRetry, kDecidedTryNext, kDecidedReturn, kDecidedRaise };
 
 /// Numbers with a meaning of their own in RoutineDesc::errorFilter.
-inline constexpr int32_t kAllErrors = 999; ///< every error, wherever it is raised (LONG_JMP_ALL_ERR)
+inline constexpr int32_t kAllErrors = INT32_MIN; ///< every error, wherever it is raised
 inline constexpr int32_t kOtherErrors = 0; ///< the others, too, but only when they come to the routine itself
 
 struct Frame;
@@ -130,6 +130,12 @@ struct TaskCore;
 /// progress, `caller` is the innermost of them. `data`: SteppingFrame::addresses from RoutineDesc::localCount on. 0: it has
 /// said how to go on (rt_endDetached); > 0: it raises that error where the routine was called.
 using DetachedHandler = Status (*)(TaskCore* task, Frame* caller, void* const* data);
+
+/// A variable of the program that holds a number listed by an error handler.
+struct ErrorVariable {
+    const void* address;
+    int64_t isFloat; ///< a float, otherwise an int32_t
+};
 
 struct RoutineDesc {
     const char* name; ///< as people see it
@@ -145,7 +151,7 @@ struct RoutineDesc {
     /// comes to the routine itself.
     const int32_t* errorFilter;
     uint32_t errorFilterCount;
-    const float* const* errorVariables; ///< further listed numbers, in variables of the program
+    const ErrorVariable* errorVariables; ///< further listed numbers
     uint32_t errorVariableCount;
     uint32_t localCount; ///< > 0, or `stepping`, or with detachedHandler: the frame record is a SteppingFrame
     const LocalDesc* locals; ///< in their order; dimensions of arrays have rows without name and type
@@ -188,11 +194,11 @@ struct SteppingFrame : Frame {
 struct TaskCore {
     int64_t
         budget; ///< instructions left in this slice; negative after a safepoint's charge: call rt_safepoint
-    char* stackLimit;      ///< lowest address a routine may use; below: rt_stackOverflow
-    Frame* frame;          ///< innermost frame record, stored before native calls
-    float errorNumber;     ///< ERRNO
-    float interruptNumber; ///< INTNO
-    int32_t askSteps;      ///< stepping profile: not 0: rt_step is called ahead of every statement
+    char* stackLimit;        ///< lowest address a routine may use; below: rt_stackOverflow
+    Frame* frame;            ///< innermost frame record, stored before native calls
+    int32_t errorNumber;     ///< ERRNO
+    int32_t interruptNumber; ///< INTNO
+    int32_t askSteps;        ///< stepping profile: not 0: rt_step is called ahead of every statement
 };
 
 // ---- Program description: emitted once per program as the symbol `rapidc_program` ---------------------------------

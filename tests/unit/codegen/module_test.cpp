@@ -60,8 +60,10 @@ TEST_CASE("the program description tells what the module holds", "[codegen]") {
     CHECK(main.hasErrorHandler == 1);
     CHECK(main.hasUndo == 1);
     CHECK(main.noStepIn == 1);
-    REQUIRE(main.errorFilterCount == 2);
+    REQUIRE(main.errorFilterCount == 4);
     CHECK(main.errorFilter[1] == -12);
+    CHECK(main.errorFilter[2] == rt::kAllErrors);
+    CHECK(main.errorFilter[3] == rt::kOtherErrors);
     REQUIRE(main.statementCount == 6);
     CHECK(main.statements[2].line == 13);
     CHECK(main.statements[2].kind == static_cast<uint8_t>(ir::StmtKind::Motion));

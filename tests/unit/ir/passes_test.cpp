@@ -50,7 +50,7 @@ size_t count(const ir::Routine& routine, Op op) {
 /// A routine around a few lines of one block; `result` is its type.
 ir::Module body(const std::string& result, const std::string& lines) {
     return parse("routine @\"r\" \"r\" in \"M\" " + result +
-                 " () {\n  stmt 0 plain 1:1 1:2\n  b0:\n    stmt 0\n" + lines + "}\n");
+                 " (f32 \"x\") {\n  stmt 0 plain 1:1 1:2\n  b0:\n    stmt 0\n" + lines + "}\n");
 }
 
 /// The constant that the routine returns after folding; fails when it is not one.
@@ -372,7 +372,7 @@ size_t finiteChecks(const std::string& result, const std::string& lines) {
 } // namespace
 
 TEST_CASE("a result out of range is found where it leaves its expression", "[ir]") {
-    const std::string x = "    %0 = sysvar errno\n";
+    const std::string x = "    %0 = param 0\n";
     // Inner results show in the outer one: one check.
     CHECK(finiteChecks("f32", x + "    %1 = fmul %0, %0\n    %2 = fadd %1, %0\n    ret %2\n") == 1);
     // A divisor and the operands of a comparison hide it.
@@ -389,11 +389,12 @@ TEST_CASE("a result out of range is found where it leaves its expression", "[ir]
 
 TEST_CASE("checks with nothing but stores between them become one look", "[ir]") {
     const std::string lines =
-        "    %0 = sysvar errno\n    %1 = fmul %0, %0\n    checkfinite %1, 17\n    %2 = global @\"g\"\n"
+        "    %0 = param 0\n    %1 = fmul %0, %0\n    checkfinite %1, 17\n    %2 = global @\"g\"\n"
         "    store f32 %1, %2\n    %3 = fadd %0, %0\n    checkfinite %3, 17\n    ret %3\n";
     const std::string global = "global @\"g\" \"g\" in \"M\" f32 var\n";
     ir::Module module =
-        parse(global + "routine @\"r\" \"r\" in \"M\" f32 () {\n  stmt 0 plain 1:1 1:2\n  b0:\n    stmt 0\n" +
+        parse(global +
+              "routine @\"r\" \"r\" in \"M\" f32 (f32 \"x\") {\n  stmt 0 plain 1:1 1:2\n  b0:\n    stmt 0\n" +
               lines + "}\n");
     module = run(std::move(module), {"merge-checks"});
     const ir::Routine& r = module.routines[0];
@@ -409,6 +410,6 @@ TEST_CASE("checks with nothing but stores between them become one look", "[ir]")
 
 TEST_CASE("a module without overflow keeps infinities", "[ir]") {
     ir::Module module =
-        run(body("f32", "    %0 = sysvar errno\n    %1 = fmul %0, %0\n    ret %1\n"), {"check-overflow"});
+        run(body("f32", "    %0 = param 0\n    %1 = fmul %0, %0\n    ret %1\n"), {"check-overflow"});
     CHECK(count(module.routines[0], Op::CheckFinite) == 0);
 }

@@ -61,7 +61,7 @@ TEST_CASE("printing keeps what the text said", "[ir]") {
     CHECK(module.globals[8].init[2].integer == -9007199254740993); // not a binary64 number
     const ir::Routine& main = routine(module, "T/M/main");
     CHECK(main.noStepIn);
-    CHECK(main.errorFilter == std::vector<int32_t>{11, -12});
+    CHECK(main.errorFilter == std::vector<int32_t>{11, -12, ir::kEveryError, ir::kOwnErrors});
     CHECK(main.statements[0].handled);
     CHECK(main.statements[0].next == 2);
     CHECK(main.statements[2].kind == ir::StmtKind::Motion);
