@@ -76,7 +76,7 @@ llvm::Value* RoutineEmitter::shiftCount(const ir::Inst& inst) {
     return b_.CreateAnd(operand(inst, 1), ir::bitsOf(inst.type) - 1);
 }
 
-/// The smallest integer divided by -1 overflows, which the processor answers with a trap: -1 is set apart.
+/// The smallest integer divided by -1 overflows, which stops the processor: -1 is set apart.
 llvm::Value* RoutineEmitter::divide(const ir::Inst& inst) {
     Value *a = operand(inst, 0), *b = operand(inst, 1);
     bool quotient = inst.op == Op::IDiv;

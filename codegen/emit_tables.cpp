@@ -199,7 +199,7 @@ llvm::Constant* ModuleEmitter::tasks() {
     for (const ir::TaskEntry& task : module_.tasks)
         rows.push_back(abi::Row<Desc>(context_)
                            .set<&Desc::name>(text(task.name))
-                           .set<&Desc::type>(text(task.type))
+                           .set<&Desc::type>(text(task.kind))
                            .set<&Desc::entry>(emitStart(task.entry))
                            .set<&Desc::reset>(entryOrNull(task.reset))
                            .set<&Desc::motionTask>(task.motionTask)

@@ -98,7 +98,7 @@ void RoutineEmitter::findRetried() {
         return routine_.insts[routine_.blocks[b].insts.back()].op == ir::Op::Retry;
     };
     if (std::none_of(cfg_.order.begin(), cfg_.order.end(), isRetry)) return;
-    // A handler with a list takes errors of trap routines, too, which run at safepoints anywhere.
+    // A handler with a list takes errors of interrupt routines, too, which run at safepoints anywhere.
     const bool anywhere = !routine_.errorFilter.empty() || !routine_.errorFilterGlobals.empty();
     std::vector<bool> fails(routine_.statements.size(), anywhere);
     for (ir::BlockId b : cfg_.order)

@@ -1,7 +1,7 @@
 #pragma once
 // The mid-level IR: types, constants, routines made of basic blocks, statement tables, run-time descriptions.
 // General on purpose (statements, handlers, tasks, persistents, calls into the runtime): nothing here knows
-// RAPID. Not SSA: named storage is `local`/`global` memory; instruction results are temporaries assigned
+// a source language. Not SSA: named storage is `local`/`global` memory; instruction results are temporaries assigned
 // once, used in the same routine in blocks dominated by their definition. LLVM promotes the memory later. See
 // ir/LANGREF.md.
 
@@ -269,7 +269,7 @@ struct ModuleEntry {
     uint32_t gone = kNone; ///< global I32 that becomes 1 when the module leaves memory; kNone: nobody asks
 };
 
-enum class DescKind : uint8_t { Num, Dnum, Bool, String, Record, Array, Handle, Other };
+enum class DescKind : uint8_t { Float, Double, Bool, String, Record, Array, Handle, Other };
 /// Run-time description of a source-language type.
 struct TypeDesc {
     std::string name;     ///< as declared, an alias keeps its name
@@ -283,7 +283,7 @@ struct TypeDesc {
 /// A signal or another configured object that the program names; resolved when the program is loaded.
 struct ExternalRef {
     std::string name;
-    std::string kind;        ///< "signaldi", "signaldo", ... as the source language says
+    std::string kind;        ///< as the source language says
     uint32_t global = kNone; ///< I64 slot that receives the handle
     uint32_t file = kNone, line = 0, column = 0;
 };
@@ -299,9 +299,9 @@ struct GlobalAlias {
 
 struct TaskEntry {
     std::string name;
-    std::string type = "NORMAL"; ///< NORMAL, STATIC, SEMISTATIC
-    uint32_t entry = kNone;      ///< routine
-    uint32_t reset = kNone;      ///< routine that gives every variable its initial value
+    std::string kind;       ///< in the words of the source language, which its runtime reads
+    uint32_t entry = kNone; ///< routine
+    uint32_t reset = kNone; ///< routine that gives every variable its initial value
     bool motionTask = false;
 };
 

@@ -30,8 +30,8 @@ bool isScalarKind(TypeKind kind) {
 
 ir::DescKind descKind(const sema::Type& type) {
     switch (type.base()->kind) {
-    case TypeKind::Num: return ir::DescKind::Num;
-    case TypeKind::Dnum: return ir::DescKind::Dnum;
+    case TypeKind::Num: return ir::DescKind::Float;
+    case TypeKind::Dnum: return ir::DescKind::Double;
     case TypeKind::Bool: return ir::DescKind::Bool;
     case TypeKind::String: return ir::DescKind::String;
     case TypeKind::Record: return ir::DescKind::Record;
@@ -474,7 +474,7 @@ void ProgramLowering::lowerTask(uint32_t index) {
     if (searchesData()) addPredefinedData(index);
     ir::TaskEntry entry;
     entry.name = current.name;
-    entry.type = current.type;
+    entry.kind = current.type;
     entry.motionTask = index == 0;
     entry.entry = current.entryRoutine ? routineFor(*current.entryRoutine, index) : ir::kNone;
     entry.reset = makeReset(index);

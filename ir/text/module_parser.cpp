@@ -316,7 +316,7 @@ class ModuleParser {
 
     bool task() {
         TaskEntry entry;
-        if (!in_.string(entry.name) || !in_.string(entry.type)) return false;
+        if (!in_.string(entry.name) || !in_.string(entry.kind)) return false;
         size_t index = module_.tasks.size();
         if (in_.takeWord("entry") && !tableReference(Fixup::Kind::Routine, Fixup::Slot::TaskEntry, index))
             return false;

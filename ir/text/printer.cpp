@@ -347,7 +347,7 @@ void printTails(Out& out, const Module& module) {
         put(out, "\n");
     }
     for (const TaskEntry& task : module.tasks) {
-        put(out, "task {} {}", quotedText(task.name), quotedText(task.type));
+        put(out, "task {} {}", quotedText(task.name), quotedText(task.kind));
         if (task.entry != kNone) put(out, " entry @{}", routineName(task.entry));
         if (task.reset != kNone) put(out, " reset @{}", routineName(task.reset));
         put(out, "{}\n", task.motionTask ? " motion" : "");

@@ -233,9 +233,9 @@ TEST_CASE("records, strings and arrays lie in memory as in C", "[codegen]") {
 type 9 string 80
 type 10 record "mixed" { bool "flag", f64 "wide", %9 "text", f32 "x" }
 type 11 array %10 [3]
-desc 0 "num" base "num" num f32
+desc 0 "num" base "num" float f32
 desc 1 "bool" base "bool" bool bool
-desc 2 "dnum" base "dnum" dnum f64
+desc 2 "dnum" base "dnum" double f64
 desc 3 "string" base "string" string %9
 desc 4 "mixed" base "mixed" record %10 { "flag": 1, "wide": 2, "text": 3, "x": 0 }
 desc 5 "mixed{3}" base "mixed{3}" array %11 of 4
@@ -290,7 +290,7 @@ routine @"r" "r" in "M" exported void () {
 TEST_CASE("the budget is charged and refilled at safepoints", "[codegen]") {
     auto program = compile(parse(R"(
 global @"sum" "sum" in "M" f32 var desc 0
-desc 0 "num" base "num" num f32
+desc 0 "num" base "num" float f32
 routine @"loop" "loop" in "M" exported void (f32 "limit") {
   local 0 f32 "x"
   stmt 0 plain 1:1 1:2

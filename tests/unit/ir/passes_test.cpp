@@ -158,7 +158,7 @@ namespace {
 /// A native without result, then a store to a persistent and one to a variable; `native` ends the line of the native.
 ir::Module causes(const std::string& native) {
     return parse(
-        "file 0 \"m.modx\"\ndesc 0 \"num\" base \"num\" num f32\n"
+        "file 0 \"m.modx\"\ndesc 0 \"num\" base \"num\" float f32\n"
         "global @\"p\" \"p\" in \"M\" f32 persistent desc 0 at 0:1\n"
         "global @\"v\" \"v\" in \"M\" f32 var desc 0 at 0:2\n"
         "native @\"rt_do\" plain void ()" +

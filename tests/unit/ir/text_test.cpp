@@ -67,7 +67,7 @@ TEST_CASE("printing keeps what the text said", "[ir]") {
     CHECK(main.statements[2].kind == ir::StmtKind::Motion);
     CHECK(module.externals[0].global == 5);
     CHECK(module.externals[0].column == 3);
-    CHECK(module.tasks[1].type == "SEMISTATIC");
+    CHECK(module.tasks[1].kind == "SEMISTATIC");
     CHECK(module.tasks[1].reset == module.findRoutine("T/M/main"));
     CHECK(module.configTexts[0] == "EIO:CFG_1.0\n# text\n");
 }
