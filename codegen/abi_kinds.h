@@ -11,8 +11,8 @@ namespace codegen::abi {
 
 constexpr rt::DescKind kindOf(ir::DescKind kind) {
     switch (kind) {
-    case ir::DescKind::Num: return rt::DescKind::Num;
-    case ir::DescKind::Dnum: return rt::DescKind::Dnum;
+    case ir::DescKind::Float: return rt::DescKind::Num;
+    case ir::DescKind::Double: return rt::DescKind::Dnum;
     case ir::DescKind::Bool: return rt::DescKind::Bool;
     case ir::DescKind::String: return rt::DescKind::String;
     case ir::DescKind::Record: return rt::DescKind::Record;
@@ -86,6 +86,9 @@ constexpr rt::DataFlag flagOf(ir::DataFlag flag) {
     }
     return {};
 }
+
+static_assert(ir::kEveryError == rt::kAllErrors && ir::kOwnErrors == rt::kOtherErrors,
+              "error lists are passed on as they are");
 
 /// Sets of flags are passed on as they are: every flag must be the same bit on both sides.
 template <class Flag>

@@ -11,12 +11,11 @@ using ir::Op;
 
 llvm::Value* RoutineEmitter::constant(const ir::Inst& inst) {
     switch (inst.type) {
-    case ir::kBool: return b_.getInt1(inst.number != 0);
-    case ir::kI32: return llvm::ConstantInt::getSigned(b_.getInt32Ty(), static_cast<int32_t>(inst.number));
-    case ir::kI64: return llvm::ConstantInt::getSigned(b_.getInt64Ty(), static_cast<int64_t>(inst.number));
+    case ir::kBool: return b_.getInt1(inst.integer != 0);
     case ir::kF32: return llvm::ConstantFP::get(m_.context(), llvm::APFloat(static_cast<float>(inst.number)));
     case ir::kF64: return llvm::ConstantFP::get(m_.context(), llvm::APFloat(inst.number));
-    default: return llvm::ConstantPointerNull::get(b_.getPtrTy());
+    case ir::kPtr: return llvm::ConstantPointerNull::get(b_.getPtrTy());
+    default: return llvm::ConstantInt::getSigned(m_.valueType(inst.type), inst.integer); // integers
     }
 }
 
@@ -63,11 +62,21 @@ llvm::Value* RoutineEmitter::intArithmetic(const ir::Inst& inst) {
     case ir::IntOp::INeg: return b_.CreateNeg(a);
     case ir::IntOp::IDiv:
     case ir::IntOp::IRem: return divide(inst);
+    case ir::IntOp::UDiv: return b_.CreateUDiv(a, operand(inst, 1));
+    case ir::IntOp::URem: return b_.CreateURem(a, operand(inst, 1));
+    case ir::IntOp::Shl: return b_.CreateShl(a, shiftCount(inst));
+    case ir::IntOp::Shr: return b_.CreateLShr(a, shiftCount(inst));
+    case ir::IntOp::Sar: return b_.CreateAShr(a, shiftCount(inst));
     }
     return nullptr;
 }
 
-/// The smallest integer divided by -1 overflows, which the processor answers with a trap: -1 is set apart.
+/// Modulo the width, which the processor takes for granted and LLVM does not.
+llvm::Value* RoutineEmitter::shiftCount(const ir::Inst& inst) {
+    return b_.CreateAnd(operand(inst, 1), ir::bitsOf(inst.type) - 1);
+}
+
+/// The smallest integer divided by -1 overflows, which stops the processor: -1 is set apart.
 llvm::Value* RoutineEmitter::divide(const ir::Inst& inst) {
     Value *a = operand(inst, 0), *b = operand(inst, 1);
     bool quotient = inst.op == Op::IDiv;
@@ -97,6 +106,9 @@ llvm::Value* RoutineEmitter::comparison(const ir::Inst& inst) {
     case ir::CompareOp::IGt: return b_.CreateICmpSGT(a, b);
     case ir::CompareOp::IGe: return b_.CreateICmpSGE(a, b);
     case ir::CompareOp::IULt: return b_.CreateICmpULT(a, b);
+    case ir::CompareOp::IULe: return b_.CreateICmpULE(a, b);
+    case ir::CompareOp::IUGt: return b_.CreateICmpUGT(a, b);
+    case ir::CompareOp::IUGe: return b_.CreateICmpUGE(a, b);
     case ir::CompareOp::IsFinite: break;
     }
     return nullptr;
@@ -106,22 +118,19 @@ llvm::Value* RoutineEmitter::conversion(const ir::Inst& inst) {
     Value* a = operand(inst, 0);
     llvm::Type* to = m_.valueType(inst.type);
     switch (ir::as<ir::ConvertOp>(inst.op)) {
-    case ir::ConvertOp::F32ToIndex:
-    case ir::ConvertOp::F64ToIndex: // out of range: arbitrary, but one and the same value
+    case ir::ConvertOp::FloatToIndex: // out of range: arbitrary, but one and the same value
         return b_.CreateFreeze(b_.CreateFPToSI(a, to));
-    case ir::ConvertOp::F32ToI32:
-    case ir::ConvertOp::F64ToI32:
-    case ir::ConvertOp::F32ToI64:
-    case ir::ConvertOp::F64ToI64:
+    case ir::ConvertOp::FloatToSInt:
         return b_.CreateIntrinsic(llvm::Intrinsic::fptosi_sat, {to, a->getType()}, {a});
-    case ir::ConvertOp::F32ToF64: return b_.CreateFPExt(a, to);
-    case ir::ConvertOp::F64ToF32: return b_.CreateFPTrunc(a, to);
-    case ir::ConvertOp::I32ToI64: return b_.CreateSExt(a, to);
-    case ir::ConvertOp::I64ToI32: return b_.CreateTrunc(a, to);
-    case ir::ConvertOp::I32ToF32:
-    case ir::ConvertOp::I32ToF64:
-    case ir::ConvertOp::I64ToF32:
-    case ir::ConvertOp::I64ToF64: return b_.CreateSIToFP(a, to);
+    case ir::ConvertOp::FloatToUInt:
+        return b_.CreateIntrinsic(llvm::Intrinsic::fptoui_sat, {to, a->getType()}, {a});
+    case ir::ConvertOp::FWiden: return b_.CreateFPExt(a, to);
+    case ir::ConvertOp::FNarrow: return b_.CreateFPTrunc(a, to);
+    case ir::ConvertOp::SExt: return b_.CreateSExt(a, to);
+    case ir::ConvertOp::ZExt: return b_.CreateZExt(a, to);
+    case ir::ConvertOp::Trunc: return b_.CreateTrunc(a, to);
+    case ir::ConvertOp::SIntToFloat: return b_.CreateSIToFP(a, to);
+    case ir::ConvertOp::UIntToFloat: return b_.CreateUIToFP(a, to);
     }
     return nullptr;
 }

@@ -54,9 +54,6 @@ void RoutineEmitter::check(const ir::Inst& inst, Value* condition) {
 
 void RoutineEmitter::raise(const ir::Inst& inst) {
     Value* number = operand(inst, 0);
-    if (number->getType()->isFloatTy())
-        number =
-            b_.CreateIntrinsic(llvm::Intrinsic::fptosi_sat, {b_.getInt32Ty(), number->getType()}, {number});
     b_.CreateBr(raiseFrom(inst, number));
 }
 

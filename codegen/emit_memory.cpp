@@ -17,9 +17,9 @@ llvm::Value* RoutineEmitter::leaf(const ir::Inst& inst) {
     case ir::LeafOp::RoutineAddr: return m_.cEntry(inst.index);
     case ir::LeafOp::ResultAddr: return result_;
     case ir::LeafOp::Sysvar:
-        return inst.extra == static_cast<int32_t>(ir::SysvarKind::Intno)
-                   ? loadTask<&rt::TaskCore::interruptNumber>("intno")
-                   : loadTask<&rt::TaskCore::errorNumber>("errno");
+        return inst.extra == static_cast<int32_t>(ir::SysvarKind::Interrupt)
+                   ? loadTask<&rt::TaskCore::interruptNumber>("interrupt")
+                   : loadTask<&rt::TaskCore::errorNumber>("error");
     }
     return nullptr;
 }

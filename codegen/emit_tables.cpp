@@ -145,7 +145,10 @@ llvm::Constant* ModuleEmitter::routineDescValue(const ir::Routine& routine) {
     for (int32_t number : routine.errorFilter)
         filter.push_back(i32(number));
     for (uint32_t global : routine.errorFilterGlobals)
-        variables.push_back(this->global(global));
+        variables.push_back(abi::Row<rt::ErrorVariable>(context_)
+                                .set<&rt::ErrorVariable::address>(this->global(global))
+                                .set<&rt::ErrorVariable::isFloat>(module_.globals[global].type == ir::kF32)
+                                .finish());
     using Desc = rt::RoutineDesc;
     return abi::Row<Desc>(context_)
         .set<&Desc::name>(text(routine.displayName))
@@ -159,7 +162,7 @@ llvm::Constant* ModuleEmitter::routineDescValue(const ir::Routine& routine) {
         .set<&Desc::hasBackward>(routine.hasBackward)
         .set<&Desc::errorFilter>(array(i32_, filter, "filter"))
         .set<&Desc::errorFilterCount>(filter.size())
-        .set<&Desc::errorVariables>(array(ptr_, variables, "filterVariables"))
+        .set<&Desc::errorVariables>(table<rt::ErrorVariable>(variables, "filterVariables"))
         .set<&Desc::errorVariableCount>(variables.size())
         .set<&Desc::localCount>(locals.size())
         .set<&Desc::locals>(table<rt::LocalDesc>(locals, "locals"))
@@ -196,7 +199,7 @@ llvm::Constant* ModuleEmitter::tasks() {
     for (const ir::TaskEntry& task : module_.tasks)
         rows.push_back(abi::Row<Desc>(context_)
                            .set<&Desc::name>(text(task.name))
-                           .set<&Desc::type>(text(task.type))
+                           .set<&Desc::type>(text(task.kind))
                            .set<&Desc::entry>(emitStart(task.entry))
                            .set<&Desc::reset>(entryOrNull(task.reset))
                            .set<&Desc::motionTask>(task.motionTask)

@@ -55,18 +55,21 @@ class DataImage {
 
     void scalar(const ir::ConstScalar& value, size_t at) {
         switch (value.kind) {
-        case ir::TypeKind::Bool: image_[at] = value.number != 0; break;
-        case ir::TypeKind::I32: put(static_cast<int32_t>(value.number), at); break;
-        case ir::TypeKind::I64: put(static_cast<int64_t>(value.number), at); break;
+        case ir::TypeKind::Bool: image_[at] = value.integer != 0; break;
+        case ir::TypeKind::I8: put(static_cast<int8_t>(value.integer), at); break;
+        case ir::TypeKind::I16: put(static_cast<int16_t>(value.integer), at); break;
+        case ir::TypeKind::I32: put(static_cast<int32_t>(value.integer), at); break;
+        case ir::TypeKind::I64: put(value.integer, at); break;
         case ir::TypeKind::F32: put(static_cast<float>(value.number), at); break;
         case ir::TypeKind::F64: put(value.number, at); break;
-        case ir::TypeKind::Str: {
-            rt::String string;
-            string.assign(value.text);
-            put(string, at);
+        case ir::TypeKind::Str:
+            put(static_cast<uint32_t>(value.text.size()), at);
+            putBytes(image_, at + sizeof(uint32_t), value.text.data(), value.text.size());
             break;
-        }
-        default: break;
+        case ir::TypeKind::Void: // not scalars of constant data
+        case ir::TypeKind::Ptr:
+        case ir::TypeKind::Record:
+        case ir::TypeKind::Array: break;
         }
     }
 
@@ -133,7 +136,9 @@ llvm::Type* ModuleEmitter::valueType(ir::TypeId type) {
 llvm::Type* ModuleEmitter::memoryType(ir::TypeId type) {
     switch (type) {
     case ir::kVoid: return llvm::Type::getVoidTy(context_);
-    case ir::kBool: return i8_;
+    case ir::kBool:
+    case ir::kI8: return i8_;
+    case ir::kI16: return llvm::Type::getInt16Ty(context_);
     case ir::kI32: return i32_;
     case ir::kI64: return i64_;
     case ir::kF32: return llvm::Type::getFloatTy(context_);
@@ -151,13 +156,12 @@ void ModuleEmitter::declareTypes() {
     llvm::MDBuilder md(context_);
     unlikely_ = md.createBranchWeights(kErrorsAreCold, 1);
     llvm::MDNode* root = md.createTBAARoot("rapidc");
-    auto tag = [&](const char* name) {
+    auto tag = [&](const std::string& name) {
         llvm::MDNode* node = md.createTBAAScalarTypeNode(name, root);
         return md.createTBAAStructTagNode(node, node, 0);
     };
-    constexpr const char* kNames[] = {"void", "bool", "i32", "i64", "f32", "f64", "str", "ptr"};
-    for (ir::TypeId t : {ir::kBool, ir::kI32, ir::kI64, ir::kF32, ir::kF64, ir::kPtr})
-        tags_.data[t] = tag(kNames[t]);
+    for (ir::TypeId t = ir::kBool; t < ir::kScalarTypes; ++t)
+        tags_.data[t] = tag(ir::typeName(t));
     tags_.task = tag("task");
     tags_.frame = tag("frame");
 }

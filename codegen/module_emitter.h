@@ -41,7 +41,7 @@ std::string symbolOf(const ir::Routine& routine);
 
 /// Metadata that keeps accesses to program data, to the task and to frame records apart.
 struct AccessTags {
-    llvm::MDNode* data[8] = {}; ///< by scalar TypeId
+    llvm::MDNode* data[ir::kScalarTypes] = {}; ///< by scalar TypeId
     llvm::MDNode* task = nullptr;
     llvm::MDNode* frame = nullptr;
 };

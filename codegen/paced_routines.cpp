@@ -61,7 +61,7 @@ class Pace {
     std::optional<int64_t> constant(ir::ValueId id) const {
         const ir::Inst& inst = routine_.insts[id];
         if (inst.op != ir::Op::Const) return std::nullopt;
-        return static_cast<int64_t>(inst.number);
+        return inst.integer;
     }
 
     uint32_t localOf(ir::ValueId address) const {

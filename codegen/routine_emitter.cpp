@@ -106,7 +106,7 @@ bool RoutineEmitter::isEmpty(ir::BlockId id) const {
 /// The statements that the error handler may come from.
 void RoutineEmitter::findFailing() {
     if (routine_.errorHandler == ir::kNone) return;
-    // A handler with a list takes errors of trap routines, too, which run at safepoints anywhere.
+    // A handler with a list takes errors of interrupt routines, too, which run at safepoints anywhere.
     const bool anywhere = !routine_.errorFilter.empty() || !routine_.errorFilterGlobals.empty();
     mayFail_.assign(routine_.statements.size(), anywhere);
     for (ir::BlockId b : cfg_.order)

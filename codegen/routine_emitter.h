@@ -68,6 +68,7 @@ class RoutineEmitter {
     Value* floatArithmetic(const ir::Inst& inst);
     Value* intArithmetic(const ir::Inst& inst);
     Value* divide(const ir::Inst& inst);
+    Value* shiftCount(const ir::Inst& inst);
     Value* comparison(const ir::Inst& inst);
     Value* logic(const ir::Inst& inst);
     Value* conversion(const ir::Inst& inst);
@@ -182,7 +183,7 @@ class RoutineEmitter {
     std::vector<WideLoop> wideLoops_;
     std::vector<JoinedRounds> joinedRounds_;
     std::vector<Value*> locals_;
-    llvm::AllocaInst* resultSlots_[8] = {}; ///< for scalar results of natives, by type
+    llvm::AllocaInst* resultSlots_[ir::kScalarTypes] = {}; ///< for scalar results of natives, by type
     Value *task_ = nullptr, *caller_ = nullptr, *result_ = nullptr;
     llvm::AllocaInst *frame_ = nullptr, *unwinding_ = nullptr;
     Value* failed_ = nullptr;            ///< address: the statement that failed

@@ -18,13 +18,9 @@ namespace {
 constexpr unsigned kBytesAtOnce = 128;
 constexpr unsigned kRegister = 16;
 
-bool isFloat(ir::TypeId type) {
-    return type == ir::kF32 || type == ir::kF64;
-}
-
 bool isVectorOp(Op op) {
     if (ir::familyOf(op) == ir::Family::Float) return op != Op::FTrunc;
-    return op == Op::F32ToF64 || op == Op::F64ToF32;
+    return op == Op::FWiden || op == Op::FNarrow;
 }
 
 } // namespace
@@ -120,13 +116,13 @@ bool WideLoop::classify(ValueId id) {
         const Inst& amount = routine_.insts[other];
         const auto before = lanes_.at(inst.operands[second ? 1 : 0]).offset;
         if (before && amount.op == Op::Const)
-            out.offset = *before + static_cast<int64_t>(inst.op == Op::IAdd ? amount.number : -amount.number);
-    } else if (inst.op == Op::I32ToF32 || inst.op == Op::I32ToF64) {
+            out.offset = *before + (inst.op == Op::IAdd ? amount.integer : -amount.integer);
+    } else if (inst.op == Op::SIntToFloat) {
         out.kind = Kind::Vector;
     } else if (inst.op == Op::ElemAddr) {
         const Lane* base = lane(inst.operands[0]);
         const ValueId object = base ? base->object : inst.operands[0];
-        if (object == ir::kNone || kindOf(inst.operands[0]) != Kind::Uniform || !isFloat(inst.type))
+        if (object == ir::kNone || kindOf(inst.operands[0]) != Kind::Uniform || !ir::isFloat(inst.type))
             return false;
         out = {Kind::Address, lanes_.at(inst.operands[1]).offset, object};
     } else if (isVectorOp(inst.op)) {
@@ -158,7 +154,7 @@ bool WideLoop::classifyLoad(ValueId id) {
         lanes_[id] = {};
         return true;
     }
-    if (!address || address->kind != Kind::Address || !isFloat(inst.type)) return false;
+    if (!address || address->kind != Kind::Address || !ir::isFloat(inst.type)) return false;
     if (routine_.insts[inst.operands[0]].type != inst.type) return false;
     loads_.push_back(id);
     lanes_[id] = {Kind::Vector, std::nullopt, ir::kNone};
@@ -169,7 +165,8 @@ bool WideLoop::classifyStore(ValueId id) {
     const Inst& inst = routine_.insts[id];
     if (loadedLocal(inst) == counted_.counter) return true;
     const Lane* address = lane(inst.operands[1]);
-    if (!address || address->kind != Kind::Address || !address->offset || !isFloat(inst.type)) return false;
+    if (!address || address->kind != Kind::Address || !address->offset || !ir::isFloat(inst.type))
+        return false;
     if (routine_.insts[inst.operands[1]].type != inst.type || kindOf(inst.operands[0]) == Kind::Index)
         return false;
     stores_.push_back(id);
@@ -302,7 +299,7 @@ llvm::Value* RoutineEmitter::wideValue(const WideLoop& wide, ir::ValueId id, Val
         read->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().data[inst.type]);
         return read;
     }
-    if (inst.op == Op::I32ToF32 || inst.op == Op::I32ToF64) {
+    if (inst.op == Op::SIntToFloat) {
         std::vector<llvm::Constant*> rounds;
         for (unsigned i = 0; i < wide.width_; ++i)
             rounds.push_back(b_.getInt32(i));
@@ -311,8 +308,8 @@ llvm::Value* RoutineEmitter::wideValue(const WideLoop& wide, ir::ValueId id, Val
         return b_.CreateSIToFP(numbers, wideType(m_.valueType(inst.type)));
     }
     const auto operand = [&](size_t i) { return wideOperand(wide, inst, i, values); };
-    if (inst.op == Op::F32ToF64) return b_.CreateFPExt(operand(0), wideType(b_.getDoubleTy()));
-    if (inst.op == Op::F64ToF32) return b_.CreateFPTrunc(operand(0), wideType(b_.getFloatTy()));
+    if (inst.op == Op::FWiden) return b_.CreateFPExt(operand(0), wideType(b_.getDoubleTy()));
+    if (inst.op == Op::FNarrow) return b_.CreateFPTrunc(operand(0), wideType(b_.getFloatTy()));
     switch (ir::as<ir::FloatOp>(inst.op)) {
     case ir::FloatOp::FAdd: return b_.CreateFAdd(operand(0), operand(1));
     case ir::FloatOp::FSub: return b_.CreateFSub(operand(0), operand(1));

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Checks every #include against the layers of the architecture and reports files and functions that are too long.
 
-An include that crosses a layer the wrong way is an error; length is only reported.
+An include that crosses a layer the wrong way is an error, and so is a word of RAPID in a layer that knows no source
+language; length is only reported.
 """
 
 import argparse
@@ -63,6 +64,11 @@ RESTRICTED = [
      "matrices belong to robot, motion and the built-ins"),
     (re.compile(r"^catch2/"), ["tests"], "the test framework belongs to tests"),
 ]
+
+# Words of RAPID, in code, comments and texts of layers that know no source language.
+LANGUAGE_WORDS = re.compile(r"\b(RAPID|TRUE|FALSE|PERS|TRAP|ERRNO|INTNO|ERR_\w+|LONG_JMP_\w+|NORMAL|STATIC|SEMISTATIC|"
+                            r"9[eE]\+?0?9|d?num|errnum|intnum|robtarget|jointtarget|signald[io]|traps?|TPWrite|RobotWare)\b")
+WITHOUT_LANGUAGE = ["ir/core", "ir/verify", "ir/text", "ir/passes", "codegen"]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 SOURCE_FOLDERS = ("config", "frontend", "ir", "codegen", "runtime", "stdlib", "tools", "tests")
@@ -135,6 +141,16 @@ def check_includes(path, lines, errors):
             errors.append(f'{path}:{number}: {layer} may not include {target_layer} ("{name}")')
 
 
+def check_words(path, lines, errors):
+    layer = layer_of(path)
+    if layer not in WITHOUT_LANGUAGE:
+        return
+    for number, line in enumerate(lines, 1):
+        word = LANGUAGE_WORDS.search(line)
+        if word:
+            errors.append(f"{path}:{number}: '{word.group()}' is a word of RAPID; {layer} knows no source language")
+
+
 def function_lengths(lines):
     """Yields (line, length) of function bodies: an unindented line opening a brace up to the unindented brace.
 
@@ -163,6 +179,7 @@ def check_tree(root):
             lines = file.readlines()
         count += 1
         check_includes(path, lines, errors)
+        check_words(path, lines, errors)
         if path.endswith(".def"):
             continue
         if len(lines) > MAX_FILE_LINES:

@@ -36,7 +36,7 @@ const DataSymbol* named(const Expr& e, const sema::Module& module) {
 
 bool isErrno(const Expr& e, const sema::Module& module) {
     const DataSymbol* data = named(e, module);
-    return data != nullptr && data->predefined && upper(data->name) == "ERRNO";
+    return data != nullptr && data->meaning == sema::Meaning::ErrorNumber;
 }
 
 /// "ERR_A, ERR_B" as the declarations of natives have it.
@@ -46,15 +46,6 @@ void addNames(std::string_view text, std::vector<std::string>& names) {
         if (end > 0) names.push_back(upper(text.substr(0, end)));
         text.remove_prefix(std::min(end + 1, text.size()));
     }
-}
-
-/// Sources of these errors are not known well enough: every expression can raise them.
-bool isCommon(const std::string& name) {
-    constexpr std::string_view kNames[] = {
-        "ERR_ARGVALERR", "ERR_OUTOFBND",  "ERR_STRTOOLNG", "ERR_OVERFLOW",   "ERR_NOTPRES", "ERR_INT_NOTVAL",
-        "ERR_CALLPROC",  "ERR_EXECPHR",   "ERR_FNCNORET",  "ERR_ARRAY_SIZE", "ERR_ILLDIM",  "ERR_ILLRAISE",
-        "ERR_REFUNKPRC", "ERR_REFUNKDAT", "ERR_REFUNKFUN", "ERR_REFUNKTRP"};
-    return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
 bool has(const std::vector<std::string>& names, const std::string& name) {
@@ -68,10 +59,12 @@ ErrorRoutes::Error ErrorRoutes::errorOf(const Expr& number, const sema::Module& 
     error.where = module.tree->range(number);
     error.name = std::string(
         module.tree->source->text().substr(error.where.begin, error.where.end - error.where.begin));
+    const DataSymbol* data = named(number, module);
+    if (data != nullptr) error.meaning = data->meaning;
     const sema::ConstValue* value = (*module.exprs)[number.id].constant;
     if (value != nullptr && value->kind == sema::ConstValue::Kind::Number)
         error.number = value->number;
-    else if (const DataSymbol* data = named(number, module); data != nullptr && data->routine == nullptr)
+    else if (data != nullptr && data->routine == nullptr)
         error.variable = data;
     return error;
 }
@@ -89,7 +82,7 @@ void ErrorRoutes::routine(const RoutineSymbol& symbol) {
         lists = lists || clause->hasList;
         for (const Expr* number : clause->numbers) {
             Error error = errorOf(*number, module);
-            allListed_ = allListed_ || upper(error.name) == "LONG_JMP_ALL_ERR";
+            allListed_ = allListed_ || error.meaning == sema::Meaning::AllErrors;
             listed_.push_back(std::move(error));
         }
         out.takesAll = true;
@@ -187,8 +180,8 @@ bool ErrorRoutes::find(const Routine& routine, const Routine& caller, Lost& lost
     }
     for (const Error& wanted : caller.handled) {
         const std::string name = upper(wanted.name);
-        if (!has(routine.fromNatives, name) || isCommon(name) || isListed(wanted) ||
-            hasOtherSource(caller, name))
+        if (!has(routine.fromNatives, name) || wanted.meaning == sema::Meaning::CommonError ||
+            isListed(wanted) || hasOtherSource(caller, name))
             continue;
         lost.raiser = &routine;
         lost.error = &wanted;

@@ -18,6 +18,7 @@ class ErrorRoutes {
     struct Error {
         const sema::Symbol* variable = nullptr; ///< a booked number in module data; null: `number`
         double number = 0;
+        sema::Meaning meaning = sema::Meaning::None;
         std::string name; ///< as written
         SourceRange where;
         bool isSame(const Error& other) const {

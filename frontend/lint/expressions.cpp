@@ -2,6 +2,7 @@
 
 #include "frontend/lint/walker.h"
 #include "frontend/syntax/lexer.h"
+#include "frontend/syntax/limits.h"
 #include "frontend/syntax/tree_walk.h"
 
 #include <algorithm>
@@ -16,8 +17,6 @@ using sema::DataSymbol;
 using sema::TypeKind;
 
 namespace {
-
-constexpr unsigned kLongestText = 80;
 
 bool isIdentifier(TokenKind kind) {
     return kind == TokenKind::Identifier;
@@ -208,7 +207,8 @@ void Walker::textLength(const BinaryExpr& e) {
         rest = as<BinaryExpr>(*rest).left;
     }
     length += leastLength(*rest);
-    if (length > kLongestText) report(Code::StringMayOverflow, range(e), {fmt::format("{} or more", length)});
+    if (length > kStringCapacity)
+        report(Code::StringMayOverflow, range(e), {fmt::format("{} or more", length)});
 }
 
 unsigned Walker::leastLength(const Expr& e) const {
@@ -222,7 +222,7 @@ unsigned Walker::leastLength(const Expr& e) const {
     if (const DataSymbol* param = called->routine->textLengthParam) {
         for (const sema::BoundArg& arg : called->args) {
             const double* length = arg.param == param && arg.value ? number(*arg.value) : nullptr;
-            if (length && *length > 0 && *length <= kLongestText) return static_cast<unsigned>(*length);
+            if (length && *length > 0 && *length <= kStringCapacity) return static_cast<unsigned>(*length);
         }
     }
     return called->routine->textLength;

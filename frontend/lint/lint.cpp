@@ -8,6 +8,7 @@
 #include "frontend/lint/rings.h"
 #include "frontend/lint/walker.h"
 #include "frontend/sema/names.h"
+#include "frontend/syntax/limits.h"
 
 #include <algorithm>
 #include <cctype>
@@ -147,8 +148,7 @@ std::unordered_set<std::string> namesInTexts(const Task& task) {
     std::unordered_set<std::string> names;
     std::unordered_set<const SyntaxTree*> seen;
     const auto add = [&](std::string_view text) {
-        constexpr size_t kLongest = 80; // of a string
-        if (text.size() > kLongest) return;
+        if (text.size() > syntax::kStringCapacity) return;
         text.remove_prefix(std::min(text.size(), text.rfind(':') + 1));
         const size_t first = text.find_first_not_of(' ');
         if (first != std::string_view::npos)

@@ -72,6 +72,10 @@ void applyAttribute(RoutineSymbol& symbol, std::string_view key, std::string_vie
         if (DataSymbol* param = findParam(symbol, value)) param->deferred = true;
 }
 
+Meaning meaningOf(const DeclarationComment& comment) {
+    return valueOf(kMeaningWords, comment.get("meaning")).value_or(Meaning::None);
+}
+
 TypeClass classOf(const DeclarationComment& comment) {
     return valueOf(kTypeClassWords, comment.get("class")).value_or(TypeClass::Plain);
 }
@@ -87,8 +91,9 @@ void Analyzer::applyTypeAttributes(TypeSymbol& symbol) {
 }
 
 void Analyzer::applyDataAttributes(DataSymbol& symbol) {
-    if (classOf(commentOf(*context_.tree, *symbol.decl)) == TypeClass::SystemVariable)
-        symbol.storage = Storage::SystemVariable;
+    const DeclarationComment comment = commentOf(*context_.tree, *symbol.decl);
+    if (classOf(comment) == TypeClass::SystemVariable) symbol.storage = Storage::SystemVariable;
+    symbol.meaning = meaningOf(comment);
 }
 
 void Analyzer::applyRoutineAttributes(RoutineSymbol& symbol) {

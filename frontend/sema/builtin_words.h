@@ -37,6 +37,13 @@ enum class TypeClass : uint8_t {
 #include "frontend/sema/builtin_words.def"
 };
 
+/// Predefined data that the compiler itself knows; from `meaning:` in the declaration.
+enum class Meaning : uint8_t {
+    None,
+#define MEANING(Name, word) Name,
+#include "frontend/sema/builtin_words.def"
+};
+
 /// What checker, warnings and lowering want to know of a native; from `traits:` in the declaration.
 enum class Trait : uint8_t {
 #define TRAIT(Name, word) Name,
@@ -79,6 +86,10 @@ inline constexpr BuiltinWord<ParamClass> kParamClassWords[] = {
 };
 inline constexpr BuiltinWord<TypeClass> kTypeClassWords[] = {
 #define TYPE_CLASS(Name, word) {word, TypeClass::Name},
+#include "frontend/sema/builtin_words.def"
+};
+inline constexpr BuiltinWord<Meaning> kMeaningWords[] = {
+#define MEANING(Name, word) {word, Meaning::Name},
 #include "frontend/sema/builtin_words.def"
 };
 inline constexpr BuiltinWord<Trait> kTraitWords[] = {

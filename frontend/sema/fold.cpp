@@ -1,6 +1,7 @@
 // Values of constant expressions. num results are rounded to binary32 after each operation, as the controller does.
 
 #include "frontend/sema/analysis.h"
+#include "frontend/syntax/limits.h"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +12,6 @@ namespace rapid::sema {
 using namespace syntax;
 
 namespace {
-
-constexpr size_t kMaxStringBytes = 80;
 
 double roundTo(bool isDnum, double value) {
     return isDnum ? value : static_cast<double>(static_cast<float>(value));
@@ -196,7 +195,7 @@ void Analyzer::foldBinary(const BinaryExpr& e) {
     }
     if (a->kind == ConstValue::Kind::String) {
         const size_t size = a->text().size() + b->text().size();
-        if (size > kMaxStringBytes) {
+        if (size > kStringCapacity) {
             if (context_.constant) report(Code::ConstantStringTooLong, range(e), {std::to_string(size)});
             return;
         }

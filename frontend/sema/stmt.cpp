@@ -1,6 +1,7 @@
 // Instructions: assignment, branches, loops, calls (manual 1.4, 1.5).
 
 #include "frontend/sema/analysis.h"
+#include "frontend/syntax/later_words.h"
 
 #include <fmt/format.h>
 
@@ -91,8 +92,10 @@ bool Analyzer::callsOldProcedure(const Stmt& s) {
     if (!SourceFile::isLegacyFileType(context_.tree->source->path())) return false;
     RoutineSymbol* routine = asRoutine(lookup(idOf(s.first)));
     if (!routine || routine->routineKind != RoutineKind::Proc) return false;
-    report(Code::LaterReservedWord, range(s.first),
-           {s.kind == NodeKind::Break ? "BREAK" : "CONTINUE", "RobotWare 7.12"});
+    report(
+        Code::LaterReservedWord, range(s.first),
+        {s.kind == NodeKind::Break ? "BREAK" : "CONTINUE",
+         std::string(reservedSince(s.kind == NodeKind::Break ? TokenKind::KwBreak : TokenKind::KwContinue))});
     markUsed(*routine);
     bindCall(s, *routine, s.first, {});
     return true;

@@ -109,6 +109,7 @@ struct DataSymbol : Symbol {
     bool assigned = false;            ///< some statement writes it, or it is passed on as VAR, INOUT or PERS
     bool deferred = false; ///< parameter of a built-in whose expression is evaluated again and again
     ParamClass accepts = ParamClass::Any; ///< parameters of type `anytype`
+    Meaning meaning = Meaning::None;      ///< predefined data
     Progress valueProgress = Progress::Pending;
 
   private:

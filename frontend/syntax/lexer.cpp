@@ -1,13 +1,13 @@
 #include "frontend/syntax/lexer.h"
 #include "frontend/syntax/lexer_impl.h"
+#include "frontend/syntax/limits.h"
 #include "frontend/syntax/plain_pieces.h"
 
 namespace rapid::syntax {
 
 namespace {
 
-constexpr size_t kMaxStringBytes = 80; // manual 1.1.2
-constexpr size_t kMaxPieces = 128;     ///< of aggregates whose shape is noted
+constexpr size_t kMaxPieces = 128; ///< of aggregates whose shape is noted
 
 constexpr std::array<TokenKind, 128> kSingles = [] {
     std::array<TokenKind, 128> table{};
@@ -199,7 +199,7 @@ void Lexer::readString() {
     }
     ++p_;
     const size_t bytes = static_cast<size_t>(p_ - start) - 2 - saved;
-    if (bytes > kMaxStringBytes) error(diag::Code::StringTooLong, start, p_, {std::to_string(bytes)});
+    if (bytes > kStringCapacity) error(diag::Code::StringTooLong, start, p_, {std::to_string(bytes)});
     push(TokenKind::StringLiteral, start);
 }
 

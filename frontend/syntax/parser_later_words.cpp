@@ -1,5 +1,6 @@
 // Words that became reserved late. Files of older systems (.mod, .sys, .prg) may use them as names.
 
+#include "frontend/syntax/later_words.h"
 #include "frontend/syntax/parser_impl.h"
 
 #include <algorithm>
@@ -15,8 +16,9 @@ struct LaterWord {
     std::string_view since;
     bool endsAtOnce; ///< as an instruction it is followed by ';' and nothing else
 };
-constexpr LaterWord kLaterWords[] = {{TokenKind::KwBreak, "RobotWare 7.12", true},
-                                     {TokenKind::KwContinue, "RobotWare 7.12", true},
+constexpr std::string_view kBreakSystem = "RobotWare 7.12";
+constexpr LaterWord kLaterWords[] = {{TokenKind::KwBreak, kBreakSystem, true},
+                                     {TokenKind::KwContinue, kBreakSystem, true},
                                      {TokenKind::KwUndo, "RobotWare 5", false}};
 
 /// What can follow a name, but neither BREAK, CONTINUE nor UNDO.
@@ -88,6 +90,12 @@ void Parser::readLaterWordsAsNames() {
                 ((procedure && word.endsAtOnce) || isNameInOldFile(i, word.endsAtOnce)))
                 readAs(i, K::Identifier);
     }
+}
+
+std::string_view reservedSince(TokenKind word) {
+    for (const LaterWord& later : kLaterWords)
+        if (later.kind == word) return later.since;
+    return {};
 }
 
 } // namespace rapid::syntax

@@ -1,5 +1,6 @@
 // Reporting, and how the parser finds firm ground again after a mistake.
 
+#include "frontend/syntax/later_words.h"
 #include "frontend/syntax/parser_impl.h"
 
 #include <fmt/format.h>
@@ -580,7 +581,8 @@ TokenIndex Parser::takeReservedName() {
             report(Code::ReservedWordAsName, pos_, {std::string(tokenText(kind()))});
         if (kind() == K::KwBreak || kind() == K::KwContinue) {
             note(diagnostic, pos_,
-                 "an instruction since RobotWare 7.12: programs of older controllers need another name");
+                 fmt::format("an instruction since {}: programs of older controllers need another name",
+                             reservedSince(kind())));
             laterUsesAreNames(pos_);
         }
     }

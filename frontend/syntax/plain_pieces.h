@@ -2,6 +2,7 @@
 // Walks over a plain aggregate (AggregateExpr), piece by piece, as text or as tokens: the one place that knows what is plain.
 
 #include "frontend/syntax/ast.h"
+#include "frontend/syntax/limits.h"
 
 #include <array>
 
@@ -96,9 +97,8 @@ template <bool known> class PlainText {
         return isGlued(*p_) ? PlainPiece::Other : PlainPiece::Bool;
     }
 
-    /// Without codes of characters, and at most 80 bytes (manual 1.1.2).
+    /// Without codes of characters, and no longer than a string may be.
     PlainPiece string() {
-        constexpr int kMaxLength = 80;
         const char* p = p_ + 1;
         for (;; ++p) {
             if (*p == '"') {
@@ -107,7 +107,7 @@ template <bool known> class PlainText {
             }
             if (*p == '\\' || *p == '\0' || *p == '\n' || *p == '\r') return PlainPiece::Other;
         }
-        if (p > p_ + kMaxLength + 2) return PlainPiece::Other;
+        if (p > p_ + kStringCapacity + 2) return PlainPiece::Other;
         p_ = p;
         return PlainPiece::String;
     }

@@ -20,7 +20,13 @@ Inst makeIndexed(Op op, TypeId type, uint32_t index) {
     return inst;
 }
 
-Inst makeConst(TypeId type, double number) {
+Inst makeInt(TypeId type, int64_t value) {
+    Inst inst = make(Op::Const, type);
+    inst.integer = value;
+    return inst;
+}
+
+Inst makeFloat(TypeId type, double number) {
     Inst inst = make(Op::Const, type);
     inst.number = number;
     return inst;
@@ -72,17 +78,15 @@ ValueId Builder::emit(Inst inst) {
 }
 
 ValueId Builder::constF32(double value) {
-    return emit(makeConst(kF32, static_cast<float>(value)));
+    return emit(makeFloat(kF32, static_cast<float>(value)));
 }
 ValueId Builder::constF64(double value) {
-    return emit(makeConst(kF64, value));
+    return emit(makeFloat(kF64, value));
 }
-ValueId Builder::constI32(int32_t value) {
-    return emit(makeConst(kI32, value));
+ValueId Builder::constInt(TypeId type, int64_t value) {
+    return emit(makeInt(type, value));
 }
-ValueId Builder::constI64(int64_t value) {
-    return emit(makeConst(kI64, static_cast<double>(value)));
-}
+
 void Builder::beginShared() {
     if (sharedIn_ == block_ && !terminated()) return;
     if (terminated()) block_ = addBlock("dead");
@@ -97,13 +101,13 @@ ValueId Builder::shared(ValueId& known, Inst inst) {
 }
 
 ValueId Builder::constBool(bool value) {
-    if (value) return emit(makeConst(kBool, 1));
+    if (value) return constInt(kBool, 1);
     beginShared();
-    return shared(false_, makeConst(kBool, 0));
+    return shared(false_, makeInt(kBool, 0));
 }
 ValueId Builder::nullPtr() {
     beginShared();
-    return shared(null_, makeConst(kPtr, 0));
+    return shared(null_, makeInt(kPtr, 0));
 }
 
 ValueId Builder::param(uint32_t index) {
@@ -128,7 +132,7 @@ ValueId Builder::resultAddr() {
 }
 
 ValueId Builder::sysvar(SysvarKind kind) {
-    Inst inst = make(Op::Sysvar, kF32);
+    Inst inst = make(Op::Sysvar, kI32);
     inst.extra = static_cast<int32_t>(kind);
     return emit(std::move(inst));
 }
@@ -168,8 +172,8 @@ ValueId Builder::binary(Op op, ValueId a, ValueId b) {
 ValueId Builder::unary(Op op, ValueId a) {
     return emit(make(op, typeOf(a), {a}));
 }
-ValueId Builder::convert(Op op, ValueId a) {
-    return emit(make(op, conversionTo(op), {a}));
+ValueId Builder::convert(Op op, TypeId to, ValueId a) {
+    return emit(make(op, to, {a}));
 }
 ValueId Builder::select(ValueId cond, ValueId a, ValueId b) {
     return emit(make(Op::Select, typeOf(a), {cond, a, b}));

@@ -1,7 +1,7 @@
 #pragma once
 // The mid-level IR: types, constants, routines made of basic blocks, statement tables, run-time descriptions.
 // General on purpose (statements, handlers, tasks, persistents, calls into the runtime): nothing here knows
-// RAPID. Not SSA: named storage is `local`/`global` memory; instruction results are temporaries assigned
+// a source language. Not SSA: named storage is `local`/`global` memory; instruction results are temporaries assigned
 // once, used in the same routine in blocks dominated by their definition. LLVM promotes the memory later. See
 // ir/LANGREF.md.
 
@@ -18,18 +18,40 @@ namespace ir {
 enum class TypeKind : uint8_t {
     Void,
     Bool, ///< one byte in memory, 0 or 1
-    I32,  ///< counters, indices, dimensions, status
-    I64,  ///< handles of objects that the controller owns (signals, clocks, files ...)
+    I8,   ///< integers have no sign: an instruction says how it reads them where it matters
+    I16,
+    I32, ///< counters, indices, dimensions, status
+    I64, ///< handles of objects that the controller owns (signals, clocks, files ...)
     F32,
     F64,
-    Str,    ///< { u32 length, 80 bytes }: 84 bytes, align 4
     Ptr,    ///< reference; what it points to is said by the instruction that uses it
+    Str,    ///< { u32 length, Type::capacity bytes }, aligned as the length
     Record, ///< fields in order, natural C layout
     Array   ///< row-major, rank 1 to 3
 };
 
 using TypeId = uint32_t; ///< index into Module::types; the scalar types have the fixed ids below
-inline constexpr TypeId kVoid = 0, kBool = 1, kI32 = 2, kI64 = 3, kF32 = 4, kF64 = 5, kStr = 6, kPtr = 7;
+inline constexpr TypeId kVoid = 0, kBool = 1, kI8 = 2, kI16 = 3, kI32 = 4, kI64 = 5, kF32 = 6, kF64 = 7,
+                        kPtr = 8;
+inline constexpr uint32_t kScalarTypes = kPtr + 1; ///< how many fixed ids there are
+
+constexpr bool isInteger(TypeId type) {
+    return type >= kI8 && type <= kI64;
+}
+constexpr bool isFloat(TypeId type) {
+    return type == kF32 || type == kF64;
+}
+/// Bits of an integer or floating-point type.
+constexpr unsigned bitsOf(TypeId type) {
+    return isInteger(type) ? 8u << (type - kI8) : type == kF32 ? 32 : type == kF64 ? 64 : 0;
+}
+/// The value with its lowest `bits` bits, as a signed and as an unsigned number.
+constexpr int64_t signExtended(uint64_t value, unsigned bits) {
+    return static_cast<int64_t>(value << (64 - bits)) >> (64 - bits);
+}
+constexpr uint64_t zeroExtended(int64_t value, unsigned bits) {
+    return static_cast<uint64_t>(value) << (64 - bits) >> (64 - bits);
+}
 
 struct Field {
     std::string name;
@@ -40,6 +62,7 @@ struct Type {
     TypeKind kind = TypeKind::Void;
     std::string name;          ///< records
     std::vector<Field> fields; ///< records
+    uint32_t capacity = 0;     ///< strings: the most bytes that one holds
     TypeId element = kVoid;    ///< arrays
     std::vector<int32_t> dims; ///< arrays, 1 to 3 entries > 0
 };
@@ -48,9 +71,10 @@ struct Type {
 
 /// One scalar of constant data. Aggregates are flattened in memory order.
 struct ConstScalar {
-    TypeKind kind = TypeKind::F32; ///< Bool, I32, I64, F32, F64 or Str
-    double number = 0;             ///< all numeric kinds and Bool
-    std::string text;              ///< Str: at most 80 bytes
+    TypeKind kind = TypeKind::F32; ///< Bool, an integer, F32, F64 or Str
+    double number = 0;             ///< F32, F64
+    int64_t integer = 0;           ///< Bool and integers, sign-extended
+    std::string text;              ///< Str: no more bytes than its type holds
 };
 using ConstData = std::vector<ConstScalar>; ///< empty = all zero
 
@@ -79,7 +103,8 @@ struct Inst {
     uint32_t index = kNone; ///< local, global, param, field, routine, native, statement or type-desc number
     BlockId target[2] = {kNone, kNone};
     std::vector<SwitchCase> cases; ///< Switch
-    double number = 0;             ///< Const
+    double number = 0;             ///< Const: F32, F64
+    int64_t integer = 0;           ///< Const: Bool, Ptr, and integers, sign-extended
     StmtId stmt = kNone;           ///< statement it belongs to
     /// Check, CheckFinite: error number; Charge, Safepoint: cost; Sysvar: SysvarKind; CondBr: 1 = seldom goes to target[1]
     int32_t extra = 0;
@@ -159,7 +184,7 @@ struct Routine {
     std::vector<Statement> statements;
     BlockId errorHandler = kNone;
     /// When one of them is not empty: numbers the handler takes, from any depth of calls and from interrupt routines; as
-    /// numbers and as global F32 variables. In errorFilter 999 means all, 0 those of the routine and its calls.
+    /// numbers and as global variables (I32 or F32). errorFilter may hold kEveryError and kOwnErrors.
     std::vector<int32_t> errorFilter;
     std::vector<uint32_t> errorFilterGlobals;
     /// The routine that does on top of others what the error handler would do after they are left; kNone: nobody asks. Its
@@ -169,6 +194,9 @@ struct Routine {
     bool isDetachedHandler = false; ///< of another routine; `propagate` and `handlerend` act for that one
     BlockId undoHandler = kNone;    ///< the UNDO part; a `ret` without value in it goes on unwinding
 };
+
+/// In Routine::errorFilter: every error, wherever it is raised; those of the routine and its calls.
+inline constexpr int32_t kEveryError = INT32_MIN, kOwnErrors = 0;
 
 /// What a native routine may do; decides how it is called (see codegen/README.md).
 enum class NativeClass : uint8_t {
@@ -242,7 +270,7 @@ struct ModuleEntry {
     uint32_t gone = kNone; ///< global I32 that becomes 1 when the module leaves memory; kNone: nobody asks
 };
 
-enum class DescKind : uint8_t { Num, Dnum, Bool, String, Record, Array, Handle, Other };
+enum class DescKind : uint8_t { Float, Double, Bool, String, Record, Array, Handle, Other };
 /// Run-time description of a source-language type.
 struct TypeDesc {
     std::string name;     ///< as declared, an alias keeps its name
@@ -256,7 +284,7 @@ struct TypeDesc {
 /// A signal or another configured object that the program names; resolved when the program is loaded.
 struct ExternalRef {
     std::string name;
-    std::string kind;        ///< "signaldi", "signaldo", ... as the source language says
+    std::string kind;        ///< as the source language says
     uint32_t global = kNone; ///< I64 slot that receives the handle
     uint32_t file = kNone, line = 0, column = 0;
 };
@@ -272,15 +300,15 @@ struct GlobalAlias {
 
 struct TaskEntry {
     std::string name;
-    std::string type = "NORMAL"; ///< NORMAL, STATIC, SEMISTATIC
-    uint32_t entry = kNone;      ///< routine
-    uint32_t reset = kNone;      ///< routine that gives every variable its initial value
+    std::string kind;       ///< in the words of the source language, which its runtime reads
+    uint32_t entry = kNone; ///< routine
+    uint32_t reset = kNone; ///< routine that gives every variable its initial value
     bool motionTask = false;
 };
 
 struct Module {
     std::string name;
-    std::vector<Type> types; ///< ids 0 to 7 are the scalar types
+    std::vector<Type> types; ///< the first ones are the scalar types
     std::vector<Global> globals;
     std::vector<Native> natives;
     std::vector<Routine> routines;
@@ -309,19 +337,24 @@ struct Module {
     size_t instructionCount() const;
     const Type& type(TypeId id) const { return types[id]; }
     TypeId arrayOf(TypeId element, std::vector<int32_t> dims); ///< interned
+    TypeId stringOf(uint32_t capacity);                        ///< interned
     TypeId addRecord(std::string name, std::vector<Field> fields);
     uint32_t size(TypeId id) const; ///< bytes, C layout
     uint32_t align(TypeId id) const;
     uint32_t fieldOffset(TypeId record, uint32_t field) const;
-    bool isScalar(TypeId id) const { return id <= kF64 || id == kPtr; }
+    bool isScalar(TypeId id) const { return id < kScalarTypes; }
     uint32_t findRoutine(std::string_view name) const; ///< kNone if absent
 };
+
+/// As the textual form names it: "f32", "%12".
+std::string typeName(TypeId type);
 
 /// Type of the value the instruction yields; kVoid when it yields none. Differs from Inst::type where that
 /// names the type accessed (FieldAddr, ElemAddr, Store ...).
 TypeId valueType(const Inst& inst);
 
-enum class SysvarKind : int32_t { Errno = 0, Intno = 1 };
+/// What the controller keeps for a task: the number of its latest error, and of the interrupt in progress. I32.
+enum class SysvarKind : int32_t { Error = 0, Interrupt = 1 };
 
 // ---- Builder ---------------------------------------------------------------------------------------------
 
@@ -344,8 +377,9 @@ class Builder {
 
     ValueId constF32(double value);
     ValueId constF64(double value);
-    ValueId constI32(int32_t value);
-    ValueId constI64(int64_t value);
+    ValueId constInt(TypeId type, int64_t value);
+    ValueId constI32(int32_t value) { return constInt(kI32, value); }
+    ValueId constI64(int64_t value) { return constInt(kI64, value); }
     ValueId constBool(bool value);
     ValueId nullPtr();
     ValueId param(uint32_t index);
@@ -364,7 +398,7 @@ class Builder {
     ValueId elemAddr(TypeId element, ValueId ptr, ValueId zeroBasedIndex);
     ValueId binary(Op op, ValueId a, ValueId b); ///< result type from the operands (comparisons: Bool)
     ValueId unary(Op op, ValueId a);             ///< FNeg, INeg, Not
-    ValueId convert(Op op, ValueId a);           ///< I32ToF32 ...
+    ValueId convert(Op op, TypeId to, ValueId a);
     ValueId select(ValueId cond, ValueId a, ValueId b);
     void check(ValueId cond, int32_t errorNumber); ///< raises errorNumber when cond is false
     /// Calls a routine. Scalar result: the value of this instruction. Str/Record/Array result: args[0] is the

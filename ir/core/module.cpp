@@ -5,7 +5,7 @@
 namespace ir {
 namespace {
 
-constexpr uint32_t kStringBytes = 84; // u32 length + 80 bytes, as rt::String
+constexpr uint32_t kStringLength = sizeof(uint32_t); // what stands ahead of the bytes
 
 uint32_t alignUp(uint32_t value, uint32_t align) {
     return (value + align - 1) / align * align;
@@ -13,9 +13,14 @@ uint32_t alignUp(uint32_t value, uint32_t align) {
 
 } // namespace
 
+std::string typeName(TypeId type) {
+    constexpr std::string_view kNames[] = {"void", "bool", "i8", "i16", "i32", "i64", "f32", "f64", "ptr"};
+    return type <= kPtr ? std::string(kNames[type]) : "%" + std::to_string(type);
+}
+
 Module::Module() {
-    for (TypeKind kind : {TypeKind::Void, TypeKind::Bool, TypeKind::I32, TypeKind::I64, TypeKind::F32,
-                          TypeKind::F64, TypeKind::Str, TypeKind::Ptr}) {
+    for (TypeKind kind : {TypeKind::Void, TypeKind::Bool, TypeKind::I8, TypeKind::I16, TypeKind::I32,
+                          TypeKind::I64, TypeKind::F32, TypeKind::F64, TypeKind::Ptr}) {
         Type type;
         type.kind = kind;
         types.push_back(std::move(type));
@@ -42,6 +47,16 @@ TypeId Module::arrayOf(TypeId element, std::vector<int32_t> dims) {
     return static_cast<TypeId>(types.size() - 1);
 }
 
+TypeId Module::stringOf(uint32_t capacity) {
+    for (TypeId id = 0; id < types.size(); ++id)
+        if (types[id].kind == TypeKind::Str && types[id].capacity == capacity) return id;
+    Type type;
+    type.kind = TypeKind::Str;
+    type.capacity = capacity;
+    types.push_back(std::move(type));
+    return static_cast<TypeId>(types.size() - 1);
+}
+
 TypeId Module::addRecord(std::string recordName, std::vector<Field> fields) {
     Type type;
     type.kind = TypeKind::Record;
@@ -55,13 +70,15 @@ uint32_t Module::size(TypeId id) const {
     const Type& t = types[id];
     switch (t.kind) {
     case TypeKind::Void: return 0;
-    case TypeKind::Bool: return 1;
+    case TypeKind::Bool:
+    case TypeKind::I8: return 1;
+    case TypeKind::I16: return 2;
     case TypeKind::I32:
     case TypeKind::F32: return 4;
     case TypeKind::I64:
     case TypeKind::F64:
     case TypeKind::Ptr: return 8;
-    case TypeKind::Str: return kStringBytes;
+    case TypeKind::Str: return alignUp(kStringLength + t.capacity, kStringLength);
     case TypeKind::Record: {
         uint32_t offset = 0;
         for (const Field& field : t.fields)
@@ -82,7 +99,9 @@ uint32_t Module::align(TypeId id) const {
     const Type& t = types[id];
     switch (t.kind) {
     case TypeKind::Void:
-    case TypeKind::Bool: return 1;
+    case TypeKind::Bool:
+    case TypeKind::I8: return 1;
+    case TypeKind::I16: return 2;
     case TypeKind::I32:
     case TypeKind::F32:
     case TypeKind::Str: return 4;

@@ -24,14 +24,16 @@ constexpr OpInfo kOps[] = {
 #include "ir/core/instructions.def"
 };
 
-struct Conversion {
-    Op op;
-    TypeId from, to;
-};
 constexpr Conversion kConversions[] = {
-#define CONVERT_INST(name, text, from, to) {Op::name, from, to},
+#define CONVERT_INST(name, text, from, to, width)                                                            \
+    {Op::name, NumberClass::from, NumberClass::to, WidthRule::width},
 #include "ir/core/instructions.def"
 };
+
+constexpr auto kFirstConversion = static_cast<size_t>(kConversions[0].op);
+static_assert(static_cast<size_t>(kConversions[std::size(kConversions) - 1].op) ==
+                  kFirstConversion + std::size(kConversions) - 1,
+              "the instructions of the family follow each other");
 
 } // namespace
 
@@ -55,22 +57,27 @@ TypeId valueType(const Inst& inst) {
     case ResultRule::Bool: return kBool;
     case ResultRule::Ptr: return kPtr;
     case ResultRule::Same:
-    case ResultRule::Typed:
-    case ResultRule::Fixed: return inst.type;
+    case ResultRule::Typed: return inst.type;
     }
     return kVoid;
 }
 
-TypeId conversionFrom(Op op) {
-    for (const Conversion& c : kConversions)
-        if (c.op == op) return c.from;
-    return kVoid;
+const Conversion& conversionOf(Op op) {
+    return kConversions[static_cast<size_t>(op) - kFirstConversion];
 }
 
-TypeId conversionTo(Op op) {
-    for (const Conversion& c : kConversions)
-        if (c.op == op) return c.to;
-    return kVoid;
+bool converts(Op op, TypeId from, TypeId to) {
+    const Conversion& conversion = conversionOf(op);
+    const auto isOf = [](NumberClass wanted, TypeId type) {
+        return wanted == NumberClass::Float ? isFloat(type) : isInteger(type);
+    };
+    if (!isOf(conversion.from, from) || !isOf(conversion.to, to)) return false;
+    switch (conversion.width) {
+    case WidthRule::Any: return true;
+    case WidthRule::Wider: return bitsOf(to) > bitsOf(from);
+    case WidthRule::Narrower: return bitsOf(to) < bitsOf(from);
+    }
+    return false;
 }
 
 } // namespace ir

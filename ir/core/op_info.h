@@ -9,7 +9,7 @@
 namespace ir {
 
 /// How the type of an instruction's value is found (column `result` of instructions.def).
-enum class ResultRule : char { None = 'N', Same = 'S', Bool = 'B', Ptr = 'P', Typed = 'T', Fixed = 'F' };
+enum class ResultRule : char { None = 'N', Same = 'S', Bool = 'B', Ptr = 'P', Typed = 'T' };
 
 /// What an instruction does. Code that dispatches over instructions switches over this and then over the instructions of one
 /// family (LeafOp ...), without `default`.
@@ -18,7 +18,7 @@ enum class Family : uint8_t { Leaf, Memory, Float, Int, Compare, Logic, Convert,
 /// What the textual form has besides operands; also which table Inst::index refers to.
 enum class Form : uint8_t {
     Plain,
-    Number,      ///< Inst::number
+    Number,      ///< Inst::number or Inst::integer
     Param,       ///< index: Routine::params
     Local,       ///< index: Routine::locals
     Global,      ///< index: Module::globals, by name
@@ -99,8 +99,17 @@ template <class FamilyOp> constexpr FamilyOp as(Op op) {
 /// Opcode for a textual name; false when there is none.
 bool opFromText(std::string_view text, Op& op);
 
-/// For conversions: the operand's and the result's type. kVoid for other opcodes.
-TypeId conversionFrom(Op op);
-TypeId conversionTo(Op op);
+enum class NumberClass : uint8_t { Integer, Float };
+enum class WidthRule : uint8_t { Any, Wider, Narrower };
+/// What a conversion turns into what.
+struct Conversion {
+    Op op;
+    NumberClass from, to;
+    WidthRule width; ///< of the result, compared to the operand
+};
+/// Of an instruction of the family Convert.
+const Conversion& conversionOf(Op op);
+/// May the conversion turn `from` into `to`?
+bool converts(Op op, TypeId from, TypeId to);
 
 } // namespace ir

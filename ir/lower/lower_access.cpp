@@ -27,10 +27,10 @@ ir::ValueId RoutineLowering::addressIfPresent(const Slot& slot) {
 }
 
 void RoutineLowering::readSystemVariable(const DataSymbol& symbol, ir::ValueId address) {
-    const std::string name = foldCase(symbol.name);
-    if (name == "errno" || name == "intno") {
-        const auto kind = name == "intno" ? ir::SysvarKind::Intno : ir::SysvarKind::Errno;
-        b_.store(ir::kF32, b_.sysvar(kind), address);
+    if (symbol.meaning == sema::Meaning::ErrorNumber || symbol.meaning == sema::Meaning::InterruptNumber) {
+        const bool error = symbol.meaning == sema::Meaning::ErrorNumber;
+        const ValueId number = b_.sysvar(error ? ir::SysvarKind::Error : ir::SysvarKind::Interrupt);
+        b_.store(ir::kF32, b_.convert(Op::SIntToFloat, ir::kF32, number), address);
         return;
     }
     b_.callNative(program_.support(Support::rt_systemData),
@@ -67,7 +67,8 @@ RoutineLowering::Place RoutineLowering::placeOf(const DataSymbol& symbol) {
         break;
     case Slot::Kind::IntLoop:
         p.addr = tempAddr(ir::kF32);
-        b_.store(ir::kF32, b_.convert(Op::I32ToF32, b_.load(ir::kI32, b_.localAddr(slot->local))), p.addr);
+        b_.store(ir::kF32,
+                 b_.convert(Op::SIntToFloat, ir::kF32, b_.load(ir::kI32, b_.localAddr(slot->local))), p.addr);
         break;
     }
     return p;
@@ -95,8 +96,8 @@ ir::ValueId RoutineLowering::lowerIndex(const Expr& index, ValueId dim, int32_t 
     const bool isDnum = type->kind == sema::TypeKind::Dnum;
     const ValueId value =
         type->kind == sema::TypeKind::SemiValue ? readSignal(index, false) : lowerValue(index);
-    const ValueId number = b_.convert(isDnum ? Op::F64ToIndex : Op::F32ToIndex, value);
-    const ValueId back = b_.convert(isDnum ? Op::I32ToF64 : Op::I32ToF32, number);
+    const ValueId number = b_.convert(Op::FloatToIndex, ir::kI32, value);
+    const ValueId back = b_.convert(Op::SIntToFloat, isDnum ? ir::kF64 : ir::kF32, number);
     const ValueId zeroBased = b_.binary(Op::ISub, number, one);
     b_.check(b_.binary(Op::IULt, zeroBased, dim), outOfBounds);
     b_.check(b_.binary(Op::FEq, back, value), program_.errorNumber("ERR_INT_NOTVAL"));

@@ -38,7 +38,7 @@ ir::ValueId RoutineLowering::elementCount(const Place& array, int from) {
 
 ir::ValueId RoutineLowering::byteCount(const Place& array) {
     const ir::TypeId element = program_.irType(array.type.type);
-    return b_.binary(Op::IMul, b_.convert(Op::I32ToI64, elementCount(array, 0)),
+    return b_.binary(Op::IMul, b_.convert(Op::SExt, ir::kI64, elementCount(array, 0)),
                      b_.constI64(program_.module().size(element)));
 }
 

@@ -69,8 +69,8 @@ ir::ValueId RoutineLowering::copyOfArray(const Place& p) {
     ValueId count = dimValue(p, 0);
     for (int k = 1; k < p.type.rank; ++k)
         count = b_.binary(Op::IMul, count, dimValue(p, k));
-    const ValueId bytes =
-        b_.binary(Op::IMul, b_.convert(Op::I32ToI64, count), b_.constI64(program_.module().size(element)));
+    const ValueId bytes = b_.binary(Op::IMul, b_.convert(Op::SExt, ir::kI64, count),
+                                    b_.constI64(program_.module().size(element)));
     const uint32_t buffer = b_.addLocal("", ir::kPtr);
     arrayBuffers_.push_back(buffer);
     const ir::BlockId make = b_.addBlock("buffer");
@@ -261,7 +261,7 @@ ir::ValueId RoutineLowering::lowerDim(const BoundCall& call) {
     const int32_t illegal = program_.errorNumber("ERR_ILLDIM");
     if (const auto* constant = info(number).constant) {
         const int k = static_cast<int>(constant->number);
-        if (k >= 1 && k <= p.type.rank) return b_.convert(Op::I32ToF32, dimValue(p, k - 1));
+        if (k >= 1 && k <= p.type.rank) return b_.convert(Op::SIntToFloat, ir::kF32, dimValue(p, k - 1));
         b_.check(b_.constBool(false), illegal);
         return b_.constF32(0);
     }
@@ -270,7 +270,7 @@ ir::ValueId RoutineLowering::lowerDim(const BoundCall& call) {
     for (int k = 0; k < p.type.rank; ++k)
         result = b_.select(b_.binary(Op::FEq, wanted, b_.constF32(k + 1)), dimValue(p, k), result);
     b_.check(b_.binary(Op::INe, result, b_.constI32(0)), illegal);
-    return b_.convert(Op::I32ToF32, result);
+    return b_.convert(Op::SIntToFloat, ir::kF32, result);
 }
 
 /// WaitUntil evaluates its condition again and again (manual 1.20: every 100 ms unless \PollRate says otherwise).

@@ -45,7 +45,7 @@ void RoutineLowering::chargeJump(const syntax::Node* label) {
 
 /// Rounds: (distance + step) / step, and none when that is negative.
 void RoutineLowering::chargeRounds(const Counting& counting, uint32_t cost) {
-    const auto wide = [this](ValueId value) { return b_.convert(Op::I32ToI64, value); };
+    const auto wide = [this](ValueId value) { return b_.convert(Op::SExt, ir::kI64, value); };
     const ValueId first = wide(counting.first), last = wide(counting.last);
     const bool up = counting.step > 0;
     ValueId distance = up ? b_.binary(Op::ISub, last, first) : b_.binary(Op::ISub, first, last);

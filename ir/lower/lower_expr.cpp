@@ -42,8 +42,8 @@ ir::ValueId RoutineLowering::lowerValueAs(const Expr& expr, const sema::Type* wa
     if (namesSignal(inner)) return readSignal(inner, type == ir::kF64);
     const ValueId value = lowerValue(inner);
     const ir::TypeId have = routine_.insts[value].type;
-    if (have == ir::kF32 && type == ir::kF64) return b_.convert(Op::F32ToF64, value);
-    if (have == ir::kF64 && type == ir::kF32) return b_.convert(Op::F64ToF32, value);
+    if (have == ir::kF32 && type == ir::kF64) return b_.convert(Op::FWiden, ir::kF64, value);
+    if (have == ir::kF64 && type == ir::kF32) return b_.convert(Op::FNarrow, ir::kF32, value);
     return value;
 }
 
@@ -59,7 +59,7 @@ ir::ValueId RoutineLowering::lowerValue(const Expr& outer) {
         return constantScalar(*facts.constant, type);
     switch (expr.kind) {
     case NodeKind::Name: {
-        if (intRange(expr)) return b_.convert(Op::I32ToF32, lowerInt(expr));
+        if (intRange(expr)) return b_.convert(Op::SIntToFloat, ir::kF32, lowerInt(expr));
         if (namesSignal(expr)) return readSignal(expr, type == ir::kF64);
         const auto* symbol = static_cast<const sema::DataSymbol*>(facts.symbol);
         if (symbol->isSwitch) {
@@ -76,7 +76,7 @@ ir::ValueId RoutineLowering::lowerValue(const Expr& outer) {
     case NodeKind::Unary: {
         const auto& unary = as<UnaryExpr>(expr);
         if (unary.op == UnaryOp::Not) return b_.unary(Op::Not, lowerBool(*unary.operand));
-        if (intRange(expr)) return b_.convert(Op::I32ToF32, lowerInt(expr));
+        if (intRange(expr)) return b_.convert(Op::SIntToFloat, ir::kF32, lowerInt(expr));
         const ValueId value = lowerValueAs(*unary.operand, facts.type.type);
         return unary.op == UnaryOp::Minus ? b_.unary(Op::FNeg, value) : value;
     }
@@ -104,7 +104,7 @@ ir::ValueId RoutineLowering::lowerBinary(const BinaryExpr& expr) {
     case BinaryOp::Ge: return lowerComparison(expr);
     default: break;
     }
-    if (intRange(expr)) return b_.convert(Op::I32ToF32, lowerInt(expr));
+    if (intRange(expr)) return b_.convert(Op::SIntToFloat, ir::kF32, lowerInt(expr));
     const sema::Type* type = info(expr).type.type;
     const ValueId a = lowerValueAs(*expr.left, type);
     const ValueId b = lowerValueAs(*expr.right, type);

@@ -129,7 +129,7 @@ void RoutineLowering::lowerRounds(const ForStmt& stmt, const std::optional<Count
 
 ir::ValueId RoutineLowering::boundAsInt(ValueId value, bool roundDown) {
     const ValueId whole = b_.unary(Op::FTrunc, value);
-    const ValueId number = b_.convert(Op::F32ToI32, whole);
+    const ValueId number = b_.convert(Op::FloatToSInt, ir::kI32, whole);
     // Toward minus or plus infinity: one further where truncation went the other way.
     const ValueId wrong = b_.binary(roundDown ? Op::FGt : Op::FLt, whole, value);
     const ValueId fixed = b_.binary(roundDown ? Op::ISub : Op::IAdd, number, b_.constI32(1));
@@ -183,10 +183,10 @@ void RoutineLowering::lowerUnknownDirection(const ForStmt& stmt, sema::DataSymbo
     const auto to = intRange(*stmt.to);
     const ValueId exact = to ? lowerInt(*stmt.to) : ir::kNone;
     const ValueId to32 =
-        to ? b_.convert(Op::I32ToF32, exact) : lowerValueAs(*stmt.to, program_.program().num);
+        to ? b_.convert(Op::SIntToFloat, ir::kF32, exact) : lowerValueAs(*stmt.to, program_.program().num);
     const ValueId up = to ? exact : boundAsInt(to32, true);
     const ValueId down = to ? exact : boundAsInt(to32, false);
-    const ValueId forward = b_.binary(Op::FLe, b_.convert(Op::I32ToF32, first), to32);
+    const ValueId forward = b_.binary(Op::FLe, b_.convert(Op::SIntToFloat, ir::kF32, first), to32);
     int budget = 12;
     if (isSmallBody(stmt.body, budget)) {
         const ir::BlockId upward = b_.addBlock("upward");
@@ -241,7 +241,7 @@ std::optional<RoutineLowering::Counting> RoutineLowering::countingOf(const ForPl
     if (plan.kind != ForPlan::Kind::Counted && plan.kind != ForPlan::Kind::UnknownDirection)
         return std::nullopt;
     Counting counting;
-    counting.first = b_.convert(Op::F32ToI32, from);
+    counting.first = b_.convert(Op::FloatToSInt, ir::kI32, from);
     if (plan.kind == ForPlan::Kind::Counted) {
         counting.step = plan.step;
         counting.last = boundAsInt(to, plan.step > 0);

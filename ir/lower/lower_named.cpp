@@ -73,7 +73,7 @@ ir::ValueId RoutineLowering::argumentName(const BoundArg& arg) {
 
 /// The native gets the name where it expects the parameter; null when there is none.
 void RoutineLowering::lowerArgName(const BoundCall& call, ValueId resultAddr) {
-    std::vector<ValueId> args{resultAddr == ir::kNone ? tempAddr(ir::kStr) : resultAddr};
+    std::vector<ValueId> args{resultAddr == ir::kNone ? tempAddr(program_.stringType()) : resultAddr};
     args.push_back(argumentName(call.args[0]));
     args.push_back(b_.nullPtr());
     pushArgument(call.args[1], args);
@@ -184,11 +184,12 @@ void RoutineLowering::lowerLateCall(const CallStmt& stmt) {
 ir::TypeId ProgramLowering::lateRow() {
     using Row = rt::LateCallArg;
     if (lateRow_ != ir::kVoid) return lateRow_;
-    lateRow_ = module_.addRecord("rt.LateCallArg", {{"data", irTypeOf<decltype(Row::data)>()},
-                                                    {"type", irTypeOf<decltype(Row::type)>()},
-                                                    {"objectName", irTypeOf<decltype(Row::objectName)>()},
-                                                    {"parameter", irTypeOf<decltype(Row::parameter)>()},
-                                                    {"flags", irTypeOf<decltype(Row::flags)>()}});
+    lateRow_ =
+        module_.addRecord("rt.LateCallArg", {{"data", irTypeOf<decltype(Row::data)>(module_)},
+                                             {"type", irTypeOf<decltype(Row::type)>(module_)},
+                                             {"objectName", irTypeOf<decltype(Row::objectName)>(module_)},
+                                             {"parameter", irTypeOf<decltype(Row::parameter)>(module_)},
+                                             {"flags", irTypeOf<decltype(Row::flags)>(module_)}});
     static_assert(offsetof(Row, type) == 8 && offsetof(Row, objectName) == 16 &&
                   offsetof(Row, parameter) == 24 && offsetof(Row, flags) == 32 && sizeof(Row) == 40);
     return lateRow_;

@@ -162,7 +162,7 @@ void RoutineLowering::copyArrayParameter(const DataSymbol& param, Slot& slot) {
     for (uint32_t k = 1; k < param.type.rank; ++k)
         count = b_.binary(ir::Op::IMul, count, b_.param(slot.param + 1 + k));
     const ir::TypeId element = program_.irType(param.type.type);
-    const ValueId bytes = b_.binary(ir::Op::IMul, b_.convert(ir::Op::I32ToI64, count),
+    const ValueId bytes = b_.binary(ir::Op::IMul, b_.convert(ir::Op::SExt, ir::kI64, count),
                                     b_.constI64(program_.module().size(element)));
     const ValueId copy = b_.stackAlloc(bytes);
     b_.copyDynamic(copy, b_.param(slot.param), bytes);
@@ -309,7 +309,8 @@ void RoutineLowering::lowerErrorClauses() {
         b_.callNative(program_.support(Support::rt_errorNotListed), {});
     }
     if (!b_.terminated()) b_.unreachable();
-    if (lists && others) routine_.errorFilter.push_back(0); // takes the others, too, from its own calls
+    if (lists && others)
+        routine_.errorFilter.push_back(ir::kOwnErrors); // takes the others, too, from its own calls
 }
 
 namespace {
@@ -329,11 +330,12 @@ bool RoutineLowering::lowerListedNumber(const Expr& number, ir::BlockId body) {
     bool unknown = false;
     if (value != nullptr) {
         const auto numeric = static_cast<int32_t>(value->number);
-        routine_.errorFilter.push_back(numeric);
-        if (numeric == program_.errorNumber("LONG_JMP_ALL_ERR"))
+        const bool all = numeric == program_.allErrors();
+        routine_.errorFilter.push_back(all ? ir::kEveryError : numeric);
+        if (all)
             b_.condBr(b_.constBool(true), body, other);
         else
-            b_.condBr(b_.binary(ir::Op::FEq, b_.sysvar(ir::SysvarKind::Errno), b_.constF32(numeric)), body,
+            b_.condBr(b_.binary(ir::Op::IEq, b_.sysvar(ir::SysvarKind::Error), b_.constI32(numeric)), body,
                       other);
     } else {
         const ValueId wanted = lowerValueAs(number, program_.program().num);
@@ -344,7 +346,8 @@ bool RoutineLowering::lowerListedNumber(const Expr& number, ir::BlockId body) {
             routine_.errorFilterGlobals.push_back(program_.globalFor(*symbol, task_));
         else
             unknown = true;
-        b_.condBr(b_.binary(ir::Op::FEq, b_.sysvar(ir::SysvarKind::Errno), wanted), body, other);
+        const ValueId raised = b_.convert(ir::Op::SIntToFloat, ir::kF32, b_.sysvar(ir::SysvarKind::Error));
+        b_.condBr(b_.binary(ir::Op::FEq, raised, wanted), body, other);
     }
     b_.setBlock(other);
     return unknown;

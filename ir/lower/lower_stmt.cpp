@@ -340,7 +340,7 @@ void RoutineLowering::lowerRaise(const RaiseStmt& stmt) {
     startStatement(stmt, ir::StmtKind::Control);
     if (region_ == Region::Undo) return lowerIgnoredInUndo("RAISE");
     if (!stmt.value)
-        return region_ == Region::Error ? b_.propagate() : b_.raise(b_.sysvar(ir::SysvarKind::Errno));
+        return region_ == Region::Error ? b_.propagate() : b_.raise(b_.sysvar(ir::SysvarKind::Error));
     const ValueId given = lowerValueAs(*stmt.value, program_.program().num);
     ValueId number = ir::kNone;
     if (const sema::ConstValue* value = info(*stmt.value).constant)

@@ -1,5 +1,6 @@
 #include "ir/lower/program_lowering.h"
 
+#include "frontend/syntax/limits.h"
 #include "ir/lower/routine_lowering.h"
 
 #include <algorithm>
@@ -21,14 +22,16 @@ std::string foldCase(std::string_view text) {
 
 namespace {
 
+static_assert(syntax::kStringCapacity == rt::kStringCapacity);
+
 bool isScalarKind(TypeKind kind) {
     return kind == TypeKind::Num || kind == TypeKind::Dnum || kind == TypeKind::Bool;
 }
 
 ir::DescKind descKind(const sema::Type& type) {
     switch (type.base()->kind) {
-    case TypeKind::Num: return ir::DescKind::Num;
-    case TypeKind::Dnum: return ir::DescKind::Dnum;
+    case TypeKind::Num: return ir::DescKind::Float;
+    case TypeKind::Dnum: return ir::DescKind::Double;
     case TypeKind::Bool: return ir::DescKind::Bool;
     case TypeKind::String: return ir::DescKind::String;
     case TypeKind::Record: return ir::DescKind::Record;
@@ -72,8 +75,11 @@ ProgramLowering::ProgramLowering(const sema::CheckedProgram& program, const Opti
       reachesRoutineData_(program.uses(sema::Trait::RoutineData)) {
     for (const sema::Module* lib : program.predefinedModules)
         for (const DataSymbol* data : lib->data)
-            if (data->name.starts_with("ERR_") || data->name == "LONG_JMP_ALL_ERR")
-                errorNumbers_[data->name] = static_cast<int32_t>(data->value().number);
+            if (data->dataKind == syntax::DataKind::Const && data->type.type->name == "errnum") {
+                const auto number = static_cast<int32_t>(data->value().number);
+                errorNumbers_[data->name] = number;
+                if (data->meaning == sema::Meaning::AllErrors) allErrors_ = number;
+            }
     module_.overflowError = errorNumber("ERR_OVERFLOW");
 }
 
@@ -84,7 +90,7 @@ ir::TypeId ProgramLowering::irType(const sema::Type* type) {
     case TypeKind::Dnum: return ir::kF64;
     case TypeKind::Bool:
     case TypeKind::Switch: return ir::kBool;
-    case TypeKind::String: return ir::kStr;
+    case TypeKind::String: return stringType();
     case TypeKind::NonValue:
     case TypeKind::SemiValue:
     case TypeKind::Error: return ir::kI64; // of a module that is not here: a place, which nothing reads
@@ -164,7 +170,7 @@ void ProgramLowering::flatten(const sema::ConstValue& value, const DataType& typ
     case TypeKind::AnyType: return;
     }
     if (value.kind == Kind::Number) scalar.number = value.number;
-    if (value.kind == Kind::Bool) scalar.number = value.boolean ? 1 : 0;
+    if (value.kind == Kind::Bool) scalar.integer = value.boolean ? 1 : 0;
     if (value.kind == Kind::String) scalar.text = value.text();
     out.push_back(std::move(scalar));
 }
@@ -288,7 +294,7 @@ uint32_t ProgramLowering::globalFor(const DataSymbol& symbol, uint32_t task) {
 uint32_t ProgramLowering::constGlobal(ir::TypeId type, ir::ConstData data) {
     std::string key = fmt::format("{}:", type);
     for (const ir::ConstScalar& s : data) {
-        key += fmt::format("{}|{:a}|{}:", static_cast<int>(s.kind), s.number, s.text.size());
+        key += fmt::format("{}|{:a}|{}|{}:", static_cast<int>(s.kind), s.number, s.integer, s.text.size());
         key += s.text;
     }
     auto [it, isNew] = constants_.try_emplace(std::move(key), static_cast<uint32_t>(module_.globals.size()));
@@ -306,20 +312,19 @@ uint32_t ProgramLowering::constGlobal(ir::TypeId type, ir::ConstData data) {
 uint32_t ProgramLowering::stringGlobal(std::string_view text) {
     ir::ConstScalar scalar;
     scalar.kind = ir::TypeKind::Str;
-    scalar.text = std::string(text.substr(0, 80));
-    return constGlobal(ir::kStr, {scalar});
+    scalar.text = std::string(text.substr(0, rt::kStringCapacity));
+    return constGlobal(stringType(), {scalar});
 }
 
 int32_t ProgramLowering::errorNumber(std::string_view name) const {
-    auto found = errorNumbers_.find(std::string(name));
-    return found == errorNumbers_.end() ? 1 : found->second;
+    return errorNumbers_.at(std::string(name));
 }
 
 bool ProgramLowering::implemented(const RoutineSymbol& symbol) const {
     return !options_.nativeImplemented || options_.nativeImplemented("rt_" + symbol.name);
 }
 
-ir::TypeId irTypeOf(rt::AbiType type) {
+ir::TypeId irTypeOf(ir::Module& module, rt::AbiType type) {
     switch (type) {
     case rt::AbiType::Void: return ir::kVoid;
     case rt::AbiType::Bool: return ir::kBool;
@@ -327,7 +332,7 @@ ir::TypeId irTypeOf(rt::AbiType type) {
     case rt::AbiType::I64: return ir::kI64;
     case rt::AbiType::F32: return ir::kF32;
     case rt::AbiType::F64: return ir::kF64;
-    case rt::AbiType::String: return ir::kStr;
+    case rt::AbiType::String: return module.stringOf(rt::kStringCapacity);
     case rt::AbiType::Pointer: return ir::kPtr;
     }
     return ir::kVoid;
@@ -345,9 +350,9 @@ uint32_t ProgramLowering::support(Support which) {
     ir::Native native;
     native.symbol = signature.symbol;
     native.nativeClass = signature.returnsValue ? ir::NativeClass::Const : ir::NativeClass::Plain;
-    native.result = irTypeOf(signature.result);
+    native.result = irTypeOf(module_, signature.result);
     for (const rt::AbiType type : signature.params)
-        native.params.push_back(irTypeOf(type));
+        native.params.push_back(irTypeOf(module_, type));
     return addNative(std::move(native));
 }
 
@@ -469,7 +474,7 @@ void ProgramLowering::lowerTask(uint32_t index) {
     if (searchesData()) addPredefinedData(index);
     ir::TaskEntry entry;
     entry.name = current.name;
-    entry.type = current.type;
+    entry.kind = current.type;
     entry.motionTask = index == 0;
     entry.entry = current.entryRoutine ? routineFor(*current.entryRoutine, index) : ir::kNone;
     entry.reset = makeReset(index);

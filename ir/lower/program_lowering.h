@@ -21,9 +21,9 @@ inline Passing passingOf(const sema::DataSymbol& param) {
     return rt::passingOf(shapeOf(param));
 }
 
-ir::TypeId irTypeOf(rt::AbiType type);
-template <class T> ir::TypeId irTypeOf() {
-    return irTypeOf(rt::abiTypeOf<T>());
+ir::TypeId irTypeOf(ir::Module& module, rt::AbiType type);
+template <class T> ir::TypeId irTypeOf(ir::Module& module) {
+    return irTypeOf(module, rt::abiTypeOf<T>());
 }
 
 /// Of a type that a module declares which is not here: the instruction that uses such data raises an error.
@@ -70,6 +70,7 @@ class ProgramLowering {
     const sema::CheckedProgram& program() const { return program_; }
     diag::Sink& sink() { return sink_; }
 
+    ir::TypeId stringType() { return module_.stringOf(rt::kStringCapacity); }
     ir::TypeId irType(const sema::Type* type);
     ir::TypeId irType(const sema::DataType& type);
     uint32_t typeDesc(const sema::DataType& type);
@@ -84,8 +85,10 @@ class ProgramLowering {
     /// Interned read-only data.
     uint32_t constGlobal(ir::TypeId type, ir::ConstData data);
     uint32_t stringGlobal(std::string_view text);
-    /// Value of a predefined ERR_ constant.
+    /// Value of a predefined error constant.
     int32_t errorNumber(std::string_view name) const;
+    /// The number that means every error in the list of a handler.
+    int32_t allErrors() const { return allErrors_; }
     uint32_t fileIndex(const std::string& path);
     /// The argument's name travels with this parameter, because ArgName asks for it.
     bool passesName(const sema::DataSymbol& param) const { return namedParams_.contains(&param); }
@@ -140,7 +143,8 @@ class ProgramLowering {
     std::map<std::pair<uint32_t, const sema::RoutineSymbol*>, uint32_t> routines_;
     std::unordered_map<std::string, uint32_t> natives_;
     std::map<std::string, uint32_t> constants_;
-    std::unordered_map<std::string, int32_t> errorNumbers_;
+    std::unordered_map<std::string, int32_t> errorNumbers_; ///< by name
+    int32_t allErrors_ = ir::kEveryError;
     std::unordered_map<std::string, uint32_t> files_;
     std::vector<Pending> pending_;
     const sema::Module* unit_ = nullptr;

@@ -15,10 +15,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-bool isFloat(TypeId type) {
-    return type == kF32 || type == kF64;
-}
-
 double largest(TypeId type) {
     return type == kF32 ? static_cast<double>(std::numeric_limits<float>::max())
                         : std::numeric_limits<double>::max();
@@ -66,7 +62,8 @@ class OverflowChecker {
     static bool keepsInfinity(Op op) {
         switch (familyOf(op)) {
         case Family::Float: return op != Op::FTrunc;
-        case Family::Convert: return op == Op::F32ToF64 || op == Op::F64ToF32;
+        case Family::Convert:
+            return conversionOf(op).from == NumberClass::Float && conversionOf(op).to == NumberClass::Float;
         case Family::Logic: return op == Op::Select;
         case Family::Leaf:
         case Family::Memory:
@@ -137,9 +134,10 @@ class OverflowChecker {
     }
 
     double boundOfConversion(const Inst& value, TypeId type) const {
-        const TypeId from = conversionFrom(value.op);
-        if (from == kI32) return 0x1p31;
-        if (from == kI64) return 0x1p63;
+        const TypeId from = valueType(inst(value.operands[0]));
+        if (isInteger(from))
+            return rounded(type,
+                           std::ldexp(1.0, static_cast<int>(bitsOf(from)) - (value.op == Op::SIntToFloat)));
         return rounded(type, bound_[value.operands[0]]); // exact where it widens
     }
 

@@ -53,7 +53,7 @@ class Recogniser {
             if (sum.op != Op::IAdd || loadedLocal(sum.operands[0]) != result_.counter) return false;
             if (inst(sum.operands[1]).op != Op::Const) return false;
             result_.increment = store.operands[0];
-            result_.step = static_cast<int32_t>(inst(sum.operands[1]).number);
+            result_.step = static_cast<int32_t>(inst(sum.operands[1]).integer);
             return true;
         }
         return false;

@@ -2,7 +2,6 @@
 // conversions saturating. Results that are not finite are left alone: the program finds out when it gets there.
 
 #include <cmath>
-#include <limits>
 
 #include "ir/core/op_info.h"
 #include "ir/passes/passes.h"
@@ -10,17 +9,26 @@
 namespace ir {
 namespace {
 
-template <class Int> double saturate(double value) {
-    if (std::isnan(value)) return 0;
-    if (value <= static_cast<double>(std::numeric_limits<Int>::min()))
-        return double(std::numeric_limits<Int>::min());
-    if (value >= static_cast<double>(std::numeric_limits<Int>::max()))
-        return double(std::numeric_limits<Int>::max());
-    return std::trunc(value);
+/// The value of a constant: `number` for floating point, otherwise `integer`, sign-extended.
+struct Constant {
+    TypeId type = kVoid;
+    double number = 0;
+    int64_t integer = 0;
+
+    uint64_t bits() const { return zeroExtended(integer, bitsOf(type)); } ///< of an integer
+};
+
+/// The result is a real number in range, or there is none that can be kept.
+bool keep(double value, Constant& out) {
+    out.number = value;
+    return std::isfinite(value);
 }
 
-/// Integers beyond this are not exact in Inst::number.
-constexpr double kExact = 9007199254740992.0;
+/// Integers wrap.
+bool keep(uint64_t value, Constant& out) {
+    out.integer = out.type == kBool ? static_cast<int64_t>(value & 1) : signExtended(value, bitsOf(out.type));
+    return true;
+}
 
 template <class Float> double floatArithmetic(FloatOp op, double x, double y) {
     auto a = static_cast<Float>(x), b = static_cast<Float>(y);
@@ -35,93 +43,112 @@ template <class Float> double floatArithmetic(FloatOp op, double x, double y) {
     return std::nan("");
 }
 
-bool compare(CompareOp op, double a, double b) {
+/// Comparing sign-extended integers as unsigned gives the same as comparing their bits.
+bool compare(CompareOp op, const Constant& a, const Constant& b) {
+    const double x = a.number, y = b.number;
+    const int64_t i = a.integer, j = b.integer;
+    const auto u = static_cast<uint64_t>(i), v = static_cast<uint64_t>(j);
     switch (op) {
-    case CompareOp::FEq:
-    case CompareOp::IEq: return a == b;
-    case CompareOp::FNe:
-    case CompareOp::INe: return a != b;
-    case CompareOp::FLt:
-    case CompareOp::ILt: return a < b;
-    case CompareOp::FLe:
-    case CompareOp::ILe: return a <= b;
-    case CompareOp::FGt:
-    case CompareOp::IGt: return a > b;
-    case CompareOp::FGe:
-    case CompareOp::IGe: return a >= b;
-    case CompareOp::IULt: return static_cast<uint64_t>(int64_t(a)) < static_cast<uint64_t>(int64_t(b));
-    case CompareOp::IsFinite: return std::isfinite(a);
+    case CompareOp::FEq: return x == y;
+    case CompareOp::FNe: return x != y;
+    case CompareOp::FLt: return x < y;
+    case CompareOp::FLe: return x <= y;
+    case CompareOp::FGt: return x > y;
+    case CompareOp::FGe: return x >= y;
+    case CompareOp::IEq: return i == j;
+    case CompareOp::INe: return i != j;
+    case CompareOp::ILt: return i < j;
+    case CompareOp::ILe: return i <= j;
+    case CompareOp::IGt: return i > j;
+    case CompareOp::IGe: return i >= j;
+    case CompareOp::IULt: return u < v;
+    case CompareOp::IULe: return u <= v;
+    case CompareOp::IUGt: return u > v;
+    case CompareOp::IUGe: return u >= v;
+    case CompareOp::IsFinite: return std::isfinite(x);
     }
     return false;
 }
 
 /// Select is dealt with before its operands are constant.
-bool logic(LogicOp op, bool a, bool b) {
+bool logic(LogicOp op, const Constant& a, const Constant& b, Constant& out) {
+    const auto x = static_cast<uint64_t>(a.integer), y = static_cast<uint64_t>(b.integer);
     switch (op) {
-    case LogicOp::And: return a && b;
-    case LogicOp::Or: return a || b;
-    case LogicOp::Xor: return a != b;
-    case LogicOp::Not: return !a;
+    case LogicOp::And: return keep(x & y, out);
+    case LogicOp::Or: return keep(x | y, out);
+    case LogicOp::Xor: return keep(x ^ y, out);
+    case LogicOp::Not: return keep(~x, out);
     case LogicOp::Select: break;
     }
     return false;
 }
 
-bool intArithmetic(IntOp op, TypeId type, double x, double y, double& out) {
-    auto a = static_cast<int64_t>(x), b = static_cast<int64_t>(y);
-    int64_t result = 0;
-    bool overflow = false;
+bool intArithmetic(IntOp op, const Constant& a, const Constant& b, Constant& out) {
+    const auto x = static_cast<uint64_t>(a.integer), y = static_cast<uint64_t>(b.integer);
+    const uint64_t count = y % bitsOf(a.type);
     switch (op) {
-    case IntOp::IAdd: overflow = __builtin_add_overflow(a, b, &result); break;
-    case IntOp::ISub: overflow = __builtin_sub_overflow(a, b, &result); break;
-    case IntOp::IMul: overflow = __builtin_mul_overflow(a, b, &result); break;
-    case IntOp::INeg: overflow = __builtin_sub_overflow(int64_t{0}, a, &result); break;
-    case IntOp::IDiv:
-        if (b == 0 || b == -1) return false;
-        result = a / b;
-        break;
+    case IntOp::IAdd: return keep(x + y, out);
+    case IntOp::ISub: return keep(x - y, out);
+    case IntOp::IMul: return keep(x * y, out);
+    case IntOp::INeg: return keep(0 - x, out);
+    case IntOp::IDiv: // by -1: a negation, which wraps
+        if (y == 0) return false;
+        return keep(b.integer == -1 ? 0 - x : static_cast<uint64_t>(a.integer / b.integer), out);
     case IntOp::IRem:
-        if (b == 0 || b == -1) return false;
-        result = a % b;
-        break;
-    }
-    if (overflow) return false;
-    out = type == kI32 ? static_cast<double>(static_cast<int32_t>(result)) : static_cast<double>(result);
-    return std::abs(out) <= kExact;
-}
-
-bool convert(ConvertOp op, double value, double& out) {
-    switch (op) {
-    case ConvertOp::I32ToF32:
-    case ConvertOp::F64ToF32: out = static_cast<float>(value); return true;
-    case ConvertOp::I64ToF32: out = static_cast<float>(static_cast<int64_t>(value)); return true;
-    case ConvertOp::F32ToIndex:
-    case ConvertOp::F64ToIndex:
-    case ConvertOp::F32ToI32:
-    case ConvertOp::F64ToI32: out = saturate<int32_t>(value); return true;
-    case ConvertOp::F32ToI64:
-    case ConvertOp::F64ToI64: out = saturate<int64_t>(value); return std::abs(out) <= kExact;
-    case ConvertOp::I64ToI32:
-        out = static_cast<int32_t>(static_cast<uint32_t>(static_cast<int64_t>(value)));
-        return true;
-    case ConvertOp::I32ToF64:
-    case ConvertOp::I64ToF64:
-    case ConvertOp::F32ToF64:
-    case ConvertOp::I32ToI64: out = value; return true;
+        if (y == 0) return false;
+        return keep(b.integer == -1 ? 0 : static_cast<uint64_t>(a.integer % b.integer), out);
+    case IntOp::UDiv: return y != 0 && keep(a.bits() / b.bits(), out);
+    case IntOp::URem: return y != 0 && keep(a.bits() % b.bits(), out);
+    case IntOp::Shl: return keep(x << count, out);
+    case IntOp::Shr: return keep(a.bits() >> count, out);
+    case IntOp::Sar: return keep(static_cast<uint64_t>(a.integer >> count), out);
     }
     return false;
 }
 
-/// The value of an instruction whose operands are constants. False when it has none that can be kept.
-bool compute(const Inst& inst, TypeId type, double a, double b, double& out) {
+/// Toward zero and saturating. The limits are powers of two: exact as floating-point numbers.
+uint64_t saturated(double value, unsigned bits, bool hasSign) {
+    const int magnitude = static_cast<int>(bits) - (hasSign ? 1 : 0);
+    const double limit = std::ldexp(1.0, magnitude);
+    const uint64_t largest = ~uint64_t{0} >> (64 - magnitude);
+    if (std::isnan(value)) return 0;
+    if (value >= limit) return largest;
+    if (!hasSign) return value <= 0 ? 0 : static_cast<uint64_t>(value);
+    return value <= -limit ? ~largest : static_cast<uint64_t>(static_cast<int64_t>(value));
+}
+
+bool convert(ConvertOp op, const Constant& a, Constant& out) {
+    const auto floating = [&](auto value) {
+        return keep(out.type == kF32 ? static_cast<double>(static_cast<float>(value))
+                                     : static_cast<double>(value),
+                    out);
+    };
+    switch (op) {
+    case ConvertOp::SExt:
+    case ConvertOp::Trunc: return keep(static_cast<uint64_t>(a.integer), out);
+    case ConvertOp::ZExt: return keep(a.bits(), out);
+    case ConvertOp::SIntToFloat: return floating(a.integer);
+    case ConvertOp::UIntToFloat: return floating(a.bits());
+    case ConvertOp::FloatToIndex:
+    case ConvertOp::FloatToSInt: return keep(saturated(a.number, bitsOf(out.type), true), out);
+    case ConvertOp::FloatToUInt: return keep(saturated(a.number, bitsOf(out.type), false), out);
+    case ConvertOp::FWiden:
+    case ConvertOp::FNarrow: return floating(a.number);
+    }
+    return false;
+}
+
+/// The value of an instruction whose operands are constants, in `out`, which has its type. False when it has none that can be
+/// kept.
+bool compute(const Inst& inst, const Constant& a, const Constant& b, Constant& out) {
     switch (familyOf(inst.op)) {
     case Family::Float:
-        out = type == kF32 ? floatArithmetic<float>(as<FloatOp>(inst.op), a, b)
-                           : floatArithmetic<double>(as<FloatOp>(inst.op), a, b);
-        return true;
-    case Family::Int: return intArithmetic(as<IntOp>(inst.op), type, a, b, out);
-    case Family::Compare: out = compare(as<CompareOp>(inst.op), a, b); return true;
-    case Family::Logic: out = logic(as<LogicOp>(inst.op), a != 0, b != 0); return inst.op != Op::Select;
+        return keep(out.type == kF32 ? floatArithmetic<float>(as<FloatOp>(inst.op), a.number, b.number)
+                                     : floatArithmetic<double>(as<FloatOp>(inst.op), a.number, b.number),
+                    out);
+    case Family::Int: return intArithmetic(as<IntOp>(inst.op), a, b, out);
+    case Family::Compare: return keep(uint64_t{compare(as<CompareOp>(inst.op), a, b)}, out);
+    case Family::Logic: return logic(as<LogicOp>(inst.op), a, b, out);
     case Family::Convert: return convert(as<ConvertOp>(inst.op), a, out);
     case Family::Leaf:
     case Family::Memory:
@@ -147,7 +174,10 @@ class Folder {
 
   private:
     bool isConst(ValueId id) const { return routine_.insts[id].op == Op::Const; }
-    double numberOf(ValueId id) const { return routine_.insts[id].number; }
+    Constant valueOf(ValueId id) const {
+        const Inst& inst = routine_.insts[id];
+        return {inst.type, inst.number, inst.integer};
+    }
 
     bool visit(ValueId id) {
         Inst& inst = routine_.insts[id];
@@ -165,7 +195,7 @@ class Folder {
 
     bool branch(Inst& inst) {
         if ((inst.op != Op::CondBr && inst.op != Op::Switch) || !isConst(inst.operands[0])) return false;
-        double value = numberOf(inst.operands[0]);
+        const int64_t value = valueOf(inst.operands[0]).integer;
         BlockId target = inst.op == Op::CondBr && value == 0 ? inst.target[1] : inst.target[0];
         for (const SwitchCase& entry : inst.cases)
             if (entry.value == value) target = entry.target;
@@ -179,7 +209,7 @@ class Folder {
 
     bool choose(const Inst& inst, ValueId id) {
         if (inst.op != Op::Select || !isConst(inst.operands[0])) return false;
-        replacement_[id] = numberOf(inst.operands[0]) != 0 ? inst.operands[1] : inst.operands[2];
+        replacement_[id] = valueOf(inst.operands[0]).integer != 0 ? inst.operands[1] : inst.operands[2];
         return true;
     }
 
@@ -188,14 +218,15 @@ class Folder {
         if (type == kVoid || type == kPtr || opInfo(inst.op).touchesMemory) return false;
         for (ValueId operand : inst.operands)
             if (!isConst(operand)) return false;
-        double a = numberOf(inst.operands[0]);
-        double b = inst.operands.size() > 1 ? numberOf(inst.operands[1]) : 0;
-        double out = 0;
-        if (!compute(inst, type, a, b, out) || !std::isfinite(out)) return false;
+        const Constant a = valueOf(inst.operands[0]);
+        const Constant b = inst.operands.size() > 1 ? valueOf(inst.operands[1]) : Constant{};
+        Constant out{type};
+        if (!compute(inst, a, b, out)) return false;
         inst.op = Op::Const;
         inst.type = type;
         inst.operands.clear();
-        inst.number = out;
+        inst.number = out.number;
+        inst.integer = out.integer;
         inst.extra = 0;
         return true;
     }
@@ -205,8 +236,8 @@ class Folder {
             const Inst& inst = routine_.insts[id];
             if (inst.op != Op::Check && inst.op != Op::CheckFinite) return false;
             if (!isConst(inst.operands[0])) return false;
-            const double number = numberOf(inst.operands[0]);
-            return inst.op == Op::Check ? number != 0 : std::isfinite(number);
+            const Constant value = valueOf(inst.operands[0]);
+            return inst.op == Op::Check ? value.integer != 0 : std::isfinite(value.number);
         };
         for (Block& block : routine_.blocks)
             std::erase_if(block.insts, passes);

@@ -102,7 +102,7 @@ class CheckMerger {
             if (value.op == Op::FTrunc) return {};
             return value.op == Op::FDiv ? std::vector<ValueId>{value.operands[0]} : value.operands;
         case Family::Convert:
-            if (value.op == Op::F32ToF64 || value.op == Op::F64ToF32) return value.operands;
+            if (value.op == Op::FWiden || value.op == Op::FNarrow) return value.operands;
             return {};
         case Family::Memory:
             if (value.op != Op::Load || source[id] == kNone) return {};

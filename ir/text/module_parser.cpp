@@ -145,6 +145,9 @@ class ModuleParser {
                 type.dims.push_back(static_cast<int32_t>(dim));
             } while (in_.takePunct(','));
             if (!in_.punct(']')) return false;
+        } else if (in_.takeWord("string")) {
+            type.kind = TypeKind::Str;
+            if (!in_.unsignedInt(type.capacity)) return false;
         } else {
             type.kind = TypeKind::Record;
             if (!in_.word("record") || !in_.string(type.name) || !in_.punct('{')) return false;
@@ -192,16 +195,18 @@ class ModuleParser {
         if (zero && !in_.integer(count, 1, kMostScalars)) return false;
         TypeId type = kVoid;
         Token where = in_.peek();
-        if (!in_.type(module_, type)) return false;
-        if (type == kVoid || type >= kPtr)
-            return in_.failAt(where, "constant data are bool, i32, i64, f32, f64 or str");
+        const bool isText = in_.takeWord("str");
+        if (!isText && !in_.type(module_, type)) return false;
+        if (!isText && (type == kVoid || type >= kPtr))
+            return in_.failAt(where, "constant data are bool, integers, f32, f64 or str");
         ConstScalar value;
-        value.kind = module_.types[type].kind;
+        value.kind = isText ? TypeKind::Str : module_.types[type].kind;
         if (zero) {
             data.insert(data.end(), static_cast<size_t>(count), value);
             return true;
         }
-        if (!(type == kStr ? in_.string(value.text) : in_.number(value.number))) return false;
+        if (!(isText ? in_.string(value.text) : in_.constant(type, value.number, value.integer)))
+            return false;
         data.push_back(std::move(value));
         return true;
     }
@@ -311,7 +316,7 @@ class ModuleParser {
 
     bool task() {
         TaskEntry entry;
-        if (!in_.string(entry.name) || !in_.string(entry.type)) return false;
+        if (!in_.string(entry.name) || !in_.string(entry.kind)) return false;
         size_t index = module_.tasks.size();
         if (in_.takeWord("entry") && !tableReference(Fixup::Kind::Routine, Fixup::Slot::TaskEntry, index))
             return false;

@@ -7,15 +7,14 @@
 
 namespace ir {
 
-inline constexpr std::string_view kScalarTypeNames[] = {"void", "bool", "i32", "i64",
-                                                        "f32",  "f64",  "str", "ptr"};
-inline constexpr std::string_view kDescKindNames[] = {"num",    "dnum",  "bool",   "string",
-                                                      "record", "array", "handle", "other"};
+inline constexpr std::string_view kDescKindNames[] = {"float",  "double", "bool",   "string",
+                                                      "record", "array",  "handle", "other"};
 inline constexpr std::string_view kGlobalKindNames[] = {"var", "persistent", "const", "external"};
 inline constexpr std::string_view kStmtKindNames[] = {"plain",   "call",   "motion",
                                                       "control", "return", "handler"};
 inline constexpr std::string_view kRoutineKindNames[] = {"procedure", "function", "interrupt"};
-inline constexpr std::string_view kParamModeNames[] = {"in", "var", "pers", "inout"};
+inline constexpr std::string_view kSysvarNames[] = {"error", "interrupt"};
+inline constexpr std::string_view kParamModeNames[] = {"in", "variable", "persistent", "either"};
 
 /// The name by which the textual form refers to an item.
 inline const std::string& nameOf(const Global& global) {

@@ -35,6 +35,8 @@ class TokenStream {
     bool string(std::string& out);
     bool name(std::string& out);
     bool number(double& out);
+    /// A value of the scalar type: integers of all bits, signed or unsigned.
+    bool constant(TypeId type, double& number, int64_t& integer);
     bool integer(int64_t& out, int64_t min, int64_t max);
     bool unsignedInt(uint32_t& out);
     bool signedInt(int32_t& out);

@@ -27,21 +27,21 @@ std::string quotedText(std::string_view text) {
     return result + '"';
 }
 
-std::string number(double value) {
+std::string number(TypeId type, double value, int64_t integer) {
+    if (!isFloat(type)) return std::to_string(integer);
     if (std::isnan(value)) return "nan";
     if (std::isinf(value)) return value < 0 ? "-inf" : "inf";
     return fmt::format("{}", value);
-}
-
-std::string typeName(TypeId id) {
-    if (id <= kPtr) return std::string(kScalarTypeNames[id]);
-    return fmt::format("%{}", id);
 }
 
 void printType(Out& out, const Module& module, TypeId id) {
     const Type& t = module.types[id];
     if (t.kind == TypeKind::Array) {
         put(out, "type {} array {} [{}]\n", id, typeName(t.element), fmt::join(t.dims, ", "));
+        return;
+    }
+    if (t.kind == TypeKind::Str) {
+        put(out, "type {} string {}\n", id, t.capacity);
         return;
     }
     put(out, "type {} record {} {{", id, quotedText(t.name));
@@ -66,7 +66,7 @@ void printDesc(Out& out, const TypeDesc& desc, size_t index) {
 
 bool isZero(const ConstScalar& scalar) {
     if (scalar.kind == TypeKind::Str) return scalar.text.empty();
-    return scalar.number == 0 && !std::signbit(scalar.number);
+    return scalar.integer == 0 && scalar.number == 0 && !std::signbit(scalar.number);
 }
 
 void printData(Out& out, const ConstData& data) {
@@ -77,7 +77,8 @@ void printData(Out& out, const ConstData& data) {
         size_t run = i;
         while (run < data.size() && isZero(data[run]) && data[run].kind == s.kind)
             ++run;
-        std::string_view kind = kScalarTypeNames[static_cast<size_t>(s.kind)];
+        const auto type = static_cast<TypeId>(s.kind);
+        const std::string kind = s.kind == TypeKind::Str ? "str" : typeName(type);
         if (run - i > 1) {
             put(out, "zero {} {}", run - i, kind);
             i = run;
@@ -86,7 +87,7 @@ void printData(Out& out, const ConstData& data) {
         if (s.kind == TypeKind::Str)
             put(out, "str {}", quotedText(s.text));
         else
-            put(out, "{} {}", kind, number(s.number));
+            put(out, "{} {}", kind, number(type, s.number, s.integer));
         ++i;
     }
     put(out, " }}");
@@ -174,7 +175,9 @@ class RoutinePrinter {
             put(out_, "  errorhandler b{}", routine_.errorHandler);
             std::vector<std::string> filter;
             for (int32_t number : routine_.errorFilter)
-                filter.push_back(std::to_string(number));
+                filter.push_back(number == kEveryError  ? "all"
+                                 : number == kOwnErrors ? "own"
+                                                        : std::to_string(number));
             for (uint32_t global : routine_.errorFilterGlobals)
                 filter.push_back("@" + nameIn(module_.globals, global));
             if (!filter.empty()) put(out_, " [{}]", fmt::join(filter, ", "));
@@ -233,14 +236,14 @@ class RoutinePrinter {
         if (opInfo(inst.op).showsType) put(out_, " {}", typeName(inst.type));
         switch (opInfo(inst.op).form) {
         case Form::Plain: operands(inst); return;
-        case Form::Number: put(out_, " {}", number(inst.number)); return;
+        case Form::Number: put(out_, " {}", number(inst.type, inst.number, inst.integer)); return;
         case Form::Param:
         case Form::Local:
         case Form::TypeDesc:
         case Form::Statement: put(out_, " {}", inst.index); return;
         case Form::Global: put(out_, " @{}", nameIn(module_.globals, inst.index)); return;
         case Form::Routine: put(out_, " @{}", nameIn(module_.routines, inst.index)); return;
-        case Form::Sysvar: put(out_, " {}", inst.extra == 0 ? "errno" : "intno"); return;
+        case Form::Sysvar: put(out_, " {}", kSysvarNames[static_cast<size_t>(inst.extra)]); return;
         case Form::Field:
             operands(inst);
             put(out_, ", {}", inst.index);
@@ -344,7 +347,7 @@ void printTails(Out& out, const Module& module) {
         put(out, "\n");
     }
     for (const TaskEntry& task : module.tasks) {
-        put(out, "task {} {}", quotedText(task.name), quotedText(task.type));
+        put(out, "task {} {}", quotedText(task.name), quotedText(task.kind));
         if (task.entry != kNone) put(out, " entry @{}", routineName(task.entry));
         if (task.reset != kNone) put(out, " reset @{}", routineName(task.reset));
         put(out, "{}\n", task.motionTask ? " motion" : "");
@@ -370,7 +373,7 @@ std::string printModule(const Module& module) {
     if (!module.folder.empty()) put(out, "folder {}\n", quotedText(module.folder));
     if (!module.sources.empty()) put(out, "sources {}\n", quotedText(module.sources));
     if (module.overflowError != 0) put(out, "overflow {}\n", module.overflowError);
-    for (TypeId id = kPtr + 1; id < module.types.size(); ++id)
+    for (TypeId id = kScalarTypes; id < module.types.size(); ++id)
         printType(out, module, id);
     for (size_t i = 0; i < module.typeDescs.size(); ++i)
         printDesc(out, module.typeDescs[i], i);

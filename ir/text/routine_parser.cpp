@@ -84,7 +84,12 @@ bool RoutineParser::handler() {
                 continue;
             }
             int32_t number = 0;
-            if (!in_.signedInt(number)) return false;
+            if (in_.takeWord("all"))
+                number = kEveryError;
+            else if (in_.takeWord("own"))
+                number = kOwnErrors;
+            else if (!in_.signedInt(number))
+                return false;
             routine_.errorFilter.push_back(number);
         } while (in_.takePunct(','));
         if (!in_.punct(']')) return false;
@@ -161,9 +166,8 @@ bool RoutineParser::switchOn(Inst& inst) {
 }
 
 bool RoutineParser::sysvar(Inst& inst) {
-    constexpr std::string_view kNames[] = {"errno", "intno"};
     size_t index = 0;
-    if (!in_.oneOf(kNames, "errno or intno", index)) return false;
+    if (!in_.oneOf(kSysvarNames, "error or interrupt", index)) return false;
     inst.extra = static_cast<int32_t>(index);
     return true;
 }
@@ -173,7 +177,7 @@ bool RoutineParser::body(Inst& inst) {
     if (opInfo(inst.op).showsType && !in_.type(module_, inst.type)) return false;
     switch (opInfo(inst.op).form) {
     case Form::Plain: return values(inst);
-    case Form::Number: return in_.number(inst.number);
+    case Form::Number: return in_.constant(inst.type, inst.number, inst.integer);
     case Form::Param:
     case Form::Local:
     case Form::TypeDesc: return in_.unsignedInt(inst.index);
@@ -239,12 +243,11 @@ void RoutineParser::inferTypes() {
     for (Inst& inst : routine_.insts) {
         switch (opInfo(inst.op).result) {
         case ResultRule::Bool: inst.type = kBool; break;
-        case ResultRule::Fixed: inst.type = conversionTo(inst.op); break;
         case ResultRule::Ptr:
             if (!opInfo(inst.op).showsType) inst.type = kPtr;
             break;
         case ResultRule::Typed:
-            if (inst.op == Op::Sysvar) inst.type = kF32;
+            if (inst.op == Op::Sysvar) inst.type = kI32;
             if (inst.op == Op::ParamVal && inst.index < routine_.params.size())
                 inst.type = routine_.params[inst.index].type;
             break;

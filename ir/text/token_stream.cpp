@@ -93,6 +93,25 @@ bool TokenStream::integer(int64_t& out, int64_t min, int64_t max) {
     return true;
 }
 
+bool TokenStream::constant(TypeId type, double& realNumber, int64_t& integerNumber) {
+    if (isFloat(type)) return number(realNumber);
+    if (type == kBool || type == kPtr) return integer(integerNumber, 0, type == kBool ? 1 : 0);
+    if (!isInteger(type)) return fail("there are no constants of this type");
+    const unsigned bits = bitsOf(type);
+    if (token_.kind != TokenKind::Number) return expected("an integer");
+    const bool negative = token_.text[0] == '-';
+    char* end = nullptr;
+    errno = 0;
+    const uint64_t magnitude = std::strtoull(token_.text.c_str() + (negative ? 1 : 0), &end, 10);
+    if (*end != '\0') return expected("an integer");
+    const uint64_t largest = negative ? uint64_t{1} << (bits - 1) : zeroExtended(-1, bits);
+    if (errno != 0 || magnitude > largest)
+        return fail(fmt::format("'{}' does not fit in {} bits", token_.text, bits));
+    integerNumber = signExtended(negative ? 0 - magnitude : magnitude, bits);
+    advance();
+    return true;
+}
+
 bool TokenStream::unsignedInt(uint32_t& out) {
     int64_t wide = 0;
     if (!integer(wide, 0, UINT32_MAX - 1)) return false;
@@ -127,10 +146,9 @@ bool TokenStream::type(const Module& module, TypeId& out) {
         advance();
         return true;
     }
-    size_t index = 0;
-    if (!oneOf(kScalarTypeNames, "a type", index)) return false;
-    out = static_cast<TypeId>(index);
-    return true;
+    for (out = kVoid; out < kScalarTypes; ++out)
+        if (takeWord(typeName(out))) return true;
+    return expected("a type");
 }
 
 } // namespace ir::text

@@ -8,24 +8,14 @@
 #include "ir/verify/routine_verifier.h"
 
 namespace ir {
-namespace {
-
-bool isFloat(TypeId type) {
-    return type == kF32 || type == kF64;
-}
-bool isInt(TypeId type) {
-    return type == kI32 || type == kI64;
-}
-
-} // namespace
-
 TypeId RoutineVerifier::operandType(const Inst& inst, size_t operand) const {
     return valueType(routine_.insts[inst.operands[operand]]);
 }
 
 void RoutineVerifier::want(const Inst& inst, size_t operand, TypeId type) {
     TypeId found = operandType(inst, operand);
-    if (found != type) add(fmt::format("operand {} has type {}, type {} is wanted", operand, found, type));
+    if (found != type)
+        add(fmt::format("operand {} is {} where {} is wanted", operand, typeName(found), typeName(type)));
 }
 
 void RoutineVerifier::types(const Inst& inst) {
@@ -33,12 +23,12 @@ void RoutineVerifier::types(const Inst& inst) {
     case Family::Leaf: typesOfLeaf(inst); return;
     case Family::Memory: typesOfMemory(inst); return;
     case Family::Float: sameTypes(inst, isFloat(operandType(inst, 0))); return;
-    case Family::Int: sameTypes(inst, isInt(operandType(inst, 0))); return;
+    case Family::Int: sameTypes(inst, isInteger(operandType(inst, 0))); return;
     case Family::Compare: typesOfComparison(inst); return;
     case Family::Logic: typesOfLogic(inst); return;
     case Family::Convert:
-        want(inst, 0, conversionFrom(inst.op));
-        if (inst.type != conversionTo(inst.op)) add("result type does not fit the conversion");
+        if (!converts(inst.op, operandType(inst, 0), inst.type))
+            add(fmt::format("cannot turn {} into {}", typeName(operandType(inst, 0)), typeName(inst.type)));
         return;
     case Family::Action: typesOfAction(inst); return;
     case Family::End: typesOfEnd(inst); return;
@@ -50,7 +40,7 @@ void RoutineVerifier::sameTypes(const Inst& inst, bool fits) {
     const TypeId type = operandType(inst, 0);
     for (size_t i = 1; i < inst.operands.size(); ++i)
         want(inst, i, type);
-    if (!fits) add(fmt::format("cannot work on type {}", type));
+    if (!fits) add(fmt::format("cannot work on {}", typeName(type)));
     const TypeId result = opInfo(inst.op).result == ResultRule::Bool ? kBool : type;
     if (inst.type != result) add("result type differs from the operands");
 }
@@ -66,12 +56,15 @@ void RoutineVerifier::typesOfComparison(const Inst& inst) {
     case CompareOp::FGe:
     case CompareOp::IsFinite: return sameTypes(inst, isFloat(type));
     case CompareOp::IEq:
-    case CompareOp::INe: return sameTypes(inst, isInt(type) || type == kBool || type == kPtr);
+    case CompareOp::INe: return sameTypes(inst, isInteger(type) || type == kBool || type == kPtr);
     case CompareOp::ILt:
     case CompareOp::ILe:
     case CompareOp::IGt:
     case CompareOp::IGe:
-    case CompareOp::IULt: return sameTypes(inst, isInt(type));
+    case CompareOp::IULt:
+    case CompareOp::IULe:
+    case CompareOp::IUGt:
+    case CompareOp::IUGe: return sameTypes(inst, isInteger(type));
     }
 }
 
@@ -80,7 +73,10 @@ void RoutineVerifier::typesOfLogic(const Inst& inst) {
     case LogicOp::And:
     case LogicOp::Or:
     case LogicOp::Xor:
-    case LogicOp::Not: return sameTypes(inst, operandType(inst, 0) == kBool);
+    case LogicOp::Not: {
+        const TypeId type = operandType(inst, 0);
+        return sameTypes(inst, type == kBool || isInteger(type));
+    }
     case LogicOp::Select:
         want(inst, 0, kBool);
         want(inst, 2, operandType(inst, 1));
@@ -94,7 +90,10 @@ void RoutineVerifier::typesOfLeaf(const Inst& inst) {
     switch (as<LeafOp>(inst.op)) {
     case LeafOp::Const:
         if (!module_.isScalar(inst.type) || inst.type == kVoid) add("constant that is not a scalar");
-        if (inst.type == kPtr && inst.number != 0) add("the only pointer constant is 0");
+        if (inst.type == kPtr && inst.integer != 0) add("the only pointer constant is 0");
+        if (isInteger(inst.type) &&
+            signExtended(static_cast<uint64_t>(inst.integer), bitsOf(inst.type)) != inst.integer)
+            add(fmt::format("{} is not a value of {}", inst.integer, typeName(inst.type)));
         return;
     case LeafOp::ParamVal:
         if (inst.type != routine_.params[inst.index].type) add("type differs from the parameter's");
@@ -106,7 +105,7 @@ void RoutineVerifier::typesOfLeaf(const Inst& inst) {
         if (module_.isScalar(routine_.result)) add("the routine has no result in memory");
         return;
     case LeafOp::Sysvar:
-        if (inst.type != kF32) add("system variables are f32");
+        if (inst.type != kI32) add("system variables are i32");
         if (inst.extra < 0 || inst.extra > 1) add("no such system variable");
         return;
     case LeafOp::LocalAddr:
@@ -208,10 +207,7 @@ void RoutineVerifier::typesOfEnd(const Inst& inst) {
         return;
     }
     case EndOp::Ret: ret(inst); return;
-    case EndOp::Raise:
-        if (operandType(inst, 0) != kF32 && operandType(inst, 0) != kI32)
-            add("error number is neither i32 nor f32");
-        return;
+    case EndOp::Raise: want(inst, 0, kI32); return;
     case EndOp::Br:
     case EndOp::Propagate:
     case EndOp::Retry:

@@ -40,8 +40,9 @@ bool RoutineVerifier::header() {
     detachedHandler();
     for (uint32_t global : routine_.errorFilterGlobals) {
         inRange(global, module_.globals.size(), "global in the error filter");
-        if (global < module_.globals.size() && module_.globals[global].type != kF32)
-            add("global in the error filter is not F32");
+        if (global >= module_.globals.size()) continue;
+        const TypeId type = module_.globals[global].type;
+        if (type != kI32 && type != kF32) add("global in the error filter is neither i32 nor f32");
     }
     return out_.size() == before;
 }

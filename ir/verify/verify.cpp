@@ -37,6 +37,9 @@ uint64_t checkType(const Module& module, TypeId id, const std::vector<uint64_t>&
     } else if (t.kind == TypeKind::Record) {
         for (const Field& field : t.fields)
             size += part(field.type) + 8;
+    } else if (t.kind == TypeKind::Str) {
+        size = t.capacity;
+        if (t.capacity == 0) out.push_back(fmt::format("type {}: a string that holds nothing", id));
     } else {
         out.push_back(fmt::format("type {}: a scalar type outside the fixed ids", id));
     }
@@ -46,9 +49,9 @@ uint64_t checkType(const Module& module, TypeId id, const std::vector<uint64_t>&
 
 bool checkTypes(const Module& module, Findings& out) {
     std::vector<uint64_t> sizes;
-    for (TypeId id = 0; id <= kPtr; ++id)
+    for (TypeId id = 0; id < kScalarTypes; ++id)
         sizes.push_back(module.size(id));
-    for (TypeId id = kPtr + 1; id < module.types.size(); ++id)
+    for (TypeId id = kScalarTypes; id < module.types.size(); ++id)
         sizes.push_back(checkType(module, id, sizes, out));
     return out.empty();
 }
@@ -70,7 +73,8 @@ bool matches(const Module& module, TypeId type, const ConstData& data, size_t& a
         return true;
     }
     if (at >= data.size()) return false;
-    return data[at++].kind == t.kind;
+    const ConstScalar& scalar = data[at++];
+    return scalar.kind == t.kind && (t.kind != TypeKind::Str || scalar.text.size() <= t.capacity);
 }
 
 void checkDescs(const Module& module, Findings& out) {
@@ -117,9 +121,12 @@ void checkGlobals(const Module& module, Findings& out) {
         if (global.kind == GlobalKind::External) add("external with an initial value");
         if (!matches(module, global.type, global.init, at) || at != global.init.size())
             add("initial value does not match the type");
-        for (const ConstScalar& scalar : global.init)
-            if (scalar.text.size() > 80) add("string of more than 80 bytes");
     }
+}
+
+/// The C calling convention would have to know their sign.
+bool isNarrow(TypeId type) {
+    return isInteger(type) && bitsOf(type) < 32;
 }
 
 void checkNatives(const Module& module, Findings& out) {
@@ -132,6 +139,9 @@ void checkNatives(const Module& module, Findings& out) {
         for (TypeId param : native.params)
             if (param == kVoid || param >= module.types.size() || !module.isScalar(param))
                 add("parameter is neither scalar nor ptr");
+            else if (isNarrow(param))
+                add("integers below 32 bits are passed in memory only");
+        if (isNarrow(native.result)) add("integers below 32 bits are passed in memory only");
         if (native.result >= module.types.size())
             add("result type does not exist");
         else if (native.nativeClass == NativeClass::Const &&

@@ -8,19 +8,22 @@
 
 namespace rt {
 
-/// RAPID string: fixed, at most 80 bytes of UTF-8, a plain value (design chapter 3).
+/// Bytes that a string of the source language holds.
+inline constexpr uint32_t kStringCapacity = 80;
+
+/// A string: fixed, UTF-8, a plain value (design chapter 3).
 struct String {
     uint32_t length = 0;
-    char bytes[80] = {};
+    char bytes[kStringCapacity] = {};
 
     std::string_view view() const { return {bytes, length}; }
-    /// Takes at most 80 bytes; the caller raises ERR_STRTOOLNG when text is longer.
+    /// Takes no more than fits; the caller raises ERR_STRTOOLNG when text is longer.
     void assign(std::string_view text) {
-        length = static_cast<uint32_t>(text.size() < 80 ? text.size() : 80);
+        length = static_cast<uint32_t>(text.size() < kStringCapacity ? text.size() : kStringCapacity);
         std::memcpy(bytes, text.data(), length);
     }
 };
-static_assert(sizeof(String) == 84 && alignof(String) == 4);
+static_assert(sizeof(String) == sizeof(uint32_t) + kStringCapacity && alignof(String) == alignof(uint32_t));
 
 /// Result of every compiled routine and native call. 0: done. > 0: a recoverable error with this ERRNO is on its way
 /// to a handler. < 0: the stack is being unwound (EXIT, end of the run, program pointer moved).
@@ -118,7 +121,7 @@ struct LocalDesc {
 enum HandlerDecision : int32_t { kNotDecided, kDecidedRetry, kDecidedTryNext, kDecidedReturn, kDecidedRaise };
 
 /// Numbers with a meaning of their own in RoutineDesc::errorFilter.
-inline constexpr int32_t kAllErrors = 999; ///< every error, wherever it is raised (LONG_JMP_ALL_ERR)
+inline constexpr int32_t kAllErrors = INT32_MIN; ///< every error, wherever it is raised
 inline constexpr int32_t kOtherErrors = 0; ///< the others, too, but only when they come to the routine itself
 
 struct Frame;
@@ -127,6 +130,12 @@ struct TaskCore;
 /// progress, `caller` is the innermost of them. `data`: SteppingFrame::addresses from RoutineDesc::localCount on. 0: it has
 /// said how to go on (rt_endDetached); > 0: it raises that error where the routine was called.
 using DetachedHandler = Status (*)(TaskCore* task, Frame* caller, void* const* data);
+
+/// A variable of the program that holds a number listed by an error handler.
+struct ErrorVariable {
+    const void* address;
+    int64_t isFloat; ///< a float, otherwise an int32_t
+};
 
 struct RoutineDesc {
     const char* name; ///< as people see it
@@ -142,7 +151,7 @@ struct RoutineDesc {
     /// comes to the routine itself.
     const int32_t* errorFilter;
     uint32_t errorFilterCount;
-    const float* const* errorVariables; ///< further listed numbers, in variables of the program
+    const ErrorVariable* errorVariables; ///< further listed numbers
     uint32_t errorVariableCount;
     uint32_t localCount; ///< > 0, or `stepping`, or with detachedHandler: the frame record is a SteppingFrame
     const LocalDesc* locals; ///< in their order; dimensions of arrays have rows without name and type
@@ -185,11 +194,11 @@ struct SteppingFrame : Frame {
 struct TaskCore {
     int64_t
         budget; ///< instructions left in this slice; negative after a safepoint's charge: call rt_safepoint
-    char* stackLimit;      ///< lowest address a routine may use; below: rt_stackOverflow
-    Frame* frame;          ///< innermost frame record, stored before native calls
-    float errorNumber;     ///< ERRNO
-    float interruptNumber; ///< INTNO
-    int32_t askSteps;      ///< stepping profile: not 0: rt_step is called ahead of every statement
+    char* stackLimit;        ///< lowest address a routine may use; below: rt_stackOverflow
+    Frame* frame;            ///< innermost frame record, stored before native calls
+    int32_t errorNumber;     ///< ERRNO
+    int32_t interruptNumber; ///< INTNO
+    int32_t askSteps;        ///< stepping profile: not 0: rt_step is called ahead of every statement
 };
 
 // ---- Program description: emitted once per program as the symbol `rapidc_program` ---------------------------------

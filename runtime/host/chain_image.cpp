@@ -102,10 +102,17 @@ Json jsonOf(const ErrorMemory& errors) {
     return json;
 }
 
+/// Earlier versions wrote 1003.0.
+int32_t wholeNumberFrom(const Json& json) {
+    const auto number = numberFrom<double>(json);
+    if (!(number >= INT32_MIN && number <= INT32_MAX)) throw std::invalid_argument("no number of this kind");
+    return static_cast<int32_t>(number);
+}
+
 ErrorMemory errorsFrom(const Json& json) {
     ErrorMemory errors;
-    errors.errorNumber = numberFrom<float>(json.at("errno"));
-    errors.interruptNumber = numberFrom<float>(json.at("intno"));
+    errors.errorNumber = wholeNumberFrom(json.at("errno"));
+    errors.interruptNumber = wholeNumberFrom(json.at("intno"));
     json.at("text").get_to(errors.text);
     errors.place = placeFrom(json.at("place"));
     for (const Json& entry : json.at("retries")) {

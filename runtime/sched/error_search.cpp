@@ -46,10 +46,12 @@ Frame* listingHandler(Frame* at, int errorNumber) {
 bool listsError(const RoutineDesc& routine, int errorNumber) {
     if (!routine.hasErrorHandler || (routine.errorFilterCount == 0 && routine.errorVariableCount == 0))
         return false;
-    const float* const* const end = routine.errorVariables + routine.errorVariableCount;
+    const ErrorVariable* const end = routine.errorVariables + routine.errorVariableCount;
     return inFilter(routine, errorNumber) || inFilter(routine, kAllErrors) ||
-           std::any_of(routine.errorVariables, end,
-                       [errorNumber](const float* variable) { return *variable == errorNumber; });
+           std::any_of(routine.errorVariables, end, [errorNumber](const ErrorVariable& variable) {
+               return variable.isFloat != 0 ? *static_cast<const float*>(variable.address) == errorNumber
+                                            : *static_cast<const int32_t*>(variable.address) == errorNumber;
+           });
 }
 
 bool takesError(const RoutineDesc& routine, int errorNumber) {

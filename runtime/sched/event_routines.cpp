@@ -64,7 +64,7 @@ Status EventRoutines::runOwed() {
 Status EventRoutines::run(SystemEvent event) {
     // What was interrupted must not see that something ran in between.
     Frame* const interrupted = task_.frame;
-    const float errorNumber = task_.errorNumber;
+    const int32_t errorNumber = task_.errorNumber;
     const SystemEvent outer = running_;
     Frame boundary{interrupted, &kEventBoundary, -1, 0};
     running_ = event;

@@ -176,9 +176,9 @@ Status InterruptTable::deliverFirst() {
     // The interrupted code must not see that a trap ran in between: ERRNO and INTNO are its own.
     Frame* const interrupted = task_.frame;
     Task::ErrorInProgress error = task_.errorInProgress();
-    const float interruptNumber = task_.interruptNumber;
+    const int32_t interruptNumber = task_.interruptNumber;
     Frame boundary{interrupted, &kTrapBoundary, -1, 0};
-    task_.interruptNumber = static_cast<float>(occurrence.number);
+    task_.interruptNumber = occurrence.number;
     task_.charge(1); // an empty trap costs an instruction as well
     cause_ = occurrence.cause;
     running_ = true;

@@ -86,7 +86,7 @@ struct ErrorMemory {
         std::string text;
         SourcePlace place;
     };
-    float errorNumber = 0, interruptNumber = 0;
+    int32_t errorNumber = 0, interruptNumber = 0;
     std::string text;
     SourcePlace place;
     std::vector<Retries> retries;
@@ -242,7 +242,7 @@ class Task : public TaskCore {
     Status errorNotListed();
     /// What a trap routine must leave as it was: the error that the interrupted code handles.
     struct ErrorInProgress {
-        float number = 0;
+        int32_t number = 0;
         RaisedError error;
     };
     ErrorInProgress errorInProgress() const { return {errorNumber, error_}; }

@@ -125,7 +125,7 @@ Status Task::nativeFailedAt(Frame* at, Status status) {
 Status Task::raiseOnce(Frame* at, int number) {
     frame = at;
     const bool toCaller = std::exchange(raiseToCaller_, false) && at != nullptr;
-    if (!toCaller || errorNumber != static_cast<float>(number)) {
+    if (!toCaller || errorNumber != number) {
         if (!toCaller) flushHandledWarning();
         noteRaised(number);
     }
@@ -141,7 +141,7 @@ Status Task::raiseToCaller(int number) {
 }
 
 Status Task::propagateFrom(Frame* handler) {
-    const auto number = static_cast<int>(errorNumber);
+    const int number = errorNumber;
     const bool detached = handler != nullptr && handler->routine->isDetachedHandler != 0;
     Status status = kAgain;
     while (status == kAgain) {
@@ -156,7 +156,7 @@ Status Task::propagateFrom(Frame* handler) {
 
 /// `from`: where the search for a handler began.
 Status Task::dispatchError(const ErrorRoute& route, int number, const Frame* from) {
-    errorNumber = static_cast<float>(number);
+    errorNumber = number;
     if (unwinding_ == Unwind::Abandon || undoAborted_) return silentStatus();
     if (guide_ != nullptr) return guide_->failed(*this);
     const bool backward =
@@ -177,11 +177,11 @@ Status Task::reportUnhandled(int number, const std::string& hint) {
 
 Status Task::errorNotListed() {
     handled_.clear();
-    return reportUnhandled(static_cast<int>(errorNumber));
+    return reportUnhandled(errorNumber);
 }
 
 Status Task::handlerEndAt(Frame* handler) {
-    const int number = static_cast<int>(errorNumber);
+    const int number = errorNumber;
     Status status = kAgain;
     while (status == kAgain) {
         frame = handler;
@@ -266,7 +266,7 @@ Status Task::landAt(Frame* at, Status status) {
         undoAborted_ = false;
     }
     frame = at;
-    errorNumber = static_cast<float>(jump.number);
+    errorNumber = jump.number;
     const Status stopped = suspendStopped(); // by an order that came while UNDO handlers ran
     if (stopped < 0) return stopped;
     // Interrupts that occurred on the way come ahead of the first instruction of the handler.
@@ -285,8 +285,8 @@ Status Task::landAt(Frame* at, Status status) {
 /// ERRNO is `number` from now on. Null: the system handler is to report it.
 Frame* Task::findUserLevel(int number) {
     const bool allowed = frame != nullptr && frame->routine->noStepIn != 0 && inErrorHandler(*frame);
-    if (static_cast<float>(number) != errorNumber) error_.renumber(number, errorDetail_);
-    errorNumber = static_cast<float>(number);
+    if (number != errorNumber) error_.renumber(number, errorDetail_);
+    errorNumber = number;
     dropHandled(frame); // the handler at work passes it on
     return allowed ? userLevelHandler(frame, number) : nullptr;
 }
@@ -315,15 +315,15 @@ Status Task::continueAtUser(int number, HandlerDecision& decision) {
     if (status < 0) return status;
     if (decision == kDecidedRetry || decision == kDecidedTryNext) return kOk;
     if (decision == kDecidedRaise) dropHandled(user); // reported when it is handled further out
-    (void)startJump(user, static_cast<int>(errorNumber), decision);
+    (void)startJump(user, errorNumber, decision);
     return kJumpPast;
 }
 
 /// RAISE in a detached handler: at once to the system handler when nobody further out takes the error. Positive: the handler
 /// returns, and its routine raises the error when the stack has been unwound to it.
 Status Task::leaveDetached(int number) {
-    if (static_cast<float>(number) != errorNumber) noteRaised(number);
-    errorNumber = static_cast<float>(number);
+    if (number != errorNumber) noteRaised(number);
+    errorNumber = number;
     if (routeFromCall(detached_.back().user->caller, number).handler == nullptr) {
         handled_.clear();
         return reportUnhandled(number);

@@ -94,9 +94,8 @@ std::string quotedText(std::string_view text) {
     return out + "\"";
 }
 
-bool isErrorConstant(const Model& model, const Datum& d) {
-    if (!d.number) return false;
-    return lowered(d.type) == "errnum" || (d.name.starts_with("ERR_") && reprOf(model, d.type) == Repr::Num);
+bool isErrorConstant(const Datum& d) {
+    return d.number && lowered(d.type) == "errnum";
 }
 
 } // namespace
@@ -166,12 +165,12 @@ std::string emitConstants(const Model& model) {
     out += "#pragma once\n// Predefined numeric constants: error numbers in rt::err, the others in rt::k.\n\n"
            "#include \"runtime/abi/rt_abi.h\"\n\nnamespace rt::err {\n";
     for (const Datum& d : model.data)
-        if (isErrorConstant(model, d))
+        if (isErrorConstant(d))
             out += fmt::format("inline constexpr Status {} = {};\n", cppName(d.name),
                                static_cast<int>(*d.number));
     out += "} // namespace rt::err\n\nnamespace rt::k {\n";
     for (const Datum& d : model.data) {
-        if (!d.number || d.kind != "CONST" || isErrorConstant(model, d)) continue;
+        if (!d.number || d.kind != "CONST" || isErrorConstant(d)) continue;
         const bool wide = reprOf(model, d.type) == Repr::Dnum;
         out +=
             fmt::format("inline constexpr {} {} = static_cast<{}>({}{});\n", wide ? "double" : "float",
@@ -203,10 +202,10 @@ std::string emitNativeTable(const Model& model) {
     for (const Routine& r : model.routines) {
         const char* kind = r.returnType.empty() ? "Instruction" : "Function";
         const char* how = !r.native ? "Rapid" : hasPrototype(r) ? "Native" : "Compiler";
-        out +=
-            fmt::format("        {{{}, {}, {}, NativeKind::{}, NativeForm::{}, {}, {}}},\n", quotedText(r.name),
-                        quotedText(symbolOf(r)), hasPrototype(r) ? "address(" + symbolOf(r) + ")" : "nullptr",
-                        kind, how, quotedText(r.doc.get("manual")), quotedText(r.doc.get("option")));
+        out += fmt::format("        {{{}, {}, {}, NativeKind::{}, NativeForm::{}, {}, {}}},\n",
+                           quotedText(r.name), quotedText(symbolOf(r)),
+                           hasPrototype(r) ? "address(" + symbolOf(r) + ")" : "nullptr", kind, how,
+                           quotedText(r.doc.get("manual")), quotedText(r.doc.get("option")));
     }
     return out + "    };\n    return table;\n}\n\n} // namespace rt\n";
 }
@@ -218,7 +217,7 @@ std::string emitErrorTable(const Model& model) {
            "    static const ErrorEntry table[] = {\n";
     std::vector<const Datum*> errors;
     for (const Datum& d : model.data)
-        if (isErrorConstant(model, d)) errors.push_back(&d);
+        if (isErrorConstant(d)) errors.push_back(&d);
     std::sort(errors.begin(), errors.end(), [](const Datum* a, const Datum* b) {
         return *a->number != *b->number ? *a->number < *b->number : a < b;
     });

@@ -1,6 +1,7 @@
 // The records of stdlib_types.h are laid out twice: by the C++ compiler and, from the same declarations, by ir::Module. The
 // generated assertions make a difference an error of the build.
 
+#include "runtime/abi/rt_abi.h"
 #include "stdlib/gen/emit.h"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ ir::TypeId layoutOf(const Model& model, std::string_view type, Module& module) {
     case Repr::Dnum: return ir::kF64;
     case Repr::Bool:
     case Repr::Switch: return ir::kBool;
-    case Repr::String: return ir::kStr;
+    case Repr::String: return module.stringOf(rt::kStringCapacity);
     case Repr::Handle: return ir::kI64;
     case Repr::Any: return ir::kVoid;
     case Repr::Record: break;

@@ -54,6 +54,15 @@ class Includes(unittest.TestCase):
         folders = [entry.name for entry in os.scandir(os.path.join(ROOT, "runtime")) if entry.is_dir()]
         self.assertEqual(sorted(folders), sorted(RUNTIME))
 
+    def test_layers_without_a_source_language_hold_none_of_its_words(self):
+        for folder in ("ir/core", "ir/passes", "codegen"):
+            status, output = check({f"{folder}/x.cpp": 'const char* kind = "SEMISTATIC";\n'})
+            self.assertEqual(status, 1, folder)
+            self.assertIn(f"{folder}/x.cpp:1: 'SEMISTATIC' is a word of RAPID", output)
+        status, output = check({"ir/lower/x.cpp": 'const char* kind = "SEMISTATIC";\n',
+                                "ir/core/x.cpp": "int number = 0; // rapidc\n"})
+        self.assertEqual(status, 0, output)
+
     def test_a_folder_without_layer_is_refused(self):
         status, output = check({"runtime/elsewhere/x.h": "\n"})
         self.assertEqual(status, 1)

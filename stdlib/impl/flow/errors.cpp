@@ -37,7 +37,7 @@ bool mayBeRaised(Controller& controller, float number) {
     if (static_cast<float>(whole) != number) return false;
     if (whole >= 1 && whole <= 90) return true;
     if (whole >= BookedNumbers::kFirst) return whole < controller.service<BookedNumbers>().next;
-    return !controller.log().errorName(whole).empty() && whole != kAllErrors;
+    return !controller.log().errorName(whole).empty() && whole != err::LONG_JMP_ALL_ERR;
 }
 
 constexpr const char* kEventNumbers = "the number must be 4800 to 4814 or 5000 to 9999";
@@ -184,7 +184,7 @@ Status rt_raiseToUser(TaskCore* task, int32_t* result, bool Continue, bool Break
     // Errors of the instruction itself go to the system handler: it stands in an error handler.
     if (Continue == BreakOff)
         return lib::fail(task, err::ERR_ARGVALERR, "RaiseToUser needs \\BreakOff or \\Continue");
-    const float number = ErrorNumber ? *ErrorNumber : owner.errorNumber;
+    const float number = ErrorNumber ? *ErrorNumber : static_cast<float>(owner.errorNumber);
     if (!mayBeRaised(owner.controller(), number))
         return lib::fail(
             task, err::ERR_ILLRAISE,

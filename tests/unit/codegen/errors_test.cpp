@@ -153,7 +153,8 @@ routine @"target" "target" in "M" exported void () {
     br b2
   b1:
     stmt 1
-    %2 = sysvar errno
+    %n = sysvar error
+    %2 = sitof f32 %n
     native @"rt_note" (%2)
     trynext
   b2:

@@ -80,15 +80,95 @@ TEST_CASE("integer arithmetic is defined for every operand", "[codegen]") {
     }
 }
 
+TEST_CASE("integers of every width compute the same with and without optimisation", "[codegen]") {
+    const auto pair = [](const std::string& op, int64_t b) {
+        return "%b = const i64 " + std::to_string(b) + "\n%q = " + op + " %x, %b\nret %q\n";
+    };
+    const auto narrow = [](const std::string& type, const std::string& op, int64_t b,
+                           const std::string& back) {
+        return "%a = trunc " + type + " %x\n%b = const " + type + " " + std::to_string(b) + "\n%c = " + op +
+               " %a, %b\n%q = " + back + " i64 %c\nret %q\n";
+    };
+    const int64_t least = std::numeric_limits<int64_t>::min(), most = std::numeric_limits<int64_t>::max();
+    for (bool optimise : {false, true}) {
+        const auto value = [&](const std::string& lines, int64_t x) {
+            return evaluate<int64_t>("i64", lines, x, optimise);
+        };
+        CHECK(value(pair("iadd", 9007199254740993), 0) == 9007199254740993);
+        CHECK(value(pair("iadd", 1), most) == least);
+        CHECK(value(pair("udiv", 10), -1) == 1844674407370955161);
+        CHECK(value(pair("urem", 10), -1) == 5);
+        CHECK(value(pair("shl", 65), 3) == 6); // the count modulo 64
+        CHECK(value(pair("shr", 60), least) == 8);
+        CHECK(value(pair("sar", 60), least) == -8);
+        CHECK(value(pair("and", 0xff00), 0x1234) == 0x1200);
+        CHECK(value(pair("or", 0xff00), 0x1234) == 0xff34);
+        CHECK(value(pair("xor", -1), 5) == -6);
+        CHECK(value("%q = not %x\nret %q\n", 5) == -6);
+        CHECK(value(narrow("i8", "iadd", 1, "sext"), 127) == -128);
+        CHECK(value(narrow("i8", "iadd", 1, "zext"), 127) == 128);
+        CHECK(value(narrow("i8", "udiv", 2, "zext"), 255) == 127);
+        CHECK(value(narrow("i8", "idiv", -1, "sext"), -128) == -128);
+        CHECK(value(narrow("i16", "shr", 15, "zext"), 0x8000) == 1);
+        CHECK(value(narrow("i16", "sar", 15, "sext"), 0x8000) == -1);
+        CHECK(value(narrow("i16", "shl", 17, "zext"), 0x4001) == 0x8002);
+        CHECK(value("%b = const i64 1\n%c = iugt %x, %b\n%q = select %c, %x, %b\nret %q\n", -1) == -1);
+        CHECK(value("%b = const i64 -1\n%c = iuge %x, %b\n%q = select %c, %x, %b\nret %q\n", 7) == -1);
+        CHECK(value("%b = const i64 -1\n%c = iule %x, %b\n%q = select %c, %x, %b\nret %q\n", 7) == 7);
+        CHECK(value("%f = uitof f64 %x\n%q = ftoui i64 %f\nret %q\n", least) == least);
+        CHECK(value("%f = sitof f32 %x\n%n = ftoui i8 %f\n%q = zext i64 %n\nret %q\n", 300) == 255);
+        CHECK(value("%f = sitof f32 %x\n%n = ftosi i16 %f\n%q = sext i64 %n\nret %q\n", -40000) == -32768);
+    }
+}
+
+TEST_CASE("integers of every width lie in memory as in C", "[codegen]") {
+    auto program = compile(parse(R"(
+type 9 record "ints" { i8 "small", i16 "middle", i64 "large" }
+desc 0 "ints" base "ints" other %9
+global @"g" "g" in "M" %9 var desc 0 = { i8 200, i16 -32768, i64 -9007199254740993 }
+routine @"r" "r" in "M" exported i64 (i64 "x") {
+  stmt 0 plain 1:1 1:2
+  b0:
+    stmt 0
+    %g = global @"g"
+    %small = field %9 %g, 0
+    %a = load i8 %small
+    %middle = field %9 %g, 1
+    %b = load i16 %middle
+    %c = zext i64 %a
+    %d = sext i64 %b
+    %e = iadd %c, %d
+    %x = param 0
+    %n = trunc i16 %x
+    store i16 %n, %middle
+    ret %e
+})"));
+    struct Ints {
+        int8_t small;
+        int16_t middle;
+        int64_t large;
+    };
+    REQUIRE(program->program()->globals[0].type->size == sizeof(Ints));
+    const auto* g = static_cast<const Ints*>(program->program()->globals[0].address);
+    CHECK(g->large == -9007199254740993);
+    Task task;
+    int64_t result = 0;
+    CHECK(reinterpret_cast<Unary<int64_t>>(entry(*program, "r"))(&task.core, nullptr, &result, 0x12345) ==
+          rt::kOk);
+    CHECK(result == 200 - 32768);
+    CHECK(g->small == int8_t(200));
+    CHECK(g->middle == 0x2345);
+}
+
 TEST_CASE("conversions go toward zero and saturate", "[codegen]") {
-    std::string lines = "%i = f32toi32 %x\n%f = i32tof32 %i\nret %f\n";
+    std::string lines = "%i = ftosi i32 %x\n%f = sitof f32 %i\nret %f\n";
     CHECK(evaluate<float>("f32", lines, 2.75f) == 2.0f);
     CHECK(evaluate<float>("f32", lines, -2.75f) == -2.0f);
     CHECK(evaluate<float>("f32", lines, 1e20f) == 2147483648.0f);
     CHECK(evaluate<float>("f32", lines, -1e20f) == -2147483648.0f);
     CHECK(evaluate<float>("f32", lines, std::nanf("")) == 0.0f);
     CHECK(evaluate<double>("f64", "%t = ftrunc %x\nret %t\n", -3.9) == -3.0);
-    CHECK(evaluate<double>("f64", "%n = f64tof32 %x\n%w = f32tof64 %n\nret %w\n", 0.1) == double(0.1f));
+    CHECK(evaluate<double>("f64", "%n = fnarrow f32 %x\n%w = fwiden f64 %n\nret %w\n", 0.1) == double(0.1f));
 }
 
 TEST_CASE("multiplication and addition are not contracted", "[codegen]") {
@@ -111,12 +191,13 @@ TEST_CASE("NaN compares as IEEE 754 says", "[codegen]") {
 
 TEST_CASE("natives get and return values of every kind", "[codegen]") {
     auto program = compile(parse(R"(
+type 9 string 80
 native @"rt_everything" plain f32 (f32, bool, ptr, i64)
 native @"rt_pure" const f64 (f64, f64)
 native @"rt_truth" const bool (bool, i32)
-native @"rt_text" plain str (f32)
+native @"rt_text" plain %9 (f32)
 native @"sqrtf" const f32 (f32)
-routine @"r" "r" in "M" exported str (f32 "x", bool "flag") {
+routine @"r" "r" in "M" exported %9 (f32 "x", bool "flag") {
   local 0 f32 "out"
   stmt 0 plain 1:1 1:2
   b0:
@@ -129,9 +210,9 @@ routine @"r" "r" in "M" exported str (f32 "x", bool "flag") {
     %p = local 0
     %wide = const i64 40000
     %sum = native @"rt_everything" (%root, %truth, %p, %wide)
-    %d = f32tof64 %root
+    %d = fwiden f64 %root
     %h = native @"rt_pure" (%d, %d)
-    %hf = f64tof32 %h
+    %hf = fnarrow f32 %h
     %all = fadd %sum, %hf
     %result = result
     native @"rt_text" (%result, %all)
@@ -149,15 +230,16 @@ routine @"r" "r" in "M" exported str (f32 "x", bool "flag") {
 
 TEST_CASE("records, strings and arrays lie in memory as in C", "[codegen]") {
     auto program = compile(corpusModule("everything.rir").tasks.empty() ? ir::Module() : parse(R"(
-type 8 record "mixed" { bool "flag", f64 "wide", str "text", f32 "x" }
-type 9 array %8 [3]
-desc 0 "num" base "num" num f32
+type 9 string 80
+type 10 record "mixed" { bool "flag", f64 "wide", %9 "text", f32 "x" }
+type 11 array %10 [3]
+desc 0 "num" base "num" float f32
 desc 1 "bool" base "bool" bool bool
-desc 2 "dnum" base "dnum" dnum f64
-desc 3 "string" base "string" string str
-desc 4 "mixed" base "mixed" record %8 { "flag": 1, "wide": 2, "text": 3, "x": 0 }
-desc 5 "mixed{3}" base "mixed{3}" array %9 of 4
-global @"g" "g" in "M" %9 var desc 5 = { bool 1, f64 0.5, str "one", f32 1, bool 0, f64 1.5, str "two", f32 2, zero 1 bool, zero 1 f64, str "", f32 3 }
+desc 2 "dnum" base "dnum" double f64
+desc 3 "string" base "string" string %9
+desc 4 "mixed" base "mixed" record %10 { "flag": 1, "wide": 2, "text": 3, "x": 0 }
+desc 5 "mixed{3}" base "mixed{3}" array %11 of 4
+global @"g" "g" in "M" %11 var desc 5 = { bool 1, f64 0.5, str "one", f32 1, bool 0, f64 1.5, str "two", f32 2, zero 1 bool, zero 1 f64, str "", f32 3 }
 routine @"r" "r" in "M" exported void () {
   stmt 0 plain 1:1 1:2
   b0:
@@ -165,12 +247,12 @@ routine @"r" "r" in "M" exported void () {
     %g = global @"g"
     %zero = const i32 0
     %two = const i32 2
-    %first = elem %8 %g, %zero
-    %third = elem %8 %g, %two
-    copy %8 %third, %first
-    %text = field %8 %first, 2
-    zero str %text
-    %flag = field %8 %third, 0
+    %first = elem %10 %g, %zero
+    %third = elem %10 %g, %two
+    copy %10 %third, %first
+    %text = field %10 %first, 2
+    zero %9 %text
+    %flag = field %10 %third, 0
     %f = load bool %flag
     %n = not %f
     store bool %n, %flag
@@ -208,7 +290,7 @@ routine @"r" "r" in "M" exported void () {
 TEST_CASE("the budget is charged and refilled at safepoints", "[codegen]") {
     auto program = compile(parse(R"(
 global @"sum" "sum" in "M" f32 var desc 0
-desc 0 "num" base "num" num f32
+desc 0 "num" base "num" float f32
 routine @"loop" "loop" in "M" exported void (f32 "limit") {
   local 0 f32 "x"
   stmt 0 plain 1:1 1:2
@@ -300,14 +382,14 @@ routine @"deep" "deep" in "M" exported f32 (f32 "x") {
 
 TEST_CASE("large locals and allocations of unknown size respect the limit of the stack", "[codegen]") {
     auto program = compile(parse(R"(
-type 8 array f64 [1000000]
+type 9 array f64 [1000000]
 routine @"large" "large" in "M" exported f64 (f64 "x") {
-  local 0 %8 "big"
+  local 0 %9 "big"
   stmt 0 plain 1:1 1:2
   b0:
     stmt 0
     %big = local 0
-    zero %8 %big
+    zero %9 %big
     %r = load f64 %big
     ret %r
 }

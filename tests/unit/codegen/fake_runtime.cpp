@@ -27,7 +27,7 @@ rt::Status safepoint(rt::TaskCore* task, rt::Frame* frame) {
 
 /// Every error is taken by somebody: the chain is not searched.
 rt::Status raise(rt::TaskCore* task, rt::Frame* frame, rt::Status number) {
-    task->errorNumber = static_cast<float>(number);
+    task->errorNumber = number;
     note("raise " + std::to_string(number) + place(frame));
     return number;
 }
@@ -43,17 +43,18 @@ rt::Status nativeFailed(rt::TaskCore* task, rt::Frame* frame, rt::Status status)
 /// A long jump ends in the first routine with an error handler that is called "target".
 rt::Status land(rt::TaskCore* task, rt::Frame* frame, rt::Status status) {
     note("land" + place(frame));
-    if (std::string(frame->routine->name) == "target") return static_cast<rt::Status>(task->errorNumber);
+    if (std::string(frame->routine->name) == "target") return task->errorNumber;
     return status == rt::kJumpPast && !frame->routine->hasUndo ? rt::kJump : status;
 }
 
 rt::Status takesError(rt::TaskCore*, rt::Frame* frame, rt::Status number) {
-    return **frame->routine->errorVariables == static_cast<float>(number) ? 1 : 0;
+    const rt::ErrorVariable& variable = *frame->routine->errorVariables;
+    return *static_cast<const float*>(variable.address) == static_cast<float>(number) ? 1 : 0;
 }
 
 rt::Status propagate(rt::TaskCore* task, rt::Frame* frame) {
     note("propagate" + place(frame));
-    return static_cast<rt::Status>(task->errorNumber);
+    return task->errorNumber;
 }
 
 rt::Status handlerEnd(rt::TaskCore*, rt::Frame* frame) {

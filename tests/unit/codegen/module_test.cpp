@@ -60,8 +60,10 @@ TEST_CASE("the program description tells what the module holds", "[codegen]") {
     CHECK(main.hasErrorHandler == 1);
     CHECK(main.hasUndo == 1);
     CHECK(main.noStepIn == 1);
-    REQUIRE(main.errorFilterCount == 2);
+    REQUIRE(main.errorFilterCount == 4);
     CHECK(main.errorFilter[1] == -12);
+    CHECK(main.errorFilter[2] == rt::kAllErrors);
+    CHECK(main.errorFilter[3] == rt::kOtherErrors);
     REQUIRE(main.statementCount == 6);
     CHECK(main.statements[2].line == 13);
     CHECK(main.statements[2].kind == static_cast<uint8_t>(ir::StmtKind::Motion));
@@ -80,10 +82,10 @@ TEST_CASE("the program description tells what the module holds", "[codegen]") {
 
 TEST_CASE("data of other modules are reached by name, and names of C functions do no harm", "[codegen]") {
     ir::Module module = ir_testing::parse(R"(
-type 8 array f32 [100]
+type 9 array f32 [100]
 global @"elsewhere" "elsewhere" in "" f32 external
-global @"memcpy" "memcpy" in "M" %8 var = { f32 1, zero 98 f32, f32 5 }
-global @"rt_raise" "x" in "M" %8 var
+global @"memcpy" "memcpy" in "M" %9 var = { f32 1, zero 98 f32, f32 5 }
+global @"rt_raise" "x" in "M" %9 var
 native @"rt_void" plain void ()
 routine @"memset" "r" in "M" exported f32 () {
   stmt 0 plain 1:1 1:2
@@ -92,7 +94,7 @@ routine @"memset" "r" in "M" exported f32 () {
     %to = global @"rt_raise"
     %from = global @"memcpy"
     native @"rt_void" ()
-    copy %8 %to, %from
+    copy %9 %to, %from
     %i = const i32 99
     %last = elem f32 %to, %i
     %x = load f32 %last

@@ -1,6 +1,7 @@
 // The passes, on small routines whose outcome follows from the rules in ir/LANGREF.md and design chapter 4.
 
 #include <functional>
+#include <limits>
 
 #include "ir/core/cfg.h"
 #include "ir/passes/passes.h"
@@ -49,18 +50,31 @@ size_t count(const ir::Routine& routine, Op op) {
 /// A routine around a few lines of one block; `result` is its type.
 ir::Module body(const std::string& result, const std::string& lines) {
     return parse("routine @\"r\" \"r\" in \"M\" " + result +
-                 " () {\n  stmt 0 plain 1:1 1:2\n  b0:\n    stmt 0\n" + lines + "}\n");
+                 " (f32 \"x\") {\n  stmt 0 plain 1:1 1:2\n  b0:\n    stmt 0\n" + lines + "}\n");
 }
 
 /// The constant that the routine returns after folding; fails when it is not one.
-double foldedResult(const std::string& result, const std::string& lines) {
+ir::Inst foldedConstant(const std::string& result, const std::string& lines) {
     ir::Module module = run(body(result, lines), {"fold-constants"});
     const ir::Routine& r = module.routines[0];
     const ir::Inst& ret = r.insts[r.blocks[0].insts.back()];
     REQUIRE(ret.op == Op::Ret);
     const ir::Inst& value = r.insts[ret.operands[0]];
     REQUIRE(value.op == Op::Const);
-    return value.number;
+    return value;
+}
+double foldedResult(const std::string& result, const std::string& lines) {
+    return foldedConstant(result, lines).number;
+}
+int64_t foldedInteger(const std::string& result, const std::string& lines) {
+    return foldedConstant(result, lines).integer;
+}
+/// Of an instruction on two integers of a type.
+int64_t foldedPair(const std::string& op, const std::string& type, int64_t a, int64_t b,
+                   const std::string& result = {}) {
+    return foldedInteger(result.empty() ? type : result,
+                         "%0 = const " + type + " " + std::to_string(a) + "\n%1 = const " + type + " " +
+                             std::to_string(b) + "\n%2 = " + op + " %0, %1\nret %2\n");
 }
 
 } // namespace
@@ -144,7 +158,7 @@ namespace {
 /// A native without result, then a store to a persistent and one to a variable; `native` ends the line of the native.
 ir::Module causes(const std::string& native) {
     return parse(
-        "file 0 \"m.modx\"\ndesc 0 \"num\" base \"num\" num f32\n"
+        "file 0 \"m.modx\"\ndesc 0 \"num\" base \"num\" float f32\n"
         "global @\"p\" \"p\" in \"M\" f32 persistent desc 0 at 0:1\n"
         "global @\"v\" \"v\" in \"M\" f32 var desc 0 at 0:2\n"
         "native @\"rt_do\" plain void ()" +
@@ -223,19 +237,65 @@ TEST_CASE("constants are folded as compiled code would compute them", "[ir]") {
           16777216);
     CHECK(foldedResult("f64", "%0 = const f64 16777216\n%1 = const f64 1\n%2 = fadd %0, %1\nret %2\n") ==
           16777217);
-    CHECK(foldedResult("f32", "%0 = const f64 0.1\n%1 = f64tof32 %0\nret %1\n") == 0.1f);
-    CHECK(foldedResult("i32", "%0 = const f32 1e20\n%1 = f32toi32 %0\nret %1\n") == 2147483647);
-    CHECK(foldedResult("i32", "%0 = const f32 -2.75\n%1 = f32toi32 %0\nret %1\n") == -2);
-    CHECK(foldedResult("i32", "%0 = const f32 nan\n%1 = f32toi32 %0\nret %1\n") == 0);
-    CHECK(foldedResult("i32", "%0 = const i32 2147483647\n%1 = const i32 1\n%2 = iadd %0, %1\nret %2\n") ==
-          -2147483648.0);
-    CHECK(foldedResult("i32", "%0 = const i32 -7\n%1 = const i32 2\n%2 = idiv %0, %1\nret %2\n") == -3);
-    CHECK(foldedResult("i32", "%0 = const i32 -7\n%1 = const i32 2\n%2 = irem %0, %1\nret %2\n") == -1);
-    CHECK(foldedResult("bool", "%0 = const i32 -1\n%1 = const i32 1\n%2 = iult %0, %1\nret %2\n") == 0);
+    CHECK(foldedResult("f32", "%0 = const f64 0.1\n%1 = fnarrow f32 %0\nret %1\n") == 0.1f);
+    CHECK(foldedInteger("i32", "%0 = const f32 1e20\n%1 = ftosi i32 %0\nret %1\n") == 2147483647);
+    CHECK(foldedInteger("i32", "%0 = const f32 -2.75\n%1 = ftosi i32 %0\nret %1\n") == -2);
+    CHECK(foldedInteger("i32", "%0 = const f32 nan\n%1 = ftosi i32 %0\nret %1\n") == 0);
+    CHECK(foldedInteger("i32", "%0 = const i32 2147483647\n%1 = const i32 1\n%2 = iadd %0, %1\nret %2\n") ==
+          -2147483648LL);
+    CHECK(foldedInteger("i32", "%0 = const i32 -7\n%1 = const i32 2\n%2 = idiv %0, %1\nret %2\n") == -3);
+    CHECK(foldedInteger("i32", "%0 = const i32 -7\n%1 = const i32 2\n%2 = irem %0, %1\nret %2\n") == -1);
+    CHECK(foldedInteger("bool", "%0 = const i32 -1\n%1 = const i32 1\n%2 = iult %0, %1\nret %2\n") == 0);
     CHECK(foldedResult(
               "f32",
               "%0 = const bool 0\n%1 = const f32 1\n%2 = const f32 2\n%3 = select %0, %1, %2\nret %3\n") ==
           2);
+}
+
+TEST_CASE("integers are folded in their width, bit by bit", "[ir]") {
+    const int64_t least = std::numeric_limits<int64_t>::min(), most = std::numeric_limits<int64_t>::max();
+    CHECK(foldedPair("iadd", "i64", 9007199254740992, 1) == 9007199254740993); // not a binary64 number
+    CHECK(foldedPair("iadd", "i64", most, 1) == least);
+    CHECK(foldedPair("imul", "i64", 4294967296, 4294967296) == 0);
+    CHECK(foldedPair("idiv", "i64", least, -1) == least);
+    CHECK(foldedPair("irem", "i64", least, -1) == 0);
+    CHECK(foldedPair("iadd", "i8", 127, 1) == -128);
+    CHECK(foldedPair("isub", "i16", -32768, 1) == 32767);
+    CHECK(foldedPair("udiv", "i8", -1, 2) == 127); // 255 / 2
+    CHECK(foldedPair("urem", "i8", -1, 16) == 15);
+    CHECK(foldedPair("idiv", "i8", -128, -1) == -128);
+    CHECK(foldedPair("shl", "i8", 3, 7) == -128);
+    CHECK(foldedPair("shl", "i8", 3, 9) == 6); // the count modulo 8
+    CHECK(foldedPair("shr", "i8", -128, 7) == 1);
+    CHECK(foldedPair("sar", "i8", -128, 7) == -1);
+    CHECK(foldedPair("shr", "i64", -1, 63) == 1);
+    CHECK(foldedPair("and", "i16", 0x0ff0, 0x00ff) == 0x00f0);
+    CHECK(foldedPair("or", "i16", 0x0ff0, 0x00ff) == 0x0fff);
+    CHECK(foldedPair("xor", "i16", 0x0ff0, 0x00ff) == 0x0f0f);
+    CHECK(foldedPair("iugt", "i8", -1, 1, "bool") == 1); // 255 > 1
+    CHECK(foldedPair("iule", "i64", least, most, "bool") == 0);
+    CHECK(foldedPair("ilt", "i64", most - 1, most, "bool") == 1); // equal as binary64
+    CHECK(foldedInteger("i32", "%0 = const i32 5\n%1 = not %0\nret %1\n") == -6);
+    CHECK(foldedInteger("bool", "%0 = const bool 1\n%1 = not %0\nret %1\n") == 0);
+    CHECK(foldedInteger("i64", "%0 = const i8 -1\n%1 = zext i64 %0\nret %1\n") == 255);
+    CHECK(foldedInteger("i64", "%0 = const i8 255\n%1 = sext i64 %0\nret %1\n") == -1);
+    CHECK(foldedInteger("i8", "%0 = const i32 384\n%1 = trunc i8 %0\nret %1\n") == -128);
+    CHECK(foldedInteger("i8", "%0 = const f32 300\n%1 = ftoui i8 %0\nret %1\n") == -1); // 255
+    CHECK(foldedInteger("i8", "%0 = const f32 -300\n%1 = ftosi i8 %0\nret %1\n") == -128);
+    CHECK(foldedInteger("i64", "%0 = const f64 -1\n%1 = ftoui i64 %0\nret %1\n") == 0);
+    CHECK(foldedInteger("i64", "%0 = const f64 1e30\n%1 = ftosi i64 %0\nret %1\n") == most);
+    CHECK(foldedResult("f64", "%0 = const i64 -1\n%1 = uitof f64 %0\nret %1\n") == 18446744073709551616.0);
+    CHECK(foldedResult("f32", "%0 = const i8 -1\n%1 = sitof f32 %0\nret %1\n") == -1);
+}
+
+TEST_CASE("a division by a constant 0 is left alone", "[ir]") {
+    for (const char* op : {"idiv", "irem", "udiv", "urem"}) {
+        ir::Module module = run(
+            body("i32", std::string("%0 = const i32 1\n%1 = const i32 0\n%2 = ") + op + " %0, %1\nret %2\n"),
+            {"fold-constants"});
+        const ir::Routine& r = module.routines[0];
+        CHECK(r.insts[r.insts[r.blocks[0].insts.back()].operands[0]].op != Op::Const);
+    }
 }
 
 TEST_CASE("checks that hold go, checks that fail stay", "[ir]") {
@@ -312,7 +372,7 @@ size_t finiteChecks(const std::string& result, const std::string& lines) {
 } // namespace
 
 TEST_CASE("a result out of range is found where it leaves its expression", "[ir]") {
-    const std::string x = "    %0 = sysvar errno\n";
+    const std::string x = "    %0 = param 0\n";
     // Inner results show in the outer one: one check.
     CHECK(finiteChecks("f32", x + "    %1 = fmul %0, %0\n    %2 = fadd %1, %0\n    ret %2\n") == 1);
     // A divisor and the operands of a comparison hide it.
@@ -322,18 +382,19 @@ TEST_CASE("a result out of range is found where it leaves its expression", "[ir]
     CHECK(finiteChecks("f32", x + "    %1 = const f32 1\n    %2 = fadd %0, %1\n    ret %2\n") == 0);
     CHECK(finiteChecks("f32", x + "    %1 = const f32 2\n    %2 = fdiv %0, %1\n    ret %2\n") == 0);
     CHECK(finiteChecks("f32", x + "    %1 = const f32 2\n    %2 = fdiv %1, %0\n    ret %2\n") == 1);
-    CHECK(finiteChecks("f64", x + "    %1 = f32tof64 %0\n    %2 = fmul %1, %1\n    ret %2\n") == 0);
-    CHECK(finiteChecks("f32", x + "    %1 = f32tof64 %0\n    %2 = fmul %1, %1\n    %3 = f64tof32 %2\n"
+    CHECK(finiteChecks("f64", x + "    %1 = fwiden f64 %0\n    %2 = fmul %1, %1\n    ret %2\n") == 0);
+    CHECK(finiteChecks("f32", x + "    %1 = fwiden f64 %0\n    %2 = fmul %1, %1\n    %3 = fnarrow f32 %2\n"
                                   "    ret %3\n") == 1);
 }
 
 TEST_CASE("checks with nothing but stores between them become one look", "[ir]") {
     const std::string lines =
-        "    %0 = sysvar errno\n    %1 = fmul %0, %0\n    checkfinite %1, 17\n    %2 = global @\"g\"\n"
+        "    %0 = param 0\n    %1 = fmul %0, %0\n    checkfinite %1, 17\n    %2 = global @\"g\"\n"
         "    store f32 %1, %2\n    %3 = fadd %0, %0\n    checkfinite %3, 17\n    ret %3\n";
     const std::string global = "global @\"g\" \"g\" in \"M\" f32 var\n";
     ir::Module module =
-        parse(global + "routine @\"r\" \"r\" in \"M\" f32 () {\n  stmt 0 plain 1:1 1:2\n  b0:\n    stmt 0\n" +
+        parse(global +
+              "routine @\"r\" \"r\" in \"M\" f32 (f32 \"x\") {\n  stmt 0 plain 1:1 1:2\n  b0:\n    stmt 0\n" +
               lines + "}\n");
     module = run(std::move(module), {"merge-checks"});
     const ir::Routine& r = module.routines[0];
@@ -349,6 +410,6 @@ TEST_CASE("checks with nothing but stores between them become one look", "[ir]")
 
 TEST_CASE("a module without overflow keeps infinities", "[ir]") {
     ir::Module module =
-        run(body("f32", "    %0 = sysvar errno\n    %1 = fmul %0, %0\n    ret %1\n"), {"check-overflow"});
+        run(body("f32", "    %0 = param 0\n    %1 = fmul %0, %0\n    ret %1\n"), {"check-overflow"});
     CHECK(count(module.routines[0], Op::CheckFinite) == 0);
 }

@@ -52,21 +52,22 @@ TEST_CASE("printing keeps what the text said", "[ir]") {
     ir::Module module = corpusModule("everything.rir");
     CHECK(module.name == "every \"thing\"");
     CHECK(module.files == std::vector<std::string>{"dir/every.modx", "other.sysx"});
-    CHECK(module.types[9].dims == std::vector<int32_t>{2, 3});
+    CHECK(module.types[11].dims == std::vector<int32_t>{2, 3});
     const ir::Global& constant = module.globals[2];
     REQUIRE(constant.init.size() == 7);
     CHECK(constant.init[2].text == "a\"b\n");
     CHECK(constant.init[5].kind == ir::TypeKind::F32);
     CHECK(constant.init[6].kind == ir::TypeKind::I64);
+    CHECK(module.globals[8].init[2].integer == -9007199254740993); // not a binary64 number
     const ir::Routine& main = routine(module, "T/M/main");
     CHECK(main.noStepIn);
-    CHECK(main.errorFilter == std::vector<int32_t>{11, -12});
+    CHECK(main.errorFilter == std::vector<int32_t>{11, -12, ir::kEveryError, ir::kOwnErrors});
     CHECK(main.statements[0].handled);
     CHECK(main.statements[0].next == 2);
     CHECK(main.statements[2].kind == ir::StmtKind::Motion);
     CHECK(module.externals[0].global == 5);
     CHECK(module.externals[0].column == 3);
-    CHECK(module.tasks[1].type == "SEMISTATIC");
+    CHECK(module.tasks[1].kind == "SEMISTATIC");
     CHECK(module.tasks[1].reset == module.findRoutine("T/M/main"));
     CHECK(module.configTexts[0] == "EIO:CFG_1.0\n# text\n");
 }
@@ -111,14 +112,17 @@ TEST_CASE("sizes and offsets are those of C", "[ir]") {
         float x;
     };
     ir::TypeId mixed = module.addRecord(
-        "mixed", {{"flag", ir::kBool}, {"wide", ir::kF64}, {"text", ir::kStr}, {"x", ir::kF32}});
+        "mixed", {{"flag", ir::kBool}, {"wide", ir::kF64}, {"text", module.stringOf(80)}, {"x", ir::kF32}});
     CHECK(module.size(mixed) == sizeof(Mixed));
     CHECK(module.align(mixed) == alignof(Mixed));
     CHECK(module.fieldOffset(mixed, 1) == offsetof(Mixed, wide));
     CHECK(module.fieldOffset(mixed, 2) == offsetof(Mixed, text));
     CHECK(module.fieldOffset(mixed, 3) == offsetof(Mixed, x));
     CHECK(module.size(module.arrayOf(mixed, {2, 3})) == 6 * sizeof(Mixed));
-    CHECK(module.size(ir::kStr) == 84);
+    CHECK(module.size(module.stringOf(80)) == 84);
+    CHECK(module.size(module.stringOf(5)) == 12); // 4 + 5, to a multiple of 4
+    CHECK(module.align(module.stringOf(5)) == 4);
+    CHECK(module.stringOf(80) == module.stringOf(80));
 }
 
 TEST_CASE("errors of the parser name the place and what was expected", "[ir]") {
@@ -129,8 +133,8 @@ TEST_CASE("errors of the parser name the place and what was expected", "[ir]") {
     CHECK(parseError("module \"open\n") == "1:8: string without closing quote");
     CHECK(parseError("module \"a\\q\"") == "1:8: '\\' in a string must be followed by two hex digits");
     CHECK(parseError("file 3 \"x\"") == "1:6: file 0 is expected here");
-    CHECK(parseError("type 8 array f32 [0]") == "1:19: '0' is outside 1 to 2147483647");
-    CHECK(parseError("type 8 array %9 [1]") == "1:14: there is no type %9 so far");
+    CHECK(parseError("type 9 array f32 [0]") == "1:19: '0' is outside 1 to 2147483647");
+    CHECK(parseError("type 9 array %10 [1]") == "1:14: there is no type %10 so far");
     std::string head = "routine @\"r\" \"r\" in \"M\" void () {\n";
     CHECK(parseError(head + "  b0:\n    fadd %0, %1\n}\n") == "3:10: %0 is not defined in this routine");
     CHECK(parseError(head + "  b0:\n    bogus\n}\n") == "3:5: 'bogus' where an instruction is expected");
@@ -140,6 +144,11 @@ TEST_CASE("errors of the parser name the place and what was expected", "[ir]") {
           "4:5: %0 has been defined before");
     CHECK(parseError(head + "  b0:\n    ret\n") == "4:1: end of text where '}' is expected");
     CHECK(parseError(head + "  b0:\n    %0 = const f32\n") == "3:19: end of line where a number is expected");
+    CHECK(parseError(head + "  b0:\n    %0 = const i8 256\n") == "3:19: '256' does not fit in 8 bits");
+    CHECK(parseError(head + "  b0:\n    %0 = const i8 -129\n") == "3:19: '-129' does not fit in 8 bits");
+    CHECK(parseError(head + "  b0:\n    %0 = const i64 1.5\n") == "3:20: '1.5' where an integer is expected");
+    CHECK(parseError(head + "  b0:\n    %0 = const i64 18446744073709551616\n") ==
+          "3:20: '18446744073709551616' does not fit in 64 bits");
 }
 
 TEST_CASE("no prefix of a text makes the parser crash", "[ir]") {

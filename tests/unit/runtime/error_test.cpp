@@ -63,15 +63,17 @@ TEST_CASE("the search for a handler follows manual 1.12", "[errors]") {
 
 TEST_CASE("a handler with a list takes its numbers past others and out of traps", "[errors]") {
     const float booked = 10003;
-    const float* const variables[] = {&booked};
+    const int32_t whole = 77;
+    const ErrorVariable variables[] = {{&booked, 1}, {&whole, 0}};
     Routine listing("listing", 3, 2, {5, kOtherErrors});
     const Routine plain("plain", 3, 2);
     listing.desc.errorVariables = variables;
-    listing.desc.errorVariableCount = 1;
+    listing.desc.errorVariableCount = 2;
     Frame outer{nullptr, &listing.desc, 0, 0};
     Frame between{&outer, &plain.desc, 1, 0};
     CHECK(routeFromCall(&between, 5).handler == &outer);
     CHECK(routeFromCall(&between, 10003).handler == &outer);
+    CHECK(routeFromCall(&between, 77).handler == &outer);
     CHECK(routeFromCall(&between, 6).handler == &between);
     CHECK(routeFromCall(&outer, 6).handler == &outer); // the clause without list, for its own calls only
     CHECK_FALSE(routeFromCall(&outer, 6).longJump);

@@ -146,6 +146,17 @@ TEST_CASE("a call chain and its interrupts read back as they were written", "[st
     CHECK(robot.chain->errors.handled->number == 1003);
 }
 
+TEST_CASE("error numbers of earlier versions, written as decimal numbers, are read", "[state]") {
+    std::string text = writeImage(sample());
+    const std::size_t at = text.find("1003", text.find("\"errno\""));
+    REQUIRE(at != std::string::npos);
+    StateImage again;
+    INFO(text.substr(at - 20, 60));
+    REQUIRE(readImage(std::string(text).insert(at + 4, ".0"), again) == "");
+    CHECK(again.tasks.at("T_ROB1").chain->errors.errorNumber == 1003);
+    CHECK_FALSE(readImage(std::string(text).insert(at + 4, "e30"), again).empty());
+}
+
 TEST_CASE("no part of a state file is a state file", "[state]") {
     const std::string text = writeImage(sample());
     StateImage image;
