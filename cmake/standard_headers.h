@@ -1,8 +1,9 @@
-// Precompiled for every target: headers of the standard library and of fmt that most files include. Headers of the
-// project do not belong here, or each change of one would compile everything again.
+// Precompiled for every target: headers of the standard library and of fmt that most files include, and JSON, which
+// takes long. Headers of the project do not belong here, or each change of one would compile everything again.
 #pragma once
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -31,3 +32,11 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+// fmt leaves it to every file that formats into a buffer to compile this; fmt_compiled.cpp does it once.
+FMT_BEGIN_NAMESPACE
+namespace detail {
+extern template void vformat_to(buffer<char>&, basic_string_view<char>, basic_format_args<buffer_context<char>>,
+                                locale_ref);
+} // namespace detail
+FMT_END_NAMESPACE

@@ -16,7 +16,7 @@ LAYERS = {
     # configuration text: needed by the front end and by the runtime, and knows neither
     "config": [],
     "frontend/source": [],
-    "frontend/diag": ["frontend/source"],
+    "frontend/diag": ["frontend/source", "config"],
     "frontend/syntax": ["frontend/source", "frontend/diag"],
     "frontend/sema": ["frontend/source", "frontend/diag", "frontend/syntax"],
     "frontend/edit": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema"],
@@ -40,28 +40,41 @@ LAYERS = {
     "runtime/base": ["config"],
     "runtime/value": ["runtime/abi"],
     "runtime/program": ["runtime/abi", "runtime/base"],
-    "runtime/log": ["runtime/base"],
+    "runtime/log": ["runtime/base", "config"],
     "runtime/sched": ["runtime/abi", "runtime/base", "runtime/log"],
     "runtime/io": ["runtime/abi", "runtime/base", "runtime/sched", "config"],
     "runtime/sim": ["runtime/base", "runtime/log", "runtime/sched", "runtime/motion"],
     "runtime/debug": ["runtime/abi", "runtime/base", "runtime/value", "runtime/program", "runtime/log", "runtime/sched",
-                      "runtime/motion"],
+                      "runtime/motion", "config"],
     "runtime/host": ["runtime/", "config"],
     "stdlib": ["runtime/abi"],
-    "stdlib/gen": ["frontend/", "ir/core", "runtime/abi"],
-    "stdlib/impl": ["runtime/", "stdlib"],
+    "stdlib/gen": ["frontend/", "ir/core", "runtime/abi", "config"],
+    "stdlib/impl": ["runtime/", "stdlib", "config"],
     # main of built executables: no part of the compiler
     "tools/program_main": ["runtime/", "stdlib"],
     "tools": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/"],
     "tests": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools"],
 }
 
-# Third-party headers and the only layers that may see them.
+# Headers that cost every file that sees them much compile time, or that belong to one part: the only layers and files that
+# may include them.
 RESTRICTED = [
     (re.compile(r"^(llvm|clang|lld)(-c)?/"), ["codegen", "tests"], "LLVM headers belong to codegen"),
     (re.compile(r"^boost/context/"), ["runtime/sched", "tests"], "fibres belong to runtime/sched"),
     (re.compile(r"^Eigen/"), ["runtime/robot", "runtime/motion", "stdlib/impl", "tests"],
      "matrices belong to robot, motion and the built-ins"),
+    (re.compile(r"^CLI/"), ["runtime/host/command_line.cpp"], "options are added through runtime/host/command_line.h"),
+    (re.compile(r"^nlohmann/json\.hpp$"), ["config/json_text.h", "runtime/robot/model_json.cpp", "tests"],
+     "JSON comes with config/json_text.h"),
+    (re.compile(r"^(config/json_text|runtime/host/(json_numbers|cbor))\.h$"),
+     ["config/json_text.cpp", "frontend/diag/render_json.cpp", "frontend/diag/render_sarif.cpp",
+      "frontend/project/settings.cpp", "runtime/log/event.cpp", "runtime/debug/call_chain.cpp", "runtime/host/json_numbers.h",
+      "runtime/host/cbor.h", "runtime/host/cbor.cpp", "runtime/host/saved_state.cpp", "runtime/host/state_image.cpp",
+      "runtime/host/chain_image.cpp", "runtime/host/path_image.cpp", "runtime/host/unit_messages.cpp",
+      "stdlib/impl/flow/errors.cpp", "stdlib/impl/motion/kept_settings.cpp", "stdlib/impl/motion/kept_triggers.cpp",
+      "stdlib/impl/queues/kept_messages.cpp", "stdlib/impl/time/clocks.cpp", "stdlib/gen/emit_reference.cpp",
+      "tools/rapidc/missing_report.cpp", "tools/rapidc/program_sources.cpp", "tools/rapidc/robots_command.cpp", "tests"],
+     "JSON costs a file seconds: add it to this list only when the file reads or writes JSON itself"),
     (re.compile(r"^catch2/"), ["tests"], "the test framework belongs to tests"),
 ]
 
@@ -123,8 +136,8 @@ def check_includes(path, lines, errors):
         if not match:
             continue
         style, name = match.groups()
-        for pattern, layers, reason in RESTRICTED:
-            if pattern.match(name) and not any(layer == l or layer.startswith(l + "/") for l in layers):
+        for pattern, places, reason in RESTRICTED:
+            if pattern.match(name) and not any(path == place or path.startswith(place + "/") for place in places):
                 errors.append(f"{path}:{number}: <{name}> in {layer}: {reason}")
         if style != '"':
             continue

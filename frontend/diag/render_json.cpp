@@ -1,8 +1,7 @@
 // Diagnostics for programs: the JSON array of `check --format=json`.
 
+#include "config/json_text.h"
 #include "frontend/diag/catalogue.h"
-
-#include <nlohmann/json.hpp>
 
 namespace rapid::diag {
 
@@ -31,7 +30,7 @@ Json placeJson(const Place& place) {
 
 /// A path need not be UTF-8, a JSON text must be.
 std::string dump(const Json& json) {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return config::textOf(json, 2) + "\n";
 }
 
 Json fixesJson(const Diagnostic& d) {

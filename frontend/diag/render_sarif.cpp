@@ -1,13 +1,13 @@
 // Diagnostics as SARIF 2.1.0 (OASIS), with what code scanning services ask for beyond the standard: rules with texts,
 // a place for every result, relative URIs, and fingerprints that survive changes elsewhere in the file.
 
+#include "config/json_text.h"
 #include "frontend/diag/catalogue.h"
 #include "frontend/diag/explain.h"
 
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 namespace rapid::diag {
@@ -192,7 +192,7 @@ class Writer {
 
 std::string renderSarif(std::span<const Diagnostic> diagnostics, std::string_view root) {
     // A path need not be UTF-8, a JSON text must be.
-    return Writer(diagnostics, root).log().dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return config::textOf(Writer(diagnostics, root).log(), 2) + "\n";
 }
 
 } // namespace rapid::diag

@@ -1,12 +1,12 @@
 #include "frontend/project/settings.h"
 
+#include "config/json_text.h"
 #include "config/read_file.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace rapid::project {
 
@@ -37,7 +37,7 @@ class Reader {
         const std::string_view text = out_.file->text();
         Json json;
         try {
-            json = Json::parse(text, nullptr, true, true);
+            json = config::parseJson(text, true);
         } catch (const Json::parse_error& problem) {
             reportSyntax(text, problem.byte);
             return;

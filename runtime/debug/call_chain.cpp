@@ -1,11 +1,11 @@
 #include "runtime/debug/call_chain.h"
 
+#include "config/json_text.h"
 #include "runtime/debug/state_keepers.h"
 #include "runtime/sched/error_search.h"
 #include "runtime/value/value_text.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -67,7 +67,7 @@ bool handlesToImage(const void* data, const TypeDesc& type, uint64_t count, cons
     std::memcpy(handles.data(), data, handles.size() * sizeof(Handle));
     for (const Handle handle : handles)
         list.push_back(keeper->textOf(handle));
-    text = "@" + list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    text = "@" + rapid::config::textOf(list);
     return true;
 }
 
@@ -78,7 +78,7 @@ bool imageToHandles(const std::string& text, void* data, const TypeDesc& type, u
     std::vector<Handle> handles;
     try {
         for (const std::string& object :
-             nlohmann::json::parse(text.substr(1)).get<std::vector<std::string>>()) {
+             rapid::config::parseJson(text.substr(1)).get<std::vector<std::string>>()) {
             handles.push_back(object.empty() ? 0 : keeper->make(object));
             if (!object.empty() && handles.back() == 0) return false;
         }

@@ -1,7 +1,7 @@
 #pragma once
 // CBOR that may come from anywhere. Not for common headers: JSON is a large one.
 
-#include <nlohmann/json.hpp>
+#include "config/json_text.h"
 
 #include <string>
 #include <string_view>

@@ -1,7 +1,7 @@
 #pragma once
 // Numbers out of JSON that may be anything: state files.
 
-#include <nlohmann/json.hpp>
+#include "config/json_text.h"
 
 #include <stdexcept>
 #include <type_traits>

@@ -1,6 +1,6 @@
 #include "runtime/host/path_image.h"
 
-#include <nlohmann/json.hpp>
+#include "config/json_text.h"
 
 #include <array>
 #include <stdexcept>

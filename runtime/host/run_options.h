@@ -8,11 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace rt {
+
+class Command;
 
 struct RunOptions {
     int64_t cycles = 1;             ///< how often main is run; 0 = for ever
@@ -47,6 +45,6 @@ enum class ExitStatus : int {
 };
 
 /// Adds the options above to a command. `withTasks`: also --task (not for built executables).
-void addRunOptions(CLI::App& app, RunOptions& options, bool withTasks);
+void addRunOptions(const Command& command, RunOptions& options, bool withTasks);
 
 } // namespace rt

@@ -1,6 +1,7 @@
 #include "runtime/host/saved_state.h"
 
 #include "config/atomic_file.h"
+#include "config/json_text.h"
 #include "config/read_file.h"
 #include "config/temporary.h"
 #include "runtime/base/text_util.h"
@@ -10,7 +11,6 @@
 #include "runtime/value/value_text.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -44,7 +44,7 @@ bool namesInterrupts(const TypeDesc& type) {
 /// "" or what is wrong with the text.
 std::string loadKept(const StateKeepers::Keeper& keeper, const std::string& text) {
     try {
-        keeper.load(nlohmann::json::parse(text));
+        keeper.load(rapid::config::parseJson(text));
     } catch (const std::exception& problem) {
         return problem.what();
     }
@@ -183,7 +183,7 @@ StateImage SavedState::present() const {
     add(interruptNumbers_, image.interruptNumbers);
     image.path = controller_.motion().remainingPath();
     for (const auto& [name, keeper] : keepers.keepers)
-        image.kept[name] = keeper.save().dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+        image.kept[name] = rapid::config::textOf(keeper.save());
     IoSystem& io = controller_.io();
     for (SignalId id = 0; id < static_cast<SignalId>(io.size()); ++id)
         if (io.config(id).store) image.signals[upperCase(io.config(id).name)] = io.value(id);

@@ -1,5 +1,6 @@
 // The state file as text: JSON, versioned. What is read comes from a disk and may be anything.
 
+#include "config/json_text.h"
 #include "runtime/host/chain_image.h"
 #include "runtime/host/json_numbers.h"
 #include "runtime/host/path_image.h"
@@ -139,7 +140,7 @@ StateImage imageFrom(const Json& json) {
         if (motion.contains("begun")) image.path.begun = poseFrom(motion.at("begun"));
         motion.at("stopMove").get_to(image.path.stopMove);
         for (const auto& [name, kept] : json.at("kept").items())
-            image.kept[name] = kept.dump();
+            image.kept[name] = rapid::config::textOf(kept);
     }
     json.at("signals").get_to(image.signals);
     json.at("robot").get_to(image.robot);
@@ -164,7 +165,7 @@ std::string writeImage(const StateImage& image) {
     if (image.path.awaited) motion["awaited"] = jsonOf(*image.path.awaited);
     if (image.path.begun) motion["begun"] = jsonOf(*image.path.begun);
     for (const auto& [name, text] : image.kept)
-        kept[name] = Json::parse(text, nullptr, false);
+        kept[name] = rapid::config::tryParseJson(text);
     const Json json = {{"format", kFormat},
                        {"version", kVersion},
                        {"tasks", tasks},
@@ -177,11 +178,11 @@ std::string writeImage(const StateImage& image) {
                        {"robot", image.robot},
                        {"axes", image.axes},
                        {"events", events}};
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return rapid::config::textOf(json, 1) + "\n";
 }
 
 std::string readImage(const std::string& text, StateImage& image) {
-    const Json json = Json::parse(text, nullptr, false);
+    const Json json = rapid::config::tryParseJson(text);
     if (json.is_discarded()) return "it is no JSON text, or a part of one";
     if (!json.is_object() || json.value("format", Json()) != kFormat) return "it is no state of a controller";
     if (json.value("version", Json()) != kVersion) return "it was written by another version of rapidc";

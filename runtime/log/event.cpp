@@ -2,8 +2,9 @@
 
 #include "runtime/log/event.h"
 
+#include "config/json_text.h"
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <tuple>
@@ -102,7 +103,7 @@ std::string toJson(const Event& event) {
             json["calls"].push_back(jsonOf(call));
     }
     // Text of a program may hold bytes that are no UTF-8: they are replaced, never a reason to fail.
-    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return rapid::config::textOf(json);
 }
 
 std::string toText(const Event& event) {

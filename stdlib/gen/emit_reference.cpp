@@ -1,7 +1,7 @@
+#include "config/json_text.h"
 #include "stdlib/gen/emit.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <map>
 #include <sstream>
@@ -167,7 +167,7 @@ std::string emitJson(const Model& model) {
             fmt::format("{} {} {}{}", d.kind, d.type, d.name, d.initText.empty() ? "" : " := " + d.initText);
         all.push_back(std::move(entry));
     }
-    return all.dump(1) + "\n";
+    return rapid::config::textOf(all, 1) + "\n";
 }
 
 std::vector<Page> emitReference(const Model& model) {

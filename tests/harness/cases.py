@@ -15,6 +15,7 @@ COMPILE_OPTIONS = ("--task=", "--config=", "--robot-config=")
 DIRECTIVE = re.compile(r"^\s*!@\s*([a-z]+):\s*(.*?)\s*$")
 # A command of a .test file that takes longer hangs; generous, because other work may slow the machine down.
 HANGS_AFTER_S = 60
+MODES = ("jit", "parts", "aot", "step")
 KNOWN_DIRECTIVES = {"test", "exit", "args", "modes", "manual", "timeout", "inputs", "issue", "fragment"}
 
 
@@ -164,7 +165,9 @@ class ProgramTest:
         expected_status = int(directives.get("exit", "0"))
         timeout = float(directives.get("timeout", "30"))
         problems = []
-        for mode in directives.get("modes", "jit parts aot step").split():
+        for mode in directives.get("modes", " ".join(MODES)).split():
+            if mode not in MODES:
+                raise BadTest(f"unknown mode '{mode}'")
             if mode not in context.modes:
                 continue
             outputs = {".signals": os.path.join(scratch, mode + ".signals.csv"),
@@ -177,7 +180,7 @@ class ProgramTest:
             if mode in ("jit", "parts", "step"):
                 profile = {"step": ["--stepping"], "parts": ["--in-parts"]}.get(mode, [])
                 command = [context.rapidc, "run", *profile, *inputs, *compile_options, *run_options, *extra]
-            elif mode == "aot":
+            else:
                 program = os.path.join(scratch, "program")
                 build = [context.rapidc, "build", *inputs, *compile_options, "-o", program]
                 built = execute(build, scratch, 60)
@@ -185,8 +188,6 @@ class ProgramTest:
                     problems.append("build failed\n" + describe_failure(build, built))
                     continue
                 command = [program, *self.stimulus_of_folder(), *run_options, *extra]
-            else:
-                raise BadTest(f"unknown mode '{mode}'")
             # Executables that load modules or write them ask rapidc to do it.
             output = execute(command, scratch, timeout, environment={"RAPIDC": context.rapidc})
             problems += [f"[{mode}] {p}" for p in

@@ -14,6 +14,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
@@ -86,6 +87,8 @@ def main():
     parser.add_argument("--update", action="store_true", help="rewrite expected output")
     parser.add_argument("--modes", default="jit parts aot step", help="modes of running programs")
     parser.add_argument("-j", type=int, default=os.cpu_count() or 2)
+    parser.add_argument("--within", metavar="SECONDS", type=float,
+                        help="begin no further test after this time; exit status 124 when that leaves some out")
     options = parser.parse_args()
 
     source = os.path.abspath(options.source)
@@ -118,25 +121,33 @@ def main():
     scratch_root = os.path.join(build, "test-scratch")
     os.makedirs(scratch_root, exist_ok=True)
 
+    end = None if options.within is None else time.monotonic() + options.within
+
     def run(name):
+        if end is not None and time.monotonic() >= end:
+            return name, None
         with tempfile.TemporaryDirectory(dir=scratch_root) as scratch:
             try:
                 return name, found[name].run(context, scratch)
             except cases.BadTest as problem:
                 return name, [f"the test itself is wrong: {problem}"]
 
-    failed = 0
+    failed = left_out = 0
     with concurrent.futures.ThreadPoolExecutor(options.j) as pool:
         for name, problems in pool.map(run, names):
-            if problems:
+            if problems is None:
+                left_out += 1
+            elif problems:
                 failed += 1
                 print(f"FAILED {name}")
                 for problem in problems:
                     print("    " + problem.replace("\n", "\n    "))
             elif options.one or len(names) < 20:
                 print(f"passed {name}")
-    print(f"{len(names) - failed} of {len(names)} passed")
-    return 1 if failed else 0
+    print(f"{len(names) - failed - left_out} of {len(names)} passed" + (f", {left_out} left out" if left_out else ""))
+    if failed:
+        return 1
+    return 124 if left_out else 0
 
 
 if __name__ == "__main__":

@@ -69,6 +69,26 @@ class Includes(unittest.TestCase):
         self.assertIn("no layer is defined", output)
 
 
+class CostlyHeaders(unittest.TestCase):
+    def refused(self, path, name):
+        status, output = check({path: f"#include {name}\n"})
+        self.assertIn(status, (0, 1))
+        return f"{path}:1: " in output
+
+    def test_command_line_library_has_one_user(self):
+        self.assertFalse(self.refused("runtime/host/command_line.cpp", "<CLI/App.hpp>"))
+        for path in ("runtime/host/command_line.h", "runtime/host/run_options.cpp", "tools/rapidc/main.cpp"):
+            self.assertTrue(self.refused(path, "<CLI/App.hpp>"), path)
+
+    def test_json_only_where_it_is_read_or_written(self):
+        for name in ("<nlohmann/json.hpp>", '"config/json_text.h"'):
+            for path in ("runtime/debug/state_keepers.h", "stdlib/impl/motion/moves.cpp", "tools/rapidc/main.cpp"):
+                self.assertTrue(self.refused(path, name), path)
+        self.assertTrue(self.refused("runtime/host/controller.h", '"runtime/host/cbor.h"'))
+        self.assertFalse(self.refused("runtime/host/saved_state.cpp", '"config/json_text.h"'))
+        self.assertFalse(self.refused("runtime/debug/state_keepers.h", "<nlohmann/json_fwd.hpp>"))
+
+
 class Table(unittest.TestCase):
     def problems(self, layers):
         errors = []

@@ -1,13 +1,9 @@
 // main() of an executable made by `rapidc build`: the compiled program is linked in under a fixed name.
 
+#include "runtime/host/command_line.h"
 #include "runtime/host/controller.h"
 #include "runtime/host/standard_streams.h"
-#include "runtime/host/usage.h"
 #include "stdlib/standard_library.h"
-
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 
 #include <string>
 
@@ -15,13 +11,10 @@ int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of m
     rt::guardLimits(rapidc_program.name);
     rt::guardStandardStreams();
     rt::RunOptions options;
-    CLI::App app(std::string("RAPID program ") + rapidc_program.name + " on a virtual controller");
-    rt::addRunOptions(app, options, false);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return rt::reportUsage(app, error, rapidc_program.name);
-    }
-    const int status = rt::runProgram(rapidc_program, options, rt::setUpStandardLibrary);
+    rt::CommandLine commandLine(rapidc_program.name, std::string("RAPID program ") + rapidc_program.name +
+                                                         " on a virtual controller");
+    rt::addRunOptions(commandLine.executable(), options, false);
+    const int status = commandLine.run(
+        argc, argv, [&] { return rt::runProgram(rapidc_program, options, rt::setUpStandardLibrary); });
     return rt::finishStandardOutput(rapidc_program.name, status);
 }

@@ -1,5 +1,6 @@
 // rapidc build: a native executable that needs no rapidc.
 
+#include "runtime/host/command_line.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/native_library.h"
 #include "tools/rapidc/pipeline.h"
@@ -8,7 +9,6 @@
 #include "config/temporary.h"
 #include "runtime/host/run_options.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -162,31 +162,29 @@ int build(BuildSettings& settings) {
 
 } // namespace
 
-void addBuildCommand(CLI::App& app, int& status) {
+void addBuildCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<BuildSettings>();
-    CLI::App* command = app.add_subcommand("build", "Compile to a native executable");
-    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")
-        ->required();
-    command->add_option("-o,--output", settings->output, "The executable to write");
-    addAssumeSignalsOption(*command, settings->inputs);
-    addWarningOption(*command, settings->inputs);
-    addTaskOption(*command, settings->inputs);
-    addConfigOption(*command, settings->inputs);
-    addRobotOption(*command, settings->inputs);
-    command->add_flag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
-    command->add_flag("--stepping", settings->stepping,
-                      "Compile for the stepping profile: the program can be stepped forward and backward");
-    command->add_flag("--strip", settings->strip, "Leave out debug information");
-    command->add_flag("--no-cache", settings->noCache,
-                      "Compile every module of a large program again, and keep nothing in the cache");
+    const rt::Command command =
+        line.addCommand("build", "Compile to a native executable", [settings] { return build(*settings); });
+    command.add("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups").required();
+    command.add("-o,--output", settings->output, "The executable to write");
+    addAssumeSignalsOption(command, settings->inputs);
+    addWarningOption(command, settings->inputs);
+    addTaskOption(command, settings->inputs);
+    addConfigOption(command, settings->inputs);
+    addRobotOption(command, settings->inputs);
+    command.addFlag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
+    command.addFlag("--stepping", settings->stepping,
+                    "Compile for the stepping profile: the program can be stepped forward and backward");
+    command.addFlag("--strip", settings->strip, "Leave out debug information");
+    command.addFlag("--no-cache", settings->noCache,
+                    "Compile every module of a large program again, and keep nothing in the cache");
+    command.addFlag("--in-parts", settings->inParts, "Compile each module by itself, also in a small program")
+        .hide(); // for tests
     command
-        ->add_flag("--in-parts", settings->inParts, "Compile each module by itself, also in a small program")
-        ->group(""); // for tests
-    command
-        ->add_flag("--without-overflow-checks", settings->withoutOverflowChecks,
-                   "For benchmarks only: results out of range go unnoticed")
-        ->group(""); // not in the help
-    command->callback([settings, &status] { status = build(*settings); });
+        .addFlag("--without-overflow-checks", settings->withoutOverflowChecks,
+                 "For benchmarks only: results out of range go unnoticed")
+        .hide(); // not in the help
 }
 
 } // namespace rapidc

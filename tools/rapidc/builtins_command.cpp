@@ -1,5 +1,6 @@
 // rapidc builtins: everything predefined and whether it is implemented.
 
+#include "runtime/host/command_line.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/pipeline.h"
 
@@ -9,7 +10,6 @@
 #include "runtime/host/run_options.h"
 #include "stdlib/native_table.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
@@ -198,16 +198,15 @@ int show(const std::string& format, const std::vector<std::string>& names) {
 
 } // namespace
 
-void addBuiltinsCommand(CLI::App& app, int& status) {
+void addBuiltinsCommand(rt::CommandLine& line) {
     auto format = std::make_shared<std::string>("human");
     auto names = std::make_shared<std::vector<std::string>>();
-    CLI::App* command =
-        app.add_subcommand("builtins", "List everything predefined and what of it is implemented");
-    command->add_option(
-        "name", *names,
-        "Say what these are and how they are declared; 'Socket*' lists all that match (* and ?)");
-    command->add_option("--format", *format, "human or tsv")->check(CLI::IsMember({"human", "tsv"}));
-    command->callback([=, &status] { status = show(*format, *names); });
+    const rt::Command command =
+        line.addCommand("builtins", "List everything predefined and what of it is implemented",
+                        [=] { return show(*format, *names); });
+    command.add("name", *names,
+                "Say what these are and how they are declared; 'Socket*' lists all that match (* and ?)");
+    command.add("--format", *format, "human or tsv").oneOf({"human", "tsv"});
 }
 
 } // namespace rapidc

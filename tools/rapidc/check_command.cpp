@@ -1,5 +1,6 @@
 // rapidc check: diagnostics, and with --fix the edits that mend them.
 
+#include "runtime/host/command_line.h"
 #include "tools/rapidc/apply_fixes.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/missing_report.h"
@@ -9,7 +10,6 @@
 #include "frontend/source/heap.h"
 #include "runtime/host/run_options.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
@@ -95,26 +95,24 @@ int check(CheckSettings& settings) {
 
 } // namespace
 
-void addCheckCommand(CLI::App& app, int& status) {
+void addCheckCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<CheckSettings>();
-    CLI::App* command = app.add_subcommand("check", "Check RAPID modules and report every mistake");
-    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")
-        ->required();
-    addTaskOption(*command, settings->inputs);
-    addConfigOption(*command, settings->inputs);
-    addRobotOption(*command, settings->inputs);
+    const rt::Command command = line.addCommand("check", "Check RAPID modules and report every mistake",
+                                                [settings] { return check(*settings); });
+    command.add("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups").required();
+    addTaskOption(command, settings->inputs);
+    addConfigOption(command, settings->inputs);
+    addRobotOption(command, settings->inputs);
     settings->inputs.lint = true;
     settings->inputs.onlyDiagnostics = true;
-    addAssumeSignalsOption(*command, settings->inputs);
-    addWarningOption(*command, settings->inputs);
-    command->add_option("--format", settings->format, "human, json or sarif")
-        ->check(CLI::IsMember({"human", "json", "sarif"}));
-    command->add_flag("--missing", settings->missing,
-                      "Only a table of what the program needs and is not there: built-ins, names, modules, "
-                      "signals, options");
-    command->add_flag("--fix", settings->fix,
-                      "Change the files: apply each fix that is certain, then report what is left");
-    command->callback([settings, &status] { status = check(*settings); });
+    addAssumeSignalsOption(command, settings->inputs);
+    addWarningOption(command, settings->inputs);
+    command.add("--format", settings->format, "human, json or sarif").oneOf({"human", "json", "sarif"});
+    command.addFlag("--missing", settings->missing,
+                    "Only a table of what the program needs and is not there: built-ins, names, modules, "
+                    "signals, options");
+    command.addFlag("--fix", settings->fix,
+                    "Change the files: apply each fix that is certain, then report what is left");
 }
 
 } // namespace rapidc

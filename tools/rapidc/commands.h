@@ -1,23 +1,23 @@
 #pragma once
-// One function per command: adds it to the command line. The callback stores the exit status.
+// One function per command: adds it to the command line.
 
-namespace CLI {
-class App;
+namespace rt {
+class CommandLine;
 }
 
 namespace rapidc {
 
-void addCheckCommand(CLI::App& app, int& status);
-void addBuildCommand(CLI::App& app, int& status);
-void addRunCommand(CLI::App& app, int& status);
-void addEmitCommand(CLI::App& app, int& status);
-void addExplainCommand(CLI::App& app, int& status);
-void addBuiltinsCommand(CLI::App& app, int& status);
-void addSignalsCommand(CLI::App& app, int& status);
-void addRobotsCommand(CLI::App& app, int& status);
-void addFmtCommand(CLI::App& app, int& status);
-void addRenameCommand(CLI::App& app, int& status);
-void addSetValueCommand(CLI::App& app, int& status);
-void addCompileUnitCommand(CLI::App& app, int& status);
+void addCheckCommand(rt::CommandLine& line);
+void addBuildCommand(rt::CommandLine& line);
+void addRunCommand(rt::CommandLine& line);
+void addEmitCommand(rt::CommandLine& line);
+void addExplainCommand(rt::CommandLine& line);
+void addBuiltinsCommand(rt::CommandLine& line);
+void addSignalsCommand(rt::CommandLine& line);
+void addRobotsCommand(rt::CommandLine& line);
+void addFmtCommand(rt::CommandLine& line);
+void addRenameCommand(rt::CommandLine& line);
+void addSetValueCommand(rt::CommandLine& line);
+void addCompileUnitCommand(rt::CommandLine& line);
 
 } // namespace rapidc

@@ -1,10 +1,10 @@
 // rapidc compile-unit: what built executables call to load modules; not meant for people.
 
+#include "runtime/host/command_line.h"
 #include "runtime/host/unit_messages.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/unit_compiler.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <iostream>
 #include <iterator>
@@ -44,10 +44,10 @@ int compileUnit() {
 
 } // namespace
 
-void addCompileUnitCommand(CLI::App& app, int& status) {
-    CLI::App* command = app.add_subcommand("compile-unit", "Serve an executable that loads a module");
-    command->group(""); // not listed
-    command->callback([&status] { status = compileUnit(); });
+void addCompileUnitCommand(rt::CommandLine& line) {
+    const rt::Command command = line.addCommand("compile-unit", "Serve an executable that loads a module",
+                                                [] { return compileUnit(); });
+    command.hide(); // not listed
 }
 
 } // namespace rapidc

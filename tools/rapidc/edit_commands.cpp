@@ -1,5 +1,6 @@
 // rapidc rename, rapidc set-value: small changes of modules that leave every other byte alone.
 
+#include "runtime/host/command_line.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/module_store.h"
 #include "tools/rapidc/pipeline.h"
@@ -14,7 +15,6 @@
 #include "frontend/syntax/parser.h"
 #include "runtime/host/run_options.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -205,47 +205,44 @@ int setValue(const EditSettings& settings) {
     return writeFiles("set-value", found, settings.diff);
 }
 
-CLI::Option* addInputs(CLI::App* command, EditSettings& settings) {
-    CLI::Option* input =
-        command->add_option("input", settings.inputs.paths, "Modules, folders, .pgf programs, backups");
-    addTaskOption(*command, settings.inputs);
-    command->add_flag("--diff", settings.diff, "Change nothing; show what would change");
+rt::Option addInputs(const rt::Command& command, EditSettings& settings) {
+    const rt::Option input =
+        command.add("input", settings.inputs.paths, "Modules, folders, .pgf programs, backups");
+    addTaskOption(command, settings.inputs);
+    command.addFlag("--diff", settings.diff, "Change nothing; show what would change");
     return input;
 }
 
 } // namespace
 
-void addRenameCommand(CLI::App& app, int& status) {
+void addRenameCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<EditSettings>();
-    CLI::App* command =
-        app.add_subcommand("rename", "Rename data, a routine, a type or a label wherever it stands");
-    command->add_option("old", settings->oldName, "NAME, MODULE.NAME or MODULE.ROUTINE.NAME")->required();
-    command->add_option("new", settings->newName, "The new name")->required();
-    addInputs(command, *settings)->required();
-    command->callback([settings, &status] { status = renameName(*settings); });
+    const rt::Command command =
+        line.addCommand("rename", "Rename data, a routine, a type or a label wherever it stands",
+                        [settings] { return renameName(*settings); });
+    command.add("old", settings->oldName, "NAME, MODULE.NAME or MODULE.ROUTINE.NAME").required();
+    command.add("new", settings->newName, "The new name").required();
+    addInputs(command, *settings).required();
 }
 
-void addSetValueCommand(CLI::App& app, int& status) {
+void addSetValueCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<EditSettings>();
-    CLI::App* command =
-        app.add_subcommand("set-value", "Write an initial value into the declaration of data");
-    command->add_option(
-        "--values", settings->values,
-        "Lines MODULE.DATA=VALUE for persistents of one module file; - is the standard input");
-    command->add_option("--output", settings->output,
-                        "With --values: the file to write instead of the input");
-    command->add_option("change", settings->change, "MODULE.DATA=VALUE; not with --values");
-    addInputs(command, *settings);
-    command->callback([settings, &status] {
+    const auto body = [settings] {
         if (settings->values.empty()) {
-            status = settings->output.empty() ? setValue(*settings)
-                                              : fail("set-value", "--output needs --values", kUsage);
-            return;
+            return settings->output.empty() ? setValue(*settings)
+                                            : fail("set-value", "--output needs --values", kUsage);
         }
         // There is no change to name: the first word is the input.
         settings->inputs.paths.insert(settings->inputs.paths.begin(), settings->change);
-        status = setValues(*settings);
-    });
+        return setValues(*settings);
+    };
+    const rt::Command command =
+        line.addCommand("set-value", "Write an initial value into the declaration of data", body);
+    command.add("--values", settings->values,
+                "Lines MODULE.DATA=VALUE for persistents of one module file; - is the standard input");
+    command.add("--output", settings->output, "With --values: the file to write instead of the input");
+    command.add("change", settings->change, "MODULE.DATA=VALUE; not with --values");
+    addInputs(command, *settings);
 }
 
 } // namespace rapidc

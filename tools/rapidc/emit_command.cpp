@@ -1,5 +1,6 @@
 // rapidc emit: shows a stage of the compiler.
 
+#include "runtime/host/command_line.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/native_library.h"
 #include "tools/rapidc/pipeline.h"
@@ -9,7 +10,6 @@
 #include "runtime/base/output_file.h"
 #include "runtime/host/run_options.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fmt/format.h>
 
@@ -125,21 +125,20 @@ int emit(EmitSettings& settings) {
 
 } // namespace
 
-void addEmitCommand(CLI::App& app, int& status) {
+void addEmitCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<EmitSettings>();
-    CLI::App* command = app.add_subcommand("emit", "Show a stage of the compiler");
-    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")
-        ->required();
-    command->add_option("--as", settings->as, "tokens, tree, symbols, ir, llvm, asm or obj")
-        ->check(CLI::IsMember({"tokens", "tree", "symbols", "ir", "llvm", "asm", "obj"}));
-    addWarningOption(*command, settings->inputs);
-    addTaskOption(*command, settings->inputs);
-    addConfigOption(*command, settings->inputs);
-    addRobotOption(*command, settings->inputs);
-    command->add_option("-o,--output", settings->output, "File to write instead of the terminal");
-    command->add_flag("--stepping", settings->stepping, "Show the code of the stepping profile");
-    command->add_flag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
-    command->callback([settings, &status] { status = emit(*settings); });
+    const rt::Command command =
+        line.addCommand("emit", "Show a stage of the compiler", [settings] { return emit(*settings); });
+    command.add("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups").required();
+    command.add("--as", settings->as, "tokens, tree, symbols, ir, llvm, asm or obj")
+        .oneOf({"tokens", "tree", "symbols", "ir", "llvm", "asm", "obj"});
+    addWarningOption(command, settings->inputs);
+    addTaskOption(command, settings->inputs);
+    addConfigOption(command, settings->inputs);
+    addRobotOption(command, settings->inputs);
+    command.add("-o,--output", settings->output, "File to write instead of the terminal");
+    command.addFlag("--stepping", settings->stepping, "Show the code of the stepping profile");
+    command.addFlag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
 }
 
 } // namespace rapidc

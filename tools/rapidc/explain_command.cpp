@@ -6,10 +6,10 @@
 #include "config/atomic_file.h"
 #include "frontend/diag/catalogue.h"
 #include "frontend/diag/explain.h"
+#include "runtime/host/command_line.h"
 #include "runtime/host/run_options.h"
 #include "stdlib/native_table.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
@@ -94,19 +94,22 @@ int writePages(const std::string& folder) {
 
 } // namespace
 
-void addExplainCommand(CLI::App& app, int& status) {
+void addExplainCommand(rt::CommandLine& line) {
     auto code = std::make_shared<std::string>();
     auto folder = std::make_shared<std::string>();
-    CLI::App* command = app.add_subcommand("explain", "Say what a diagnostic, an event or an error means");
-    CLI::Option* one = command->add_option(
+    const auto body = [code, folder] {
+        if (code->empty() && folder->empty()) {
+            fmt::print(stderr, "rapidc explain: code is required\nrapidc explain --help tells more\n");
+            return static_cast<int>(rt::ExitStatus::BadUsage);
+        }
+        return folder->empty() ? explain(*code) : writePages(*folder);
+    };
+    const rt::Command command =
+        line.addCommand("explain", "Say what a diagnostic, an event or an error means", body);
+    const rt::Option one = command.add(
         "code", *code, "RAP2104, the name of a warning, the number of an event (40229), or ERR_NAME");
-    CLI::Option* all =
-        command->add_option("--pages", *folder, "Write a page for every code into this folder");
-    one->excludes(all);
-    command->callback([code, folder, &status] {
-        if (code->empty() && folder->empty()) throw CLI::RequiredError("code");
-        status = folder->empty() ? explain(*code) : writePages(*folder);
-    });
+    const rt::Option all = command.add("--pages", *folder, "Write a page for every code into this folder");
+    one.excludes(all);
 }
 
 } // namespace rapidc

@@ -1,5 +1,6 @@
 // rapidc fmt: lays out modules in place, or tells which ones would change.
 
+#include "runtime/host/command_line.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/module_files.h"
 #include "tools/rapidc/text_diff.h"
@@ -14,7 +15,6 @@
 #include "runtime/host/run_options.h"
 #include "stdlib/stdlib_text.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fmt/format.h>
 #include <iostream>
@@ -184,21 +184,21 @@ class Fmt {
 
 } // namespace
 
-void addFmtCommand(CLI::App& app, int& status) {
+void addFmtCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<FmtSettings>();
-    CLI::App* command = app.add_subcommand("fmt", "Lay out modules; what they mean never changes");
-    command->add_option("input", settings->inputs, "Modules; folders with all modules below them");
-    command->add_flag("--check", settings->check,
-                      "Change nothing; name the files that would change, and exit with 1");
-    command->add_flag("--diff", settings->diff, "Change nothing; show what would change");
-    command->add_flag("--stdin", settings->fromStdin,
-                      "Read a module from standard input, write it to standard output");
-    command->add_option("--stdin-name", settings->stdinName,
-                        "File name of that module: its type tells the encoding, its folder the settings");
-    command->add_option("--range", settings->range, "FIRST:LAST: change only these lines");
-    command->add_flag("--keep-errors", settings->keepErrors,
-                      "Format around declarations with mistakes instead of refusing the module");
-    command->callback([settings, &status] { status = Fmt(*settings).run(); });
+    const rt::Command command = line.addCommand("fmt", "Lay out modules; what they mean never changes",
+                                                [settings] { return Fmt(*settings).run(); });
+    command.add("input", settings->inputs, "Modules; folders with all modules below them");
+    command.addFlag("--check", settings->check,
+                    "Change nothing; name the files that would change, and exit with 1");
+    command.addFlag("--diff", settings->diff, "Change nothing; show what would change");
+    command.addFlag("--stdin", settings->fromStdin,
+                    "Read a module from standard input, write it to standard output");
+    command.add("--stdin-name", settings->stdinName,
+                "File name of that module: its type tells the encoding, its folder the settings");
+    command.add("--range", settings->range, "FIRST:LAST: change only these lines");
+    command.addFlag("--keep-errors", settings->keepErrors,
+                    "Format around declarations with mistakes instead of refusing the module");
 }
 
 } // namespace rapidc

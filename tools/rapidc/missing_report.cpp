@@ -1,11 +1,11 @@
 #include "tools/rapidc/missing_report.h"
 
+#include "config/json_text.h"
 #include "frontend/sema/names.h"
 #include "frontend/sema/options.h"
 #include "stdlib/native_table.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -224,7 +224,7 @@ std::string missingJson(const Compilation& compilation) {
         rows.push_back(std::move(item));
     }
     const Json json = {{"missing", std::move(rows)}};
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; // a path need not be UTF-8
+    return rapid::config::textOf(json, 2) + "\n"; // a path need not be UTF-8
 }
 
 } // namespace rapidc

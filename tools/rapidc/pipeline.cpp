@@ -6,6 +6,7 @@
 #include "frontend/project/system_parameters.h"
 #include "ir/lower/lower.h"
 #include "ir/verify/verify.h"
+#include "runtime/host/command_line.h"
 #include "runtime/io/cfg_parser.h"
 #include "runtime/robot/robot_model.h"
 #include "stdlib/native_table.h"
@@ -14,7 +15,6 @@
 #include "tools/rapidc/signal_uses.h"
 #include "tools/rapidc/task_specs.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
@@ -288,41 +288,38 @@ void judge(Compilation& compilation, bool onlyDiagnostics) {
 
 } // namespace
 
-void addAssumeSignalsOption(CLI::App& command, Inputs& inputs) {
-    command.add_flag("--assume-signals", inputs.assumeSignals,
-                     "Define signals that no configuration defines as the program uses them");
+void addAssumeSignalsOption(const rt::Command& command, Inputs& inputs) {
+    command.addFlag("--assume-signals", inputs.assumeSignals,
+                    "Define signals that no configuration defines as the program uses them");
 }
 
-void addWarningOption(CLI::App& command, Inputs& inputs) {
+void addWarningOption(const rt::Command& command, Inputs& inputs) {
     command
-        .add_option("-W", inputs.warnings,
-                    "NAME or no-NAME: switch a warning on or off; error=NAME: make it an error. "
-                    "'lint' stands for all of 8xxx, 'all' for every warning")
-        ->allow_extra_args(false);
+        .add("-W", inputs.warnings,
+             "NAME or no-NAME: switch a warning on or off; error=NAME: make it an error. "
+             "'lint' stands for all of 8xxx, 'all' for every warning")
+        .oneValueEach();
 }
 
-void addTaskOption(CLI::App& command, Inputs& inputs) {
+void addTaskOption(const rt::Command& command, Inputs& inputs) {
     command
-        .add_option(
-            "--task", inputs.tasks,
-            "A further task, which runs the main of its inputs; NAME:STATIC= and NAME:SEMISTATIC= give its "
-            "type; repeatable, also to add inputs to a task")
-        ->type_name("NAME[:TYPE]=INPUT[,INPUT]")
-        ->allow_extra_args(false)
-        ->take_all();
+        .add("--task", inputs.tasks,
+             "A further task, which runs the main of its inputs; NAME:STATIC= and NAME:SEMISTATIC= give its "
+             "type; repeatable, also to add inputs to a task")
+        .typeName("NAME[:TYPE]=INPUT[,INPUT]")
+        .oneValueEach();
 }
 
-void addConfigOption(CLI::App& command, Inputs& inputs) {
+void addConfigOption(const rt::Command& command, Inputs& inputs) {
     command
-        .add_option("--config", inputs.configFiles,
-                    "EIO, SYS, MOC, SIO or PROC parameters in ABB's text format; repeatable")
-        ->type_name("FILE.cfg")
-        ->allow_extra_args(false)
-        ->take_all();
+        .add("--config", inputs.configFiles,
+             "EIO, SYS, MOC, SIO or PROC parameters in ABB's text format; repeatable")
+        .typeName("FILE.cfg")
+        .oneValueEach();
 }
 
-void addRobotOption(CLI::App& command, Inputs& inputs) {
-    command.add_option("--robot", inputs.robot, "Robot model; rapidc robots lists them")->type_name("MODEL");
+void addRobotOption(const rt::Command& command, Inputs& inputs) {
+    command.add("--robot", inputs.robot, "Robot model; rapidc robots lists them").typeName("MODEL");
 }
 
 std::string outputConflict(const Compilation& compilation,

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-namespace CLI {
-class App;
+namespace rt {
+class Command;
 }
 
 namespace rapidc {
@@ -54,13 +54,13 @@ struct Compilation {
 };
 
 /// Adds the option --assume-signals to a command.
-void addAssumeSignalsOption(CLI::App& command, Inputs& inputs);
+void addAssumeSignalsOption(const rt::Command& command, Inputs& inputs);
 
 /// Adds the options that say what is compiled: -W, --task, --config, --robot.
-void addWarningOption(CLI::App& command, Inputs& inputs);
-void addTaskOption(CLI::App& command, Inputs& inputs);
-void addConfigOption(CLI::App& command, Inputs& inputs);
-void addRobotOption(CLI::App& command, Inputs& inputs);
+void addWarningOption(const rt::Command& command, Inputs& inputs);
+void addTaskOption(const rt::Command& command, Inputs& inputs);
+void addConfigOption(const rt::Command& command, Inputs& inputs);
+void addRobotOption(const rt::Command& command, Inputs& inputs);
 
 /// Loads, parses and checks. Look at `sink` and `usageErrors` before going on; there is no program when the options
 /// cannot be read.

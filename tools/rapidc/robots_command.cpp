@@ -1,14 +1,14 @@
 // rapidc robots: the robot models that --robot and MOC.cfg may name.
 
+#include "config/json_text.h"
 #include "tools/rapidc/commands.h"
 
+#include "runtime/host/command_line.h"
 #include "runtime/host/run_options.h"
 #include "runtime/robot/robot_model.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace rapidc {
 
@@ -62,7 +62,7 @@ void printJson(const std::vector<robot::RobotModel>& models) {
         row["note"] = limitationOf(model);
         list.push_back(std::move(row));
     }
-    fmt::print("{}\n", list.dump(2));
+    fmt::print("{}\n", rapid::config::textOf(list, 2));
 }
 
 int listRobots(const std::string& format) {
@@ -78,12 +78,11 @@ int listRobots(const std::string& format) {
 
 } // namespace
 
-void addRobotsCommand(CLI::App& app, int& status) {
+void addRobotsCommand(rt::CommandLine& line) {
     auto format = std::make_shared<std::string>("human");
-    CLI::App* command = app.add_subcommand("robots", "List the robot models");
-    command->add_option("--format", *format, "human, tsv or json")
-        ->check(CLI::IsMember({"human", "tsv", "json"}));
-    command->callback([format, &status] { status = listRobots(*format); });
+    const rt::Command command =
+        line.addCommand("robots", "List the robot models", [format] { return listRobots(*format); });
+    command.add("--format", *format, "human, tsv or json").oneOf({"human", "tsv", "json"});
 }
 
 } // namespace rapidc

@@ -1,5 +1,6 @@
 // rapidc run: compiles in memory and runs on the virtual controller.
 
+#include "runtime/host/command_line.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/line_debugger.h"
 #include "tools/rapidc/module_store.h"
@@ -21,7 +22,6 @@
 #include "stdlib/native_table.h"
 #include "stdlib/standard_library.h"
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
@@ -203,31 +203,29 @@ int run(RunSettings& settings) {
 
 } // namespace
 
-void addRunCommand(CLI::App& app, int& status) {
+void addRunCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<RunSettings>();
-    CLI::App* command = app.add_subcommand("run", "Compile in memory and run on the virtual controller");
-    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")
-        ->required();
-    rt::addRunOptions(*command, settings->options, true);
-    addAssumeSignalsOption(*command, settings->inputs);
-    addWarningOption(*command, settings->inputs);
-    command->add_option("--picture", settings->picture, "Draw the path of the TCP (SVG)");
-    command->add_flag("--summary", settings->summary, "Show cycle time and where the files lie");
-    command->add_flag("--step", settings->interactive,
-                      "Debug in the terminal: stop ahead of the first instruction and take commands (help)");
-    CLI::Option* stepping =
-        command->add_flag("--stepping", settings->stepping, "Compile for the stepping profile");
+    const rt::Command command = line.addCommand("run", "Compile in memory and run on the virtual controller",
+                                                [settings] { return run(*settings); });
+    command.add("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups").required();
+    rt::addRunOptions(command, settings->options, true);
+    addAssumeSignalsOption(command, settings->inputs);
+    addWarningOption(command, settings->inputs);
+    command.add("--picture", settings->picture, "Draw the path of the TCP (SVG)");
+    command.addFlag("--summary", settings->summary, "Show cycle time and where the files lie");
+    command.addFlag("--step", settings->interactive,
+                    "Debug in the terminal: stop ahead of the first instruction and take commands (help)");
+    const rt::Option stepping =
+        command.addFlag("--stepping", settings->stepping, "Compile for the stepping profile");
     command
-        ->add_flag(
-            "--no-stepping", settings->noStepping,
-            "With --state: fast code, but a program that is interrupted begins at main in the next run")
-        ->excludes(stepping);
-    command->add_flag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
+        .addFlag("--no-stepping", settings->noStepping,
+                 "With --state: fast code, but a program that is interrupted begins at main in the next run")
+        .excludes(stepping);
+    command.addFlag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
     command
-        ->add_flag("--in-parts", settings->inParts,
-                   "Compile each routine when it is called first, also in a small program")
-        ->group(""); // for tests
-    command->callback([settings, &status] { status = run(*settings); });
+        .addFlag("--in-parts", settings->inParts,
+                 "Compile each routine when it is called first, also in a small program")
+        .hide(); // for tests
 }
 
 } // namespace rapidc

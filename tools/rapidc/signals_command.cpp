@@ -1,5 +1,6 @@
 // rapidc signals: the signals that a program uses, as an EIO.cfg to start a configuration from.
 
+#include "runtime/host/command_line.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/pipeline.h"
 #include "tools/rapidc/signal_uses.h"
@@ -7,7 +8,6 @@
 #include "config/atomic_file.h"
 #include "runtime/host/run_options.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fmt/format.h>
 
@@ -54,16 +54,15 @@ int writeSignalFile(SignalsSettings& settings) {
 
 } // namespace
 
-void addSignalsCommand(CLI::App& app, int& status) {
+void addSignalsCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<SignalsSettings>();
-    CLI::App* command = app.add_subcommand(
-        "signals", "Write the signals that a program uses and no configuration defines as an EIO.cfg");
-    command->add_option("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups")
-        ->required();
-    command->add_option("-o,--output", settings->output, "The file to write; without it standard output");
-    addTaskOption(*command, settings->inputs);
-    addConfigOption(*command, settings->inputs);
-    command->callback([settings, &status] { status = writeSignalFile(*settings); });
+    const rt::Command command = line.addCommand(
+        "signals", "Write the signals that a program uses and no configuration defines as an EIO.cfg",
+        [settings] { return writeSignalFile(*settings); });
+    command.add("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups").required();
+    command.add("-o,--output", settings->output, "The file to write; without it standard output");
+    addTaskOption(command, settings->inputs);
+    addConfigOption(command, settings->inputs);
 }
 
 } // namespace rapidc

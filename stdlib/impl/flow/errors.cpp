@@ -1,5 +1,6 @@
 // Manual 1.12: what programs ask about errors.
 
+#include "config/json_text.h"
 #include "runtime/debug/state_keepers.h"
 #include "runtime/host/controller.h"
 #include "runtime/sched/error_search.h"
@@ -10,7 +11,6 @@
 #include "runtime/abi/support_natives.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>

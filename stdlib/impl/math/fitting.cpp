@@ -1,11 +1,13 @@
 // Manual 1.15: lines, planes, spheres and circles through points (mm), by least squares.
 
+#include "stdlib/impl/math/matrix.h"
 #include "stdlib/impl/support/finite.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
 
 #include <cmath>
 #include <utility>
@@ -61,7 +63,8 @@ struct Spread {
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
     Vector3d sizes = Vector3d::Zero();
     explicit Spread(const Points& points) : mean(points.rowwise().mean()) {
-        const Eigen::Matrix3d scatter = (points.colwise() - mean) * (points.colwise() - mean).transpose();
+        const Points off = points.colwise() - mean;
+        const Eigen::Matrix3d scatter = off.lazyProduct(off.transpose());
         const Eigen::JacobiSVD<Eigen::Matrix3d> svd(scatter, Eigen::ComputeFullU | Eigen::ComputeFullV);
         if (svd.info() != Eigen::Success) return; // coordinates beyond all bounds
         axes = svd.matrixU();
@@ -107,10 +110,8 @@ bool centreOf(const Eigen::Matrix<double, Rows, Eigen::Dynamic>& p, Eigen::Matri
     Eigen::MatrixXd a(p.cols(), Rows + 1);
     a << 2 * p.transpose(), Eigen::VectorXd::Ones(p.cols());
     const Eigen::VectorXd b = p.colwise().squaredNorm();
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
-    qr.setThreshold(kFlat);
-    if (qr.rank() <= Rows) return false;
-    const Eigen::VectorXd solution = qr.solve(b);
+    Eigen::VectorXd solution;
+    if (!lib::leastSquares(a, b, kFlat, solution)) return false;
     centre = solution.template head<Rows>();
     radius = std::sqrt(std::max(0.0, solution(Rows) + centre.squaredNorm()));
     return true;

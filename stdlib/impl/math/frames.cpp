@@ -7,7 +7,8 @@
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +57,9 @@ Eigen::Vector3d toEigen(const data::Pos& p) {
 robot::Pose bestFit(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to, bool& defined) {
     const Eigen::Vector3d fromMean = from.rowwise().mean();
     const Eigen::Vector3d toMean = to.rowwise().mean();
-    const Eigen::Matrix3d h = (from.colwise() - fromMean) * (to.colwise() - toMean).transpose();
+    const Eigen::Matrix3Xd fromOff = from.colwise() - fromMean;
+    const Eigen::Matrix3Xd toOff = to.colwise() - toMean;
+    const Eigen::Matrix3d h = fromOff.lazyProduct(toOff.transpose());
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(h, Eigen::ComputeFullU | Eigen::ComputeFullV);
     defined = svd.singularValues()(1) > kSmallest * std::max(1.0, svd.singularValues()(0));
     Eigen::Matrix3d flip = Eigen::Matrix3d::Identity();

@@ -1,12 +1,15 @@
 // Manual 1.15: matrices. Results are computed completely before they are stored, so they may replace an operand.
 
+#include "stdlib/impl/math/matrix.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/finite.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
 
 #include <algorithm>
 
@@ -14,9 +17,12 @@ using namespace rt;
 
 namespace {
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using In = Eigen::Map<const Matrix>;
-using Out = Eigen::Map<Matrix>;
+// Arrays of RAPID lie in memory row by row. All that is computed has Eigen's own order, so that each decomposition is
+// compiled for one kind of matrix.
+using Matrix = Eigen::MatrixXd;
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using In = Eigen::Map<const Rows>;
+using Out = Eigen::Map<Rows>;
 
 constexpr double kSingular = 1e-13; // relative
 
@@ -53,6 +59,14 @@ Status store(TaskCore* task, const Matrix& value, double* out, int32_t rows, int
 
 } // namespace
 
+bool rt::lib::leastSquares(const Matrix& a, const Eigen::VectorXd& b, double threshold, Eigen::VectorXd& x) {
+    Eigen::ColPivHouseholderQR<Matrix> qr(a);
+    qr.setThreshold(threshold);
+    if (qr.rank() < a.cols()) return false;
+    x = qr.solve(b);
+    return true;
+}
+
 extern "C" {
 
 Status rt_MatrixAdd(TaskCore* task, const double* A, int32_t ADim1, int32_t ADim2, const double* B,
@@ -76,7 +90,7 @@ Status rt_MatrixMult(TaskCore* task, const double* A, int32_t ADim1, int32_t ADi
     if (CDim1 != ADim1 || CDim2 != (B ? BDim2 : ADim2)) return badSize(task);
     Matrix product;
     if (B)
-        product = In(A, ADim1, ADim2) * In(B, BDim1, BDim2);
+        product = Matrix(In(A, ADim1, ADim2)) * Matrix(In(B, BDim1, BDim2));
     else
         product = In(A, ADim1, ADim2) * *Scalar;
     return store(task, product, C, CDim1, CDim2);
@@ -108,10 +122,9 @@ Status rt_MatrixSolve(TaskCore* task, const double* A, int32_t ADim1, int32_t AD
     Matrix a;
     if (const Status status = inUse(task, A, ADim1, ADim2, A_m, A_n, a)) return status;
     if (a.rows() < a.cols() || bDim1 < a.rows() || xDim1 < a.cols()) return badSize(task);
-    Eigen::ColPivHouseholderQR<Matrix> qr(a);
-    qr.setThreshold(kSingular);
-    if (qr.rank() < a.cols()) return singular(task);
-    const Matrix solution = qr.solve(Eigen::Map<const Eigen::VectorXd>(b, a.rows()));
+    Eigen::VectorXd solution;
+    if (!lib::leastSquares(a, Eigen::Map<const Eigen::VectorXd>(b, a.rows()), kSingular, solution))
+        return singular(task);
     return store(task, solution, x, xDim1, 1);
 }
 
@@ -136,7 +149,7 @@ Status rt_MatrixSVD(TaskCore* task, const double* A, int32_t ADim1, int32_t ADim
     if (const Status status = inUse(task, A, ADim1, ADim2, A_m, A_n, a)) return status;
     const unsigned how =
         Econ ? Eigen::ComputeThinU | Eigen::ComputeThinV : Eigen::ComputeFullU | Eigen::ComputeFullV;
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, how);
+    const Eigen::JacobiSVD<Matrix> svd(a, how);
     const Matrix u = svd.matrixU();
     const Matrix s = svd.singularValues();
     const Matrix v = svd.matrixV();

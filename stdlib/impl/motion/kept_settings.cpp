@@ -1,12 +1,11 @@
 // Motion settings between two processes (--state): what AccSet, VelSet, ConfL, PDispOn ... have set, and the tool and work
 // object in force.
 
+#include "config/json_text.h"
 #include "stdlib/impl/motion/state.h"
 
 #include "runtime/debug/state_keepers.h"
 #include "runtime/host/path_image.h"
-
-#include <nlohmann/json.hpp>
 
 #include <cstring>
 #include <stdexcept>

@@ -1,6 +1,7 @@
 // Triggers between two processes (--state): a triggdata keeps its contents, with the names of signals and persistents in place
 // of where they lie.
 
+#include "config/json_text.h"
 #include "stdlib/impl/motion/triggers.h"
 
 #include "runtime/debug/state_keepers.h"
@@ -99,13 +100,14 @@ void keepTriggers(Controller& controller, StateKeepers& kept) {
         const TriggerDefinition* definition = controller.service<TriggerStore>().find(handle);
         if (definition == nullptr) return {};
         try {
-            return jsonOf(controller, *definition).dump(-1, ' ', false, Json::error_handler_t::replace);
+            return rapid::config::textOf(jsonOf(controller, *definition));
         } catch (const std::invalid_argument&) {
             return {}; // made by a module that was loaded: it is not there in the next process
         }
     };
     const auto make = [&controller](const std::string& text) {
-        return controller.service<TriggerStore>().intern(definitionFrom(controller, Json::parse(text)));
+        return controller.service<TriggerStore>().intern(
+            definitionFrom(controller, rapid::config::parseJson(text)));
     };
     kept.handles["triggdata"] = {textOf, make};
 }

@@ -1,6 +1,7 @@
 // Message queues between two processes (--state): a message is kept with the name and the components of its type, and given
 // back when the program still has that type.
 
+#include "config/json_text.h"
 #include "stdlib/impl/queues/message_queue.h"
 
 #include "runtime/debug/call_chain.h"
@@ -116,16 +117,16 @@ void keepMessages(Controller& controller, StateKeepers& kept) {
             return queue == nullptr ? std::string() : queue->name;
         },
         [&controller](const std::string& name) { return MessageQueues::of(controller).findByName(name); }};
-    kept.handles["rmqmessage"] = {
-        [&controller](Handle handle) {
-            const Message* message = MessageQueues::of(controller).kept(handle);
-            return message == nullptr
-                       ? std::string()
-                       : jsonOf(controller, *message).dump(-1, ' ', false, Json::error_handler_t::replace);
-        },
-        [&controller](const std::string& text) {
-            return MessageQueues::of(controller).keep(messageFrom(controller, Json::parse(text)));
-        }};
+    kept.handles["rmqmessage"] = {[&controller](Handle handle) {
+                                      const Message* message = MessageQueues::of(controller).kept(handle);
+                                      return message == nullptr
+                                                 ? std::string()
+                                                 : rapid::config::textOf(jsonOf(controller, *message));
+                                  },
+                                  [&controller](const std::string& text) {
+                                      return MessageQueues::of(controller)
+                                          .keep(messageFrom(controller, rapid::config::parseJson(text)));
+                                  }};
 }
 
 } // namespace rt::lib

@@ -2,6 +2,7 @@
 
 #include "stdlib/impl/time/clocks.h"
 
+#include "config/json_text.h"
 #include "runtime/debug/state_keepers.h"
 #include "runtime/host/controller.h"
 #include "runtime/host/json_numbers.h"
@@ -38,10 +39,11 @@ void keepClocks(Controller& controller, StateKeepers& kept) {
     const auto textOf = [&controller](Handle handle) -> std::string {
         const ClockObject* clock = controller.clocks().find(handle);
         if (clock == nullptr) return {};
-        return nlohmann::json({clock->elapsed(controller.scheduler().now()), clock->running()}).dump();
+        return rapid::config::textOf(
+            nlohmann::json({clock->elapsed(controller.scheduler().now()), clock->running()}));
     };
     const auto make = [&controller](const std::string& text) {
-        const auto json = nlohmann::json::parse(text);
+        const auto json = rapid::config::parseJson(text);
         const Handle handle = controller.clocks().create();
         controller.clocks().find(handle)->restore(
             std::clamp<Time>(numberFrom<Time>(json.at(0)), 0, kLongest + kSecond), json.at(1).get<bool>(),

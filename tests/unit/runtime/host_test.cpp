@@ -1,10 +1,8 @@
 #include "unit/runtime/test_program.h"
 
+#include "runtime/host/command_line.h"
 #include "runtime/sim/stimulus.h"
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -19,17 +17,14 @@ const char* const kSignals =
     "EIO:CFG_1.0:7:0::\n\n#\n\nEIO_SIGNAL:\n\n      -Name \"di1\" -SignalType \"DI\"\n\n"
     "      -Name \"do1\" -SignalType \"DO\"\n";
 
-std::vector<std::string> parse(std::vector<std::string> arguments, RunOptions& options) {
-    CLI::App app;
-    addRunOptions(app, options, true);
-    std::vector<std::string> errors;
-    try {
-        std::reverse(arguments.begin(), arguments.end());
-        app.parse(arguments);
-    } catch (const CLI::ParseError& error) {
-        errors.push_back(error.what());
-    }
-    return errors;
+/// The exit status.
+int parse(const std::vector<std::string>& arguments, RunOptions& options) {
+    CommandLine line("test", "");
+    addRunOptions(line.executable(), options, true);
+    std::vector<const char*> words{"test"};
+    for (const std::string& argument : arguments)
+        words.push_back(argument.c_str());
+    return line.run(static_cast<int>(words.size()), words.data());
 }
 
 /// Waits for di1 and answers with do1.
@@ -85,8 +80,7 @@ TEST_CASE("options of run", "[host]") {
     RunOptions options;
     CHECK(parse({"--cycles=0", "--config=a.cfg", "--config=b.cfg", "--robot=IRB 120-3/0.58", "--realtime",
                  "--max-time=2.5", "--seed=7", "--rate=unlimited", "--task=T2:STATIC=x.modx"},
-                options)
-              .empty());
+                options) == 0);
     CHECK(options.cycles == 0);
     CHECK(options.configFiles == std::vector<std::string>{"a.cfg", "b.cfg"});
     CHECK(options.robot == "IRB 120-3/0.58");
@@ -99,7 +93,7 @@ TEST_CASE("options of run", "[host]") {
     for (const char* wrong : {"--cycles=-1", "--cycles=x", "--max-time=soon", "--max-time=-1", "--rate=fast",
                               "--rate=1.5", "--seed=x", "--nonsense"}) {
         INFO(wrong);
-        CHECK(parse({wrong}, options).size() == 1);
+        CHECK(parse({wrong}, options) == static_cast<int>(ExitStatus::BadUsage));
     }
 }
 

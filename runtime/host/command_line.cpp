@@ -1,4 +1,4 @@
-#include "runtime/host/usage.h"
+#include "runtime/host/command_line.h"
 
 #include "config/nearest.h"
 #include "runtime/host/run_options.h"
@@ -52,8 +52,8 @@ std::string placesOf(const std::string& option, const CLI::App& app, const CLI::
             places.push_back(fmt::format("'rapidc {}'", other->get_name()));
     RunOptions ignored;
     CLI::App executable, run;
-    addRunOptions(executable, ignored, false);
-    addRunOptions(run, ignored, true);
+    addRunOptions(Command(executable), ignored, false);
+    addRunOptions(Command(run), ignored, true);
     const bool isExecutable = app.get_subcommands([](const CLI::App*) { return true; }).empty();
     if (isExecutable && run.get_option_no_throw(option) != nullptr) return "'rapidc build'";
     if (places.empty()) return {};
@@ -89,15 +89,100 @@ std::string problemOf(const CLI::App& app, const CLI::App& command, const CLI::P
     return extra.empty() ? error.what() : fmt::format("unexpected '{}'", extra);
 }
 
-} // namespace
-
-int reportUsage(const CLI::App& app, const CLI::ParseError& error, const std::string& name) {
+/// Reports what parsing ended with. `name`: of the executable. Returns the exit status.
+int report(const CLI::App& app, const CLI::ParseError& error, const std::string& name) {
     if (error.get_exit_code() == 0) return app.exit(error); // --help, --version
     const auto chosen = app.get_subcommands();
     const CLI::App& command = chosen.empty() ? app : *chosen.front();
     const std::string full = chosen.empty() ? name : fmt::format("{} {}", name, command.get_name());
     fmt::print(stderr, "{}: {}\n{} --help tells more\n", full, problemOf(app, command, error), full);
     return static_cast<int>(ExitStatus::BadUsage);
+}
+
+} // namespace
+
+const Option& Option::required() const {
+    option_->required();
+    return *this;
+}
+
+const Option& Option::typeName(const std::string& name) const {
+    option_->type_name(name);
+    return *this;
+}
+
+const Option& Option::oneValueEach() const {
+    option_->allow_extra_args(false)->take_all();
+    return *this;
+}
+
+const Option& Option::oneOf(const std::vector<std::string>& values) const {
+    option_->check(CLI::IsMember(values));
+    return *this;
+}
+
+const Option& Option::excludes(const Option& other) const {
+    option_->excludes(other.option_);
+    return *this;
+}
+
+const Option& Option::hide() const {
+    option_->group("");
+    return *this;
+}
+
+Option Command::add(const std::string& names, std::string& value, const std::string& text) const {
+    return Option(app_->add_option(names, value, text));
+}
+
+Option Command::add(const std::string& names, std::vector<std::string>& values,
+                    const std::string& text) const {
+    return Option(app_->add_option(names, values, text));
+}
+
+Option Command::addChecked(const std::string& name, std::function<std::string(const std::string&)> take,
+                           const std::string& text) const {
+    const auto takeOrThrow = [name, take = std::move(take)](const std::string& value) {
+        if (const std::string problem = take(value); !problem.empty())
+            throw CLI::ValidationError(name, problem);
+    };
+    return Option(app_->add_option_function<std::string>(name, takeOrThrow, text));
+}
+
+Option Command::addFlag(const std::string& names, bool& value, const std::string& text) const {
+    return Option(app_->add_flag(names, value, text));
+}
+
+void Command::hide() const {
+    app_->group("");
+}
+
+CommandLine::CommandLine(std::string name, const std::string& about)
+    : name_(std::move(name)), app_(std::make_unique<CLI::App>(about)) {}
+
+CommandLine::~CommandLine() = default;
+
+void CommandLine::setVersion(const std::string& text) const {
+    app_->set_version_flag("--version", text);
+}
+
+Command CommandLine::addCommand(const std::string& name, const std::string& about,
+                                std::function<int()> body) {
+    app_->name(name_);
+    app_->require_subcommand(1);
+    CLI::App* command = app_->add_subcommand(name, about);
+    command->callback([this, body = std::move(body)] { chosen_ = body; });
+    return Command(*command);
+}
+
+int CommandLine::run(int argc, const char* const* argv, const std::function<int()>& body) const {
+    try {
+        app_->parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return report(*app_, error, name_);
+    }
+    const std::function<int()>& rest = chosen_ ? chosen_ : body;
+    return rest ? rest() : 0;
 }
 
 } // namespace rt
