@@ -1,0 +1,115 @@
+// What a call of a native costs a routine (decision 57), as it shows in the LLVM module.
+
+#include <string>
+#include <string_view>
+
+#include "ir/passes/passes.h"
+#include "tests/unit/codegen/fake_runtime.h"
+#include "tests/unit/ir/ir_testing.h"
+
+using namespace codegen_testing;
+
+namespace {
+
+size_t count(const std::string& text, std::string_view wanted) {
+    size_t found = 0;
+    for (size_t at = text.find(wanted); at != std::string::npos; at = text.find(wanted, at + 1))
+        ++found;
+    return found;
+}
+
+std::string llvmOf(const std::string& text, bool optimise = false) {
+    ir::Module module = ir_testing::parse(text);
+    REQUIRE(ir::runPasses(module, {}).empty());
+    codegen::CodegenOptions options;
+    options.optimise = optimise;
+    options.debugInfo = false;
+    std::string error;
+    std::string result = codegen::emitLlvm(module, options, error);
+    INFO(error);
+    REQUIRE(!result.empty());
+    return result;
+}
+
+/// A routine with `body` in its only block but the last.
+std::string routineOf(const std::string& body) {
+    return R"(
+native @"rt_note" plain void (f32)
+native @"rt_wait" plain void (ptr, f32, ptr)
+routine @"r" "r" in "M" exported void () {
+  local 0 f32 "x"
+  stmt 0 plain 1:1 1:2
+  b0:
+    stmt 0
+    %x = local 0
+    %none = const ptr 0
+    %one = const f32 1
+)" + body + "    ret\n}\n";
+}
+
+std::string repeated(const std::string& text, int times) {
+    std::string result;
+    for (int i = 0; i < times; ++i)
+        result += text;
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("a native is called by a function of the module, one for each pattern of absent arguments",
+          "[codegen]") {
+    const std::string text = llvmOf(routineOf("    native @\"rt_wait\" (%none, %one, %none)\n"
+                                              "    native @\"rt_wait\" (%none, %one, %none)\n"
+                                              "    native @\"rt_wait\" (%x, %one, %none)\n"));
+    CHECK(count(text, "call i32 @rt_wait(") == 2);
+    CHECK(count(text, "(ptr %task, i32 0, float 1.000000e+00)") == 2);
+    CHECK(count(text, "(ptr %task, i32 0, ptr %x, float 1.000000e+00)") == 1);
+    CHECK(count(text, "@rt_nativeFailed(") == 3); // the declaration and one call in each function
+}
+
+/// 110 instructions of the robot, then a loop that counts to `bound` (an i32) and calls nothing.
+std::string routineWithLoop(const std::string& bound) {
+    return R"(
+native @"rt_note" plain void (f32)
+routine @"r" "r" in "M" exported void (f32 "to") {
+  local 0 f32 "to" param
+  local 1 i32 "k"
+  stmt 0 plain 1:1 1:2
+  b0:
+    stmt 0
+    %one = const f32 1
+)" + repeated("    native @\"rt_note\" (%one)\n", 110) +
+           R"(    %k = local 1
+    %first = const i32 1
+    store i32 %first, %k
+    br b1
+  b1:
+    %now = load i32 %k
+    %to = local 0
+    %limit = load f32 %to
+)" + bound +
+           R"(    %more = ile %now, %bound
+    condbr %more, b2, b3
+  b2:
+    %again = load i32 %k
+    %step = const i32 1
+    %next = iadd %again, %step
+    store i32 %next, %k
+    br b1
+  b3:
+    ret
+}
+)";
+}
+
+TEST_CASE("routines that are paced by natives get few passes, others all", "[codegen]") {
+    const auto isPaced = [](const std::string& text) {
+        return count(llvmOf(text, true), "\"rapidc-paced\"") > 0;
+    };
+    const std::string note = "    native @\"rt_note\" (%one)\n";
+    CHECK(isPaced(routineOf(repeated(note, 110))));
+    CHECK_FALSE(isPaced(routineOf(repeated(note, 20)))); // short
+    CHECK(isPaced(routineWithLoop("    %bound = const i32 16\n")));
+    CHECK_FALSE(isPaced(routineWithLoop("    %bound = const i32 17\n")));
+    CHECK_FALSE(isPaced(routineWithLoop("    %bound = ftosi i32 %limit\n")));
+}
