@@ -11,6 +11,7 @@
 #include <llvm/IR/PatternMatch.h>
 #include <llvm/Transforms/Utils/Local.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,27 @@ bool isNeverZero(Value* whole, llvm::BranchInst& branch, llvm::LazyValueInfo& ra
     const llvm::ConstantRange range =
         ranges.getConstantRangeOnEdge(whole, branch.getParent(), branch.getSuccessor(0), &branch);
     return !range.contains(llvm::APInt::getZero(range.getBitWidth()));
+}
+
+/// Whether nothing but converted and constant whole numbers, and what is computed from them, can reach the value. Otherwise
+/// it stays a floating-point number, and converting it back would only cost time.
+bool mayBecomeInteger(Value* value) {
+    constexpr size_t kMost = 64;
+    std::vector<Value*> reached{value};
+    for (size_t i = 0; i < reached.size(); ++i) {
+        if (reached.size() > kMost) return false;
+        if (llvm::isa<llvm::Constant>(reached[i]) || convertedWhole(reached[i])) continue;
+        const auto* inst = llvm::dyn_cast<llvm::Instruction>(reached[i]);
+        if (!inst) return false;
+        const bool isSelect = inst->getOpcode() == llvm::Instruction::Select;
+        if (!isSelect && !llvm::isa<llvm::PHINode>(inst) && inst->getOpcode() != llvm::Instruction::FAdd &&
+            inst->getOpcode() != llvm::Instruction::FSub && inst->getOpcode() != llvm::Instruction::FMul)
+            return false;
+        for (unsigned k = isSelect ? 1 : 0; k < inst->getNumOperands(); ++k)
+            if (std::find(reached.begin(), reached.end(), inst->getOperand(k)) == reached.end())
+                reached.push_back(inst->getOperand(k));
+    }
+    return true;
 }
 
 /// Computes with integers what floating-point instructions compute exactly.
@@ -218,7 +240,7 @@ llvm::PreservedAnalyses WholeAfterCheck::run(llvm::Function& function,
             continue;
         if (llvm::isa<llvm::Constant>(number) || match(number, m_SIToFP(m_Value())) ||
             match(number, m_UIToFP(m_Value())) || whole->getType()->isVectorTy() ||
-            !isNeverZero(whole, *branch, ranges))
+            !mayBecomeInteger(number) || !isNeverZero(whole, *branch, ranges))
             continue;
         const llvm::BasicBlockEdge edge(&block, branch->getSuccessor(0));
         changed |= llvm::replaceDominatedUsesWith(number, converted, dominators, edge) > 0;

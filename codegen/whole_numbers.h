@@ -1,5 +1,5 @@
 #pragma once
-// num and dnum values that are whole numbers for certain: converted integers, and what is computed from them.
+// Floating-point values that are whole numbers for certain: converted integers, and what is computed from them.
 
 #include <llvm/IR/ConstantRange.h>
 #include <llvm/IR/PassManager.h>

@@ -195,7 +195,7 @@ struct TaskCore {
     int64_t
         budget; ///< instructions left in this slice; negative after a safepoint's charge: call rt_safepoint
     char* stackLimit;        ///< lowest address a routine may use; below: rt_stackOverflow
-    Frame* frame;            ///< innermost frame record, stored before native calls
+    Frame* frame;            ///< record of the innermost routine that calls natives which look at it
     int32_t errorNumber;     ///< ERRNO
     int32_t interruptNumber; ///< INTNO
     int32_t askSteps;        ///< stepping profile: not 0: rt_step is called ahead of every statement
