@@ -13,7 +13,8 @@ template FMT_API auto thousands_sep_impl(locale_ref) -> thousands_sep_result<cha
 template FMT_API auto thousands_sep_impl(locale_ref) -> thousands_sep_result<wchar_t>;
 template FMT_API auto decimal_point_impl(locale_ref) -> char;
 template FMT_API auto decimal_point_impl(locale_ref) -> wchar_t;
-template void vformat_to(buffer<char>&, basic_string_view<char>, basic_format_args<buffer_context<char>>, locale_ref);
+template void vformat_to(buffer<char>&, basic_string_view<char>, basic_format_args<buffer_context<char>>,
+                         locale_ref);
 
 } // namespace detail
 FMT_END_NAMESPACE

@@ -36,7 +36,7 @@
 // fmt leaves it to every file that formats into a buffer to compile this; fmt_compiled.cpp does it once.
 FMT_BEGIN_NAMESPACE
 namespace detail {
-extern template void vformat_to(buffer<char>&, basic_string_view<char>, basic_format_args<buffer_context<char>>,
-                                locale_ref);
+extern template void vformat_to(buffer<char>&, basic_string_view<char>,
+                                basic_format_args<buffer_context<char>>, locale_ref);
 } // namespace detail
 FMT_END_NAMESPACE
