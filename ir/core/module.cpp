@@ -5,7 +5,7 @@
 namespace ir {
 namespace {
 
-constexpr uint32_t kStringLength = sizeof(uint32_t); // what stands ahead of the bytes
+constexpr uint32_t kStringLength = sizeof(uint32_t); // comes before the bytes
 
 uint32_t alignUp(uint32_t value, uint32_t align) {
     return (value + align - 1) / align * align;
