@@ -4,6 +4,7 @@
 #include <llvm/IR/Intrinsics.h>
 
 #include "codegen/routine_emitter.h"
+#include "codegen/task_frame.h"
 
 namespace codegen {
 namespace {

@@ -169,7 +169,7 @@ RoutineLowering::Place RoutineLowering::reference(const Expr& outer) {
     if (p.type.isArray() && !isOfKnownSize(expr, p.type)) return arrayTemporary(expr);
     const ir::TypeId type = program_.irType(p.type);
     if (info(expr).constant && !program_.module().isScalar(type)) {
-        p.addr = constantAddress(expr, p.type);
+        p.addr = constantAddress(*info(expr).constant, p.type);
         return p;
     }
     p.addr = tempAddr(type);
