@@ -168,7 +168,7 @@ RoutineLowering::Place RoutineLowering::reference(const Expr& outer) {
     p.type = info(expr).type;
     if (p.type.isArray() && !isOfKnownSize(expr, p.type)) return arrayTemporary(expr);
     const ir::TypeId type = program_.irType(p.type);
-    if (info(expr).constant && !program_.module().isScalar(type)) {
+    if (info(expr).constant && !program_.module().isScalar(type) && !program_.stepping()) {
         p.addr = constantAddress(*info(expr).constant, p.type);
         return p;
     }

@@ -29,7 +29,7 @@ ir::ValueId RoutineLowering::argumentAddress(const BoundArg& arg) {
         if (reference && sameShape) return place(value);
         Place temporary;
         temporary.type = wanted.isArray() ? info(value).type : wanted;
-        if (info(value).constant && arg.param->mode == ParamMode::In) {
+        if (info(value).constant && arg.param->mode == ParamMode::In && !program_.stepping()) {
             temporary.addr = constantAddress(*info(value).constant, temporary.type);
             return temporary;
         }

@@ -180,7 +180,7 @@ class RoutineLowering {
     void joinInto(const syntax::BinaryExpr& expr, const sema::DataType& type, ValueId dst, ValueId buffer);
     ValueId lowerBool(const Expr& expr);
     ValueId keptUntil(const Expr& later, const Expr& expr, const sema::DataType& type, ValueId address);
-    /// Of constant data with the value.
+    /// Of constant data with the value. In the stepping profile arguments are copies: the debugger can change parameters.
     ValueId constantAddress(const sema::ConstValue& value, const sema::DataType& type);
     void storeExpr(const Expr& expr, const sema::DataType& type, ValueId dst);
     void lowerCond(const Expr& expr, ir::BlockId ifTrue, ir::BlockId ifFalse);
