@@ -84,14 +84,15 @@ ir::ValueId RoutineLowering::copyOfArray(const Place& p) {
     return b_.load(ir::kPtr, b_.localAddr(buffer));
 }
 
-/// IN arguments that a native may overwrite while it still reads them, and those that a function called for a later
-/// argument may change.
+/// IN arguments that a native may overwrite while it still reads them, those that a function called for a later
+/// argument may change, and those that the debugger may change.
 void RoutineLowering::findChangedArguments(const BoundCall& call) {
     for (size_t i = 0; i < call.args.size(); ++i) {
         const BoundArg& arg = call.args[i];
         const DataSymbol* root = referredData(arg.value, *module_);
         if (!root || !arg.param || arg.param->mode != ParamMode::In) continue;
-        bool changes = false;
+        // The debugger changes parameters, not the constants that were passed.
+        bool changes = program_.stepping() && !call.routine->native && root->dataKind == DataKind::Const;
         for (size_t k = 0; k < call.args.size() && !changes; ++k) {
             const BoundArg& other = call.args[k];
             if (k == i || !other.value || !other.param) continue;
