@@ -22,8 +22,8 @@ option(RAPIDC_SANITIZE "Build with the address and undefined-behaviour sanitizer
 option(RAPIDC_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
 option(RAPIDC_COVERAGE "Instrument for coverage reports" OFF)
 
-# The compiler need not be fast to the last percent: -O2 takes less time to build. What has to be fast are the programs, which LLVM
-# optimises.
+# The compiler need not be fast to the last percent: -O2 takes less time to build. Only the programs have to be fast, and
+# LLVM optimises those.
 string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
 string(REPLACE "-O3" "-O2" CMAKE_C_FLAGS_RELEASE "${CMAKE_C_FLAGS_RELEASE}")
 

@@ -55,7 +55,7 @@ class CheckedNative {
         return b_.CreateCall(native_, arguments);
     }
 
-    /// What the native caused is handled before the next statement.
+    /// Delivers the interrupts that the native caused before the next statement.
     void checkBudget() {
         llvm::BasicBlock *enough = block("enough"), *used = block("used");
         static_assert(abi::kOffsetOf<&rt::TaskCore::budget> == 0);

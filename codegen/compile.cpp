@@ -63,7 +63,7 @@ const llvm::Function* functionOf(const llvm::Any& unit) {
     return nullptr;
 }
 
-/// What routines that are paced by natives get: variables in registers, and no instruction twice. Once each.
+/// The passes for routines that are paced by natives, once each: variables in registers, no instruction twice.
 class FewPasses {
   public:
     bool wants(llvm::StringRef pass, const llvm::Function& function) {

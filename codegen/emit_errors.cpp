@@ -20,7 +20,7 @@ RoutineEmitter::ErrorJoin& RoutineEmitter::makeJoin(ErrorJoin& join, const char*
     return join;
 }
 
-/// Where errors of the instruction are raised; the current block is added as a way there, with the number of the error.
+/// The block that raises errors of the instruction; the current block becomes a way there, with the number of the error.
 llvm::BasicBlock* RoutineEmitter::raiseFrom(const ir::Inst& inst, Value* number) {
     ErrorJoin& join = inUndo()          ? makeJoin(raiseUndo_, "raise.undo")
                       : isHandled(inst) ? makeJoin(raiseHandled_, "raise.handled")

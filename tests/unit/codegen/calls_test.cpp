@@ -1,4 +1,4 @@
-// What a call of a native costs a routine (decision 57), as it shows in the LLVM module.
+// Calls of natives and the passes for routines (decision 57), as they show in the LLVM module.
 
 #include <string>
 #include <string_view>
