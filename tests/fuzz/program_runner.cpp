@@ -124,6 +124,7 @@ RunResult ProgramRunner::run(Way way) {
     demand(findings.empty(), "checked, but the IR is wrong:\n" + findings);
     codegen::CodegenOptions codegenOptions = rapidc::codegenOptions(way.optimise);
     codegenOptions.debugInfo = false;
+    if (way.inParts) codegenOptions.partsAbove = 0;
     static const std::vector<codegen::NativeSymbol> symbols = rapidc::nativeSymbols();
     std::string error;
     const auto code = codegen::jit(module, codegenOptions, symbols, error);
@@ -181,6 +182,14 @@ bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, boo
     const bool comparable = !hasTime && release.status != kMaxTime && stepping.status != kMaxTime;
     tally().compared += comparable ? 1u : 0u;
     tally().ended += release.status == 0 ? 1u : 0u;
+    if (optimise) {
+        const RunResult parts = runner.run({.stepping = false, .optimise = true, .inParts = true});
+        if (parts.status != release.status || parts.output != release.output) {
+            std::fprintf(stderr, "---- release, status %d:\n%s---- in parts, status %d:\n%s", release.status,
+                         release.output.c_str(), parts.status, parts.output.c_str());
+            require(false, "a program compiled in parts differs");
+        }
+    }
     if (comparable && (release.status != stepping.status || release.output != stepping.output)) {
         for (const auto& task : tasks)
             for (const std::string& text : task)

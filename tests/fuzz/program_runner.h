@@ -12,6 +12,7 @@ namespace rapid::fuzz {
 struct Way {
     bool stepping = false;
     bool optimise = true;
+    bool inParts = false; ///< compiled routine by routine when they are called, as large programs are
 };
 
 struct RunResult {
@@ -48,7 +49,7 @@ struct Tally {
 };
 
 /// Checks, runs in two profiles, compares what they print unless `hasTime`. False: check refuses the program. `optimise`: the
-/// release profile with the optimiser.
+/// release profile with the optimiser, as a whole and in parts, which must print the same.
 bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, bool optimise);
 
 /// Of tryProgram() in this process; shown when it ends. RAPIDC_FUZZ_SHOW=1 shows programs and refusals as well.
