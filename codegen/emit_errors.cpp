@@ -77,9 +77,7 @@ void RoutineEmitter::continueIfNativeOk(const ir::Inst& inst, Value* status, Bas
     }
     Value* before = setsTaskFrame_ ? nullptr : loadTask<&rt::TaskCore::frame>("taskFrame");
     Value* outcome = m_.runtime().nativeFailed.call(b_, task_, frame_, status);
-    if (before) // the record of a caller: this routine does not set its own
-        b_.CreateStore(before, taskField<&rt::TaskCore::frame>("taskFrame"))
-            ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
+    if (before) storeTaskFrame(before); // the record of a caller: this routine does not set its own
     if (routine_.stepping && !inUndo() && inst.stmt < routine_.statements.size() &&
         routine_.statements[inst.stmt].start != ir::kNone) {
         call = newBlock("again"); // the whole statement: what its arguments are made of may have been mended

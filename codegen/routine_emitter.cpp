@@ -270,7 +270,10 @@ void RoutineEmitter::fillFrame() {
 /// Natives find the record of their caller in the task. It is set where the record is filled and where a handler begins, and set back
 /// to the caller's wherever the routine is left.
 void RoutineEmitter::setTaskFrame(Value* frame) {
-    if (!setsTaskFrame_) return;
+    if (setsTaskFrame_) storeTaskFrame(frame);
+}
+
+void RoutineEmitter::storeTaskFrame(Value* frame) {
     b_.CreateStore(frame, taskField<&rt::TaskCore::frame>("taskFrame"))
         ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
 }

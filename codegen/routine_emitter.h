@@ -39,6 +39,7 @@ class RoutineEmitter {
     void enterFrame();
     void fillFrame();
     void setTaskFrame(Value* frame);
+    void storeTaskFrame(Value* frame);
     void fillAddresses();
     void findFailing();
     void findRetried();

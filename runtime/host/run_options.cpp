@@ -94,7 +94,7 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
         .add("--state", options.state,
              "folder that keeps the controller's state from run to run: data, events, the robot's "
              "position, and where "
-             "a program that was interrupted goes on")
+             "a program that was interrupted continues")
         .typeName("DIR");
     command.addFlag("--pp-to-main", options.ppToMain,
                     "with --state: the program begins at main nevertheless");

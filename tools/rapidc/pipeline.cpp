@@ -297,7 +297,7 @@ void addWarningOption(const rt::Command& command, Inputs& inputs) {
     command
         .add("-W", inputs.warnings,
              "NAME or no-NAME: switch a warning on or off; error=NAME: make it an error. "
-             "'lint' stands for all of 8xxx, 'all' for every warning")
+             "'lint' means all of 8xxx, 'all' for every warning")
         .oneValueEach();
 }
 

@@ -214,7 +214,7 @@ void addRunCommand(rt::CommandLine& line) {
     command.add("--picture", settings->picture, "Draw the path of the TCP (SVG)");
     command.addFlag("--summary", settings->summary, "Show cycle time and where the files lie");
     command.addFlag("--step", settings->interactive,
-                    "Debug in the terminal: stop ahead of the first instruction and take commands (help)");
+                    "Debug in the terminal: stop before the first instruction and take commands (help)");
     const rt::Option stepping =
         command.addFlag("--stepping", settings->stepping, "Compile for the stepping profile");
     command

@@ -45,7 +45,7 @@ float offsetToPosition(size_t offset, size_t length) {
     return static_cast<float>(offset < length ? offset + 1 : length + 1);
 }
 
-/// StrMemb with characters above 0x7F ahead of the position or in the set, or with a position that is wrong.
+/// StrMemb with characters above 0x7F before the position or in the set, or with a position that is wrong.
 [[gnu::cold, gnu::noinline]] Status memberOfMixed(TaskCore* task, bool* result, const String& string,
                                                   float at, const String& set) {
     const lib::Characters text(string.view());
