@@ -198,7 +198,7 @@ struct TaskCore {
     Frame* frame;            ///< record of the innermost routine that calls natives which look at it
     int32_t errorNumber;     ///< ERRNO
     int32_t interruptNumber; ///< INTNO
-    int32_t askSteps;        ///< stepping profile: not 0: rt_step is called ahead of every statement
+    int32_t askSteps;        ///< stepping profile: not 0: rt_step is called before every statement
 };
 
 // ---- Program description: emitted once per program as the symbol `rapidc_program` ---------------------------------
