@@ -48,6 +48,9 @@ struct CodegenOptions {
     /// Called once for each routine of such a program before it is compiled, on any thread, never twice at a time for one; empty:
     /// all are ready.
     PrepareRoutine prepare = {};
+    /// The program is executed once from its beginning to its end: jit() leaves out the optimiser when few instructions can be
+    /// executed at all, since it would take longer than they do.
+    bool isExecutedOnce = false;
     bool trustCache = true;       ///< off: objects are made again and replace those in the cache
     std::string cacheFolder = {}; ///< where emitObjects() keeps the objects of parts; empty: nowhere
 };

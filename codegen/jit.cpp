@@ -4,11 +4,15 @@
 
 #include "codegen/compile.h"
 #include "codegen/orc_session.h"
+#include "ir/core/execution_bound.h"
 #include "ir/core/ir.h"
 #include "runtime/abi/rt_abi.h"
 
 namespace codegen {
 namespace {
+
+/// IR instructions that quick code executes in less than a millisecond.
+constexpr double kFewInstructions = 100'000;
 
 class OrcProgram : public JitProgram {
   public:
@@ -54,9 +58,11 @@ std::vector<NativeSymbol> resolve(const llvm::Module& compiled, const ir::Module
 
 } // namespace
 
-std::unique_ptr<JitProgram> jit(const ir::Module& module, const CodegenOptions& options,
+std::unique_ptr<JitProgram> jit(const ir::Module& module, const CodegenOptions& given,
                                 const std::vector<NativeSymbol>& symbols, std::string& error) {
-    if (module.instructionCount() > options.partsAbove) return lazyJit(module, options, symbols, error);
+    if (module.instructionCount() > given.partsAbove) return lazyJit(module, given, symbols, error);
+    CodegenOptions options = given;
+    if (given.isExecutedOnce && ir::mostExecuted(module) <= kFewInstructions) options.optimise = false;
     auto machine = makeTargetMachine(options, error);
     if (!machine) return nullptr;
     llvm::LLVMContext context;

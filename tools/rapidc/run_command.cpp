@@ -166,6 +166,7 @@ int run(RunSettings& settings) {
     ir::Module module;
     codegen::CodegenOptions options = codegenOptions(!settings.noOptimise);
     if (settings.inParts) options.partsAbove = 0;
+    options.isExecutedOnce = settings.options.cycles == 1 && !settings.stepping;
     const bool lowered = !compilation->sink.hasErrors() &&
                          lowerToIr(*compilation, fs::path(settings.inputs.paths[0]).stem().string(),
                                    settings.stepping, module, options.partsAbove + 1);
