@@ -15,6 +15,7 @@
 #include "codegen/integral_values.h"
 #include "codegen/module_emitter.h"
 #include "codegen/native_bodies.h"
+#include "codegen/huge_routines.h"
 #include "codegen/paced_routines.h"
 #include "codegen/peepholes.h"
 
@@ -105,22 +106,6 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
     builder.registerVectorizerStartEPCallback(
         [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) { passes.addPass(BudgetLoops()); });
     runO2(module, builder);
-}
-
-/// LLVM instructions of a routine from which on the optimiser and the register allocator cost too much: about 400 movement
-/// instructions. Their time grows with the square of the number of basic blocks.
-constexpr unsigned kHuge = 10'000;
-
-/// Keeps the optimiser out of huge routines. True when there are any.
-bool spareHugeRoutines(llvm::Module& module) {
-    bool found = false;
-    for (llvm::Function& function : module) {
-        if (function.getInstructionCount() <= kHuge) continue;
-        function.addFnAttr(llvm::Attribute::OptimizeNone);
-        function.addFnAttr(llvm::Attribute::NoInline);
-        found = true;
-    }
-    return found;
 }
 
 } // namespace

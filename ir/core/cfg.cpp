@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ir/core/dominators.h"
 #include "ir/core/op_info.h"
 
 namespace ir {
@@ -61,45 +62,6 @@ void visit(const Cfg& cfg, BlockId root, std::vector<bool>& seen, std::vector<Bl
         seen[succ] = true;
         stack.push_back({succ, 0});
     }
-}
-
-/// Cooper, Harvey, Kennedy: "A simple, fast dominance algorithm". Roots hang below a virtual node kNone.
-void findDominators(Cfg& cfg, const std::vector<BlockId>& roots) {
-    size_t count = cfg.succs.size();
-    constexpr uint32_t kUnknown = kNone - 1;
-    cfg.idom.assign(count, kUnknown);
-    for (BlockId root : roots)
-        cfg.idom[root] = kNone;
-    std::vector<bool> rootSet(count, false);
-    for (BlockId root : roots)
-        rootSet[root] = true;
-    auto isRoot = [&](BlockId b) { return rootSet[b]; };
-    auto meet = [&](BlockId a, BlockId b) {
-        while (a != b) {
-            if (a == kNone || b == kNone) return kNone;
-            if (cfg.position[a] > cfg.position[b])
-                a = cfg.idom[a];
-            else
-                b = cfg.idom[b];
-        }
-        return a;
-    };
-    for (bool changed = true; changed;) {
-        changed = false;
-        for (BlockId b : cfg.order) {
-            if (isRoot(b)) continue;
-            BlockId dominator = kUnknown;
-            for (BlockId p : cfg.preds[b]) {
-                if (!cfg.reachable(p) || cfg.idom[p] == kUnknown) continue;
-                dominator = dominator == kUnknown ? p : meet(dominator, p);
-            }
-            if (cfg.idom[b] == dominator) continue;
-            cfg.idom[b] = dominator;
-            changed = true;
-        }
-    }
-    for (BlockId& dominator : cfg.idom)
-        if (dominator == kUnknown) dominator = kNone;
 }
 
 } // namespace
@@ -173,7 +135,7 @@ Cfg buildCfg(const Module& module, const Routine& routine, HandlerEdges handlerE
     cfg.position.assign(count, kNone);
     for (uint32_t i = 0; i < cfg.order.size(); ++i)
         cfg.position[cfg.order[i]] = i;
-    findDominators(cfg, roots);
+    cfg.idom = findDominators(cfg, roots);
     return cfg;
 }
 
