@@ -12,10 +12,10 @@
 #include <llvm/TargetParser/Triple.h>
 
 #include "codegen/budget_loops.h"
+#include "codegen/huge_routines.h"
 #include "codegen/integral_values.h"
 #include "codegen/module_emitter.h"
 #include "codegen/native_bodies.h"
-#include "codegen/huge_routines.h"
 #include "codegen/paced_routines.h"
 #include "codegen/peepholes.h"
 

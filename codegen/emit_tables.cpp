@@ -57,9 +57,12 @@ llvm::GlobalVariable* ModuleEmitter::tableVariable(std::vector<llvm::GlobalVaria
     return variable;
 }
 
+std::string typeDescSymbol(uint32_t index) {
+    return "type." + std::to_string(index);
+}
+
 llvm::GlobalVariable* ModuleEmitter::typeDesc(uint32_t index) {
-    return tableVariable(typeDescs_, index, abi::structType<rt::TypeDesc>(context_),
-                         "type." + std::to_string(index));
+    return tableVariable(typeDescs_, index, abi::structType<rt::TypeDesc>(context_), typeDescSymbol(index));
 }
 
 llvm::GlobalVariable* ModuleEmitter::routineDesc(uint32_t index) {
@@ -207,14 +210,13 @@ llvm::Constant* ModuleEmitter::tasks() {
     return table<Desc>(rows, "tasks");
 }
 
-/// A row of a declaration of `global`.
-llvm::Constant* ModuleEmitter::dataRow(uint32_t number, const DataDeclaration& declared) {
+llvm::Constant* ModuleEmitter::dataRow(const DataDeclaration& declared) {
     using Desc = rt::GlobalDesc;
-    const ir::Global& global = module_.globals[number];
+    const ir::Global& global = module_.globals[declared.global];
     return abi::Row<Desc>(context_)
         .set<&Desc::name>(text(declared.name))
         .set<&Desc::module>(text(declared.moduleName))
-        .set<&Desc::address>(this->global(number))
+        .set<&Desc::address>(this->global(declared.global))
         .set<&Desc::type>(typeDesc(global.typeDesc))
         .set<&Desc::kind>(abi::kindOf(global.kind))
         .set<&Desc::flags>(global.flags)
@@ -224,28 +226,12 @@ llvm::Constant* ModuleEmitter::dataRow(uint32_t number, const DataDeclaration& d
         .finish();
 }
 
-llvm::Constant* ModuleEmitter::globalTable(uint32_t& count) {
+llvm::Constant* ModuleEmitter::dataTable(const std::vector<DataDeclaration>& data, const char* symbol) {
+    if (dataInMemory()) return target_->getOrInsertGlobal(symbol, i8_);
     std::vector<llvm::Constant*> rows;
-    for (uint32_t i = 0; i < module_.globals.size(); ++i) {
-        const ir::Global& global = module_.globals[i];
-        // Constants that the compiler made for itself have no name that anybody could ask for.
-        if (global.displayName.empty() || global.typeDesc == ir::kNone) continue;
-        rows.push_back(
-            dataRow(i, {global.displayName, global.moduleName, global.task, global.file, global.line}));
-    }
-    count = static_cast<uint32_t>(rows.size());
-    return table<rt::GlobalDesc>(rows, "globals");
-}
-
-llvm::Constant* ModuleEmitter::aliasTable(uint32_t& count) {
-    std::vector<llvm::Constant*> rows;
-    for (const ir::GlobalAlias& alias : module_.aliases) {
-        if (module_.globals[alias.global].typeDesc == ir::kNone) continue; // as in globalTable
-        rows.push_back(
-            dataRow(alias.global, {alias.displayName, alias.moduleName, alias.task, alias.file, alias.line}));
-    }
-    count = static_cast<uint32_t>(rows.size());
-    return table<rt::GlobalDesc>(rows, "aliases");
+    for (const DataDeclaration& declared : data)
+        rows.push_back(dataRow(declared));
+    return table<rt::GlobalDesc>(rows, symbol);
 }
 
 llvm::Constant* ModuleEmitter::externals() {
@@ -273,10 +259,6 @@ llvm::Constant* ModuleEmitter::typeDescOrNull(uint32_t index) {
 
 llvm::Function* ModuleEmitter::entryOrNull(uint32_t routine) {
     return routine == ir::kNone ? nullptr : cEntry(routine);
-}
-
-int64_t ModuleEmitter::taskNumber(uint32_t task) const {
-    return task == ir::kNone ? -1 : int64_t{task};
 }
 
 /// The task a routine belongs to is the first part of its linkage name ("T_ROB1/MainModule/main"); -1 = any.
@@ -370,9 +352,10 @@ void ModuleEmitter::emitTables() {
 }
 
 void ModuleEmitter::emitProgram() {
-    uint32_t globalCount = 0, routineCount = 0, aliasCount = 0;
-    llvm::Constant* aliasRows = aliasTable(aliasCount);
-    llvm::Constant* globalRows = globalTable(globalCount);
+    uint32_t routineCount = 0;
+    const std::vector<DataDeclaration> data = listedData(module_), aliases = listedAliases(module_);
+    llvm::Constant* aliasRows = dataTable(aliases, kAliasRows);
+    llvm::Constant* globalRows = dataTable(data, kDataRows);
     llvm::Constant* routineRows = routineTable(routineCount);
     std::vector<llvm::Constant*> names, texts, types;
     for (uint32_t desc : module_.searchTypes)
@@ -387,7 +370,7 @@ void ModuleEmitter::emitProgram() {
                                 .set<&Desc::tasks>(tasks())
                                 .set<&Desc::taskCount>(module_.tasks.size())
                                 .set<&Desc::globals>(globalRows)
-                                .set<&Desc::globalCount>(globalCount)
+                                .set<&Desc::globalCount>(data.size())
                                 .set<&Desc::externals>(externals())
                                 .set<&Desc::externalCount>(module_.externals.size())
                                 .set<&Desc::routines>(routineRows)
@@ -404,7 +387,7 @@ void ModuleEmitter::emitProgram() {
                                 .set<&Desc::reset>(entryOrNull(module_.unitReset))
                                 .set<&Desc::folder>(text(module_.folder))
                                 .set<&Desc::aliases>(aliasRows)
-                                .set<&Desc::aliasCount>(aliasCount)
+                                .set<&Desc::aliasCount>(aliases.size())
                                 .set<&Desc::sources>(module_.sources.empty() ? null() : text(module_.sources))
                                 .set<&Desc::sourcesSize>(module_.sources.size())
                                 .finish();

@@ -20,6 +20,7 @@
 #include "codegen/module_emitter.h"
 #include "codegen/orc_session.h"
 #include "codegen/parts.h"
+#include "codegen/program_data.h"
 #include "codegen/task_frame.h"
 #include "ir/core/cfg.h"
 #include "ir/core/ir.h"
@@ -71,14 +72,20 @@ class LazyProgram : public JitProgram {
         known.push_back({kCallCounts, counts_.data()});
         known.push_back({kRoutineIsHot, reinterpret_cast<const void*>(&LazyProgram::isHot)});
         known.push_back({kThisProgram, this});
+        if (ProgramData::canHold(module_)) {
+            data_ = std::make_unique<ProgramData>(module_);
+            if (!data_->create()) throw std::bad_alloc();
+        }
+        if (data_) known.insert(known.end(), data_->symbols().begin(), data_->symbols().end());
         if (!session_.define(known, error) || !makeTrampolines(error)) return false;
         Part tables;
         tables.tables = tables.callsBySlot = true;
         tables.settingTaskFrame = settingTaskFrame_;
+        tables.dataInMemory = data_ != nullptr;
         auto object = objectOf(tables, quick(), error);
         if (!object || !session_.addShared(std::move(object), error)) return false;
         program_ = static_cast<const rt::ProgramDesc*>(session_.find(kProgramSymbol, error));
-        if (!program_) return false;
+        if (!program_ || !describeData(error)) return false;
         compiler_ = std::thread([this] { compileOrders(); });
         return true;
     }
@@ -90,6 +97,14 @@ class LazyProgram : public JitProgram {
         uint32_t routine;
         Quality quality;
     };
+
+    bool describeData(std::string& error) {
+        if (data_)
+            data_->setTypes([&](uint32_t number) {
+                return static_cast<const rt::TypeDesc*>(session_.find(typeDescSymbol(number), error));
+            });
+        return error.empty();
+    }
 
     CodegenOptions quick() const {
         CodegenOptions options = options_;
@@ -156,6 +171,7 @@ class LazyProgram : public JitProgram {
         part.callsBySlot = true;
         part.routines = {order.routine};
         part.settingTaskFrame = settingTaskFrame_;
+        part.dataInMemory = data_ != nullptr;
         part.countsCalls = options_.optimise && !optimise;
         if (optimise) part.copies = copiesFor(module_, part.routines);
         for (const uint32_t copy : part.copies)
@@ -201,6 +217,7 @@ class LazyProgram : public JitProgram {
 
     const ir::Module& module_;
     CodegenOptions options_;
+    std::unique_ptr<ProgramData> data_; ///< null: in the tables
     OrcSession session_;
     std::vector<std::atomic<void*>> slots_;
     std::vector<int32_t> counts_;

@@ -3,19 +3,13 @@
 #include <algorithm>
 #include <llvm/IR/Verifier.h>
 
-#include <cstring>
-
 #include "codegen/budget_loops.h"
+#include "codegen/data_image.h"
 #include "codegen/routine_emitter.h"
 #include "codegen/task_frame.h"
 
 namespace codegen {
 namespace {
-
-/// Name of an internal symbol. A plain word could be that of a C function (memcpy) which LLVM calls on its own account.
-std::string internalName(const std::string& name) {
-    return name.find_first_of("/$") == std::string::npos ? name + "$" : name;
-}
 
 /// Instructions of the IR. LLVM inlines whatever is called only once, which makes one huge function of a typical program;
 /// a call costs next to nothing beside a body of this size.
@@ -23,69 +17,7 @@ constexpr size_t kLargestInlined = 400;
 
 constexpr unsigned kErrorsAreCold = 2000; // usual : error, in branch weights
 
-void putBytes(std::string& image, size_t at, const void* source, size_t count) {
-    std::memcpy(image.data() + at, source, count);
-}
-
-/// Lays flattened constant data out in memory, type by type.
-class DataImage {
-  public:
-    DataImage(const ir::Module& module, const ir::ConstData& data) : module_(module), data_(data) {}
-
-    std::string build(ir::TypeId type) {
-        image_.assign(module_.size(type), '\0');
-        place(type, 0);
-        return std::move(image_);
-    }
-
-  private:
-    void place(ir::TypeId type, size_t at) {
-        const ir::Type& t = module_.type(type);
-        if (t.kind == ir::TypeKind::Record) {
-            for (uint32_t f = 0; f < t.fields.size(); ++f)
-                place(t.fields[f].type, at + module_.fieldOffset(type, f));
-        } else if (t.kind == ir::TypeKind::Array) {
-            size_t size = module_.size(t.element), count = size ? module_.size(type) / size : 0;
-            for (size_t i = 0; i < count; ++i)
-                place(t.element, at + i * size);
-        } else {
-            scalar(data_[next_++], at);
-        }
-    }
-
-    void scalar(const ir::ConstScalar& value, size_t at) {
-        switch (value.kind) {
-        case ir::TypeKind::Bool: image_[at] = value.integer != 0; break;
-        case ir::TypeKind::I8: put(static_cast<int8_t>(value.integer), at); break;
-        case ir::TypeKind::I16: put(static_cast<int16_t>(value.integer), at); break;
-        case ir::TypeKind::I32: put(static_cast<int32_t>(value.integer), at); break;
-        case ir::TypeKind::I64: put(value.integer, at); break;
-        case ir::TypeKind::F32: put(static_cast<float>(value.number), at); break;
-        case ir::TypeKind::F64: put(value.number, at); break;
-        case ir::TypeKind::Str:
-            put(static_cast<uint32_t>(value.text.size()), at);
-            putBytes(image_, at + sizeof(uint32_t), value.text.data(), value.text.size());
-            break;
-        case ir::TypeKind::Void: // not scalars of constant data
-        case ir::TypeKind::Ptr:
-        case ir::TypeKind::Record:
-        case ir::TypeKind::Array: break;
-        }
-    }
-
-    template <class T> void put(const T& value, size_t at) { putBytes(image_, at, &value, sizeof value); }
-
-    const ir::Module& module_;
-    const ir::ConstData& data_;
-    std::string image_;
-    size_t next_ = 0;
-};
-
 } // namespace
-
-std::string symbolOf(const ir::Routine& routine) {
-    return internalName(routine.name);
-}
 
 ModuleEmitter::ModuleEmitter(const ir::Module& module, const CodegenOptions& options,
                              llvm::LLVMContext& context, const Part* part)
@@ -116,7 +48,7 @@ std::unique_ptr<llvm::Module> ModuleEmitter::run(const llvm::DataLayout& layout,
     declareRuntime();
     findExported();
     emitSafepointSlow();
-    if (hasTables())
+    if (hasTables() && !dataInMemory())
         for (uint32_t i = 0; i < module_.globals.size(); ++i)
             if (isShared(module_.globals[i])) global(i);
     emitBodies();
@@ -187,13 +119,13 @@ void ModuleEmitter::declareRuntime() {
 llvm::Constant* ModuleEmitter::initialValue(const ir::Global& global) {
     llvm::Type* type = memoryType(global.type);
     if (global.init.empty()) return llvm::Constant::getNullValue(type);
-    std::string image = DataImage(module_, global.init).build(global.type);
+    const std::string image = initialBytes(module_, global);
     if (image.find_first_not_of('\0') == std::string::npos) return llvm::Constant::getNullValue(type);
     return llvm::ConstantDataArray::getRaw(image, image.size(), i8_);
 }
 
 llvm::GlobalVariable* ModuleEmitter::global(uint32_t index) {
-    constexpr uint32_t kVectorAlign = 16, kLargestKnown = 4096;
+    constexpr uint32_t kLargestKnown = 4096;
     llvm::GlobalVariable*& variable = globals_[index];
     if (variable) return variable;
     const ir::Global& global = module_.globals[index];
@@ -201,18 +133,17 @@ llvm::GlobalVariable* ModuleEmitter::global(uint32_t index) {
     // The value of a constant of another part is known, too.
     const bool isConstant = global.kind == ir::GlobalKind::Const;
     const bool isKnown = isConstant && (!isShared(global) || module_.size(global.type) <= kLargestKnown);
-    llvm::Constant* value = !external && (hasTables() || isKnown) ? initialValue(global) : nullptr;
+    const bool isHere = hasTables() && !(dataInMemory() && isShared(global));
+    llvm::Constant* value = !external && (isHere || isKnown) ? initialValue(global) : nullptr;
     // Data of another unit may be absent: its address is null then.
     auto linkage = external ? llvm::GlobalValue::ExternalWeakLinkage : llvm::GlobalValue::InternalLinkage;
-    const std::string name = external ? global.name : isShared(global) ? internalName(global.name) : "";
+    const std::string name = external ? global.name : isShared(global) ? symbolOf(global) : "";
     variable = new llvm::GlobalVariable(*target_, value ? value->getType() : memoryType(global.type),
                                         isConstant, linkage, value, name);
-    uint32_t align = module_.align(global.type);
-    if (!external && module_.size(global.type) >= kVectorAlign) align = kVectorAlign;
-    variable->setAlignment(llvm::Align(align));
+    variable->setAlignment(llvm::Align(external ? module_.align(global.type) : alignmentOf(module_, global)));
     if (external) return variable;
     if (isShared(global)) share(*variable);
-    if (!hasTables() && isShared(global) && value)
+    if (!isHere && isShared(global) && value)
         variable->setLinkage(llvm::GlobalValue::AvailableExternallyLinkage);
     if (!part_) variable->setDSOLocal(true);
     return variable;
@@ -225,9 +156,8 @@ void ModuleEmitter::share(llvm::GlobalValue& value) const {
     if (!part_->callsBySlot) value.setVisibility(llvm::GlobalValue::HiddenVisibility);
 }
 
-/// Constants without name, which the compiler made, are part of the code that uses them: their numbers change with every edit.
 bool ModuleEmitter::isShared(const ir::Global& global) const {
-    return !part_ || global.kind != ir::GlobalKind::Const || !global.displayName.empty();
+    return !part_ || isNamedData(global);
 }
 
 bool ModuleEmitter::isSelfContained(const ir::Native& native) const {

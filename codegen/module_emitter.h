@@ -14,6 +14,7 @@
 
 #include "codegen/abi_types.h"
 #include "codegen/codegen.h"
+#include "codegen/data_image.h"
 #include "codegen/debug_info.h"
 #include "ir/core/ir.h"
 #include "runtime/abi/rt_abi.h"
@@ -29,15 +30,20 @@ struct Part {
     std::shared_ptr<const std::vector<bool>> settingTaskFrame;
     bool countsCalls = false; ///< in memory only: of `routines`, in the table kCallCounts
     bool callsBySlot = false; ///< in memory only: other parts are reached through the table kRoutineSlots
+    bool dataInMemory =
+        false; ///< in memory only: the program's data and the rows that list them are there already (ProgramData)
 };
+/// Their rows (rt::GlobalDesc) then.
+inline constexpr const char* kDataRows = "rapidc.data";
+inline constexpr const char* kAliasRows = "rapidc.aliases";
 /// Table of the present addresses of all routines, and that of their countdowns (int32_t): the call that brings one to 0
 /// reports the routine to kRoutineIsHot(program, uint32_t).
 inline constexpr const char* kRoutineSlots = "rapidc.slots";
 inline constexpr const char* kCallCounts = "rapidc.counts";
 inline constexpr const char* kRoutineIsHot = "rapidc.hot";
 inline constexpr const char* kThisProgram = "rapidc.this"; ///< its first argument
-/// Symbol of a routine.
-std::string symbolOf(const ir::Routine& routine);
+/// Symbol of the description of a type, of its number in Module::typeDescs.
+std::string typeDescSymbol(uint32_t index);
 
 /// Metadata that keeps accesses to program data, to the task and to frame records apart.
 struct AccessTags {
@@ -120,6 +126,7 @@ class ModuleEmitter {
     void share(llvm::GlobalValue& value) const;
     bool isShared(const ir::Global& global) const;
     bool hasTables() const { return part_ == nullptr || part_->tables; }
+    bool dataInMemory() const { return part_ != nullptr && part_->dataInMemory; }
     void findExported();
     void emitBodies();
     void emitSafepointSlow();
@@ -160,14 +167,9 @@ class ModuleEmitter {
     std::vector<llvm::Constant*> localRows(const ir::Routine& routine);
     llvm::Constant* routineDescValue(const ir::Routine& routine);
     llvm::Constant* tasks();
-    /// How data are declared in one place.
-    struct DataDeclaration {
-        const std::string &name, &moduleName;
-        uint32_t task, file, line;
-    };
-    llvm::Constant* dataRow(uint32_t global, const DataDeclaration& declared);
-    llvm::Constant* globalTable(uint32_t& count);
-    llvm::Constant* aliasTable(uint32_t& count);
+    llvm::Constant* dataRow(const DataDeclaration& declared);
+    /// `symbol`: the rows when they are in memory already.
+    llvm::Constant* dataTable(const std::vector<DataDeclaration>& data, const char* symbol);
     llvm::Constant* externals();
     llvm::Constant* routineTable(uint32_t& count);
     std::vector<llvm::Constant*> paramRows(const ir::NamedRoutine& named);
@@ -175,8 +177,6 @@ class ModuleEmitter {
     llvm::Constant* moduleTable();
     llvm::Constant* routineDataTable();
     int64_t taskOf(const ir::Routine& routine);
-    /// As the run-time tables say it: -1 = shared. Units loaded at run time belong to one task of the program.
-    int64_t taskNumber(uint32_t task) const;
     void emitProgram();
 
     const ir::Module& module_;
