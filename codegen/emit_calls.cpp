@@ -3,8 +3,8 @@
 #include <llvm/ADT/StringSwitch.h>
 #include <llvm/IR/Intrinsics.h>
 
+#include "codegen/hot_code.h"
 #include "codegen/routine_emitter.h"
-#include "codegen/task_frame.h"
 
 namespace codegen {
 namespace {
@@ -60,6 +60,7 @@ void RoutineEmitter::call(const ir::Inst& inst, ir::ValueId id) {
     llvm::CallInst* result = b_.CreateCall(m_.callee(b_, inst.index), args);
     result->setCallingConv(llvm::CallingConv::Fast);
     result->setDoesNotThrow();
+    if (!isHot() && callee.insts.size() > kInlinedAnywhere) result->setIsNoInline();
     bool byValue = callee.result != ir::kVoid && module_.isScalar(callee.result);
     continueIfOk(inst, byValue ? b_.CreateExtractValue(result, 0) : result);
     if (byValue) define(id, b_.CreateExtractValue(result, 1));

@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "codegen/compile.h"
+#include "codegen/hot_code.h"
 #include "codegen/module_emitter.h"
 #include "codegen/orc_session.h"
 #include "codegen/parts.h"
@@ -36,12 +37,6 @@ using ReentryAbi = llvm::orc::OrcX86_64_SysV;
 
 /// Calls after which quick code is replaced.
 constexpr int32_t kHotCalls = 200;
-
-bool hasLoop(const ir::Module& module, const ir::Routine& routine) {
-    const ir::Cfg cfg = ir::buildCfg(module, routine, ir::HandlerEdges::No);
-    const ir::LoopInfo loops = ir::findLoops(cfg);
-    return !loops.loops.empty() || !loops.irreducible.empty();
-}
 
 class LazyProgram : public JitProgram {
   public:

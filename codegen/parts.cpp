@@ -1,4 +1,6 @@
 #include "codegen/parts.h"
+
+#include "codegen/hot_code.h"
 #include "codegen/task_frame.h"
 
 namespace codegen {
@@ -17,16 +19,19 @@ std::vector<uint32_t> copiesFor(const ir::Module& module, const std::vector<uint
         known[routine] = true;
     std::vector<uint32_t> callers = routines, copies;
     size_t size = 0;
-    for (size_t next = 0; next < callers.size(); ++next)
-        for (const ir::Inst& inst : module.routines[callers[next]].insts) {
+    for (size_t next = 0; next < callers.size(); ++next) {
+        const ir::Routine& caller = module.routines[callers[next]];
+        const size_t largest = isShort(caller) || hasLoop(module, caller) ? kLargestCopy : kInlinedAnywhere;
+        for (const ir::Inst& inst : caller.insts) {
             if (inst.op != ir::Op::Call || known[inst.index]) continue;
             const size_t more = module.routines[inst.index].insts.size();
-            if (more > kLargestCopy || size + more > kMostCopied) continue;
+            if (more > largest || size + more > kMostCopied) continue;
             known[inst.index] = true;
             size += more;
             copies.push_back(inst.index);
             callers.push_back(inst.index);
         }
+    }
     return copies;
 }
 

@@ -1,5 +1,7 @@
 #include "codegen/task_frame.h"
 
+#include "codegen/hot_code.h"
+
 namespace codegen {
 namespace {
 
@@ -17,11 +19,6 @@ bool callsNatives(const ir::Module& module, const ir::Routine& routine, const Na
 }
 
 } // namespace
-
-bool isShort(const ir::Routine& routine) {
-    constexpr size_t kMost = 150;
-    return routine.insts.size() <= kMost;
-}
 
 std::vector<bool> routinesSettingTaskFrame(const ir::Module& module, const NativeBodies& inlined) {
     std::vector<std::vector<uint32_t>> callers(module.routines.size());

@@ -8,9 +8,6 @@
 
 namespace codegen {
 
-/// So short that others may call it in their loops: natives are inlined everywhere in it.
-bool isShort(const ir::Routine& routine);
-
 /// By routine: whether it calls natives that look at frame records, itself or by way of other routines, or has a handler. These set
 /// TaskCore::frame to their record and back to their caller's; the others leave it alone. `inlined`: do not look at frame records in
 /// short routines; none when routines are compiled one by one, by different passes.
