@@ -113,3 +113,29 @@ TEST_CASE("routines that are paced by natives get few passes, others all", "[cod
     CHECK_FALSE(isPaced(routineWithLoop("    %bound = const i32 17\n")));
     CHECK_FALSE(isPaced(routineWithLoop("    %bound = ftosi i32 %limit\n")));
 }
+
+TEST_CASE("long routines are not inlined where a long routine calls them outside of loops", "[codegen]") {
+    const auto program = [](int callerLength, int calleeLength) {
+        const auto sum = [](int length) {
+            std::string text = "    %s0 = param 0\n    %one = const f32 1\n";
+            for (int i = 1; i <= length; ++i)
+                text += "    %s" + std::to_string(i) + " = fadd %s" + std::to_string(i - 1) + ", %one\n";
+            return text;
+        };
+        return "routine @\"callee\" \"callee\" in \"M\" f32 (f32 \"x\") {\n  stmt 0 plain 1:1 1:2\n  b0:\n   "
+               " stmt 0\n" +
+               sum(calleeLength) + "    ret %s" + std::to_string(calleeLength) +
+               "\n}\nroutine @\"caller\" \"caller\" in \"M\" exported f32 (f32 \"x\") {\n  stmt 0 plain 1:1 "
+               "1:2\n"
+               "  b0:\n    stmt 0\n" +
+               sum(callerLength) + "    %r = call @\"callee\" (%s" + std::to_string(callerLength) +
+               ")\n    ret %r\n}\n";
+    };
+    const auto calls = [&](int callerLength, int calleeLength) {
+        return count(llvmOf(program(callerLength, calleeLength), true),
+                     "call fastcc { i32, float } @\"callee$\"(");
+    };
+    CHECK(calls(200, 60) == 1);
+    CHECK(calls(200, 20) == 0); // short enough to be inlined anywhere
+    CHECK(calls(100, 60) == 0); // the caller may itself be called in a loop
+}
