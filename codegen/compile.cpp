@@ -6,6 +6,7 @@
 #include <llvm/IR/Verifier.h>
 #include <llvm/MC/TargetRegistry.h>
 #include <llvm/Passes/PassBuilder.h>
+#include <llvm/Support/CommandLine.h>
 #include <llvm/Support/TargetSelect.h>
 #include <llvm/Support/raw_ostream.h>
 #include <llvm/TargetParser/Host.h>
@@ -25,6 +26,9 @@ std::unique_ptr<llvm::TargetMachine> makeTargetMachine(const CodegenOptions& opt
     [[maybe_unused]] static const bool kReady = [] {
         llvm::InitializeNativeTarget();
         llvm::InitializeNativeTargetAsmPrinter();
+        // There are lines only: where variables are is not to be found out, which costs a tenth of code generation.
+        const char* const arguments[] = {"rapidc", "-experimental-debug-variable-locations=false"};
+        llvm::cl::ParseCommandLineOptions(2, arguments);
         return true;
     }();
     llvm::Triple triple(llvm::sys::getProcessTriple());

@@ -28,6 +28,7 @@ struct Part {
     std::vector<uint32_t> copies;   ///< of routines of other parts, to be inlined
     /// routinesSettingTaskFrame() of the program, made once for all parts.
     std::shared_ptr<const std::vector<bool>> settingTaskFrame;
+    bool isPaced = false; ///< `routines` are all paced by natives: they get the fastest code generation, too
     bool countsCalls = false; ///< in memory only: of `routines`, in the table kCallCounts
     bool callsBySlot = false; ///< in memory only: other parts are reached through the table kRoutineSlots
     bool dataInMemory =

@@ -54,14 +54,14 @@ namespace {
 class PartCompiler {
   public:
     PartCompiler(const ir::Module& module, const CodegenOptions& options, const std::string& folder)
-        : module_(module), options_(options), folder_(folder), parts_(divide(module)),
-          cache_(options.cacheFolder) {}
+        : module_(module), options_(options), folder_(folder), cache_(options.cacheFolder, options.bodies) {}
 
     bool run(std::vector<std::string>& paths, std::string& error) {
         if (options_.prepare)
             onAllProcessors(module_.routines.size(), [this](size_t routine, std::string& problem) {
                 return options_.prepare(static_cast<uint32_t>(routine), problem);
             });
+        parts_ = divide(module_, options_);
         if (error_.empty())
             onAllProcessors(parts_.size(),
                             [this](size_t i, std::string& problem) { return compilePart(i, problem); });
@@ -108,8 +108,9 @@ class PartCompiler {
         const std::string key = cache_.keyOf(*emitted, options);
         if (options_.trustCache && cache_.fetch(key, pathOf(i))) return true;
         llvm::SmallVector<char, 0> bytes;
-        if (!finish(*emitted, options, *machine, error) ||
-            !generate(*emitted, *machine, llvm::CodeGenFileType::ObjectFile, bytes, error) ||
+        if (!finish(*emitted, options, *machine, error)) return false;
+        if (parts_[i].isPaced) machine->setOptLevel(llvm::CodeGenOptLevel::None);
+        if (!generate(*emitted, *machine, llvm::CodeGenFileType::ObjectFile, bytes, error) ||
             !writeFile(pathOf(i), {bytes.data(), bytes.size()}, error))
             return false;
         cache_.keep(key, pathOf(i));
@@ -119,7 +120,7 @@ class PartCompiler {
     const ir::Module& module_;
     const CodegenOptions& options_;
     const std::string& folder_;
-    const std::vector<Part> parts_;
+    std::vector<Part> parts_;
     const ObjectCache cache_;
     std::mutex mutex_;
     std::atomic<bool> failed_ = false;

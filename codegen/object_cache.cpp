@@ -39,12 +39,15 @@ bool copyFile(const std::string& from, const std::string& to) {
 
 } // namespace
 
-ObjectCache::ObjectCache(std::string folder) : folder_(std::move(folder)) {
+ObjectCache::ObjectCache(std::string folder, const NativeBodies& bodies) : folder_(std::move(folder)) {
     if (folder_.empty()) return;
     generator_ = describeGenerator();
     std::error_code failure;
     fs::create_directories(folder_, failure);
     if (failure || generator_.empty() || access(folder_.c_str(), W_OK) != 0) folder_.clear();
+    llvm::SHA256 hash;
+    hash.update({bodies.bitcode.data(), bodies.bitcode.size()});
+    generator_ += ' ' + llvm::toHex(hash.final(), true);
 }
 
 std::string ObjectCache::keyOf(const llvm::Module& module, const CodegenOptions& options) const {
@@ -55,7 +58,6 @@ std::string ObjectCache::keyOf(const llvm::Module& module, const CodegenOptions&
     llvm::SHA256 hash;
     hash.update(generator_);
     hash.update(options.optimise ? "optimised" : "quick");
-    hash.update({options.bodies.bitcode.data(), options.bodies.bitcode.size()});
     hash.update(llvm::StringRef(bitcode.data(), bitcode.size()));
     return llvm::toHex(hash.final(), true);
 }

@@ -12,8 +12,8 @@ namespace codegen {
 
 class ObjectCache {
   public:
-    /// `folder`: created when it is missing; empty: nothing is kept.
-    explicit ObjectCache(std::string folder);
+    /// `folder`: created when it is missing; empty: nothing is kept. `bodies`: natives that programs inline.
+    ObjectCache(std::string folder, const NativeBodies& bodies);
 
     /// The key of an object that is to be made from `module`; "" when nothing is kept.
     std::string keyOf(const llvm::Module& module, const CodegenOptions& options) const;
@@ -27,7 +27,7 @@ class ObjectCache {
   private:
     std::string fileOf(const std::string& key) const;
 
-    std::string folder_, generator_;
+    std::string folder_, generator_; ///< the code generator and the bodies, as part of keys
 };
 
 } // namespace codegen

@@ -31,13 +31,22 @@ class Pace {
     bool isSlow(const ir::Cfg& cfg, const ir::LoopInfo& loops, size_t index) const {
         const ir::Loop& loop = loops.loops[index];
         for (const ir::BlockId b : loop.blocks)
-            for (const ir::ValueId id : routine_.blocks[b].insts)
-                if (isCalledNative(routine_.insts[id])) return true;
+            if (isInEachRound(cfg, loop, b) && callsNative(routine_.blocks[b])) return true;
         const std::optional<int64_t> count = rounds(cfg, loop);
         return loop.parent == ir::kNone && count && *count <= kFewRounds;
     }
 
   private:
+    static bool isInEachRound(const ir::Cfg& cfg, const ir::Loop& loop, ir::BlockId block) {
+        return std::all_of(loop.latches.begin(), loop.latches.end(),
+                           [&](ir::BlockId latch) { return cfg.dominates(block, latch); });
+    }
+
+    bool callsNative(const ir::Block& block) const {
+        return std::any_of(block.insts.begin(), block.insts.end(),
+                           [this](ir::ValueId id) { return isCalledNative(routine_.insts[id]); });
+    }
+
     bool isCalledNative(const ir::Inst& inst) const {
         if (inst.op != ir::Op::CallNative) return false;
         const ir::Native& native = module_.natives[inst.index];
@@ -93,6 +102,12 @@ bool isPacedByNatives(const ir::Module& module, const ir::Routine& routine, cons
     for (size_t i = 0; i < loops.loops.size(); ++i)
         if (!pace.isSlow(cfg, loops, i)) return false;
     return true;
+}
+
+bool isPacedByNatives(const ir::Module& module, const ir::Routine& routine, const NativeBodies& inlined) {
+    if (!Pace(module, routine, inlined).hasEnoughNatives()) return false;
+    const ir::Cfg cfg = ir::buildCfg(module, routine, ir::HandlerEdges::No);
+    return isPacedByNatives(module, routine, cfg, ir::findLoops(cfg), inlined);
 }
 
 } // namespace codegen

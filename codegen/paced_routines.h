@@ -11,6 +11,9 @@ namespace codegen {
 bool isPacedByNatives(const ir::Module& module, const ir::Routine& routine, const ir::Cfg& cfg,
                       const ir::LoopInfo& loops, const NativeBodies& inlined);
 
+/// The same, when nothing is known of the routine's control flow yet.
+bool isPacedByNatives(const ir::Module& module, const ir::Routine& routine, const NativeBodies& inlined);
+
 /// Attribute of the LLVM functions of such routines.
 inline constexpr const char* kPaced = "rapidc-paced";
 

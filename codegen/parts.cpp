@@ -1,6 +1,7 @@
 #include "codegen/parts.h"
 
 #include "codegen/hot_code.h"
+#include "codegen/paced_routines.h"
 #include "codegen/task_frame.h"
 
 namespace codegen {
@@ -35,22 +36,28 @@ std::vector<uint32_t> copiesFor(const ir::Module& module, const std::vector<uint
     return copies;
 }
 
-std::vector<Part> divide(const ir::Module& module) {
+std::vector<Part> divide(const ir::Module& module, const CodegenOptions& options) {
     std::vector<Part> parts(1);
     parts[0].tables = true;
-    std::string_view current;
-    size_t size = kLargestPart;
-    const auto begin = [&] {
-        parts.emplace_back();
-        size = 0;
+    /// The part that the next routine of one kind goes into.
+    struct Open {
+        size_t part = 0, size = 0;
     };
+    std::string_view current;
+    Open open[2]; // the second one for routines that are paced by natives
     for (uint32_t i = 0; i < module.routines.size(); ++i) {
         const ir::Routine& routine = module.routines[i];
         const size_t more = routine.insts.size();
-        if (routine.moduleName != current || size + more > kLargestPart || more > kLargeRoutine) begin();
-        parts.back().routines.push_back(i);
-        size += more > kLargeRoutine ? kLargestPart : more;
+        if (routine.moduleName != current) open[0] = open[1] = {};
         current = routine.moduleName;
+        const bool isPaced = options.optimise && isPacedByNatives(module, routine, options.bodies);
+        Open& into = open[isPaced ? 1 : 0];
+        if (into.part == 0 || into.size + more > kLargestPart || more > kLargeRoutine) {
+            into = {parts.size(), 0};
+            parts.emplace_back().isPaced = isPaced;
+        }
+        parts[into.part].routines.push_back(i);
+        into.size += more > kLargeRoutine ? kLargestPart : more;
     }
     const auto setting = std::make_shared<const std::vector<bool>>(routinesSettingTaskFrame(module, {}));
     for (Part& part : parts) {

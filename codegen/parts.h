@@ -11,8 +11,9 @@ namespace codegen {
 /// Small routines that `routines` call, and those that these call: to be compiled into the same part.
 std::vector<uint32_t> copiesFor(const ir::Module& module, const std::vector<uint32_t>& routines);
 
-/// Tables first; then a part for each module of the source, or several when it is large. A very large routine has a part of its
-/// own, because it is compiled differently. An edit of one module leaves the parts of the others as they are.
-std::vector<Part> divide(const ir::Module& module);
+/// Tables first; then for each module of the source a part for its routines that are paced by natives and one for the others, or
+/// several when it is large. A very large routine has a part of its own. These are compiled differently. An edit of one module
+/// leaves the parts of the others as they are.
+std::vector<Part> divide(const ir::Module& module, const CodegenOptions& options);
 
 } // namespace codegen
