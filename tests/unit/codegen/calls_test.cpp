@@ -111,7 +111,17 @@ TEST_CASE("routines that are paced by natives get few passes, others all", "[cod
     CHECK_FALSE(isPaced(routineOf(repeated(note, 20)))); // short
     CHECK(isPaced(routineWithLoop("    %bound = const i32 16\n")));
     CHECK_FALSE(isPaced(routineWithLoop("    %bound = const i32 17\n")));
-    CHECK_FALSE(isPaced(routineWithLoop("    %bound = ftosi i32 %limit\n")));
+    const std::string unknown = "    %bound = ftosi i32 %limit\n";
+    CHECK_FALSE(isPaced(routineWithLoop(unknown)));
+    // An instruction of the robot in each round paces a loop, one in some rounds does not.
+    const std::string noteInLoop = "    native @\"rt_note\" (%one) !0\n";
+    CHECK(isPaced(routineWithLoop(unknown + noteInLoop)));
+    std::string sometimes = routineWithLoop(unknown);
+    const std::string step = "    %again = load i32 %k\n";
+    sometimes.replace(sometimes.find(step), step.size(),
+                      "    %rare = ieq %now, %first\n    condbr %rare, b4, b5\n  b4:\n" + noteInLoop +
+                          "    br b5\n  b5:\n" + step);
+    CHECK_FALSE(isPaced(sometimes));
 }
 
 TEST_CASE("long routines are not inlined where a long routine calls them outside of loops", "[codegen]") {
