@@ -324,6 +324,7 @@ std::string formatDisplayDnum(double value) {
 }
 
 std::string formatDecimals(double value, int decimals, bool exponent) {
+    if (value == 0) value = 0; // not -0: whether a zero has a sign depends on how the compiler computed it
     return exponent ? printed("%.*E", decimals, value) : fixed(value, decimals);
 }
 
