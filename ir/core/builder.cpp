@@ -6,7 +6,7 @@
 namespace ir {
 namespace {
 
-Inst make(Op op, TypeId type = kVoid, std::vector<ValueId> operands = {}) {
+Inst make(Op op, TypeId type = kVoid, OperandList operands = {}) {
     Inst inst;
     inst.op = op;
     inst.type = type;

@@ -6,10 +6,13 @@
 // ir/LANGREF.md.
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
+
+#include "ir/core/operand_list.h"
 
 namespace ir {
 
@@ -86,7 +89,6 @@ enum class Op : uint8_t {
 #include "ir/core/instructions.def"
 };
 
-using ValueId = uint32_t; ///< index into Routine::insts: the instruction that yields the value
 using BlockId = uint32_t;
 using StmtId = uint32_t; ///< index into Routine::statements
 inline constexpr uint32_t kNone = 0xFFFFFFFFu;
@@ -96,16 +98,47 @@ struct SwitchCase {
     BlockId target = kNone;
 };
 
+/// The cases of a switch; other instructions, nearly all, pay one null pointer for them.
+class SwitchCases {
+  public:
+    SwitchCases() = default;
+    SwitchCases(std::vector<SwitchCase> cases)
+        : cases_(std::make_unique<std::vector<SwitchCase>>(std::move(cases))) {}
+    SwitchCases(const SwitchCases& other)
+        : cases_(other.cases_ ? std::make_unique<std::vector<SwitchCase>>(*other.cases_) : nullptr) {}
+    SwitchCases(SwitchCases&&) noexcept = default;
+    SwitchCases& operator=(SwitchCases other) noexcept {
+        cases_.swap(other.cases_);
+        return *this;
+    }
+    ~SwitchCases() = default;
+
+    size_t size() const { return cases_ ? cases_->size() : 0; }
+    const SwitchCase* begin() const { return cases_ ? cases_->data() : nullptr; }
+    const SwitchCase* end() const { return begin() + size(); }
+    SwitchCase* begin() { return cases_ ? cases_->data() : nullptr; }
+    SwitchCase* end() { return begin() + size(); }
+    const SwitchCase& operator[](size_t i) const { return (*cases_)[i]; }
+    void push_back(const SwitchCase& entry) {
+        if (!cases_) cases_ = std::make_unique<std::vector<SwitchCase>>();
+        cases_->push_back(entry);
+    }
+    void clear() { cases_.reset(); }
+
+  private:
+    std::unique_ptr<std::vector<SwitchCase>> cases_;
+};
+
 struct Inst {
     Op op{};
-    TypeId type = kVoid; ///< result type; for Load/Store/Copy/Zero/FieldAddr/ElemAddr: the type accessed
-    std::vector<ValueId> operands; ///< values
+    TypeId type = kVoid;    ///< result type; for Load/Store/Copy/Zero/FieldAddr/ElemAddr: the type accessed
+    OperandList operands;   ///< values
     uint32_t index = kNone; ///< local, global, param, field, routine, native, statement or type-desc number
     BlockId target[2] = {kNone, kNone};
-    std::vector<SwitchCase> cases; ///< Switch
-    double number = 0;             ///< Const: F32, F64
-    int64_t integer = 0;           ///< Const: Bool, Ptr, and integers, sign-extended
-    StmtId stmt = kNone;           ///< statement it belongs to
+    SwitchCases cases;   ///< Switch
+    double number = 0;   ///< Const: F32, F64
+    int64_t integer = 0; ///< Const: Bool, Ptr, and integers, sign-extended
+    StmtId stmt = kNone; ///< statement it belongs to
     /// Check, CheckFinite: error number; Charge, Safepoint: cost; Sysvar: SysvarKind; CondBr: 1 = seldom goes to target[1]
     int32_t extra = 0;
 };

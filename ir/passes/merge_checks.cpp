@@ -81,7 +81,8 @@ class CheckMerger {
         }
         std::vector<bool> covered(routine_.insts.size(), false);
         for (const ValueId check : region.checks) {
-            std::vector<ValueId> work = passedOn(inst(check).operands[0], source);
+            const OperandList first = passedOn(inst(check).operands[0], source);
+            std::vector<ValueId> work(first.begin(), first.end());
             while (!work.empty()) {
                 const ValueId value = work.back();
                 work.pop_back();
@@ -95,12 +96,12 @@ class CheckMerger {
     }
 
     /// The operands whose infinity the value takes over.
-    std::vector<ValueId> passedOn(ValueId id, const std::vector<ValueId>& source) const {
+    OperandList passedOn(ValueId id, const std::vector<ValueId>& source) const {
         const Inst& value = inst(id);
         switch (familyOf(value.op)) {
         case Family::Float:
             if (value.op == Op::FTrunc) return {};
-            return value.op == Op::FDiv ? std::vector<ValueId>{value.operands[0]} : value.operands;
+            return value.op == Op::FDiv ? OperandList{value.operands[0]} : value.operands;
         case Family::Convert:
             if (value.op == Op::FWiden || value.op == Op::FNarrow) return value.operands;
             return {};
