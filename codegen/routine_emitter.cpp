@@ -331,7 +331,6 @@ void RoutineEmitter::instruction(ir::ValueId id) {
     case ir::Family::Leaf: return define(id, leaf(inst));
     case ir::Family::Memory: return memory(inst, id);
     case ir::Family::Float: return define(id, floatArithmetic(inst));
-    case ir::Family::Whole: return define(id, wholeDivision(inst));
     case ir::Family::Int: return define(id, intArithmetic(inst));
     case ir::Family::Compare: return define(id, comparison(inst));
     case ir::Family::Logic: return define(id, logic(inst));

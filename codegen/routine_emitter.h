@@ -76,10 +76,6 @@ class RoutineEmitter {
     Value* constant(const ir::Inst& inst);
     Value* isFinite(Value* number);
 
-    // emit_whole.cpp
-    Value* wholeDivision(const ir::Inst& inst);
-    Value* exactDivision(const ir::Inst& inst, Value* a, Value* b);
-
     // joined_rounds.cpp
     void findFastLoops();
     bool entersFastLoop();

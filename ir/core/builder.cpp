@@ -179,11 +179,6 @@ ValueId Builder::select(ValueId cond, ValueId a, ValueId b) {
     return emit(make(Op::Select, typeOf(a), {cond, a, b}));
 }
 
-ValueId Builder::wholeDivision(Op op, ValueId a, ValueId b, int32_t errorNumber) {
-    Inst inst = make(op, typeOf(a), {a, b});
-    inst.extra = errorNumber;
-    return emit(std::move(inst));
-}
 void Builder::check(ValueId cond, int32_t errorNumber) {
     Inst inst = make(Op::Check, kVoid, {cond});
     inst.extra = errorNumber;

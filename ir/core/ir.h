@@ -433,8 +433,6 @@ class Builder {
     ValueId unary(Op op, ValueId a);             ///< FNeg, INeg, Not
     ValueId convert(Op op, TypeId to, ValueId a);
     ValueId select(ValueId cond, ValueId a, ValueId b);
-    /// FQuotient or FRemainder; raises errorNumber when an operand is not whole.
-    ValueId wholeDivision(Op op, ValueId a, ValueId b, int32_t errorNumber);
     void check(ValueId cond, int32_t errorNumber); ///< raises errorNumber when cond is false
     /// Calls a routine. Scalar result: the value of this instruction. Str/Record/Array result: args[0] is the
     /// address that receives it (then the instruction has type Void).

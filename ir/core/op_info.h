@@ -13,7 +13,7 @@ enum class ResultRule : char { None = 'N', Same = 'S', Bool = 'B', Ptr = 'P', Ty
 
 /// What an instruction does. Code that dispatches over instructions switches over this and then over the instructions of one
 /// family (LeafOp ...), without `default`.
-enum class Family : uint8_t { Leaf, Memory, Float, Whole, Int, Compare, Logic, Convert, Action, End };
+enum class Family : uint8_t { Leaf, Memory, Float, Int, Compare, Logic, Convert, Action, End };
 
 /// What the textual form has besides operands; also which table Inst::index refers to.
 enum class Form : uint8_t {
@@ -26,7 +26,7 @@ enum class Form : uint8_t {
     Routine,     ///< index: Module::routines, by name
     Sysvar,      ///< extra: SysvarKind
     Field,       ///< after the operand: index of a field of the record Inst::type
-    Error,       ///< after the operands: extra, an error number
+    Error,       ///< after the operand: extra, an error number
     CallRoutine, ///< index: Module::routines, by name; operands in parentheses
     CallNative,  ///< index: Module::natives, by name; operands in parentheses
     Cost,        ///< extra, then an operand if there is one
@@ -61,10 +61,6 @@ enum class MemoryOp : uint8_t {
 };
 enum class FloatOp : uint8_t {
 #define FLOAT_INST(name, ...) name = static_cast<uint8_t>(Op::name),
-#include "ir/core/instructions.def"
-};
-enum class WholeOp : uint8_t {
-#define WHOLE_INST(name, ...) name = static_cast<uint8_t>(Op::name),
 #include "ir/core/instructions.def"
 };
 enum class IntOp : uint8_t {

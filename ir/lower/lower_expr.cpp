@@ -129,12 +129,18 @@ ir::ValueId RoutineLowering::lowerArithmetic(BinaryOp op, ValueId a, ValueId b, 
     }
 }
 
-/// DIV and MOD: integer operands only (manual 1.3.1, note 3).
+/// DIV and MOD: integer operands only (manual 1.3.1, note 3). The quotient of two exact integers is truncated
+/// correctly by the rounded division, because it differs from any integer by more than half a unit in the last place.
 ir::ValueId RoutineLowering::lowerIntegerDivision(bool modulo, ValueId a, ValueId b, bool isDnum) {
     const ValueId zero = isDnum ? b_.constF64(0) : b_.constF32(0);
+    const int32_t notInteger = program_.errorNumber("ERR_INT_NOTVAL");
     b_.check(b_.binary(Op::FNe, b, zero), program_.errorNumber("ERR_DIVZERO"));
-    return b_.wholeDivision(modulo ? Op::FRemainder : Op::FQuotient, a, b,
-                            program_.errorNumber("ERR_INT_NOTVAL"));
+    b_.check(b_.binary(Op::FEq, b_.unary(Op::FTrunc, a), a), notInteger);
+    if (routine_.insts[b].op != Op::Const)
+        b_.check(b_.binary(Op::FEq, b_.unary(Op::FTrunc, b), b), notInteger);
+    const ValueId quotient = b_.unary(Op::FTrunc, b_.binary(Op::FDiv, a, b));
+    if (!modulo) return quotient;
+    return b_.binary(Op::FSub, a, b_.binary(Op::FMul, quotient, b));
 }
 
 ir::ValueId RoutineLowering::lowerComparison(const BinaryExpr& expr) {

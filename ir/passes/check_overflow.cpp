@@ -67,7 +67,6 @@ class OverflowChecker {
         case Family::Logic: return op == Op::Select;
         case Family::Leaf:
         case Family::Memory:
-        case Family::Whole:
         case Family::Int:
         case Family::Compare:
         case Family::Action:
@@ -100,7 +99,6 @@ class OverflowChecker {
     double boundOf(const Inst& value, TypeId type) const {
         switch (familyOf(value.op)) {
         case Family::Float: return boundOfFloat(value, type);
-        case Family::Whole: return boundOfDivision(value, type);
         case Family::Convert: return boundOfConversion(value, type);
         case Family::Leaf:
             return value.op == Op::Const ? rounded(type, std::abs(value.number)) : largest(type);
@@ -131,18 +129,6 @@ class OverflowChecker {
         }
         case FloatOp::FNeg:
         case FloatOp::FTrunc: return operand(0);
-        }
-        return kInfinity;
-    }
-
-    /// The divisor is whole and not 0.
-    double boundOfDivision(const Inst& value, TypeId type) const {
-        const Inst& divisor = inst(value.operands[1]);
-        const double size = divisor.op == Op::Const ? rounded(type, std::abs(divisor.number)) : 0;
-        const double dividend = bound_[value.operands[0]];
-        switch (as<WholeOp>(value.op)) {
-        case WholeOp::FQuotient: return size > 0 ? rounded(type, dividend / size) : dividend;
-        case WholeOp::FRemainder: return size > 0 ? size : bound_[value.operands[1]];
         }
         return kInfinity;
     }

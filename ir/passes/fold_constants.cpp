@@ -43,18 +43,6 @@ template <class Float> double floatArithmetic(FloatOp op, double x, double y) {
     return std::nan("");
 }
 
-/// NaN where the program raises an error.
-template <class Float> double wholeDivision(WholeOp op, double x, double y) {
-    auto a = static_cast<Float>(x), b = static_cast<Float>(y);
-    if (b == 0 || std::trunc(a) != a || std::trunc(b) != b) return std::nan("");
-    constexpr Float kNoMinusZero = 0; // -0 + 0 is 0
-    switch (op) {
-    case WholeOp::FQuotient: return std::trunc(a / b) + kNoMinusZero;
-    case WholeOp::FRemainder: return std::fmod(a, b) + kNoMinusZero;
-    }
-    return std::nan("");
-}
-
 /// Comparing sign-extended integers as unsigned gives the same as comparing their bits.
 bool compare(CompareOp op, const Constant& a, const Constant& b) {
     const double x = a.number, y = b.number;
@@ -157,10 +145,6 @@ bool compute(const Inst& inst, const Constant& a, const Constant& b, Constant& o
     case Family::Float:
         return keep(out.type == kF32 ? floatArithmetic<float>(as<FloatOp>(inst.op), a.number, b.number)
                                      : floatArithmetic<double>(as<FloatOp>(inst.op), a.number, b.number),
-                    out);
-    case Family::Whole:
-        return keep(out.type == kF32 ? wholeDivision<float>(as<WholeOp>(inst.op), a.number, b.number)
-                                     : wholeDivision<double>(as<WholeOp>(inst.op), a.number, b.number),
                     out);
     case Family::Int: return intArithmetic(as<IntOp>(inst.op), a, b, out);
     case Family::Compare: return keep(uint64_t{compare(as<CompareOp>(inst.op), a, b)}, out);

@@ -109,7 +109,6 @@ class CheckMerger {
             if (value.op != Op::Load || source[id] == kNone) return {};
             return {source[id]};
         case Family::Leaf:
-        case Family::Whole:
         case Family::Int:
         case Family::Compare:
         case Family::Logic:

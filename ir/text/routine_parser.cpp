@@ -189,7 +189,7 @@ bool RoutineParser::body(Inst& inst) {
     case Form::Routine: return reference(Fixup::Kind::Routine);
     case Form::Sysvar: return sysvar(inst);
     case Form::Field: return value(inst) && in_.punct(',') && in_.unsignedInt(inst.index);
-    case Form::Error: return values(inst) && in_.punct(',') && in_.signedInt(inst.extra);
+    case Form::Error: return value(inst) && in_.punct(',') && in_.signedInt(inst.extra);
     case Form::CallRoutine: return call(inst, Fixup::Kind::Routine);
     case Form::CallNative: return call(inst, Fixup::Kind::Native);
     case Form::Cost: return in_.signedInt(inst.extra) && values(inst);

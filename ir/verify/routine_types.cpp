@@ -23,10 +23,6 @@ void RoutineVerifier::types(const Inst& inst) {
     case Family::Leaf: typesOfLeaf(inst); return;
     case Family::Memory: typesOfMemory(inst); return;
     case Family::Float: sameTypes(inst, isFloat(operandType(inst, 0))); return;
-    case Family::Whole:
-        sameTypes(inst, isFloat(operandType(inst, 0)));
-        if (inst.extra <= 0) add(fmt::format("error number {}", inst.extra));
-        return;
     case Family::Int: sameTypes(inst, isInteger(operandType(inst, 0))); return;
     case Family::Compare: typesOfComparison(inst); return;
     case Family::Logic: typesOfLogic(inst); return;

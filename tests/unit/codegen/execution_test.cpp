@@ -171,52 +171,6 @@ TEST_CASE("conversions go toward zero and saturate", "[codegen]") {
     CHECK(evaluate<double>("f64", "%n = fnarrow f32 %x\n%w = fwiden f64 %n\nret %w\n", 0.1) == double(0.1f));
 }
 
-TEST_CASE("whole numbers are divided exactly, whatever their size", "[codegen]") {
-    const auto divided = [](const std::string& type, const std::string& op, double a, double b,
-                            bool optimise) {
-        const std::string lines = "%b = const " + type + " " + std::to_string(b) + "\n";
-        const std::string byConst = lines + "%r = " + op + " %x, %b, 17\nret %r\n";
-        // The same by a divisor that is known only when the program runs: b + (x - x).
-        const std::string byAny =
-            lines + "%z = fsub %x, %x\n%d = fadd %b, %z\n%r = " + op + " %x, %d, 17\nret %r\n";
-        if (type == "f32") {
-            const auto x = static_cast<float>(a);
-            const float result = evaluate<float>(type, byConst, x, optimise);
-            CHECK(evaluate<float>(type, byAny, x, optimise) == result);
-            CHECK_FALSE((result == 0 && std::signbit(result)));
-            return static_cast<double>(result);
-        }
-        const double result = evaluate<double>(type, byConst, a, optimise);
-        CHECK(evaluate<double>(type, byAny, a, optimise) == result);
-        CHECK_FALSE((result == 0 && std::signbit(result)));
-        return result;
-    };
-    for (const bool optimise : {false, true}) {
-        for (const std::string type : {"f32", "f64"}) {
-            const auto quotient = [&](double a, double b) { return divided(type, "fquot", a, b, optimise); };
-            const auto rest = [&](double a, double b) { return divided(type, "frem", a, b, optimise); };
-            CHECK(quotient(14, 4) == 3);
-            CHECK(rest(14, 4) == 2);
-            CHECK(quotient(-14, 4) == -3);
-            CHECK(rest(-14, 4) == -2);
-            CHECK(quotient(14, -4) == -3);
-            CHECK(rest(14, -4) == 2);
-            CHECK(quotient(-1, 2) == 0); // not -0
-            CHECK(rest(-4, 2) == 0);
-            CHECK(quotient(7, -1) == -7);
-            CHECK(quotient(2147483648.0, 1) == 2147483648.0); // the first number that 32 bits do not hold
-            CHECK(rest(2147483648.0, 7) == 2);                // 2^31 = 7 * 306783378 + 2
-            CHECK(quotient(-2147483648.0, -1) == 2147483648.0);
-            CHECK(rest(9223372036854775808.0, 10) == 8); // 2^63
-            CHECK(rest(1267650600228229401496703205376.0, 7) ==
-                  2); // 2^100: 2^3 = 1 (mod 7), 100 = 3 * 33 + 1
-            CHECK(quotient(1267650600228229401496703205376.0, 1024) == 1237940039285380274899124224.0);
-        }
-        CHECK(divided("f64", "frem", 9007199254740991.0, 1000, optimise) == 991);
-        CHECK(divided("f64", "fquot", 9007199254740991.0, 2, optimise) == 4503599627370495.0);
-    }
-}
-
 TEST_CASE("multiplication and addition are not contracted", "[codegen]") {
     // x * x + c with a fused operation keeps the bits that rounding x * x drops.
     float x = 1.0f + 1.0f / 4096;
