@@ -17,6 +17,7 @@
 #include "codegen/native_bodies.h"
 #include "codegen/paced_routines.h"
 #include "codegen/peepholes.h"
+#include "codegen/unchecked_rounds.h"
 
 namespace codegen {
 
@@ -102,8 +103,10 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
     });
     builder.registerScalarOptimizerLateEPCallback(
         [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) { passes.addPass(IntegralValues()); });
-    builder.registerVectorizerStartEPCallback(
-        [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) { passes.addPass(BudgetLoops()); });
+    builder.registerVectorizerStartEPCallback([](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
+        passes.addPass(BudgetLoops());
+        passes.addPass(UncheckedRounds());
+    });
     runO2(module, builder);
 }
 
