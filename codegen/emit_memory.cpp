@@ -31,8 +31,10 @@ void RoutineEmitter::memory(const ir::Inst& inst, ir::ValueId id) {
         Value* index = b_.CreateSExt(operand(inst, 1), b_.getInt64Ty());
         return define(id, b_.CreateInBoundsGEP(m_.memoryType(inst.type), operand(inst, 0), index));
     }
-    case ir::MemoryOp::Load: return define(id, load(inst.type, operand(inst, 0)));
-    case ir::MemoryOp::Store: return store(inst.type, operand(inst, 0), operand(inst, 1));
+    case ir::MemoryOp::Load:
+        return define(id, load(inst.type, operand(inst, 0), tagOf(inst.type, inst.operands[0])));
+    case ir::MemoryOp::Store:
+        return store(inst.type, operand(inst, 0), operand(inst, 1), tagOf(inst.type, inst.operands[1]));
     case ir::MemoryOp::Copy: return copy(inst);
     case ir::MemoryOp::CopyDynamic:
         b_.CreateMemMove(operand(inst, 0), llvm::Align(1), operand(inst, 1), llvm::Align(1),
@@ -59,17 +61,29 @@ llvm::Value* RoutineEmitter::fieldOf(const ir::Inst& inst) {
     return offset ? byteOffset(base, b_.getInt64(offset)) : base;
 }
 
-llvm::Value* RoutineEmitter::load(ir::TypeId type, Value* pointer) {
+/// Which component of which record the address names.
+llvm::MDNode* RoutineEmitter::tagOf(ir::TypeId type, ir::ValueId address) {
+    uint32_t offset = 0;
+    ir::TypeId record = ir::kVoid;
+    for (const ir::Inst* at = &routine_.insts[address]; at->op == ir::Op::FieldAddr;
+         at = &routine_.insts[at->operands[0]]) {
+        record = at->type;
+        offset += module_.fieldOffset(record, at->index);
+    }
+    return record == ir::kVoid ? nullptr : m_.componentTag(record, offset, type);
+}
+
+llvm::Value* RoutineEmitter::load(ir::TypeId type, Value* pointer, llvm::MDNode* tag) {
     auto* read = b_.CreateAlignedLoad(m_.memoryType(type), pointer, llvm::Align(module_.align(type)));
-    read->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().data[type]);
+    read->setMetadata(llvm::LLVMContext::MD_tbaa, tag ? tag : m_.tags().data[type]);
     if (type != ir::kBool) return read;
     return b_.CreateICmpNE(read, b_.getInt8(0));
 }
 
-void RoutineEmitter::store(ir::TypeId type, Value* content, Value* pointer) {
+void RoutineEmitter::store(ir::TypeId type, Value* content, Value* pointer, llvm::MDNode* tag) {
     if (type == ir::kBool) content = b_.CreateZExt(content, b_.getInt8Ty());
     auto* write = b_.CreateAlignedStore(content, pointer, llvm::Align(module_.align(type)));
-    write->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().data[type]);
+    write->setMetadata(llvm::LLVMContext::MD_tbaa, tag ? tag : m_.tags().data[type]);
 }
 
 /// Memory of a size known only now: it has to fit above the stack's limit.
