@@ -7,6 +7,28 @@
 
 namespace codegen {
 
+namespace {
+
+using Scalar = RoutineEmitter::Scalar;
+
+/// Records with more are copied in one piece.
+constexpr size_t kMostScalars = 16;
+
+/// False: there are too many, or some are arrays or strings.
+bool scalarsOf(const ir::Module& module, ir::TypeId type, uint32_t offset, std::vector<Scalar>& out) {
+    if (module.isScalar(type)) {
+        out.push_back({type, offset});
+        return out.size() <= kMostScalars;
+    }
+    if (module.types[type].kind != ir::TypeKind::Record) return false;
+    for (uint32_t i = 0; i < module.types[type].fields.size(); ++i)
+        if (!scalarsOf(module, module.types[type].fields[i].type, offset + module.fieldOffset(type, i), out))
+            return false;
+    return true;
+}
+
+} // namespace
+
 llvm::Value* RoutineEmitter::leaf(const ir::Inst& inst) {
     switch (ir::as<ir::LeafOp>(inst.op)) {
     case ir::LeafOp::Const: return constant(inst);
@@ -108,11 +130,36 @@ llvm::Value* RoutineEmitter::stackAlloc(const ir::Inst& inst) {
     return memory;
 }
 
+/// One by one: what was stored one by one has not reached the memory yet, and the processor does not put a wider load together
+/// of several stores that are under way.
+void RoutineEmitter::copyScalars(const ir::Inst& inst, const std::vector<Scalar>& scalars) {
+    const auto at = [&](size_t pointer, const Scalar& scalar) {
+        return byteOffset(operand(inst, pointer), b_.getInt64(scalar.offset));
+    };
+    const auto mark = [&](llvm::Instruction* access, const Scalar& scalar) {
+        access->setMetadata(llvm::LLVMContext::MD_tbaa,
+                            m_.componentTag(inst.type, scalar.offset, scalar.type));
+    };
+    std::vector<Value*> contents;
+    for (const Scalar& scalar : scalars) {
+        auto* read = b_.CreateAlignedLoad(m_.memoryType(scalar.type), at(1, scalar),
+                                          llvm::Align(module_.align(scalar.type)));
+        mark(read, scalar);
+        contents.push_back(read);
+    }
+    for (size_t i = 0; i < scalars.size(); ++i)
+        mark(b_.CreateAlignedStore(contents[i], at(0, scalars[i]),
+                                   llvm::Align(module_.align(scalars[i].type))),
+             scalars[i]);
+}
+
 void RoutineEmitter::copy(const ir::Inst& inst) {
     if (module_.isScalar(inst.type)) {
         store(inst.type, load(inst.type, operand(inst, 1)), operand(inst, 0));
         return;
     }
+    if (std::vector<Scalar> scalars; m_.options().optimise && scalarsOf(module_, inst.type, 0, scalars))
+        return copyScalars(inst, scalars);
     llvm::Align align(module_.align(inst.type));
     b_.CreateMemCpy(operand(inst, 0), align, operand(inst, 1), align, module_.size(inst.type));
 }

@@ -25,6 +25,12 @@ class RoutineEmitter {
     ~RoutineEmitter();
     void run();
 
+    /// Within a record.
+    struct Scalar {
+        ir::TypeId type;
+        uint32_t offset;
+    };
+
   private:
     using Value = llvm::Value;
     using BasicBlock = llvm::BasicBlock;
@@ -102,6 +108,7 @@ class RoutineEmitter {
     void store(ir::TypeId type, Value* value, Value* pointer, llvm::MDNode* tag = nullptr);
     llvm::MDNode* tagOf(ir::TypeId type, ir::ValueId address);
     void copy(const ir::Inst& inst);
+    void copyScalars(const ir::Inst& inst, const std::vector<Scalar>& scalars);
     Value* stackAlloc(const ir::Inst& inst);
     Value* byteOffset(Value* pointer, Value* offset);
 
