@@ -12,6 +12,7 @@
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/Instructions.h>
 #include <llvm/IR/IntrinsicInst.h>
+#include <llvm/IR/PatternMatch.h>
 #include <llvm/IR/ProfDataUtils.h>
 #include <llvm/Transforms/Utils/Cloning.h>
 #include <llvm/Transforms/Utils/LoopSimplify.h>
@@ -57,7 +58,8 @@ bool isBitsOfNumber(const Value* value) {
     return cast != nullptr && cast->getSrcTy()->isFloatingPointTy();
 }
 
-/// The condition says something of floating-point numbers: no address depends on it.
+/// The condition says something of floating-point numbers: no address depends
+/// on it.
 bool asksForNumbers(const Value* condition) {
     if (llvm::isa<llvm::FCmpInst>(condition) || llvm::isa<llvm::ConstantInt>(condition)) return true;
     if (const auto* compared = llvm::dyn_cast<llvm::ICmpInst>(condition))
@@ -70,7 +72,8 @@ bool asksForNumbers(const Value* condition) {
     return joins && llvm::all_of(inst->operands(), [](const llvm::Use& use) { return asksForNumbers(use); });
 }
 
-/// GVN computes an index in each branch that needs it; where all of them are the same, one computation shows that it counts.
+/// GVN computes an index in each branch that needs it; where all of them are
+/// the same, one computation shows that it counts.
 void joinEqualIndices(llvm::Loop& loop, Analyses& a) {
     for (BasicBlock* block : loop.blocks()) {
         if (block == loop.getHeader()) continue;
@@ -111,11 +114,23 @@ class Candidate {
 
     llvm::Loop& loop() const { return loop_; }
     const SCEV* rounds() const { return rounds_; }
+    /// As many of them pass all checks of indices.
+    const SCEV* unchecked() const { return unchecked_; }
     const std::vector<Access>& stores() const { return stores_; }
     /// Loads that not all rounds execute, but could.
     const std::vector<Access>& early() const { return early_; }
-    const std::vector<llvm::BranchInst*>& checks() const { return checks_; }
-    /// The distances from stores to loads, in bytes, for which the loads see what was there before the rounds.
+    /// What a branch asks for, perhaps among other things, for the loop to
+    /// continue.
+    struct Check {
+        llvm::BranchInst* at;
+        Value* condition;
+        bool wanted;
+    };
+    const std::vector<Check>& checks() const { return checks_; } ///< of numbers
+    const std::vector<Check>& conditions() const { return conditions_; } ///< the same in all rounds
+    const std::vector<llvm::BranchInst*>& exits() const { return exits_; } ///< all but the last
+    /// The distances from stores to loads, in bytes, for which the loads see what
+    /// was there before the rounds.
     struct Distance {
         const SCEV* least;
         const SCEV* most;
@@ -137,8 +152,8 @@ class Candidate {
         const unsigned known = a_.scev.getSmallConstantTripCount(&loop_, latch);
         if (known != 0 && known < kFewest) return false;
         llvm::Type* i64 = llvm::Type::getInt64Ty(latch->getContext());
-        rounds_ = a_.scev.getAddExpr(a_.scev.getZeroExtendExpr(count, i64), a_.scev.getOne(i64));
-        if (count->getType() == i64) rounds_ = a_.scev.getAddExpr(count, a_.scev.getOne(i64));
+        rounds_ = a_.scev.getAddExpr(a_.scev.getNoopOrZeroExtend(count, i64), a_.scev.getOne(i64));
+        unchecked_ = rounds_;
         return true;
     }
 
@@ -150,16 +165,63 @@ class Candidate {
             if (block == loop_.getLoopLatch()) continue;
             auto* branch = llvm::dyn_cast<llvm::BranchInst>(block->getTerminator());
             uint64_t first = 0, second = 0;
-            if (branch == nullptr || !asksForNumbers(branch->getCondition()) ||
-                !llvm::extractBranchWeights(*branch, first, second))
+            if (branch == nullptr || !llvm::extractBranchWeights(*branch, first, second)) return false;
+            const bool wanted = loop_.contains(branch->getSuccessor(0));
+            if (wanted != (first > second) || !readCondition(*branch, branch->getCondition(), wanted))
                 return false;
-            if (loop_.contains(branch->getSuccessor(0)) != (first > second)) return false;
-            checks_.push_back(branch);
+            exits_.push_back(branch);
         }
-        return !checks_.empty();
+        return !exits_.empty();
     }
 
-    /// Counters, and values of the round before: sums would be added up one after the other in any form.
+    /// Takes a check of several things apart.
+    bool readCondition(llvm::BranchInst& branch, Value* condition, bool wanted) {
+        Value *first = nullptr, *second = nullptr;
+        if (wanted ? match(condition, llvm::PatternMatch::m_LogicalAnd(llvm::PatternMatch::m_Value(first),
+                                                                       llvm::PatternMatch::m_Value(second)))
+                   : match(condition, llvm::PatternMatch::m_LogicalOr(llvm::PatternMatch::m_Value(first),
+                                                                      llvm::PatternMatch::m_Value(second))))
+            return readCondition(branch, first, wanted) && readCondition(branch, second, wanted);
+        if (loop_.isLoopInvariant(condition)) {
+            conditions_.push_back({&branch, condition, wanted});
+            return true;
+        }
+        if (asksForNumbers(condition)) {
+            checks_.push_back({&branch, condition, wanted});
+            return true;
+        }
+        return boundRounds(llvm::dyn_cast<llvm::ICmpInst>(condition), wanted);
+    }
+
+    /// A check of an index: so many rounds pass it, and no more are done without
+    /// checks.
+    bool boundRounds(const llvm::ICmpInst* compared, bool wanted) {
+        if (compared == nullptr) return false;
+        llvm::CmpInst::Predicate predicate =
+            wanted ? compared->getPredicate() : compared->getInversePredicate();
+        const SCEV* index = a_.scev.getSCEV(compared->getOperand(0));
+        const SCEV* limit = a_.scev.getSCEV(compared->getOperand(1));
+        if (predicate == llvm::CmpInst::ICMP_UGT) {
+            std::swap(index, limit);
+            predicate = llvm::CmpInst::ICMP_ULT;
+        }
+        const auto* counter = llvm::dyn_cast<llvm::SCEVAddRecExpr>(index);
+        const bool isUntil = predicate == llvm::CmpInst::ICMP_NE;
+        if ((predicate != llvm::CmpInst::ICMP_ULT && !isUntil) || counter == nullptr ||
+            counter->getLoop() != &loop_ || !counter->isAffine() ||
+            !counter->getStepRecurrence(a_.scev)->isOne() || !a_.scev.isLoopInvariant(limit, &loop_) ||
+            a_.scev.getTypeSizeInBits(limit->getType()) > 64)
+            return false;
+        const SCEV* start = counter->getStart();
+        const SCEV* passing =
+            a_.scev.getMinusSCEV(isUntil ? limit : a_.scev.getUMaxExpr(limit, start), start);
+        unchecked_ =
+            a_.scev.getUMinExpr(unchecked_, a_.scev.getNoopOrZeroExtend(passing, unchecked_->getType()));
+        return true;
+    }
+
+    /// Counters, and values of the round before: sums would be added up one after
+    /// the other in any form.
     bool readPhis() {
         for (llvm::PHINode& phi : loop_.getHeader()->phis()) {
             const auto* counter = a_.scev.isSCEVable(phi.getType())
@@ -230,7 +292,8 @@ class Candidate {
         return true;
     }
 
-    /// The load reads what was there before the rounds that are done at once, or a condition for that is noted.
+    /// The load reads what was there before the rounds that are done at once, or
+    /// a condition for that is noted.
     bool sees(const Access& load, const Access& store) {
         const auto anywhere = [](const Instruction* inst) {
             return llvm::MemoryLocation::getBeforeOrAfter(llvm::getLoadStorePointerOperand(inst));
@@ -279,8 +342,9 @@ class Candidate {
 
     llvm::Loop& loop_;
     Analyses& a_;
-    const SCEV* rounds_ = nullptr;
-    std::vector<llvm::BranchInst*> checks_;
+    const SCEV *rounds_ = nullptr, *unchecked_ = nullptr;
+    std::vector<llvm::BranchInst*> exits_;
+    std::vector<Check> checks_, conditions_;
     std::vector<Access> stores_, loads_, early_;
     std::vector<Distance> distances_;
 };
@@ -298,7 +362,9 @@ class SecondForm {
         llvm::SCEVExpander expander(a_.scev, function_.getDataLayout(), "rounds");
         if (!canExpand(expander)) return false;
         Instruction* end = entry_->getTerminator();
-        rounds_ = expander.expandCodeFor(candidate_.rounds(), i64_, end);
+        rounds_ = expander.expandCodeFor(candidate_.unchecked(), i64_, end);
+        if (candidate_.unchecked() != candidate_.rounds())
+            all_ = expander.expandCodeFor(candidate_.rounds(), i64_, end);
         for (const Candidate::Access& store : candidate_.stores())
             targets_.push_back(expander.expandCodeFor(store.address->getStart(), b_.getPtrTy(), end));
         for (const Candidate::Access& load : candidate_.early())
@@ -307,6 +373,10 @@ class SecondForm {
         Value* possible = b_.CreateICmpUGE(rounds_, b_.getInt64(kFewest));
         for (const Candidate::Distance& distance : candidate_.distances())
             possible = b_.CreateAnd(possible, isFar(expander, distance));
+        for (const Candidate::Check& check : candidate_.conditions()) {
+            Value* holds = b_.CreateFreeze(check.condition);
+            possible = b_.CreateAnd(possible, check.wanted ? holds : b_.CreateNot(holds));
+        }
         b_.SetInsertPoint(end);
         head_ = newBlock("unchecked");
         looked_ = newBlock("unchecked.end");
@@ -339,12 +409,14 @@ class SecondForm {
             return llvm::all_of(accesses,
                                 [&](const Candidate::Access& a) { return can(a.address->getStart()); });
         };
-        return can(candidate_.rounds()) && canAll(candidate_.stores()) && canAll(candidate_.early()) &&
+        return can(candidate_.rounds()) && can(candidate_.unchecked()) && canAll(candidate_.stores()) &&
+               canAll(candidate_.early()) &&
                llvm::all_of(candidate_.distances(),
                             [&](const Candidate::Distance& d) { return can(d.least) && can(d.most); });
     }
 
-    /// Loads lie ahead of the store, or so far behind it that the rounds done at once do not meet.
+    /// Loads lie ahead of the store, or so far behind it that the rounds done at
+    /// once do not meet.
     Value* isFar(llvm::SCEVExpander& expander, const Candidate::Distance& distance) {
         Instruction* end = entry_->getTerminator();
         Value* least = expander.expandCodeFor(distance.least, i64_, end);
@@ -355,7 +427,8 @@ class SecondForm {
         return b_.CreateOr(ahead, behind);
     }
 
-    /// At the beginning of some rounds: what they start with, and how many they are.
+    /// At the beginning of some rounds: what they start with, and how many they
+    /// are.
     void beginSome() {
         b_.SetInsertPoint(head_);
         for (llvm::PHINode& phi : header_->phis()) {
@@ -410,10 +483,16 @@ class SecondForm {
         }
     }
 
+    Value* cloneOrSame(Value* value) const {
+        const auto clone = map_.find(value);
+        return clone == map_.end() ? value : static_cast<Value*>(clone->second);
+    }
+
     template <class T> T* cloneOf(T* original) { return llvm::cast<T>(static_cast<Value*>(map_[original])); }
 
-    /// Instead of leaving the loop. What the checks ask for is collected by the width of the numbers, so that a vector of it
-    /// fills a register as the numbers do.
+    /// Instead of leaving the loop. What the checks ask for is collected by the
+    /// width of the numbers, so that a vector of it fills a register as the
+    /// numbers do.
     void collectChecks(BasicBlock* start) {
         b_.SetInsertPoint(&*function_.getEntryBlock().begin());
         for (llvm::AllocaInst*& slot : foundBits_)
@@ -421,17 +500,23 @@ class SecondForm {
         b_.SetInsertPoint(start->getTerminator());
         for (llvm::AllocaInst* slot : foundBits_)
             b_.CreateStore(llvm::Constant::getNullValue(slot->getAllocatedType()), slot);
-        for (llvm::BranchInst* original : candidate_.checks()) {
-            auto* check = cloneOf(original);
-            const unsigned inside = loop_.contains(original->getSuccessor(0)) ? 0 : 1;
-            b_.SetInsertPoint(check);
-            Value* fails = inside == 0 ? b_.CreateNot(check->getCondition()) : check->getCondition();
-            llvm::AllocaInst* slot = foundBits_[isOfDoubles(check->getCondition()) ? 1 : 0];
+        for (const Candidate::Check& original : candidate_.checks()) {
+            b_.SetInsertPoint(cloneOf(original.at));
+            Value* holds = cloneOrSame(original.condition);
+            Value* fails = original.wanted ? b_.CreateNot(holds) : holds;
+            llvm::AllocaInst* slot = foundBits_[isOfDoubles(original.condition) ? 1 : 0];
             llvm::Type* type = slot->getAllocatedType();
             b_.CreateStore(b_.CreateOr(b_.CreateLoad(type, slot), b_.CreateSExt(fails, type)), slot);
-            b_.CreateBr(cloneOf(original->getSuccessor(inside)));
-            check->eraseFromParent();
         }
+        for (llvm::BranchInst* original : candidate_.exits())
+            staysInside(cloneOf(original), original);
+    }
+
+    void staysInside(llvm::BranchInst* check, llvm::BranchInst* original) {
+        const unsigned inside = loop_.contains(original->getSuccessor(0)) ? 0 : 1;
+        b_.SetInsertPoint(check);
+        b_.CreateBr(cloneOf(original->getSuccessor(inside)));
+        check->eraseFromParent();
     }
 
     static bool isOfDoubles(const Value* condition) {
@@ -455,7 +540,8 @@ class SecondForm {
         }
     }
 
-    /// Stores the results when all are fine; else the first form begins with the first of these rounds.
+    /// Stores the results when all are fine; else the first form begins with the
+    /// first of these rounds.
     void endSome() {
         b_.SetInsertPoint(looked_);
         Value* found = b_.CreateZExt(b_.CreateLoad(b_.getInt32Ty(), foundBits_[0]), i64_);
@@ -486,21 +572,24 @@ class SecondForm {
         BasicBlock* exit = last->getSuccessor(loop_.contains(last->getSuccessor(0)) ? 1 : 0);
         b_.SetInsertPoint(next_);
         Value* done = b_.CreateAdd(done_, count_);
-        b_.CreateCondBr(b_.CreateICmpEQ(done, rounds_), exit, head_);
+        BasicBlock* over = all_ ? newBlock("unchecked.over") : next_;
+        b_.CreateCondBr(b_.CreateICmpEQ(done, rounds_), all_ ? over : exit, head_);
         done_->addIncoming(done, next_);
-        const auto cloneOrSame = [&](Value* value) {
-            const auto clone = map_.find(value);
-            return clone == map_.end() ? value : static_cast<Value*>(clone->second);
-        };
+        if (all_) {
+            b_.SetInsertPoint(over);
+            b_.CreateCondBr(b_.CreateICmpEQ(rounds_, all_), exit, rest_);
+        }
         for (llvm::PHINode& phi : exit->phis())
-            phi.addIncoming(cloneOrSame(phi.getIncomingValueForBlock(latch)), next_);
+            phi.addIncoming(cloneOrSame(phi.getIncomingValueForBlock(latch)), over);
         b_.SetInsertPoint(rest_);
         size_t i = 0;
         for (llvm::PHINode& phi : header_->phis()) {
-            starts_[i]->addIncoming(cloneOrSame(phi.getIncomingValueForBlock(latch)), next_);
+            Value* following = cloneOrSame(phi.getIncomingValueForBlock(latch));
+            starts_[i]->addIncoming(following, next_);
             llvm::PHINode* begin = b_.CreatePHI(phi.getType(), 2, phi.getName());
             begin->addIncoming(phi.getIncomingValueForBlock(entry_), entry_);
             begin->addIncoming(starts_[i++], looked_);
+            if (all_) begin->addIncoming(following, over);
             const auto from = static_cast<unsigned>(phi.getBasicBlockIndex(entry_));
             phi.setIncomingBlock(from, rest_);
             phi.setIncomingValue(from, begin);
@@ -515,8 +604,8 @@ class SecondForm {
     llvm::Function& function_;
     llvm::IRBuilder<> b_;
     llvm::Type* i64_;
-    Value* rounds_ = nullptr;
-    Value* count_ = nullptr; ///< of the rounds done at once
+    Value *rounds_ = nullptr, *all_ = nullptr; ///< without checks; of the loop
+    Value* count_ = nullptr;                   ///< of the rounds done at once
     llvm::PHINode *done_ = nullptr, *round_ = nullptr;
     std::vector<llvm::PHINode*> starts_;
     std::vector<Value*> targets_, sources_;
@@ -526,7 +615,8 @@ class SecondForm {
     llvm::ValueToValueMapTy map_;
 };
 
-/// Gives one more loop its second form. `seen`: headers of loops that need not be looked at again.
+/// Gives one more loop its second form. `seen`: headers of loops that need not
+/// be looked at again.
 bool giveOne(Analyses& analyses, llvm::SmallPtrSetImpl<BasicBlock*>& seen) {
     for (llvm::Loop* loop : analyses.loops.getLoopsInPreorder()) {
         if (!loop->isInnermost() || !seen.insert(loop->getHeader()).second) continue;
