@@ -19,7 +19,9 @@ struct HalfAngle {
 HalfAngle halfOf(double deg) {
     const double half = deg * kDeg / 2;
     if (half == 0) return {1, half};
-    return {std::cos(half), std::sin(half)};
+    HalfAngle both{};
+    ::sincos(half, &both.sine, &both.cosine);
+    return both;
 }
 
 Quat aboutX(double deg) {
