@@ -22,11 +22,13 @@ using llvm::SCEV;
 using llvm::Value;
 
 /// GVN computes an index in each branch that needs it; where all of them are the same, one computation shows that it counts.
-void joinEqualIndices(llvm::Loop& loop, LoopAnalyses& a) {
+/// True when something has changed.
+bool joinEqualIndices(llvm::Loop& loop, LoopAnalyses& a) {
+    bool changed = false;
     for (BasicBlock* block : loop.blocks()) {
         if (block == loop.getHeader()) continue;
         for (llvm::PHINode& phi : llvm::make_early_inc_range(block->phis())) {
-            auto* first = llvm::dyn_cast<Instruction>(phi.getIncomingValue(0));
+            auto* first = llvm::dyn_cast<llvm::BinaryOperator>(phi.getIncomingValue(0));
             if (!first || !phi.getType()->isIntegerTy() || !llvm::isSafeToSpeculativelyExecute(first))
                 continue;
             const auto isSame = [&](Value* value) { return a.scev.getSCEV(value) == a.scev.getSCEV(first); };
@@ -39,17 +41,20 @@ void joinEqualIndices(llvm::Loop& loop, LoopAnalyses& a) {
             a.scev.forgetValue(&phi);
             phi.replaceAllUsesWith(joined);
             phi.eraseFromParent();
+            changed = true;
         }
     }
+    return changed;
 }
 
 /// Makes the second form.
 class SecondForm {
   public:
-    SecondForm(const ArrayLoop& candidate, LoopAnalyses& analyses)
+    /// `buffers`: those of other loops of the function, which are in use at other times.
+    SecondForm(const ArrayLoop& candidate, LoopAnalyses& analyses, std::vector<llvm::AllocaInst*>& buffers)
         : candidate_(candidate), a_(analyses), loop_(candidate.loop()), header_(loop_.getHeader()),
           entry_(loop_.getLoopPreheader()), function_(*header_->getParent()), b_(function_.getContext()),
-          i64_(b_.getInt64Ty()) {}
+          i64_(b_.getInt64Ty()), buffers_(buffers) {}
 
     /// False: an expression cannot be computed where the loop is entered.
     bool make() {
@@ -109,15 +114,15 @@ class SecondForm {
                             [&](const ArrayLoop::Distance& d) { return can(d.least) && can(d.most); });
     }
 
-    /// Loads lie ahead of the store, or so far behind it that the rounds done at once do not meet.
+    /// The load is above the store, or so far below it that the rounds done at once do not meet.
     Value* isFar(llvm::SCEVExpander& expander, const ArrayLoop::Distance& distance) {
         Instruction* end = entry_->getTerminator();
         Value* least = expander.expandCodeFor(distance.least, i64_, end);
         Value* most = expander.expandCodeFor(distance.most, i64_, end);
         b_.SetInsertPoint(end);
-        Value* ahead = b_.CreateICmpSGE(least, b_.getInt64(distance.mayBeEqual ? 0 : kLargestElement));
-        Value* behind = b_.CreateICmpSLE(most, b_.CreateNeg(b_.getInt64(distance.span)));
-        return b_.CreateOr(ahead, behind);
+        Value* above = b_.CreateICmpSGE(least, b_.getInt64(distance.mayBeEqual ? 0 : kLargestElement));
+        Value* below = b_.CreateICmpSLE(most, b_.CreateNeg(b_.getInt64(distance.span)));
+        return b_.CreateOr(above, below);
     }
 
     /// At the beginning of some rounds: what they start with, and how many they are.
@@ -219,17 +224,20 @@ class SecondForm {
     }
 
     void buffer() {
-        for (const ArrayLoop::Access& store : candidate_.stores()) {
-            auto* write = cloneOf(llvm::cast<llvm::StoreInst>(store.inst));
-            llvm::Type* type = write->getValueOperand()->getType();
-            b_.SetInsertPoint(&*function_.getEntryBlock().begin());
-            llvm::AllocaInst* buffer =
-                b_.CreateAlloca(llvm::ArrayType::get(type, kRoundsAtOnce), nullptr, "results");
-            buffer->setAlignment(llvm::Align(16));
-            buffers_.push_back(buffer);
+        for (size_t i = 0; i < candidate_.stores().size(); ++i) {
+            if (i == buffers_.size()) addBuffer();
+            auto* write = cloneOf(llvm::cast<llvm::StoreInst>(candidate_.stores()[i].inst));
             b_.SetInsertPoint(write);
-            write->setOperand(1, b_.CreateInBoundsGEP(type, buffer, round_));
+            write->setOperand(1,
+                              b_.CreateInBoundsGEP(write->getValueOperand()->getType(), buffers_[i], round_));
         }
+    }
+
+    void addBuffer() {
+        b_.SetInsertPoint(&*function_.getEntryBlock().begin());
+        llvm::Type* bytes = llvm::ArrayType::get(b_.getInt8Ty(), kRoundsAtOnce * kLargestElement);
+        buffers_.push_back(b_.CreateAlloca(bytes, nullptr, "results"));
+        buffers_.back()->setAlignment(llvm::Align(16));
     }
 
     /// Stores the results when all are fine; else the first form begins with the first of these rounds.
@@ -242,7 +250,7 @@ class SecondForm {
                         metadata.createBranchWeights(1000, 1));
         b_.SetInsertPoint(store_);
         llvm::PHINode* each = b_.CreatePHI(i64_, 2, "stored");
-        for (size_t i = 0; i < buffers_.size(); ++i) {
+        for (size_t i = 0; i < targets_.size(); ++i) {
             auto* write = llvm::cast<llvm::StoreInst>(candidate_.stores()[i].inst);
             llvm::Type* type = write->getValueOperand()->getType();
             Value* result = b_.CreateLoad(type, b_.CreateInBoundsGEP(type, buffers_[i], each));
@@ -300,50 +308,74 @@ class SecondForm {
     llvm::PHINode *done_ = nullptr, *round_ = nullptr;
     std::vector<llvm::PHINode*> starts_;
     std::vector<Value*> targets_, sources_;
-    std::vector<llvm::AllocaInst*> buffers_;
+    std::vector<llvm::AllocaInst*>& buffers_;
     llvm::AllocaInst* foundBits_[2] = {nullptr, nullptr};
     BasicBlock *head_ = nullptr, *looked_ = nullptr, *store_ = nullptr, *next_ = nullptr, *rest_ = nullptr;
     llvm::ValueToValueMapTy map_;
 };
 
-/// Gives one more loop its second form. `seen`: headers of loops that need not be looked at again.
-bool giveOne(LoopAnalyses& analyses, llvm::SmallPtrSetImpl<BasicBlock*>& seen) {
-    for (llvm::Loop* loop : analyses.loops.getLoopsInPreorder()) {
-        if (!loop->isInnermost() || !seen.insert(loop->getHeader()).second) continue;
-        joinEqualIndices(*loop, analyses);
-        ArrayLoop candidate(*loop, analyses);
-        if (!loop->isLCSSAForm(analyses.dominators) || !candidate.suits()) continue;
-        SecondForm form(candidate, analyses);
-        if (!form.make()) continue;
-        form.promote();
-        return true;
+/// The loops of one function.
+class SecondForms {
+  public:
+    SecondForms(llvm::Function& function, llvm::FunctionAnalysisManager& analyses)
+        : function_(function), analyses_(analyses) {}
+
+    /// True when something has changed.
+    bool make() {
+        prepare();
+        while (giveOne())
+            analyses_.invalidate(function_, llvm::PreservedAnalyses::none());
+        return changed_;
     }
-    return false;
-}
+
+  private:
+    LoopAnalyses needed() {
+        return {analyses_.getResult<llvm::ScalarEvolutionAnalysis>(function_),
+                analyses_.getResult<llvm::DominatorTreeAnalysis>(function_),
+                analyses_.getResult<llvm::LoopAnalysis>(function_),
+                analyses_.getResult<llvm::AAManager>(function_),
+                analyses_.getResult<llvm::AssumptionAnalysis>(function_)};
+    }
+
+    void prepare() {
+        LoopAnalyses a = needed();
+        for (llvm::Loop* loop : a.loops) {
+            changed_ |=
+                llvm::simplifyLoop(loop, &a.dominators, &a.loops, &a.scev, &a.assumptions, nullptr, false);
+            changed_ |= llvm::formLCSSARecursively(*loop, a.dominators, &a.loops, &a.scev);
+        }
+    }
+
+    /// Gives one more loop its second form.
+    bool giveOne() {
+        LoopAnalyses a = needed();
+        for (llvm::Loop* loop : a.loops.getLoopsInPreorder()) {
+            if (!loop->isInnermost() || !seen_.insert(loop->getHeader()).second) continue;
+            changed_ |= joinEqualIndices(*loop, a);
+            ArrayLoop candidate(*loop, a);
+            if (!loop->isLCSSAForm(a.dominators) || !candidate.suits()) continue;
+            SecondForm form(candidate, a, buffers_);
+            if (!form.make()) continue;
+            form.promote();
+            return changed_ = true;
+        }
+        return false;
+    }
+
+    llvm::Function& function_;
+    llvm::FunctionAnalysisManager& analyses_;
+    llvm::SmallPtrSet<BasicBlock*, 8> seen_; ///< headers of loops that need not be looked at again
+    std::vector<llvm::AllocaInst*> buffers_;
+    bool changed_ = false;
+};
 
 } // namespace
 
 llvm::PreservedAnalyses UncheckedRounds::run(llvm::Function& function,
                                              llvm::FunctionAnalysisManager& analyses) {
-    llvm::SmallPtrSet<BasicBlock*, 8> seen;
-    bool changed = false;
-    for (;;) {
-        LoopAnalyses needed{analyses.getResult<llvm::ScalarEvolutionAnalysis>(function),
-                            analyses.getResult<llvm::DominatorTreeAnalysis>(function),
-                            analyses.getResult<llvm::LoopAnalysis>(function),
-                            analyses.getResult<llvm::AAManager>(function),
-                            analyses.getResult<llvm::AssumptionAnalysis>(function)};
-        if (!changed)
-            for (llvm::Loop* loop : needed.loops) {
-                llvm::simplifyLoop(loop, &needed.dominators, &needed.loops, &needed.scev, &needed.assumptions,
-                                   nullptr, false);
-                llvm::formLCSSARecursively(*loop, needed.dominators, &needed.loops, &needed.scev);
-            }
-        if (!giveOne(needed, seen)) break;
-        changed = true;
-        analyses.invalidate(function, llvm::PreservedAnalyses::none());
-    }
-    return changed ? llvm::PreservedAnalyses::none() : llvm::PreservedAnalyses::all();
+    if (analyses.getResult<llvm::LoopAnalysis>(function).empty()) return llvm::PreservedAnalyses::all();
+    return SecondForms(function, analyses).make() ? llvm::PreservedAnalyses::none()
+                                                  : llvm::PreservedAnalyses::all();
 }
 
 } // namespace codegen
