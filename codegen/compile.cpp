@@ -11,6 +11,7 @@
 #include <llvm/Support/raw_ostream.h>
 #include <llvm/TargetParser/Host.h>
 #include <llvm/TargetParser/Triple.h>
+#include <llvm/Transforms/Scalar/LoopUnrollPass.h>
 
 #include "codegen/budget_loops.h"
 #include "codegen/huge_routines.h"
@@ -19,6 +20,9 @@
 #include "codegen/native_bodies.h"
 #include "codegen/paced_routines.h"
 #include "codegen/peepholes.h"
+#include "codegen/short_loops.h"
+#include "codegen/small_copies.h"
+#include "codegen/unchecked_rounds.h"
 
 namespace codegen {
 
@@ -104,11 +108,18 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
     builder.registerPeepholeEPCallback([](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
         passes.addPass(SplitResults());
         passes.addPass(FiniteChecks());
+        passes.addPass(SmallCopies());
     });
     builder.registerScalarOptimizerLateEPCallback(
-        [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) { passes.addPass(IntegralValues()); });
-    builder.registerVectorizerStartEPCallback(
-        [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) { passes.addPass(BudgetLoops()); });
+        [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
+            passes.addPass(IntegralValues());
+            passes.addPass(ShortLoops());
+            passes.addPass(llvm::createFunctionToLoopPassAdaptor(llvm::LoopFullUnrollPass(2)));
+        });
+    builder.registerVectorizerStartEPCallback([](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
+        passes.addPass(BudgetLoops());
+        passes.addPass(UncheckedRounds());
+    });
     runO2(module, builder);
 }
 

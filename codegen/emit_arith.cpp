@@ -58,7 +58,7 @@ llvm::Value* RoutineEmitter::intArithmetic(const ir::Inst& inst) {
     switch (ir::as<ir::IntOp>(inst.op)) {
     case ir::IntOp::IAdd: return b_.CreateAdd(a, operand(inst, 1), "", false, inst.extra == 1);
     case ir::IntOp::ISub: return b_.CreateSub(a, operand(inst, 1));
-    case ir::IntOp::IMul: return b_.CreateMul(a, operand(inst, 1));
+    case ir::IntOp::IMul: return b_.CreateMul(a, operand(inst, 1), "", false, inst.extra == 1);
     case ir::IntOp::INeg: return b_.CreateNeg(a);
     case ir::IntOp::IDiv:
     case ir::IntOp::IRem: return divide(inst);

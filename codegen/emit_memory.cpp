@@ -7,6 +7,28 @@
 
 namespace codegen {
 
+namespace {
+
+using Scalar = RoutineEmitter::Scalar;
+
+/// Records with more are copied in one piece.
+constexpr size_t kMostScalars = 16;
+
+/// False: there are too many, or some are arrays or strings.
+bool scalarsOf(const ir::Module& module, ir::TypeId type, uint32_t offset, std::vector<Scalar>& out) {
+    if (module.isScalar(type)) {
+        out.push_back({type, offset});
+        return out.size() <= kMostScalars;
+    }
+    if (module.types[type].kind != ir::TypeKind::Record) return false;
+    for (uint32_t i = 0; i < module.types[type].fields.size(); ++i)
+        if (!scalarsOf(module, module.types[type].fields[i].type, offset + module.fieldOffset(type, i), out))
+            return false;
+    return true;
+}
+
+} // namespace
+
 llvm::Value* RoutineEmitter::leaf(const ir::Inst& inst) {
     switch (ir::as<ir::LeafOp>(inst.op)) {
     case ir::LeafOp::Const: return constant(inst);
@@ -31,8 +53,10 @@ void RoutineEmitter::memory(const ir::Inst& inst, ir::ValueId id) {
         Value* index = b_.CreateSExt(operand(inst, 1), b_.getInt64Ty());
         return define(id, b_.CreateInBoundsGEP(m_.memoryType(inst.type), operand(inst, 0), index));
     }
-    case ir::MemoryOp::Load: return define(id, load(inst.type, operand(inst, 0)));
-    case ir::MemoryOp::Store: return store(inst.type, operand(inst, 0), operand(inst, 1));
+    case ir::MemoryOp::Load:
+        return define(id, load(inst.type, operand(inst, 0), tagOf(inst.type, inst.operands[0])));
+    case ir::MemoryOp::Store:
+        return store(inst.type, operand(inst, 0), operand(inst, 1), tagOf(inst.type, inst.operands[1]));
     case ir::MemoryOp::Copy: return copy(inst);
     case ir::MemoryOp::CopyDynamic:
         b_.CreateMemMove(operand(inst, 0), llvm::Align(1), operand(inst, 1), llvm::Align(1),
@@ -59,17 +83,29 @@ llvm::Value* RoutineEmitter::fieldOf(const ir::Inst& inst) {
     return offset ? byteOffset(base, b_.getInt64(offset)) : base;
 }
 
-llvm::Value* RoutineEmitter::load(ir::TypeId type, Value* pointer) {
+/// Which component of which record the address names.
+llvm::MDNode* RoutineEmitter::tagOf(ir::TypeId type, ir::ValueId address) {
+    uint32_t offset = 0;
+    ir::TypeId record = ir::kVoid;
+    for (const ir::Inst* at = &routine_.insts[address]; at->op == ir::Op::FieldAddr;
+         at = &routine_.insts[at->operands[0]]) {
+        record = at->type;
+        offset += module_.fieldOffset(record, at->index);
+    }
+    return record == ir::kVoid ? nullptr : m_.componentTag(record, offset, type);
+}
+
+llvm::Value* RoutineEmitter::load(ir::TypeId type, Value* pointer, llvm::MDNode* tag) {
     auto* read = b_.CreateAlignedLoad(m_.memoryType(type), pointer, llvm::Align(module_.align(type)));
-    read->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().data[type]);
+    read->setMetadata(llvm::LLVMContext::MD_tbaa, tag ? tag : m_.tags().data[type]);
     if (type != ir::kBool) return read;
     return b_.CreateICmpNE(read, b_.getInt8(0));
 }
 
-void RoutineEmitter::store(ir::TypeId type, Value* content, Value* pointer) {
+void RoutineEmitter::store(ir::TypeId type, Value* content, Value* pointer, llvm::MDNode* tag) {
     if (type == ir::kBool) content = b_.CreateZExt(content, b_.getInt8Ty());
     auto* write = b_.CreateAlignedStore(content, pointer, llvm::Align(module_.align(type)));
-    write->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().data[type]);
+    write->setMetadata(llvm::LLVMContext::MD_tbaa, tag ? tag : m_.tags().data[type]);
 }
 
 /// Memory of a size known only now: it has to fit above the stack's limit.
@@ -94,11 +130,36 @@ llvm::Value* RoutineEmitter::stackAlloc(const ir::Inst& inst) {
     return memory;
 }
 
+/// One by one: what was stored one by one has not reached the memory yet, and the processor does not put a wider load together
+/// of several stores that are under way.
+void RoutineEmitter::copyScalars(const ir::Inst& inst, const std::vector<Scalar>& scalars) {
+    const auto at = [&](size_t pointer, const Scalar& scalar) {
+        return byteOffset(operand(inst, pointer), b_.getInt64(scalar.offset));
+    };
+    const auto mark = [&](llvm::Instruction* access, const Scalar& scalar) {
+        access->setMetadata(llvm::LLVMContext::MD_tbaa,
+                            m_.componentTag(inst.type, scalar.offset, scalar.type));
+    };
+    std::vector<Value*> contents;
+    for (const Scalar& scalar : scalars) {
+        auto* read = b_.CreateAlignedLoad(m_.memoryType(scalar.type), at(1, scalar),
+                                          llvm::Align(module_.align(scalar.type)));
+        mark(read, scalar);
+        contents.push_back(read);
+    }
+    for (size_t i = 0; i < scalars.size(); ++i)
+        mark(b_.CreateAlignedStore(contents[i], at(0, scalars[i]),
+                                   llvm::Align(module_.align(scalars[i].type))),
+             scalars[i]);
+}
+
 void RoutineEmitter::copy(const ir::Inst& inst) {
     if (module_.isScalar(inst.type)) {
         store(inst.type, load(inst.type, operand(inst, 1)), operand(inst, 0));
         return;
     }
+    if (std::vector<Scalar> scalars; m_.options().optimise && scalarsOf(module_, inst.type, 0, scalars))
+        return copyScalars(inst, scalars);
     llvm::Align align(module_.align(inst.type));
     b_.CreateMemCpy(operand(inst, 0), align, operand(inst, 1), align, module_.size(inst.type));
 }

@@ -29,8 +29,10 @@ std::vector<unsigned> choices(const llvm::Instruction& node) {
 
 class Web {
   public:
-    Web(llvm::Function& function, llvm::FunctionAnalysisManager& analyses)
-        : function_(function), analyses_(analyses) {}
+    /// `masks`: receives what only says how large numbers are.
+    Web(llvm::Function& function, llvm::FunctionAnalysisManager& analyses,
+        std::vector<llvm::WeakTrackingVH>& masks)
+        : function_(function), analyses_(analyses), masks_(masks) {}
 
     bool run() {
         for (llvm::Instruction& inst : llvm::instructions(function_))
@@ -170,6 +172,7 @@ class Web {
             // What is known of the numbers gets lost in loops; the mask says it.
             Value* bounded =
                 b.CreateAnd(made, llvm::ConstantInt::get(made->getType(), (uint64_t{1} << bits_[node]) - 1));
+            masks_.emplace_back(bounded);
             node->replaceAllUsesWith(b.CreateUIToFP(bounded, node->getType()));
         }
         for (auto& [node, made] : nodes_)
@@ -178,6 +181,7 @@ class Web {
 
     llvm::Function& function_;
     llvm::FunctionAnalysisManager& analyses_;
+    std::vector<llvm::WeakTrackingVH>& masks_;
     llvm::DenseMap<Value*, unsigned> bits_;
     llvm::MapVector<llvm::Instruction*, llvm::Instruction*> nodes_; ///< and what replaces them
 };
@@ -193,6 +197,17 @@ bool simplifyWholes(llvm::Function& function, llvm::FunctionAnalysisManager& ana
     return true;
 }
 
+/// The number of rounds that a loop makes is found where its counter is a phi, not the lowest bits of one.
+void dropMasks(const std::vector<llvm::WeakTrackingVH>& masks) {
+    for (const llvm::WeakTrackingVH& mask : masks) {
+        auto* lowest = llvm::dyn_cast_or_null<llvm::BinaryOperator>(static_cast<Value*>(mask));
+        if (lowest == nullptr || lowest->getOpcode() != llvm::Instruction::And) continue;
+        auto* phi = llvm::dyn_cast<llvm::PHINode>(lowest->getOperand(0));
+        if (phi != nullptr && llvm::isa<llvm::ConstantInt>(lowest->getOperand(1)))
+            lowest->replaceAllUsesWith(phi);
+    }
+}
+
 } // namespace
 
 llvm::PreservedAnalyses IntegralValues::run(llvm::Function& function,
@@ -204,7 +219,8 @@ llvm::PreservedAnalyses IntegralValues::run(llvm::Function& function,
     asKnownBefore.abandon<llvm::LazyValueAnalysis>(); // it keeps what it once could not tell
     analyses.invalidate(function, asKnownBefore);
     bool changed = simplifyWholes(function, analyses);
-    for (int round = 0; round < kMostRounds && Web(function, analyses).run(); ++round) {
+    std::vector<llvm::WeakTrackingVH> masks;
+    for (int round = 0; round < kMostRounds && Web(function, analyses, masks).run(); ++round) {
         changed = true;
         analyses.invalidate(function, preserved);
         analyses.invalidate(function, llvm::InstCombinePass().run(function, analyses));
@@ -212,6 +228,7 @@ llvm::PreservedAnalyses IntegralValues::run(llvm::Function& function,
         analyses.invalidate(function, llvm::InstCombinePass().run(function, analyses));
         simplifyWholes(function, analyses);
     }
+    dropMasks(masks);
     return changed ? llvm::PreservedAnalyses::none() : llvm::PreservedAnalyses::all();
 }
 

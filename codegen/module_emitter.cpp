@@ -87,9 +87,9 @@ void ModuleEmitter::declareTypes() {
     i64_ = llvm::Type::getInt64Ty(context_);
     llvm::MDBuilder md(context_);
     unlikely_ = md.createBranchWeights(kErrorsAreCold, 1);
-    llvm::MDNode* root = md.createTBAARoot("rapidc");
+    tags_.root = md.createTBAARoot("rapidc");
     auto tag = [&](const std::string& name) {
-        llvm::MDNode* node = md.createTBAAScalarTypeNode(name, root);
+        llvm::MDNode* node = md.createTBAAScalarTypeNode(name, tags_.root);
         return md.createTBAAStructTagNode(node, node, 0);
     };
     for (ir::TypeId t = ir::kBool; t < ir::kScalarTypes; ++t)

@@ -51,6 +51,7 @@ struct AccessTags {
     llvm::MDNode* data[ir::kScalarTypes] = {}; ///< by scalar TypeId
     llvm::MDNode* task = nullptr;
     llvm::MDNode* frame = nullptr;
+    llvm::MDNode* root = nullptr;
 };
 
 /// Fills the frame record and calls rt_safepoint; what follows the frame goes into the record.
@@ -95,6 +96,8 @@ class ModuleEmitter {
     llvm::Type* valueType(ir::TypeId type);
     llvm::Type* memoryType(ir::TypeId type);
     const AccessTags& tags() const { return tags_; }
+    /// Of a scalar that lies at `offset` of a record: accesses to other components of such records are other memory.
+    llvm::MDNode* componentTag(ir::TypeId record, uint32_t offset, ir::TypeId scalar);
     const RuntimeParts& runtime() const { return runtime_; }
     llvm::MDNode* unlikely() {
         return unlikely_;
@@ -122,6 +125,7 @@ class ModuleEmitter {
   private:
     // module_emitter.cpp
     void declareTypes();
+    llvm::MDNode* accessNode(ir::TypeId type);
     void declareRuntime();
     /// Of what other parts refer to, and of what they do not.
     void share(llvm::GlobalValue& value) const;
@@ -188,6 +192,7 @@ class ModuleEmitter {
     std::unique_ptr<llvm::Module> target_;
     std::unique_ptr<DebugInfo> debug_;
     AccessTags tags_;
+    std::unordered_map<ir::TypeId, llvm::MDNode*> accessNodes_; ///< of records
     RuntimeParts runtime_;
     llvm::MDNode* unlikely_ = nullptr;
     std::vector<llvm::Function*> routines_, natives_, cEntries_;

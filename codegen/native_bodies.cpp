@@ -24,7 +24,7 @@ bool isLibraryFunction(llvm::StringRef name) {
     return isMemoryFunction(name) ||
            llvm::StringSwitch<bool>(name)
                .Cases("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "log", "pow", true)
-               .Cases("fmod", "fmodf", "remquo", "round", "roundf", true)
+               .Cases("fmod", "fmodf", "remquo", "round", "roundf", "sincos", true)
                .Default(false);
 }
 

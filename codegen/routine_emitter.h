@@ -25,6 +25,12 @@ class RoutineEmitter {
     ~RoutineEmitter();
     void run();
 
+    /// Within a record.
+    struct Scalar {
+        ir::TypeId type;
+        uint32_t offset;
+    };
+
   private:
     using Value = llvm::Value;
     using BasicBlock = llvm::BasicBlock;
@@ -97,9 +103,12 @@ class RoutineEmitter {
     Value* leaf(const ir::Inst& inst);
     void memory(const ir::Inst& inst, ir::ValueId id);
     Value* fieldOf(const ir::Inst& inst);
-    Value* load(ir::TypeId type, Value* pointer);
-    void store(ir::TypeId type, Value* value, Value* pointer);
+    /// `tag`: null for that of the type.
+    Value* load(ir::TypeId type, Value* pointer, llvm::MDNode* tag = nullptr);
+    void store(ir::TypeId type, Value* value, Value* pointer, llvm::MDNode* tag = nullptr);
+    llvm::MDNode* tagOf(ir::TypeId type, ir::ValueId address);
     void copy(const ir::Inst& inst);
+    void copyScalars(const ir::Inst& inst, const std::vector<Scalar>& scalars);
     Value* stackAlloc(const ir::Inst& inst);
     Value* byteOffset(Value* pointer, Value* offset);
 

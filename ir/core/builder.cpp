@@ -169,6 +169,11 @@ ValueId Builder::binary(Op op, ValueId a, ValueId b) {
     TypeId type = opInfo(op).result == ResultRule::Bool ? kBool : typeOf(a);
     return emit(make(op, type, {a, b}));
 }
+ValueId Builder::binaryInRange(Op op, ValueId a, ValueId b) {
+    Inst inst = make(op, typeOf(a), {a, b});
+    inst.extra = 1;
+    return emit(std::move(inst));
+}
 ValueId Builder::unary(Op op, ValueId a) {
     return emit(make(op, typeOf(a), {a}));
 }

@@ -429,8 +429,9 @@ class Builder {
     void zero(TypeId type, ValueId dst);
     ValueId fieldAddr(TypeId record, ValueId ptr, uint32_t field);
     ValueId elemAddr(TypeId element, ValueId ptr, ValueId zeroBasedIndex);
-    ValueId binary(Op op, ValueId a, ValueId b); ///< result type from the operands (comparisons: Bool)
-    ValueId unary(Op op, ValueId a);             ///< FNeg, INeg, Not
+    ValueId binary(Op op, ValueId a, ValueId b);        ///< result type from the operands (comparisons: Bool)
+    ValueId binaryInRange(Op op, ValueId a, ValueId b); ///< IAdd, IMul whose result cannot overflow
+    ValueId unary(Op op, ValueId a);                    ///< FNeg, INeg, Not
     ValueId convert(Op op, TypeId to, ValueId a);
     ValueId select(ValueId cond, ValueId a, ValueId b);
     void check(ValueId cond, int32_t errorNumber); ///< raises errorNumber when cond is false

@@ -112,7 +112,8 @@ RoutineLowering::Place RoutineLowering::elementPlace(const IndexExpr& expr) {
         const ValueId dim = dimValue(base, dimNumber);
         bool safe = false;
         const ValueId index = lowerIndex(*expr.indices[k], dim, base.type.dims[k], safe);
-        flat = k == 0 ? index : b_.binary(Op::IAdd, b_.binary(Op::IMul, flat, dim), index);
+        // The indices have been checked: the element is one of those in memory.
+        flat = k == 0 ? index : b_.binaryInRange(Op::IAdd, b_.binaryInRange(Op::IMul, flat, dim), index);
     }
     Place p;
     p.type = scalarType(base.type.type);

@@ -118,24 +118,42 @@ class CheckMerger {
         return {};
     }
 
+    /// Of 2^level values.
+    struct PartialSum {
+        ValueId value;
+        unsigned level;
+    };
+
+    /// Values are added where they are known, so that few have to be kept, and in pairs, so that no addition waits for all
+    /// those before it.
+    void include(std::vector<PartialSum>& sums, PartialSum sum, StmtId stmt, std::vector<ValueId>& out) {
+        sums.push_back(sum);
+        while (sums.size() > 1 && sums.back().level == sums[sums.size() - 2].level)
+            joinLast(sums, stmt, out);
+    }
+
+    void joinLast(std::vector<PartialSum>& sums, StmtId stmt, std::vector<ValueId>& out) {
+        const PartialSum last = sums.back();
+        sums.pop_back();
+        PartialSum& before = sums.back();
+        out.push_back(add(Op::FAdd, valueType(inst(last.value)), {before.value, last.value}, stmt));
+        before = {out.back(), std::max(before.level, last.level) + 1};
+    }
+
     void merge(BlockId b, const Region& region) {
         const std::vector<ValueId> insts = std::move(routine_.blocks[b].insts);
         const std::vector<bool> covered = findCovered(insts, region);
         const StmtId stmt = inst(insts[region.end - 1]).stmt;
         std::vector<ValueId> fast(insts.begin(), insts.begin() + static_cast<std::ptrdiff_t>(region.begin));
         std::vector<ValueId> undo, again;
-        ValueId sums[2] = {kNone, kNone};
+        std::vector<PartialSum> sums[2];
         for (size_t i = region.begin; i < region.end; ++i) {
             const ValueId id = insts[i];
             const Inst now = inst(id);
             if (now.op == Op::CheckFinite) {
                 again.push_back(id);
-                const TypeId type = valueType(inst(now.operands[0]));
-                ValueId& sum = sums[type == kF64];
-                if (covered[now.operands[0]]) continue;
-                // Further values are added where they are known, so that few have to be kept.
-                sum = sum == kNone ? now.operands[0] : add(Op::FAdd, type, {sum, now.operands[0]}, stmt);
-                if (sum != now.operands[0]) fast.push_back(sum);
+                if (!covered[now.operands[0]])
+                    include(sums[valueType(inst(now.operands[0])) == kF64], {now.operands[0], 0}, stmt, fast);
                 continue;
             }
             if (now.op == Op::Store) {
@@ -147,9 +165,11 @@ class CheckMerger {
             fast.push_back(id);
         }
         ValueId fine = kNone;
-        for (const ValueId sum : sums) {
-            if (sum == kNone) continue;
-            const ValueId finite = add(Op::IsFinite, kBool, {sum}, stmt);
+        for (std::vector<PartialSum>& sum : sums) {
+            if (sum.empty()) continue;
+            while (sum.size() > 1)
+                joinLast(sum, stmt, fast);
+            const ValueId finite = add(Op::IsFinite, kBool, {sum[0].value}, stmt);
             fast.push_back(finite);
             if (fine != kNone) fast.push_back(add(Op::And, kBool, {fine, finite}, stmt));
             fine = fast.back();

@@ -232,7 +232,7 @@ class RoutinePrinter {
 
     void instruction(const Inst& inst) {
         put(out_, "{}", opInfo(inst.op).text);
-        if (inst.op == Op::IAdd && inst.extra == 1) put(out_, " nsw");
+        if ((inst.op == Op::IAdd || inst.op == Op::IMul) && inst.extra == 1) put(out_, " nsw");
         if (opInfo(inst.op).showsType) put(out_, " {}", typeName(inst.type));
         switch (opInfo(inst.op).form) {
         case Form::Plain: operands(inst); return;

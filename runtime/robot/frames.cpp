@@ -11,14 +11,30 @@ namespace robot {
 namespace {
 constexpr double kDeg = std::numbers::pi / 180.0;
 
+struct HalfAngle {
+    double cosine, sine;
+};
+
+/// Without calling the library for the commonest angle, 0.
+HalfAngle halfOf(double deg) {
+    const double half = deg * kDeg / 2;
+    if (half == 0) return {1, half};
+    HalfAngle both{};
+    ::sincos(half, &both.sine, &both.cosine);
+    return both;
+}
+
 Quat aboutX(double deg) {
-    return {std::cos(deg * kDeg / 2), std::sin(deg * kDeg / 2), 0, 0};
+    const HalfAngle half = halfOf(deg);
+    return {half.cosine, half.sine, 0, 0};
 }
 Quat aboutY(double deg) {
-    return {std::cos(deg * kDeg / 2), 0, std::sin(deg * kDeg / 2), 0};
+    const HalfAngle half = halfOf(deg);
+    return {half.cosine, 0, half.sine, 0};
 }
 Quat aboutZ(double deg) {
-    return {std::cos(deg * kDeg / 2), 0, 0, std::sin(deg * kDeg / 2)};
+    const HalfAngle half = halfOf(deg);
+    return {half.cosine, 0, 0, half.sine};
 }
 } // namespace
 

@@ -21,10 +21,11 @@ Status rt_EulerZYX(TaskCore* task, float* result, bool X, bool Y, bool Z, const 
 
 Status rt_OrientZYX(TaskCore* task, data::Orient* result, float ZAngle, float YAngle, float XAngle) {
     // By half angles: exact for multiples of 90 degrees.
-    const robot::Quat z{cosDeg(ZAngle / 2.0), 0, 0, sinDeg(ZAngle / 2.0)};
-    const robot::Quat y{cosDeg(YAngle / 2.0), 0, sinDeg(YAngle / 2.0), 0};
-    const robot::Quat x{cosDeg(XAngle / 2.0), sinDeg(XAngle / 2.0), 0, 0};
-    return give(task, result, toOrient(z * y * x));
+    const SineCosine z = sinCosDeg(ZAngle / 2.0), y = sinCosDeg(YAngle / 2.0), x = sinCosDeg(XAngle / 2.0);
+    const robot::Quat aboutZ{z.cosine, 0, 0, z.sine};
+    const robot::Quat aboutY{y.cosine, 0, y.sine, 0};
+    const robot::Quat aboutX{x.cosine, x.sine, 0, 0};
+    return give(task, result, toOrient(aboutZ * aboutY * aboutX));
 }
 
 Status rt_NOrient(TaskCore* task, data::Orient* result, const data::Orient* Rotation) {

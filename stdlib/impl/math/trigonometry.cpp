@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 using namespace rt;
 
@@ -40,6 +41,15 @@ double cosDeg(double degrees) {
     const double rest = reduced(degrees, quadrant) * kDegree;
     const double value = quadrant % 2 == 0 ? std::cos(rest) : std::sin(rest);
     return quadrant == 0 || quadrant == 3 ? value : 0.0 - value;
+}
+
+SineCosine sinCosDeg(double degrees) {
+    int quadrant = 0;
+    const double rest = reduced(degrees, quadrant) * kDegree;
+    double sine = 0, cosine = 0;
+    ::sincos(rest, &sine, &cosine);
+    if (quadrant % 2 != 0) std::swap(sine, cosine);
+    return {quadrant < 2 ? sine : 0.0 - sine, quadrant == 0 || quadrant == 3 ? cosine : 0.0 - cosine};
 }
 
 double tanDeg(double degrees) {

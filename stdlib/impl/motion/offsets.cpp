@@ -15,7 +15,9 @@ Status rt_Offs(TaskCore* task, data::Robtarget* result, const data::Robtarget* P
     out.trans.x += XOffset;
     out.trans.y += YOffset;
     out.trans.z += ZOffset;
-    return lib::give(task, result, out);
+    if (!lib::isFinite(out.trans)) return lib::tooLarge(task);
+    *result = out;
+    return kOk;
 }
 
 Status rt_RelTool(TaskCore* task, data::Robtarget* result, const data::Robtarget* Point, float Dx, float Dy,
@@ -26,6 +28,8 @@ Status rt_RelTool(TaskCore* task, data::Robtarget* result, const data::Robtarget
     data::Robtarget out = *Point;
     out.trans = lib::toPos(moved.pos);
     out.rot = lib::toOrient(moved.rot);
-    return lib::give(task, result, out);
+    if (!lib::isFinite(out.trans) || !lib::isFinite(out.rot)) return lib::tooLarge(task);
+    *result = out;
+    return kOk;
 }
 }
