@@ -12,6 +12,7 @@
 #include <llvm/TargetParser/Triple.h>
 
 #include "codegen/budget_loops.h"
+#include "codegen/constant_calls.h"
 #include "codegen/integral_values.h"
 #include "codegen/module_emitter.h"
 #include "codegen/native_bodies.h"
@@ -99,6 +100,7 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
     builder.registerPeepholeEPCallback([](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
         passes.addPass(SplitResults());
         passes.addPass(FiniteChecks());
+        passes.addPass(ConstantCalls());
     });
     builder.registerScalarOptimizerLateEPCallback(
         [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) { passes.addPass(IntegralValues()); });

@@ -8,6 +8,7 @@
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/Instructions.h>
+#include <llvm/IR/IntrinsicInst.h>
 #include <llvm/IR/PatternMatch.h>
 #include <llvm/Transforms/Utils/Local.h>
 
@@ -88,8 +89,15 @@ class Wholes {
         case llvm::Instruction::FCmp:
             return convertedWhole(inst.getOperand(0)) || convertedWhole(inst.getOperand(1));
         case llvm::Instruction::FPToSI: return convertedWhole(inst.getOperand(0));
+        case llvm::Instruction::Call: return isSaturated(inst) && convertedWhole(inst.getOperand(0));
         default: return false;
         }
+    }
+
+    /// A conversion that gives the nearest integer where the number is out of range (bounds of loops).
+    static bool isSaturated(const llvm::Instruction& inst) {
+        const auto* call = llvm::dyn_cast<llvm::IntrinsicInst>(&inst);
+        return call && call->getIntrinsicID() == llvm::Intrinsic::fptosi_sat;
     }
 
     std::optional<Whole> whole(Value* value, llvm::Instruction& at) {
@@ -123,7 +131,7 @@ class Wholes {
         const auto a = whole(inst.getOperand(0), inst);
         if (!a) return nullptr;
         llvm::IRBuilder<> b(&inst);
-        if (llvm::isa<llvm::FPToSIInst>(inst)) {
+        if (llvm::isa<llvm::FPToSIInst>(inst) || isSaturated(inst)) {
             auto* type = llvm::cast<llvm::IntegerType>(inst.getType());
             return fits(a->range, type->getBitWidth()) ? integer(b, *a, type) : nullptr;
         }
