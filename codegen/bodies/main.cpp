@@ -7,8 +7,11 @@
 #include <llvm/IR/AttributeMask.h>
 #include <llvm/IR/DebugInfo.h>
 #include <llvm/IR/IRBuilder.h>
+#include <llvm/IR/InstIterator.h>
 #include <llvm/IR/LLVMContext.h>
+#include <llvm/IR/MDBuilder.h>
 #include <llvm/IR/Module.h>
+#include <llvm/IR/PatternMatch.h>
 #include <llvm/IR/Verifier.h>
 #include <llvm/Linker/Linker.h>
 #include <llvm/Passes/PassBuilder.h>
@@ -25,6 +28,8 @@
 #include <vector>
 
 namespace {
+
+using namespace llvm::PatternMatch;
 
 bool fail(const std::string& message) {
     std::fprintf(stderr, "native_bodies: %s\n", message.c_str());
@@ -88,6 +93,25 @@ void useSquareRoots(llvm::Module& module) {
             call->eraseFromParent();
         }
         library->eraseFromParent();
+    }
+}
+
+/// What is assumed of a loaded number is noted at the load: so it stays known wherever the number gets to.
+void noteRanges(llvm::Module& module) {
+    for (llvm::Function& function : module) {
+        for (llvm::Instruction& inst : llvm::make_early_inc_range(llvm::instructions(function))) {
+            llvm::ICmpInst::Predicate predicate = llvm::ICmpInst::BAD_ICMP_PREDICATE;
+            llvm::Instruction* number = nullptr;
+            const llvm::APInt* limit = nullptr;
+            if (!match(&inst, m_Intrinsic<llvm::Intrinsic::assume>(
+                                  m_ICmp(predicate, m_Instruction(number), m_APInt(limit)))) ||
+                predicate != llvm::ICmpInst::ICMP_ULT || !llvm::isa<llvm::LoadInst>(number))
+                continue;
+            const llvm::APInt none = llvm::APInt::getZero(limit->getBitWidth());
+            number->setMetadata(llvm::LLVMContext::MD_range,
+                                llvm::MDBuilder(module.getContext()).createRange(none, *limit));
+            inst.eraseFromParent();
+        }
     }
 }
 
@@ -178,6 +202,7 @@ int main(int argc, char** argv) {
     stripOrigin(all);
     internalize(all);
     useSquareRoots(all);
+    noteRanges(all);
     std::vector<llvm::Function*> natives;
     for (llvm::Function& function : all)
         if (isNative(function) && !function.isDeclaration()) natives.push_back(&function);

@@ -38,7 +38,7 @@ size_t rankOf(std::string_view character, std::string_view order) {
 
 /// Stores a position, which may be one more than a string has characters. Loops count with integers.
 Status givePosition(float* result, size_t position) {
-    __builtin_assume(position <= kStringCapacity + 1);
+    if (position > kStringCapacity + 1) __builtin_unreachable();
     *result = static_cast<float>(static_cast<int32_t>(position));
     return kOk;
 }
@@ -90,7 +90,7 @@ Status givePosition(float* result, size_t position) {
 
 /// The first character from `offset` on that is in the set, or is not; the length of the text: none.
 size_t findCharacter(const String& text, size_t offset, const lib::AsciiSet& set, bool notInSet) {
-    const size_t length = lib::lengthOf(text);
+    const size_t length = text.size();
     const uint32_t others = notInSet ? lib::kWholeBlock : 0;
     size_t block = offset / lib::kBlock * lib::kBlock;
     uint32_t wanted = lib::kWholeBlock << (offset - block);
@@ -104,7 +104,7 @@ size_t findCharacter(const String& text, size_t offset, const lib::AsciiSet& set
 
 /// Whether the text has `pattern` at `offset`; it is long enough.
 bool hasAt(const String& text, size_t offset, const String& pattern) {
-    const size_t size = lib::lengthOf(pattern);
+    const size_t size = pattern.size();
     const char* bytes = text.bytes + offset;
     if (size > lib::kBlock || offset + lib::kBlock > sizeof text.bytes)
         return std::memcmp(bytes, pattern.bytes, size) == 0;
@@ -114,8 +114,8 @@ bool hasAt(const String& text, size_t offset, const String& pattern) {
 
 /// Where `pattern` begins in `text` from `offset` on; the length of `text`: nowhere.
 size_t findText(const String& text, size_t offset, const String& pattern) {
-    const size_t length = lib::lengthOf(text);
-    const size_t size = lib::lengthOf(pattern);
+    const size_t length = text.size();
+    const size_t size = pattern.size();
     if (size == 0) return offset;
     if (size > length) return length;
     const size_t last = length - size;
@@ -137,7 +137,7 @@ size_t findText(const String& text, size_t offset, const String& pattern) {
 
 /// Where two texts begin to differ; the length of the shorter one: not before.
 size_t firstDifference(const String& a, const String& b) {
-    const size_t length = std::min(lib::lengthOf(a), lib::lengthOf(b));
+    const size_t length = std::min(a.size(), b.size());
     for (size_t block = 0; block < length; block += lib::kBlock) {
         const uint32_t different = ~lib::equalBytes(a.bytes + block, b.bytes + block) & lib::kWholeBlock;
         if (different != 0) return std::min(block + lib::firstOf(different), length);
@@ -147,7 +147,7 @@ size_t firstDifference(const String& a, const String& b) {
 
 /// rankOf for a character up to 0x7F: such a byte is never part of another character.
 size_t rankOfAscii(char character, const String& order) {
-    const size_t length = lib::lengthOf(order);
+    const size_t length = order.size();
     for (size_t block = 0; block < length; block += lib::kBlock) {
         const uint32_t found = lib::bytesEqualTo(order.bytes + block, character);
         if (found == 0) continue;
@@ -181,7 +181,7 @@ extern "C" {
 
 [[gnu::always_inline]] Status rt_StrLen(TaskCore*, float* result, const String* Str) {
     const size_t count = lib::characterCount(*Str);
-    __builtin_assume(count <= sizeof Str->bytes); // loops up to the length count with integers
+    if (count > kStringCapacity) __builtin_unreachable(); // loops up to the length count with integers
     *result = static_cast<float>(count);
     return kOk;
 }
@@ -216,7 +216,7 @@ Status rt_StrSize(TaskCore*, float* result, const String* Str) {
 [[gnu::always_inline]] Status rt_StrMemb(TaskCore* task, bool* result, const String* Str, float ChPos,
                                          const String* Set) {
     size_t position = 0;
-    if (!readPosition(ChPos, 1, lib::lengthOf(*Str), position) || !lib::isAscii(*Str)) {
+    if (!readPosition(ChPos, 1, Str->size(), position) || !lib::isAscii(*Str)) {
         bool isMember = false;
         const Status status = memberOfMixed(task, isMember, *Str, ChPos, *Set);
         *result = isMember;
@@ -228,7 +228,7 @@ Status rt_StrSize(TaskCore*, float* result, const String* Str) {
 
 [[gnu::always_inline]] Status rt_StrFind(TaskCore* task, float* result, const String* Str, float ChPos,
                                          const String* Set, bool NotInSet) {
-    const size_t length = lib::lengthOf(*Str);
+    const size_t length = Str->size();
     size_t position = 0;
     if (!readPosition(ChPos, 1, std::max<size_t>(length, 1), position) || !lib::isAscii(*Str)) {
         size_t found = 0;
@@ -240,7 +240,7 @@ Status rt_StrSize(TaskCore*, float* result, const String* Str) {
 }
 
 Status rt_StrMatch(TaskCore* task, float* result, const String* Str, float ChPos, const String* Pattern) {
-    const size_t length = lib::lengthOf(*Str);
+    const size_t length = Str->size();
     size_t position = 0;
     if (!lib::isAscii(*Str)) {
         size_t found = 0;
@@ -254,8 +254,8 @@ Status rt_StrMatch(TaskCore* task, float* result, const String* Str, float ChPos
 
 Status rt_StrOrder(TaskCore*, bool* result, const String* Str1, const String* Str2, const String* Order) {
     const size_t place = firstDifference(*Str1, *Str2);
-    const bool ends1 = place == lib::lengthOf(*Str1);
-    const bool ends2 = place == lib::lengthOf(*Str2);
+    const bool ends1 = place == Str1->size();
+    const bool ends2 = place == Str2->size();
     const char first1 = ends1 ? '\0' : Str1->bytes[place];
     const char first2 = ends2 ? '\0' : Str2->bytes[place];
     // A character up to 0x7F begins where its byte is: the characters before it are the same in both texts.

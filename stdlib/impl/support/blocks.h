@@ -19,13 +19,6 @@ inline constexpr size_t kBlock = 16;
 inline constexpr uint32_t kWholeBlock = 0xFFFF;
 static_assert(kStringCapacity % kBlock == 0);
 
-/// A loop over strings counts with integers when this is known.
-inline size_t lengthOf(const String& text) {
-    const size_t length = text.length;
-    __builtin_assume(length <= kStringCapacity);
-    return length;
-}
-
 #if defined(__clang__)
 
 /// Vectors of LLVM: few instructions of its IR, on all processors.
@@ -90,7 +83,7 @@ inline size_t firstOf(uint32_t mask) {
 /// and no branch, so that programs ask once for a string that does not change.
 inline bool isAscii(const String& text) {
     static_assert(kStringCapacity == 64 + kBlock);
-    const size_t length = lengthOf(text);
+    const size_t length = text.size();
     const uint64_t inFront = length >= 64 ? ~uint64_t{0} : (uint64_t{1} << length) - 1;
     const uint64_t inBack = length > 64 ? (uint64_t{1} << (length - 64)) - 1 : 0;
     return ((highBytesOfFront(text) & inFront) | (highBytes(text.bytes + 64) & inBack)) == 0;

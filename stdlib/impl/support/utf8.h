@@ -64,7 +64,7 @@ inline size_t characterCount(std::string_view text) {
     return isAscii(text) ? text.size() : mixedCharacterCount(text);
 }
 inline size_t characterCount(const String& text) {
-    return isAscii(text) ? lengthOf(text) : mixedCharacterCount(text.view());
+    return isAscii(text) ? text.size() : mixedCharacterCount(text.view());
 }
 /// Bytes of the first `count` characters.
 size_t bytesOf(std::string_view text, size_t count);
