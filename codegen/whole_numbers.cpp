@@ -199,29 +199,65 @@ llvm::Value* convertedWhole(const llvm::Value* value) {
     return converts && !cast->getType()->isVectorTy() ? cast->getOperand(0) : nullptr;
 }
 
+namespace {
+
+/// What is known of a whole number. In large routines LazyValueInfo gives up soon, so operands are looked at as well.
+class RangeSearch {
+  public:
+    explicit RangeSearch(llvm::FunctionAnalysisManager& analyses) : analyses_(analyses) {}
+
+    llvm::ConstantRange range(Value* whole, llvm::Instruction* at, unsigned depth) {
+        llvm::Function& function = *at->getFunction();
+        llvm::ConstantRange range = llvm::ConstantRange::fromKnownBits(
+            llvm::computeKnownBits(whole, function.getDataLayout()), /*IsSigned=*/false);
+        auto& ranges = analyses_.getResult<llvm::LazyValueAnalysis>(function);
+        range = range.intersectWith(ranges.getConstantRange(whole, at, /*UndefAllowed=*/false));
+        auto& evolution = analyses_.getResult<llvm::ScalarEvolutionAnalysis>(function);
+        if (evolution.isSCEVable(whole->getType()))
+            range = range.intersectWith(evolution.getUnsignedRange(evolution.getSCEV(whole)));
+        auto* inst = llvm::dyn_cast<llvm::Instruction>(whole);
+        if (depth == 0 || !inst || range.getUnsignedMax().getActiveBits() <= kKnownWell) return range;
+        return range.intersectWith(fromOperands(*inst, depth - 1));
+    }
+
+  private:
+    static constexpr unsigned kKnownWell = 8; // positions and bytes: operands would hardly tell more
+    static constexpr unsigned kMostOperands = 12;
+    static constexpr unsigned kMostLooks = 40; // in one search
+
+    llvm::ConstantRange operand(llvm::Instruction& inst, unsigned i, llvm::Instruction* at, unsigned depth) {
+        return range(inst.getOperand(i), at, depth);
+    }
+
+    llvm::ConstantRange fromOperands(llvm::Instruction& inst, unsigned depth) {
+        const llvm::ConstantRange unknown(inst.getType()->getIntegerBitWidth(), /*isFullSet=*/true);
+        if (++looks_ > kMostLooks) return unknown;
+        if (const auto* operation = llvm::dyn_cast<llvm::BinaryOperator>(&inst))
+            return operand(inst, 0, &inst, depth)
+                .binaryOp(operation->getOpcode(), operand(inst, 1, &inst, depth));
+        if (llvm::isa<llvm::ZExtInst>(inst) || llvm::isa<llvm::SExtInst>(inst) ||
+            llvm::isa<llvm::TruncInst>(inst))
+            return operand(inst, 0, &inst, depth)
+                .castOp(llvm::cast<llvm::CastInst>(inst).getOpcode(), inst.getType()->getIntegerBitWidth());
+        if (llvm::isa<llvm::SelectInst>(inst))
+            return operand(inst, 1, &inst, depth).unionWith(operand(inst, 2, &inst, depth));
+        const auto* phi = llvm::dyn_cast<llvm::PHINode>(&inst);
+        if (!phi || phi->getNumIncomingValues() > kMostOperands) return unknown;
+        llvm::ConstantRange all(unknown.getBitWidth(), /*isFullSet=*/false);
+        for (unsigned i = 0; i < phi->getNumIncomingValues() && !all.isFullSet(); ++i)
+            all = all.unionWith(operand(inst, i, phi->getIncomingBlock(i)->getTerminator(), depth));
+        return all;
+    }
+
+    llvm::FunctionAnalysisManager& analyses_;
+    unsigned looks_ = 0;
+};
+
+} // namespace
+
 llvm::ConstantRange rangeOfWhole(llvm::Value* whole, llvm::Instruction* at,
                                  llvm::FunctionAnalysisManager& analyses, unsigned depth) {
-    llvm::Function& function = *at->getFunction();
-    llvm::ConstantRange range = llvm::ConstantRange::fromKnownBits(
-        llvm::computeKnownBits(whole, function.getDataLayout()), /*IsSigned=*/false);
-    auto& ranges = analyses.getResult<llvm::LazyValueAnalysis>(function);
-    range = range.intersectWith(ranges.getConstantRange(whole, at, /*UndefAllowed=*/false));
-    auto& evolution = analyses.getResult<llvm::ScalarEvolutionAnalysis>(function);
-    if (evolution.isSCEVable(whole->getType()))
-        range = range.intersectWith(evolution.getUnsignedRange(evolution.getSCEV(whole)));
-    // In large routines LazyValueInfo gives up soon.
-    const auto* inst = llvm::dyn_cast<llvm::Instruction>(whole);
-    if (depth == 0 || !inst) return range;
-    const auto operand = [&](unsigned i) {
-        return rangeOfWhole(inst->getOperand(i), const_cast<llvm::Instruction*>(inst), analyses, depth - 1);
-    };
-    if (const auto* operation = llvm::dyn_cast<llvm::BinaryOperator>(inst))
-        return range.intersectWith(operand(0).binaryOp(operation->getOpcode(), operand(1)));
-    if (llvm::isa<llvm::ZExtInst>(inst) || llvm::isa<llvm::SExtInst>(inst) ||
-        llvm::isa<llvm::TruncInst>(inst))
-        return range.intersectWith(operand(0).castOp(llvm::cast<llvm::CastInst>(inst)->getOpcode(),
-                                                     inst->getType()->getIntegerBitWidth()));
-    return range;
+    return RangeSearch(analyses).range(whole, at, depth);
 }
 
 unsigned exactBits(const llvm::Type* type) {

@@ -36,10 +36,11 @@ size_t rankOf(std::string_view character, std::string_view order) {
     return order.size() + lib::codePoint(character);
 }
 
-/// Stores a position, which may be one more than a string has characters. Loops count with integers.
+/// Stores a position, which may be one more than a string has characters. Programs count with integers when they know how
+/// many bits it has.
 Status givePosition(float* result, size_t position) {
-    if (position > kStringCapacity + 1) __builtin_unreachable();
-    *result = static_cast<float>(static_cast<int32_t>(position));
+    static_assert(kStringCapacity + 1 <= 0x7F);
+    *result = static_cast<float>(static_cast<int32_t>(position & 0x7F));
     return kOk;
 }
 
