@@ -90,7 +90,7 @@ Status givePosition(float* result, size_t position) {
 }
 
 /// The first character from `offset` on that is in the set, or is not; the length of the text: none.
-size_t findCharacter(const String& text, size_t offset, const lib::AsciiSet& set, bool notInSet) {
+size_t findCharacter(const String& text, size_t offset, const lib::AsciiRows& set, bool notInSet) {
     const size_t length = text.size();
     const uint32_t others = notInSet ? lib::kWholeBlock : 0;
     size_t block = offset / lib::kBlock * lib::kBlock;
@@ -203,7 +203,7 @@ Status rt_StrSize(TaskCore*, float* result, const String* Str) {
         return lib::fail(task, err::ERR_ARGVALERR,
                          "the part is negative or reaches beyond the end of the string");
     size_t begin = first - 1;
-    if (length != bytes.size()) {
+    if (length != bytes.size()) [[unlikely]] {
         begin = lib::bytesOf(bytes, begin);
         count = lib::bytesOf(lib::rest(bytes, begin), count);
     }
@@ -217,7 +217,7 @@ Status rt_StrSize(TaskCore*, float* result, const String* Str) {
 [[gnu::always_inline]] Status rt_StrMemb(TaskCore* task, bool* result, const String* Str, float ChPos,
                                          const String* Set) {
     size_t position = 0;
-    if (!readPosition(ChPos, 1, Str->size(), position) || !lib::isAscii(*Str)) {
+    if (!readPosition(ChPos, 1, Str->size(), position) || !lib::isAscii(*Str)) [[unlikely]] {
         bool isMember = false;
         const Status status = memberOfMixed(task, isMember, *Str, ChPos, *Set);
         *result = isMember;
@@ -231,19 +231,19 @@ Status rt_StrSize(TaskCore*, float* result, const String* Str) {
                                          const String* Set, bool NotInSet) {
     const size_t length = Str->size();
     size_t position = 0;
-    if (!readPosition(ChPos, 1, std::max<size_t>(length, 1), position) || !lib::isAscii(*Str)) {
+    if (!readPosition(ChPos, 1, std::max<size_t>(length, 1), position) || !lib::isAscii(*Str)) [[unlikely]] {
         size_t found = 0;
         if (const Status status = findInMixed(task, found, *Str, ChPos, *Set, NotInSet)) return status;
         return givePosition(result, found);
     }
-    const lib::AsciiSet set = lib::asciiSetOf(*Set);
+    const lib::AsciiRows set = lib::asciiRowsOf(*Set);
     return givePosition(result, findCharacter(*Str, position - 1, set, NotInSet) + 1);
 }
 
 Status rt_StrMatch(TaskCore* task, float* result, const String* Str, float ChPos, const String* Pattern) {
     const size_t length = Str->size();
     size_t position = 0;
-    if (!lib::isAscii(*Str)) {
+    if (!lib::isAscii(*Str)) [[unlikely]] {
         size_t found = 0;
         if (const Status status = matchInMixed(task, found, *Str, ChPos, *Pattern)) return status;
         return givePosition(result, found);
@@ -260,7 +260,7 @@ Status rt_StrOrder(TaskCore*, bool* result, const String* Str1, const String* St
     const char first1 = ends1 ? '\0' : Str1->bytes[place];
     const char first2 = ends2 ? '\0' : Str2->bytes[place];
     // A character up to 0x7F begins where its byte is: the characters before it are the same in both texts.
-    if (static_cast<uint8_t>(first1 | first2) >= 0x80)
+    if (static_cast<uint8_t>(first1 | first2) >= 0x80) [[unlikely]]
         *result = areMixedInOrder(*Str1, *Str2, *Order);
     else if (ends1 || ends2)
         *result = ends1;

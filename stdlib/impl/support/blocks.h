@@ -89,26 +89,42 @@ inline bool isAscii(const String& text) {
     return ((highBytesOfFront(text) & inFront) | (highBytes(text.bytes + 64) & inBack)) == 0;
 }
 
-/// A set of characters up to 0x7F, others that the text has left out: two words of bits, which programs keep in registers,
-/// or know when they are compiled. Those of a character that differs in its upper four bits only follow each other.
+/// A set of characters up to 0x7F, others that the text has left out: two words of bits, which programs keep in registers.
 class AsciiSet {
   public:
     explicit AsciiSet(std::string_view characters) {
 #pragma clang loop vectorize(disable) unroll(disable)
         for (const char character : characters) {
             const auto code = static_cast<uint8_t>(character);
-            const uint64_t bit = code < 0x80 ? uint64_t{1} << placeOf(code) : 0;
-            low_ |= (code & 8) != 0 ? 0 : bit;
-            high_ |= (code & 8) != 0 ? bit : 0;
+            const uint64_t bit = uint64_t{1} << (code & 0x3F);
+            low_ |= code < 0x40 ? bit : 0;
+            high_ |= code >= 0x40 && code < 0x80 ? bit : 0;
         }
     }
     /// Asked for characters up to 0x7F.
     bool contains(char character) const {
+        const uint64_t low = low_; // both are read: the word chosen first would be taken from memory
+        const uint64_t high = high_;
         const auto code = static_cast<uint8_t>(character);
-        const uint64_t low =
-            low_ >> placeOf(code); // not the word chosen first: it would be taken from memory
-        const uint64_t high = high_ >> placeOf(code);
-        return (((code & 8) != 0 ? high : low) & 1) != 0;
+        return ((code >= 0x40 ? high : low) >> (code & 0x3F) & 1) != 0;
+    }
+
+  private:
+    uint64_t low_ = 0;
+    uint64_t high_ = 0;
+};
+
+/// As AsciiSet, for blocks: a byte for each lower half of a code, and in it a bit for each upper half.
+class AsciiRows {
+  public:
+    explicit AsciiRows(std::string_view characters) {
+#pragma clang loop vectorize(disable) unroll(disable)
+        for (const char character : characters) {
+            const auto code = static_cast<uint8_t>(character);
+            const uint64_t bit = code < 0x80 ? uint64_t{1} << ((code & 7U) * 8 + (code >> 4)) : 0;
+            low_ |= (code & 8) != 0 ? 0 : bit;
+            high_ |= (code & 8) != 0 ? bit : 0;
+        }
     }
     /// Characters of the set in a block; none above 0x7F.
     uint32_t membersOf(const char* block) const {
@@ -123,23 +139,26 @@ class AsciiSet {
         return ~static_cast<uint32_t>(others) & kWholeBlock;
 #else
         uint32_t mask = 0;
-        for (size_t i = 0; i < kBlock; ++i)
-            mask |= uint32_t{static_cast<uint8_t>(block[i]) < 0x80 && contains(block[i])} << i;
+        for (size_t i = 0; i < kBlock; ++i) {
+            const auto code = static_cast<uint8_t>(block[i]);
+            const uint64_t row = ((code & 8) != 0 ? high_ : low_) >> (code & 7U) * 8;
+            mask |= uint32_t{code < 0x80 && (row >> (code >> 4) & 1) != 0} << i;
+        }
         return mask;
 #endif
     }
 
   private:
-    /// Where the bit is in its word: a byte for each of the lower three bits.
-    static unsigned placeOf(uint8_t code) { return (code & 7U) * 8 + (code >> 4 & 7U); }
-
-    uint64_t low_ = 0; ///< characters whose lower four bits are 0 to 7
+    uint64_t low_ = 0; ///< characters whose lower half is 0 to 7
     uint64_t high_ = 0;
 };
 
-/// Compiled code knows the result when the string is a constant (codegen/constant_calls.h).
+// Compiled code knows the results when the string is a constant (codegen/constant_calls.h).
 [[gnu::noinline]] inline AsciiSet asciiSetOf(const String& characters) {
     return AsciiSet(characters.view());
+}
+[[gnu::noinline]] inline AsciiRows asciiRowsOf(const String& characters) {
+    return AsciiRows(characters.view());
 }
 
 /// Copies up to 80 bytes between strings that may be one: short texts without a call, with what follows them.

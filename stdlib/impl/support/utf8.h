@@ -64,7 +64,9 @@ inline size_t characterCount(std::string_view text) {
     return isAscii(text) ? text.size() : mixedCharacterCount(text);
 }
 inline size_t characterCount(const String& text) {
-    return isAscii(text) ? text.size() : mixedCharacterCount(text.view());
+    if (isAscii(text)) [[likely]]
+        return text.size();
+    return mixedCharacterCount(text.view()) & 0x7F; // so programs know how many bits it has
 }
 /// Bytes of the first `count` characters.
 size_t bytesOf(std::string_view text, size_t count);
