@@ -83,6 +83,17 @@ class FewPasses {
     llvm::DenseMap<const llvm::Function*, unsigned> done_;
 };
 
+/// Calls where something has failed, or where the budget is used up, and the instructions that prepare them count little when
+/// LLVM decides what to inline: the body of a short routine consists of them, once its natives are inlined.
+void discountColdCalls(llvm::Module& module) {
+    constexpr const char* kPreparation = "30"; // six instructions, in LLVM's unit
+    for (llvm::Function& function : module) {
+        if (!function.hasFnAttribute(llvm::Attribute::Cold)) continue;
+        function.addFnAttr("call-inline-cost", "0");
+        function.addFnAttr("call-threshold-bonus", kPreparation);
+    }
+}
+
 void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
     llvm::PipelineTuningOptions tuning;
     tuning.LoopVectorization = true;
@@ -149,6 +160,7 @@ bool finish(llvm::Module& module, const CodegenOptions& options, llvm::TargetMac
     const bool huge = spareHugeRoutines(module);
     if (!options.optimise) return true;
     if (!linkNativeBodies(module, options.bodies, error)) return false;
+    discountColdCalls(module);
     optimise(module, machine);
     for (llvm::Function& function : module) {
         if (!function.hasFnAttribute(kPaced)) continue;
