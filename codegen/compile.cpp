@@ -13,6 +13,7 @@
 
 #include "codegen/budget_loops.h"
 #include "codegen/constant_calls.h"
+#include "codegen/constant_divisions.h"
 #include "codegen/integral_values.h"
 #include "codegen/module_emitter.h"
 #include "codegen/native_bodies.h"
@@ -115,8 +116,10 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
     });
     builder.registerScalarOptimizerLateEPCallback(
         [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) { passes.addPass(IntegralValues()); });
-    builder.registerVectorizerStartEPCallback(
-        [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) { passes.addPass(BudgetLoops()); });
+    builder.registerVectorizerStartEPCallback([](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
+        passes.addPass(ConstantDivisions());
+        passes.addPass(BudgetLoops());
+    });
     runO2(module, builder);
 }
 
