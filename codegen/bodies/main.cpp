@@ -115,6 +115,23 @@ void noteRanges(llvm::Module& module) {
     }
 }
 
+/// LLVM takes an assumption for a write. Functions that do nothing but read lose theirs: programs evaluate them when the
+/// arguments are constants (codegen/constant_calls.h).
+void dropAssumptionsOfReaders(llvm::Module& module) {
+    const auto isAssumption = [](const llvm::Instruction& inst) {
+        return match(&inst, m_Intrinsic<llvm::Intrinsic::assume>());
+    };
+    for (llvm::Function& function : module) {
+        const auto all = llvm::instructions(function);
+        if (std::any_of(all.begin(), all.end(), [&](const llvm::Instruction& inst) {
+                return inst.mayWriteToMemory() && !isAssumption(inst);
+            }))
+            continue;
+        for (llvm::Instruction& inst : llvm::make_early_inc_range(all))
+            if (isAssumption(inst)) inst.eraseFromParent();
+    }
+}
+
 /// A bool travels as a byte in programs (codegen/README.md); clang passes it as i1.
 void passBoolsAsBytes(llvm::Module& module, llvm::Function& native) {
     llvm::Type *i1 = llvm::Type::getInt1Ty(module.getContext()),
@@ -203,6 +220,7 @@ int main(int argc, char** argv) {
     internalize(all);
     useSquareRoots(all);
     noteRanges(all);
+    dropAssumptionsOfReaders(all);
     std::vector<llvm::Function*> natives;
     for (llvm::Function& function : all)
         if (isNative(function) && !function.isDeclaration()) natives.push_back(&function);

@@ -47,6 +47,13 @@ inline uint32_t bytesEqualTo(const char* block, char byte) {
 inline uint32_t equalBytes(const char* a, const char* b) {
     return std::bit_cast<uint16_t>(__builtin_convertvector(Block(a).bytes == Block(b).bytes, Block::Bits));
 }
+/// Writes a byte where another block has a certain one.
+inline void putWhere(char* block, const char* other, char byte, char put) {
+    Block result(block);
+    const auto found = Block(other).bytes == static_cast<signed char>(byte);
+    result.bytes = (result.bytes & ~found) | (static_cast<signed char>(put) & found);
+    std::memcpy(block, &result.bytes, kBlock);
+}
 
 #else
 
@@ -70,6 +77,10 @@ inline uint32_t bytesEqualTo(const char* block, char byte) {
 }
 inline uint32_t equalBytes(const char* a, const char* b) {
     return maskOf([=](size_t i) { return a[i] == b[i]; });
+}
+inline void putWhere(char* block, const char* other, char byte, char put) {
+    for (size_t i = 0; i < kBlock; ++i)
+        block[i] = other[i] == byte ? put : block[i];
 }
 
 #endif
@@ -129,26 +140,48 @@ class AsciiRows {
     /// Characters of the set in a block; none above 0x7F.
     uint32_t membersOf(const char* block) const {
 #if defined(__SSSE3__)
-        const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(block));
+        return ~static_cast<uint32_t>(_mm_movemask_epi8(others(load(block)))) & kWholeBlock;
+#else
+        uint32_t mask = 0;
+        for (size_t i = 0; i < kBlock; ++i)
+            mask |= uint32_t{contains(block[i])} << i;
+        return mask;
+#endif
+    }
+    /// Copies a block and adds a number to the code of each character of the set.
+    void shift(const char* block, char amount, char* result) const {
+#if defined(__SSSE3__)
+        const __m128i bytes = load(block);
+        const __m128i added = _mm_andnot_si128(others(bytes), _mm_set1_epi8(amount));
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(result), _mm_add_epi8(bytes, added));
+#else
+        for (size_t i = 0; i < kBlock; ++i)
+            result[i] = static_cast<char>(block[i] + (contains(block[i]) ? amount : 0));
+#endif
+    }
+
+  private:
+#if defined(__SSSE3__)
+    static __m128i load(const char* block) {
+        return _mm_loadu_si128(reinterpret_cast<const __m128i*>(block));
+    }
+    /// A byte with all bits for each that is not in the set.
+    __m128i others(__m128i bytes) const {
         const __m128i rows = _mm_set_epi64x(static_cast<int64_t>(high_), static_cast<int64_t>(low_));
         const __m128i upper = _mm_and_si128(_mm_srli_epi16(bytes, 4), _mm_set1_epi8(0x0F));
         const __m128i bit =
             _mm_shuffle_epi8(_mm_setr_epi8(1, 2, 4, 8, 16, 32, 64, -128, 0, 0, 0, 0, 0, 0, 0, 0), upper);
         const __m128i found = _mm_and_si128(_mm_shuffle_epi8(rows, bytes), bit);
-        const int others = _mm_movemask_epi8(_mm_cmpeq_epi8(found, _mm_setzero_si128()));
-        return ~static_cast<uint32_t>(others) & kWholeBlock;
-#else
-        uint32_t mask = 0;
-        for (size_t i = 0; i < kBlock; ++i) {
-            const auto code = static_cast<uint8_t>(block[i]);
-            const uint64_t row = ((code & 8) != 0 ? high_ : low_) >> (code & 7U) * 8;
-            mask |= uint32_t{code < 0x80 && (row >> (code >> 4) & 1) != 0} << i;
-        }
-        return mask;
-#endif
+        return _mm_cmpeq_epi8(found, _mm_setzero_si128());
     }
+#else
+    bool contains(char character) const {
+        const auto code = static_cast<uint8_t>(character);
+        const uint64_t row = ((code & 8) != 0 ? high_ : low_) >> (code & 7U) * 8;
+        return code < 0x80 && (row >> (code >> 4) & 1) != 0;
+    }
+#endif
 
-  private:
     uint64_t low_ = 0; ///< characters whose lower half is 0 to 7
     uint64_t high_ = 0;
 };
