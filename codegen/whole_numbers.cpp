@@ -59,10 +59,11 @@ class Wholes {
     bool run() {
         std::vector<llvm::Instruction*> found;
         for (llvm::Instruction& inst : llvm::instructions(function_))
-            if (!inst.getType()->isVectorTy() && isCandidate(inst)) found.push_back(&inst);
+            if (!inst.getType()->isVectorTy() && mayBeCandidate(inst)) found.push_back(&inst);
         bool changed = false;
         for (llvm::Instruction* inst : found) {
-            Value* made = replacement(*inst);
+            // Its operands may be what has just been made.
+            Value* made = isCandidate(*inst) ? replacement(*inst) : nullptr;
             if (!made) continue;
             inst->replaceAllUsesWith(made);
             changed = true;
@@ -81,17 +82,20 @@ class Wholes {
     };
     static constexpr unsigned kWide = 128; // room for a product
 
-    static bool isCandidate(const llvm::Instruction& inst) {
+    static bool mayBeCandidate(const llvm::Instruction& inst) {
         switch (inst.getOpcode()) {
         case llvm::Instruction::FAdd:
         case llvm::Instruction::FSub:
         case llvm::Instruction::FMul:
         case llvm::Instruction::FCmp:
-            return convertedWhole(inst.getOperand(0)) || convertedWhole(inst.getOperand(1));
-        case llvm::Instruction::FPToSI: return convertedWhole(inst.getOperand(0));
-        case llvm::Instruction::Call: return isSaturated(inst) && convertedWhole(inst.getOperand(0));
-        default: return false;
+        case llvm::Instruction::FPToSI: return true;
+        default: return isSaturated(inst);
         }
+    }
+
+    static bool isCandidate(const llvm::Instruction& inst) {
+        return convertedWhole(inst.getOperand(0)) ||
+               (!llvm::isa<llvm::CastInst>(inst) && !isSaturated(inst) && convertedWhole(inst.getOperand(1)));
     }
 
     /// A conversion that gives the nearest integer where the number is out of range (bounds of loops).
