@@ -14,6 +14,7 @@
 #include "codegen/budget_loops.h"
 #include "codegen/constant_calls.h"
 #include "codegen/constant_divisions.h"
+#include "codegen/integral_numbers.h"
 #include "codegen/integral_values.h"
 #include "codegen/module_emitter.h"
 #include "codegen/native_bodies.h"
@@ -115,7 +116,10 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
         passes.addPass(ConstantCalls());
     });
     builder.registerScalarOptimizerLateEPCallback(
-        [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) { passes.addPass(IntegralValues()); });
+        [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
+            passes.addPass(WholeChecks());
+            passes.addPass(IntegralValues());
+        });
     builder.registerVectorizerStartEPCallback([](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
         passes.addPass(ConstantDivisions());
         passes.addPass(BudgetLoops());

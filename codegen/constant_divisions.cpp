@@ -12,6 +12,7 @@
 #include <cmath>
 #include <vector>
 
+#include "codegen/integral_numbers.h"
 #include "codegen/whole_numbers.h"
 
 namespace codegen {
@@ -36,9 +37,8 @@ const llvm::BranchInst* wholeCheck(const llvm::User* user, Value* value, Value* 
     return llvm::dyn_cast<llvm::BranchInst>(*compare->user_begin());
 }
 
-/// Whether the value is a whole number wherever the instruction is executed.
+/// Whether the value has been compared with its whole part on the way to the instruction.
 bool isCheckedWhole(Value* value, const llvm::Instruction& at, const llvm::DominatorTree& dominators) {
-    if (convertedWhole(value)) return true;
     for (llvm::User* part : value->users()) {
         if (!match(part, m_Intrinsic<llvm::Intrinsic::trunc>(m_Specific(value)))) continue;
         for (const llvm::User* user : part->users()) {
@@ -78,7 +78,8 @@ struct Division {
     llvm::Instruction* remainder = nullptr; ///< x - quotient * c; null: not wanted
     double divisor = 0;
 
-    static bool find(llvm::Instruction& inst, const llvm::DominatorTree& dominators, Division& found) {
+    static bool find(llvm::Instruction& inst, const llvm::DominatorTree& dominators,
+                     const IntegralNumbers& numbers, Division& found) {
         const llvm::APFloat* divisor = nullptr;
         llvm::Type* type = inst.getType();
         if ((!type->isFloatTy() && !type->isDoubleTy()) ||
@@ -87,7 +88,7 @@ struct Division {
         found = {&inst, nullptr, nullptr, divisor->convertToDouble()};
         if (!(found.divisor >= 2 && found.divisor <= largest(type) / 2) ||
             found.divisor != std::trunc(found.divisor) ||
-            !isCheckedWhole(inst.getOperand(0), inst, dominators))
+            (!numbers.contains(inst.getOperand(0)) && !isCheckedWhole(inst.getOperand(0), inst, dominators)))
             return false;
         return found.takeUsers();
     }
@@ -162,9 +163,10 @@ void replace(const Division& division) {
 llvm::PreservedAnalyses ConstantDivisions::run(llvm::Function& function,
                                                llvm::FunctionAnalysisManager& analyses) {
     const auto& dominators = analyses.getResult<llvm::DominatorTreeAnalysis>(function);
+    const IntegralNumbers numbers(function);
     std::vector<Division> found;
     for (llvm::Instruction& inst : llvm::instructions(function))
-        if (Division division; Division::find(inst, dominators, division)) found.push_back(division);
+        if (Division division; Division::find(inst, dominators, numbers, division)) found.push_back(division);
     for (const Division& division : found)
         replace(division);
     return found.empty() ? llvm::PreservedAnalyses::all() : llvm::PreservedAnalyses::none();
