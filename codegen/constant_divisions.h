@@ -5,8 +5,8 @@
 
 namespace codegen {
 
-/// trunc(x / c) and x - trunc(x / c) * c, x whole, are computed with 1 / c. Where the remainder that comes out is from 0 to
-/// below c, both are exact, which the division would give as well; otherwise the division is done. Runs once: what is left is of
+/// trunc(x / c) and x - trunc(x / c) * c, x whole, are computed with 1 / c. When the remainder is from 0 to below c,
+/// both are exact, which the division would give as well; otherwise the division is done. Runs once: what is left is of
 /// the form that it looks for.
 class ConstantDivisions : public llvm::PassInfoMixin<ConstantDivisions> {
   public:

@@ -205,7 +205,7 @@ llvm::Value* convertedWhole(const llvm::Value* value) {
 
 namespace {
 
-/// What is known of a whole number. In large routines LazyValueInfo gives up soon, so operands are looked at as well.
+/// Finds the range of a whole number. In large routines LazyValueInfo gives up soon, so operands are looked at as well.
 class RangeSearch {
   public:
     explicit RangeSearch(llvm::FunctionAnalysisManager& analyses) : analyses_(analyses) {}

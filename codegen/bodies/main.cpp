@@ -96,7 +96,7 @@ void useSquareRoots(llvm::Module& module) {
     }
 }
 
-/// What is assumed of a loaded number is noted at the load: so it stays known wherever the number gets to.
+/// Notes an assumption about a loaded number at the load: so it stays known wherever the number gets to.
 void noteRanges(llvm::Module& module) {
     for (llvm::Function& function : module) {
         for (llvm::Instruction& inst : llvm::make_early_inc_range(llvm::instructions(function))) {

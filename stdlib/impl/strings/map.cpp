@@ -105,7 +105,7 @@ bool mapAsciiText(String& result, std::string_view text, std::string_view from, 
 
 constexpr int kNoShift = 0x100;
 
-/// What is added to the code of each character up to 0x7F that `from` has, as STR_LOWER and STR_UPPER differ; kNoShift: the
+/// The number that is added to the code of each character up to 0x7F that `from` has, as STR_LOWER and STR_UPPER differ; kNoShift: the
 /// characters differ in other ways, or in number. Compiled code knows it when both are constants (codegen/constant_calls.h).
 [[gnu::noinline]] int shiftOf(const String& from, const String& to) {
     int shift = kNoShift;

@@ -113,7 +113,7 @@ bool hasAt(const String& text, size_t offset, const String& pattern) {
     return (lib::equalBytes(bytes, pattern.bytes) & wanted) == wanted;
 }
 
-/// Where `pattern` begins in `text` from `offset` on; the length of `text`: nowhere.
+/// Offset at which `pattern` begins in `text`, from `offset` on; the length of `text`: nowhere.
 size_t findText(const String& text, size_t offset, const String& pattern) {
     const size_t length = text.size();
     const size_t size = pattern.size();
@@ -136,7 +136,7 @@ size_t findText(const String& text, size_t offset, const String& pattern) {
     return length;
 }
 
-/// Where two texts begin to differ; the length of the shorter one: not before.
+/// Offset at which two texts begin to differ; the length of the shorter one: not before.
 size_t firstDifference(const String& a, const String& b) {
     const size_t length = std::min(a.size(), b.size());
     for (size_t block = 0; block < length; block += lib::kBlock) {
