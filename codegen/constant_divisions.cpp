@@ -162,11 +162,16 @@ void replace(const Division& division) {
 
 llvm::PreservedAnalyses ConstantDivisions::run(llvm::Function& function,
                                                llvm::FunctionAnalysisManager& analyses) {
+    std::vector<llvm::Instruction*> divisions;
+    for (llvm::Instruction& inst : llvm::instructions(function))
+        if (match(&inst, m_FDiv(m_Value(), m_ConstantFP()))) divisions.push_back(&inst);
+    if (divisions.empty()) return llvm::PreservedAnalyses::all();
     const auto& dominators = analyses.getResult<llvm::DominatorTreeAnalysis>(function);
     const IntegralNumbers numbers(function);
     std::vector<Division> found;
-    for (llvm::Instruction& inst : llvm::instructions(function))
-        if (Division division; Division::find(inst, dominators, numbers, division)) found.push_back(division);
+    for (llvm::Instruction* inst : divisions)
+        if (Division division; Division::find(*inst, dominators, numbers, division))
+            found.push_back(division);
     for (const Division& division : found)
         replace(division);
     return found.empty() ? llvm::PreservedAnalyses::all() : llvm::PreservedAnalyses::none();
