@@ -89,18 +89,25 @@ Status givePosition(float* result, size_t position) {
     return kOk;
 }
 
-/// The first character from `offset` on that is in the set, or is not; the length of the text: none.
+/// The first character from `offset` on that is in the set, or is not; the length of the text: none. All of the text is compared
+/// with the set first, without a branch: programs that look into a string again and again do this once.
 size_t findCharacter(const String& text, size_t offset, const lib::AsciiRows& set, bool notInSet) {
-    const size_t length = text.size();
-    const uint32_t others = notInSet ? lib::kWholeBlock : 0;
-    size_t block = offset / lib::kBlock * lib::kBlock;
-    uint32_t wanted = lib::kWholeBlock << (offset - block);
-    for (; block < length; block += lib::kBlock) {
-        const uint32_t found = (set.membersOf(text.bytes + block) ^ others) & wanted;
-        if (found != 0) return std::min(block + lib::firstOf(found), length);
-        wanted = lib::kWholeBlock;
+    constexpr size_t kFront = 64;
+    const auto membersAt = [&](size_t block) { return uint64_t{set.membersOf(text.bytes + block)}; };
+    uint64_t front = membersAt(0) | membersAt(16) << 16 | membersAt(32) << 32 | membersAt(48) << 48;
+    uint64_t back = membersAt(kFront);
+    if (notInSet) {
+        front = ~front;
+        back ^= lib::kWholeBlock;
     }
-    return length;
+    const size_t length = text.size();
+    if (offset < kFront) {
+        front >>= offset;
+        if (front != 0) return std::min(offset + lib::firstOf(front), length);
+        offset = kFront;
+    }
+    back >>= offset - kFront;
+    return back != 0 ? std::min(offset + lib::firstOf(back), length) : length;
 }
 
 /// Whether the text has `pattern` at `offset`; it is long enough.

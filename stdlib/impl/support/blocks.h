@@ -86,7 +86,7 @@ inline void putWhere(char* block, const char* other, char byte, char put) {
 #endif
 
 /// Offset of the first byte that a mask has a bit for.
-inline size_t firstOf(uint32_t mask) {
+inline size_t firstOf(uint64_t mask) {
     return static_cast<size_t>(std::countr_zero(mask));
 }
 
