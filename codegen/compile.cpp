@@ -14,7 +14,10 @@
 #include <llvm/Transforms/Scalar/LoopUnrollPass.h>
 
 #include "codegen/budget_loops.h"
+#include "codegen/constant_calls.h"
+#include "codegen/constant_divisions.h"
 #include "codegen/huge_routines.h"
+#include "codegen/integral_numbers.h"
 #include "codegen/integral_values.h"
 #include "codegen/module_emitter.h"
 #include "codegen/native_bodies.h"
@@ -91,6 +94,17 @@ class FewPasses {
     llvm::DenseMap<const llvm::Function*, unsigned> done_;
 };
 
+/// Calls where something has failed, or where the budget is used up, and the instructions that prepare them count little when
+/// LLVM decides what to inline: the body of a short routine consists of them, once its natives are inlined.
+void discountColdCalls(llvm::Module& module) {
+    constexpr const char* kPreparation = "30"; // six instructions, in LLVM's unit
+    for (llvm::Function& function : module) {
+        if (!function.hasFnAttribute(llvm::Attribute::Cold)) continue;
+        function.addFnAttr("call-inline-cost", "0");
+        function.addFnAttr("call-threshold-bonus", kPreparation);
+    }
+}
+
 void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
     llvm::PipelineTuningOptions tuning;
     tuning.LoopVectorization = true;
@@ -108,15 +122,18 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
     builder.registerPeepholeEPCallback([](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
         passes.addPass(SplitResults());
         passes.addPass(FiniteChecks());
+        passes.addPass(ConstantCalls());
         passes.addPass(SmallCopies());
     });
     builder.registerScalarOptimizerLateEPCallback(
         [](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
+            passes.addPass(WholeChecks());
             passes.addPass(IntegralValues());
             passes.addPass(ShortLoops());
             passes.addPass(llvm::createFunctionToLoopPassAdaptor(llvm::LoopFullUnrollPass(2)));
         });
     builder.registerVectorizerStartEPCallback([](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
+        passes.addPass(ConstantDivisions());
         passes.addPass(BudgetLoops());
         passes.addPass(UncheckedRounds());
     });
@@ -147,6 +164,7 @@ bool finish(llvm::Module& module, const CodegenOptions& options, llvm::TargetMac
     const bool huge = spareHugeRoutines(module);
     if (!options.optimise) return true;
     if (!linkNativeBodies(module, options.bodies, error)) return false;
+    discountColdCalls(module);
     optimise(module, machine);
     for (llvm::Function& function : module) {
         if (!function.hasFnAttribute(kPaced)) continue;

@@ -126,14 +126,15 @@ class Web {
         }
     }
 
-    llvm::IntegerType* integerFor(const llvm::Type* type) const {
-        return llvm::IntegerType::get(function_.getContext(), type->isFloatTy() ? 32 : 64);
+    /// Bytes stay bytes: of a wider integer, the upper bits would have to be cleared in each round of a loop.
+    llvm::IntegerType* integerFor(llvm::Instruction* node) const {
+        const unsigned whole = node->getType()->isFloatTy() ? 32 : 64;
+        return llvm::IntegerType::get(function_.getContext(), bits_.at(node) <= 8 ? 8 : whole);
     }
 
-    Value* integer(Value* value, llvm::Instruction* before) {
-        llvm::IntegerType* type = integerFor(value->getType());
+    Value* integer(Value* value, llvm::IntegerType* type, llvm::Instruction* before) {
         if (const auto found = nodes_.find(llvm::dyn_cast<llvm::Instruction>(value)); found != nodes_.end())
-            return found->second;
+            return llvm::IRBuilder<>(before).CreateZExtOrTrunc(found->second, type);
         if (llvm::isa<llvm::UndefValue>(value)) return llvm::ConstantInt::get(type, 0);
         if (const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(value))
             return llvm::ConstantInt::get(type,
@@ -145,7 +146,7 @@ class Web {
         measure();
         for (auto& [node, made] : nodes_) {
             llvm::IRBuilder<> b(node);
-            llvm::IntegerType* type = integerFor(node->getType());
+            llvm::IntegerType* type = integerFor(node);
             if (const auto* phi = llvm::dyn_cast<llvm::PHINode>(node))
                 made = b.CreatePHI(type, phi->getNumIncomingValues());
             else
@@ -154,14 +155,15 @@ class Web {
                                              llvm::PoisonValue::get(type), "", node->getIterator()));
         }
         for (auto& [node, made] : nodes_) {
+            auto* type = llvm::cast<llvm::IntegerType>(made->getType());
             if (const auto* phi = llvm::dyn_cast<llvm::PHINode>(node)) {
                 for (unsigned i = 0; i < phi->getNumIncomingValues(); ++i)
                     llvm::cast<llvm::PHINode>(made)->addIncoming(
-                        integer(phi->getIncomingValue(i), phi->getIncomingBlock(i)->getTerminator()),
+                        integer(phi->getIncomingValue(i), type, phi->getIncomingBlock(i)->getTerminator()),
                         phi->getIncomingBlock(i));
             } else {
-                made->setOperand(1, integer(node->getOperand(1), node));
-                made->setOperand(2, integer(node->getOperand(2), node));
+                made->setOperand(1, integer(node->getOperand(1), type, node));
+                made->setOperand(2, integer(node->getOperand(2), type, node));
             }
         }
         for (auto& [node, made] : nodes_) {

@@ -54,6 +54,9 @@ bool linkNativeBodies(llvm::Module& program, const NativeBodies& bodies, std::st
         function->setLinkage(llvm::GlobalValue::InternalLinkage);
         function->addFnAttr(llvm::Attribute::InlineHint);
     }
+    // It only computes, and so may be done before a loop; LLVM does not say so of instructions of one processor.
+    if (llvm::Function* shuffle = program.getFunction("llvm.x86.ssse3.pshuf.b.128"))
+        shuffle->addFnAttr(llvm::Attribute::Speculatable);
     for (llvm::Function& function : program) {
         if (!function.isDeclaration() || !isLibraryFunction(function.getName()) ||
             isMemoryFunction(function.getName()))

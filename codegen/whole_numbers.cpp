@@ -8,6 +8,7 @@
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/Instructions.h>
+#include <llvm/IR/IntrinsicInst.h>
 #include <llvm/IR/PatternMatch.h>
 #include <llvm/Transforms/Utils/Local.h>
 
@@ -58,10 +59,11 @@ class Wholes {
     bool run() {
         std::vector<llvm::Instruction*> found;
         for (llvm::Instruction& inst : llvm::instructions(function_))
-            if (!inst.getType()->isVectorTy() && isCandidate(inst)) found.push_back(&inst);
+            if (!inst.getType()->isVectorTy() && mayBeCandidate(inst)) found.push_back(&inst);
         bool changed = false;
         for (llvm::Instruction* inst : found) {
-            Value* made = replacement(*inst);
+            // Its operands may be what has just been made.
+            Value* made = isCandidate(*inst) ? replacement(*inst) : nullptr;
             if (!made) continue;
             inst->replaceAllUsesWith(made);
             changed = true;
@@ -80,16 +82,26 @@ class Wholes {
     };
     static constexpr unsigned kWide = 128; // room for a product
 
-    static bool isCandidate(const llvm::Instruction& inst) {
+    static bool mayBeCandidate(const llvm::Instruction& inst) {
         switch (inst.getOpcode()) {
         case llvm::Instruction::FAdd:
         case llvm::Instruction::FSub:
         case llvm::Instruction::FMul:
         case llvm::Instruction::FCmp:
-            return convertedWhole(inst.getOperand(0)) || convertedWhole(inst.getOperand(1));
-        case llvm::Instruction::FPToSI: return convertedWhole(inst.getOperand(0));
-        default: return false;
+        case llvm::Instruction::FPToSI: return true;
+        default: return isSaturated(inst);
         }
+    }
+
+    static bool isCandidate(const llvm::Instruction& inst) {
+        return convertedWhole(inst.getOperand(0)) ||
+               (!llvm::isa<llvm::CastInst>(inst) && !isSaturated(inst) && convertedWhole(inst.getOperand(1)));
+    }
+
+    /// A conversion that gives the nearest integer where the number is out of range (bounds of loops).
+    static bool isSaturated(const llvm::Instruction& inst) {
+        const auto* call = llvm::dyn_cast<llvm::IntrinsicInst>(&inst);
+        return call && call->getIntrinsicID() == llvm::Intrinsic::fptosi_sat;
     }
 
     std::optional<Whole> whole(Value* value, llvm::Instruction& at) {
@@ -123,7 +135,7 @@ class Wholes {
         const auto a = whole(inst.getOperand(0), inst);
         if (!a) return nullptr;
         llvm::IRBuilder<> b(&inst);
-        if (llvm::isa<llvm::FPToSIInst>(inst)) {
+        if (llvm::isa<llvm::FPToSIInst>(inst) || isSaturated(inst)) {
             auto* type = llvm::cast<llvm::IntegerType>(inst.getType());
             return fits(a->range, type->getBitWidth()) ? integer(b, *a, type) : nullptr;
         }
@@ -191,29 +203,65 @@ llvm::Value* convertedWhole(const llvm::Value* value) {
     return converts && !cast->getType()->isVectorTy() ? cast->getOperand(0) : nullptr;
 }
 
+namespace {
+
+/// Finds the range of a whole number. In large routines LazyValueInfo gives up soon, so operands are looked at as well.
+class RangeSearch {
+  public:
+    explicit RangeSearch(llvm::FunctionAnalysisManager& analyses) : analyses_(analyses) {}
+
+    llvm::ConstantRange range(Value* whole, llvm::Instruction* at, unsigned depth) {
+        llvm::Function& function = *at->getFunction();
+        llvm::ConstantRange range = llvm::ConstantRange::fromKnownBits(
+            llvm::computeKnownBits(whole, function.getDataLayout()), /*IsSigned=*/false);
+        auto& ranges = analyses_.getResult<llvm::LazyValueAnalysis>(function);
+        range = range.intersectWith(ranges.getConstantRange(whole, at, /*UndefAllowed=*/false));
+        auto& evolution = analyses_.getResult<llvm::ScalarEvolutionAnalysis>(function);
+        if (evolution.isSCEVable(whole->getType()))
+            range = range.intersectWith(evolution.getUnsignedRange(evolution.getSCEV(whole)));
+        auto* inst = llvm::dyn_cast<llvm::Instruction>(whole);
+        if (depth == 0 || !inst || range.getUnsignedMax().getActiveBits() <= kKnownWell) return range;
+        return range.intersectWith(fromOperands(*inst, depth - 1));
+    }
+
+  private:
+    static constexpr unsigned kKnownWell = 8; // positions and bytes: operands would hardly tell more
+    static constexpr unsigned kMostOperands = 12;
+    static constexpr unsigned kMostLooks = 40; // in one search
+
+    llvm::ConstantRange operand(llvm::Instruction& inst, unsigned i, llvm::Instruction* at, unsigned depth) {
+        return range(inst.getOperand(i), at, depth);
+    }
+
+    llvm::ConstantRange fromOperands(llvm::Instruction& inst, unsigned depth) {
+        const llvm::ConstantRange unknown(inst.getType()->getIntegerBitWidth(), /*isFullSet=*/true);
+        if (++looks_ > kMostLooks) return unknown;
+        if (const auto* operation = llvm::dyn_cast<llvm::BinaryOperator>(&inst))
+            return operand(inst, 0, &inst, depth)
+                .binaryOp(operation->getOpcode(), operand(inst, 1, &inst, depth));
+        if (llvm::isa<llvm::ZExtInst>(inst) || llvm::isa<llvm::SExtInst>(inst) ||
+            llvm::isa<llvm::TruncInst>(inst))
+            return operand(inst, 0, &inst, depth)
+                .castOp(llvm::cast<llvm::CastInst>(inst).getOpcode(), inst.getType()->getIntegerBitWidth());
+        if (llvm::isa<llvm::SelectInst>(inst))
+            return operand(inst, 1, &inst, depth).unionWith(operand(inst, 2, &inst, depth));
+        const auto* phi = llvm::dyn_cast<llvm::PHINode>(&inst);
+        if (!phi || phi->getNumIncomingValues() > kMostOperands) return unknown;
+        llvm::ConstantRange all(unknown.getBitWidth(), /*isFullSet=*/false);
+        for (unsigned i = 0; i < phi->getNumIncomingValues() && !all.isFullSet(); ++i)
+            all = all.unionWith(operand(inst, i, phi->getIncomingBlock(i)->getTerminator(), depth));
+        return all;
+    }
+
+    llvm::FunctionAnalysisManager& analyses_;
+    unsigned looks_ = 0;
+};
+
+} // namespace
+
 llvm::ConstantRange rangeOfWhole(llvm::Value* whole, llvm::Instruction* at,
                                  llvm::FunctionAnalysisManager& analyses, unsigned depth) {
-    llvm::Function& function = *at->getFunction();
-    llvm::ConstantRange range = llvm::ConstantRange::fromKnownBits(
-        llvm::computeKnownBits(whole, function.getDataLayout()), /*IsSigned=*/false);
-    auto& ranges = analyses.getResult<llvm::LazyValueAnalysis>(function);
-    range = range.intersectWith(ranges.getConstantRange(whole, at, /*UndefAllowed=*/false));
-    auto& evolution = analyses.getResult<llvm::ScalarEvolutionAnalysis>(function);
-    if (evolution.isSCEVable(whole->getType()))
-        range = range.intersectWith(evolution.getUnsignedRange(evolution.getSCEV(whole)));
-    // In large routines LazyValueInfo gives up soon.
-    const auto* inst = llvm::dyn_cast<llvm::Instruction>(whole);
-    if (depth == 0 || !inst) return range;
-    const auto operand = [&](unsigned i) {
-        return rangeOfWhole(inst->getOperand(i), const_cast<llvm::Instruction*>(inst), analyses, depth - 1);
-    };
-    if (const auto* operation = llvm::dyn_cast<llvm::BinaryOperator>(inst))
-        return range.intersectWith(operand(0).binaryOp(operation->getOpcode(), operand(1)));
-    if (llvm::isa<llvm::ZExtInst>(inst) || llvm::isa<llvm::SExtInst>(inst) ||
-        llvm::isa<llvm::TruncInst>(inst))
-        return range.intersectWith(operand(0).castOp(llvm::cast<llvm::CastInst>(inst)->getOpcode(),
-                                                     inst->getType()->getIntegerBitWidth()));
-    return range;
+    return RangeSearch(analyses).range(whole, at, depth);
 }
 
 unsigned exactBits(const llvm::Type* type) {

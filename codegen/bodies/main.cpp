@@ -7,8 +7,11 @@
 #include <llvm/IR/AttributeMask.h>
 #include <llvm/IR/DebugInfo.h>
 #include <llvm/IR/IRBuilder.h>
+#include <llvm/IR/InstIterator.h>
 #include <llvm/IR/LLVMContext.h>
+#include <llvm/IR/MDBuilder.h>
 #include <llvm/IR/Module.h>
+#include <llvm/IR/PatternMatch.h>
 #include <llvm/IR/Verifier.h>
 #include <llvm/Linker/Linker.h>
 #include <llvm/Passes/PassBuilder.h>
@@ -25,6 +28,8 @@
 #include <vector>
 
 namespace {
+
+using namespace llvm::PatternMatch;
 
 bool fail(const std::string& message) {
     std::fprintf(stderr, "native_bodies: %s\n", message.c_str());
@@ -88,6 +93,42 @@ void useSquareRoots(llvm::Module& module) {
             call->eraseFromParent();
         }
         library->eraseFromParent();
+    }
+}
+
+/// Notes an assumption about a loaded number at the load: so it stays known wherever the number gets to.
+void noteRanges(llvm::Module& module) {
+    for (llvm::Function& function : module) {
+        for (llvm::Instruction& inst : llvm::make_early_inc_range(llvm::instructions(function))) {
+            llvm::ICmpInst::Predicate predicate = llvm::ICmpInst::BAD_ICMP_PREDICATE;
+            llvm::Instruction* number = nullptr;
+            const llvm::APInt* limit = nullptr;
+            if (!match(&inst, m_Intrinsic<llvm::Intrinsic::assume>(
+                                  m_ICmp(predicate, m_Instruction(number), m_APInt(limit)))) ||
+                predicate != llvm::ICmpInst::ICMP_ULT || !llvm::isa<llvm::LoadInst>(number))
+                continue;
+            const llvm::APInt none = llvm::APInt::getZero(limit->getBitWidth());
+            number->setMetadata(llvm::LLVMContext::MD_range,
+                                llvm::MDBuilder(module.getContext()).createRange(none, *limit));
+            inst.eraseFromParent();
+        }
+    }
+}
+
+/// LLVM takes an assumption for a write. Functions that do nothing but read lose theirs: programs evaluate them when the
+/// arguments are constants (codegen/constant_calls.h).
+void dropAssumptionsOfReaders(llvm::Module& module) {
+    const auto isAssumption = [](const llvm::Instruction& inst) {
+        return match(&inst, m_Intrinsic<llvm::Intrinsic::assume>());
+    };
+    for (llvm::Function& function : module) {
+        const auto all = llvm::instructions(function);
+        if (std::any_of(all.begin(), all.end(), [&](const llvm::Instruction& inst) {
+                return inst.mayWriteToMemory() && !isAssumption(inst);
+            }))
+            continue;
+        for (llvm::Instruction& inst : llvm::make_early_inc_range(all))
+            if (isAssumption(inst)) inst.eraseFromParent();
     }
 }
 
@@ -178,6 +219,8 @@ int main(int argc, char** argv) {
     stripOrigin(all);
     internalize(all);
     useSquareRoots(all);
+    noteRanges(all);
+    dropAssumptionsOfReaders(all);
     std::vector<llvm::Function*> natives;
     for (llvm::Function& function : all)
         if (isNative(function) && !function.isDeclaration()) natives.push_back(&function);

@@ -16,7 +16,12 @@ struct String {
     uint32_t length = 0;
     char bytes[kStringCapacity] = {};
 
-    std::string_view view() const { return {bytes, length}; }
+    std::string_view view() const { return {bytes, size()}; }
+    /// The length, of which the compiler knows that it is at most the capacity: loops over strings count with integers.
+    size_t size() const {
+        if (length > kStringCapacity) __builtin_unreachable();
+        return length;
+    }
     /// Takes no more than fits; the caller raises ERR_STRTOOLNG when text is longer.
     void assign(std::string_view text) {
         length = static_cast<uint32_t>(text.size() < kStringCapacity ? text.size() : kStringCapacity);

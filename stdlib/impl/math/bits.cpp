@@ -94,7 +94,8 @@ template <class T> Status change(TaskCore* task, T* data, int bits, float positi
     int bit = 0;
     if (!readBits(*data, bits, x)) return badBits(task, bits);
     if (!readCount(position, bits, bit)) return badCount(task, bits);
-    const uint64_t mask = uint64_t{1} << (bit - 1);
+    const uint64_t mask =
+        uint64_t{1} << (bit - 1) & maskOf(bits); // so programs know how many bits the result has
     *data = fromBits<T>(set ? x | mask : x & ~mask);
     return kOk;
 }

@@ -27,6 +27,26 @@ void mapAscii(String& result, std::string_view text, std::string_view from, std:
     result.length = static_cast<uint32_t>(text.size());
 }
 
+constexpr size_t kFew = 8;
+
+/// As mapAscii for up to kFew characters: without a table.
+void mapFew(String& result, const String& text, const String& from, const String& to) {
+    char olds[kFew], replacements[kFew]; // the result may be one of the arguments
+    std::memcpy(olds, from.bytes, kFew);
+    std::memcpy(replacements, to.bytes, kFew);
+    const size_t count = from.size();
+    const size_t length = text.size();
+    for (size_t block = 0; block < length; block += lib::kBlock) {
+        char bytes[lib::kBlock], mapped[lib::kBlock];
+        std::memcpy(bytes, text.bytes + block, sizeof bytes);
+        std::memcpy(mapped, bytes, sizeof mapped);
+        for (size_t k = count; k-- > 0;)
+            lib::putWhere(mapped, bytes, olds[k], replacements[k]);
+        std::memcpy(result.bytes + block, mapped, sizeof mapped);
+    }
+    result.length = static_cast<uint32_t>(length);
+}
+
 /// A text without characters above 0x7F, as most are: STR_LOWER and STR_UPPER have some, which do not occur in it. False: the
 /// result would be too long, or FromMap and ToMap differ in their number of characters.
 bool mapAsciiText(String& result, std::string_view text, std::string_view from, std::string_view to) {
@@ -83,19 +103,58 @@ bool mapAsciiText(String& result, std::string_view text, std::string_view from, 
     return kOk;
 }
 
+constexpr int kNoShift = 0x100;
+
+/// The number that is added to the code of each character up to 0x7F that `from` has, as STR_LOWER and STR_UPPER differ; kNoShift: the
+/// characters differ in other ways, or in number. Compiled code knows it when both are constants (codegen/constant_calls.h).
+[[gnu::noinline]] int shiftOf(const String& from, const String& to) {
+    int shift = kNoShift;
+    size_t offset = 0;
+    size_t place = 0;
+    while (offset < from.size() && place < to.size()) {
+        if (isAsciiByte(from.bytes[offset])) {
+            const int difference = to.bytes[place] - from.bytes[offset];
+            if (!isAsciiByte(to.bytes[place]) || (shift != kNoShift && shift != difference)) return kNoShift;
+            shift = difference;
+        }
+        offset += lib::characterSize(lib::rest(from.view(), offset));
+        place += lib::characterSize(lib::rest(to.view(), place));
+    }
+    return offset == from.size() && place == to.size() ? shift : kNoShift;
+}
+
+void mapShifted(String& result, const String& text, const lib::AsciiRows& from, int shift) {
+    const size_t length = text.size();
+    for (size_t block = 0; block < length; block += lib::kBlock)
+        from.shift(text.bytes + block, static_cast<char>(shift), result.bytes + block);
+    result.length = static_cast<uint32_t>(length);
+}
+
+/// Characters that differ by more than a shift.
+[[gnu::noinline]] Status mapEach(TaskCore* task, String& result, const String& text, const String& fromMap,
+                                 const String& toMap) {
+    const std::string_view from = fromMap.view();
+    const std::string_view to = toMap.view();
+    if (!lib::isAscii(text)) return mapMixed(task, result, text.view(), from, to);
+    if (!lib::isAscii(fromMap) || !lib::isAscii(toMap) || from.size() != to.size())
+        return mapAsciiText(result, text.view(), from, to) ? kOk
+                                                           : mapMixed(task, result, text.view(), from, to);
+    if (from.size() <= kFew)
+        mapFew(result, text, fromMap, toMap);
+    else
+        mapAscii(result, text.view(), from, to);
+    return kOk;
+}
+
 } // namespace
 
 extern "C" {
 
-Status rt_StrMap(TaskCore* task, String* result, const String* Str, const String* FromMap,
-                 const String* ToMap) {
-    const std::string_view text = Str->view();
-    const std::string_view from = FromMap->view();
-    const std::string_view to = ToMap->view();
-    if (!lib::isAscii(text)) return mapMixed(task, *result, text, from, to);
-    if (!lib::isAscii(from) || !lib::isAscii(to) || from.size() != to.size())
-        return mapAsciiText(*result, text, from, to) ? kOk : mapMixed(task, *result, text, from, to);
-    mapAscii(*result, text, from, to);
+[[gnu::always_inline]] Status rt_StrMap(TaskCore* task, String* result, const String* Str,
+                                        const String* FromMap, const String* ToMap) {
+    const int shift = shiftOf(*FromMap, *ToMap);
+    if (shift == kNoShift || !lib::isAscii(*Str)) return mapEach(task, *result, *Str, *FromMap, *ToMap);
+    mapShifted(*result, *Str, lib::asciiRowsOf(*FromMap), shift);
     return kOk;
 }
 }

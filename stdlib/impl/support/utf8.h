@@ -4,6 +4,7 @@
 // character.
 
 #include "runtime/abi/rt_abi.h"
+#include "stdlib/impl/support/blocks.h"
 
 #include <cstring>
 #include <string>
@@ -62,28 +63,11 @@ inline bool isAscii(std::string_view text) {
 inline size_t characterCount(std::string_view text) {
     return isAscii(text) ? text.size() : mixedCharacterCount(text);
 }
-/// A set of characters up to 0x7F: two words of bits, which programs keep in registers, or know when they are compiled.
-class AsciiSet {
-  public:
-    explicit AsciiSet(std::string_view characters) {
-        for (const char character : characters) {
-            const auto code = static_cast<uint8_t>(character);
-            (code & 0x40 ? high_ : low_) |= uint64_t{1} << (code & 0x3F);
-            seen_ |= code;
-        }
-    }
-    /// False: the text has characters above 0x7F; contains() must not be asked.
-    bool isComplete() const { return seen_ < 0x80; }
-    bool contains(char character) const {
-        const auto code = static_cast<uint8_t>(character);
-        return ((code & 0x40 ? high_ : low_) >> (code & 0x3F) & 1) != 0;
-    }
-
-  private:
-    uint64_t low_ = 0;
-    uint64_t high_ = 0;
-    uint8_t seen_ = 0;
-};
+inline size_t characterCount(const String& text) {
+    if (isAscii(text)) [[likely]]
+        return text.size();
+    return mixedCharacterCount(text.view()) & 0x7F; // so programs know how many bits it has
+}
 /// Bytes of the first `count` characters.
 size_t bytesOf(std::string_view text, size_t count);
 /// UTF-8 of a code point up to 0x10FFFF.
