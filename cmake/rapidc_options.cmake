@@ -34,6 +34,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   # GCC bug 105329: reports overlapping or endless copies in std::string that cannot happen
   target_compile_options(rapidc_options INTERFACE -Wno-restrict -Wno-stringop-overflow)
 endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # hints for the bitcode of natives, which clang makes in any case
+  target_compile_options(rapidc_options INTERFACE -Wno-unknown-pragmas)
+endif()
 if(RAPIDC_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)

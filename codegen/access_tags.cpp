@@ -9,7 +9,7 @@
 
 namespace codegen {
 
-/// What lies in memory: of an array, its elements; of a string, bytes that only natives look at.
+/// The accesses that a type stands for: of an array, its elements; of a string, bytes that only natives look at.
 llvm::MDNode* ModuleEmitter::accessNode(ir::TypeId type) {
     while (module_.types[type].kind == ir::TypeKind::Array)
         type = module_.types[type].element;

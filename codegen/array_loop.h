@@ -48,7 +48,7 @@ class ArrayLoop {
     const std::vector<Access>& stores() const { return stores_; }
     /// Loads that not all rounds execute, but could.
     const std::vector<Access>& early() const { return early_; }
-    /// What a branch asks for, perhaps among other things, for the loop to continue.
+    /// The conditions under which a branch lets the loop continue, perhaps among others.
     struct Check {
         llvm::BranchInst* at;
         llvm::Value* condition;

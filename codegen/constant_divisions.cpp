@@ -21,7 +21,7 @@ namespace {
 using llvm::Value;
 using namespace llvm::PatternMatch;
 
-/// The edge that is taken where `value` equals `part`, its whole part; null when the user is no such check.
+/// The edge that is taken where `value` equals `part`, its whole part; null for any other user.
 const llvm::BranchInst* wholeCheck(const llvm::User* user, Value* value, Value* part, unsigned& edge) {
     const auto* compare = llvm::dyn_cast<llvm::FCmpInst>(user);
     if (!compare || !compare->hasOneUse() ||

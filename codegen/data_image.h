@@ -27,7 +27,7 @@ struct DataDeclaration {
     const std::string &name, &moduleName;
     uint32_t task, file, line;
 };
-/// What the run-time tables list: all data that can be asked for by name, and further declarations of shared ones.
+/// The rows of the run-time tables: all data that can be asked for by name, and further declarations of shared ones.
 std::vector<DataDeclaration> listedData(const ir::Module& module);
 std::vector<DataDeclaration> listedAliases(const ir::Module& module);
 

@@ -22,7 +22,7 @@ class ProgramData {
     /// texts.
     explicit ProgramData(const ir::Module& module);
     static bool canHold(const ir::Module& module);
-    /// Places the data. False when there is no memory for them.
+    /// Places the data. False: out of memory.
     bool create();
 
     /// The data, and kDataRows and kAliasRows, for compiled code.

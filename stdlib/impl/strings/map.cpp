@@ -1,6 +1,7 @@
 // Manual 1.19: StrMap.
 
 #include "stdlib/impl/support/fail.h"
+#include "stdlib/impl/support/inlined.h"
 #include "stdlib/impl/support/utf8.h"
 
 #include "stdlib_constants.h"
@@ -150,8 +151,8 @@ void mapShifted(String& result, const String& text, const lib::AsciiRows& from, 
 
 extern "C" {
 
-[[gnu::always_inline]] Status rt_StrMap(TaskCore* task, String* result, const String* Str,
-                                        const String* FromMap, const String* ToMap) {
+RAPIDC_INLINED Status rt_StrMap(TaskCore* task, String* result, const String* Str, const String* FromMap,
+                                const String* ToMap) {
     const int shift = shiftOf(*FromMap, *ToMap);
     if (shift == kNoShift || !lib::isAscii(*Str)) return mapEach(task, *result, *Str, *FromMap, *ToMap);
     mapShifted(*result, *Str, lib::asciiRowsOf(*FromMap), shift);

@@ -1,6 +1,7 @@
 // Manual 1.19: looking at and into strings. Positions count characters from 1.
 
 #include "stdlib/impl/support/fail.h"
+#include "stdlib/impl/support/inlined.h"
 #include "stdlib/impl/support/utf8.h"
 
 #include "stdlib_constants.h"
@@ -187,7 +188,7 @@ size_t rankOfAscii(char character, const String& order) {
 
 extern "C" {
 
-[[gnu::always_inline]] Status rt_StrLen(TaskCore*, float* result, const String* Str) {
+RAPIDC_INLINED Status rt_StrLen(TaskCore*, float* result, const String* Str) {
     const size_t count = lib::characterCount(*Str);
     if (count > kStringCapacity) __builtin_unreachable(); // loops up to the length count with integers
     *result = static_cast<float>(count);
@@ -199,8 +200,7 @@ Status rt_StrSize(TaskCore*, float* result, const String* Str) {
     return kOk;
 }
 
-[[gnu::always_inline]] Status rt_StrPart(TaskCore* task, String* result, const String* Str, float ChPos,
-                                         float Len) {
+RAPIDC_INLINED Status rt_StrPart(TaskCore* task, String* result, const String* Str, float ChPos, float Len) {
     const std::string_view bytes = Str->view();
     const size_t length = lib::characterCount(*Str);
     size_t first = 0;
@@ -221,8 +221,8 @@ Status rt_StrSize(TaskCore*, float* result, const String* Str) {
     return kOk;
 }
 
-[[gnu::always_inline]] Status rt_StrMemb(TaskCore* task, bool* result, const String* Str, float ChPos,
-                                         const String* Set) {
+RAPIDC_INLINED Status rt_StrMemb(TaskCore* task, bool* result, const String* Str, float ChPos,
+                                 const String* Set) {
     size_t position = 0;
     if (!readPosition(ChPos, 1, Str->size(), position) || !lib::isAscii(*Str)) [[unlikely]] {
         bool isMember = false;
@@ -234,8 +234,8 @@ Status rt_StrSize(TaskCore*, float* result, const String* Str) {
     return kOk;
 }
 
-[[gnu::always_inline]] Status rt_StrFind(TaskCore* task, float* result, const String* Str, float ChPos,
-                                         const String* Set, bool NotInSet) {
+RAPIDC_INLINED Status rt_StrFind(TaskCore* task, float* result, const String* Str, float ChPos,
+                                 const String* Set, bool NotInSet) {
     const size_t length = Str->size();
     size_t position = 0;
     if (!readPosition(ChPos, 1, std::max<size_t>(length, 1), position) || !lib::isAscii(*Str)) [[unlikely]] {

@@ -2,6 +2,7 @@
 
 #include "runtime/abi/support_natives.h"
 #include "stdlib/impl/support/fail.h"
+#include "stdlib/impl/support/inlined.h"
 
 #include "stdlib_constants.h"
 
@@ -48,7 +49,7 @@ bool sameValue(const char* a, const char* b, const TypeDesc& type) {
 extern "C" {
 
 /// The result may be one of the operands; nothing is written when it does not fit.
-[[gnu::always_inline]] Status rt_strConcat(TaskCore* task, String* result, const String* a, const String* b) {
+RAPIDC_INLINED Status rt_strConcat(TaskCore* task, String* result, const String* a, const String* b) {
     const size_t front = a->length;
     const size_t size = front + b->length;
     if (size > sizeof result->bytes)
