@@ -32,7 +32,8 @@ target_compile_options(rapidc_options INTERFACE -Wall -Wextra -Wpedantic -Wshado
   -ffp-contract=off $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp> $<$<CXX_COMPILER_ID:Clang>:-fcolor-diagnostics>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC bugs 105329 and 105651: reports overlapping, endless or misplaced copies in std::string that cannot happen
-  target_compile_options(rapidc_options INTERFACE -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)
+  target_compile_options(rapidc_options INTERFACE -Wno-restrict -Wno-stringop-overflow
+    -Wno-stringop-overread -Wno-array-bounds)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # hints for the bitcode of natives, which clang makes in any case
