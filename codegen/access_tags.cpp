@@ -9,7 +9,7 @@
 
 namespace codegen {
 
-/// The accesses that a type stands for: of an array, its elements; of a string, bytes that only natives look at.
+/// The node of a type. Arrays have that of their elements; strings are bytes, which only natives access.
 llvm::MDNode* ModuleEmitter::accessNode(ir::TypeId type) {
     while (module_.types[type].kind == ir::TypeKind::Array)
         type = module_.types[type].element;

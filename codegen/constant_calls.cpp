@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "codegen/preserved.h"
+
 namespace codegen {
 namespace {
 
@@ -108,10 +110,7 @@ llvm::PreservedAnalyses ConstantCalls::run(llvm::Function& function, llvm::Funct
         inst.eraseFromParent();
         changed = true;
     }
-    if (!changed) return llvm::PreservedAnalyses::all();
-    llvm::PreservedAnalyses preserved;
-    preserved.preserveSet<llvm::CFGAnalyses>();
-    return preserved;
+    return preservingBlocks(changed);
 }
 
 } // namespace codegen

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "codegen/preserved.h"
+
 namespace codegen {
 namespace {
 
@@ -91,10 +93,7 @@ llvm::PreservedAnalyses WholeChecks::run(llvm::Function& function, llvm::Functio
         compare->eraseFromParent();
         changed = true;
     }
-    if (!changed) return llvm::PreservedAnalyses::all();
-    llvm::PreservedAnalyses preserved;
-    preserved.preserveSet<llvm::CFGAnalyses>();
-    return preserved;
+    return preservingBlocks(changed);
 }
 
 } // namespace codegen

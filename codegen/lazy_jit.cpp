@@ -23,7 +23,6 @@
 #include "codegen/parts.h"
 #include "codegen/program_data.h"
 #include "codegen/task_frame.h"
-#include "ir/core/cfg.h"
 #include "ir/core/ir.h"
 
 namespace codegen {
@@ -166,7 +165,6 @@ class LazyProgram : public JitProgram {
         part.callsBySlot = true;
         part.routines = {order.routine};
         part.settingTaskFrame = settingTaskFrame_;
-        part.dataInMemory = data_ != nullptr;
         part.countsCalls = options_.optimise && !optimise;
         if (optimise) part.copies = copiesFor(module_, part.routines);
         for (const uint32_t copy : part.copies)

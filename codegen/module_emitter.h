@@ -29,10 +29,11 @@ struct Part {
     /// routinesSettingTaskFrame() of the program, made once for all parts.
     std::shared_ptr<const std::vector<bool>> settingTaskFrame;
     bool isPaced = false; ///< `routines` are all paced by natives: they get the fastest code generation, too
-    bool countsCalls = false; ///< in memory only: of `routines`, in the table kCallCounts
-    bool callsBySlot = false; ///< in memory only: other parts are reached through the table kRoutineSlots
-    bool dataInMemory =
-        false; ///< in memory only: the program's data and the rows that list them are there already (ProgramData)
+    // In memory only:
+    bool countsCalls = false; ///< of `routines`, in the table kCallCounts
+    bool callsBySlot = false; ///< other parts are reached through the table kRoutineSlots
+    /// Tables: the program's data and the rows that list them are there already (ProgramData).
+    bool dataInMemory = false;
 };
 /// Their rows (rt::GlobalDesc) then.
 inline constexpr const char* kDataRows = "rapidc.data";

@@ -61,10 +61,11 @@ class PartCompiler {
             onAllProcessors(module_.routines.size(), [this](size_t routine, std::string& problem) {
                 return options_.prepare(static_cast<uint32_t>(routine), problem);
             });
-        parts_ = divide(module_, options_);
-        if (error_.empty())
+        if (error_.empty()) {
+            parts_ = divide(module_, options_);
             onAllProcessors(parts_.size(),
                             [this](size_t i, std::string& problem) { return compilePart(i, problem); });
+        }
         for (size_t i = 0; i < parts_.size(); ++i)
             paths.push_back(pathOf(i));
         cache_.shrink(kCacheBytes);

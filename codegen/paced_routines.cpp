@@ -20,7 +20,9 @@ class Pace {
     Pace(const ir::Module& module, const ir::Routine& routine, const NativeBodies& inlined)
         : module_(module), routine_(routine), inlined_(inlined) {}
 
-    bool hasEnoughNatives() const {
+    /// By its length and its natives alone.
+    bool mayBePaced() const {
+        if (routine_.insts.size() < kShort) return false;
         const auto robotInstructions = static_cast<size_t>(
             std::count_if(routine_.insts.begin(), routine_.insts.end(), [&](const ir::Inst& inst) {
                 return isCalledNative(inst) && module_.natives[inst.index].result == ir::kVoid;
@@ -98,14 +100,14 @@ class Pace {
 bool isPacedByNatives(const ir::Module& module, const ir::Routine& routine, const ir::Cfg& cfg,
                       const ir::LoopInfo& loops, const NativeBodies& inlined) {
     const Pace pace(module, routine, inlined);
-    if (routine.insts.size() < kShort || !loops.irreducible.empty() || !pace.hasEnoughNatives()) return false;
+    if (!loops.irreducible.empty() || !pace.mayBePaced()) return false;
     for (size_t i = 0; i < loops.loops.size(); ++i)
         if (!pace.isSlow(cfg, loops, i)) return false;
     return true;
 }
 
 bool isPacedByNatives(const ir::Module& module, const ir::Routine& routine, const NativeBodies& inlined) {
-    if (!Pace(module, routine, inlined).hasEnoughNatives()) return false;
+    if (!Pace(module, routine, inlined).mayBePaced()) return false;
     const ir::Cfg cfg = ir::buildCfg(module, routine, ir::HandlerEdges::No);
     return isPacedByNatives(module, routine, cfg, ir::findLoops(cfg), inlined);
 }

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "codegen/preserved.h"
+
 namespace codegen {
 namespace {
 
@@ -94,10 +96,7 @@ llvm::PreservedAnalyses SplitResults::run(llvm::Function& function, llvm::Functi
             if (phi.getType()->isStructTy() && !isOnlyReturned(phi)) found.push_back(&phi);
     for (llvm::PHINode* phi : found)
         split(*phi);
-    if (found.empty()) return llvm::PreservedAnalyses::all();
-    llvm::PreservedAnalyses preserved;
-    preserved.preserveSet<llvm::CFGAnalyses>();
-    return preserved;
+    return preservingBlocks(!found.empty());
 }
 
 llvm::PreservedAnalyses FiniteChecks::run(llvm::Function& function, llvm::FunctionAnalysisManager&) {
@@ -111,10 +110,7 @@ llvm::PreservedAnalyses FiniteChecks::run(llvm::Function& function, llvm::Functi
         inst.eraseFromParent();
         changed = true;
     }
-    if (!changed) return llvm::PreservedAnalyses::all();
-    llvm::PreservedAnalyses preserved;
-    preserved.preserveSet<llvm::CFGAnalyses>();
-    return preserved;
+    return preservingBlocks(changed);
 }
 
 } // namespace codegen

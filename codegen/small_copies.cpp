@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "codegen/preserved.h"
+
 namespace codegen {
 namespace {
 
@@ -65,9 +67,7 @@ llvm::PreservedAnalyses SmallCopies::run(llvm::Function& function, llvm::Functio
         memory->replaceAllUsesWith(fixed);
         memory->eraseFromParent();
     }
-    llvm::PreservedAnalyses preserved;
-    preserved.preserveSet<llvm::CFGAnalyses>();
-    return preserved;
+    return preservingBlocks(true);
 }
 
 } // namespace codegen

@@ -187,9 +187,8 @@ class SecondForm {
 
     template <class T> T* cloneOf(T* original) { return llvm::cast<T>(static_cast<Value*>(map_[original])); }
 
-    /// Instead of leaving the loop. What the checks ask for is collected by the
-    /// width of the numbers, so that a vector of it fills a register as the
-    /// numbers do.
+    /// Collects the results of checks instead of leaving the loop, by the width of the numbers: a vector of results fills a
+    /// register as the numbers do.
     void collectChecks(BasicBlock* start) {
         b_.SetInsertPoint(&*function_.getEntryBlock().begin());
         for (llvm::AllocaInst*& slot : foundBits_)
@@ -262,10 +261,11 @@ class SecondForm {
         each->addIncoming(b_.getInt64(0), looked_);
         each->addIncoming(following, store_);
         b_.CreateCondBr(b_.CreateICmpEQ(following, count_), next_, store_);
-        goOn();
+        continueOrLeave();
     }
 
-    void goOn() {
+    /// After some rounds without failure: more of them, the end of the loop, or the first form for what is left.
+    void continueOrLeave() {
         BasicBlock* latch = loop_.getLoopLatch();
         auto* last = llvm::cast<llvm::BranchInst>(latch->getTerminator());
         BasicBlock* exit = last->getSuccessor(loop_.contains(last->getSuccessor(0)) ? 1 : 0);

@@ -16,6 +16,8 @@
 #include <optional>
 #include <vector>
 
+#include "codegen/preserved.h"
+
 namespace codegen {
 namespace {
 
@@ -293,18 +295,12 @@ llvm::PreservedAnalyses WholeAfterCheck::run(llvm::Function& function,
         const llvm::BasicBlockEdge edge(&block, branch->getSuccessor(0));
         changed |= llvm::replaceDominatedUsesWith(number, converted, dominators, edge) > 0;
     }
-    if (!changed) return llvm::PreservedAnalyses::all();
-    llvm::PreservedAnalyses preserved;
-    preserved.preserveSet<llvm::CFGAnalyses>();
-    return preserved;
+    return preservingBlocks(changed);
 }
 
 llvm::PreservedAnalyses WholeArithmetic::run(llvm::Function& function,
                                              llvm::FunctionAnalysisManager& analyses) {
-    if (!Wholes(function, analyses).run()) return llvm::PreservedAnalyses::all();
-    llvm::PreservedAnalyses preserved;
-    preserved.preserveSet<llvm::CFGAnalyses>();
-    return preserved;
+    return preservingBlocks(Wholes(function, analyses).run());
 }
 
 } // namespace codegen
