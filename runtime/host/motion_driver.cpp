@@ -216,7 +216,7 @@ Status MotionDriver::submit(Task& task, motion::MoveCommand command, motion::Mov
 Status MotionDriver::waitReleased(Task& task, motion::MoveId id) {
     const auto mayGoOn = [&] {
         if (processError_ != kOk) return true;
-        return task.isStepwise() ? system().isDone(id) : system().isReleased(id);
+        return task.isStepwise() ? system().isDone(id) && !system_.isMoving() : system().isReleased(id);
     };
     WaitResult result{};
     awaited_ = id;
@@ -379,7 +379,7 @@ void MotionDriver::continueEarlier(motion::MoveCommand& command) {
 }
 
 bool MotionDriver::isSettled() const {
-    return system_.isStopRequested() ? !system_.isMoving() : system_.isIdle();
+    return !system_.isMoving() && (system_.isStopRequested() || system_.isIdle());
 }
 
 void MotionDriver::finishTrace() {

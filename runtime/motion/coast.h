@@ -1,7 +1,9 @@
 #pragma once
 // Coast: how the arm comes to rest when the motors go off: each axis brakes for itself, so the arm leaves its path.
 
-#include "runtime/motion/planned_motion.h"
+#include "runtime/motion/motion_state.h"
+#include "runtime/robot/kinematics.h"
+#include "runtime/robot/robot_model.h"
 
 namespace motion {
 

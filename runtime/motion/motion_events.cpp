@@ -1,4 +1,4 @@
-// MotionSystem: what happens when: triggers, release of the program, the end of a stretch.
+// MotionSystem: what happens when: starts and ends of moves, triggers, release of the program.
 
 #include "runtime/motion/motion_system_impl.h"
 
@@ -6,147 +6,201 @@
 
 namespace motion {
 
-namespace {
-
-/// Profile parameter at the trigger's place.
-double placeOf(const PathTrigger& wanted, const PlannedMotion& plan) {
-    const double length = plan.path().length();
-    if (wanted.amount <= 0) return wanted.fromStart ? 0 : 1;
-    if (wanted.amount >= length) return wanted.fromStart ? 1 : 0;
-    return plan.parameterAtDistance(wanted.fromStart ? wanted.amount : length - wanted.amount);
+const Move* MotionSystem::Impl::findUnfinished(MoveId id) const {
+    const auto in = [&](const Level& of) -> const Move* {
+        const auto found =
+            std::find_if(of.queue.begin(), of.queue.end(), [&](const auto& m) { return m->id == id; });
+        return found == of.queue.end() ? nullptr : found->get();
+    };
+    if (const Move* move = in(level)) return move;
+    for (const Level& other : stored) {
+        if (const Move* move = in(other)) return move;
+    }
+    return nullptr;
 }
 
-} // namespace
-
-/// On the move in progress, or ahead of the one that follows it.
-std::optional<TimeNs> MotionSystem::Impl::triggerTime(const Move& move, const Trigger& trigger) const {
-    if (trigger.fired || trigger.wanted.nextMove || stretch().move == nullptr) return {};
-    return stretch().move.get() == &move ? timeOnPath(trigger.wanted) : timeAheadOf(move, trigger.wanted);
+/// The move a place of the path belongs to; null when it is long finished or there is none.
+const Move* MotionSystem::Impl::moveAt(const PathPlace& place) const {
+    const Route& route = path().route(place.run);
+    const std::size_t leg = route.legCount() == 0 ? 0 : route.legAt(place.s);
+    for (const auto* moves : {&level.finished, &level.queue})
+        for (const auto& move : *moves)
+            if (move->leg.run == place.run && move->leg.leg == leg && !move->isPoint) return move.get();
+    return nullptr;
 }
 
-std::optional<TimeNs> MotionSystem::Impl::timeOnPath(const PathTrigger& wanted) const {
-    const Stretch& current = stretch();
-    double seconds = 0;
-    if (wanted.inTime && wanted.fromStart) {
-        seconds = wanted.amount - current.move->doneSeconds;
-    } else if (wanted.inTime) {
-        if (isBraking) return {}; // the end of the path is not in sight
-        seconds = current.profile.duration() - wanted.amount;
+PathPlace MotionSystem::Impl::startOf(const Move& move) const {
+    return move.isPoint ? path().legEnd(move.leg) : path().legStart(move.leg);
+}
+
+PathPlace MotionSystem::Impl::endOf(const Move& move) const {
+    return path().legEnd(move.leg);
+}
+
+PathPlace MotionSystem::Impl::placeOf(const Move& move, const PathTrigger& wanted) const {
+    if (wanted.amount <= 0) return wanted.fromStart ? startOf(move) : endOf(move);
+    const Route& route = path().route(move.leg.run);
+    if (move.isPoint || route.legCount() == 0) return endOf(move);
+    return {move.leg.run, wanted.fromStart ? route.placeAfterStart(move.leg.leg, wanted.amount)
+                                           : route.placeBeforeEnd(move.leg.leg, wanted.amount)};
+}
+
+void MotionSystem::Impl::report(MotionEventKind kind, const Move* move, uint32_t trigger) {
+    events.push_back({now, kind, move == nullptr ? 0 : move->id, move == nullptr ? 0 : move->tag, trigger});
+}
+
+std::optional<double> MotionSystem::Impl::startTime(const Move& move) const {
+    if (move.isPoint) return reachTime(move);
+    return path().timeAt(startOf(move));
+}
+
+std::optional<double> MotionSystem::Impl::reachTime(const Move& move) const {
+    const Route& route = path().route(move.leg.run);
+    const bool isPassed = route.legCount() > 0 && route.isRounded(move.leg.leg);
+    return isPassed ? path().timeAt(endOf(move)) : path().inPositionTime(move.leg.run);
+}
+
+std::optional<double> MotionSystem::Impl::releaseTime(const Move& move) const {
+    if (move.isConcurrent) return startTime(move);
+    if (!move.isFlyBy) return reachTime(move);
+    if (level.queue.back().get() != &move) return seconds(); // a move that follows is known already
+    const auto decision = path().decisionTime();
+    return decision ? std::optional(*decision - toSeconds(options.programLead)) : reachTime(move);
+}
+
+std::optional<double> MotionSystem::Impl::triggerTime(const Move& move, const PathTrigger& wanted) const {
+    if (wanted.nextMove) return {};
+    std::optional<double> time;
+    if (wanted.inTime) {
+        time = wanted.fromStart ? startTime(move) : reachTime(move);
+        if (time) *time += wanted.fromStart ? wanted.amount : -wanted.amount;
+        // What is timed from the end cannot happen before the move begins.
+        if (const auto start = startTime(move); time && start) time = std::max(*time, *start);
     } else {
-        const double place = placeOf(wanted, current.move->plan);
-        if (place > current.profile.end() + 1e-12) return {};
-        seconds = current.profile.timeAt(place);
+        time = path().timeAt(placeOf(move, wanted));
     }
-    const TimeNs time = current.start + toNs(std::max(0.0, seconds - wanted.lag));
-    return isBraking && time > current.end ? std::nullopt : std::optional(time);
-}
-
-/// What the lag brings forward into the move in progress; none while that one does not run to its end.
-std::optional<TimeNs> MotionSystem::Impl::timeAheadOf(const Move& move, const PathTrigger& wanted) const {
-    if (!(wanted.lag > 0) || wanted.inTime || isBraking || isHeld()) return {};
-    const double seconds = move.plan.profileAt(override).timeAt(placeOf(wanted, move.plan)) - wanted.lag;
-    if (seconds >= 0) return {};
-    return std::max(stretch().start, stretch().end - toNs(-seconds));
-}
-
-/// The moves whose triggers may fire now: the one in progress and the one that follows it.
-std::vector<Move*> MotionSystem::Impl::movesWithTriggers() const {
-    std::vector<Move*> moves;
-    if (isAbandoned || queue.empty() || queue.front()->isReturn) return moves;
-    moves.push_back(queue.front().get());
-    if (queue.size() > 1) moves.push_back(queue[1].get());
-    return moves;
-}
-
-/// Triggers of the move that is over which lie on the one that follows.
-void MotionSystem::Impl::passTriggersOn(const Move& move) {
-    for (const Trigger& trigger : move.triggers) {
-        if (!trigger.wanted.nextMove) continue;
-        carried.push_back({trigger.wanted});
-        carried.back().wanted.nextMove = false;
-        carried.back().wanted.fromStart = true;
-    }
-}
-
-std::optional<TimeNs> MotionSystem::Impl::releaseTime() const {
-    const Stretch& current = stretch();
-    if (current.move == nullptr || current.move->isReleased || isAbandoned) return {};
-    if (current.move->isConcurrent) return current.start;
-    if (!current.move->isFlyBy || isBraking) return {}; // with the point itself
-    const double length = current.move->plan.path().length();
-    const double zone = std::min(current.move->zone, 0.5 * length);
-    const double entry = current.profile.timeAt(current.move->plan.parameterAtDistance(length - zone));
-    return std::max(current.start, current.start + toNs(entry) - options.programLead);
+    if (time) *time -= wanted.lag;
+    return time;
 }
 
 std::optional<TimeNs> MotionSystem::Impl::nextEvent() const {
-    const Stretch& current = stretch();
-    if (isCoasting || isExcursion) return std::max(current.end, now);
-    if (current.move == nullptr) return {};
-    const bool isOver = queue.empty() || queue.front() != current.move;
-    if (isOver) return {};
     std::optional<TimeNs> next;
-    const auto consider = [&](std::optional<TimeNs> time) {
-        if (time && (!next || *time < *next)) next = std::max(*time, now);
+    const auto considerAt = [&](TimeNs time) {
+        if (!next || time < *next) next = std::max(time, now);
     };
-    for (const Move* move : movesWithTriggers())
+    const auto consider = [&](std::optional<double> time) {
+        if (time) considerAt(toNs(*time));
+    };
+    if (isCoasting) {
+        const Span& at = span();
+        return std::max(now, at.start + toNs(at.coast->duration()));
+    }
+    if (isStepping) return std::max(now, toNs(path().backEnd()));
+    if (detour != nullptr) {
+        if (!detour->isHeld()) return std::max(now, toNs(detour->restTime()));
+        if ((isStopRequested && !isStopAnnounced) || !isRestAnnounced) return restTime();
+        return {};
+    }
+    if ((isStopRequested && !isStopAnnounced) || !isRestAnnounced) considerAt(restTime());
+    if (level.queue.empty() || isHalted) return next;
+    const Move& front = *level.queue.front();
+    consider(front.isStarted ? reachTime(front) : startTime(front));
+    for (const auto& move : level.queue) {
+        if (!move->isReleased) consider(releaseTime(*move));
         for (const Trigger& trigger : move->triggers)
-            consider(triggerTime(*move, trigger));
-    if (!isAbandoned) consider(releaseTime());
-    const bool isStanding = isBraking && isStopAnnounced && !isAbandoned && now >= current.end;
-    if (!isStanding) consider(current.end);
+            if (!trigger.fired) consider(triggerTime(*move, trigger.wanted));
+    }
     return next;
 }
 
-void MotionSystem::Impl::finishStretch() {
-    const std::shared_ptr<Move> move = queue.front();
-    if (move->isReturn && !isBraking) {
-        queue.pop_front();
-    } else if (isBraking) {
-        if (isAbandoned) queue.pop_front();
-        isBraking = !isAbandoned; // an unfinished move stays first in line
-        isAbandoned = false;
-    } else {
-        if (!std::exchange(move->isReleased, true)) report(MotionEventKind::Released, move.get(), now);
-        // What was to fire later than the point is reached (negative lag) fires with it.
+/// Triggers whose time has come; true if there was one.
+bool MotionSystem::Impl::fireTriggers() {
+    bool fired = false;
+    for (const auto& move : level.queue) {
         for (Trigger& trigger : move->triggers) {
-            if (!trigger.wanted.nextMove && !std::exchange(trigger.fired, true))
-                report(MotionEventKind::Trigger, move.get(), now, trigger.wanted.id);
+            if (trigger.fired || !isDue(triggerTime(*move, trigger.wanted))) continue;
+            trigger.fired = fired = true;
+            report(MotionEventKind::Trigger, move.get(), trigger.wanted.id);
         }
-        passTriggersOn(*move);
-        report(MotionEventKind::Reached, move.get(), now);
-        queue.pop_front();
-        lastDone = move->id;
-        if (move->plan.limits().speed > 0) finished = move;
-        reached.emplace_back(move->id, now);
-        if (reached.size() > 64) reached.pop_front();
     }
-    if (isHeld() && !std::exchange(isStopAnnounced, true)) report(MotionEventKind::Stopped, move.get(), now);
-    goOn();
+    return fired;
+}
+
+/// The first move has come to its point.
+void MotionSystem::Impl::finishFront() {
+    const std::shared_ptr<Move> move = level.queue.front();
+    if (!std::exchange(move->isReleased, true)) report(MotionEventKind::Released, move.get());
+    for (Trigger& trigger : move->triggers) {
+        if (trigger.wanted.nextMove) {
+            level.carried.push_back({trigger.wanted});
+            level.carried.back().wanted.nextMove = false;
+            level.carried.back().wanted.fromStart = true;
+        } else if (!std::exchange(trigger.fired, true)) {
+            // What was to fire later than the point is reached fires with it.
+            report(MotionEventKind::Trigger, move.get(), trigger.wanted.id);
+        }
+    }
+    report(MotionEventKind::Reached, move.get());
+    level.queue.pop_front();
+    lastDone = move->id;
+    constexpr std::size_t kKept = 4;
+    level.finished.push_back(move);
+    if (level.finished.size() > kKept) level.finished.pop_front();
+    reached.emplace_back(move->id, now);
+    if (reached.size() > 64) reached.pop_front();
+}
+
+/// Starts, releases and ends of moves that are due; true if there was one.
+bool MotionSystem::Impl::handleMoves() {
+    if (level.queue.empty()) return false;
+    bool happened = false;
+    const std::shared_ptr<Move> front = level.queue.front();
+    if (!front->isStarted && isDue(startTime(*front))) {
+        front->isStarted = happened = true;
+        isRestAnnounced = false;
+        const std::vector<Trigger> passedOn = std::exchange(level.carried, {});
+        front->triggers.insert(front->triggers.end(), passedOn.begin(), passedOn.end());
+        report(MotionEventKind::Started, front.get());
+    }
+    for (const auto& move : level.queue) {
+        if (move->isReleased || !isDue(releaseTime(*move))) continue;
+        move->isReleased = happened = true;
+        report(MotionEventKind::Released, move.get());
+    }
+    if (fireTriggers()) happened = true;
+    if (front->isStarted && isDue(reachTime(*front))) {
+        finishFront();
+        happened = true;
+    }
+    return happened;
 }
 
 void MotionSystem::Impl::handleEventsNow() {
+    const auto first = [&]() -> const Move* {
+        return level.queue.empty() ? nullptr : level.queue.front().get();
+    };
     if (isCoasting) {
         isCoasting = false;
-        if (!std::exchange(isStopAnnounced, true))
-            report(MotionEventKind::Stopped, queue.empty() ? nullptr : queue.front().get(), now);
+        if (!isHalted) follow(level.path, now); // its moves have been cleared meanwhile
+        isRestAnnounced = true;
+        report(std::exchange(isStopAnnounced, true) ? MotionEventKind::AtRest : MotionEventKind::Stopped,
+               first());
         if (!isHeld()) resume();
+        noteMotion();
         return;
     }
-    if (isExcursion) return finishExcursion();
-    const std::shared_ptr<Move> move = queue.front();
-    for (Move* with : movesWithTriggers()) {
-        for (Trigger& trigger : with->triggers) {
-            if (!happensNow(triggerTime(*with, trigger))) continue;
-            trigger.fired = true;
-            report(MotionEventKind::Trigger, with, now, trigger.wanted.id);
+    if (isStepping) return finishStepping();
+    if (detour != nullptr && !detour->isHeld()) return finishDetour();
+    if (detour == nullptr && !isHalted) {
+        while (handleMoves()) {
         }
     }
-    if (!isAbandoned && happensNow(releaseTime())) {
-        move->isReleased = true;
-        report(MotionEventKind::Released, move.get(), now);
-    }
-    if (now >= stretch().end) finishStretch();
+    if (now < restTime()) return;
+    const bool isAtRest = !std::exchange(isRestAnnounced, true);
+    if (isStopRequested && !std::exchange(isStopAnnounced, true))
+        report(MotionEventKind::Stopped, first());
+    else if (isAtRest)
+        report(MotionEventKind::AtRest, first());
 }
 
 } // namespace motion

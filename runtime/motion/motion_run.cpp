@@ -1,4 +1,4 @@
-// MotionSystem: the move in progress - started, braked on the path or off it, gone on with - and where the arm is.
+// MotionSystem: what the arm does: it follows its path, is held on it, brakes off it, returns to it.
 
 #include "runtime/motion/motion_system_impl.h"
 
@@ -12,189 +12,228 @@ constexpr double kReturnSpeed = 250; // mm/s, back to an interrupted path
 
 } // namespace
 
-const Move* MotionSystem::Impl::findUnfinished(MoveId id) const {
-    const auto in = [&](const std::deque<std::shared_ptr<Move>>& moves) -> const Move* {
-        const auto found = std::find_if(moves.begin(), moves.end(),
-                                        [&](const auto& m) { return m->id == id && !m->isReturn; });
-        return found == moves.end() ? nullptr : found->get();
-    };
-    if (const Move* move = in(queue)) return move;
-    for (const Level& level : levels) {
-        if (const Move* move = in(level.queue)) return move;
+std::deque<Span>::const_iterator MotionSystem::Impl::spanAt(TimeNs time) const {
+    const auto after = std::upper_bound(spans.begin(), spans.end(), time,
+                                        [](TimeNs value, const Span& s) { return value < s.start; });
+    return after == spans.begin() ? after : after - 1;
+}
+
+bool MotionSystem::Impl::isMoving() const {
+    const Span& at = span();
+    const double time = seconds();
+    if (at.coast != nullptr) return time < toSeconds(at.start) + at.coast->duration();
+    return at.path != nullptr && at.path->isMoving(time);
+}
+
+/// When the arm stands still if nothing is ordered any more; not before now.
+TimeNs MotionSystem::Impl::restTime() const {
+    TimeNs rest = now;
+    for (auto at = spanAt(now); at != spans.end(); ++at) {
+        if (at->coast != nullptr) rest = std::max(rest, at->start + toNs(at->coast->duration()));
+        if (at->path != nullptr && !at->path->isEmpty()) rest = std::max(rest, toNs(at->path->restTime()));
     }
-    return nullptr;
+    return rest;
 }
 
-void MotionSystem::Impl::report(MotionEventKind kind, const Move* move, TimeNs time, uint32_t trigger) {
-    events.push_back({time, kind, move == nullptr ? 0 : move->id, move == nullptr ? 0 : move->tag, trigger});
+std::shared_ptr<Trajectory> MotionSystem::Impl::newPath(const JointTarget& start, double earliest) const {
+    auto path = std::make_shared<Trajectory>(model, options.external, TrajectoryOptions{}, start, earliest);
+    path->setSpeedShare(seconds(), speedShare());
+    return path;
 }
 
-ProfileState MotionSystem::Impl::profileState(TimeNs time) const {
-    return stretch().profile.at(toSeconds(time - stretch().start));
+/// `what` becomes what the arm follows from a time on; until it has moves the arm stands there.
+void MotionSystem::Impl::follow(std::shared_ptr<const Trajectory> what, TimeNs from) {
+    Span next;
+    next.start = from;
+    next.still = stillAt(what->endTarget());
+    next.path = std::move(what);
+    while (!spans.empty() && spans.back().start >= from)
+        spans.pop_back();
+    spans.push_back(std::move(next));
 }
 
-void MotionSystem::Impl::begin(const std::shared_ptr<Move>& move, const Profile& profile) {
-    Stretch next;
-    next.start = now;
-    next.end = now + toNs(profile.duration());
-    next.move = move;
-    next.profile = profile;
-    stretches.push_back(std::move(next));
+/// The arm brakes, if it moves, and what is ordered from now on begins where it comes to rest.
+void MotionSystem::Impl::abandonPath() {
+    if (!isCoasting && detour == nullptr && !isStepping) path().hold(seconds());
+    if (detour != nullptr) detour->hold(seconds());
+    const TimeNs rest = restTime();
+    const MotionState state = stateAt(rest);
+    level.path = newPath({state.joints, state.extax}, toSeconds(rest));
+    detour = nullptr;
+    isStepping = isHalted = false;
+    level.finished.clear();
+    level.carried.clear();
+    if (isHeld()) path().hold(seconds());
+    if (!isCoasting) follow(level.path, rest);
 }
 
-void MotionSystem::Impl::startNext() {
-    if (queue.empty() || isHeld() || isMoving() || queue.front()->isStarted) return;
-    const std::shared_ptr<Move>& move = queue.front();
-    move->isStarted = true;
-    const std::vector<Trigger> passedOn = std::exchange(carried, {});
-    move->triggers.insert(move->triggers.end(), passedOn.begin(), passedOn.end());
-    begin(move, move->plan.profileAt(override));
-    if (!move->isReturn) report(MotionEventKind::Started, move.get(), now);
-}
-
-/// Goes on along the path of the current move from the present state: to a stop, or to the end at the present
-/// override. False if the motion is already braking for its end and cannot do better than that.
-bool MotionSystem::Impl::replaceProfile(bool toStop) {
-    const std::shared_ptr<Move> move = queue.front();
-    if (!(move->plan.limits().speed > 0)) return false; // a pause has no path
-    const bool isRunning = isOnFront();                 // else it has been put aside meanwhile
-    const ProfileState state = isRunning ? profileState(now) : ProfileState{move->pausedAt, 0, 0, 0};
-    bool isFeasible = true;
-    Profile profile = toStop ? Profile::brake(state, move->plan.limits())
-                             : Profile::continueTo(state, 1, move->plan.limitsAt(override), isFeasible);
-    if (!isFeasible || (toStop && profile.end() >= 1 - 1e-12)) return false;
-    if (isRunning) move->doneSeconds += toSeconds(std::min(now, stretch().end) - stretch().start);
-    begin(move, profile);
-    isBraking = toStop;
-    return true;
-}
-
-void MotionSystem::Impl::hold() {
-    if (isOnPath() && !isBraking && !isExcursion && stretch().profile.end() > 0) replaceProfile(true);
-}
-
-/// All moves from this one on. Who asks for one that was cleared long ago is told that it is done.
+/// All moves from this one on. Who asks for one that was cleared long ago is answered that it is done.
 void MotionSystem::Impl::noteCleared(MoveId first) {
+    if (first >= nextId) return;
     cleared.emplace_back(first, nextId - 1);
     if (cleared.size() > 64) cleared.pop_front();
 }
 
+/// After the stop flag or the override has changed.
+void MotionSystem::Impl::holdOrRelease() {
+    if (isHalted || isStepping) return;
+    Trajectory& followed = detour != nullptr ? *detour : path();
+    if (isHeld())
+        followed.hold(seconds());
+    else
+        followed.release(seconds());
+}
+
 /// Brakes off the path, and notes where on the path the arm would have stopped.
 void MotionSystem::Impl::coastNow() {
-    if (queue.front()->isReturn) { // it was on its way back: the move behind knows where to
-        queue.pop_front();
-    } else {
-        Move& move = *queue.front();
-        move.pausedAt = std::min(stretch().profile.end(), 1.0); // stop() has been called
-        move.doneSeconds += toSeconds(now - stretch().start);
+    const MotionState from = stateAt(now);
+    if (detour == nullptr) {
+        path().hold(seconds());
+        path().standAt(seconds(), path().at(path().restTime()).place);
     }
-    if (isAbandoned) queue.clear();
-    Stretch next;
+    detour = nullptr;
+    Span next;
     next.start = now;
-    next.still = stateAt(now);
-    const FrameSetup frames = stretch().move->plan.path().frames();
-    next.coast = std::make_shared<const Coast>(next.still, model, frames);
-    next.end = now + toNs(next.coast->duration());
-    stretches.push_back(std::move(next));
-    isBraking = isAbandoned = false;
+    next.still = from;
+    FrameSetup frames;
+    frames.baseFrame = model.baseFrame;
+    if (!path().isEmpty()) frames = path().framesAt(path().at(seconds()).place);
+    next.coast = std::make_shared<const Coast>(from, model, frames);
+    while (!spans.empty() && spans.back().start >= now)
+        spans.pop_back();
+    spans.push_back(std::move(next));
     isHalted = isCoasting = true;
 }
 
 /// After a halt by way of the path, else straight on.
 void MotionSystem::Impl::resume() {
-    if (isCoasting) return; // when it has come to rest
-    if (std::exchange(isHalted, false) && !queue.empty() && queue.front()->isStarted) orderReturnToPath();
-    goOn();
+    if (isCoasting || isStepping) return; // when it has come to rest
+    if (isHalted && startDetour()) return;
+    holdOrRelease();
 }
 
-void MotionSystem::Impl::goOn() {
-    if (isHeld() || isCoasting || isExcursion) return;
-    const bool isUnfinished = !queue.empty() && queue.front()->isStarted;
-    if (!isUnfinished) return startNext();
-    const bool isInterrupted = isBraking || !isOnFront();
-    if (isInterrupted && !isAbandoned) replaceProfile(false);
-}
-
-void MotionSystem::Impl::stepBackOnFront(double from, double mm, double mmPerSecond) {
-    const std::shared_ptr<Move>& move = queue.front();
-    const PlannedMotion& plan = move->plan;
-    const double to = plan.parameterAtDistance(plan.distanceAt(from) - mm);
-    ProfileLimits limits = plan.limits();
-    double mmPerUnit = 0; // of the parameter, at its highest
-    constexpr int kSamples = 32;
-    for (int i = 0; i <= kSamples; ++i)
-        mmPerUnit = std::max(mmPerUnit, plan.sampleAt({to + (from - to) * i / kSamples, 1, 0, 0}).tcpSpeed);
-    if (mmPerUnit > 0) limits.speed = std::min(limits.speed, mmPerSecond / mmPerUnit);
-    begin(move, Profile::restToRest(0, from - to, limits));
-    stretches.back().backFrom = from;
-    isExcursion = true;
-}
-
-void MotionSystem::Impl::finishExcursion() {
-    isExcursion = false;
-    const bool isBack = stretch().backFrom >= 0;
-    if (!queue.empty() && isBack) {
-        queue.front()->pausedAt = stretch().backFrom - stretch().profile.end();
-        isBraking = true; // it has not come to its end
+/// Back to where the path goes on, axis by axis; false when the arm stands there.
+bool MotionSystem::Impl::startDetour() {
+    isHalted = false;
+    if (!level.queue.empty() && !path().isEmpty()) {
+        const RoutePoint goal = path().pointAt(path().at(seconds()).place);
+        MoveCommand back;
+        back.joints = {goal.joints, goal.extax};
+        back.frames = path().framesAt(path().at(seconds()).place);
+        back.speed.vTcp = kReturnSpeed;
+        const MotionState here = stateAt(now);
+        auto way = MotionPath::make(kinematics, {here.joints, here.extax}, back);
+        if (way && !way->isEmpty()) {
+            detour = newPath({here.joints, here.extax}, seconds());
+            detour->append(std::make_shared<const MotionPath>(std::move(*way)), back, seconds());
+            follow(detour, now);
+            return true;
+        }
     }
-    if (!queue.empty() && !isBack) queue.pop_front(); // it has returned to the path
-    isStopAnnounced = true;
-    report(MotionEventKind::Stopped, queue.empty() ? nullptr : queue.front().get(), now);
-    if (!isHeld()) goOn();
+    if (span().path != level.path) follow(level.path, now);
+    return false;
 }
 
-/// Puts a joint move in front of the queue if the arm does not stand where the first move goes on.
-void MotionSystem::Impl::orderReturnToPath() {
-    const Move& first = *queue.front();
-    MoveCommand back;
-    const MotionState goal = first.plan.sampleAt({first.pausedAt, 0, 0, 0});
-    back.joints = {goal.joints, goal.extax};
-    back.frames = first.plan.path().frames();
-    back.speed.vTcp = kReturnSpeed;
-    auto path = MotionPath::make(kinematics, standing(), back);
-    if (!path || path->isEmpty()) return;
-    auto move = std::make_shared<Move>();
-    move->id = first.id;
-    move->tag = first.tag;
-    move->isReturn = true;
-    move->isReleased = true;
-    move->plan = PlannedMotion::plan(std::move(*path), model, options.external, back);
-    queue.push_front(std::move(move));
-    isBraking = false;
+void MotionSystem::Impl::finishDetour() {
+    detour = nullptr;
+    follow(level.path, now);
+    if (isHeld()) {
+        isStopAnnounced = isRestAnnounced = true;
+        report(MotionEventKind::Stopped, level.queue.empty() ? nullptr : level.queue.front().get());
+    }
+    holdOrRelease();
+    noteMotion();
 }
 
-MotionState MotionSystem::Impl::stateAt(TimeNs time) const {
-    const auto after = std::upper_bound(stretches.begin(), stretches.end(), time,
-                                        [](TimeNs value, const Stretch& s) { return value < s.start; });
-    const Stretch& at = after == stretches.begin() ? stretches.front() : *(after - 1);
-    if (at.coast != nullptr) return at.coast->at(toSeconds(time - at.start), kinematics);
-    if (at.move == nullptr) return at.still;
-    ProfileState along = at.profile.at(toSeconds(time - at.start));
-    if (at.backFrom >= 0) along.s = at.backFrom - along.s;
-    MotionState state = at.move->plan.sampleAt(along);
-    if (at.backFrom >= 0)
-        for (double& speed : state.jointSpeed)
-            speed = -speed;
-    state.move = at.move->id;
-    state.tag = at.move->tag;
-    state.moving = time >= at.start && time < at.end;
+/// Where the path is after `mm` back: on the interrupted move, or from its start on the one before.
+std::optional<PathPlace> MotionSystem::Impl::placeBack(double mm) const {
+    constexpr double kNothing = 1e-6;
+    if (path().isEmpty()) return {};
+    const PathPlace here = path().at(seconds()).place;
+    const bool isBegun = !level.queue.empty() && level.queue.front()->isStarted;
+    const auto within = [&](const Move& move) -> std::optional<PathPlace> {
+        const PathPlace start = startOf(move);
+        const PathPlace from = here.run == start.run ? here : endOf(move);
+        if (here < start || from.s <= start.s + kNothing) return {};
+        return PathPlace{start.run, std::max(start.s, from.s - mm)};
+    };
+    if (isBegun)
+        if (const auto place = within(*level.queue.front())) return place;
+    return level.finished.empty() ? std::nullopt : within(*level.finished.back());
+}
+
+void MotionSystem::Impl::finishStepping() {
+    isStepping = false;
+    path().finishBack(seconds());
+    isStopAnnounced = isRestAnnounced = true;
+    report(MotionEventKind::Stopped, level.queue.empty() ? nullptr : level.queue.front().get());
+    if (!isHeld()) holdOrRelease();
+    noteMotion();
+}
+
+// ---- States ----
+
+MotionState MotionSystem::Impl::stillAt(const JointTarget& joints) const {
+    MotionState state;
+    state.joints = joints.robax;
+    state.extax = joints.extax;
+    FrameSetup frames;
+    if (level.path != nullptr && !path().isEmpty()) frames = path().framesAt(path().end());
+    frames.baseFrame = model.baseFrame;
+    state.tcp = frames.tcpInWorld(kinematics.forward(joints.robax));
+    state.move = lastDone;
+    if (!level.finished.empty()) state.tag = level.finished.back()->tag;
     return state;
 }
 
+MotionState MotionSystem::Impl::stateOn(const Trajectory& trajectory, const Span& span, double time) const {
+    if (trajectory.isEmpty()) return span.still;
+    const Trajectory::Moment moment = trajectory.at(time);
+    const RoutePoint point = trajectory.pointAt(moment.place);
+    MotionState state = span.still;
+    state.joints = point.joints;
+    state.extax = point.extax;
+    state.tcp = trajectory.framesAt(moment.place).tcpInWorld(kinematics.forward(point.joints));
+    state.moving = trajectory.isMoving(time);
+    if (state.moving && moment.speed != 0) {
+        double rate = 0;
+        trajectory.ratesAt(moment.place, state.jointSpeed, rate);
+        for (double& speed : state.jointSpeed)
+            speed *= moment.speed;
+        state.tcpSpeed = rate * std::abs(moment.speed);
+    }
+    if (const Move* move = &trajectory == level.path.get() ? moveAt(moment.place) : nullptr) {
+        state.move = move->id;
+        state.tag = move->tag;
+    }
+    return state;
+}
+
+MotionState MotionSystem::Impl::stateAt(TimeNs time) const {
+    const Span& at = *spanAt(time);
+    if (at.coast != nullptr) return at.coast->at(toSeconds(time - at.start), kinematics);
+    return at.path == nullptr ? at.still : stateOn(*at.path, at, toSeconds(time));
+}
+
+/// Where the arm is; at a stop point without a further move, the point itself although the last tenths of a mm are still
+/// being covered.
 JointTarget MotionSystem::Impl::standing() const {
+    const bool isArriving = level.queue.empty() && span().path == level.path && path().leadsToEnd();
+    if (isArriving) return path().endTarget();
     const MotionState state = stateAt(now);
     return {state.joints, state.extax};
 }
 
-JointTarget MotionSystem::Impl::plannedEnd() const {
-    if (!queue.empty() && !(isAbandoned && queue.size() == 1)) return queue.back()->plan.path().end();
-    const MotionState state = stateAt(std::max(now, stretch().end));
-    return {state.joints, state.extax};
-}
-
 void MotionSystem::Impl::forgetBefore(TimeNs time) {
-    while (stretches.size() > 1 && stretches[1].start <= time)
-        stretches.pop_front();
+    while (spans.size() > 1 && spans[1].start <= time)
+        spans.pop_front();
+    if (path().isEmpty() || spans.front().path != level.path) return;
+    const Move* oldest = !level.finished.empty() ? level.finished.front().get()
+                         : !level.queue.empty()  ? level.queue.front().get()
+                                                 : nullptr;
+    if (oldest == nullptr) return;
+    const PathPlace place = startOf(*oldest);
+    path().forgetBefore(toSeconds(time), place);
 }
 
 } // namespace motion

@@ -23,8 +23,9 @@ MotionSystem::MotionSystem(robot::RobotModel model, MotionOptions options) : imp
         const ExternalAxisModel& axis = options.external[i];
         if (axis.present) external[i] = std::clamp(0.0, axis.lower, axis.upper);
     }
-    impl_->stretches.emplace_back();
-    placeAt({startPosture(), external});
+    const JointTarget start{startPosture(), external};
+    impl_->level.path = impl_->newPath(start, 0);
+    impl_->follow(impl_->level.path, 0);
 }
 
 MotionSystem::~MotionSystem() = default;
@@ -39,163 +40,141 @@ const robot::Kinematics& MotionSystem::kinematics() const {
 }
 
 Expected<MoveId, MotionError> MotionSystem::enqueue(const MoveCommand& command) {
+    Impl& s = *impl_;
     MotionError error;
-    if (impl_->model.kinematics != robot::KinematicsKind::SphericalWrist) {
+    if (s.model.kinematics != robot::KinematicsKind::SphericalWrist) {
         error.kind = MotionErrorKind::UnsupportedRobot;
         return Unexpected{error};
     }
-    if (impl_->queue.size() >= impl_->options.maxQueued) {
+    if (s.level.queue.size() >= s.options.maxQueued) {
         error.kind = MotionErrorKind::QueueFull;
-        error.value = static_cast<double>(impl_->queue.size());
+        error.value = static_cast<double>(s.level.queue.size());
         return Unexpected{error};
     }
     MoveCommand based = command;
-    based.frames.baseFrame = impl_->model.baseFrame;
-    auto path = MotionPath::make(impl_->kinematics, impl_->plannedEnd(), based);
-    if (!path) return Unexpected{path.error()};
+    based.frames.baseFrame = s.model.baseFrame;
+    auto made = MotionPath::make(s.kinematics, s.path().endTarget(), based);
+    if (!made) return Unexpected{made.error()};
     for (std::size_t i = 0; i < static_cast<std::size_t>(kExternalCount); ++i) {
-        const ExternalAxisModel& axis = impl_->options.external[i];
-        const double value = path->end().extax[i];
+        const ExternalAxisModel& axis = s.options.external[i];
+        const double value = made->end().extax[i];
         if (!isConnected(value) || (value >= axis.lower - 1e-9 && value <= axis.upper + 1e-9)) continue;
         error.kind = MotionErrorKind::JointOutOfRange;
         error.joint = robot::kJointCount + 1 + static_cast<int>(i);
         error.value = value;
         error.pathFraction = 1;
-        error.position = path->tcpAt(1).pos;
+        error.position = made->tcpAt(1).pos;
         return Unexpected{error};
     }
+    const auto path = std::make_shared<const MotionPath>(std::move(*made));
+    const auto appended = s.path().append(path, based, s.seconds());
+    const std::shared_ptr<Move> before = s.level.queue.empty() ? nullptr : s.level.queue.back();
+    if (appended.isCornerLost) s.report(MotionEventKind::CornerLost, before.get());
     auto move = std::make_shared<Move>();
-    move->id = impl_->nextId++;
+    move->id = s.nextId++;
     move->tag = command.tag;
+    move->leg = appended.at;
+    move->isPoint = appended.isPoint;
     move->isConcurrent = command.concurrent;
     move->isFlyBy = !command.zone.finep;
-    move->zone = std::max({command.zone.pzoneTcp, command.zone.pzoneOri, command.zone.pzoneEax});
     for (const PathTrigger& trigger : command.triggers)
         move->triggers.push_back({trigger, false});
-    move->plan = PlannedMotion::plan(std::move(*path), impl_->model, impl_->options.external, based);
-    impl_->queue.push_back(move);
-    impl_->startNext();
+    s.level.queue.push_back(move);
+    if (before != nullptr && !std::exchange(before->isReleased, true) && !before->isConcurrent)
+        s.report(MotionEventKind::Released, before.get());
     return move->id;
 }
 
 void MotionSystem::clear() {
     Impl& s = *impl_;
-    s.carried.clear();
-    s.finished = nullptr;
-    if (s.queue.empty()) return;
-    if (s.isExcursion) { // it comes to its end
-        s.noteCleared(s.queue.front()->id);
-        s.queue.clear();
-        s.isBraking = false;
-        return;
-    }
-    if (s.isHalted) { // what remains is not the arm's any more
-        s.noteCleared(s.queue.front()->id);
-        s.queue.clear();
-        s.isHalted = false;
-        return;
-    }
-    const bool isUnderWay = s.queue.front()->isStarted;
-    const bool isFinishing = isUnderWay && s.isMoving() && !s.isBraking && !s.replaceProfile(true);
-    const MoveId first = s.queue.front()->id + (isFinishing ? 1 : 0);
-    if (first < s.nextId) s.noteCleared(first);
-    if (isUnderWay && s.isMoving()) {
-        s.queue.resize(1); // it comes to rest first
-        s.isAbandoned = !isFinishing;
-    } else {
-        s.queue.clear();
-        s.isBraking = false;
-        s.isAbandoned = false;
-    }
+    if (!s.level.queue.empty()) s.noteCleared(s.level.queue.front()->id);
+    const bool hadMoves = !s.level.queue.empty();
+    s.level.queue.clear();
+    s.level.carried.clear();
+    s.level.finished.clear();
+    if (hadMoves || s.isHalted || s.detour != nullptr) s.abandonPath();
+    s.noteMotion();
 }
 
 void MotionSystem::rearmTriggers() {
     Impl& s = *impl_;
-    if (s.queue.empty() || !s.queue.front()->isStarted) return;
-    for (Trigger& trigger : s.queue.front()->triggers)
+    if (s.level.queue.empty() || !s.level.queue.front()->isStarted) return;
+    for (Trigger& trigger : s.level.queue.front()->triggers)
         trigger.fired = false;
 }
 
 void MotionSystem::returnToPath() {
     Impl& s = *impl_;
-    if (!s.isHalted || s.isCoasting) return;
-    s.isHalted = false;
-    if (s.queue.empty() || !s.queue.front()->isStarted) return;
-    s.orderReturnToPath();
-    if (!s.queue.front()->isReturn) return; // it stands there
-    s.queue.front()->isStarted = true;
-    s.begin(s.queue.front(), s.queue.front()->plan.profile());
-    s.isExcursion = true;
+    if (s.isHalted && !s.isCoasting) s.startDetour();
+    s.noteMotion();
 }
 
 bool MotionSystem::stepBack(double mm, double mmPerSecond) {
     Impl& s = *impl_;
-    if (!s.isHeld() || s.isMoving() || s.isHalted) return false;
-    const bool isBegun = !s.queue.empty() && s.queue.front()->isStarted;
-    const bool isReturn = isBegun && s.queue.front()->isReturn;
-    if (isReturn && !s.queue.front()->isRetraced) return false;
-    const double from = isBegun ? s.pausedAt() : 0;
-    if (from > 1e-9) {
-        s.stepBackOnFront(from, mm, mmPerSecond);
-        return true;
-    }
-    if (isReturn || s.finished == nullptr) return false;
-    const auto before = std::make_shared<Move>(*s.finished);
-    before->isReturn = before->isRetraced = before->isReleased = true;
-    before->triggers.clear();
-    s.queue.push_front(before);
-    s.stepBackOnFront(1, mm, mmPerSecond);
+    if (!s.isHeld() || s.isMoving() || s.isHalted || s.detour != nullptr) return false;
+    const auto place = s.placeBack(mm);
+    if (!place) return false;
+    s.path().goBack(s.seconds(), *place, mmPerSecond);
+    s.isStepping = true;
+    s.noteMotion();
     return true;
 }
 
 bool MotionSystem::storePath() {
     Impl& s = *impl_;
     if (s.isMoving()) return false;
-    if (!std::exchange(s.isHalted, false) && !s.queue.empty() && s.queue.front()->isStarted) {
-        s.queue.front()->pausedAt = s.pausedAt();
-    }
-    s.finished = nullptr;
-    s.levels.push_back(
-        {std::exchange(s.queue, {}), std::exchange(s.carried, {}), s.isStopRequested, s.isBraking});
+    s.isHalted = false;
+    s.level.isStopRequested = s.isStopRequested;
+    s.path().hold(s.seconds());
+    const JointTarget here = s.standing();
+    s.stored.push_back(std::exchange(s.level, {}));
     s.isStopRequested = false;
-    s.isBraking = false;
     s.isStopAnnounced = true;
+    s.level.path = s.newPath(here, s.seconds());
+    s.follow(s.level.path, s.now);
+    s.holdOrRelease();
     return true;
 }
 
 bool MotionSystem::restorePath() {
     Impl& s = *impl_;
-    if (s.isMoving() || !s.queue.empty() || s.levels.empty()) return false;
-    Level level = std::move(s.levels.back());
-    s.levels.pop_back();
-    s.finished = nullptr;
-    s.queue = std::move(level.queue);
-    s.carried = std::move(level.carried);
+    if (s.isMoving() || !s.level.queue.empty() || s.stored.empty()) return false;
+    Level level = std::move(s.stored.back());
+    s.stored.pop_back();
+    const JointTarget here = s.standing();
     s.isStopRequested = level.isStopRequested;
-    s.isBraking = level.isBraking;
-    if (!s.queue.empty()) s.orderReturnToPath();
-    s.goOn();
+    s.level = std::move(level);
+    s.follow(s.level.path, s.now);
+    if (s.level.path->isEmpty() || s.level.queue.empty()) { // nothing to go on with: from here
+        s.level.finished.clear();
+        s.level.path = s.newPath(here, s.seconds());
+        s.follow(s.level.path, s.now);
+        s.holdOrRelease();
+        return true;
+    }
+    Span standing;
+    standing.start = s.now;
+    standing.still = s.stillAt(here);
+    s.spans.back() = standing;
+    s.isHalted = true; // where the path goes on is somewhere else
+    if (s.isHeld())
+        s.isStopAnnounced = true;
+    else
+        s.resume();
     return true;
 }
 
 bool MotionSystem::placeAt(const JointTarget& joints) {
     Impl& s = *impl_;
-    if (!s.queue.empty() || s.isMoving()) return false;
-    s.finished = nullptr;
-    Stretch still;
-    still.start = s.now;
-    still.end = s.now;
-    still.still = s.stateAt(s.now);
-    still.still.joints = joints.robax;
-    still.still.extax = joints.extax;
-    still.still.jointSpeed = {};
-    still.still.tcpSpeed = 0;
-    still.still.moving = false;
-    FrameSetup frames;
-    if (s.stretch().move != nullptr) frames = s.stretch().move->plan.path().frames();
-    frames.baseFrame = s.model.baseFrame;
-    still.still.tcp = frames.tcpInWorld(s.kinematics.forward(joints.robax));
-    s.stretches.push_back(std::move(still));
+    if (!s.level.queue.empty() || s.isMoving()) return false;
+    s.level.finished.clear();
+    const FrameSetup frames = s.path().isEmpty() ? FrameSetup{} : s.path().framesAt(s.path().end());
+    s.level.path = s.newPath(joints, s.seconds());
+    s.follow(s.level.path, s.now);
+    FrameSetup based = frames;
+    based.baseFrame = s.model.baseFrame;
+    s.spans.back().still.tcp = based.tcpInWorld(s.kinematics.forward(joints.robax));
+    s.holdOrRelease();
     return true;
 }
 
@@ -203,18 +182,16 @@ void MotionSystem::stop() {
     Impl& s = *impl_;
     if (std::exchange(s.isStopRequested, true)) return;
     s.isStopAnnounced = false;
-    s.hold();
+    s.holdOrRelease();
     if (s.isMoving()) return;
     s.isStopAnnounced = true;
-    s.report(MotionEventKind::Stopped, s.queue.empty() ? nullptr : s.queue.front().get(), s.now);
+    s.report(MotionEventKind::Stopped, s.level.queue.empty() ? nullptr : s.level.queue.front().get());
 }
 
 void MotionSystem::halt() {
     Impl& s = *impl_;
     stop();
-    const bool onPath =
-        s.isOnPath() && !s.isExcursion && s.stretch().move->plan.limits().speed > 0; // not in a pause
-    if (!onPath) return;
+    if (!s.isMoving() || s.isStepping || s.isCoasting) return;
     s.isStopAnnounced = false;
     s.coastNow();
 }
@@ -223,6 +200,7 @@ void MotionSystem::start() {
     impl_->isStopRequested = false;
     impl_->isStopAnnounced = true;
     impl_->resume();
+    impl_->noteMotion();
 }
 
 bool MotionSystem::isStopRequested() const {
@@ -233,12 +211,12 @@ void MotionSystem::setOverride(double percent) {
     Impl& s = *impl_;
     const double wanted = std::isfinite(percent) ? std::clamp(percent, 0.0, 100.0) : 100.0;
     if (wanted == std::exchange(s.override, wanted)) return;
-    if (s.isHeld()) return s.hold();
-    if (s.isAbandoned) return;
-    if (s.isOnPath() && !s.isBraking)
-        s.replaceProfile(false);
-    else
-        s.goOn();
+    if (wanted > 0) {
+        s.path().setSpeedShare(s.seconds(), s.speedShare());
+        if (s.detour != nullptr) s.detour->setSpeedShare(s.seconds(), s.speedShare());
+    }
+    if (!s.isCoasting) s.holdOrRelease();
+    s.noteMotion();
 }
 
 double MotionSystem::speedOverride() const {
@@ -269,13 +247,13 @@ std::vector<MotionEvent> MotionSystem::takeEvents() {
 }
 
 bool MotionSystem::isIdle() const {
-    return impl_->queue.empty();
+    return impl_->level.queue.empty();
 }
 bool MotionSystem::isMoving() const {
     return impl_->isMoving();
 }
 std::size_t MotionSystem::unfinishedMoves() const {
-    return impl_->queue.size();
+    return impl_->level.queue.size();
 }
 
 MoveStatus MotionSystem::status(MoveId move) const {
@@ -311,7 +289,8 @@ MoveId MotionSystem::lastOrdered() const {
 
 MoveId MotionSystem::currentMove() const {
     const Impl& s = *impl_;
-    return !s.queue.empty() && s.queue.front()->isStarted ? s.queue.front()->id : s.lastDone;
+    const auto& queue = s.level.queue;
+    return !queue.empty() && queue.front()->isStarted ? queue.front()->id : s.lastDone;
 }
 
 std::optional<TimeNs> MotionSystem::reachTime(MoveId move) const {
@@ -319,9 +298,13 @@ std::optional<TimeNs> MotionSystem::reachTime(MoveId move) const {
     for (const auto& [id, time] : s.reached) {
         if (id == move) return time;
     }
-    const bool isCurrent = !s.queue.empty() && s.queue.front()->id == move && s.queue.front()->isStarted;
-    if (!isCurrent || s.isBraking || s.isHalted || s.queue.front()->isReturn) return {};
-    return s.stretch().end;
+    if (s.isHalted || s.detour != nullptr || s.isStepping) return {};
+    for (const auto& unfinished : s.level.queue) {
+        if (unfinished->id != move) continue;
+        const auto time = s.reachTime(*unfinished);
+        return time ? std::optional(toNs(*time)) : std::nullopt;
+    }
+    return {};
 }
 
 MotionState MotionSystem::sample(TimeNs time) const {
@@ -331,7 +314,7 @@ JointTarget MotionSystem::currentJoints() const {
     return impl_->standing();
 }
 JointTarget MotionSystem::plannedEnd() const {
-    return impl_->plannedEnd();
+    return impl_->path().endTarget();
 }
 
 RobTarget MotionSystem::currentTarget(const FrameSetup& frames) const {

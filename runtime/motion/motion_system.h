@@ -2,10 +2,11 @@
 // MotionSystem: the arm of one robot on the controller's clock. Moves are ordered ahead of motion and run one
 // after another; everything that happens is reported as events with exact times. Deterministic: the state
 // depends only on the calls made and the times given. Time is int64 nanoseconds of the virtual clock; no call
-// goes back in time. This release stops at every point; zones are accepted and kept for look-ahead.
+// goes back in time.
 
+#include "runtime/motion/motion_state.h"
 #include "runtime/motion/move_command.h"
-#include "runtime/motion/planned_motion.h"
+#include "runtime/motion/move_limits.h"
 #include "runtime/motion/targets.h"
 #include "runtime/robot/kinematics.h"
 #include "runtime/robot/robot_model.h"
@@ -34,8 +35,10 @@ enum class MotionEventKind : uint8_t {
     Started,  ///< the move has begun
     Released, ///< a program that ordered this move and waits for it may go on (see releaseTime)
     Trigger,  ///< a PathTrigger fired; `trigger` is its id
-    Reached,  ///< the point has been reached (fine point: standing still there)
+    Reached,  ///< a stop point: in position; a fly-by point: in the middle of its corner
     Stopped,  ///< standing still after stop()
+    AtRest,   ///< no axis moves any more and nothing that is ordered makes one move
+    CornerLost, ///< the fly-by point of the move has become a stop point: the next move came too late, or no corner fits
 };
 
 struct MotionEvent {
@@ -48,8 +51,9 @@ struct MotionEvent {
 
 struct MotionOptions {
     ExternalAxisModels external{};
-    std::size_t maxQueued = 64;       ///< moves ordered ahead; more is QueueFull
-    TimeNs programLead = 100'000'000; ///< how long before the end of a fly-by move the program goes on
+    std::size_t maxQueued = 64; ///< moves ordered ahead; more is QueueFull
+    /// How long before its zone is entered, or braking for its point has to begin, a fly-by move lets the program go on.
+    TimeNs programLead = 100'000'000;
 };
 
 class MotionSystem {

@@ -1,8 +1,9 @@
 #pragma once
-// Inside MotionSystem: a queue of planned moves, the stretch of motion in progress, and what happens when.
+// Inside MotionSystem: the path of each level with its moves, what the arm does at the moment, and what happens when.
 
 #include "runtime/motion/coast.h"
 #include "runtime/motion/motion_system.h"
+#include "runtime/motion/trajectory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,36 +29,30 @@ struct Trigger {
 struct Move {
     MoveId id = 0;
     uint64_t tag = 0;
+    LegRef leg;
+    bool isPoint = false; // no way of its own: the end of the leg
     bool isFlyBy = false;
     bool isConcurrent = false;
-    bool isReturn = false;   // back to an interrupted path, on behalf of the move that goes on there
-    bool isRetraced = false; // ... the rest of a finished move on which the arm has stepped back
-    double zone = 0;         // mm, the largest
     std::vector<Trigger> triggers;
-    PlannedMotion plan;
     bool isStarted = false;
     bool isReleased = false;
-    double doneSeconds = 0; // time spent on the path before the stretch in progress
-    double pausedAt = 0;    // profile parameter at which it was put aside
 };
 
-/// What storePath() puts aside.
+/// The moves of one path level and where they lie.
 struct Level {
-    std::deque<std::shared_ptr<Move>> queue;
-    std::vector<Trigger> carried;
+    std::shared_ptr<Trajectory> path;
+    std::deque<std::shared_ptr<Move>> queue;    // unfinished, in order
+    std::deque<std::shared_ptr<Move>> finished; // the most recent
+    std::vector<Trigger> carried;               // of a finished move, for the one that begins next
     bool isStopRequested = false;
-    bool isBraking = false;
 };
 
-/// A piece of the past, present or planned future: one move run by one profile, or standing still (no move).
-struct Stretch {
+/// What the arm does from a time on, until the next span begins.
+struct Span {
     TimeNs start = 0;
-    TimeNs end = 0;
-    std::shared_ptr<const Move> move;
-    Profile profile;
-    double backFrom = -1;               // >= 0: backwards from this parameter, by as much as the profile says
-    MotionState still;                  // without a move
-    std::shared_ptr<const Coast> coast; // without a move: braking off the path
+    std::shared_ptr<const Trajectory> path; // follows it ...
+    std::shared_ptr<const Coast> coast;     // ... or brakes off its path, and stands there
+    MotionState still;                      // ... or stands; also the state before the first move of a path
 };
 
 struct MotionSystem::Impl {
@@ -68,62 +63,71 @@ struct MotionSystem::Impl {
     TimeNs now = 0;
     double override = 100;
     bool isStopRequested = false;
-    bool isBraking = false;   // the current stretch ends before the end of the path
-    bool isAbandoned = false; // ... and the rest of its move has been thrown away
     bool isStopAnnounced = true;
-    bool isHalted = false;    // off the path: the first move goes on at its pausedAt
-    bool isCoasting = false;  // braking there
-    bool isExcursion = false; // moves although it is held: back on its path or back to it
+    bool isRestAnnounced = true;
+    bool isHalted = false;              // off the path, braking or standing
+    bool isCoasting = false;            // braking there
+    bool isStepping = false;            // going back along the path
+    std::shared_ptr<Trajectory> detour; // back to the path, axis by axis
 
-    std::deque<std::shared_ptr<Move>> queue; // the first may be in progress
-    std::vector<Trigger> carried;            // of a finished move, for the one that begins next
-    std::vector<Level> levels;
-    std::deque<Stretch> stretches; // in order of time; the last one is valid from its start on
+    Level level; // the one in use
+    std::vector<Level> stored;
+    std::deque<Span> spans;
     std::vector<MotionEvent> events;
     MoveId nextId = 1;
     MoveId lastDone = 0;
-    std::shared_ptr<const Move> finished;          // the move before, as long as the arm may step back on it
     std::deque<std::pair<MoveId, MoveId>> cleared; // first and last of each range, the most recent
     std::deque<std::pair<MoveId, TimeNs>> reached; // the most recent
 
-    const Stretch& stretch() const { return stretches.back(); }
-    const Move* findUnfinished(MoveId id) const;
-    bool isOnPath() const { return stretch().move != nullptr && now < stretch().end; } // and moving
-    bool isMoving() const { return isOnPath() || (stretch().coast != nullptr && now < stretch().end); }
+    double seconds() const { return toSeconds(now); }
+    Trajectory& path() const { return *level.path; }
     bool isHeld() const { return isStopRequested || override <= 0; }
+    double speedShare() const { return 0.01 * std::clamp(override, 0.01, 100.0); }
+    const Span& span() const { return *spanAt(now); }
+    std::deque<Span>::const_iterator spanAt(TimeNs time) const;
+    bool isMoving() const;
+    TimeNs restTime() const;
+    /// The arm may have begun to move: when it is at rest again is reported.
+    void noteMotion() { isRestAnnounced = isRestAnnounced && !isMoving(); }
 
-    void report(MotionEventKind kind, const Move* move, TimeNs time, uint32_t trigger = 0);
-    ProfileState profileState(TimeNs time) const;
-    void begin(const std::shared_ptr<Move>& move, const Profile& profile);
-    void startNext();
-    bool replaceProfile(bool toStop);
-    void hold();
-    void goOn();
+    // Orders
+    std::shared_ptr<Trajectory> newPath(const JointTarget& start, double earliest) const;
+    void follow(std::shared_ptr<const Trajectory> what, TimeNs from);
+    void abandonPath();
     void noteCleared(MoveId first);
+    void holdOrRelease();
     void coastNow();
     void resume();
-    void orderReturnToPath();
+    bool startDetour();
+    void finishDetour();
+    void finishStepping();
+    std::optional<PathPlace> placeBack(double mm) const;
+
+    // Places and moves
+    const Move* findUnfinished(MoveId id) const;
+    const Move* moveAt(const PathPlace& place) const;
+    PathPlace startOf(const Move& move) const;
+    PathPlace endOf(const Move& move) const;
+    PathPlace placeOf(const Move& move, const PathTrigger& wanted) const;
+
+    // Events
+    void report(MotionEventKind kind, const Move* move, uint32_t trigger = 0);
+    std::optional<double> startTime(const Move& move) const;
+    std::optional<double> reachTime(const Move& move) const;
+    std::optional<double> releaseTime(const Move& move) const;
+    std::optional<double> triggerTime(const Move& move, const PathTrigger& wanted) const;
     std::optional<TimeNs> nextEvent() const;
-    std::optional<TimeNs> triggerTime(const Move& move, const Trigger& trigger) const;
-    std::optional<TimeNs> timeOnPath(const PathTrigger& wanted) const;
-    std::optional<TimeNs> timeAheadOf(const Move& move, const PathTrigger& wanted) const;
-    std::vector<Move*> movesWithTriggers() const;
-    void passTriggersOn(const Move& move);
-    std::optional<TimeNs> releaseTime() const;
-    /// The front of the queue is being run, or was until it stopped.
-    bool isOnFront() const {
-        return !queue.empty() && stretch().move == queue.front() && stretch().backFrom < 0;
-    }
-    /// Profile parameter at which the begun front of the queue goes on.
-    double pausedAt() const { return isOnFront() ? profileState(now).s : queue.front()->pausedAt; }
-    void stepBackOnFront(double from, double mm, double mmPerSecond);
-    void finishExcursion();
-    bool happensNow(std::optional<TimeNs> time) const { return time && *time <= now; }
+    bool isDue(std::optional<double> time) const { return time && toNs(*time) <= now; }
     void handleEventsNow();
-    void finishStretch();
+    bool handleMoves();
+    bool fireTriggers();
+    void finishFront();
+
+    // States
     MotionState stateAt(TimeNs time) const;
+    MotionState stateOn(const Trajectory& trajectory, const Span& span, double time) const;
+    MotionState stillAt(const JointTarget& joints) const;
     JointTarget standing() const;
-    JointTarget plannedEnd() const;
     void forgetBefore(TimeNs time);
 };
 

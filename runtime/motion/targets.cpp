@@ -49,6 +49,17 @@ Pose FrameSetup::tcpInWorld(const Pose& flange) const {
     return tool.robotHeld ? baseFrame * flange * tool.tframe : tool.tframe;
 }
 
+bool sameTool(const FrameSetup& a, const FrameSetup& b) {
+    return a.tool.robotHeld == b.tool.robotHeld && a.tool.tframe == b.tool.tframe &&
+           a.workObject.robotHeld == b.workObject.robotHeld;
+}
+
+bool sameFrames(const FrameSetup& a, const FrameSetup& b) {
+    return sameTool(a, b) && a.workObject.uframe == b.workObject.uframe &&
+           a.workObject.oframe == b.workObject.oframe && a.displacement == b.displacement &&
+           a.baseFrame == b.baseFrame;
+}
+
 Pose poseFromFloats(const float* trans, const float* rot) {
     const Quat q{rot[0], rot[1], rot[2], rot[3]};
     return {{trans[0], trans[1], trans[2]}, robot::normalized(q)};

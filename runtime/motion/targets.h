@@ -75,6 +75,11 @@ struct FrameSetup {
     Pose tcpInWorld(const Pose& flange) const;
 };
 
+/// The same tool, held in the same way: the TCP does not jump between moves with these two.
+bool sameTool(const FrameSetup& a, const FrameSetup& b);
+/// Coordinates mean the same place.
+bool sameFrames(const FrameSetup& a, const FrameSetup& b);
+
 /// Pose from RAPID-like plain figures (trans[3] mm, rot[4] as q1..q4); the quaternion is scaled to unit
 /// length, which binary32 components never have exactly.
 Pose poseFromFloats(const float* trans, const float* rot);

@@ -30,6 +30,7 @@ constexpr std::string_view kKnownFields[] = {"format",
                                              "external_axes",
                                              "max_acceleration_deg_s2",
                                              "max_jerk_deg_s3",
+                                             "dynamics",
                                              "sources",
                                              "max_tcp_speed_mm_s",
                                              "note"};
@@ -169,6 +170,39 @@ void readBaseFrame(Reader& in, RobotModel& model) {
     model.baseFrame = {{pos[0], pos[1], pos[2]}, normalized(q)};
 }
 
+void readDynamics(Reader& in, RobotModel& model) {
+    const Json* given = in.find(in.root(), "dynamics", false);
+    if (given == nullptr) {
+        model.dynamics = estimatedDynamics(model);
+        return;
+    }
+    if (!given->is_object())
+        return in.fail("field 'dynamics' must be an object with acceleration_rad_s2 and smoothing_s");
+    double windows[2] = {};
+    in.numbers(*given, "smoothing_s", windows, 2);
+    if (!(windows[0] > 0 && windows[1] > 0)) in.fail("field 'smoothing_s' must hold two positive times");
+    model.dynamics.longWindow = windows[0];
+    model.dynamics.shortWindow = windows[1];
+    const Json* axes = in.find(*given, "acceleration_rad_s2", true);
+    if (axes == nullptr) return;
+    if (!axes->is_array() || axes->size() != model.maxSpeed.size())
+        return in.fail("field 'acceleration_rad_s2' must be an array with an object for each axis");
+    for (std::size_t i = 0; i < axes->size(); ++i) {
+        const Json& axis = (*axes)[i];
+        if (!axis.is_object()) return in.fail("field 'acceleration_rad_s2' must be an array of objects");
+        AccelerationLimit& limit = model.dynamics.axes[i];
+        limit.scale = in.number(axis, "scale", 1.0);
+        limit.cap = in.number(axis, "most", 1e9);
+        limit.base = in.number(axis, "base", 0.0);
+        limit.elbow = in.number(axis, "elbow", 0.0);
+        limit.wrist = in.number(axis, "wrist", 0.0);
+        limit.reach = in.number(axis, "reach", 0.0);
+        const bool isPositive = limit.scale > 0 && limit.cap > 0 && limit.base >= 0 && limit.elbow >= 0 &&
+                                limit.wrist >= 0 && limit.reach >= 0;
+        if (!isPositive) in.fail("field 'acceleration_rad_s2' must hold figures that are not negative");
+    }
+}
+
 void readProvisional(Reader& in, RobotModel& model) {
     const Json* list = in.find(in.root(), "provisional", false);
     if (list == nullptr) return;
@@ -226,6 +260,7 @@ Expected<RobotModel, ModelError> parseRobotModel(std::string_view jsonText, std:
         in.fail("field 'external_axes' must be 0 to 6");
     }
     model.externalAxes = static_cast<int>(external);
+    if (!in.failed()) readDynamics(in, model);
     readBaseFrame(in, model);
     readProvisional(in, model);
     if (in.failed()) return Unexpected{in.error()};

@@ -2,6 +2,7 @@
 // RobotModel: the constant facts about one robot arm, read from a data file in physical units. Models are
 // data: a new one needs a JSON file in a searched folder and no compiler.
 
+#include "runtime/robot/dynamics.h"
 #include "runtime/robot/expected.h"
 #include "runtime/robot/frames.h"
 
@@ -43,6 +44,7 @@ struct RobotModel {
     Joints maxSpeed{};         ///< deg/s
     Joints maxAcceleration{};  ///< deg/s^2
     Joints maxJerk{};          ///< deg/s^3
+    Dynamics dynamics;         ///< of the data file, else estimated
     double maxTcpSpeed = 5000; ///< mm/s; what MaxRobSpeed gives and vmax means
     double wristOffset = 0;    ///< mm between axes 5 and 6; not 0 only for OffsetWrist
     Pose baseFrame;            ///< base in world; identity unless configured

@@ -3,7 +3,7 @@
 
 #include "runtime/base/output_file.h"
 #include "runtime/base/time.h"
-#include "runtime/motion/planned_motion.h"
+#include "runtime/motion/motion_state.h"
 
 #include <string>
 #include <string_view>

@@ -1,6 +1,8 @@
 // The arm on the clock: order of events, looking ahead, stopping on the path, override, clearing, sampling.
 
 #include "runtime/motion/motion_system.h"
+#include "runtime/motion/path.h"
+#include "runtime/robot/dynamics.h"
 
 #include <catch2/catch.hpp>
 
@@ -77,30 +79,40 @@ TEST_CASE("the arm starts where it should and is idle", "[motion][system]") {
     CHECK(here.conf == ConfData{0, 0, 0, 0});
 }
 
-TEST_CASE("a move starts at once, is released and reached when it stands", "[motion][system]") {
+TEST_CASE("a move starts 20 ms after its order, is released and reached in position, and then comes to rest",
+          "[motion][system]") {
     MotionSystem system = makeSystem();
     system.advanceTo(5 * kMs);
     const auto id = system.enqueue(jointsTo({30, 0, 0, 0, 30, 0}, 77));
     REQUIRE(id.hasValue());
     CHECK(*id == 1);
+    CHECK(system.status(1) == MoveStatus::Queued);
+    CHECK(system.nextEventTime() == 25 * kMs);
+    system.advanceTo(25 * kMs);
     CHECK(system.status(1) == MoveStatus::Moving);
     CHECK(system.isStarted(1));
     CHECK_FALSE(system.isReleased(1));
     const auto end = system.reachTime(1);
     REQUIRE(end.has_value());
     CHECK(system.nextEventTime() == end);
-    system.advanceTo(*end - 1);
-    CHECK(system.isMoving());
     system.advanceTo(*end);
-    CHECK_FALSE(system.isMoving());
+    CHECK(system.isMoving()); // the last half mm
+    const Vec3 goal = system.kinematics().forward({30, 0, 0, 0, 30, 0}).pos;
+    CHECK(norm(system.current().tcp.pos - goal) == Approx(0.5).margin(1e-3));
     CHECK(system.isIdle());
+    const TimeNs rest = *system.nextEventTime();
+    CHECK(rest - *end > 20 * kMs);
+    CHECK(rest - *end < 100 * kMs);
+    system.advanceTo(rest);
+    CHECK_FALSE(system.isMoving());
+    CHECK(norm(system.current().tcp.pos - goal) < 1e-6);
     CHECK(system.isDone(1));
     CHECK(system.isReleased(1));
     CHECK(system.currentJoints().robax == Joints{30, 0, 0, 0, 30, 0});
     const auto events = system.takeEvents();
-    CHECK(kinds(events) ==
-          std::vector{MotionEventKind::Started, MotionEventKind::Released, MotionEventKind::Reached});
-    CHECK(events[0].time == 5 * kMs);
+    CHECK(kinds(events) == std::vector{MotionEventKind::Started, MotionEventKind::Released,
+                                       MotionEventKind::Reached, MotionEventKind::AtRest});
+    CHECK(events[0].time == 25 * kMs);
     CHECK(events[2].time == *end);
     CHECK(events[2].tag == 77);
     CHECK(system.takeEvents().empty());
@@ -118,8 +130,13 @@ TEST_CASE("moves ordered ahead run one after another without a gap", "[motion][s
     CHECK(system.status(2) == MoveStatus::Queued);
     CHECK(system.plannedEnd().robax == targets[2]);
     run(system, &events);
-    CHECK(timeOf(events, MotionEventKind::Started, 2) == timeOf(events, MotionEventKind::Reached, 1));
-    CHECK(timeOf(events, MotionEventKind::Started, 3) == timeOf(events, MotionEventKind::Reached, 2));
+    // A stop point takes no time of its own: the next move begins while the last mm is covered.
+    for (const MoveId move : {2, 3}) {
+        const TimeNs gap = timeOf(events, MotionEventKind::Started, move) -
+                           timeOf(events, MotionEventKind::Reached, move - 1);
+        CHECK(gap >= 0);
+        CHECK(gap < 30 * kMs);
+    }
     CHECK(system.isIdle());
     CHECK(system.currentJoints().robax == targets[2]);
 }
@@ -150,6 +167,7 @@ TEST_CASE("an error leaves the queue as it was", "[motion][system]") {
 TEST_CASE("a fly-by move releases its program ahead of the zone, a concurrent one at its start",
           "[motion][system]") {
     MotionSystem system = makeSystem();
+    const Vec3 from = system.current().tcp.pos;
     MoveCommand flying = lineFrom(system, 0, 0, -150);
     flying.zone = {false, 50, 75, 75, 7.5, 75, 7.5};
     REQUIRE(system.enqueue(flying).hasValue());
@@ -159,8 +177,9 @@ TEST_CASE("a fly-by move releases its program ahead of the zone, a concurrent on
     const TimeNs reached = timeOf(events, MotionEventKind::Reached, 1);
     CHECK(released > timeOf(events, MotionEventKind::Started, 1));
     // The largest zone, 75 mm, is half of the way; the program goes on 0.1 s before it.
-    const double zoneEntry = 0.5 * static_cast<double>(reached);
-    CHECK(static_cast<double>(released) == Approx(zoneEntry - 1e8).epsilon(1e-3));
+    const TimeNs entry = released + 100 * kMs;
+    CHECK(norm(system.sample(entry).tcp.pos - from) == Approx(75).margin(1e-3));
+    CHECK(reached > entry);
 
     MoveCommand concurrent = lineFrom(system, 0, 0, 100);
     concurrent.concurrent = true;
@@ -195,11 +214,11 @@ TEST_CASE("triggers fire where and when they are asked to", "[motion][system]") 
     CHECK(travelled[1] == Approx(120).margin(1e-4));
     CHECK(travelled[2] == Approx(20).margin(1e-4));
     CHECK(fired[3] == Approx(end - 0.2).margin(1e-8));
-    CHECK(fired[4] == Approx(0.25).margin(1e-8));
+    CHECK(fired[4] == Approx(0.27).margin(1e-8)); // it starts after 20 ms
     CHECK(fired[5] == Approx(fired[1] - 0.05).margin(1e-8));
     CHECK(fired[6] == Approx(end).margin(1e-8));
-    CHECK(fired[7] == Approx(end).margin(1e-8)); // later than the end: with it
-    CHECK(fired[8] == Approx(0).margin(1e-8));   // before the start: with it
+    CHECK(fired[7] == Approx(end).margin(1e-8));  // later than the end: with it
+    CHECK(fired[8] == Approx(0.02).margin(1e-8)); // before the start: with it
     CHECK(std::is_sorted(events.begin(), events.end(),
                          [](const auto& a, const auto& b) { return a.time < b.time; }));
 }
@@ -435,9 +454,11 @@ TEST_CASE("a stop in the last moment lets the move end", "[motion][system]") {
     std::vector<MotionEvent> events;
     run(system, &events);
     CHECK(timeOf(events, MotionEventKind::Reached, 1) == end);
-    CHECK(timeOf(events, MotionEventKind::Stopped, 1) == end);
-    CHECK(system.status(2) == MoveStatus::Queued);
+    CHECK(timeOf(events, MotionEventKind::Stopped, 2) > end);
+    CHECK(timeOf(events, MotionEventKind::Stopped, 2) < end + 100 * kMs);
+    CHECK_FALSE(system.isDone(2));
     system.start();
+    system.advanceTo(system.now() + kMs);
     CHECK(system.status(2) == MoveStatus::Moving);
     run(system);
     CHECK(system.isIdle());
@@ -452,7 +473,8 @@ TEST_CASE("stop while standing is answered at once and holds later moves", "[mot
     system.advanceTo(1000 * kMs);
     system.start();
     CHECK(system.isMoving());
-    CHECK(system.takeEvents().front().time == 1000 * kMs);
+    system.advanceTo(1001 * kMs);
+    CHECK(timeOf(system.takeEvents(), MotionEventKind::Started, 1) == 1000 * kMs);
 }
 
 TEST_CASE("stopping and starting at random never leaves the path or the limits", "[motion][system]") {
@@ -464,6 +486,7 @@ TEST_CASE("stopping and starting at random never leaves the path or the limits",
         const robot::RobotModel& model = system.model();
         const Vec3 from = system.current().tcp.pos;
         const Vec3 way = line.target.pose.pos - from;
+        const robot::AccelerationMap accelerations(model);
         Joints before = system.currentJoints().robax;
         Joints here = before;
         double last = 0;
@@ -476,11 +499,12 @@ TEST_CASE("stopping and starting at random never leaves the path or the limits",
             if (dice == 20) system.setOverride(static_cast<double>(random() % 5) * 25);
             if (dice == 21) system.setOverride(100);
             system.advanceTo(system.now() + kMs);
-            const Joints after = system.currentJoints().robax;
+            const Joints after = system.current().joints;
+            Joints most = after;
+            accelerations.limitsAt(here, most);
             for (std::size_t i = 0; i < 6; ++i) {
                 REQUIRE(std::fabs(after[i] - here[i]) <= model.maxSpeed[i] * 1e-3 * (1 + 1e-6));
-                REQUIRE(std::fabs(after[i] - 2 * here[i] + before[i]) <=
-                        model.maxAcceleration[i] * 1e-6 * (1 + 1e-4) + 1e-9);
+                REQUIRE(std::fabs(after[i] - 2 * here[i] + before[i]) <= most[i] * 1e-6 * 1.05 + 1e-9);
             }
             const Vec3 tcp = system.current().tcp.pos;
             const double share = dot(tcp - from, way) / dot(way, way);
@@ -491,6 +515,7 @@ TEST_CASE("stopping and starting at random never leaves the path or the limits",
             here = after;
         }
         CHECK(system.isIdle());
+        run(system);
         CHECK(norm(system.current().tcp.pos - line.target.pose.pos) < 1e-6);
     }
 }
@@ -538,12 +563,15 @@ TEST_CASE("clearing throws away what is not finished", "[motion][system]") {
     REQUIRE(*system.enqueue(jointsTo({5, 0, 0, 0, 30, 0})) == 3);
     CHECK(system.status(3) == MoveStatus::Queued);
     std::vector<MotionEvent> events;
+    system.advanceTo(*system.nextEventTime());
+    const double startOfThird = system.current().joints[0];
+    events = system.takeEvents();
     run(system, &events);
-    CHECK(kinds(events) ==
-          std::vector{MotionEventKind::Started, MotionEventKind::Released, MotionEventKind::Reached});
+    CHECK(kinds(events) == std::vector{MotionEventKind::Started, MotionEventKind::Released,
+                                       MotionEventKind::Reached, MotionEventKind::AtRest});
     CHECK(events[0].move == 3);
     CHECK(system.currentJoints().robax[0] == 5);
-    CHECK(system.sample(events[0].time).joints[0] == Approx(stop[0]).margin(1e-9));
+    CHECK(startOfThird == Approx(stop[0]).margin(1e-9));
 
     // After a stop the path is gone at once.
     REQUIRE(system.enqueue(jointsTo({60, 0, 0, 0, 30, 0})).hasValue());
@@ -605,7 +633,7 @@ TEST_CASE("a path can be put aside for an errand and taken up again", "[motion][
             if (isOnLine && returnsByProgram) REQUIRE(distance < 1e-6);
         }
         CHECK(isOnLine);
-        CHECK(norm(system.current().tcp.pos - line.target.pose.pos) < 1e-6);
+        CHECK(norm(system.current().tcp.pos - line.target.pose.pos) < 0.5 + 1e-6); // in position
         run(system);
         CHECK(system.isIdle());
         CHECK(system.currentJoints().robax == Joints{0, 0, 0, 0, 30, 0});
@@ -651,7 +679,7 @@ TEST_CASE("the arm can be placed only when idle", "[motion][system]") {
 
 TEST_CASE("an external axis outside its range is refused by its number", "[motion][system]") {
     MotionOptions options;
-    options.external[1] = {true, true, -90, 90, 100, 500, 5000};
+    options.external[1] = {true, true, -90, 90, 100, 500};
     MotionSystem system = makeSystem(options);
     CHECK(system.currentJoints().extax[1] == 0);
     MoveCommand command = jointsTo({10, 0, 0, 0, 30, 0});
@@ -666,14 +694,15 @@ TEST_CASE("an external axis outside its range is refused by its number", "[motio
     CHECK(system.currentJoints().extax[1] == 80);
 }
 
-TEST_CASE("moves without a way come and go in no time, in order", "[motion][system]") {
+TEST_CASE("moves to where the arm stands take 73 ms each, in order", "[motion][system]") {
     MotionSystem system = makeSystem();
     for (int i = 0; i < 5; ++i)
         REQUIRE(system.enqueue(jointsTo({0, 0, 0, 0, 30, 0})).hasValue());
-    system.advanceTo(0);
+    std::vector<MotionEvent> events;
+    run(system, &events);
     CHECK(system.isIdle());
-    CHECK(system.now() == 0);
-    CHECK(system.takeEvents().size() == 15);
+    CHECK(system.now() == (20 + 5 * 73) * kMs); // 73 ms each, the first one begins 20 ms after its order
+    CHECK(events.size() == 5 * 3 + 1);
 }
 
 TEST_CASE("the base frame moves world, not the arm", "[motion][system]") {

@@ -1,0 +1,152 @@
+// The curves of one corner, made of the two legs that meet there.
+
+#include "runtime/motion/route.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace motion {
+
+namespace {
+
+constexpr double kRadToDeg = 57.29577951308232;
+
+/// Derivative of a quantity along a leg by central differences.
+template <class Function> auto slopeOf(Function&& value, double at, double step) {
+    return (value(at + step) - value(at - step)) * (1 / (2 * step));
+}
+
+bool isConnectedAxis(const Leg& leg, std::size_t axis) {
+    return isConnected(leg.path->start().extax[axis]);
+}
+
+} // namespace
+
+double Corner::middle() const {
+    return kind == CornerKind::None ? begin : begin + lengths.distanceAt(0.5);
+}
+
+Pose Route::poseOn(const Leg& leg, double distance) {
+    return leg.path->tcpAt(leg.lengths.parameterAt(distance));
+}
+
+Pose Route::poseIn(const Leg& from, const Leg& frames, double distance) {
+    const Pose pose = poseOn(from, distance);
+    if (sameFrames(from.path->frames(), frames.path->frames())) return pose;
+    return frames.path->frames().fromFlange(from.path->frames().toFlange(pose));
+}
+
+AxisVector Route::axesOn(const Leg& leg, double distance) {
+    const double parameter = leg.lengths.parameterAt(distance);
+    const Joints joints = leg.path->jointsAt(parameter);
+    const ExternalAxes external = leg.path->externalAt(parameter);
+    AxisVector result;
+    std::copy(joints.begin(), joints.end(), result.v.begin());
+    std::copy(external.begin(), external.end(), result.v.end() - kExternalCount);
+    return result;
+}
+
+void Route::curveInSpace(Corner& corner, const Leg& a, const Leg& b) {
+    const double entry = a.length() - corner.before;
+    const auto before = [&](double d) { return poseIn(a, b, d).pos; };
+    const auto after = [&](double d) { return poseOn(b, d).pos; };
+    const double step = 1e-3 * std::min(corner.before, corner.after);
+    const Vec3 from = before(entry);
+    const Vec3 to = after(corner.after);
+    const Vec3 leaving = slopeOf(before, entry, step) * (kCornerTension * corner.before);
+    const Vec3 joining = slopeOf(after, corner.after, step) * (kCornerTension * corner.after);
+    corner.space.p = {from, from + leaving, to - joining, to};
+    corner.lengths =
+        LengthMap::measured([&](double x) { return norm(corner.space.slopeAt(x)); }, kCornerPieces);
+}
+
+void Route::curveOfAxes(Corner& corner, const Leg& a, const Leg& b) {
+    const double step = 1e-3 * std::min(corner.before, corner.after);
+    const AxisVector from = axesOn(a, a.length() - corner.before);
+    const AxisVector to = axesOn(b, corner.after);
+    const AxisVector point = axesOn(b, 0);
+    // Joint moves are straight in joint space: towards the point itself.
+    const AxisVector leaving = a.path->isCartesian() ? slopeOf([&](double d) { return axesOn(a, d); },
+                                                               a.length() - corner.before, step) *
+                                                           corner.before
+                                                     : point - from;
+    const AxisVector joining =
+        b.path->isCartesian()
+            ? slopeOf([&](double d) { return axesOn(b, d); }, corner.after, step) * corner.after
+            : to - point;
+    corner.axes.p = {from, from + leaving * kCornerTension, to - joining * kCornerTension, to};
+    const auto rate = [&](double x) {
+        constexpr double kStep = 1e-4;
+        const auto poseAt = [&](double place) {
+            const AxisVector axes = corner.axes.at(place);
+            Joints joints = b.path->start().robax;
+            std::copy_n(axes.v.begin(), joints.size(), joints.begin());
+            return b.path->frames().fromFlange(b.path->kinematics().forward(joints));
+        };
+        const Pose low = poseAt(x - kStep);
+        const Pose high = poseAt(x + kStep);
+        return pathRate(norm(high.pos - low.pos) / (2 * kStep),
+                        robot::angleBetween(low.rot, high.rot) / (2 * kStep) +
+                            externalRate(corner.axes.slopeAt(x)));
+    };
+    corner.lengths = LengthMap::measured(rate, kCornerPieces);
+}
+
+void Route::blendTurn(Corner& corner, const Leg& a, const Leg& b, double before, double after) {
+    corner.centre = poseOn(b, 0).rot;
+    corner.turn = {};
+    const auto turned = [&](const Quat& rot) {
+        return robot::rotationVector(conjugate(corner.centre) * rot);
+    };
+    const auto first = [&](double d) { return turned(poseIn(a, b, d).rot); };
+    const auto second = [&](double d) { return turned(poseOn(b, d).rot); };
+    const double entry = a.length() - before;
+    const Vec3 from = first(entry);
+    const Vec3 to = second(after);
+    constexpr double kNothing = 1e-9; // rad
+    if (norm(from) < kNothing && norm(to) < kNothing) return;
+    const double step = 1e-3 * std::min(before, after);
+    const Vec3 leaving = slopeOf(first, entry, step) * (kCornerTension * before);
+    const Vec3 joining = slopeOf(second, after, step) * (kCornerTension * after);
+    corner.turn.before = before;
+    corner.turn.after = after;
+    corner.turn.curve.p = {from, from + leaving, to - joining, to};
+}
+
+void Route::blendExternal(Corner& corner, const Leg& a, const Leg& b, double before, double after) {
+    corner.external = {};
+    bool moves = false;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kExternalCount); ++i)
+        moves = moves || (isConnectedAxis(a, i) && (a.path->start().extax[i] != a.path->end().extax[i] ||
+                                                    b.path->start().extax[i] != b.path->end().extax[i]));
+    if (!moves) return;
+    const double entry = a.length() - before;
+    const double step = 1e-3 * std::min(before, after);
+    const auto first = [&](double d) { return axesOn(a, d); };
+    const auto second = [&](double d) { return axesOn(b, d); };
+    const AxisVector from = first(entry);
+    const AxisVector to = second(after);
+    corner.external.before = before;
+    corner.external.after = after;
+    corner.external.curve.p = {from, from + slopeOf(first, entry, step) * (kCornerTension * before),
+                               to - slopeOf(second, after, step) * (kCornerTension * after), to};
+}
+
+double pathRate(double mm, double degrees) {
+    return std::hypot(mm, kMmPerDegree * degrees);
+}
+
+double externalRate(const AxisVector& slope) {
+    double sum = 0;
+    for (std::size_t i = slope.v.size() - kExternalCount; i < slope.v.size(); ++i)
+        sum += std::abs(slope.v[i]);
+    return std::isfinite(sum) ? sum : 0;
+}
+
+Quat turnedBy(const Quat& centre, const Vec3& rotation) {
+    const double angle = norm(rotation);
+    if (angle == 0) return centre;
+    return centre * robot::fromAxisAngle(rotation * (1 / angle), angle * kRadToDeg);
+}
+
+} // namespace motion

@@ -1,0 +1,108 @@
+#pragma once
+// Corner: the curve that replaces two legs inside the zone of a fly-by point, and the blends of orientation and external
+// axes over zones of their own (manual 2.2.3; shape: docs/motion.md).
+
+#include "runtime/motion/length_map.h"
+#include "runtime/motion/targets.h"
+
+#include <array>
+#include <cstdint>
+
+namespace motion {
+
+/// Cubic Bezier curve in any space with + and * by a number.
+template <class Point> struct Bezier {
+    std::array<Point, 4> p{};
+    Point at(double x) const {
+        const double y = 1 - x;
+        return p[0] * (y * y * y) + p[1] * (3 * y * y * x) + p[2] * (3 * y * x * x) + p[3] * (x * x * x);
+    }
+    Point slopeAt(double x) const {
+        const double y = 1 - x;
+        return (p[1] - p[0]) * (3 * y * y) + (p[2] - p[1]) * (6 * y * x) + (p[3] - p[2]) * (3 * x * x);
+    }
+};
+
+/// How far the inner control points lie from the ends, as a share of the zone radius; identified on recordings.
+inline constexpr double kCornerTension = 0.757;
+
+/// Angles of all axes in one vector, for curves in joint space.
+struct AxisVector {
+    std::array<double, 7 + kExternalCount> v{};
+    friend AxisVector operator+(AxisVector a, const AxisVector& b) {
+        for (std::size_t i = 0; i < a.v.size(); ++i)
+            a.v[i] += b.v[i];
+        return a;
+    }
+    friend AxisVector operator*(AxisVector a, double k) {
+        for (double& x : a.v)
+            x *= k;
+        return a;
+    }
+    friend AxisVector operator-(const AxisVector& a, const AxisVector& b) { return a + b * -1.0; }
+};
+
+/// A quantity that leaves the course of the first leg some way before the corner and joins that of the second some way
+/// after it.
+template <class Point> struct Blend {
+    double before = 0, after = 0; ///< mm of path, measured on the legs as programmed
+    double begin = 0, end = 0;    ///< places on the route
+    Bezier<Point> curve;
+    bool covers(double s) const { return before > 0 && s > begin && s < end; }
+    Point at(double s) const { return curve.at(parameter(s)); }
+
+  private:
+    /// The curve's parameter, so that the quantity leaves and joins the legs at the rate it has there.
+    double parameter(double s) const {
+        const double length = end - begin;
+        const double wanted = (s - begin) / length;
+        const Bezier<double> way{{0.0, std::min(kCornerTension * before / length, 1.0),
+                                  std::max(1 - kCornerTension * after / length, 0.0), 1.0}};
+        double low = 0;
+        double high = 1;
+        double x = wanted;
+        for (int i = 0; i < 60 && high - low > 1e-15; ++i) {
+            const double miss = way.at(x) - wanted;
+            if (std::abs(miss) < 1e-15) break;
+            (miss < 0 ? low : high) = x;
+            const double slope = way.slopeAt(x);
+            const double newton = slope > 0 ? x - miss / slope : low;
+            x = newton > low && newton < high ? newton : 0.5 * (low + high);
+        }
+        return x;
+    }
+};
+
+/// On stretches where the TCP hardly moves a degree of turning, or a unit of an external axis, counts as this many mm.
+inline constexpr double kMmPerDegree = 0.2;
+/// mm of route per unit of a parameter by which the TCP moves `mm` and the rest turns `degrees`.
+double pathRate(double mm, double degrees);
+/// Speeds of the external axes, added.
+double externalRate(const AxisVector& slope);
+/// Orientation turned by a rotation vector in rad, seen from the orientation itself.
+Quat turnedBy(const Quat& centre, const Vec3& rotation);
+
+inline constexpr int kCornerPieces = 16; ///< in which the length of a corner's curve is measured
+
+enum class CornerKind : uint8_t {
+    None,  ///< the legs meet in the point itself
+    Space, ///< curve of the TCP, in the object frame of the second leg
+    Joint, ///< curve of all axes: between joint moves, at a change of tool, or where axes would jump
+};
+
+struct Corner {
+    CornerKind kind = CornerKind::None;
+    double before = 0, after = 0; ///< mm of path cut off the two legs
+    double begin = 0;             ///< place on the route
+    LengthMap lengths;            ///< of the curve
+    Bezier<Vec3> space;
+    Bezier<AxisVector> axes;
+    Quat centre;                ///< orientation at the programmed point
+    Blend<Vec3> turn;           ///< rotation vectors relative to `centre`, rad
+    Blend<AxisVector> external; ///< external axes only
+    double length() const { return kind == CornerKind::None ? 0 : lengths.length(); }
+    double end() const { return begin + length(); }
+    double middle() const; ///< place of the programmed point: half way along the curve's parameter
+};
+
+} // namespace motion

@@ -1,0 +1,152 @@
+#include "runtime/motion/course.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace motion {
+
+Course::Course(double time, double place, double longWindow, double shortWindow)
+    : knots_{Knot{time, 0, 0, 0, 0, 0}}, origin_(place), longWindow_(longWindow), shortWindow_(shortWindow) {}
+
+void Course::push(const Knot& knot) {
+    const Integrals there = integralsAt(knot.t); // with the acceleration of the last knot
+    knots_.push_back(knot);
+    knots_.back().once = there.once;
+    knots_.back().twice = there.twice;
+}
+
+void Course::moveTo(double place, double speed) {
+    Knot& last = knots_.back();
+    const double way = place - origin_ - last.s;
+    const double duration = way > 0 ? 2 * way / (last.v + speed) : 0;
+    if (!(duration > 0) || !std::isfinite(duration)) {
+        last.v = speed;
+        return;
+    }
+    last.a = (speed - last.v) / duration;
+    push({last.t + duration, place - origin_, speed, 0, 0, 0});
+}
+
+void Course::rest(double seconds) {
+    knots_.back().v = knots_.back().a = 0;
+    if (seconds > 0) push({knots_.back().t + seconds, knots_.back().s, 0, 0, 0, 0});
+}
+
+void Course::cutAfter(double time) {
+    if (time >= knots_.back().t) return;
+    const CourseState state = plannedAt(time);
+    while (knots_.size() > 1 && knots_.back().t > time)
+        knots_.pop_back();
+    if (time <= knots_.front().t) {
+        knots_.back().v = knots_.back().a = 0;
+        return;
+    }
+    push({time, state.s - origin_, state.v, 0, 0, 0});
+}
+
+void Course::shift(double seconds) {
+    for (Knot& knot : knots_)
+        knot.t += seconds;
+}
+
+void Course::forgetBefore(double time) {
+    const double needed = time - longWindow_ - shortWindow_;
+    std::size_t spare = 0;
+    while (spare + 1 < knots_.size() && knots_[spare + 1].t <= needed)
+        ++spare;
+    constexpr std::size_t kWorthwhile = 256;
+    if (spare < kWorthwhile) return;
+    knots_.erase(knots_.begin(), knots_.begin() + static_cast<std::ptrdiff_t>(spare));
+    // Neither a shift of all places nor the constants of integration change what is executed.
+    const double shift = knots_.front().s;
+    origin_ += shift;
+    for (std::size_t i = 0; i < knots_.size(); ++i) {
+        knots_[i].s -= shift;
+        knots_[i].once = knots_[i].twice = 0;
+        if (i == 0) continue;
+        const Knot& from = knots_[i - 1];
+        const double t = knots_[i].t - from.t;
+        knots_[i].once = from.once + t * (from.s + t * (from.v / 2 + t * from.a / 6));
+        knots_[i].twice =
+            from.twice + t * (from.once + t * (from.s / 2 + t * (from.v / 6 + t * from.a / 24)));
+    }
+}
+
+const Course::Knot& Course::knotAt(double time) const {
+    const auto after = std::upper_bound(knots_.begin(), knots_.end(), time,
+                                        [](double value, const Knot& knot) { return value < knot.t; });
+    return after == knots_.begin() ? *after : *(after - 1);
+}
+
+Course::Integrals Course::integralsAt(double time) const {
+    const Knot& from = knotAt(time);
+    const double t = time - from.t; // below 0 before the first knot, where the arm rests
+    if (t < 0) {
+        return {from.s, from.once + t * from.s, from.twice + t * (from.once + t * from.s / 2), 0};
+    }
+    return {from.s + t * (from.v + t * from.a / 2),
+            from.once + t * (from.s + t * (from.v / 2 + t * from.a / 6)),
+            from.twice + t * (from.once + t * (from.s / 2 + t * (from.v / 6 + t * from.a / 24))),
+            from.v + t * from.a};
+}
+
+CourseState Course::plannedAt(double time) const {
+    const Knot& from = knotAt(time);
+    const double t = std::max(0.0, time - from.t);
+    const bool isBefore = time < knots_.front().t;
+    return {origin_ + from.s + t * (from.v + t * from.a / 2), isBefore ? 0 : from.v + t * from.a, from.a};
+}
+
+double Course::lastBraking() const {
+    std::size_t i = knots_.size() - 1;
+    while (i > 0 && knots_[i - 1].a < 0)
+        --i;
+    return knots_[i].t;
+}
+
+double Course::plannedTimeAt(double place) const {
+    const double wanted = place - origin_;
+    const auto after = std::lower_bound(knots_.begin(), knots_.end(), wanted,
+                                        [](const Knot& knot, double value) { return knot.s < value; });
+    if (after == knots_.begin()) return knots_.front().t;
+    if (after == knots_.end()) return knots_.back().t;
+    const Knot& from = *(after - 1);
+    const double way = wanted - from.s;
+    const double speed = std::sqrt(std::max(0.0, from.v * from.v + 2 * from.a * way));
+    return from.t + (way > 0 ? std::min(2 * way / (from.v + speed), after->t - from.t) : 0);
+}
+
+CourseState Course::at(double time) const {
+    if (time >= end()) return {endPlace(), 0, 0};
+    if (time <= knots_.front().t) return {origin_ + knots_.front().s, 0, 0};
+    const Integrals now = integralsAt(time);
+    const Integrals first = integralsAt(time - longWindow_);
+    const Integrals second = integralsAt(time - shortWindow_);
+    const Integrals both = integralsAt(time - longWindow_ - shortWindow_);
+    const double share = 1 / (longWindow_ * shortWindow_);
+    CourseState state;
+    state.s = origin_ + (now.twice - first.twice - second.twice + both.twice) * share;
+    state.v = std::max(0.0, (now.once - first.once - second.once + both.once) * share);
+    state.a = (now.s - first.s - second.s + both.s) * share;
+    return state;
+}
+
+double Course::timeAt(double place) const {
+    constexpr double kNothing = 1e-9; // mm
+    if (place >= endPlace() - kNothing) return end();
+    double low = plannedTimeAt(place);
+    double high = low + longWindow_ + shortWindow_;
+    if (place <= origin_ + knots_.front().s + kNothing) return knots_.front().t;
+    double time = 0.5 * (low + high);
+    for (int i = 0; i < 80 && high - low > 1e-11; ++i) {
+        const CourseState state = at(time);
+        (state.s < place ? low : high) = time;
+        const double newton = state.v > 0 ? time + (place - state.s) / state.v : low;
+        const bool isInside = newton > low && newton < high;
+        if (isInside && std::abs(newton - time) < 1e-12) return newton;
+        time = isInside ? newton : 0.5 * (low + high);
+    }
+    return time;
+}
+
+} // namespace motion

@@ -1,0 +1,68 @@
+#pragma once
+// Course: the place along a path over time. It is planned in pieces of constant acceleration and executed as the average of
+// that plan over two windows in time, which is how controllers limit jerk (docs/motion.md). What has been executed up to
+// a moment depends only on the plan up to that moment, so the rest of the plan can be replaced at any time.
+
+#include <cstddef>
+#include <deque>
+
+namespace motion {
+
+/// Place (mm), speed (mm/s) and acceleration (mm/s^2) along a path.
+struct CourseState {
+    double s = 0, v = 0, a = 0;
+};
+
+class Course {
+  public:
+    Course() = default;
+    /// At rest at `place` from `time` (s) on and before. The windows (s) are positive.
+    Course(double time, double place, double longWindow, double shortWindow);
+
+    /// Continues the plan from its end to `place` (not before the end) with constant acceleration; `speed` there.
+    /// At least one of the speeds at both ends is positive.
+    void moveTo(double place, double speed);
+    /// Continues the plan with rest for that many seconds. The plan ends at rest.
+    void rest(double seconds);
+    /// Drops what is planned after `time`. The plan then ends there, perhaps moving.
+    void cutAfter(double time);
+    /// Shifts the whole course in time by that many seconds.
+    void shift(double seconds);
+    /// Forgets what no question about `time` or later needs.
+    void forgetBefore(double time);
+
+    /// The plan, before it is averaged.
+    CourseState plannedAt(double time) const;
+    double plannedEnd() const { return knots_.back().t; } ///< s
+    double endPlace() const { return knots_.back().s + origin_; }
+    double endSpeed() const { return knots_.back().v; }
+    /// When the last braking of the plan begins; its end if it does not end with braking.
+    double lastBraking() const;
+    /// When the plan comes to this place for the first time; its end if it does not.
+    double plannedTimeAt(double place) const;
+
+    /// The motion executed.
+    CourseState at(double time) const;
+    /// When the motion comes to rest at the end of the plan.
+    double end() const { return plannedEnd() + (knots_.size() > 1 ? longWindow_ + shortWindow_ : 0); }
+    /// When the motion comes to this place for the first time. The end if the plan does not lead there.
+    double timeAt(double place) const;
+
+  private:
+    struct Knot {
+        double t = 0, s = 0, v = 0, a = 0; // the acceleration holds until the next knot
+        double once = 0, twice = 0;        // integrals of s over time since the first knot
+    };
+    struct Integrals {
+        double s, once, twice, v;
+    };
+    const Knot& knotAt(double time) const;
+    Integrals integralsAt(double time) const;
+    void push(const Knot& knot);
+
+    std::deque<Knot> knots_{Knot{}}; // the last one: the end, at rest afterwards when its speed is 0
+    double origin_ = 0;              // subtracted from places, so that integrals stay small
+    double longWindow_ = 1, shortWindow_ = 1;
+};
+
+} // namespace motion

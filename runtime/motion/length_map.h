@@ -1,0 +1,27 @@
+#pragma once
+// LengthMap: from the distance along a curve to the curve's own parameter (0..1).
+
+#include <functional>
+#include <vector>
+
+namespace motion {
+
+class LengthMap {
+  public:
+    /// The parameter grows in proportion to the distance.
+    static LengthMap even(double length);
+    /// `rate`: length per unit of the parameter, measured at 2 * `pieces` + 1 places.
+    static LengthMap measured(const std::function<double(double)>& rate, int pieces);
+
+    double length() const { return length_; }
+    /// The parameter at this distance from the start (clamped).
+    double parameterAt(double distance) const;
+    /// The reverse.
+    double distanceAt(double parameter) const;
+
+  private:
+    double length_ = 0;
+    std::vector<double> distances_, rates_; // at even steps of the parameter; empty when even
+};
+
+} // namespace motion

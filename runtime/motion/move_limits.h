@@ -1,0 +1,38 @@
+#pragma once
+// MoveLimits: what program and robot allow on one move, in deg, mm and s.
+
+#include "runtime/motion/move_command.h"
+#include "runtime/robot/robot_model.h"
+
+#include <array>
+
+namespace motion {
+
+/// What the planner needs to know about an external axis; not present unless configured.
+struct ExternalAxisModel {
+    bool present = false;
+    bool rotating = true; ///< degrees, else mm
+    double lower = -1e6, upper = 1e6;
+    double maxSpeed = 100; ///< deg/s or mm/s
+    double maxAcceleration = 500;
+};
+using ExternalAxisModels = std::array<ExternalAxisModel, kExternalCount>;
+
+struct MoveLimits {
+    double tcpSpeed = 0;
+    double orientationSpeed = 0;
+    double pathSpeed = 1e300; ///< of the path parameter; used for moves with a given duration
+    Joints jointSpeed{};
+    double accelerationShare = 1; ///< AccSet, of the robot's accelerations
+    double rampShare = 1;         ///< AccSet, of the rate at which acceleration changes
+    ExternalAxes externalSpeed{};
+    ExternalAxes externalAcceleration{};
+    double pathAcceleration = 1e300, pathDeceleration = 1e300; ///< mm/s^2
+    double worldAcceleration = 1e300;                          ///< mm/s^2
+};
+
+/// Limits of a move with these arguments and settings.
+MoveLimits limitsOf(const MoveCommand& command, const robot::RobotModel& model,
+                    const ExternalAxisModels& external);
+
+} // namespace motion

@@ -1,0 +1,390 @@
+#include "runtime/motion/route.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace motion {
+
+namespace {
+
+constexpr double kNothing = 1e-9;      // mm
+constexpr double kLongestStretch = 10; // mm
+constexpr double kLeastRadius = 0.3;   // mm, a zone that is programmed as 0 but not as a stop point (z0)
+constexpr int kStretchesInZone = 9;    // odd: the sharpest bend lies inside one
+constexpr double kLargestJump = 2;     // deg, between what two neighbouring stretches expect of an axis
+
+/// Zone radii in mm of route on one of the legs that meet.
+struct Radii {
+    double tcp = 0, turn = 0, external = 0;
+};
+
+Radii radiiOn(const Leg& leg, const ZoneData& zone) {
+    Radii r;
+    if (leg.isTurning) {
+        const double degrees = std::max({zone.zoneOri, zone.zoneReax, zone.zoneLeax});
+        r.tcp = r.turn = r.external = kMmPerDegree * std::max(degrees, 0.03);
+    } else {
+        r.tcp = std::max(zone.pzoneTcp, kLeastRadius) * leg.perMm;
+        r.turn = std::max(zone.pzoneOri * leg.perMm, r.tcp);
+        r.external = std::max(zone.pzoneEax * leg.perMm, r.tcp);
+    }
+    // At most half of the way to the neighbouring point (manual 2.2.3).
+    const double half = 0.5 * leg.length();
+    return {std::min(r.tcp, half), std::min(r.turn, half), std::min(r.external, half)};
+}
+
+} // namespace
+
+bool Route::isRounded(std::size_t number) const {
+    return corner(number).kind != CornerKind::None;
+}
+
+std::optional<double> Route::append(Leg leg, double fixedUpTo) {
+    if (legs_.empty()) {
+        leg.begin = leg.cutStart = leg.cutEnd = 0;
+        legs_.push_back(std::move(leg));
+        corners_.emplace_back();
+        corners_.back().begin = legs_.back().end();
+        layStretches(0);
+        return 0;
+    }
+    const Radii before = radiiOn(legs_.back(), legs_.back().zone);
+    Radii after = radiiOn(leg, legs_.back().zone);
+    const bool inSpace = !legs_.back().isTurning && !leg.isTurning &&
+                         sameTool(legs_.back().path->frames(), leg.path->frames());
+    double first = before.tcp;
+    double second = after.tcp;
+    if (inSpace) first = second = std::min(first, second);
+    if (legs_.back().end() - first < fixedUpTo - kNothing) return {};
+    const bool betweenJoints = !legs_.back().path->isCartesian() && !leg.path->isCartesian();
+
+    const std::deque<RouteStretch> earlier = stretches_;
+    legs_.push_back(std::move(leg));
+    corners_.emplace_back();
+    for (const CornerKind kind : {CornerKind::Space, CornerKind::Joint}) {
+        if (kind == CornerKind::Space && (!inSpace || betweenJoints)) continue;
+        if (makeCorner(kind, first, second, fixedUpTo)) {
+            const Corner& made = corners_[corners_.size() - 2];
+            double changed = made.begin;
+            if (made.turn.before > 0) changed = std::min(changed, made.turn.begin);
+            if (made.external.before > 0) changed = std::min(changed, made.external.begin);
+            return changed;
+        }
+        stretches_ = earlier;
+    }
+    legs_.pop_back();
+    corners_.pop_back();
+    legs_.back().cutEnd = 0;
+    corners_.back() = {};
+    corners_.back().begin = legs_.back().end();
+    return {};
+}
+
+bool Route::makeCorner(CornerKind kind, double before, double after, double fixedUpTo) {
+    Leg& a = legs_[legs_.size() - 2];
+    Leg& b = legs_.back();
+    Corner& corner = corners_[corners_.size() - 2];
+    corner = {};
+    corner.kind = kind;
+    corner.before = before;
+    corner.after = after;
+    if (kind == CornerKind::Space) {
+        curveInSpace(corner, a, b);
+        const Radii first = radiiOn(a, a.zone);
+        const Radii second = radiiOn(b, a.zone);
+        const double room = std::max(before, a.pathBegin() + a.length() - fixedUpTo);
+        const double turn = std::min({first.turn, second.turn, room});
+        const double external = std::min({first.external, second.external, room});
+        blendTurn(corner, a, b, std::max(turn, before), std::max(turn, after));
+        blendExternal(corner, a, b, std::max(external, before), std::max(external, after));
+    } else {
+        curveOfAxes(corner, a, b);
+    }
+    a.cutEnd = before;
+    b.cutStart = after;
+    placeLastCorner();
+    double changed = corner.begin;
+    if (corner.turn.before > 0) changed = std::min(changed, corner.turn.begin);
+    if (corner.external.before > 0) changed = std::min(changed, corner.external.begin);
+    while (!stretches_.empty() && stretches_.back().end > changed + kNothing)
+        stretches_.pop_back();
+    return layStretches(stretches_.empty() ? std::min(changed, corner.begin) : stretches_.back().end);
+}
+
+void Route::placeLastCorner() {
+    const Leg& a = legs_[legs_.size() - 2];
+    Leg& b = legs_.back();
+    Corner& corner = corners_[corners_.size() - 2];
+    corner.begin = a.end();
+    b.begin = corner.end();
+    const auto place = [&](auto& blend) {
+        blend.begin = a.pathBegin() + a.length() - blend.before;
+        blend.end = b.pathBegin() + blend.after;
+    };
+    place(corner.turn);
+    place(corner.external);
+    corners_.back().begin = b.end();
+}
+
+/// Whether the place lies in a corner or in a zone of orientation or external axes.
+bool Route::isShaped(double place) const {
+    const std::size_t i = ownLeg(place);
+    if (place > leg(i).end()) return true;
+    const auto covers = [&](const Corner& c) { return c.turn.covers(place) || c.external.covers(place); };
+    return covers(corner(i)) || (i > firstLeg_ && covers(corner(i - 1)));
+}
+
+/// Borders of pieces on which all quantities are smooth, and the nodes of the paths, from a place to the end.
+std::vector<double> Route::bordersFrom(double from) const {
+    std::vector<double> borders{from};
+    const auto add = [&](double place) {
+        if (place > from + kNothing && place < length() - kNothing) borders.push_back(place);
+    };
+    for (std::size_t i = ownLeg(from); i < legCount(); ++i) {
+        const Leg& l = leg(i);
+        const Corner& c = corner(i);
+        add(l.begin);
+        const auto inside = [&](double place) {
+            if (place > l.begin && place < l.end()) add(place);
+        };
+        if (l.path->isCartesian()) {
+            for (const PathNode& node : l.path->nodes())
+                inside(l.pathBegin() + l.length() * node.s);
+        } else {
+            constexpr int kLeastStretches = 32;
+            for (int k = 1; k < kLeastStretches; ++k)
+                inside(l.pathBegin() + l.length() * k / kLeastStretches);
+        }
+        add(l.end());
+        if (c.kind == CornerKind::None) continue;
+        add(c.end());
+        for (int k = 1; k < kStretchesInZone; ++k)
+            add(c.begin + c.length() * k / kStretchesInZone);
+        const auto addZone = [&](double begin, double end) {
+            for (int k = 0; k <= kStretchesInZone; ++k)
+                add(begin + (end - begin) * k / kStretchesInZone);
+        };
+        if (c.turn.before > 0) addZone(c.turn.begin, c.turn.end);
+        if (c.external.before > 0) addZone(c.external.begin, c.external.end);
+    }
+    borders.push_back(length());
+    std::sort(borders.begin(), borders.end());
+    return borders;
+}
+
+/// Measures the route from a place on; false if an axis would jump or leave its range in a corner.
+bool Route::layStretches(double from) {
+    const std::vector<double> borders = bordersFrom(from);
+    double begin = from;
+    for (std::size_t i = 1; i < borders.size(); ++i) {
+        const double gap = borders[i] - begin;
+        // Borders closer than this add nothing; the last one is kept in any case.
+        const double least = i + 1 == borders.size() ? kNothing : std::min(0.02, 1e-3 * length());
+        if (gap < least) continue;
+        const auto parts = static_cast<int>(std::ceil(gap / kLongestStretch));
+        for (int k = 0; k < parts; ++k) {
+            RouteStretch stretch;
+            stretch.begin = begin + gap * k / parts;
+            stretch.end = k + 1 == parts ? borders[i] : begin + gap * (k + 1) / parts;
+            const bool isFirst = stretches_.empty();
+            const Joints seed = isFirst ? legs_.front().path->start().robax : stretches_.back().middle.joints;
+            const bool isGood = measure(stretch, seed);
+            if (!isFirst && isShaped(0.5 * (stretch.begin + stretch.end))) {
+                if (!isGood) return false;
+                const RouteStretch& last = stretches_.back();
+                const double way = 0.5 * (stretch.end - last.begin);
+                for (std::size_t axis = 0; axis < seed.size(); ++axis) {
+                    const double step = stretch.middle.joints[axis] - last.middle.joints[axis];
+                    const double expected = 0.5 * (stretch.first[axis] + last.first[axis]) * way;
+                    if (std::abs(step - expected) > kLargestJump + 0.5 * std::abs(expected)) return false;
+                }
+            }
+            stretches_.push_back(stretch);
+        }
+        begin = borders[i];
+    }
+    if (!stretches_.empty()) stretches_.back().end = length();
+    return true;
+}
+
+bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
+    const double middle = 0.5 * (stretch.begin + stretch.end);
+    const double step = 0.25 * (stretch.end - stretch.begin);
+    const std::size_t own = ownLeg(middle);
+    const Leg& l = leg(own);
+    const bool inCorner = middle > l.end();
+    stretch.leg = legAt(middle);
+    stretch.zoneLength = inCorner ? corner(own).length() : 0;
+    stretch.middle = pointAt(middle, seed);
+    const RoutePoint low = pointAt(middle - step, stretch.middle.joints);
+    const RoutePoint high = pointAt(middle + step, stretch.middle.joints);
+    for (std::size_t i = 0; i < stretch.first.size(); ++i) {
+        stretch.first[i] = (high.joints[i] - low.joints[i]) / (2 * step);
+        stretch.second[i] = (high.joints[i] - 2 * stretch.middle.joints[i] + low.joints[i]) / (step * step);
+    }
+    for (std::size_t i = 0; i < stretch.externalFirst.size(); ++i) {
+        if (!isConnected(stretch.middle.extax[i])) continue;
+        stretch.externalFirst[i] = (high.extax[i] - low.extax[i]) / (2 * step);
+        stretch.externalSecond[i] =
+            (high.extax[i] - 2 * stretch.middle.extax[i] + low.extax[i]) / (step * step);
+    }
+    const robot::Kinematics& kinematics = l.path->kinematics();
+    const FrameSetup& frames = (inCorner ? leg(own + 1) : l).path->frames();
+    const auto tcp = [&](const RoutePoint& point) {
+        return frames.fromFlange(kinematics.forward(point.joints));
+    };
+    const Pose before = tcp(low);
+    const Pose here = tcp(stretch.middle);
+    const Pose after = tcp(high);
+    stretch.tcpRate = norm(after.pos - before.pos) / (2 * step);
+    if (inCorner && corner(own).kind == CornerKind::Space) stretch.tcpRate = 1;
+    if (!inCorner && l.path->isCartesian()) stretch.tcpRate = l.length() > 0 ? 1 / l.perMm : 0;
+    stretch.turnRate = robot::angleBetween(before.rot, after.rot) / (2 * step);
+    stretch.curvature = norm(after.pos - here.pos * 2.0 + before.pos) / (step * step);
+    return low.isSolved && high.isSolved && stretch.middle.isSolved &&
+           kinematics.jointOutsideLimits(stretch.middle.joints) == 0;
+}
+
+std::size_t Route::ownLeg(double place) const {
+    const auto after = std::upper_bound(legs_.begin(), legs_.end(), place,
+                                        [](double value, const Leg& l) { return value < l.begin; });
+    const auto index = after == legs_.begin() ? 0 : static_cast<std::size_t>(after - legs_.begin()) - 1;
+    return firstLeg_ + index;
+}
+
+RoutePoint Route::at(double place) const {
+    const double inside = std::clamp(place, 0.0, length());
+    return pointAt(inside, stretches_.empty() ? legs_.front().path->start().robax
+                                              : stretches_[stretchAt(inside)].middle.joints);
+}
+
+RoutePoint Route::pointAt(double place, const Joints& seed) const {
+    const std::size_t number = ownLeg(place);
+    return place > leg(number).end() && isRounded(number) ? pointInCorner(number, place, seed)
+                                                          : pointOnLeg(number, place, seed);
+}
+
+RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints& seed) const {
+    const Leg& l = leg(number);
+    const double distance = place - l.pathBegin();
+    const double parameter = l.lengths.parameterAt(distance);
+    RoutePoint point;
+    point.extax = l.path->externalAt(parameter);
+    const Corner* turning = nullptr;
+    const Leg* frames = &l;
+    for (const bool atEnd : {false, true}) {
+        if (!atEnd && number == firstLeg_) continue;
+        const Corner& c = corner(atEnd ? number : number - 1);
+        if (c.external.covers(place)) {
+            const AxisVector axes = c.external.at(place);
+            for (std::size_t i = 0; i < point.extax.size(); ++i)
+                if (isConnected(point.extax[i])) point.extax[i] = axes.v[axes.v.size() - kExternalCount + i];
+        }
+        if (!c.turn.covers(place)) continue;
+        turning = &c;
+        if (atEnd) frames = &leg(number + 1);
+    }
+    if (turning == nullptr) {
+        point.joints = l.path->jointsAt(parameter);
+        return point;
+    }
+    Pose pose = poseIn(l, *frames, distance);
+    pose.rot = turnedBy(turning->centre, turning->turn.at(place));
+    point.joints = seed;
+    point.isSolved =
+        l.path->kinematics().inverseContinue(frames->path->frames().toFlange(pose), seed, point.joints);
+    return point;
+}
+
+RoutePoint Route::pointInCorner(std::size_t number, double place, const Joints& seed) const {
+    const Corner& c = corner(number);
+    const Leg& next = leg(number + 1);
+    const double x = c.lengths.parameterAt(place - c.begin);
+    RoutePoint point;
+    point.joints = seed;
+    point.extax = next.path->start().extax;
+    if (c.kind == CornerKind::Joint) {
+        const AxisVector axes = c.axes.at(x);
+        std::copy_n(axes.v.begin(), point.joints.size(), point.joints.begin());
+        for (std::size_t i = 0; i < point.extax.size(); ++i)
+            if (isConnected(point.extax[i])) point.extax[i] = axes.v[axes.v.size() - kExternalCount + i];
+        return point;
+    }
+    if (c.external.covers(place)) {
+        const AxisVector axes = c.external.at(place);
+        for (std::size_t i = 0; i < point.extax.size(); ++i)
+            if (isConnected(point.extax[i])) point.extax[i] = axes.v[axes.v.size() - kExternalCount + i];
+    }
+    const Pose pose{c.space.at(x), c.turn.covers(place) ? turnedBy(c.centre, c.turn.at(place)) : c.centre};
+    point.isSolved =
+        next.path->kinematics().inverseContinue(next.path->frames().toFlange(pose), seed, point.joints);
+    return point;
+}
+
+double Route::legStart(std::size_t number) const {
+    return number == firstLeg_ ? leg(number).pathBegin() : corner(number - 1).middle();
+}
+
+double Route::legEnd(std::size_t number) const {
+    return corner(number).middle();
+}
+
+double Route::zoneEntry(std::size_t number) const {
+    const Corner& c = corner(number);
+    if (c.kind == CornerKind::None) { // not known yet: as programmed
+        const Leg& l = leg(number);
+        const Radii r = radiiOn(l, l.zone);
+        return l.end() - (l.zone.finep ? 0 : std::max({r.tcp, r.turn, r.external}));
+    }
+    double entry = c.begin;
+    if (c.turn.before > 0) entry = std::min(entry, c.turn.begin);
+    if (c.external.before > 0) entry = std::min(entry, c.external.begin);
+    return entry;
+}
+
+double Route::placeAfterStart(std::size_t number, double mm) const {
+    const Leg& l = leg(number);
+    const double distance = std::clamp(mm * l.perMm, 0.0, l.length());
+    if (distance < l.cutStart && number > firstLeg_) {
+        const Corner& c = corner(number - 1);
+        return c.middle() + (c.end() - c.middle()) * distance / l.cutStart;
+    }
+    const double beyond = distance - (l.length() - l.cutEnd);
+    if (beyond <= 0 || l.cutEnd == 0) return l.pathBegin() + distance;
+    const Corner& c = corner(number);
+    return c.begin + (c.middle() - c.begin) * beyond / l.cutEnd;
+}
+
+double Route::placeBeforeEnd(std::size_t number, double mm) const {
+    const Leg& l = leg(number);
+    return placeAfterStart(number, l.length() / l.perMm - mm);
+}
+
+std::size_t Route::legAt(double place) const {
+    const std::size_t own = ownLeg(place);
+    return own + 1 < legCount() && place > corner(own).middle() ? own + 1
+           : own > firstLeg_ && place < legStart(own)           ? own - 1
+                                                                : own;
+}
+
+std::size_t Route::stretchAt(double place) const {
+    const auto after = std::upper_bound(stretches_.begin(), stretches_.end(), place,
+                                        [](double value, const RouteStretch& s) { return value < s.begin; });
+    return after == stretches_.begin() ? 0 : static_cast<std::size_t>(after - stretches_.begin()) - 1;
+}
+
+std::size_t Route::forgetBefore(double place) {
+    std::size_t forgotten = 0;
+    while (stretches_.size() > 1 && stretches_.front().end <= place) {
+        stretches_.pop_front();
+        ++forgotten;
+    }
+    while (legs_.size() > 2 && legs_[1].begin <= place) { // of the leg before, the corner between is needed
+        legs_.pop_front();
+        corners_.pop_front();
+        ++firstLeg_;
+    }
+    return forgotten;
+}
+
+} // namespace motion

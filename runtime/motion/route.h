@@ -1,0 +1,114 @@
+#pragma once
+// Route: the way from one stop point to the next: moves as legs, rounded corners between them, orientation and external axes
+// blended over zones of their own. Places on it are mm of path from its start; on stretches where the TCP hardly moves
+// turning counts as well. The geometry does not depend on speed (manual 2.2).
+
+#include "runtime/motion/corner.h"
+#include "runtime/motion/move_limits.h"
+#include "runtime/motion/path.h"
+
+#include <deque>
+#include <memory>
+#include <optional>
+
+namespace motion {
+
+/// One move of a route.
+struct Leg {
+    std::shared_ptr<const MotionPath> path;
+    ZoneData zone; ///< of its end point
+    MoveLimits limits;
+    double duration = 0;             ///< s, RAPID's \T; 0 = not given
+    LengthMap lengths;               ///< mm of path to the path's own parameter
+    double perMm = 1;                ///< mm of route for a mm of TCP path
+    bool isTurning = false;          ///< the TCP hardly moves; the zone is measured in degrees
+    double begin = 0;                ///< place where the part outside corners begins
+    double cutStart = 0, cutEnd = 0; ///< mm taken by the corners at both ends
+    double pathBegin() const { return begin - cutStart; } ///< place the uncut leg would begin at
+    double length() const { return lengths.length(); }
+    double end() const { return begin + length() - cutStart - cutEnd; }
+};
+
+/// All axes at one place of a route.
+struct RoutePoint {
+    Joints joints{};
+    ExternalAxes extax = kNoExternalAxes;
+    bool isSolved = true; ///< false: the inverse failed and the joints are those of a neighbour
+};
+
+/// A short stretch of a route with what planning needs to know in its middle.
+struct RouteStretch {
+    double begin = 0, end = 0;
+    std::size_t leg = 0; ///< number of the leg whose limits hold
+    RoutePoint middle;
+    Joints first{}, second{}; ///< derivatives of the axes by the place, deg/mm, deg/mm^2
+    ExternalAxes externalFirst{}, externalSecond{};
+    double tcpRate = 1;    ///< mm of TCP path a mm of route
+    double turnRate = 0;   ///< degrees of orientation a mm of route
+    double curvature = 0;  ///< of the TCP path, 1/mm
+    double zoneLength = 0; ///< mm, of the corner it lies in; 0 = outside
+};
+
+class Route {
+  public:
+    /// Appends a leg that begins where the last one ends, with a corner between the two. `fixedUpTo`: the part of the route
+    /// up to there can no longer change. Returns the place from which on the route has changed; nothing when no corner
+    /// can be made any more: the route is unchanged then, and its end is a stop point.
+    std::optional<double> append(Leg leg, double fixedUpTo);
+
+    std::size_t firstLeg() const { return firstLeg_; } ///< number of the oldest leg that is kept
+    std::size_t legCount() const { return firstLeg_ + legs_.size(); }
+    const Leg& leg(std::size_t number) const { return legs_[number - firstLeg_]; }
+    Leg& leg(std::size_t number) { return legs_[number - firstLeg_]; }
+    double length() const { return legs_.empty() ? 0 : legs_.back().end(); }
+    /// Whether the point at the end of a leg is passed by on a curve.
+    bool isRounded(std::size_t number) const;
+
+    /// Places of the programmed points at both ends of a leg: in the middle of a corner's curve.
+    double legStart(std::size_t number) const;
+    double legEnd(std::size_t number) const;
+    /// Place where the largest zone at the end of a leg begins.
+    double zoneEntry(std::size_t number) const;
+    /// Place on a leg, mm of TCP path as programmed after its start point. Inside a corner it lies on the curve.
+    double placeAfterStart(std::size_t number, double mm) const;
+    double placeBeforeEnd(std::size_t number, double mm) const;
+    /// Number of the leg whose programmed points enclose the place.
+    std::size_t legAt(double place) const;
+
+    RoutePoint at(double place) const;
+    const std::deque<RouteStretch>& stretches() const { return stretches_; }
+    /// Index of the stretch that contains the place.
+    std::size_t stretchAt(double place) const;
+    /// Forgets stretches and legs that end before this place; how many stretches.
+    std::size_t forgetBefore(double place);
+
+  private:
+    /// Points on the legs as programmed, without corners; distances in mm of path from the start of the leg.
+    static Pose poseOn(const Leg& leg, double distance);
+    static Pose poseIn(const Leg& from, const Leg& frames, double distance);
+    static AxisVector axesOn(const Leg& leg, double distance);
+
+    const Corner& corner(std::size_t number) const { return corners_[number - firstLeg_]; }
+    std::size_t ownLeg(double place) const;
+    RoutePoint pointAt(double place, const Joints& seed) const;
+    RoutePoint pointOnLeg(std::size_t number, double place, const Joints& seed) const;
+    RoutePoint pointInCorner(std::size_t number, double place, const Joints& seed) const;
+
+    bool makeCorner(CornerKind kind, double before, double after, double fixedUpTo);
+    static void curveInSpace(Corner& corner, const Leg& a, const Leg& b);
+    static void curveOfAxes(Corner& corner, const Leg& a, const Leg& b);
+    static void blendTurn(Corner& corner, const Leg& a, const Leg& b, double before, double after);
+    static void blendExternal(Corner& corner, const Leg& a, const Leg& b, double before, double after);
+    void placeLastCorner();
+    bool layStretches(double from);
+    std::vector<double> bordersFrom(double from) const;
+    bool measure(RouteStretch& stretch, const Joints& seed) const;
+    bool isShaped(double place) const;
+
+    std::size_t firstLeg_ = 0;
+    std::deque<Leg> legs_;
+    std::deque<Corner> corners_; // at the end of each leg
+    std::deque<RouteStretch> stretches_;
+};
+
+} // namespace motion

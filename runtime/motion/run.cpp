@@ -1,0 +1,333 @@
+#include "runtime/motion/run.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace motion {
+
+namespace {
+
+constexpr double kUnlimited = 1e300;
+constexpr double kNothing = 1e-9;        // mm
+constexpr double kShortestZone = 0.0028; // s: a corner takes at least this long (docs/motion.md)
+
+double atMost(double limit, double rate) {
+    const double size = std::abs(rate);
+    return size > 1e-12 ? limit / size : kUnlimited;
+}
+
+/// Squares of the speed at one end of a stretch that go with a square at the other end.
+struct Interval {
+    double low = -kUnlimited, high = kUnlimited; // the low one may be below 0: a stop on the way
+};
+
+/// `towardsEnd`: from the beginning of the stretch to its end, else from the end to the beginning. On a stretch with squares
+/// x0 and x1 at its ends each row accelerates by first * (x1 - x0) / (2 width) + second * (x0 + x1) / 2.
+Interval reachableFrom(double square, const StretchLimits& limits, double width, bool towardsEnd) {
+    Interval result;
+    const double gain = towardsEnd ? limits.gain : limits.drop;
+    const double drop = towardsEnd ? limits.drop : limits.gain;
+    result.high = square + 2 * width * gain;
+    result.low = square - 2 * width * drop;
+    const double sign = towardsEnd ? 1 : -1;
+    for (std::size_t i = 0; i < limits.rowCount; ++i) {
+        const AccelerationRow& row = limits.rows[i];
+        const double change = sign * row.first / (2 * width);
+        const double there = change + 0.5 * row.second;
+        const double here = (0.5 * row.second - change) * square;
+        if (std::abs(there) < 1e-15) continue;
+        const double a = (row.most - here) / there;
+        const double b = (-row.most - here) / there;
+        result.high = std::min(result.high, std::max(a, b));
+        result.low = std::max(result.low, std::min(a, b));
+    }
+    return result;
+}
+
+/// Squares of the speed on a stretch.
+struct StretchSpeeds {
+    double first = 0, last = 0; ///< at its ends
+    double most = 0;
+    double gained = 0; ///< at its end with full acceleration from the first
+    double before = 0; ///< at its beginning with full braking to the last
+};
+
+/// Full acceleration, the highest speed, full braking; each may take none of the stretch.
+void shapeStretch(Course& course, double from, double to, const StretchSpeeds& x) {
+    const double width = to - from;
+    const double rise = (x.gained - x.first) / width;
+    const double fall = (x.before - x.last) / width;
+    if (x.first <= x.most && x.last <= x.most && x.gained > x.last && x.before > x.first && rise > 0 &&
+        fall > 0) {
+        const double top =
+            std::min(x.most, (x.first * fall + x.last * rise + rise * fall * width) / (rise + fall));
+        const double up = (top - x.first) / rise;
+        const double down = (top - x.last) / fall;
+        if (up > kNothing) course.moveTo(from + up, std::sqrt(top));
+        if (width - up - down > kNothing) course.moveTo(to - down, std::sqrt(top));
+    }
+    course.moveTo(to, std::sqrt(x.last));
+}
+
+} // namespace
+
+Run::Run(const RunSettings& settings, double start)
+    : settings_(settings), course_(start, 0, settings.longWindow, settings.shortWindow), start_(start),
+      reachable_{0}, planned_{0} {}
+
+bool Run::append(Leg leg, bool isOpen, double now) {
+    const bool isFirst = route_.legCount() == 0;
+    if (!isFirst && (!isOpen_ || (!isBraking_ && now >= course_.plannedEnd()))) return false;
+    const double fixed = isFirst         ? 0
+                         : isBraking_    ? course_.endPlace()
+                         : now <= start_ ? 0
+                                         : course_.plannedAt(now).s;
+    if (leg.duration > 0) leg.limits.pathSpeed = leg.length() / leg.duration;
+    const auto changed = route_.append(std::move(leg), fixed);
+    if (!changed) return false;
+    isOpen_ = isOpen;
+    const std::size_t from = isFirst ? 0 : route_.stretchAt(*changed);
+    limitStretches(from);
+    planBackward(from);
+    if (!isBraking_) planForward(now);
+    if (isFirst && !isOpen) meetDuration();
+    return true;
+}
+
+void Run::limitStretches(std::size_t from) {
+    const auto& stretches = route_.stretches();
+    limits_.resize(from);
+    for (std::size_t k = from; k < stretches.size(); ++k) {
+        const RouteStretch& s = stretches[k];
+        const MoveLimits& most = route_.leg(s.leg).limits;
+        StretchLimits l;
+        l.width = s.end - s.begin;
+        l.speed = std::min(
+            {atMost(most.tcpSpeed, s.tcpRate), atMost(most.orientationSpeed, s.turnRate), most.pathSpeed});
+        if (s.zoneLength > 0) l.speed = std::min(l.speed, s.zoneLength / kShortestZone);
+        l.bendSquare = kUnlimited;
+        const auto add = [&](double first, double second, double acceleration) {
+            if (std::abs(first) < 1e-12 && std::abs(second) < 1e-12) return;
+            l.bendSquare = std::min(l.bendSquare, atMost(acceleration, second));
+            l.rows[l.rowCount++] = {first, second, acceleration};
+        };
+        Joints accelerations = s.middle.joints;
+        settings_.accelerations->limitsAt(s.middle.joints, accelerations);
+        for (std::size_t i = 0; i < s.first.size(); ++i) {
+            l.speed = std::min(l.speed, atMost(most.jointSpeed[i], s.first[i]));
+            add(s.first[i], s.second[i], most.accelerationShare * accelerations[i]);
+        }
+        for (std::size_t i = 0; i < s.externalFirst.size(); ++i) {
+            l.speed = std::min(l.speed, atMost(most.externalSpeed[i], s.externalFirst[i]));
+            add(s.externalFirst[i], s.externalSecond[i], most.externalAcceleration[i]);
+        }
+        if (most.worldAcceleration < kUnlimited) {
+            // Along and across the path together: each takes its share.
+            constexpr double kShare = 0.7071;
+            add(s.tcpRate, 0, kShare * most.worldAcceleration);
+            l.bendSquare = std::min(l.bendSquare, atMost(kShare * most.worldAcceleration, s.curvature));
+        }
+        l.gain = atMost(most.pathAcceleration, s.tcpRate);
+        l.drop = atMost(most.pathDeceleration, s.tcpRate);
+        limits_.push_back(l);
+    }
+}
+
+double Run::speedSquare(std::size_t stretch) const {
+    const StretchLimits& l = limits_[stretch];
+    const double speed = share_ * l.speed;
+    return std::min(speed < 1e100 ? speed * speed : kUnlimited, l.bendSquare);
+}
+
+/// Largest speeds from which the plan can still stop at the end; those of stretches before `from` only where they change.
+void Run::planBackward(std::size_t from) {
+    const std::size_t count = limits_.size();
+    const std::size_t known = std::min(from, reachable_.size() - 1);
+    reachable_.resize(count + 1);
+    planned_.resize(count + 1);
+    reachable_[count] = 0;
+    std::size_t changed = count;
+    for (std::size_t i = count; i-- > 0;) {
+        double most = speedSquare(i);
+        if (i > 0) most = std::min(most, speedSquare(i - 1));
+        most = std::min(most, reachableFrom(reachable_[i + 1], limits_[i], limits_[i].width, false).high);
+        most = std::max(most, 0.0);
+        if (i < known && reachable_[i] == most) break;
+        reachable_[i] = most;
+        changed = i;
+    }
+    changed_ = std::min(changed_, changed);
+}
+
+double Run::nodePlace(std::size_t node) const {
+    const auto& stretches = route_.stretches();
+    return node < stretches.size() ? stretches[node].begin : route_.length();
+}
+
+/// From the state at `now`, or from the last place before which nothing changes, to the end of the route.
+void Run::planForward(double now) {
+    const CourseState state = now <= start_ ? CourseState{} : course_.plannedAt(now);
+    std::size_t stretch = now <= start_ ? 0 : route_.stretchAt(state.s);
+    double place = state.s;
+    double square = state.v * state.v;
+    double from = std::max(now, start_);
+    if (changed_ > stretch + 1) { // what is planned up to there remains
+        stretch = changed_ - 1;
+        place = nodePlace(stretch);
+        square = planned_[stretch];
+        from = std::max(from, course_.plannedTimeAt(place));
+    } else if (stretch < planned_.size() && place <= nodePlace(stretch) + kNothing) {
+        planned_[stretch] = square;
+    }
+    course_.cutAfter(from);
+    if (course_.plannedEnd() < from) course_.rest(from - course_.plannedEnd());
+    for (; stretch < limits_.size(); ++stretch) {
+        passStretch(stretch, place, square);
+        place = nodePlace(stretch + 1);
+        square = planned_[stretch + 1];
+    }
+    changed_ = limits_.size() + 1;
+}
+
+/// Plans from a place on the stretch, with this square of the speed, to its end.
+void Run::passStretch(std::size_t stretch, double from, double square) {
+    const StretchLimits& limits = limits_[stretch];
+    const double to = nodePlace(stretch + 1);
+    const double width = to - from;
+    if (width < kNothing) {
+        planned_[stretch + 1] = square;
+        return;
+    }
+    const double most = speedSquare(stretch);
+    const Interval reach = reachableFrom(square, limits, width, true);
+    double next = std::max(0.0, std::min({reach.high, reachable_[stretch + 1], most}));
+    // The speed has been lowered meanwhile: as fast as braking allows.
+    if (square > most && stretch + 1 < limits_.size()) next = std::max(next, std::min(reach.low, square));
+    const double back = reachableFrom(next, limits, width, false).high;
+    shapeStretch(course_, from, to, {square, next, most, reach.high, back});
+    planned_[stretch + 1] = next;
+}
+
+/// A single move with a given duration: as slow as it has to be.
+void Run::meetDuration() {
+    if (route_.legCount() != 1 || !(route_.leg(0).duration > 0)) return;
+    const double wanted = route_.leg(0).duration;
+    const auto durationAt = [&](double speed) {
+        for (StretchLimits& limits : limits_)
+            limits.speed = std::min(limits.speed, speed);
+        planBackward(0);
+        changed_ = 0;
+        course_ = Course(start_, 0, settings_.longWindow, settings_.shortWindow);
+        planForward(start_);
+        return course_.end() - start_;
+    };
+    const auto fastest = [&] {
+        limits_.clear();
+        route_.leg(0).limits.pathSpeed = kUnlimited;
+        limitStretches(0);
+    };
+    fastest();
+    if (durationAt(kUnlimited) >= wanted) return;
+    double low = 0;
+    double high = route_.length() / std::max(1e-3, wanted - settings_.longWindow - settings_.shortWindow) * 4;
+    for (int i = 0; i < 60 && high - low > 1e-12 * high; ++i) {
+        const double middle = 0.5 * (low + high);
+        fastest();
+        (durationAt(middle) > wanted ? low : high) = middle;
+    }
+    fastest();
+    durationAt(high);
+}
+
+void Run::plan(double now, double speedShare) {
+    if (speedShare != share_ || isBraking_) {
+        share_ = speedShare;
+        planBackward(0);
+        changed_ = 0;
+    }
+    isBraking_ = false;
+    planForward(now);
+}
+
+void Run::brake(double now) {
+    isBraking_ = true;
+    if (now <= start_) { // it has not moved
+        course_ = Course(start_, 0, settings_.longWindow, settings_.shortWindow);
+        return;
+    }
+    const CourseState state = course_.plannedAt(now);
+    course_.cutAfter(now);
+    double place = state.s;
+    double square = state.v * state.v;
+    for (std::size_t i = route_.stretchAt(place); i < limits_.size() && square > 0; ++i) {
+        const double to = nodePlace(i + 1);
+        const double width = to - place;
+        if (width < kNothing) continue;
+        const double slowest = std::min(reachableFrom(square, limits_[i], width, true).low, 0.999 * square);
+        if (slowest <= 0 || i + 1 == limits_.size()) {
+            const double rest = slowest < 0 ? width * square / (square - slowest) : width;
+            course_.moveTo(place + rest, 0);
+            break;
+        }
+        course_.moveTo(to, std::sqrt(slowest));
+        square = slowest;
+        place = to;
+    }
+    course_.rest(0);
+    isBraking_ = course_.endPlace() < route_.length() - kNothing;
+}
+
+void Run::standAt(double time, double place) {
+    course_ = Course(time, place, settings_.longWindow, settings_.shortWindow);
+    start_ = std::min(start_, time);
+    isBraking_ = place < route_.length() - kNothing;
+}
+
+void Run::startAt(double time) {
+    course_.shift(time - start_);
+    start_ = time;
+}
+
+Course Run::courseBack(double time, double from, double to, double mmPerSecond) const {
+    struct Part {
+        std::size_t stretch;
+        double low, width, most, square = 0;
+    };
+    std::vector<Part> parts;
+    for (std::size_t i = route_.stretchAt(from);; --i) {
+        const double high = std::min(from, nodePlace(i + 1));
+        const double low = std::max(to, nodePlace(i));
+        const double speed = mmPerSecond / std::max(route_.stretches()[i].tcpRate, 1e-3);
+        if (high - low > kNothing)
+            parts.push_back({i, low, high - low, std::min(speedSquare(i), speed * speed)});
+        if (i == 0 || low <= to) break;
+    }
+    double square = 0;
+    for (auto part = parts.rbegin(); part != parts.rend(); ++part) { // from the rest at the end
+        part->square = square;
+        square = std::min(part->most, reachableFrom(square, limits_[part->stretch], part->width, true).high);
+    }
+    Course course(time, 0, settings_.longWindow, settings_.shortWindow);
+    square = 0;
+    for (const Part& part : parts) {
+        const StretchLimits& limits = limits_[part.stretch];
+        const double gained = reachableFrom(square, limits, part.width, false).high;
+        const double next = std::max(0.0, std::min({gained, part.most, part.square}));
+        const double before = reachableFrom(next, limits, part.width, true).high;
+        const double begin = from - part.low - part.width;
+        shapeStretch(course, begin, begin + part.width, {square, next, part.most, gained, before});
+        square = next;
+    }
+    return course;
+}
+
+void Run::forgetBefore(double time, double place) {
+    course_.forgetBefore(time);
+    const auto count = static_cast<std::ptrdiff_t>(route_.forgetBefore(place));
+    limits_.erase(limits_.begin(), limits_.begin() + count);
+    reachable_.erase(reachable_.begin(), reachable_.begin() + count);
+    planned_.erase(planned_.begin(), planned_.begin() + count);
+    changed_ = limits_.size() + 1;
+}
+
+} // namespace motion

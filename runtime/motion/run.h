@@ -1,0 +1,86 @@
+#pragma once
+// Run: a route with its timing, from one standstill to the next. The plan takes the highest speed along the route that keeps
+// all limits, with full acceleration before and after; the course averages it in time.
+
+#include "runtime/motion/course.h"
+#include "runtime/motion/route.h"
+#include "runtime/robot/dynamics.h"
+
+#include <vector>
+
+namespace motion {
+
+/// One axis, or one other quantity that may not accelerate arbitrarily, on a stretch.
+struct AccelerationRow {
+    double first = 0, second = 0; ///< derivatives by the place
+    double most = 0;              ///< limit, in the unit of the quantity per s^2
+};
+
+/// What limits the speed on one stretch.
+struct StretchLimits {
+    double width = 0;          ///< mm
+    double speed = 0;          ///< mm/s of route at full override
+    double bendSquare = 0;     ///< (mm/s)^2, as the axes must turn with the path
+    double gain = 0, drop = 0; ///< mm/s^2 along the route
+    std::array<AccelerationRow, 14> rows{};
+    std::size_t rowCount = 0;
+};
+
+struct RunSettings {
+    const robot::AccelerationMap* accelerations = nullptr;
+    double longWindow = 0.108, shortWindow = 0.048; ///< s
+};
+
+class Run {
+  public:
+    /// Stands at the start of an empty route. Nothing moves before `start` (s).
+    Run(const RunSettings& settings, double start);
+
+    /// Appends a leg; nothing planned before `now` changes. False when the end of the route has to stay a stop point
+    /// (too late, or no corner possible). `isOpen`: its end is a fly-by point.
+    bool append(Leg leg, bool isOpen, double now);
+    /// The end of the route is passed by on a curve as soon as a leg follows; until then the plan stops there.
+    bool isOpen() const { return isOpen_; }
+    void close() { isOpen_ = false; }
+
+    /// Replans from `now` on: to the end of the route at this share of the programmed speed (above 0, to 1).
+    void plan(double now, double speedShare);
+    /// Replans from `now` on: brakes as fast as the limits allow and stands there.
+    void brake(double now);
+    /// Stands at a place since `time`.
+    void standAt(double time, double place);
+    /// Course back along the route, from a place to an earlier one, as mm from the first; at most at this speed.
+    Course courseBack(double time, double from, double to, double mmPerSecond) const;
+
+    const Route& route() const { return route_; }
+    const Course& course() const { return course_; }
+    double start() const { return start_; }
+    /// Shifts the start; the run has not begun.
+    void startAt(double time);
+    bool isBraking() const { return isBraking_; } ///< the plan ends before the route does
+    bool hasArrived(double time) const { return !isBraking_ && time >= course_.end(); }
+    void forgetBefore(double time, double place);
+
+  private:
+    void limitStretches(std::size_t from);
+    double speedSquare(std::size_t stretch) const;
+    void planBackward(std::size_t from);
+    void planForward(double now);
+    void passStretch(std::size_t stretch, double from, double square);
+    void meetDuration();
+    double nodePlace(std::size_t node) const;
+
+    RunSettings settings_;
+    Route route_;
+    Course course_;
+    double start_ = 0;
+    double share_ = 1;
+    bool isOpen_ = false;
+    bool isBraking_ = false;
+    std::deque<StretchLimits> limits_; // of each stretch
+    std::deque<double> reachable_; // largest squares of speed at the beginnings of stretches, then at the end
+    std::deque<double> planned_;   // squares of the plan there
+    std::size_t changed_ = 0;      // nodes from this one on have a new reachable speed
+};
+
+} // namespace motion

@@ -1,0 +1,374 @@
+#include "runtime/motion/trajectory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace motion {
+
+namespace {
+
+constexpr double kNothing = 1e-9;    // mm or s
+constexpr double kSameMoment = 1e-7; // s; the virtual clock has whole nanoseconds
+constexpr int kLengthPieces = 48;    // in which the length of a joint move's path is measured
+
+double externalTravel(const MotionPath& path) {
+    double sum = 0;
+    for (std::size_t i = 0; i < path.start().extax.size(); ++i)
+        if (isConnected(path.start().extax[i])) sum += std::abs(path.end().extax[i] - path.start().extax[i]);
+    return sum;
+}
+
+} // namespace
+
+Trajectory::Trajectory(const robot::RobotModel& model, const ExternalAxisModels& external,
+                       TrajectoryOptions options, const JointTarget& start, double earliest)
+    : model_(model), external_(external), accelerations_(model), options_(options), endTarget_(start),
+      earliest_(earliest) {}
+
+// ---- What is to be run ----
+
+Leg Trajectory::legOf(const std::shared_ptr<const MotionPath>& path, const MoveCommand& command) const {
+    Leg leg;
+    leg.path = path;
+    leg.zone = command.zone;
+    leg.limits = limitsOf(command, model_, external_);
+    leg.duration = command.duration;
+    const double external = externalTravel(*path);
+    double mm = path->length();
+    if (path->isCartesian()) {
+        mm = path->curve().length();
+        leg.lengths = LengthMap::even(pathRate(mm, path->curve().rotationDeg() + external));
+        if (mm > 0) leg.perMm = leg.lengths.length() / mm;
+    } else {
+        const auto rate = [&](double s) {
+            double tcp = 0;
+            double turn = 0;
+            path->tcpRatesAt(s, tcp, turn);
+            return pathRate(tcp, turn + external);
+        };
+        leg.lengths = LengthMap::measured(rate, kLengthPieces);
+        if (!(leg.lengths.length() >
+              1e-6)) { // an axis turns that moves and turns nothing: only a bad tool does that
+            leg.lengths = LengthMap::even(1);
+        }
+    }
+    leg.isTurning = mm < 0.5 * leg.lengths.length();
+    return leg;
+}
+
+Trajectory::Appended Trajectory::append(const std::shared_ptr<const MotionPath>& path,
+                                        const MoveCommand& command, double now) {
+    const bool isFlyBy = !command.zone.finep;
+    Entry* last = entries_.empty() ? nullptr : &entries_.back();
+    endTarget_ = path->end();
+    const bool canFollow = last != nullptr && last->run->isOpen() && last->isScheduled;
+    if (path->isEmpty()) {
+        const bool isAtFlyBy = canFollow && now < last->run->course().plannedEnd() && !(command.duration > 0);
+        if (!isAtFlyBy)
+            return appendPause(path, command.duration > 0 ? command.duration : options_.emptyMove, now);
+        if (!isFlyBy) last->run->close(); // the point has been on the path already
+        return {{count() - 1, last->run->route().legCount() - 1}, true, false};
+    }
+    Leg leg = legOf(path, command);
+    if (canFollow && last->run->append(leg, isFlyBy, now)) {
+        return {{count() - 1, last->run->route().legCount() - 1}, false, false};
+    }
+    const bool isCornerLost = last != nullptr && last->run->isOpen();
+    closeLast();
+    RunSettings settings;
+    settings.accelerations = &accelerations_;
+    // Windows that are longer let acceleration change more slowly (AccSet \Ramp).
+    settings.longWindow = model_.dynamics.longWindow / leg.limits.rampShare;
+    settings.shortWindow = model_.dynamics.shortWindow / leg.limits.rampShare;
+    auto run = std::make_unique<Run>(settings, now);
+    run->plan(now, share_);
+    run->append(std::move(leg), isFlyBy, now);
+    Appended result = appendRun(std::move(run), path, 0, now);
+    result.isCornerLost = isCornerLost;
+    return result;
+}
+
+Trajectory::Appended Trajectory::appendPause(const std::shared_ptr<const MotionPath>& path, double seconds,
+                                             double now) {
+    closeLast();
+    RunSettings settings;
+    settings.accelerations = &accelerations_;
+    return appendRun(std::make_unique<Run>(settings, now), path, seconds, now);
+}
+
+Trajectory::Appended Trajectory::appendRun(std::unique_ptr<Run> run,
+                                           const std::shared_ptr<const MotionPath>& path, double pause,
+                                           double now) {
+    Entry entry;
+    entry.run = std::move(run);
+    entry.ordered = now;
+    entry.pause = pause;
+    entry.path = path;
+    entries_.push_back(std::move(entry));
+    schedule(count() - 1, now, -std::numeric_limits<double>::infinity());
+    return {{count() - 1, 0}, false, false};
+}
+
+void Trajectory::closeLast() {
+    if (!entries_.empty()) entries_.back().run->close();
+}
+
+// ---- Time ----
+
+/// When a run begins if nothing holds the arm; nothing while the run before does not come to its end.
+std::optional<double> Trajectory::startAfter(std::size_t run) const {
+    const double ordered = entry(run).ordered;
+    if (run == first_) return std::max(ordered + options_.startDelay, earliest_);
+    const auto reached = inPositionTime(run - 1);
+    if (!reached) return {};
+    if (ordered > *reached + kSameMoment) return ordered + options_.startDelay;
+    if (entry(run).pause > 0 || entry(run - 1).pause > 0) return reached;
+    const Course& before = runAt(run - 1).course();
+    return std::max(before.timeAt(before.endPlace() - options_.overlap), before.plannedEnd());
+}
+
+/// Starts of the runs from this one on that have not begun. `earliest`: the arm has been released then.
+void Trajectory::schedule(std::size_t from, double now, double earliest) {
+    for (std::size_t i = std::max(from, first_); i < count(); ++i) {
+        Entry& e = entry(i);
+        if (e.isScheduled && e.run->start() <= now && i > from) continue;
+        const auto start = isHeld_ ? std::nullopt : startAfter(i);
+        e.isScheduled = start.has_value();
+        if (start) e.run->startAt(std::max(*start, earliest));
+    }
+}
+
+std::size_t Trajectory::activeAt(double time) const {
+    std::size_t run = count() - 1;
+    while (run > first_ && !(entry(run).isScheduled && entry(run).run->start() <= time))
+        --run;
+    return run;
+}
+
+void Trajectory::setSpeedShare(double now, double share) {
+    share_ = share;
+    if (entries_.empty() || isHeld_) return;
+    const std::size_t active = activeAt(now);
+    for (std::size_t i = active; i < count(); ++i) {
+        Entry& e = entry(i);
+        if (e.pause > 0) continue;
+        if (now < e.run->course().plannedEnd() || !e.isScheduled)
+            e.run->plan(std::max(now, e.run->start()), share);
+    }
+    const bool hasBegun = entry(active).isScheduled && entry(active).run->start() <= now;
+    schedule(active + (hasBegun ? 1 : 0), now, now);
+}
+
+void Trajectory::hold(double now) {
+    if (isHeld_) return;
+    isHeld_ = true;
+    if (entries_.empty()) return;
+    const std::size_t active = activeAt(now);
+    for (std::size_t i = active; i < count(); ++i) {
+        Entry& e = entry(i);
+        const bool hasBegun = e.isScheduled && e.run->start() <= now;
+        if (!hasBegun) e.isScheduled = false;
+        if (hasBegun && e.pause == 0 && now < e.run->course().plannedEnd()) e.run->brake(now);
+    }
+}
+
+void Trajectory::release(double now) {
+    if (!isHeld_) return;
+    isHeld_ = false;
+    if (entries_.empty()) return;
+    const std::size_t active = activeAt(now);
+    Entry& e = entry(active);
+    const bool hasBegun = e.isScheduled && e.run->start() <= now;
+    if (hasBegun && e.pause == 0 && e.run->isBraking()) e.run->plan(now, share_);
+    for (std::size_t i = active + (hasBegun ? 1 : 0); i < count(); ++i)
+        if (entry(i).pause == 0) entry(i).run->plan(entry(i).run->start(), share_);
+    schedule(active + (hasBegun ? 1 : 0), now, now);
+}
+
+double Trajectory::restTime() const {
+    double end = -std::numeric_limits<double>::infinity();
+    for (const Entry& e : entries_)
+        if (e.isScheduled) end = std::max(end, e.pause > 0 ? e.run->start() : e.run->course().end());
+    if (back_) end = std::max(end, back_->course.end());
+    return end;
+}
+
+bool Trajectory::isMoving(double time) const {
+    if (back_ && time < back_->course.end()) return true;
+    for (const Entry& e : entries_)
+        if (e.isScheduled && e.pause == 0 && e.run->start() <= time && time < e.run->course().end())
+            return true;
+    return false;
+}
+
+/// mm that the runs before this one have left at that time.
+double Trajectory::missing(std::size_t run, double time) const {
+    double sum = 0;
+    for (std::size_t i = run; i-- > first_;) {
+        const Course& course = runAt(i).course();
+        if (entry(i).pause > 0) continue;
+        if (time >= course.end()) break;
+        sum += course.endPlace() - course.at(time).s;
+    }
+    return sum;
+}
+
+Trajectory::Moment Trajectory::at(double time) const {
+    Moment result;
+    if (entries_.empty()) return result;
+    if (back_) {
+        const CourseState state = back_->course.at(time);
+        result.place = {back_->from.run, back_->from.s - state.s};
+        result.speed = -state.v;
+        result.acceleration = -state.a;
+        return result;
+    }
+    std::size_t run = activeAt(time);
+    const CourseState state = entry(run).isScheduled ? runAt(run).course().at(time) : CourseState{};
+    result.speed = state.v;
+    result.acceleration = state.a;
+    double place = state.s;
+    for (std::size_t i = run; i-- > first_;) { // runs before that have not settled
+        const Course& course = runAt(i).course();
+        if (time >= course.end()) break;
+        const CourseState tail = course.at(time);
+        result.speed += tail.v;
+        result.acceleration += tail.a;
+    }
+    place -= missing(run, time);
+    while (place < 0 && run > first_)
+        place += runAt(--run).route().length();
+    result.place = {run, std::max(place, 0.0)};
+    return result;
+}
+
+std::optional<double> Trajectory::timeAt(const PathPlace& place) const {
+    if (place.run < first_ || place.run >= count() || !entry(place.run).isScheduled) return {};
+    const Entry& e = entry(place.run);
+    if (e.pause > 0) return e.run->start() + (place.s > 0 ? e.pause : 0);
+    const Course& course = e.run->course();
+    if (place.s > course.endPlace() + kNothing) return {};
+    double low = place.s <= kNothing ? e.run->start() : course.timeAt(place.s);
+    if (missing(place.run, low) <= kNothing) return low;
+    double high = std::max(low, runAt(place.run - 1).course().end());
+    if (course.at(high).s < place.s) return low; // at rest in between: it comes there as the tail ends
+    for (int i = 0; i < 60 && high - low > 1e-11; ++i) {
+        const double middle = 0.5 * (low + high);
+        (course.at(middle).s - missing(place.run, middle) < place.s ? low : high) = middle;
+    }
+    return high;
+}
+
+std::optional<double> Trajectory::inPositionTime(std::size_t run) const {
+    const Entry& e = entry(run);
+    if (!e.isScheduled) return {};
+    if (e.pause > 0) return e.run->start() + e.pause;
+    if (e.run->isBraking()) return {};
+    const Course& course = e.run->course();
+    const double length = course.endPlace();
+    return std::max(course.timeAt(length - std::min(options_.inPosition, 0.5 * length)), course.plannedEnd());
+}
+
+std::optional<double> Trajectory::decisionTime() const {
+    if (entries_.empty()) return {};
+    const Entry& e = entries_.back();
+    if (!e.run->isOpen() || !e.isScheduled || e.run->isBraking()) return {};
+    const Route& way = e.run->route();
+    return std::min(e.run->course().lastBraking(), e.run->course().timeAt(way.zoneEntry(way.legCount() - 1)));
+}
+
+// ---- Places ----
+
+PathPlace Trajectory::legStart(const LegRef& leg) const {
+    if (entry(leg.run).pause > 0) return {leg.run, 0};
+    return {leg.run, route(leg.run).legStart(leg.leg)};
+}
+
+PathPlace Trajectory::legEnd(const LegRef& leg) const {
+    if (entry(leg.run).pause > 0) return {leg.run, 1};
+    return {leg.run, route(leg.run).legEnd(leg.leg)};
+}
+
+PathPlace Trajectory::end() const {
+    if (entries_.empty()) return {};
+    return {count() - 1, entries_.back().run->route().length()};
+}
+
+RoutePoint Trajectory::pointAt(const PathPlace& place) const {
+    const Entry& e = entry(place.run);
+    if (e.pause > 0) return {e.path->end().robax, e.path->end().extax, true};
+    return e.run->route().at(place.s);
+}
+
+void Trajectory::ratesAt(const PathPlace& place, Joints& first, double& tcpRate) const {
+    first = pointAt(place).joints;
+    tcpRate = 0;
+    if (entry(place.run).pause > 0) {
+        std::fill(first.begin(), first.end(), 0.0);
+        return;
+    }
+    const Route& way = route(place.run);
+    constexpr double kStep = 1e-3; // mm
+    const double low = std::max(0.0, place.s - kStep);
+    const double high = std::min(way.length(), place.s + kStep);
+    const RoutePoint before = way.at(low);
+    const RoutePoint after = way.at(high);
+    for (std::size_t i = 0; i < first.size(); ++i)
+        first[i] = (after.joints[i] - before.joints[i]) / (high - low);
+    const FrameSetup& frames = framesAt(place);
+    const robot::Kinematics& kinematics = entry(place.run).path->kinematics();
+    const Vec3 from = frames.fromFlange(kinematics.forward(before.joints)).pos;
+    const Vec3 to = frames.fromFlange(kinematics.forward(after.joints)).pos;
+    tcpRate = norm(to - from) / (high - low);
+}
+
+const FrameSetup& Trajectory::framesAt(const PathPlace& place) const {
+    const Entry& e = entry(place.run);
+    if (e.pause > 0) return e.path->frames();
+    const Route& way = e.run->route();
+    return way.leg(way.legAt(place.s)).path->frames();
+}
+
+// ---- Back along the path ----
+
+void Trajectory::goBack(double now, const PathPlace& to, double mmPerSecond) {
+    PathPlace from = at(now).place;
+    if (from.run > to.run) from = {to.run, route(to.run).length()};
+    back_ = Back{runAt(to.run).courseBack(now, from.s, to.s, mmPerSecond), from};
+}
+
+void Trajectory::finishBack(double now) {
+    const PathPlace place = at(now).place;
+    back_.reset();
+    standAt(now, place);
+}
+
+void Trajectory::standAt(double now, const PathPlace& place) {
+    back_.reset();
+    for (std::size_t i = place.run; i < count(); ++i) {
+        Entry& e = entry(i);
+        if (e.pause > 0) {
+            e.isScheduled = false;
+        } else if (i == place.run) {
+            e.run->standAt(now, place.s);
+            e.isScheduled = true;
+        } else if (e.isScheduled) {
+            e.run->startAt(now);
+            e.run->standAt(now, 0);
+            e.isScheduled = false;
+        }
+        e.ordered = std::min(e.ordered, now);
+    }
+}
+
+void Trajectory::forgetBefore(double time, const PathPlace& place) {
+    while (entries_.size() > 1 && first_ < place.run && entries_.front().run->course().end() <= time) {
+        entries_.pop_front();
+        ++first_;
+    }
+    if (first_ == place.run && !entries_.empty() && entries_.front().pause == 0)
+        entries_.front().run->forgetBefore(time, place.s);
+}
+
+} // namespace motion

@@ -1,0 +1,142 @@
+#pragma once
+// Trajectory: the runs of one path level in time: place on the path at a moment, moment at a place, stop, go on, go back,
+// replace what is planned from a moment on. Times in seconds. Runs follow each other closely: the next one begins when
+// the last mm of the one before is left (docs/motion.md).
+
+#include "runtime/motion/run.h"
+
+#include <deque>
+#include <memory>
+#include <optional>
+
+namespace motion {
+
+/// A place on the path of a trajectory.
+struct PathPlace {
+    std::size_t run = 0;
+    double s = 0; ///< mm on the route of that run
+    friend auto operator<=>(const PathPlace&, const PathPlace&) = default;
+};
+
+/// A leg of a run.
+struct LegRef {
+    std::size_t run = 0;
+    std::size_t leg = 0;
+};
+
+struct TrajectoryOptions {
+    double startDelay = 0.020; ///< s, from the order of a move to its start when the arm stands
+    double overlap = 1.0;      ///< mm left of a run when the next one begins
+    double inPosition = 0.5;   ///< mm left when the program goes on after a stop point
+    double emptyMove = 0.073;  ///< s, a move to where the arm is
+};
+
+class Trajectory {
+  public:
+    /// Without moves yet; the arm stands at `start`, and moves from the time `earliest` on.
+    Trajectory(const robot::RobotModel& model, const ExternalAxisModels& external, TrajectoryOptions options,
+               const JointTarget& start, double earliest);
+
+    // ---- what is to be run ----
+    struct Appended {
+        LegRef at;
+        bool isPoint = false;      ///< no way of its own: the end of that leg
+        bool isCornerLost = false; ///< the fly-by point before has become a stop point
+    };
+    /// Appends a move, the arm standing or moving. `isFlyBy`: at its end the path goes on without a stop if another move follows.
+    Appended append(const std::shared_ptr<const MotionPath>& path, const MoveCommand& command, double now);
+    /// The last point of the path is a stop point.
+    void closeLast();
+    bool isEmpty() const { return entries_.empty(); }
+
+    // ---- time ----
+    void setSpeedShare(double now, double share);
+    /// Brakes on the path and stays there until release().
+    void hold(double now);
+    void release(double now);
+    bool isHeld() const { return isHeld_; }
+    bool isMoving(double time) const;
+    /// When everything comes to rest, as planned.
+    double restTime() const;
+
+    /// Where the arm is, and its speed (mm/s) and acceleration along the path.
+    struct Moment {
+        PathPlace place;
+        double speed = 0, acceleration = 0;
+    };
+    Moment at(double time) const;
+    /// When the arm comes to this place; nothing if the plan does not lead there.
+    std::optional<double> timeAt(const PathPlace& place) const;
+    /// When the run is in position at its end; nothing if the plan does not lead there.
+    std::optional<double> inPositionTime(std::size_t run) const;
+    /// When the planner needs to know what follows an open end of the last run; nothing when it is not open.
+    std::optional<double> decisionTime() const;
+
+    // ---- places ----
+    const Route& route(std::size_t run) const { return runAt(run).route(); }
+    PathPlace legStart(const LegRef& leg) const;
+    PathPlace legEnd(const LegRef& leg) const;
+    RoutePoint pointAt(const PathPlace& place) const;
+    /// Derivatives of the axes by the place, deg/mm, and mm of TCP path per mm.
+    void ratesAt(const PathPlace& place, Joints& first, double& tcpRate) const;
+    /// Frames of the move the place belongs to.
+    const FrameSetup& framesAt(const PathPlace& place) const;
+    PathPlace end() const;
+    /// The plan leads to the end of the last move.
+    bool leadsToEnd() const {
+        return !entries_.empty() && entries_.back().isScheduled && !entries_.back().run->isBraking();
+    }
+    /// Where the last move ends, or the arm stands when there is none.
+    const JointTarget& endTarget() const { return endTarget_; }
+
+    // ---- back along the path ----
+    /// Moves back from the place where the arm stands, held, to an earlier one on the same or the previous run.
+    void goBack(double now, const PathPlace& to, double mmPerSecond);
+    bool isGoingBack(double time) const { return back_.has_value() && time < back_->course.end(); }
+    double backEnd() const { return back_->course.end(); }
+    /// The arm has come to rest there.
+    void finishBack(double now);
+    /// The arm stands at a place, without having moved there (after braking off the path).
+    void standAt(double now, const PathPlace& place);
+
+    void forgetBefore(double time, const PathPlace& place);
+
+  private:
+    struct Back {
+        Course course;
+        PathPlace from;
+    };
+    struct Entry {
+        std::unique_ptr<Run> run;
+        double ordered = 0;
+        double pause = 0;                       // s, of a run without a way; 0 = it has one
+        bool isScheduled = false;               // its start is known
+        std::shared_ptr<const MotionPath> path; // of its first move
+    };
+    const Entry& entry(std::size_t run) const { return entries_[run - first_]; }
+    Entry& entry(std::size_t run) { return entries_[run - first_]; }
+    const Run& runAt(std::size_t run) const { return *entry(run).run; }
+    std::size_t count() const { return first_ + entries_.size(); }
+    std::size_t activeAt(double time) const;
+    std::optional<double> startAfter(std::size_t run) const;
+    void schedule(std::size_t from, double now, double earliest);
+    double missing(std::size_t run, double time) const;
+    Leg legOf(const std::shared_ptr<const MotionPath>& path, const MoveCommand& command) const;
+    Appended appendPause(const std::shared_ptr<const MotionPath>& path, double seconds, double now);
+    Appended appendRun(std::unique_ptr<Run> run, const std::shared_ptr<const MotionPath>& path, double pause,
+                       double now);
+
+    robot::RobotModel model_;
+    ExternalAxisModels external_;
+    robot::AccelerationMap accelerations_;
+    TrajectoryOptions options_;
+    std::size_t first_ = 0; // number of the oldest run that is kept
+    std::deque<Entry> entries_;
+    JointTarget endTarget_;
+    double earliest_ = 0;
+    double share_ = 1;
+    bool isHeld_ = false;
+    std::optional<Back> back_;
+};
+
+} // namespace motion
