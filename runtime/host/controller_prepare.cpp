@@ -134,6 +134,10 @@ ExitStatus Controller::openRobot() {
     robot::RobotModel arm = *model;
     applyMotionParameters(arm);
     motion_ = std::make_unique<MotionDriver>(scheduler_, std::move(arm));
+    motion_->addListener([this](ArmNews news) {
+        if (news != ArmNews::CornerLost) return;
+        log_.write(EventId::CornerPathFailure, nullptr, {motion_->unitName()});
+    });
     return ExitStatus::Ended;
 }
 

@@ -96,6 +96,7 @@ void MotionDriver::handle(const motion::MotionEvent& event) {
     if (event.kind == motion::MotionEventKind::Reached)
         dropActions(
             [&event](const PendingAction& pending) { return pending.fired && pending.move == event.move; });
+    if (event.kind == motion::MotionEventKind::CornerLost && cornerWarning_) tell(ArmNews::CornerLost);
     if (event.kind != motion::MotionEventKind::Trigger) return;
     const auto found = actions_.find(event.trigger);
     if (found == actions_.end()) return;

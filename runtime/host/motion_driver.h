@@ -32,7 +32,8 @@ enum class ArmNews : uint8_t {
     Event,      ///< a movement has begun or ended, the arm has come to a stand or goes on
     StopOnPath, ///< the program stops; the arm is about to brake on its path, or stands
     MotorsOff,  ///< the arm is about to brake beside its path
-    Start       ///< the program starts again
+    Start,      ///< the program starts again
+    CornerLost  ///< a fly-by point has become a stop point, and warnings of that are on (CornerPathWarning)
 };
 
 class MotionDriver final : public SteppedArm {
@@ -102,6 +103,9 @@ class MotionDriver final : public SteppedArm {
     /// `errorNumber`. Executed again (RETRY) such an instruction goes on with the movement it has ordered.
     void raiseProcessError(Status errorNumber);
 
+    /// CornerPathWarning: whether a fly-by point that has to become a stop point is reported.
+    void setCornerWarning(bool on) { cornerWarning_ = on; }
+
     const MotionPointer& pointer() const override { return pointer_; }
     /// Movements are executed backwards from now on: to their target, with type and speed of the motion pointer's.
     void setBackward(bool backward) override { backward_ = backward; }
@@ -169,6 +173,7 @@ class MotionDriver final : public SteppedArm {
     motion::MoveId awaited_ = 0; // by the instruction that ordered it
     EarlierPath earlier_;        // what is left to be taken over
     bool backward_ = false;
+    bool cornerWarning_ = true;
     std::function<Status(Task&)> circlePointStop_;
     std::vector<std::function<void(ArmNews)>> listeners_;
     bool advancing_ = false;

@@ -85,8 +85,15 @@ Json jsonOf(const motion::MoveCommand& c) {
               c.zone.zoneReax}},
             {"confJ", c.confJ},
             {"confL", c.confL},
+            {"circleOrientation", static_cast<int>(c.circleOrientation)},
             {"concurrent", c.concurrent},
             {"settings", jsonOf(c.settings)}};
+}
+
+motion::CircleOrientation circleOrientationFrom(int number) {
+    constexpr int kLast = static_cast<int>(motion::CircleOrientation::CirclePoint);
+    if (number < 0 || number > kLast) throw std::invalid_argument("no way of turning on a circle");
+    return static_cast<motion::CircleOrientation>(number);
 }
 
 motion::MoveCommand moveFrom(const Json& json) {
@@ -108,6 +115,7 @@ motion::MoveCommand moveFrom(const Json& json) {
     c.zone = {json.at("fine").get<bool>(), zone[0], zone[1], zone[2], zone[3], zone[4], zone[5]};
     json.at("confJ").get_to(c.confJ);
     json.at("confL").get_to(c.confL);
+    c.circleOrientation = circleOrientationFrom(json.at("circleOrientation").get<int>());
     json.at("concurrent").get_to(c.concurrent);
     c.settings = settingsFrom(json.at("settings"));
     return c;

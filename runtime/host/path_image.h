@@ -12,6 +12,7 @@ namespace rt {
 /// Without triggers, which are functions of the running process.
 nlohmann::json jsonOf(const motion::MoveCommand& command);
 motion::MoveCommand moveFrom(const nlohmann::json& json);
+motion::CircleOrientation circleOrientationFrom(int number);
 nlohmann::json jsonOf(const motion::Pose& pose);
 motion::Pose poseFrom(const nlohmann::json& json);
 nlohmann::json jsonOf(const motion::MotionSettings& settings);

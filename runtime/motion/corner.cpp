@@ -22,10 +22,6 @@ bool isConnectedAxis(const Leg& leg, std::size_t axis) {
 
 } // namespace
 
-double Corner::middle() const {
-    return kind == CornerKind::None ? begin : begin + lengths.distanceAt(0.5);
-}
-
 Pose Route::poseOn(const Leg& leg, double distance) {
     return leg.path->tcpAt(leg.lengths.parameterAt(distance));
 }
@@ -58,6 +54,7 @@ void Route::curveInSpace(Corner& corner, const Leg& a, const Leg& b) {
     corner.space.p = {from, from + leaving, to - joining, to};
     corner.lengths =
         LengthMap::measured([&](double x) { return norm(corner.space.slopeAt(x)); }, kCornerPieces);
+    corner.halfLength = corner.lengths.distanceAt(0.5);
 }
 
 void Route::curveOfAxes(Corner& corner, const Leg& a, const Leg& b) {
@@ -90,6 +87,7 @@ void Route::curveOfAxes(Corner& corner, const Leg& a, const Leg& b) {
                             externalRate(corner.axes.slopeAt(x)));
     };
     corner.lengths = LengthMap::measured(rate, kCornerPieces);
+    corner.halfLength = corner.lengths.distanceAt(0.5);
 }
 
 void Route::blendTurn(Corner& corner, const Leg& a, const Leg& b, double before, double after) {

@@ -102,7 +102,10 @@ struct Corner {
     Blend<AxisVector> external; ///< external axes only
     double length() const { return kind == CornerKind::None ? 0 : lengths.length(); }
     double end() const { return begin + length(); }
-    double middle() const; ///< place of the programmed point: half way along the curve's parameter
+    double halfLength = 0; ///< mm of the curve up to the middle of its parameter
+    double middle() const {
+        return begin + halfLength;
+    } ///< place of the programmed point: half way along the curve's parameter
 };
 
 } // namespace motion

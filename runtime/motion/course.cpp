@@ -143,7 +143,7 @@ double Course::timeAt(double place) const {
         (state.s < place ? low : high) = time;
         const double newton = state.v > 0 ? time + (place - state.s) / state.v : low;
         const bool isInside = newton > low && newton < high;
-        if (isInside && std::abs(newton - time) < 1e-12) return newton;
+        if (isInside && std::abs(newton - time) < 1e-10) return newton;
         time = isInside ? newton : 0.5 * (low + high);
     }
     return time;

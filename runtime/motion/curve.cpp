@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kLeastDistance = 0.1; // mm between the points of a circle
-constexpr double kLeastAngle = 1.0;    // deg in the triangle of the three points
+constexpr double kLeastAngle = 0.05;   // deg in the triangle of the three points; less is a line
+constexpr double kLeastTwist = 1.0;    // deg; below, the way of twisting is no question
 constexpr double kLargestSweep = 240;  // deg
 
 MotionError circleError(MotionErrorKind kind, double value, const Vec3& position) {
@@ -47,8 +48,8 @@ CartesianCurve CartesianCurve::line(const Pose& start, const Pose& end) {
     return curve;
 }
 
-Expected<CartesianCurve, MotionError> CartesianCurve::arc(const Pose& start, const Pose& via,
-                                                          const Pose& end) {
+Expected<CartesianCurve, MotionError> CartesianCurve::arc(const Pose& start, const Pose& via, const Pose& end,
+                                                          CircleOrientation orientation) {
     const Vec3 a = via.pos - start.pos;
     const Vec3 b = end.pos - start.pos;
     const double closest = std::min({norm(a), norm(b), norm(end.pos - via.pos)});
@@ -58,6 +59,9 @@ Expected<CartesianCurve, MotionError> CartesianCurve::arc(const Pose& start, con
     const double angle = std::min({angleAt(start.pos, via.pos, end.pos), angleAt(via.pos, start.pos, end.pos),
                                    angleAt(end.pos, start.pos, via.pos)});
     if (angle < kLeastAngle) {
+        // Controllers run three points on one line without an error.
+        const double share = dot(a, b) / dot(b, b);
+        if (share > 0 && share < 1) return line(start, end);
         return Unexpected{circleError(MotionErrorKind::CirclePointsCollinear, angle, via.pos)};
     }
     const Vec3 normal = cross(a, b);
@@ -84,27 +88,55 @@ Expected<CartesianCurve, MotionError> CartesianCurve::arc(const Pose& start, con
     }
     curve.length_ = curve.radius_ * curve.sweepDeg_ * kDeg;
 
-    const Quat carried = robot::fromAxisAngle(curve.axis_, curve.sweepDeg_) * start.rot;
-    const Vec3 shortTwist = robot::rotationVector(conjugate(carried) * end.rot);
-    curve.twist_ = shortTwist;
+    if (orientation == CircleOrientation::PathFrame)
+        curve.twistOnCircle(via, angleOf(via.pos));
+    else
+        curve.twistInObject(via, orientation);
+    if (orientation == CircleOrientation::CirclePoint) {
+        curve.viaShare_ = angleOf(via.pos) / curve.sweepDeg_;
+        curve.rotationDeg_ =
+            std::max(norm(curve.twist_) / curve.viaShare_, norm(curve.twistAfter_) / (1 - curve.viaShare_)) /
+            kDeg;
+    }
+    return curve;
+}
+
+/// Evenly relative to the circle, on the way that is nearer to the orientation of the circle point.
+void CartesianCurve::twistOnCircle(const Pose& via, double viaAngle) {
+    isCarried_ = true;
+    const Quat carried = robot::fromAxisAngle(axis_, sweepDeg_) * start_.rot;
+    const Vec3 shortTwist = robot::rotationVector(conjugate(carried) * end_.rot);
+    twist_ = shortTwist;
     const double shortAngle = norm(shortTwist);
-    if (shortAngle > kLeastAngle * kDeg) {
+    if (shortAngle > kLeastTwist * kDeg) {
         const Vec3 longTwist = shortTwist * (1 - 2 * std::numbers::pi / shortAngle);
-        const double share = angleOf(via.pos) / curve.sweepDeg_;
-        const Quat there = robot::fromAxisAngle(curve.axis_, angleOf(via.pos)) * start.rot;
+        const double share = viaAngle / sweepDeg_;
+        const Quat there = robot::fromAxisAngle(axis_, viaAngle) * start_.rot;
         const double missShort = robot::angleBetween(turn(there, shortTwist, share), via.rot);
         const double missLong = robot::angleBetween(turn(there, longTwist, share), via.rot);
-        if (missLong < missShort - 1e-9) curve.twist_ = longTwist;
+        if (missLong < missShort - 1e-9) twist_ = longTwist;
     }
-    curve.rotationDeg_ =
-        norm(curve.axis_ * (curve.sweepDeg_ * kDeg) + rotate(start.rot, curve.twist_)) / kDeg;
-    return curve;
+    rotationDeg_ = norm(axis_ * (sweepDeg_ * kDeg) + rotate(start_.rot, twist_)) / kDeg;
+}
+
+void CartesianCurve::twistInObject(const Pose& via, CircleOrientation orientation) {
+    const bool isThroughPoint = orientation == CircleOrientation::CirclePoint;
+    const Quat& first = isThroughPoint ? via.rot : end_.rot;
+    viaRot_ = via.rot;
+    twist_ = robot::rotationVector(conjugate(start_.rot) * first);
+    if (isThroughPoint) twistAfter_ = robot::rotationVector(conjugate(via.rot) * end_.rot);
+    rotationDeg_ = norm(twist_) / kDeg;
+}
+
+Quat CartesianCurve::orientationAt(double s) const {
+    if (isCarried_) return turn(robot::fromAxisAngle(axis_, sweepDeg_ * s) * start_.rot, twist_, s);
+    if (s <= viaShare_) return turn(start_.rot, twist_, s / viaShare_);
+    return turn(viaRot_, twistAfter_, (s - viaShare_) / (1 - viaShare_));
 }
 
 Pose CartesianCurve::at(double s) const {
     if (!isArc_) return {start_.pos + (end_.pos - start_.pos) * s, turn(start_.rot, twist_, s)};
-    const Quat carry = robot::fromAxisAngle(axis_, sweepDeg_ * s);
-    return {centre_ + rotate(carry, spoke_), turn(carry * start_.rot, twist_, s)};
+    return {centre_ + rotate(robot::fromAxisAngle(axis_, sweepDeg_ * s), spoke_), orientationAt(s)};
 }
 
 namespace {
@@ -137,6 +169,11 @@ double partAt(const CartesianCurve& arc, const Pose& start, const Pose& point) {
 MoveCommand restOfCircle(const MoveCommand& command, const Pose& start, const Pose& here) {
     const auto arc = CartesianCurve::arc(start, command.circlePoint, command.target.pose);
     if (!arc) return command;
+    if (!arc->isArc()) {
+        MoveCommand rest = command;
+        rest.kind = MoveKind::Linear;
+        return rest;
+    }
     const double part = partAt(*arc, start, here);
     MoveCommand rest = command;
     if (!(part > 0 && part < 1)) return rest;
@@ -148,7 +185,7 @@ MoveCommand restOfCircle(const MoveCommand& command, const Pose& start, const Po
 
 std::vector<MoveCommand> splitAtCirclePoint(const MoveCommand& command, const Pose& start) {
     const auto arc = CartesianCurve::arc(start, command.circlePoint, command.target.pose);
-    if (!arc) return {};
+    if (!arc || !arc->isArc()) return {};
     const double part = partAt(*arc, start, command.circlePoint);
     if (!(part > 0 && part < 1)) return {};
     std::vector<MoveCommand> halves{command, command};

@@ -17,6 +17,13 @@ enum class MoveKind : uint8_t {
     Circular, ///< TCP on a circle through start, circle point and target
 };
 
+/// How the tool turns on a circle (CirPathMode, manual 1.7).
+enum class CircleOrientation : uint8_t {
+    PathFrame, ///< evenly relative to the circle, so that a tool held towards its centre stays so
+    ObjectFrame, ///< evenly relative to the work object, about one axis; the circle point's orientation has no influence
+    CirclePoint ///< relative to the work object, through the orientation of the circle point
+};
+
 /// RAPID's speeddata.
 struct SpeedData {
     double vTcp = 100;   ///< mm/s
@@ -61,7 +68,8 @@ struct MoveCommand {
     JointTarget joints; ///< AbsJoint; a kNotConnected axis keeps its place
     RobTarget target;   ///< Joint, Linear, Circular
     Pose circlePoint;   ///< Circular
-    FrameSetup frames;  ///< tool, work object, displacement; the base frame comes from the model
+    CircleOrientation circleOrientation = CircleOrientation::PathFrame;
+    FrameSetup frames; ///< tool, work object, displacement; the base frame comes from the model
     SpeedData speed;
     double duration = 0; ///< s, RAPID's \T; 0 = not given. Limits still hold: the move may take longer
     ZoneData zone;

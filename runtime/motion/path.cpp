@@ -158,7 +158,7 @@ std::optional<MotionError> MotionPath::resolveCurve(const MoveCommand& command) 
     if (command.kind == MoveKind::Linear) {
         curve_ = CartesianCurve::line(from, to);
     } else {
-        auto arc = CartesianCurve::arc(from, command.circlePoint, to);
+        auto arc = CartesianCurve::arc(from, command.circlePoint, to, command.circleOrientation);
         if (!arc) return arc.error();
         curve_ = *arc;
     }

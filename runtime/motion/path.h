@@ -16,10 +16,12 @@ class CartesianCurve {
   public:
     /// Straight line; orientation slerp, the short way.
     static CartesianCurve line(const Pose& start, const Pose& end);
-    /// Circle through three points; orientation turns relative to the circle. The circle point's orientation
-    /// only selects the way of twisting (manual 2.2.2). Errors: points too close, collinear, more than 240
-    /// degrees.
-    static Expected<CartesianCurve, MotionError> arc(const Pose& start, const Pose& via, const Pose& end);
+    /// Circle through three points. With PathFrame the circle point's orientation only selects the way of twisting
+    /// (manual 2.2.2). Three points on one line, the circle point between the others, give that line. Errors: points
+    /// too close, circle point on the line but outside, more than 240 degrees.
+    static Expected<CartesianCurve, MotionError>
+    arc(const Pose& start, const Pose& via, const Pose& end,
+        CircleOrientation orientation = CircleOrientation::PathFrame);
 
     Pose at(double s) const;                            ///< s in [0, 1]
     double length() const { return length_; }           ///< mm
@@ -36,8 +38,17 @@ class CartesianCurve {
     double length_ = 0, rotationDeg_ = 0;
     Vec3 centre_, axis_, spoke_; // spoke: from centre to start
     double radius_ = 0, sweepDeg_ = 0;
+    void twistOnCircle(const Pose& via, double viaAngle);
+    void twistInObject(const Pose& via, CircleOrientation orientation);
+
+    Quat orientationAt(double s) const;
+
+    double viaShare_ = 1;    // up to there the first twist holds
+    bool isCarried_ = false; // the orientation turns with the circle
     Vec3
         twist_; // rotation vector (rad) of the orientation relative to the moving frame, over the whole curve
+    Vec3 twistAfter_; // ... and from the circle point on, when that has an orientation of its own
+    Quat viaRot_;
 };
 
 /// A node of the grid that planning lays over a path.

@@ -94,7 +94,7 @@ enum class MotionErrorKind : uint8_t {
     ConfigurationMismatch, ///< a line or circle would arrive in another configuration than programmed (ConfL)
     Singularity,           ///< path too close to a singularity
     CirclePointsTooClose,  ///< points of a circle closer than 0.1 mm
-    CirclePointsCollinear, ///< start, circle point and end on one line (angle below 1 degree)
+    CirclePointsCollinear, ///< all points on one line, the circle point not between start and end
     CircleTooLarge,        ///< more than 240 degrees in one move
     UnsupportedRobot,      ///< no closed-form kinematics for this model
     QueueFull,             ///< too many moves ordered ahead

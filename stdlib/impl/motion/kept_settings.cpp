@@ -36,6 +36,7 @@ Json save(const MotionState& s) {
     return {{"settings", jsonOf(s.settings)},
             {"confJ", s.confJ},
             {"confL", s.confL},
+            {"circleOrientation", static_cast<int>(s.circleOrientation)},
             {"singWrist", s.singWrist},
             {"singLockAxis4", s.singLockAxis4},
             {"displacement", jsonOf(s.displacement)},
@@ -55,6 +56,7 @@ MotionState load(const Json& json) {
     s.settings = settingsFrom(json.at("settings"));
     json.at("confJ").get_to(s.confJ);
     json.at("confL").get_to(s.confL);
+    s.circleOrientation = circleOrientationFrom(json.at("circleOrientation").get<int>());
     json.at("singWrist").get_to(s.singWrist);
     json.at("singLockAxis4").get_to(s.singLockAxis4);
     s.displacement = poseFrom(json.at("displacement"));

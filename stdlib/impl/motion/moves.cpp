@@ -93,6 +93,7 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
     command.zone = zoneOf(args);
     command.confJ = state.confJ;
     command.confL = state.confL;
+    command.circleOrientation = state.circleOrientation;
     command.concurrent = args.conc;
     command.settings = state.settings;
     motion::MoveId id = 0;

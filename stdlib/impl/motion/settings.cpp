@@ -173,20 +173,24 @@ Status rt_PathResol(TaskCore*, float) {
 Status rt_MotionSup(TaskCore*, bool, bool, const float*, bool) {
     return kOk;
 }
-Status rt_CornerPathWarning(TaskCore*, bool) {
+Status rt_CornerPathWarning(TaskCore* task, bool Active) {
+    taskOf(task).controller().motion().setCornerWarning(Active);
     return kOk;
 }
 Status rt_GripLoad(TaskCore*, data::Loaddata*) {
     return kOk;
 }
 
-/// The orientation turns evenly along the arc, which is what \PathFrame asks for; the other modes are not available.
 Status rt_CirPathMode(TaskCore* task, bool PathFrame, bool ObjectFrame, bool CirPointOri, bool Wrist45,
                       bool Wrist46, bool Wrist56) {
-    const bool other = ObjectFrame || CirPointOri || Wrist45 || Wrist46 || Wrist56;
-    if (other && PathFrame) return lib::fail(task, err::ERR_ARGVALERR, "CirPathMode takes one mode only");
-    if (!other) return kOk;
-    return taskOf(task).fatal(static_cast<int>(EventId::NotImplemented),
-                              "CirPathMode with another mode than \\PathFrame");
+    if (PathFrame + ObjectFrame + CirPointOri + Wrist45 + Wrist46 + Wrist56 > 1)
+        return lib::fail(task, err::ERR_ARGVALERR, "CirPathMode takes one mode only");
+    if (Wrist45 || Wrist46 || Wrist56)
+        return taskOf(task).fatal(static_cast<int>(EventId::NotImplemented),
+                                  "CirPathMode with \\Wrist45, \\Wrist46 or \\Wrist56");
+    lib::motionState(task).circleOrientation = ObjectFrame   ? motion::CircleOrientation::ObjectFrame
+                                               : CirPointOri ? motion::CircleOrientation::CirclePoint
+                                                             : motion::CircleOrientation::PathFrame;
+    return kOk;
 }
 }

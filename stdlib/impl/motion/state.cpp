@@ -16,6 +16,7 @@ MotionState& motionState(TaskCore* task) {
 
 void resetSettings(Task& task) {
     if (!task.isMotionTask()) return;
+    task.controller().motion().setCornerWarning(true);
     auto& state = task.controller().service<MotionState>();
     MotionState defaults;
     defaults.tool = state.tool;

@@ -15,6 +15,7 @@ namespace rt::lib {
 struct MotionState {
     motion::MotionSettings settings;
     bool confJ = true, confL = true;
+    motion::CircleOrientation circleOrientation = motion::CircleOrientation::PathFrame; ///< CirPathMode
     bool singWrist = false, singLockAxis4 = false; ///< SingArea; kept for C_MOTSET
     motion::Pose displacement;                     ///< program displacement (PDisp...), in the object frame
     motion::ExternalAxes axisOffsets{};            ///< EOffs..., deg or mm

@@ -198,10 +198,47 @@ TEST_CASE("points that make no circle are refused", "[motion][path]") {
     };
     CHECK(kind({0, 0, 0}, {0.05, 0, 0}, {100, 0, 0}) == MotionErrorKind::CirclePointsTooClose);
     CHECK(kind({0, 0, 0}, {50, 50, 0}, {0, 0, 0}) == MotionErrorKind::CirclePointsTooClose);
-    CHECK(kind({0, 0, 0}, {50, 0, 0}, {100, 0, 0}) == MotionErrorKind::CirclePointsCollinear);
-    CHECK(kind({0, 0, 0}, {50, 0.2, 0}, {100, 0, 0}) == MotionErrorKind::CirclePointsCollinear);
+    CHECK(kind({0, 0, 0}, {150, 0, 0}, {100, 0, 0}) == MotionErrorKind::CirclePointsCollinear);
+    CHECK(kind({0, 0, 0}, {-50, 0.001, 0}, {100, 0, 0}) == MotionErrorKind::CirclePointsCollinear);
     // 270 degrees: from angle 0 over 135 to 270.
     CHECK(kind({100, 0, 0}, {-70.71, 70.71, 0}, {0, -100, 0}) == MotionErrorKind::CircleTooLarge);
+}
+
+TEST_CASE("points on one line run as that line, a very flat arc as an arc", "[motion][path]") {
+    const auto straight = CartesianCurve::arc({{0, 0, 0}, {}}, {{50, 0, 0}, {}}, {{100, 0, 0}, {}});
+    REQUIRE(straight.hasValue());
+    CHECK_FALSE(straight->isArc());
+    CHECK(straight->at(0.25).pos == Vec3{25, 0, 0});
+    // Rise 0.2 mm over a chord of 100 mm: the angle at its ends is 0.23 degrees.
+    const auto flat = CartesianCurve::arc({{0, 0, 0}, {}}, {{50, 0.2, 0}, {}}, {{100, 0, 0}, {}});
+    REQUIRE(flat.hasValue());
+    CHECK(flat->isArc());
+    CHECK(flat->at(0.5).pos.y == Approx(0.2).margin(1e-6));
+}
+
+TEST_CASE("orientation on a circle: relative to the circle, to the object, or through the circle point",
+          "[motion][path]") {
+    // A quarter of a circle about z, the circle point at its middle.
+    const Pose from{{100, 0, 0}, {}};
+    const Pose over{{100 * std::sqrt(0.5), 100 * std::sqrt(0.5), 0}, robot::fromAxisAngle({1, 0, 0}, 40)};
+    const Pose to{{0, 100, 0}, robot::fromAxisAngle({0, 0, 1}, 90)};
+    const auto path = CartesianCurve::arc(from, over, to, CircleOrientation::PathFrame);
+    const auto object = CartesianCurve::arc(from, over, {to.pos, robot::fromAxisAngle({1, 0, 0}, 60)},
+                                            CircleOrientation::ObjectFrame);
+    const auto through = CartesianCurve::arc(from, over, {to.pos, robot::fromAxisAngle({1, 0, 0}, 60)},
+                                             CircleOrientation::CirclePoint);
+    REQUIRE(path.hasValue());
+    REQUIRE(object.hasValue());
+    REQUIRE(through.hasValue());
+    for (const double s : {0.1, 0.3, 0.5, 0.9}) {
+        // The tool keeps its angle to the radius: it turns with the circle.
+        CHECK(robot::angleBetween(path->at(s).rot, robot::fromAxisAngle({0, 0, 1}, 90 * s)) < 1e-6);
+        CHECK(robot::angleBetween(object->at(s).rot, robot::fromAxisAngle({1, 0, 0}, 60 * s)) < 1e-6);
+        const double angle = s < 0.5 ? 80 * s : 40 + 40 * (s - 0.5);
+        CHECK(robot::angleBetween(through->at(s).rot, robot::fromAxisAngle({1, 0, 0}, angle)) < 1e-6);
+    }
+    CHECK(object->rotationDeg() == Approx(60));
+    CHECK(through->rotationDeg() == Approx(80)); // 40 degrees on the first half
 }
 
 TEST_CASE("a resolved line keeps the TCP on the line at every parameter", "[motion][path]") {
