@@ -134,7 +134,9 @@ class MotionDriver final : public SteppedArm {
                   std::optional<motion::MotionError>& error);
     Status waitReleased(Task& task, motion::MoveId id);
     motion::Pose startOf(const motion::MoveCommand& command) const;
-    void enqueued(motion::MoveId id, const motion::MoveCommand& command, const motion::Pose& start);
+    /// `task` null: the place of the movement in the program is not known.
+    void enqueued(motion::MoveId id, const motion::MoveCommand& command, const motion::Pose& start,
+                  const Task* task);
     /// The movement that an earlier process waited for; of a circle that it had begun the rest.
     void continueEarlier(motion::MoveCommand& command);
     Status takeProcessError(Task& task);

@@ -1,0 +1,35 @@
+#pragma once
+// Labels of a picture that do not lie on each other.
+
+#include <string>
+#include <vector>
+
+namespace rt::report {
+
+/// Where a label is put: its left end and base line, and the place it belongs to.
+struct PlacedLabel {
+    double x = 0, y = 0;
+    double atX = 0, atY = 0;
+    bool placed = false; ///< false: there is no room for it
+};
+
+class LabelPlacer {
+  public:
+    /// Labels stay within this rectangle.
+    LabelPlacer(double left, double top, double width, double height)
+        : left_(left), top_(top), right_(left + width), bottom_(top + height) {}
+
+    /// Keeps labels off a dot.
+    void keepFree(double x, double y, double radius);
+    PlacedLabel place(double x, double y, const std::string& text);
+
+  private:
+    struct Box {
+        double left, top, right, bottom;
+    };
+    bool isFree(const Box& box) const;
+    double left_, top_, right_, bottom_;
+    std::vector<Box> taken_;
+};
+
+} // namespace rt::report
