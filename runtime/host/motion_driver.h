@@ -47,6 +47,7 @@ class MotionDriver final : public SteppedArm {
     /// call refresh().
     motion::MotionSystem& system();
     void refresh();
+    const robot::RobotModel& model() const { return system_.model(); }
     /// Name of the mechanical unit: "ROB_1".
     const std::string& unitName() const { return unitName_; }
 

@@ -27,7 +27,7 @@ std::string RunReports::prepare(Controller& controller, const ProgramDesc& progr
         if (const std::string problem = report::readRecording(options_.compare, recording_); !problem.empty())
             return "--compare: " + problem;
     }
-    recorder_ = std::make_unique<report::RunRecorder>(program.name, controller.motion().system().model());
+    recorder_ = std::make_unique<report::RunRecorder>(program.name, controller.motion().model());
     recorder_->setFolder(program.folder != nullptr ? program.folder : "");
     if (const std::string problem = writeFiles({}, nullptr); !problem.empty()) return problem;
     listen(controller);
@@ -54,12 +54,14 @@ void RunReports::listen(Controller& controller) {
         if (event.place.line != 0) text += fmt::format(" ({})", event.place.reference());
         add({toSeconds(event.time), typeName(event.type), event.number, event.title, std::move(text)});
     });
-    controller.panel().onLine(
-        [add, &clock](std::string_view line) { add({toSeconds(clock.now()), "line", 0, {}, std::string(line)}); });
+    controller.panel().onLine([add, &clock](std::string_view line) {
+        add({toSeconds(clock.now()), "line", 0, {}, std::string(line)});
+    });
 }
 
 /// What went wrong; empty: nothing.
-std::string RunReports::writeFiles(const report::Analysis& analysis, const report::Comparison* comparison) const {
+std::string RunReports::writeFiles(const report::Analysis& analysis,
+                                   const report::Comparison* comparison) const {
     const report::RunRecord& record = recorder_->record();
     if (!options_.picture.empty()) {
         const std::string problem = writeWhole(options_.picture, report::pathPicture(record));
@@ -73,8 +75,8 @@ std::string RunReports::writeFiles(const report::Analysis& analysis, const repor
 
 void RunReports::printSummary(const report::Analysis& analysis) const {
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;
-    fmt::print(stderr, "\ncycle time  {:.3f} s (virtual), simulated in {:.3f} s\n{}", analysis.cycle, wall.count(),
-               report::summaryText(recorder_->record(), analysis));
+    fmt::print(stderr, "\ncycle time  {:.3f} s (virtual), simulated in {:.3f} s\n{}", analysis.cycle,
+               wall.count(), report::summaryText(recorder_->record(), analysis));
     const std::pair<const char*, const std::string&> files[] = {
         {"trace", options_.trace},     {"signals", options_.signals}, {"events", options_.events},
         {"picture", options_.picture}, {"report", options_.report},

@@ -8,15 +8,16 @@
 namespace rt::report {
 namespace {
 
-constexpr double kTremble = 0.2;        // mm
-constexpr double kSpacing = 2;          // mm between places, at least
+constexpr double kTremble = 0.2;          // mm
+constexpr double kSpacing = 2;            // mm between places, at least
 constexpr std::size_t kMostPlaces = 3000; // of one track
 
 enum Step : uint8_t { kBoth, kOnlyA, kOnlyB };
 
 std::vector<robot::Vec3> evenPlaces(const Track& track, double& spacing) {
     const double length = track.back().way;
-    const auto parts = static_cast<std::size_t>(std::clamp(std::ceil(length / kSpacing), 1.0, kMostPlaces - 1.0));
+    const auto parts =
+        static_cast<std::size_t>(std::clamp(std::ceil(length / kSpacing), 1.0, kMostPlaces - 1.0));
     spacing = length / static_cast<double>(parts);
     std::vector<robot::Vec3> places;
     for (std::size_t i = 0; i <= parts; ++i)

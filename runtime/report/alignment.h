@@ -9,9 +9,9 @@
 namespace rt::report {
 
 struct TrackPoint {
-    double time = 0; ///< s
+    double time = 0;      ///< s
     robot::Vec3 position; ///< mm
-    double way = 0; ///< mm of path since the start; trembling of a standing arm does not count
+    double way = 0;       ///< mm of path since the start; trembling of a standing arm does not count
 };
 using Track = std::vector<TrackPoint>;
 

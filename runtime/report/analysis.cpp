@@ -59,7 +59,9 @@ class MoveAnalysis {
   private:
     double programmedSpeed() const {
         // With a programmed time there is no programmed speed; the largest one reached takes its place.
-        return move_.duration > 0 ? std::max(result_.reached, 1e-9) : std::max(move_.speed, 1e-9);
+        const double speed =
+            move_.duration > 0 ? result_.reached : std::min(move_.speed, record_.robot.maxTcpSpeed);
+        return std::max(speed, 1e-9);
     }
 
     void addStep(std::size_t i) {
@@ -94,14 +96,14 @@ class MoveAnalysis {
                         steps_.front().ratio < kAtRest * largest;
         const std::size_t after = steps_.back().to;
         endsAtRest_ = move_.stopPoint || after + 1 >= samples_.size() ||
-                      !hasMoved(samples_[after], samples_[after + 1]) || steps_.back().ratio < kAtRest * largest;
+                      !hasMoved(samples_[after], samples_[after + 1]) ||
+                      steps_.back().ratio < kAtRest * largest;
     }
 
     Loss limitOf(std::size_t k) const {
         const Step& step = steps_[k];
         if (step.ratio >= kSpeedReached && move_.duration <= 0) return {Cause::Programmed, 0, 0};
         if (const Loss joint = jointLimit(step); joint.axis != 0) return joint;
-        if (step.speed >= kSpeedReached * record_.robot.maxTcpSpeed) return {Cause::RobotSpeed, 0, 0};
         if (const Loss path = pathLimit(step); path.cause != Cause::Other) return path;
         if (k < upFrom_) return {startsAtRest_ ? Cause::StopPoint : Cause::Zone, 0, 0};
         if (k >= upTo_) return {endsAtRest_ ? Cause::StopPoint : Cause::Zone, 0, 0};
@@ -116,8 +118,8 @@ class MoveAnalysis {
         double nearestSpeed = kSpeedReached, nearestAcceleration = kAccelerationReached;
         for (std::size_t axis = 0; axis < speeds.size(); ++axis) {
             const double speedShare = std::fabs(speeds[axis]) / record_.robot.maxSpeed[axis];
-            const double accelerationShare = std::fabs(accelerations[axis]) /
-                                             (record_.robot.maxAcceleration[axis] * move_.acceleration);
+            const double accelerationShare =
+                std::fabs(accelerations[axis]) / (record_.robot.maxAcceleration[axis] * move_.acceleration);
             if (speedShare >= nearestSpeed) {
                 nearestSpeed = speedShare;
                 speed.axis = static_cast<int>(axis) + 1;
@@ -143,8 +145,8 @@ class MoveAnalysis {
                 result_.atProgrammed += step.seconds;
                 continue;
             }
-            addLoss(result_.losses, {step.limit.cause, step.limit.axis,
-                                     step.seconds * std::clamp(1 - step.ratio, 0.0, 1.0)});
+            addLoss(result_.losses,
+                    {step.limit.cause, step.limit.axis, step.seconds * std::clamp(1 - step.ratio, 0.0, 1.0)});
         }
         result_.main = mainCause();
     }
@@ -153,7 +155,8 @@ class MoveAnalysis {
         constexpr double kTimeKept = 1.02, kSample = 0.008;
         if (move_.duration > 0 && result_.moving <= move_.duration * kTimeKept + kSample)
             return {Cause::Duration, 0, 0};
-        if (result_.losses.empty() || result_.atProgrammed >= result_.moving / 2) return {Cause::Programmed, 0, 0};
+        if (result_.losses.empty() || result_.atProgrammed >= result_.moving / 2)
+            return {move_.speed > record_.robot.maxTcpSpeed ? Cause::RobotSpeed : Cause::Programmed, 0, 0};
         return result_.losses.front();
     }
 
@@ -199,8 +202,8 @@ void addLoss(std::vector<Loss>& losses, const Loss& loss) {
 
 double turnBetween(const motion::Quat& a, const motion::Quat& b) {
     const motion::Quat difference = conjugate(a) * b;
-    const double sine = std::sqrt(difference.x * difference.x + difference.y * difference.y +
-                                  difference.z * difference.z);
+    const double sine =
+        std::sqrt(difference.x * difference.x + difference.y * difference.y + difference.z * difference.z);
     return 2 * std::atan2(sine, std::fabs(difference.w)) * kDegrees;
 }
 
@@ -253,7 +256,7 @@ std::string causeText(const Loss& loss) {
 }
 
 std::string verdict(const MoveResult& result) {
-    if (result.main.cause == Cause::Programmed || result.main.cause == Cause::Duration) return causeText(result.main);
+    if (result.main.seconds <= 0) return causeText(result.main);
     return fmt::format("{} (-{:.3f} s)", causeText(result.main), result.main.seconds);
 }
 

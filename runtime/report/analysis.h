@@ -16,7 +16,7 @@ enum class Cause : uint8_t {
     Programmed,       ///< nothing: the programmed speed (TCP or reorientation) was reached
     Duration,         ///< nothing: the programmed time (\T) was kept
     JointSpeed,       ///< an axis at its speed limit
-    RobotSpeed,       ///< the TCP at the robot's largest speed
+    RobotSpeed,       ///< the robot's largest TCP speed was reached, less than programmed
     Acceleration,     ///< an axis at its acceleration limit
     PathAcceleration, ///< the limit of PathAccLim
     StopPoint,        ///< starting or braking at a point where the robot stands
@@ -48,7 +48,7 @@ struct MoveResult {
 };
 
 struct Analysis {
-    std::vector<MoveResult> moves; ///< that have moved the arm
+    std::vector<MoveResult> moves;             ///< that have moved the arm
     double cycle = 0, moving = 0, waiting = 0; ///< s
     double length = 0;                         ///< mm
     std::vector<Loss> losses;                  ///< of all movements, largest first

@@ -10,23 +10,32 @@
 namespace rt::report {
 namespace {
 
-constexpr double kNear = 1;          // mm: times are measured from there
+constexpr double kNear = 1;           // mm: times are measured from there
 constexpr double kWorthNaming = 1e-3; // s
 
-Track trackOf(const RunRecord& record, const robot::Kinematics& arm, bool atFlange) {
+/// Of the samples of a run, or of a recording.
+template <class AnySample>
+Track trackOf(const std::vector<AnySample>& samples, const robot::Kinematics& arm, bool atFlange) {
     Track track;
-    for (const Sample& sample : record.samples)
+    for (const AnySample& sample : samples)
         track.push_back({sample.time, atFlange ? arm.forward(sample.joints).pos : sample.position, 0});
-    measureWay(track);
     return track;
 }
 
-Track trackOf(const Recording& recording, const robot::Kinematics& arm, bool atFlange) {
-    Track track;
-    for (const RecordedSample& sample : recording.samples)
-        track.push_back({sample.time, atFlange ? arm.forward(sample.joints).pos : sample.position, 0});
-    measureWay(track);
-    return track;
+/// A run begins with the TCP of tool0; the first movement brings its own. That change of tool is no part of the path: what
+/// comes before it gets the place after it.
+template <class AnySample> void leaveOutFirstTool(Track& track, const std::vector<AnySample>& samples) {
+    constexpr double kStill = 0.05; // deg
+    std::size_t first = 0;
+    const auto isStill = [&](std::size_t i) {
+        for (std::size_t axis = 0; axis < samples[i].joints.size(); ++axis)
+            if (std::fabs(samples[i].joints[axis] - samples[0].joints[axis]) > kStill) return false;
+        return true;
+    };
+    for (std::size_t i = 1; i < track.size() && isStill(i); ++i)
+        if (norm(track[i].position - track[i - 1].position) > kNear) first = i;
+    for (std::size_t i = 0; i < first; ++i)
+        track[i].position = track[first].position;
 }
 
 /// From the last moment within 1 mm of the start pose, before leaving it first, to the first from which on the arm stays
@@ -114,8 +123,8 @@ class Comparer {
             PathPoint point;
             point.time = std::max(here.from, arrivalAt(here_, way));
             point.distance = all[i];
-            point.delay =
-                point.time - here.from - (std::max(there.from, arrivalAt(there_, alignment_.wayB[i])) - there.from);
+            point.delay = point.time - here.from -
+                          (std::max(there.from, arrivalAt(there_, alignment_.wayB[i])) - there.from);
             if (point.distance > result_.worst || i == 0) {
                 result_.worst = point.distance;
                 result_.worstTime = point.time;
@@ -155,11 +164,10 @@ class Comparer {
         for (const MoveResult& move : analysis_.moves) {
             const TrackPoint& end = here_[move.last];
             const Passage endHere = passageAt(here_, end.position, end.way, kNear, kNear);
-            const Passage endThere =
-                passageAt(there_, end.position, alignment_.at(end.way), window_, kNear);
+            const Passage endThere = passageAt(there_, end.position, alignment_.at(end.way), window_, kNear);
             const bool isLast = &move == &analysis_.moves.back();
-            result_.differences.push_back({&move, false, std::max(0.0, endHere.in - here.out),
-                                           std::max(0.0, endThere.in - there.out)});
+            result_.differences.push_back(
+                {&move, false, std::max(0.0, endHere.in - here.out), std::max(0.0, endThere.in - there.out)});
             if (!isLast)
                 result_.differences.push_back(
                     {&move, true, endHere.out - endHere.in, endThere.out - endThere.in});
@@ -192,12 +200,18 @@ Comparison compare(const RunRecord& record, const Analysis& analysis, const Reco
     Comparison result;
     result.atFlange = !recording.hasPositions;
     if (result.atFlange && record.robot.kinematics != robot::KinematicsKind::SphericalWrist) {
-        result.problem = "the positions of this robot cannot be computed from axis angles; record x, y, z as well";
+        result.problem =
+            "the positions of this robot cannot be computed from axis angles; record x, y, z as well";
         return result;
     }
     const bool hasArm = record.robot.kinematics == robot::KinematicsKind::SphericalWrist;
     const robot::Kinematics arm = hasArm ? robot::Kinematics(record.robot) : robot::Kinematics();
-    Track here = trackOf(record, arm, result.atFlange), there = trackOf(recording, arm, result.atFlange);
+    Track here = trackOf(record.samples, arm, result.atFlange);
+    Track there = trackOf(recording.samples, arm, result.atFlange);
+    leaveOutFirstTool(here, record.samples);
+    if (recording.hasJoints) leaveOutFirstTool(there, recording.samples);
+    measureWay(here);
+    measureWay(there);
     if (here.size() < 2 || here.back().way < kNear || analysis.moves.empty())
         result.problem = "the TCP does not move in this run";
     else if (there.back().way < kNear)

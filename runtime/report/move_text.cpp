@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t kLongest = 4000; // characters of an instruction
 
 bool isWordCharacter(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || (static_cast<unsigned char>(c) & 0x80) != 0;
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' ||
+           (static_cast<unsigned char>(c) & 0x80) != 0;
 }
 
 bool startsWith(std::string_view text, std::string_view start) {
@@ -101,7 +102,8 @@ MoveText moveTextAt(std::string_view source, uint32_t line, uint32_t column) {
     while (length < text.size() && isWordCharacter(text[length]))
         ++length;
     const std::string_view instruction = text.substr(0, length);
-    if (!startsWith(instruction, "Move") && !startsWith(instruction, "Trigg") && !startsWith(instruction, "Search"))
+    if (!startsWith(instruction, "Move") && !startsWith(instruction, "Trigg") &&
+        !startsWith(instruction, "Search"))
         return {};
     std::vector<std::string> required;
     for (const std::string& argument : argumentsOf(text.substr(length))) {

@@ -49,12 +49,16 @@ void appendComparison(std::string& text, const Comparison& comparison) {
     const std::vector<PathPoint>& points = comparison.points;
     const Track& track = comparison.track;
     appendSeries(text, "pathTime", kTimeUnit, points.size(), [&](std::size_t i) { return points[i].time; });
-    appendSeries(text, "pathDistance", kLengthUnit, points.size(), [&](std::size_t i) { return points[i].distance; });
+    appendSeries(text, "pathDistance", kLengthUnit, points.size(),
+                 [&](std::size_t i) { return points[i].distance; });
     appendSeries(text, "pathDelay", kTimeUnit, points.size(), [&](std::size_t i) { return points[i].delay; });
     appendSeries(text, "otherTime", kTimeUnit, track.size(), [&](std::size_t i) { return track[i].time; });
-    appendSeries(text, "otherX", kLengthUnit, track.size(), [&](std::size_t i) { return track[i].position.x; });
-    appendSeries(text, "otherY", kLengthUnit, track.size(), [&](std::size_t i) { return track[i].position.y; });
-    appendSeries(text, "otherZ", kLengthUnit, track.size(), [&](std::size_t i) { return track[i].position.z; });
+    appendSeries(text, "otherX", kLengthUnit, track.size(),
+                 [&](std::size_t i) { return track[i].position.x; });
+    appendSeries(text, "otherY", kLengthUnit, track.size(),
+                 [&](std::size_t i) { return track[i].position.y; });
+    appendSeries(text, "otherZ", kLengthUnit, track.size(),
+                 [&](std::size_t i) { return track[i].position.z; });
 }
 
 Json lossesOf(const std::vector<Loss>& losses) {
@@ -104,7 +108,10 @@ Json signalsOf(const RunRecord& record) {
         Json changes = Json::array();
         for (const SignalTrack::Change& change : signal.changes)
             changes.push_back({rounded(change.time), change.value});
-        list.push_back({{"name", signal.name}, {"type", signal.type}, {"initial", signal.initial}, {"changes", changes}});
+        list.push_back({{"name", signal.name},
+                        {"type", signal.type},
+                        {"initial", signal.initial},
+                        {"changes", changes}});
     }
     return list;
 }
@@ -121,7 +128,8 @@ Json markersOf(const RunRecord& record) {
 }
 
 Json comparisonOf(const Comparison& comparison, const Recording& recording) {
-    Json json = {{"file", recording.file}, {"samples", recording.samples.size()}, {"atFlange", comparison.atFlange}};
+    Json json = {
+        {"file", recording.file}, {"samples", recording.samples.size()}, {"atFlange", comparison.atFlange}};
     if (!comparison.problem.empty()) {
         json["problem"] = comparison.problem;
         return json;
@@ -145,8 +153,10 @@ Json comparisonOf(const Comparison& comparison, const Recording& recording) {
 }
 
 Json totalsOf(const Analysis& analysis) {
-    return {{"cycle", rounded(analysis.cycle)},     {"moving", rounded(analysis.moving)},
-            {"waiting", rounded(analysis.waiting)}, {"length", rounded(analysis.length)},
+    return {{"cycle", rounded(analysis.cycle)},
+            {"moving", rounded(analysis.moving)},
+            {"waiting", rounded(analysis.waiting)},
+            {"length", rounded(analysis.length)},
             {"losses", lossesOf(analysis.losses)}};
 }
 
@@ -166,7 +176,8 @@ std::string pageData(const ReportContent& content) {
                  {"moves", movesOf(record, content.analysis)},
                  {"signals", signalsOf(record)},
                  {"markers", markersOf(record)}};
-    if (content.comparison != nullptr) json["comparison"] = comparisonOf(*content.comparison, *content.recording);
+    if (content.comparison != nullptr)
+        json["comparison"] = comparisonOf(*content.comparison, *content.recording);
     std::string text = rapid::config::textOf(json);
     text.pop_back(); // the brace, after the series
     appendSamples(text, record.samples);

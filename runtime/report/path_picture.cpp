@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
 #include <set>
 
 namespace rt::report {
@@ -15,9 +14,11 @@ namespace {
 
 constexpr const char* kStyle =
     "<style>text{font:11px sans-serif;fill:#333}.title{font:bold 14px sans-serif}.mid{text-anchor:middle}"
-    ".end{text-anchor:end}.grid{stroke:#ddd}.zone{fill:#7a5cc0;fill-opacity:.1;stroke:#7a5cc0;stroke-width:.8}"
+    ".end{text-anchor:end}.grid{stroke:#ddd}.zone{fill:#7a5cc0;fill-opacity:.1;stroke:#7a5cc0;stroke-width:."
+    "8}"
     ".point{fill:#222}.lead{stroke:#999;stroke-width:.5}.name{font-size:10px;fill:#111}"
-    ".change{font-size:10px;fill:#0a6b2e}.signal{fill:#0a6b2e}</style>\n"
+    ".name,.change{paint-order:stroke;stroke:#fafafa;stroke-width:2.5px}.change{font-size:10px;fill:#0a6b2e}."
+    "signal{fill:#0a6b2e}</style>\n"
     "<rect width='100%' height='100%' fill='white'/>\n";
 
 /// One projection: picture coordinates from two world axes, same scale on both.
@@ -91,7 +92,9 @@ void drawGrid(std::string& svg, const View& view, const Bounds& bounds) {
 }
 
 void drawPath(std::string& svg, const Projection& to, const std::vector<Sample>& samples, double top) {
-    const auto point = [&](const Sample& s) { return fmt::format("{:.1f},{:.1f}", to.x(s.position), to.y(s.position)); };
+    const auto point = [&](const Sample& s) {
+        return fmt::format("{:.1f},{:.1f}", to.x(s.position), to.y(s.position));
+    };
     constexpr int kShades = 16;
     const auto jumps = [&](std::size_t k) { return toolChanged(samples[k], samples[k + 1]); };
     std::size_t i = 0;
@@ -130,30 +133,32 @@ void drawZones(std::string& svg, const Projection& to, const RunRecord& record) 
     }
 }
 
-void drawLabel(std::string& svg, LabelPlacer& labels, double x, double y, const std::string& text,
-               const char* kind) {
-    const PlacedLabel label = labels.place(x, y, text);
-    if (!label.placed) return;
-    const double end = std::clamp(x, label.x, label.x + 5.6 * static_cast<double>(text.size()));
-    svg += fmt::format("<line class='lead' x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}'/>"
-                       "<text class='{}' x='{:.1f}' y='{:.1f}'>{}</text>\n",
-                       x, y, end, label.y - 3.5, kind, label.x, label.y, escaped(text));
+void drawLabels(std::string& svg, LabelPlacer& labels, const LabelGroups& groups, const char* kind,
+                std::size_t most) {
+    for (const LabelGroups::Group& group : groups.groups()) {
+        const std::string text = LabelGroups::textOf(group, most);
+        const PlacedLabel label = labels.place(group.x, group.y, text);
+        if (!label.placed) continue;
+        const double end = std::clamp(group.x, label.x, label.x + PlacedLabel::widthOf(text));
+        svg += fmt::format("<line class='lead' x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}'/>"
+                           "<text class='{}' x='{:.1f}' y='{:.1f}'>{}</text>\n",
+                           group.x, group.y, end, label.y - 3.5, kind, label.x, label.y, escaped(text));
+    }
 }
 
 void drawPoints(std::string& svg, const Projection& to, const RunRecord& record, LabelPlacer& labels) {
-    std::map<std::string, const Move*> points;
-    for (const Move& move : record.moves)
-        points.try_emplace(keyOf(move.end, pointName(move)), &move);
-    for (const auto& [key, move] : points) {
-        svg += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='2.4' class='point'/>\n", to.x(move->end), to.y(move->end));
-        labels.keepFree(to.x(move->end), to.y(move->end), 3);
+    std::set<std::string> drawn;
+    LabelGroups names;
+    for (const Move& move : record.moves) // names say more than lines
+        if (move.text.isName) names.add(to.x(move.end), to.y(move.end), pointName(move));
+    for (const Move& move : record.moves) {
+        if (!drawn.insert(keyOf(move.end, pointName(move))).second) continue;
+        const double x = to.x(move.end), y = to.y(move.end);
+        svg += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='2.4' class='point'/>\n", x, y);
+        labels.keepFree(x, y, 3);
+        names.add(x, y, pointName(move));
     }
-    for (const Move& move : record.moves) { // in the order of the program
-        const auto found = points.find(keyOf(move.end, pointName(move)));
-        if (found == points.end()) continue;
-        drawLabel(svg, labels, to.x(move.end), to.y(move.end), pointName(move), "name");
-        points.erase(found);
-    }
+    drawLabels(svg, labels, names, "name", 3);
 }
 
 motion::Vec3 placeAt(const std::vector<Sample>& samples, double time) {
@@ -165,16 +170,19 @@ motion::Vec3 placeAt(const std::vector<Sample>& samples, double time) {
 void drawSignals(std::string& svg, const Projection& to, const RunRecord& record, LabelPlacer& labels) {
     if (record.samples.empty()) return;
     std::set<std::string> drawn;
+    LabelGroups changes;
     for (const SignalTrack& signal : record.signals) {
         for (const SignalTrack::Change& change : signal.changes) {
             const motion::Vec3 place = placeAt(record.samples, change.time);
             const std::string text = fmt::format("{}={:g}", signal.name, change.value);
             if (!drawn.insert(keyOf(place, text)).second) continue;
             const double x = to.x(place), y = to.y(place);
-            svg += fmt::format("<path class='signal' d='M{:.1f} {:.1f}l3.5 3.5l-3.5 3.5l-3.5 -3.5z'/>\n", x, y - 3.5);
-            drawLabel(svg, labels, x, y, text, "change");
+            svg += fmt::format("<path class='signal' d='M{:.1f} {:.1f}l3.5 3.5l-3.5 3.5l-3.5 -3.5z'/>\n", x,
+                               y - 3.5);
+            changes.add(x, y, text);
         }
     }
+    drawLabels(svg, labels, changes, "change", 2);
 }
 
 } // namespace
@@ -201,9 +209,10 @@ std::string pathPicture(const RunRecord& record) {
         drawPoints(svg, to, record, labels);
         drawSignals(svg, to, record, labels);
     }
-    svg += fmt::format("<text x='{}' y='{}'>TCP path, {:.3f} s; blue = standing, red = {:.0f} mm/s; dots: end of a "
-                       "move; circles: zones; diamonds: a signal changes</text>\n",
-                       kMargin, 2 * kMargin + kSize + 20, record.samples.empty() ? 0 : record.samples.back().time, top);
+    svg += fmt::format(
+        "<text x='{}' y='{}'>TCP path, {:.3f} s; blue = standing, red = {:.0f} mm/s; dots: end of a "
+        "move; circles: zones; diamonds: a signal changes</text>\n",
+        kMargin, 2 * kMargin + kSize + 20, record.samples.empty() ? 0 : record.samples.back().time, top);
     svg += "</svg>\n";
     return svg;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Labels of a picture that do not lie on each other.
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,23 @@ struct PlacedLabel {
     double x = 0, y = 0;
     double atX = 0, atY = 0;
     bool placed = false; ///< false: there is no room for it
+    static double widthOf(const std::string& text);
+};
+
+/// Texts that belong to the same place of the picture, as one label.
+class LabelGroups {
+  public:
+    struct Group {
+        double x = 0, y = 0;
+        std::vector<std::string> texts; ///< different ones
+    };
+    void add(double x, double y, const std::string& text);
+    const std::vector<Group>& groups() const { return groups_; }
+    /// "p10, p20, p30 +2", with `most` of them by name.
+    static std::string textOf(const Group& group, std::size_t most);
+
+  private:
+    std::vector<Group> groups_;
 };
 
 class LabelPlacer {

@@ -34,7 +34,8 @@ struct Header {
         }
         const std::size_t underline = name.rfind('_');
         for (const char* known : {"s", "ms", "mm", "m", "deg", "rad"}) {
-            if (underline == std::string::npos || underline == 0 || name.substr(underline + 1) != known) continue;
+            if (underline == std::string::npos || underline == 0 || name.substr(underline + 1) != known)
+                continue;
             unit = known;
             name.resize(underline);
             break;
@@ -54,7 +55,8 @@ Column columnOf(std::string_view text) {
     if (header.name.empty()) return {};
     const char last = header.name.back();
     const std::string_view stem = std::string_view(header.name).substr(0, header.name.size() - 1);
-    if (last >= '1' && last <= '6' && isOneOf(stem, {"j", "joint", "axis", "a", "rax", "robax", "jointangle"}))
+    if (last >= '1' && last <= '6' &&
+        isOneOf(stem, {"j", "joint", "axis", "a", "rax", "robax", "jointangle"}))
         return {kJoint1 + (last - '1'), header.unit == "rad" ? kDegrees : 1};
     if (last >= 'x' && last <= 'z' && isOneOf(stem, {"", "tcp", "pos", "tcppos", "position", "trans"}))
         return {kX + (last - 'x'), header.unit == "m" ? 1000.0 : 1};
@@ -66,7 +68,8 @@ std::vector<std::string_view> split(std::string_view line, char separator) {
     for (;;) {
         const std::size_t end = line.find(separator);
         std::string_view field = trimmed(line.substr(0, end));
-        if (field.size() >= 2 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
+        if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
+            field = field.substr(1, field.size() - 2);
         fields.push_back(field);
         if (end == std::string_view::npos) return fields;
         line.remove_prefix(end + 1);
@@ -112,7 +115,8 @@ class Reader {
             const int kind = columns_.back().kind;
             if (kind < 0) continue;
             if (++count[static_cast<std::size_t>(kind)] > 1)
-                return fmt::format("column '{}' means the same as a column before it; remove one of them", name);
+                return fmt::format("column '{}' means the same as a column before it; remove one of them",
+                                   name);
         }
         if (count[kTime] == 0) return fmt::format("there is no column of time; {}", kRemedy);
         const auto all = [&count](int from, int to) {
@@ -128,14 +132,15 @@ class Reader {
     std::string takeRow(std::string_view line) {
         const std::vector<std::string_view> fields = split(line, separator_);
         if (fields.size() < columns_.size())
-            return fmt::format("{} fields instead of {}; is the line cut off?", fields.size(), columns_.size());
+            return fmt::format("{} fields instead of {}; is the line cut off?", fields.size(),
+                               columns_.size());
         std::array<double, kColumnKinds> values{};
         for (std::size_t i = 0; i < columns_.size(); ++i) {
             if (columns_[i].kind < 0) continue;
             double value = 0;
             if (!number(fields[i], value))
-                return fmt::format("'{}' in column '{}' is not a number; correct it or remove the line", fields[i],
-                                   names_[i]);
+                return fmt::format("'{}' in column '{}' is not a number; correct it or remove the line",
+                                   fields[i], names_[i]);
             values[static_cast<std::size_t>(columns_[i].kind)] = value * columns_[i].factor;
         }
         RecordedSample sample;
@@ -143,8 +148,9 @@ class Reader {
         std::copy_n(values.begin() + kJoint1, 6, sample.joints.begin());
         sample.position = {values[kX], values[kX + 1], values[kX + 2]};
         if (!recording_.samples.empty() && sample.time < recording_.samples.back().time)
-            return fmt::format("the time {} s is before that of the line above it ({} s); sort the lines by time",
-                               sample.time, recording_.samples.back().time);
+            return fmt::format(
+                "the time {} s is before that of the line above it ({} s); sort the lines by time",
+                sample.time, recording_.samples.back().time);
         recording_.samples.push_back(sample);
         return {};
     }

@@ -10,8 +10,8 @@
 namespace rt::report {
 
 struct RecordedSample {
-    double time = 0; ///< s
-    robot::Vec3 position; ///< mm, TCP in world; meant only with Recording::hasPositions
+    double time = 0;        ///< s
+    robot::Vec3 position;   ///< mm, TCP in world; meant only with Recording::hasPositions
     robot::Joints joints{}; ///< deg; meant only with Recording::hasJoints
 };
 
@@ -26,7 +26,8 @@ struct Recording {
 /// commas, semicolons (numbers may then have decimal commas) or tabs; empty lines and lines that begin with # are left out.
 ///
 /// Returns what is wrong, for people, with file, line and remedy ("rec.csv:7: ..."); empty: success.
-[[nodiscard]] std::string parseRecording(std::string_view text, const std::string& file, Recording& recording);
+[[nodiscard]] std::string parseRecording(std::string_view text, const std::string& file,
+                                         Recording& recording);
 [[nodiscard]] std::string readRecording(const std::string& file, Recording& recording);
 
 } // namespace rt::report

@@ -34,13 +34,13 @@ struct Move {
     motion::MoveKind kind = motion::MoveKind::AbsJoint;
     SourcePlace place; ///< empty when it is not known
     MoveText text;
-    motion::Vec3 end;         ///< programmed TCP in world, mm
-    double speed = 0;         ///< mm/s, with VelSet
-    double turnSpeed = 0;     ///< deg/s, with VelSet
-    double duration = 0;      ///< \T in s; 0 = not given
-    bool stopPoint = true;    ///< fine, or Inpos
-    double zone = 0;          ///< radius of a fly-by point, mm
-    double acceleration = 1;  ///< share of the robot's, AccSet
+    motion::Vec3 end;                                  ///< programmed TCP in world, mm
+    double speed = 0;                                  ///< mm/s, with VelSet
+    double turnSpeed = 0;                              ///< deg/s, with VelSet
+    double duration = 0;                               ///< \T in s; 0 = not given
+    bool stopPoint = true;                             ///< fine, or Inpos
+    double zone = 0;                                   ///< radius of a fly-by point, mm
+    double acceleration = 1;                           ///< share of the robot's, AccSet
     double pathAcceleration = 0, pathDeceleration = 0; ///< PathAccLim, mm/s^2; 0 = no limit
 };
 
@@ -66,7 +66,7 @@ struct RunRecord {
     std::string program;
     robot::RobotModel robot;
     std::vector<Sample> samples;
-    std::vector<Move> moves; ///< in order of their numbers
+    std::vector<Move> moves;          ///< in order of their numbers
     std::vector<SignalTrack> signals; ///< as configured
     std::vector<Marker> markers;
     double end = 0; ///< virtual time at the end of the run, s

@@ -63,10 +63,12 @@ MoveText RunRecorder::textOf(const SourcePlace& place) {
     if (known != texts_.end()) return known->second;
     const auto [source, isNew] = sources_.try_emplace(place.file);
     if (isNew) {
-        const std::filesystem::path file = std::filesystem::path(folder_) / place.file; // an absolute name stays
+        const std::filesystem::path file =
+            std::filesystem::path(folder_) / place.file; // an absolute name stays
         if (!rapid::config::readFile(file.string(), source->second).empty()) source->second.clear();
     }
-    return texts_[{place.file, place.line, place.column}] = moveTextAt(source->second, place.line, place.column);
+    return texts_[{place.file, place.line, place.column}] =
+               moveTextAt(source->second, place.line, place.column);
 }
 
 std::size_t RunRecorder::addSignal(std::string name, std::string type, double value) {

@@ -51,7 +51,7 @@ Row rowOf(const MoveResult& result) {
     row.reached = result.reached;
     row.moves = 1;
     row.losses = result.losses;
-    if (result.main.cause == Cause::Programmed || result.main.cause == Cause::Duration) {
+    if (result.main.seconds <= 0) {
         row.slowedBy = causeText(result.main);
         const std::string lost = lossText(result.losses, 2);
         if (!lost.empty()) row.slowedBy += "; " + lost;
@@ -96,8 +96,8 @@ void appendTable(std::string& text, const std::vector<Row>& rows) {
         place = std::max(place, row.place.size() + row.count.size());
         instruction = std::max(instruction, row.instruction.size());
     }
-    fmt::format_to(std::back_inserter(text), fmt::runtime(kLine), "place", place, "movement", instruction, "zone",
-                   "mm/s", "reached", "time", "slowed by");
+    fmt::format_to(std::back_inserter(text), fmt::runtime(kLine), "place", place, "movement", instruction,
+                   "zone", "mm/s", "reached", "time", "slowed by");
     for (std::size_t i = 0; i < rows.size() && i < kMostLines; ++i) {
         const Row& row = rows[i];
         fmt::format_to(std::back_inserter(text), fmt::runtime(kLine), row.place + row.count, place,
@@ -112,8 +112,9 @@ void appendTable(std::string& text, const std::vector<Row>& rows) {
 
 std::string summaryText(const RunRecord& /*record*/, const Analysis& analysis) {
     const double whole = std::max(analysis.cycle, 1e-9);
-    std::string text = fmt::format("moving      {:.3f} s ({:.0f} %), {} movements, {:.0f} mm\n", analysis.moving,
-                                   100 * analysis.moving / whole, analysis.moves.size(), analysis.length);
+    std::string text =
+        fmt::format("moving      {:.3f} s ({:.0f} %), {} movements, {:.0f} mm\n", analysis.moving,
+                    100 * analysis.moving / whole, analysis.moves.size(), analysis.length);
     text += fmt::format("waiting     {:.3f} s\n", analysis.waiting);
     if (analysis.moves.empty()) return text;
     const std::string lost = lossText(analysis.losses, kMostCauses);
@@ -129,28 +130,31 @@ std::string summaryText(const RunRecord& /*record*/, const Analysis& analysis) {
 }
 
 std::string comparisonText(const Comparison& comparison, const Recording& recording) {
-    std::string text = fmt::format("compared    with {} ({} samples{})\n", recording.file, recording.samples.size(),
-                                   comparison.atFlange ? ", axis angles: positions are those of the flange" : "");
+    std::string text =
+        fmt::format("compared    with {} ({} samples{})\n", recording.file, recording.samples.size(),
+                    comparison.atFlange ? ", axis angles: positions are those of the flange" : "");
     if (!comparison.problem.empty()) return text + fmt::format("            {}\n", comparison.problem);
     double difference = comparison.here - comparison.there;
     if (std::fabs(difference) < kShown) difference = 0; // and without a sign
-    text += fmt::format("time        {:.3f} s here, {:.3f} s there: {:+.3f} s ({:+.1f} %), from 1 mm after the start to 1 mm "
-                        "before the end\n",
-                        comparison.here, comparison.there, difference,
-                        100 * difference / std::max(comparison.there, 1e-9));
-    text += fmt::format("path        median {:.3f} mm, 95 % within {:.3f} mm, worst {:.3f} mm", comparison.median,
-                        comparison.most, comparison.worst);
+    text += fmt::format(
+        "time        {:.3f} s here, {:.3f} s there: {:+.3f} s ({:+.1f} %), from 1 mm after the start to 1 mm "
+        "before the end\n",
+        comparison.here, comparison.there, difference, 100 * difference / std::max(comparison.there, 1e-9));
+    text += fmt::format("path        median {:.3f} mm, 95 % within {:.3f} mm, worst {:.3f} mm",
+                        comparison.median, comparison.most, comparison.worst);
     if (comparison.worst >= kShown && comparison.worstMove != nullptr)
-        text += fmt::format(" at {:.3f} s ({}, {})", comparison.worstTime, placeName(*comparison.worstMove->move),
-                            instructionName(*comparison.worstMove->move));
+        text +=
+            fmt::format(" at {:.3f} s ({}, {})", comparison.worstTime, placeName(*comparison.worstMove->move),
+                        instructionName(*comparison.worstMove->move));
     text += "\n";
     const std::vector<TimeDifference> largest = comparison.largest(8);
     if (largest.empty()) text += "differences none of a millisecond or more\n";
     for (std::size_t i = 0; i < largest.size(); ++i) {
         const TimeDifference& part = largest[i];
-        text += fmt::format("{:<12}{:+.3f} s ({:.3f} here, {:.3f} there)  {}, {}{}\n", i == 0 ? "differences" : "",
-                            part.difference(), part.here, part.there, placeName(*part.move->move),
-                            instructionName(*part.move->move), part.standing ? ", standing at its end" : "");
+        text += fmt::format("{:<12}{:+.3f} s ({:.3f} here, {:.3f} there)  {}, {}{}\n",
+                            i == 0 ? "differences" : "", part.difference(), part.here, part.there,
+                            placeName(*part.move->move), instructionName(*part.move->move),
+                            part.standing ? ", standing at its end" : "");
     }
     return text;
 }

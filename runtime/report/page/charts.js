@@ -1,6 +1,6 @@
 // Charts over time. They share the time axis, its zoom and the cursor.
 
-const gutter = { left: 62, right: 14 };
+const gutter = { left: 92, right: 14 };
 
 class TimeAxis {
   constructor() {
@@ -42,7 +42,7 @@ class Chart {
     this.unit = unit;
     this.canvas = element("canvas", { style: "height:" + height + "px", role: "img", "aria-label": name });
     const line = element("div", { class: "name" }, name + (unit ? " (" + unit + ")" : ""));
-    for (const [text, colour] of legend || [])
+    for (const [text, colour] of (legend || []).filter((entry) => entry[0]))
       line.append(element("span", {}, element("i", { style: "background:var(--" + colour + ")" }), text));
     this.node = element("div", { class: "chart" }, line, this.canvas);
   }
@@ -57,7 +57,7 @@ class Chart {
     context.strokeStyle = colours.grid;
     context.fillStyle = colours.quiet;
     context.textAlign = "right";
-    const rows = ticks(low, high, (bottom - top) / 26);
+    const rows = ticks(low, high, (bottom - top) / (height < 80 ? 14 : 26));
     for (const value of rows.values) {
       const at = Math.round(y(value)) + 0.5;
       context.beginPath();

@@ -42,3 +42,15 @@ class Labels {
     }
   }
 }
+
+/** Texts of places that fall together in the picture, as one: [{x, y, text}]. */
+function groupLabels(entries) {
+  const groups = [];
+  for (const { x, y, text } of entries) {
+    const group = groups.find((g) => Math.hypot(g.x - x, g.y - y) <= 4);
+    if (!group) groups.push({ x, y, texts: [text] });
+    else if (!group.texts.includes(text)) group.texts.push(text);
+  }
+  return groups.map(({ x, y, texts }) => ({ x, y,
+    text: texts.slice(0, 3).join(", ") + (texts.length > 3 ? " +" + (texts.length - 3) : "") }));
+}

@@ -143,8 +143,9 @@ function showComparison(choose) {
     return;
   }
   const most = Math.abs(parts[0].difference);
-  const lines = parts.slice(0, 100).map((part) => comparisonLine(part, most, choose));
-  body.append(element("p", {}, "Where the difference comes from, the largest first:"),
+  const lines = parts.slice(0, 40).map((part) => comparisonLine(part, most, choose));
+  const which = parts.length > 40 ? ", the largest 40 of " + parts.length + ":" : ", the largest first:";
+  body.append(element("p", {}, "Where the difference comes from" + which),
     element("div", { class: "scroll" }, table([["#"], ["place", "text"], ["movement", "text"], ["", "text"], ["here s"],
       ["recording s"], ["difference s"], ["", "text"]], lines, "list")));
 }

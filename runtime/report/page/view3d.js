@@ -1,5 +1,7 @@
 // The path of the TCP in 3D, drawn without perspective.
 
+const mostLabels = 400;
+
 class PathView {
   constructor(canvas, choose) {
     this.canvas = canvas;
@@ -71,14 +73,25 @@ class PathView {
     };
   }
 
+  /** Everything is seen, as large as it can be. */
   fit(right, up, width, height) {
-    let spanU = 1, spanV = 1;
-    for (let corner = 0; corner < 8; corner++) {
-      const d = [0, 1, 2].map((k) => ((corner >> k) & 1 ? this.high[k] : this.low[k]) - this.middle[k]);
-      spanU = Math.max(spanU, 2 * Math.abs(d[0] * right[0] + d[1] * right[1] + d[2] * right[2]));
-      spanV = Math.max(spanV, 2 * Math.abs(d[0] * up[0] + d[1] * up[1] + d[2] * up[2]));
-    }
-    this.zoom = 0.86 * Math.min(width / spanU, height / spanV);
+    const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+    const take = (x, y, z, radius) => {
+      [right, up].forEach((way, k) => {
+        const at = x * way[0] + y * way[1] + z * way[2];
+        low[k] = Math.min(low[k], at - radius);
+        high[k] = Math.max(high[k], at + radius);
+      });
+    };
+    for (let i = 0; i < count; i++) take(position.x[i], position.y[i], position.z[i], 0);
+    for (let i = 0; i < other.time.length; i++) take(other.x[i], other.y[i], other.z[i], 0);
+    for (const zone of this.zones) take(...zone.place, zone.radius);
+    if (!(low[0] <= high[0])) take(0, 0, 0, 50);
+    const spans = [0, 1].map((k) => Math.max(high[k] - low[k], this.size * 0.1));
+    this.zoom = Math.min((width - 140) / spans[0], (height - 70) / spans[1]);
+    // The middle of what is seen; its depth does not matter.
+    const shift = [right, up].map((way, k) => (low[k] + high[k]) / 2 - this.middle.reduce((sum, v, n) => sum + v * way[n], 0));
+    this.target = this.middle.map((v, n) => v + shift[0] * right[n] + shift[1] * up[n]);
   }
 
   draw() {
@@ -144,14 +157,15 @@ class PathView {
       if (open) context.stroke();
       open = false;
     };
-    for (let i = 0; i < count; i++) {
+    const stride = this.stride(count);
+    for (let i = 0; i < count; i += stride) {
       const [x, y] = this.project(position.x[i], position.y[i], position.z[i]);
-      if (i > 0 && this.jumps(i)) {
+      if (i > 0 && stride === 1 && this.jumps(i)) {
         stroke();
         shade = -1;
       } else if (i > 0) {
         const next = Math.min(shades, Math.round(tcpSpeed[i] / topSpeed * shades));
-        if (open && next === shade && Math.abs(x - lastX) + Math.abs(y - lastY) < 0.7 && i + 1 < count) continue;
+        if (open && next === shade && Math.abs(x - lastX) + Math.abs(y - lastY) < 0.7 && i + stride < count) continue;
         if (next !== shade || !open) {
           if (open) context.lineTo(x, y);
           stroke();
@@ -168,6 +182,11 @@ class PathView {
     }
     stroke();
     if (this.selected) this.drawSelected(context);
+  }
+
+  /** While the picture turns, 20,000 samples will do. */
+  stride(samples) {
+    return this.turning ? Math.ceil(samples / 20000) : 1;
   }
 
   /** Another tool: the TCP is elsewhere without having moved there. */
@@ -191,10 +210,10 @@ class PathView {
   drawOther(context) {
     context.strokeStyle = colours.other;
     context.lineWidth = 1.4;
-    context.setLineDash([5, 4]);
+    if (other.time.length < 20000) context.setLineDash([5, 4]); // dashes of long lines take long to draw
     context.beginPath();
     let lastX = -1e9, lastY = -1e9;
-    for (let i = 0; i < other.time.length; i++) {
+    for (let i = 0; i < other.time.length; i += this.stride(other.time.length)) {
       const [x, y] = this.project(other.x[i], other.y[i], other.z[i]);
       if (Math.abs(x - lastX) + Math.abs(y - lastY) < 0.7) continue;
       context.lineTo(x, y);
@@ -214,11 +233,14 @@ class PathView {
       context.fill();
       labels.keepFree(x, y, 4);
     });
-    if (this.shown.names)
-      this.points.forEach((point, i) => labels.draw(context, places[i][0], places[i][1], point.text, colours.text));
+    if (!this.shown.names) return;
+    const entries = this.points.map((point, i) => ({ x: places[i][0], y: places[i][1], text: point.text })).slice(0, mostLabels);
+    entries.sort((a, b) => /^line \d/.test(a.text) - /^line \d/.test(b.text)); // names say more than lines
+    for (const { x, y, text } of groupLabels(entries)) labels.draw(context, x, y, text, colours.text);
   }
 
   drawSignals(context, labels) {
+    const entries = [];
     for (const change of this.changes) {
       const [x, y] = this.project(...change.place);
       context.fillStyle = colours.signal;
@@ -228,8 +250,9 @@ class PathView {
       context.lineTo(x, y + 5);
       context.lineTo(x - 5, y);
       context.fill();
-      labels.draw(context, x, y, change.text, colours.signal);
+      entries.push({ x, y, text: change.text });
     }
+    for (const { x, y, text } of groupLabels(entries.slice(0, mostLabels))) labels.draw(context, x, y, text, colours.signal);
   }
 
   /** Directions of the world's axes, in the upper right corner of the picture. */
@@ -327,7 +350,12 @@ class PathView {
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
+      this.turning = count + other.time.length > 20000;
       this.draw();
+      clearTimeout(this.rest);
+      if (!this.turning) return;
+      this.turning = false;
+      this.rest = setTimeout(() => this.draw(), 200); // in full when it rests
     });
   }
 
