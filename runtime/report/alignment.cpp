@@ -122,7 +122,8 @@ Passage passageAt(const Track& track, const robot::Vec3& place, double way, doub
             passage.index = i;
         }
     }
-    const double limit = passage.distance + radius;
+    const double limit =
+        std::hypot(passage.distance, radius); // `radius` along a track that passes beside the place
     // Between two samples the distance is taken as a straight line.
     const auto crossing = [&](std::size_t inside, std::size_t outside) {
         const double d0 = norm(track[inside].position - place), d1 = norm(track[outside].position - place);

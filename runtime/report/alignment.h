@@ -38,7 +38,7 @@ struct Alignment {
 /// The pairing with the least sum of distances in which neither track goes back (dynamic time warping).
 Alignment align(const Track& a, const Track& b);
 
-/// When a track passes a place: from coming within `radius` of its nearest point to leaving that, near `way` on its path.
+/// When a track passes a place: from `radius` before its nearest point to `radius` after it, near `way` on its path.
 struct Passage {
     double in = 0, out = 0; ///< s
     double distance = 0;    ///< mm at the nearest

@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t kMostMoves = 60;  // more are put together by instruction
 constexpr std::size_t kMostLines = 200; // of the table
 constexpr std::size_t kMostCauses = 5;
-constexpr double kShown = 0.0005; // s
+constexpr std::size_t kWidth = 34; // of an instruction
+constexpr double kShown = 0.0005;  // s
 
 struct Row {
     std::string place, instruction, zone, speed, count;
@@ -44,7 +45,7 @@ Row rowOf(const MoveResult& result) {
     const Move& move = *result.move;
     Row row;
     row.place = placeName(move);
-    row.instruction = shortened(instructionName(move), 34);
+    row.instruction = shortened(instructionName(move), kWidth);
     row.zone = move.stopPoint ? "fine" : fmt::format("{:g} mm", move.zone);
     row.speed = move.duration > 0 ? fmt::format("{:g} s", move.duration) : fmt::format("{:.0f}", move.speed);
     row.time = result.end - result.start;
@@ -145,7 +146,7 @@ std::string comparisonText(const Comparison& comparison, const Recording& record
     if (comparison.worst >= kShown && comparison.worstMove != nullptr)
         text +=
             fmt::format(" at {:.3f} s ({}, {})", comparison.worstTime, placeName(*comparison.worstMove->move),
-                        instructionName(*comparison.worstMove->move));
+                        shortened(instructionName(*comparison.worstMove->move), kWidth));
     text += "\n";
     const std::vector<TimeDifference> largest = comparison.largest(8);
     if (largest.empty()) text += "differences none of a millisecond or more\n";
@@ -153,7 +154,7 @@ std::string comparisonText(const Comparison& comparison, const Recording& record
         const TimeDifference& part = largest[i];
         text += fmt::format("{:<12}{:+.3f} s ({:.3f} here, {:.3f} there)  {}, {}{}\n",
                             i == 0 ? "differences" : "", part.difference(), part.here, part.there,
-                            placeName(*part.move->move), instructionName(*part.move->move),
+                            placeName(*part.move->move), shortened(instructionName(*part.move->move), kWidth),
                             part.standing ? ", standing at its end" : "");
     }
     return text;

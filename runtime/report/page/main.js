@@ -50,7 +50,13 @@ function holdCursor(t) {
   setCursor(t);
 }
 
+/** From a row of a table: what it means is shown further up. */
+function showPath() {
+  document.getElementById("view").scrollIntoView({ block: "nearest", behavior: "smooth" });
+}
+
 function chooseMove(move) {
+  showPath();
   state.selected = move;
   view.selected = move;
   selectLine(move);
@@ -144,7 +150,7 @@ stack.addEventListener("keydown", (event) => {
   else if (event.key === "+" || event.key === "=") zoomBy(0.5);
   else if (event.key === "-") zoomBy(2);
   else if (event.key === "0") { axis.set(0, lastTime); drawChartsSoon(); }
-  else if (event.key === "Escape") { state.held = false; placeCursor(); }
+  else if (event.key === "Escape") { state.held = false; setCursor(state.cursor); }
   else return;
   event.preventDefault();
 });
@@ -181,7 +187,10 @@ function print(on) {
 document.getElementById("scale").append("0", element("i"), topSpeed.toFixed(0) + " mm/s");
 showOverview();
 showMoves(chooseMove);
-showEvents(holdCursor);
+showEvents((t) => {
+  showPath();
+  holdCursor(t);
+});
 showComparison(chooseMove);
 document.getElementById("other-label").hidden = other.time.length === 0;
 drawAll();
