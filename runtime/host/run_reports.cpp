@@ -59,7 +59,7 @@ void RunReports::listen(Controller& controller) {
     });
 }
 
-/// What went wrong; empty: nothing.
+/// Returns the problem, with the option; empty: success.
 std::string RunReports::writeFiles(const report::Analysis& analysis,
                                    const report::Comparison* comparison) const {
     const report::RunRecord& record = recorder_->record();

@@ -11,7 +11,7 @@ namespace rt::report {
 struct TrackPoint {
     double time = 0;      ///< s
     robot::Vec3 position; ///< mm
-    double way = 0;       ///< mm of path since the start; trembling of a standing arm does not count
+    double way = 0;       ///< mm of path since the start; trembling of an arm at rest does not count
 };
 using Track = std::vector<TrackPoint>;
 

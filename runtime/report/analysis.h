@@ -1,5 +1,5 @@
 #pragma once
-// What the samples of a run say of its movements: when each one ran, how fast it became, and what made it slower than
+// The movements of a run as its samples show them: when each one ran, how fast it became, and what made it slower than
 // programmed. From samples and limits alone, so that it is true of any planner.
 
 #include "runtime/report/run_record.h"
@@ -11,7 +11,7 @@
 
 namespace rt::report {
 
-/// What a stretch of a movement was limited by.
+/// The limit that a stretch of a movement was at.
 enum class Cause : uint8_t {
     Programmed,       ///< nothing: the programmed speed (TCP or reorientation) was reached
     Duration,         ///< nothing: the programmed time (\T) was kept
@@ -19,7 +19,7 @@ enum class Cause : uint8_t {
     RobotSpeed,       ///< the robot's largest TCP speed was reached, less than programmed
     Acceleration,     ///< an axis at its acceleration limit
     PathAcceleration, ///< the limit of PathAccLim
-    StopPoint,        ///< starting or braking at a point where the robot stands
+    StopPoint,        ///< starting or braking at a point where the robot comes to rest
     Zone,             ///< slower round a fly-by point
     Other,            ///< none of these: jerk, the shape of the path, an order from outside
 };
@@ -60,7 +60,7 @@ Analysis analyse(const RunRecord& record);
 void addLoss(std::vector<Loss>& losses, const Loss& loss);
 /// "speed limit of axis 3".
 std::string causeText(const Loss& loss);
-/// What decided the duration, as a sentence: "programmed speed", "speed limit of axis 2 (-0.310 s)".
+/// The limit that decided the duration, for people: "programmed speed", "speed limit of axis 2 (-0.310 s)".
 std::string verdict(const MoveResult& result);
 
 /// Rotation between two orientations, deg.

@@ -22,7 +22,7 @@ Track trackOf(const std::vector<AnySample>& samples, const robot::Kinematics& ar
     return track;
 }
 
-/// A run begins with the TCP of tool0; the first movement brings its own. That change of tool is no part of the path: what
+/// A run begins with the TCP of tool0; the first movement brings its own. That change of tool does not belong to the path: what
 /// comes before it gets the place after it.
 template <class AnySample> void leaveOutFirstTool(Track& track, const std::vector<AnySample>& samples) {
     constexpr double kStill = 0.05; // deg
@@ -115,7 +115,7 @@ class Comparer {
         return nearest;
     }
 
-    /// Even along the path, so that times of standing do not count.
+    /// Even along the path, so that times at rest do not count.
     void measureDistances(const Span& here, const Span& there) {
         std::vector<double> all = distances();
         for (std::size_t i = 0; i < all.size(); ++i) {
@@ -190,7 +190,7 @@ std::vector<TimeDifference> Comparison::largest(std::size_t number) const {
     std::erase_if(result, [](const TimeDifference& d) { return std::fabs(d.difference()) < kWorthNaming; });
     std::sort(result.begin(), result.end(), [](const TimeDifference& a, const TimeDifference& b) {
         const double sizeA = std::fabs(a.difference()), sizeB = std::fabs(b.difference());
-        return std::tie(sizeB, a.move, a.standing) < std::tie(sizeA, b.move, b.standing);
+        return std::tie(sizeB, a.move, a.waiting) < std::tie(sizeA, b.move, b.waiting);
     });
     if (result.size() > number) result.resize(number);
     return result;

@@ -11,10 +11,10 @@
 
 namespace rt::report {
 
-/// A movement, or the time the arm stands at its end, in both.
+/// A movement, or the time the arm waits at its end, in both.
 struct TimeDifference {
     const MoveResult* move = nullptr;
-    bool standing = false;
+    bool waiting = false;
     double here = 0, there = 0; ///< s
     double difference() const { return here - there; }
 };

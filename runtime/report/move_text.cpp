@@ -79,7 +79,7 @@ bool isName(std::string_view text) {
     return rest.empty() || (rest[0] == '{' && rest.back() == '}') || rest[0] == '.';
 }
 
-/// Which of the required arguments is the target: the last point.
+/// The target among the required arguments: the last point.
 std::size_t targetIndex(std::string_view instruction) {
     std::size_t index = 0;
     std::string_view form = instruction.substr(std::min<std::size_t>(4, instruction.size()));

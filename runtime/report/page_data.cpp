@@ -145,7 +145,7 @@ Json comparisonOf(const Comparison& comparison, const Recording& recording) {
     Json rows = Json::array();
     for (const TimeDifference& part : comparison.differences)
         rows.push_back({{"n", part.move->move->number},
-                        {"standing", part.standing},
+                        {"waiting", part.waiting},
                         {"here", rounded(part.here)},
                         {"there", rounded(part.there)}});
     json["parts"] = std::move(rows);

@@ -210,7 +210,7 @@ std::string pathPicture(const RunRecord& record) {
         drawSignals(svg, to, record, labels);
     }
     svg += fmt::format(
-        "<text x='{}' y='{}'>TCP path, {:.3f} s; blue = standing, red = {:.0f} mm/s; dots: end of a "
+        "<text x='{}' y='{}'>TCP path, {:.3f} s; blue = at rest, red = {:.0f} mm/s; dots: end of a "
         "move; circles: zones; diamonds: a signal changes</text>\n",
         kMargin, 2 * kMargin + kSize + 20, record.samples.empty() ? 0 : record.samples.back().time, top);
     svg += "</svg>\n";

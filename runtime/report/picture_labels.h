@@ -7,7 +7,7 @@
 
 namespace rt::report {
 
-/// Where a label is put: its left end and base line, and the place it belongs to.
+/// The place of a label: its left end and base line, and the place it belongs to.
 struct PlacedLabel {
     double x = 0, y = 0;
     double atX = 0, atY = 0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 
-/// What a column means: its place in the list below, and what makes s, deg, mm of its numbers.
+/// The meaning of a column: its place in the list below, and what makes s, deg, mm of its numbers.
 enum ColumnKind { kTime, kJoint1, kX = kJoint1 + 6, kColumnKinds = kX + 3 };
 
 struct Column {
@@ -21,7 +21,7 @@ struct Column {
     double factor = 1;
 };
 
-/// "TCP pos X [mm]" as "tcpposx", and the unit in brackets or behind the last underline.
+/// "TCP pos X [mm]" as "tcpposx", and the unit in brackets or after the last underline.
 struct Header {
     std::string name, unit;
 
@@ -80,7 +80,7 @@ class Reader {
   public:
     Reader(const std::string& file, Recording& recording) : file_(file), recording_(recording) {}
 
-    /// What is wrong with the text; empty: nothing.
+    /// Returns the mistake in the text; empty: none.
     std::string read(std::string_view text) {
         if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
         while (!text.empty()) {
@@ -118,7 +118,7 @@ class Reader {
                 return fmt::format("column '{}' means the same as a column before it; remove one of them",
                                    name);
         }
-        if (count[kTime] == 0) return fmt::format("there is no column of time; {}", kRemedy);
+        if (count[kTime] == 0) return fmt::format("a column of time is missing; {}", kRemedy);
         const auto all = [&count](int from, int to) {
             return std::all_of(count.begin() + from, count.begin() + to, [](int n) { return n == 1; });
         };

@@ -11,7 +11,7 @@
 
 namespace rt::report {
 
-/// The arm at one moment. While it stands, the first and the last sample say all.
+/// The arm at one moment. While it is at rest, the first and the last sample say all.
 struct Sample {
     double time = 0;         ///< s
     motion::Joints joints{}; ///< deg
@@ -76,7 +76,7 @@ struct RunRecord {
 
 /// "Module:17"; "movement 3" when the place is not known.
 std::string placeName(const Move& move);
-/// What people call the end of the movement: the name of its target, else "line 17", else "movement 3".
+/// The end of the movement as people call it: the name of its target, else "line 17", else "movement 3".
 std::string pointName(const Move& move);
 /// The instruction and its target, or what kind of movement it is.
 std::string instructionName(const Move& move);

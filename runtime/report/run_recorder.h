@@ -22,7 +22,7 @@ class RunRecorder final : public TraceSink {
     std::size_t addSignal(std::string name, std::string type, double value);
     void signalChanged(std::size_t signal, Time time, double value);
     void add(Marker marker) { record_.markers.push_back(std::move(marker)); }
-    /// Where relative names of source files begin; "" = where the process runs.
+    /// The folder of relative names of source files; "" = where the process runs.
     void setFolder(std::string folder) { folder_ = std::move(folder); }
     void finish(Time end);
 

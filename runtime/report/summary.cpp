@@ -155,7 +155,7 @@ std::string comparisonText(const Comparison& comparison, const Recording& record
         text += fmt::format("{:<12}{:+.3f} s ({:.3f} here, {:.3f} there)  {}, {}{}\n",
                             i == 0 ? "differences" : "", part.difference(), part.here, part.there,
                             placeName(*part.move->move), shortened(instructionName(*part.move->move), kWidth),
-                            part.standing ? ", standing at its end" : "");
+                            part.waiting ? ", waiting at its end" : "");
     }
     return text;
 }

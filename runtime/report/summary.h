@@ -1,5 +1,5 @@
 #pragma once
-// What a run was slowed by, and how it differs from a recording, as text for people.
+// Text for people: the limits that slowed a run, and how it differs from a recording.
 
 #include "runtime/report/comparison.h"
 

@@ -145,14 +145,14 @@ function showComparison(choose) {
   const most = Math.abs(parts[0].difference);
   const lines = parts.slice(0, 40).map((part) => comparisonLine(part, most, choose));
   const which = parts.length > 40 ? ", the largest 40 of " + parts.length + ":" : ", the largest first:";
-  body.append(element("p", {}, "Where the difference comes from" + which),
+  body.append(element("p", {}, "Parts of the difference" + which),
     element("div", { class: "scroll" }, table([["#"], ["place", "text"], ["movement", "text"], ["", "text"], ["here s"],
       ["recording s"], ["difference s"], ["", "text"]], lines, "list")));
 }
 
 function comparisonLine(part, most, choose) {
   const move = moveByNumber.get(part.n), slower = part.difference > 0;
-  const line = row([String(part.n)], [move.place, "text"], [move.what, "text"], [part.standing ? "standing at its end" : "moving", "text"],
+  const line = row([String(part.n)], [move.place, "text"], [move.what, "text"], [part.waiting ? "waiting at its end" : "moving", "text"],
     [fixed(part.here, 3)], [fixed(part.there, 3)], [signed(part.difference), slower ? "slower" : "faster"], ["", "text"]);
   const width = Math.abs(part.difference) / most * 120;
   line.lastChild.append(element("span", { class: "bar", style: "width:" + width.toFixed(0) + "px;background:var(--" +

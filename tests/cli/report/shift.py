@@ -1,5 +1,5 @@
 """shift.py TRACE.csv OUT.csv: the trace as another controller might have recorded it: it begins 2 s later, lies 0.5 mm higher, and
-stands 0.25 s longer while the program waits after its second movement; other names, semicolons, decimal commas."""
+waits 0.25 s longer after its second movement; other names, semicolons, decimal commas."""
 
 import csv
 import sys

@@ -273,7 +273,7 @@ TEST_CASE("a bad recording is described with line and remedy", "[report]") {
           "r.csv: the file is empty; the first line must name the columns: time_s, and j1 to j6 (degrees) "
           "or x, y, z (mm, TCP in world)");
     CHECK(problemOf("0,1,2,3\n1,1,2,3\n")
-              .find("r.csv:1: there is no column of time; the first line must name") == 0);
+              .find("r.csv:1: a column of time is missing; the first line must name") == 0);
     CHECK(
         problemOf("time_s,x,y\n0,1,2\n").find("r.csv:1: neither j1 to j6 nor x, y, z are there in full; ") ==
         0);
@@ -336,7 +336,7 @@ TEST_CASE("a longer stop and a slower movement are found where they are", "[repo
     const Analysis analysis = analyse(record);
     const double stopEnds = 1.5, third = 2.5;
     const Recording slower = recordingOf(record, [&](RecordedSample& s, const Sample& sample) {
-        if (sample.time >= stopEnds - 1e-9) s.time += 0.3; // stands 0.3 s longer
+        if (sample.time >= stopEnds - 1e-9) s.time += 0.3; // waits 0.3 s longer
         if (sample.time > third)
             s.time += 0.2 * (sample.time - third); // and is 20 % slower in the third movement
     });
@@ -344,15 +344,15 @@ TEST_CASE("a longer stop and a slower movement are found where they are", "[repo
     CHECK(result.here - result.there == Approx(-0.3 - 0.2 * 0.99).margin(0.005));
     const auto largest = result.largest(2);
     REQUIRE(largest.size() == 2);
-    CHECK(largest[0].standing);
+    CHECK(largest[0].waiting);
     CHECK(largest[0].move->move->number == 1);
     CHECK(largest[0].difference() == Approx(-0.3).margin(0.005));
-    CHECK_FALSE(largest[1].standing);
+    CHECK_FALSE(largest[1].waiting);
     CHECK(largest[1].move->move->number == 3);
     CHECK(largest[1].difference() == Approx(-0.2 * 0.98).margin(0.01));
     const std::string text = comparisonText(result, slower);
     CHECK(text.find("Cell:11") != std::string::npos);
-    CHECK(text.find("standing at its end") != std::string::npos);
+    CHECK(text.find("waiting at its end") != std::string::npos);
 }
 
 TEST_CASE("a path there and back on one line is not mixed up", "[report]") {
@@ -382,6 +382,36 @@ TEST_CASE("a path there and back on one line is not mixed up", "[report]") {
     REQUIRE(largest.size() == 1);
     CHECK(largest[0].move->move->number == 3);
     CHECK(largest[0].difference() == Approx(-0.05).margin(0.01));
+}
+
+TEST_CASE("long paths are paired as finely as short ones", "[report]") {
+    // 60 strokes of 100 mm, there and back; the eleventh takes a quarter of a second longer in the recording.
+    RunRecord record;
+    record.robot = simpleRobot();
+    record.samples.emplace_back();
+    for (uint64_t number = 1; number <= 60; ++number) {
+        record.moves.push_back(moveNumber(number, 500));
+        Sample sample = record.samples.back();
+        for (int i = 1; i <= 50; ++i) {
+            sample.time += kStep;
+            sample.position.z += number % 2 == 1 ? -2 : 2;
+            sample.joints[1] += 0.04;
+            sample.move = number;
+            sample.speed = 500;
+            record.samples.push_back(sample);
+        }
+    }
+    const Analysis analysis = analyse(record);
+    const Recording slower = recordingOf(record, [](RecordedSample& s, const Sample& sample) {
+        s.time += 1.25 * std::clamp(sample.time - 2, 0.0, 0.2);
+        s.position.x += 0.5;
+    });
+    const Comparison result = compare(record, analysis, slower);
+    CHECK(result.worst == Approx(0.5).margin(0.001));
+    const auto largest = result.largest(1);
+    REQUIRE(largest.size() == 1);
+    CHECK(largest[0].move->move->number == 11);
+    CHECK(largest[0].difference() == Approx(-0.25).margin(0.01));
 }
 
 TEST_CASE("axis angles alone are compared at the flange", "[report]") {
