@@ -25,7 +25,7 @@ Track trackOf(const std::vector<AnySample>& samples, const robot::Kinematics& ar
 /// A run begins with the TCP of tool0; the first movement brings its own. That change of tool does not belong to the path: what
 /// comes before it gets the place after it.
 template <class AnySample> void leaveOutFirstTool(Track& track, const std::vector<AnySample>& samples) {
-    constexpr double kStill = 0.05; // deg
+    constexpr double kStill = 0.01; // deg: less than 1 mm at any reach
     std::size_t first = 0;
     const auto isStill = [&](std::size_t i) {
         for (std::size_t axis = 0; axis < samples[i].joints.size(); ++axis)
