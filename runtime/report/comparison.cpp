@@ -3,6 +3,7 @@
 #include "runtime/robot/kinematics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -133,12 +134,25 @@ class Comparer {
             }
             result_.points.push_back(point);
         }
+        smoothDelays();
         std::sort(all.begin(), all.end());
         const auto share = [&all](double part) {
             return all[static_cast<std::size_t>(part * static_cast<double>(all.size() - 1))];
         };
         result_.median = share(0.5);
         result_.most = share(0.95);
+    }
+
+    /// Where the arm rests, a place just before it may be paired with one just after it: the median of five has no such peaks.
+    void smoothDelays() {
+        const std::vector<PathPoint> points = result_.points;
+        for (std::size_t i = 2; i + 2 < points.size(); ++i) {
+            std::array<double, 5> delays{};
+            for (std::size_t k = 0; k < delays.size(); ++k)
+                delays[k] = points[i + k - 2].delay;
+            std::sort(delays.begin(), delays.end());
+            result_.points[i].delay = delays[2];
+        }
     }
 
     static double arrivalAt(const Track& track, double way) {

@@ -25,6 +25,16 @@ const lastTime = Math.max(run.end, count ? time[count - 1] : 0, 0.004);
 const other = { time: decode(run.otherTime), x: decode(run.otherX), y: decode(run.otherY), z: decode(run.otherZ) };
 const moveByNumber = new Map(run.moves.map((move) => [move.n, move]));
 
+/** Another tool: the TCP is elsewhere without having moved there. */
+function toolChanged(i) {
+  const way = Math.hypot(position.x[i] - position.x[i - 1], position.y[i] - position.y[i - 1],
+    position.z[i] - position.z[i - 1]);
+  return way > 1 && way > 2 * Math.max(tcpSpeed[i], tcpSpeed[i - 1]) * (time[i] - time[i - 1]);
+}
+
+/** A run begins with tool0; the first movement brings its own tool. */
+const firstShown = count > 1 && toolChanged(1) ? 1 : 0;
+
 /** Speed of an axis up to each sample, deg/s. */
 function speedsOf(angles) {
   const result = new Float64Array(count);
@@ -112,7 +122,7 @@ function largest(values, least) {
 const topSpeed = largest(tcpSpeed, 1);
 
 function fixed(value, digits) {
-  return Number.isFinite(value) ? value.toFixed(digits) : "";
+  return Number.isFinite(value) ? value.toFixed(digits).replace(/^-(0(?:\.0*)?)$/, "$1") : "";
 }
 
 function element(name, attributes, ...children) {

@@ -194,7 +194,7 @@ showEvents((t) => {
 showComparison(chooseMove);
 document.getElementById("other-label").hidden = other.time.length === 0;
 drawAll();
-setCursor(0);
+setCursor(time[firstShown] || 0);
 new ResizeObserver(() => { view.drawSoon(); drawChartsSoon(); }).observe(document.querySelector("main"));
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawAll);
 window.addEventListener("beforeprint", () => print(true));

@@ -23,7 +23,7 @@ class PathView {
         high[k] = Math.max(high[k], p[k] + radius);
       }
     };
-    for (let i = 0; i < count; i++) take([position.x[i], position.y[i], position.z[i]], 0);
+    for (let i = firstShown; i < count; i++) take([position.x[i], position.y[i], position.z[i]], 0);
     for (let i = 0; i < other.time.length; i++) take([other.x[i], other.y[i], other.z[i]], 0);
     const points = new Map(), zones = new Map();
     for (const move of run.moves) {
@@ -83,7 +83,7 @@ class PathView {
         high[k] = Math.max(high[k], at + radius);
       });
     };
-    for (let i = 0; i < count; i++) take(position.x[i], position.y[i], position.z[i], 0);
+    for (let i = firstShown; i < count; i++) take(position.x[i], position.y[i], position.z[i], 0);
     for (let i = 0; i < other.time.length; i++) take(other.x[i], other.y[i], other.z[i], 0);
     for (const zone of this.zones) take(...zone.place, zone.radius);
     if (!(low[0] <= high[0])) take(0, 0, 0, 50);
@@ -160,7 +160,7 @@ class PathView {
     const stride = this.stride(count);
     for (let i = 0; i < count; i += stride) {
       const [x, y] = this.project(position.x[i], position.y[i], position.z[i]);
-      if (i > 0 && stride === 1 && this.jumps(i)) {
+      if (i > 0 && stride === 1 && toolChanged(i)) {
         stroke();
         shade = -1;
       } else if (i > 0) {
@@ -187,13 +187,6 @@ class PathView {
   /** While the picture turns, 20,000 samples will do. */
   stride(samples) {
     return this.turning ? Math.ceil(samples / 20000) : 1;
-  }
-
-  /** Another tool: the TCP is elsewhere without having moved there. */
-  jumps(i) {
-    const way = Math.hypot(position.x[i] - position.x[i - 1], position.y[i] - position.y[i - 1],
-      position.z[i] - position.z[i - 1]);
-    return way > 1 && way > 2 * Math.max(tcpSpeed[i], tcpSpeed[i - 1]) * (time[i] - time[i - 1]);
   }
 
   drawSelected(context) {
