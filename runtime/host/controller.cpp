@@ -5,6 +5,7 @@
 #include "runtime/base/text_util.h"
 #include "runtime/host/module_saver.h"
 #include "runtime/host/run_files.h"
+#include "runtime/host/run_reports.h"
 #include "runtime/host/saved_state.h"
 #include "runtime/host/stop_signals.h"
 #include "runtime/sim/csv_writers.h"
@@ -170,6 +171,10 @@ ExitStatus Controller::finish(RunEnd end) {
     panel_.flush();
     log_.finish();
     complete = closeOutputs() && complete;
+    if (reports_) {
+        std::fflush(stdout);
+        complete = reports_->finish(scheduler_.now()) && complete;
+    }
     return complete || status != ExitStatus::Ended ? status : ExitStatus::BadUsage;
 }
 

@@ -32,6 +32,7 @@
 namespace rt {
 
 class ModuleSaver;
+class RunReports;
 class SavedState;
 class SignalsWriter;
 class TraceWriter;
@@ -184,6 +185,7 @@ class Controller final : public DebugHost {
     std::unique_ptr<MotionDriver> motion_;
     std::unique_ptr<TraceWriter> trace_;
     std::unique_ptr<SignalsWriter> signalsWriter_;
+    std::unique_ptr<RunReports> reports_;
     HandleTable<ClockObject> clocks_;
     SystemSettings settings_;
     std::vector<CfgFile> configuration_;

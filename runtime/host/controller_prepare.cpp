@@ -5,6 +5,7 @@
 #include "runtime/base/text_util.h"
 #include "runtime/host/module_saver.h"
 #include "runtime/host/module_units.h"
+#include "runtime/host/run_reports.h"
 #include "runtime/host/saved_state.h"
 #include "runtime/robot/robot_model.h"
 #include "runtime/sim/csv_writers.h"
@@ -196,6 +197,12 @@ ExitStatus Controller::openFiles() {
     }
     if (!options_.events.empty() && !log_.openJson(options_.events, error)) {
         print("--events: " + error);
+        return ExitStatus::BadUsage;
+    }
+    if (!RunReports::areWanted(options_)) return ExitStatus::Ended;
+    reports_ = std::make_unique<RunReports>(options_);
+    if (error = reports_->prepare(*this, *program_); !error.empty()) {
+        print(error);
         return ExitStatus::BadUsage;
     }
     return ExitStatus::Ended;

@@ -1,8 +1,9 @@
 #include "runtime/host/motion_driver.h"
 
 #include "runtime/motion/path.h"
+#include "runtime/sched/error_search.h"
 #include "runtime/sched/task.h"
-#include "runtime/sim/csv_writers.h"
+#include "runtime/sim/trace_sink.h"
 
 #include <algorithm>
 #include <iterator>
@@ -14,11 +15,16 @@ namespace rt {
 namespace {
 
 /// The instruction in the user's program, not one inside a library routine.
-MotionPointer pointerOf(const Task& task, const motion::MoveCommand& command) {
+const Frame* frameOf(const Task& task) {
     const Frame* frame = task.frame;
     while (frame != nullptr && frame->routine != nullptr && frame->routine->noStepIn != 0 &&
            frame->caller != nullptr)
         frame = frame->caller;
+    return frame;
+}
+
+MotionPointer pointerOf(const Task& task, const motion::MoveCommand& command) {
+    const Frame* frame = frameOf(task);
     MotionPointer pointer;
     pointer.valid = frame != nullptr;
     pointer.frame = frame;
@@ -194,7 +200,7 @@ Status MotionDriver::submit(Task& task, motion::MoveCommand command, motion::Mov
         const auto ordered = system_.enqueue(command);
         if (ordered) {
             id = *ordered;
-            enqueued(id, command, start);
+            enqueued(id, command, start, &task);
             break;
         }
         if (ordered.error().kind != motion::MotionErrorKind::QueueFull) {
@@ -327,11 +333,20 @@ motion::Pose MotionDriver::startOf(const motion::MoveCommand& command) const {
     return system_.toRobTarget(system_.plannedEnd(), command.frames).pose;
 }
 
-void MotionDriver::enqueued(motion::MoveId id, const motion::MoveCommand& command,
-                            const motion::Pose& start) {
+void MotionDriver::enqueued(motion::MoveId id, const motion::MoveCommand& command, const motion::Pose& start,
+                            const Task* task) {
     while (!ordered_.empty() && system_.isDone(ordered_.front().id))
         ordered_.pop_front();
     ordered_.push_back({id, command, start});
+    if (traces_.empty()) return;
+    motion::FrameSetup frames = command.frames;
+    frames.workObject = {}; // world
+    frames.displacement = {};
+    motion::Pose end = frames.tool.tframe; // a stationary tool
+    if (frames.tool.robotHeld) end = system_.toRobTarget(system_.plannedEnd(), frames).pose;
+    const MoveOrder order{command.tag, command, end, task ? placeOf(frameOf(*task)) : SourcePlace()};
+    for (TraceSink* trace : traces_)
+        trace->ordered(order);
 }
 
 MotionDriver::EarlierPath MotionDriver::remainingPath() {
@@ -359,7 +374,7 @@ void MotionDriver::continuePath(const EarlierPath& path) {
         continueEarlier(command);
         command.tag = ++instructions_;
         const motion::Pose start = startOf(command);
-        if (const auto id = system_.enqueue(command)) enqueued(*id, command, start);
+        if (const auto id = system_.enqueue(command)) enqueued(*id, command, start, nullptr);
     }
     earlier_.awaited = path.awaited;
     stopMove_ = path.stopMove;

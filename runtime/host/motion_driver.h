@@ -48,6 +48,7 @@ class MotionDriver final : public SteppedArm {
     /// call refresh().
     motion::MotionSystem& system();
     void refresh();
+    const robot::RobotModel& model() const { return system_.model(); }
     /// Name of the mechanical unit: "ROB_1".
     const std::string& unitName() const { return unitName_; }
 
@@ -138,7 +139,9 @@ class MotionDriver final : public SteppedArm {
                   std::optional<motion::MotionError>& error);
     Status waitReleased(Task& task, motion::MoveId id);
     motion::Pose startOf(const motion::MoveCommand& command) const;
-    void enqueued(motion::MoveId id, const motion::MoveCommand& command, const motion::Pose& start);
+    /// `task` null: the place of the movement in the program is not known.
+    void enqueued(motion::MoveId id, const motion::MoveCommand& command, const motion::Pose& start,
+                  const Task* task);
     /// The movement that an earlier process waited for; of a circle that it had begun the rest.
     void continueEarlier(motion::MoveCommand& command);
     Status takeProcessError(Task& task);

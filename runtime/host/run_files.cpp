@@ -7,9 +7,12 @@ void guardOutputs(const RunOptions& options, rapid::config::OutputGuard& guard) 
         guard.reads(path, "the configuration");
     if (options.stimulus != "-") guard.reads(options.stimulus, "the stimulus");
     if (options.robot.ends_with(".json")) guard.reads(options.robot, "the robot model");
+    guard.reads(options.compare, "the recording");
     guard.writes(options.trace, "--trace");
     guard.writes(options.signals, "--signals");
     guard.writes(options.events, "--events");
+    guard.writes(options.picture, "--picture");
+    guard.writes(options.report, "--report");
     if (options.state.empty()) return;
     for (const char* name : {kStateFile, kStateAside, kStateLock})
         guard.writes(options.state + "/" + name, "--state");

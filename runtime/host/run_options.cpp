@@ -91,6 +91,19 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
     command.add("--signals", options.signals, "write every change of a signal").typeName("FILE.csv");
     command.add("--events", options.events, "write the event log, an object a line").typeName("FILE.jsonl");
     command
+        .add("--report", options.report,
+             "write a page with the path in 3D, speeds, signals, events and a table of movements")
+        .typeName("FILE.html");
+    command
+        .add("--compare", options.compare,
+             "compare with a trace or a recording (columns time_s and j1..j6 or x,y,z): time error, path "
+             "distance, where they come from")
+        .typeName("FILE.csv");
+    command.add("--picture", options.picture, "draw the path of the TCP with zones, points and signals")
+        .typeName("FILE.svg");
+    command.addFlag("--summary", options.summary,
+                    "show cycle time, what each movement was slowed by, and where the files lie");
+    command
         .add("--state", options.state,
              "folder that keeps the controller's state from run to run: data, events, the robot's "
              "position, and where "

@@ -19,6 +19,8 @@ struct RunOptions {
     std::string robot;                            ///< "" = as the configuration says, else kDefaultRobot
     std::string home;                             ///< "" = an empty folder that is removed at the end
     std::string stimulus, trace, signals, events; ///< paths; "" = not asked for
+    std::string picture, report, compare;         ///< the same
+    bool summary = false;                         ///< what the movements were slowed by, at the end
     std::optional<std::string>
         stimulusText; ///< what `stimulus` holds, when it has been read: a pipe is read once
     bool realtime = false;

@@ -3,7 +3,7 @@
 
 #include "runtime/base/output_file.h"
 #include "runtime/base/time.h"
-#include "runtime/motion/motion_state.h"
+#include "runtime/sim/trace_sink.h"
 
 #include <string>
 #include <string_view>
@@ -19,14 +19,6 @@ class SignalsWriter {
 
   private:
     OutputFile file_;
-};
-
-/// Takes the samples of the robot's motion, in order of time.
-class TraceSink {
-  public:
-    static constexpr Time kPeriod = 4 * kMillisecond;
-    virtual ~TraceSink() = default;
-    virtual void sample(Time time, std::string_view unit, const motion::MotionState& state) = 0;
 };
 
 /// --trace: a row each 4 ms: `time_s,unit,j1..j6,e1..e6,x,y,z,q1,q2,q3,q4,speed_mm_s,move`; degrees, mm, the active TCP in

@@ -38,6 +38,7 @@ void OperatorPanel::writeLine(std::string_view text) {
     const std::string line = std::string(text) + "\n";
     std::fwrite(line.data(), 1, line.size(), lines_);
     unseen_ = true;
+    if (listener_) listener_(text);
 }
 
 void OperatorPanel::flush() {

@@ -43,6 +43,8 @@ class OperatorPanel {
 
     /// TPWrite: a line on stdout.
     void writeLine(std::string_view text);
+    /// Gets every line from now on.
+    void onLine(std::function<void(std::string_view)> listener) { listener_ = std::move(listener); }
     /// TPErase: nothing can be taken back on stdout; kept for clients.
     void erase() { display_.clear(); }
     /// The newest lines shown (at most 100).
@@ -88,6 +90,7 @@ class OperatorPanel {
     std::FILE* dialogs_ = stderr;
     int terminal_ = -1;
     std::deque<std::string> display_;
+    std::function<void(std::string_view)> listener_;
     std::deque<std::string> answers_;
     std::deque<Asking*> asking_;
     std::size_t answersToCome_ = 0;

@@ -5,7 +5,6 @@
 #include "tools/rapidc/line_debugger.h"
 #include "tools/rapidc/module_store.h"
 #include "tools/rapidc/native_library.h"
-#include "tools/rapidc/path_picture.h"
 #include "tools/rapidc/pipeline.h"
 #include "tools/rapidc/unit_compiler.h"
 
@@ -22,7 +21,6 @@
 #include "stdlib/native_table.h"
 #include "stdlib/standard_library.h"
 
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -37,8 +35,6 @@ namespace fs = std::filesystem;
 struct RunSettings {
     Inputs inputs;
     rt::RunOptions options;
-    std::string picture;
-    bool summary = false;
     bool noOptimise = false;
     bool stepping = false;    ///< compile for the stepping profile
     bool noStepping = false;  ///< not even for --state
@@ -88,7 +84,8 @@ bool stimulusSteps(const rt::RunOptions& options) {
 
 void makeFolders(const RunSettings& settings) {
     for (const std::string* path :
-         {&settings.options.trace, &settings.options.signals, &settings.options.events, &settings.picture}) {
+         {&settings.options.trace, &settings.options.signals, &settings.options.events,
+          &settings.options.picture, &settings.options.report}) {
         std::error_code ignored;
         const fs::path folder = fs::path(*path).parent_path();
         if (!folder.empty()) fs::create_directories(folder, ignored);
@@ -99,43 +96,23 @@ void makeFolders(const RunSettings& settings) {
 std::string conflictOf(const RunSettings& settings, const Compilation& compilation) {
     rapid::config::OutputGuard guard;
     rt::guardOutputs(settings.options, guard);
-    return outputConflict(compilation, {{"--picture", settings.picture}}, std::move(guard));
-}
-
-void printSummary(const RunSettings& settings, rt::Controller& controller, double wallSeconds) {
-    const double cycle = rt::toSeconds(controller.scheduler().now());
-    fmt::print(stderr, "\ncycle time  {:.3f} s (virtual), simulated in {:.3f} s\n", cycle, wallSeconds);
-    if (!settings.options.trace.empty()) fmt::print(stderr, "trace       {}\n", settings.options.trace);
-    if (!settings.options.signals.empty()) fmt::print(stderr, "signals     {}\n", settings.options.signals);
-    if (!settings.options.events.empty()) fmt::print(stderr, "events      {}\n", settings.options.events);
-    if (!settings.picture.empty()) fmt::print(stderr, "picture     {}\n", settings.picture);
+    return outputConflict(compilation, {}, std::move(guard));
 }
 
 int execute(RunSettings& settings, const rt::ProgramDesc& program, rt::ModuleLoader& loader) {
-    const auto start = std::chrono::steady_clock::now();
     const rt::StopSignals signals;
     rt::ExitStatus status = rt::ExitStatus::Ended;
     {
-        PathPicture picture; // outlives what draws it
         rt::Controller controller(settings.options);
         rt::setUpStandardLibrary(controller);
         rt::setModuleLoader(controller, &loader);
         controller.saver().setStore(std::make_unique<SourceStore>());
         status = controller.prepare(program);
         if (status != rt::ExitStatus::Ended) return static_cast<int>(status);
-        if (!settings.picture.empty()) controller.motion().addTrace(picture);
         LineDebugger debugger(controller);
         if (settings.interactive) debugger.attach();
         status = controller.run();
         std::fflush(stdout);
-        const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-        std::string error;
-        if (!settings.picture.empty()) error = picture.write(settings.picture);
-        if (!error.empty()) {
-            fmt::print(stderr, "rapidc run: --picture: {}\n", error);
-            if (status == rt::ExitStatus::Ended) status = rt::ExitStatus::BadUsage;
-        }
-        if (settings.summary) printSummary(settings, controller, wall.count());
     }
     rt::StopSignals::endIfReceived();
     return static_cast<int>(status);
@@ -190,12 +167,6 @@ int run(RunSettings& settings) {
         }
     }
     makeFolders(settings);
-    if (!settings.picture.empty())
-        error = PathPicture().write(settings.picture); // before the run, as other files
-    if (!error.empty()) {
-        fmt::print(stderr, "rapidc run: --picture: {}\n", error);
-        return static_cast<int>(rt::ExitStatus::BadUsage);
-    }
     const auto sources = sourcesOf(*compilation, settings.stepping, options.optimise);
     SourceCompiler compiler(*sources);
     rt::UnitLoader loader(compiler, rt::findNativeAddress);
@@ -212,8 +183,6 @@ void addRunCommand(rt::CommandLine& line) {
     rt::addRunOptions(command, settings->options, true);
     addAssumeSignalsOption(command, settings->inputs);
     addWarningOption(command, settings->inputs);
-    command.add("--picture", settings->picture, "Draw the path of the TCP (SVG)");
-    command.addFlag("--summary", settings->summary, "Show cycle time and where the files lie");
     command.addFlag("--step", settings->interactive,
                     "Debug in the terminal: stop before the first instruction and take commands (help)");
     const rt::Option stepping =

@@ -1,0 +1,21 @@
+#include "runtime/report/page.h"
+
+#include "runtime/report/markup.h"
+
+namespace rt::report {
+
+std::string reportPage(const ReportContent& content) {
+    std::string page(pageFrame());
+    const auto fill = [&page](std::string_view place, std::string_view text) {
+        const std::size_t at = page.find(place);
+        if (at != std::string::npos) page.replace(at, place.size(), text);
+    };
+    // From the end to the start, so that no text is searched for the places that follow.
+    fill("{{script}}", pageScript());
+    fill("{{data}}", pageData(content));
+    fill("{{style}}", pageStyle());
+    fill("{{title}}", escaped(content.record.program));
+    return page;
+}
+
+} // namespace rt::report
