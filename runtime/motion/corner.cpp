@@ -86,7 +86,7 @@ void Route::curveOfAxes(Corner& corner, const Leg& a, const Leg& b) {
                         robot::angleBetween(low.rot, high.rot) / (2 * kStep) +
                             externalRate(corner.axes.slopeAt(x)));
     };
-    corner.lengths = LengthMap::measured(rate, kCornerPieces);
+    corner.lengths = LengthMap::measured(rate, kAxesPieces);
     corner.halfLength = corner.lengths.distanceAt(0.5);
 }
 

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kNothing = 1e-9;    // mm or s
 constexpr double kSameMoment = 1e-7; // s; the virtual clock has whole nanoseconds
-constexpr int kLengthPieces = 48;    // in which the length of a joint move's path is measured
 
 double externalTravel(const MotionPath& path) {
     double sum = 0;
@@ -47,7 +46,7 @@ Leg Trajectory::legOf(const std::shared_ptr<const MotionPath>& path, const MoveC
             path->tcpRatesAt(s, tcp, turn);
             return pathRate(tcp, turn + external);
         };
-        leg.lengths = LengthMap::measured(rate, kLengthPieces);
+        leg.lengths = LengthMap::measured(rate, kAxesPieces);
         if (!(leg.lengths.length() >
               1e-6)) { // an axis turns that moves and turns nothing: only a bad tool does that
             leg.lengths = LengthMap::even(1);

@@ -1,0 +1,193 @@
+// Invariants of motion on random programs (docs/motion.md): the path does not depend on speed, speeds keep their limits,
+// every move is reached, stops and starts change nothing but time.
+
+#include "runtime/motion/motion_system.h"
+#include "runtime/robot/dynamics.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <random>
+
+using namespace motion;
+
+namespace {
+
+constexpr TimeNs kMs = 1'000'000;
+constexpr TimeNs kTick = 4 * kMs;
+
+double between(std::mt19937_64& random, double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+ZoneData randomZone(std::mt19937_64& random) {
+    const double radii[] = {0, 0.3, 1, 5, 10, 20, 50, 100, 200};
+    const unsigned dice = random() % 10;
+    if (dice == 9) return {};
+    const double tcp = radii[dice];
+    const double turn = (random() % 4 == 0 ? 0.5 : 1.5) * tcp;
+    return {false, tcp, turn, turn, 0.15 * tcp, turn, 0.15 * tcp};
+}
+
+/// Moves from one reachable place of a small robot to another; some kinds may fail, and are left out then.
+MoveCommand randomMove(std::mt19937_64& random) {
+    MoveCommand command;
+    const unsigned dice = random() % 10;
+    command.kind = dice < 6 ? MoveKind::Linear : dice < 8 ? MoveKind::AbsJoint : MoveKind::Circular;
+    const auto place = [&] {
+        return Vec3{between(random, 280, 420), between(random, -150, 150), between(random, 300, 600)};
+    };
+    const Quat down{0, 0, 1, 0};
+    const Quat turned = down * robot::fromEulerZyx(between(random, -40, 40), between(random, -20, 20),
+                                                   between(random, -20, 20));
+    command.target.pose = {place(), random() % 3 == 0 ? turned : down};
+    command.circlePoint = {place(), down};
+    for (std::size_t i = 0; i < command.joints.robax.size(); ++i)
+        command.joints.robax[i] = between(random, -30, 30) + (i == 4 ? 60 : 0);
+    const double speeds[] = {100, 300, 1000, 5000};
+    command.speed.vTcp = speeds[random() % 4];
+    command.zone = randomZone(random);
+    command.confL = false;
+    return command;
+}
+
+std::vector<MoveCommand> randomProgram(std::mt19937_64& random) {
+    std::vector<MoveCommand> program;
+    const std::size_t count = 2 + random() % 8;
+    for (std::size_t i = 0; i < count; ++i)
+        program.push_back(randomMove(random));
+    program.back().zone = {};
+    return program;
+}
+
+MotionSystem smallRobot() {
+    MotionSystem system(robot::loadRobotModel("IRB 120-3/0.58").value());
+    system.placeAt({{0, 10, 10, 0, 60, 0}, kNoExternalAxes});
+    return system;
+}
+
+/// Runs a program as a task would: the next move is ordered when the one before lets the program go on. Calls `each` at
+/// every tick. The speeds of the moves that were possible.
+template <class Each>
+std::vector<double> runProgram(MotionSystem& system, const std::vector<MoveCommand>& program, Each&& each) {
+    std::vector<double> speeds{0};
+    const auto until = [&](auto&& isOver) {
+        for (int i = 0; i < 200'000 && !isOver(); ++i) {
+            const TimeNs tick = (system.now() / kTick + 1) * kTick;
+            const TimeNs next = system.nextEventTime().value_or(tick);
+            system.advanceTo(std::min(next, tick));
+            if (system.now() == tick) each();
+        }
+        REQUIRE(isOver());
+    };
+    for (const MoveCommand& command : program) {
+        const auto id = system.enqueue(command);
+        if (!id) continue;
+        speeds.push_back(command.speed.vTcp);
+        until([&] { return system.isReleased(*id); });
+    }
+    until([&] { return system.isIdle() && !system.isMoving(); });
+    return speeds;
+}
+
+} // namespace
+
+TEST_CASE("random programs keep speeds and reach their ends", "[motion][random]") {
+    std::mt19937_64 random(20261123);
+    for (int n = 0; n < 150; ++n) {
+        const std::vector<MoveCommand> program = randomProgram(random);
+        MotionSystem system = smallRobot();
+        const robot::RobotModel& model = system.model();
+        Joints before = system.current().joints;
+        double fastest = 0;
+        double axes = 0; // highest speed of an axis as a share of its limit
+        TimeNs when = 0;
+        const auto speeds = runProgram(system, program, [&] {
+            const MotionState state = system.current();
+            if (!(state.tcpSpeed <= fastest)) {
+                fastest = state.tcpSpeed;
+                when = system.now();
+            }
+            for (std::size_t i = 0; i < before.size(); ++i)
+                axes = std::max(axes, std::abs(state.joints[i] - before[i]) / (model.maxSpeed[i] * 0.004));
+            before = state.joints;
+        });
+        if (speeds.size() == 1) continue; // no move was possible
+        INFO("program " << n << ", fastest at " << when);
+        CHECK(fastest <= *std::max_element(speeds.begin(), speeds.end()) * 1.005);
+        CHECK(axes <= 1.02);
+        const Joints end = system.plannedEnd().robax;
+        for (std::size_t i = 0; i < end.size(); ++i)
+            CHECK(system.current().joints[i] == Approx(end[i]).margin(1e-6));
+        CHECK(system.status(static_cast<MoveId>(speeds.size()) - 1) == MoveStatus::Done);
+    }
+}
+
+namespace {
+
+double distanceToPath(const Vec3& point, const std::vector<Vec3>& path, std::size_t& near) {
+    double least = 1e300;
+    const std::size_t first = near > 40 ? near - 40 : 0;
+    for (std::size_t i = first; i + 1 < path.size(); ++i) {
+        const Vec3 way = path[i + 1] - path[i];
+        const double square = dot(way, way);
+        const double share = square > 0 ? std::clamp(dot(point - path[i], way) / square, 0.0, 1.0) : 0;
+        const double distance = norm(path[i] + way * share - point);
+        if (distance < least) {
+            least = distance;
+            near = i;
+        }
+    }
+    return least;
+}
+
+} // namespace
+
+TEST_CASE("the path is the same at every override, and after stops", "[motion][random]") {
+    std::mt19937_64 random(77);
+    for (int n = 0; n < 12; ++n) {
+        const std::vector<MoveCommand> program = randomProgram(random);
+        const auto pathOf = [&](auto&& disturb) {
+            std::vector<Vec3> path;
+            MotionSystem system = smallRobot();
+            // All moves at once: when a program is held back its corners may be lost.
+            for (const MoveCommand& command : program)
+                (void)system.enqueue(command);
+            for (int i = 0; i < 200'000 && !(system.isIdle() && !system.isMoving()); ++i) {
+                system.advanceTo(system.now() + kMs);
+                disturb(system, i);
+                path.push_back(system.current().tcp.pos);
+            }
+            CHECK(system.isIdle());
+            return path;
+        };
+        const auto slow = pathOf([](MotionSystem& s, int) { s.setOverride(10); });
+        const auto full = pathOf([](MotionSystem&, int) {});
+        const auto stopped = pathOf([](MotionSystem& s, int i) {
+            if (i % 400 == 300) s.stop();
+            if (i % 400 == 399) s.start();
+        });
+        for (const auto* path : {&full, &stopped}) {
+            std::size_t near = 0;
+            double worst = 0;
+            for (const Vec3& point : *path)
+                worst = std::max(worst, distanceToPath(point, slow, near));
+            INFO("program " << n);
+            CHECK(worst < 0.05); // chords between the samples of the slow run
+        }
+    }
+}
+
+TEST_CASE("the same program gives the same motion", "[motion][random]") {
+    std::mt19937_64 random(5);
+    for (int n = 0; n < 20; ++n) {
+        const std::vector<MoveCommand> program = randomProgram(random);
+        std::vector<Joints> first;
+        std::vector<Joints> second;
+        MotionSystem a = smallRobot();
+        MotionSystem b = smallRobot();
+        runProgram(a, program, [&] { first.push_back(a.current().joints); });
+        runProgram(b, program, [&] { second.push_back(b.current().joints); });
+        CHECK(first == second);
+    }
+}
