@@ -58,7 +58,7 @@ Expected<MoveId, MotionError> MotionSystem::enqueue(const MoveCommand& command) 
         const double value = path->end().extax[i];
         if (!isConnected(value) || (value >= axis.lower - 1e-9 && value <= axis.upper + 1e-9)) continue;
         error.kind = MotionErrorKind::JointOutOfRange;
-        error.joint = robot::kJointCount + 1 + static_cast<int>(i);
+        error.joint = robot::kFirstExternalAxis + static_cast<int>(i);
         error.value = value;
         error.pathFraction = 1;
         error.position = path->tcpAt(1).pos;

@@ -171,7 +171,7 @@ class BoundFinder {
                   axis);
         }
         for (std::size_t i = 0; i < travel_.size(); ++i) {
-            const int axis = static_cast<int>(i) + 1 + robot::kJointCount;
+            const int axis = static_cast<int>(i) + robot::kFirstExternalAxis;
             limit(atMost(bounds_.externalSpeed[i], travel_[i] * w.first), Limiter::ExternalSpeed, axis);
             const double bend = travel_[i] * w.second;
             limit(std::sqrt(atMost(kBendShare * bounds_.externalAcceleration[i], bend)),

@@ -26,8 +26,8 @@ MotionError fromInverse(const robot::IkError& error, const Vec3& position) {
 
 std::string axisName(int joint) {
     if (joint == 0) return "an axis";
-    if (joint <= robot::kJointCount) return fmt::format("axis {}", joint);
-    return fmt::format("external axis {}", static_cast<char>('a' + joint - robot::kJointCount - 1));
+    if (joint < robot::kFirstExternalAxis) return fmt::format("axis {}", joint);
+    return fmt::format("external axis {}", static_cast<char>('a' + joint - robot::kFirstExternalAxis));
 }
 
 } // namespace

@@ -92,7 +92,7 @@ std::string IkError::message() const {
 Kinematics::Kinematics(const RobotModel& model)
     : geometry_(model.geometry), signs_(model.geometry.signs), lower_(model.lowerDeg),
       upper_(model.upperDeg) {
-    for (std::size_t i = 0; i < kJointCount; ++i)
+    for (std::size_t i = 0; i < 6; ++i)
         shifts_[i] = -geometry_.offsetsDeg[i];
     shifts_[2] -= 90.0; // OPW's zero has the forearm upright
     forearm_ = std::hypot(geometry_.c3, geometry_.a2);
@@ -107,7 +107,7 @@ double Kinematics::radius(double sine2, double sine23, double cosine23) const {
 
 Pose Kinematics::forward(const Joints& joints) const {
     Joints m;
-    for (std::size_t i = 0; i < kJointCount; ++i)
+    for (std::size_t i = 0; i < 6; ++i)
         m[i] = signs_[i] * joints[i] + shifts_[i];
     const double angles[6] = {0.5 * m[0], m[1], 0.5 * (m[1] + m[2]), 0.5 * m[3], 0.5 * m[4], 0.5 * m[5]};
     double s[6];
@@ -184,7 +184,7 @@ bool Kinematics::solveArm(const Target& target, int shoulder, int elbow, ArmBran
 }
 
 void Kinematics::toAxes(const Joints& model, Joints& out) const {
-    for (std::size_t i = 0; i < kJointCount; ++i)
+    for (std::size_t i = 0; i < 6; ++i)
         out[i] = signs_[i] * (model[i] - shifts_[i]);
     // Axes 2, 3 and 5 have one turn only; it need not be the one around zero (axis 3 goes down to -245
     // degrees).
@@ -317,7 +317,7 @@ Expected<Joints, IkError> Kinematics::inverseNear(const Pose& flange, const Join
         Joints candidate = branches.joints[static_cast<std::size_t>(cfx)];
         double largest = 0;
         double sum = 0;
-        for (std::size_t i = 0; i < kJointCount; ++i) {
+        for (std::size_t i = 0; i < 6; ++i) {
             candidate[i] = nearestTurnWithin(candidate[i], seed[i], lower_[i], upper_[i]);
             largest = std::max(largest, std::fabs(candidate[i] - seed[i]));
             sum += std::fabs(candidate[i] - seed[i]);
@@ -347,7 +347,7 @@ bool Kinematics::inverseContinue(const Pose& flange, const Joints& seed, Joints&
         if (!branches.has(cfx)) continue;
         Joints candidate = branches.joints[static_cast<std::size_t>(cfx)];
         double largest = 0;
-        for (std::size_t i = 0; i < kJointCount; ++i) {
+        for (std::size_t i = 0; i < 6; ++i) {
             candidate[i] = nearestTurn(candidate[i], seed[i]);
             largest = std::max(largest, std::fabs(candidate[i] - seed[i]));
         }
@@ -375,7 +375,7 @@ ConfData Kinematics::configuration(const Joints& joints) const {
 }
 
 int Kinematics::jointOutsideLimits(const Joints& joints, double toleranceDeg) const {
-    for (std::size_t i = 0; i < kJointCount; ++i) {
+    for (std::size_t i = 0; i < 6; ++i) {
         const bool isInside = joints[i] >= lower_[i] - toleranceDeg && joints[i] <= upper_[i] + toleranceDeg;
         if (!isInside) return static_cast<int>(i) + 1;
     }
@@ -396,7 +396,7 @@ Singularity Kinematics::singularity(const Joints& joints) const {
 
 JacobianMatrix Kinematics::jacobian(const Joints& joints) const {
     double angles[6];
-    for (std::size_t i = 0; i < kJointCount; ++i)
+    for (std::size_t i = 0; i < 6; ++i)
         angles[i] = signs_[i] * joints[i] + shifts_[i];
     angles[2] += angles[1];
     double s[6];
@@ -417,7 +417,7 @@ JacobianMatrix Kinematics::jacobian(const Joints& joints) const {
     const Vec3 axes[6] = {up, sideways, sideways, forearmX, axis5, flangeZ};
     const Vec3 pivots[6] = {{}, shoulder, elbow, centre, centre, centre};
     JacobianMatrix result;
-    for (std::size_t i = 0; i < kJointCount; ++i) {
+    for (std::size_t i = 0; i < 6; ++i) {
         const Vec3 turn = axes[i] * signs_[i];
         const Vec3 shift = cross(turn, flange - pivots[i]);
         const double entries[6] = {shift.x, shift.y, shift.z, turn.x, turn.y, turn.z};

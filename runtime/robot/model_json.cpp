@@ -118,8 +118,8 @@ void readGeometry(Reader& in, RobotModel& model) {
     g.c4 = in.number(*geometry, "c4");
     if (in.failed()) return;
     if (!(g.c2 > 0) || !(std::hypot(g.a2, g.c3) > 0)) in.fail("the links c2 and (a2, c3) must have a length");
-    in.numbers(in.root(), "joint_offsets_deg", g.offsetsDeg.data(), kJointCount);
-    in.numbers(in.root(), "joint_signs", g.signs.data(), kJointCount);
+    in.numbers(in.root(), "joint_offsets_deg", g.offsetsDeg.data(), model.lowerDeg.size());
+    in.numbers(in.root(), "joint_signs", g.signs.data(), model.lowerDeg.size());
     for (double sign : g.signs) {
         if (sign != 1 && sign != -1) in.fail("field 'joint_signs' may hold 1 and -1 only");
     }
@@ -128,8 +128,8 @@ void readGeometry(Reader& in, RobotModel& model) {
 void readLimits(Reader& in, RobotModel& model) {
     const Json* limits = in.find(in.root(), "joint_limits_deg", true);
     if (limits == nullptr) return;
-    bool isGood = limits->is_array() && limits->size() == kJointCount;
-    for (std::size_t i = 0; isGood && i < kJointCount; ++i) {
+    bool isGood = limits->is_array() && limits->size() == model.lowerDeg.size();
+    for (std::size_t i = 0; isGood && i < model.lowerDeg.size(); ++i) {
         const Json& pair = (*limits)[i];
         isGood = pair.is_array() && pair.size() == 2;
         if (!isGood) break;
@@ -213,9 +213,9 @@ Expected<RobotModel, ModelError> parseRobotModel(std::string_view jsonText, std:
     readKinematicsKind(in, model);
     readGeometry(in, model);
     readLimits(in, model);
-    in.numbers(root, "max_speed_deg_s", model.maxSpeed.data(), kJointCount);
-    in.numbers(root, "max_acceleration_deg_s2", model.maxAcceleration.data(), kJointCount);
-    in.numbers(root, "max_jerk_deg_s3", model.maxJerk.data(), kJointCount);
+    in.numbers(root, "max_speed_deg_s", model.maxSpeed.data(), model.lowerDeg.size());
+    in.numbers(root, "max_acceleration_deg_s2", model.maxAcceleration.data(), model.lowerDeg.size());
+    in.numbers(root, "max_jerk_deg_s3", model.maxJerk.data(), model.lowerDeg.size());
     in.positive("max_speed_deg_s", model.maxSpeed);
     in.positive("max_acceleration_deg_s2", model.maxAcceleration);
     in.positive("max_jerk_deg_s3", model.maxJerk);

@@ -4,18 +4,14 @@
 
 #include "runtime/robot/expected.h"
 #include "runtime/robot/frames.h"
+#include "runtime/robot/joints.h"
 
-#include <array>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace robot {
-
-inline constexpr int kJointCount = 6;
-/// Axis angles 1..6 in degrees (or a figure per axis in the unit named).
-using Joints = std::array<double, kJointCount>;
 
 enum class KinematicsKind {
     SphericalWrist, ///< six axes, axes 4, 5 and 6 meet in one point: closed-form inverse
