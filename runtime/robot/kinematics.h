@@ -20,8 +20,8 @@ namespace robot {
 /// RAPID's confdata. cf1, cf4, cf6 are quarter revolutions of the axes of these numbers (0 = [0,90), 1 = [90,180),
 /// -1 = [-90,0) ...), 0 for an axis the arm does not have. cfx names the branch, by mechanism:
 /// spherical wrist and offset wrist: bit 2 wrist centre behind axis 1, bit 1 wrist centre behind the lower arm, bit 0
-///   axis 5 negative; with an offset wrist the wrist centre is the foot of axis 5, and solutions that share all
-///   four figures (two at most in practice) are told apart by nearness to the seed;
+///   axis 5 negative; with an offset wrist the wrist centre is the foot of axis 5 and more than eight solutions exist:
+///   of those that share all four figures the one nearest to the seed is taken;
 /// seven axes: bit 2 axis 2 negative, bit 1 elbow bent the other way (axis 3 beyond the stretched arm), bit 0 axis 5
 ///   negative; shared figures as with the offset wrist;
 /// parallel rods: bit 2 wrist behind axis 1, bit 1 wrist behind the lower arm;
@@ -66,12 +66,15 @@ struct IkBranches {
 /// How far from a singularity a posture is (manual chapter 2.7). All in natural units: small means near; infinite
 /// when the arm has no such singularity.
 struct Singularity {
-    double wristDeg = HUGE_VAL;    ///< |axis 5|
+    double wristDeg = HUGE_VAL;    ///< |axis 5|; offset wrist: the figure of that meaning, see six_axes.cpp
     double armMm = HUGE_VAL;       ///< distance of the wrist centre from axis 1
     double elbowDeg = HUGE_VAL;    ///< angle by which the elbow is away from the stretched or folded arm
     double shoulderDeg = HUGE_VAL; ///< seven axes: |axis 2|
-    double armAngleDeg =
-        HUGE_VAL; ///< seven axes: direction from shoulder to wrist against the reference direction
+    /// Seven axes: angle between the direction from shoulder to wrist and the reference direction.
+    double armAngleDeg = HUGE_VAL;
+    /// Seven axes: arc sine of the determinant of the equations that pose and arm angle give, each column made a unit.
+    /// Two solutions meet at 0.
+    double foldDeg = HUGE_VAL;
 };
 
 /// Row-major, 6 rows: d(x, y, z of the flange in mm; rotation vector in rad) / d(axis angle in rad, or mm of a linear
@@ -84,7 +87,7 @@ struct JacobianMatrix {
     double& operator()(std::size_t row, std::size_t column) { return entries[row * columns + column]; }
 };
 
-/// Stands for "the arm angle of the seed" in the functions below.
+/// Means "the arm angle of the seed" in the functions below.
 inline constexpr double kSeedArmAngle = std::numeric_limits<double>::quiet_NaN();
 
 class Mechanism;
@@ -112,8 +115,9 @@ class Kinematics {
     /// Flange in base.
     Pose forward(const Joints& joints) const;
 
-    /// Arm angle in degrees, (-180, 180]; 0 for an arm without one. It is the angle of axis 3 about the line from
-    /// shoulder to wrist: 0 where axis 3 is along (reference direction x shoulder-wrist) turned as RobotStudio does.
+    /// Arm angle in degrees, -180 to 180; 0 for an arm without one and where the reference direction is along the line
+    /// from shoulder to wrist. It is the angle of axis 3 about that line as RobotStudio counts it: 0 along (reference
+    /// direction x line), 90 towards the reference direction.
     double armAngle(const Joints& joints) const;
 
     /// All branches. Where the pose is singular the angle that is free is taken from `seed`. Poses out of reach leave
@@ -147,7 +151,7 @@ class Kinematics {
     /// SingArea \LockAxis4: axis 4 stays at `axis4Deg` (a multiple of 180, as the manual demands), the tool centre
     /// point is at base_tcp.pos exactly and the orientation is the nearest to base_tcp.rot that five axes can give. The
     /// solution nearest to `seed`, no limit check. False when out of reach, for other angles of axis 4, or when the
-    /// arm has no spherical wrist.
+    /// arm is not one of six axes.
     bool inverseLockedAxis4(const Pose& base_tcp, const Pose& flange_tcp, double axis4Deg, const Joints& seed,
                             Joints& out) const;
 

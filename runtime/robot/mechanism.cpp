@@ -80,6 +80,27 @@ bool solveLinear(std::size_t n, double (&a)[kMostJoints][kMostJoints], double (&
     return true;
 }
 
+double determinant(std::size_t n, double (&a)[kMostJoints][kMostJoints]) {
+    double result = 1;
+    for (std::size_t i = 0; i < n; ++i) {
+        std::size_t pivot = i;
+        for (std::size_t k = i + 1; k < n; ++k)
+            if (std::fabs(a[k][i]) > std::fabs(a[pivot][i])) pivot = k;
+        if (pivot != i) {
+            std::swap_ranges(a[i], a[i] + n, a[pivot]);
+            result = -result;
+        }
+        result *= a[i][i];
+        if (a[i][i] == 0) return 0;
+        for (std::size_t k = i + 1; k < n; ++k) {
+            const double factor = a[k][i] / a[i][i];
+            for (std::size_t j = i + 1; j < n; ++j)
+                a[k][j] -= factor * a[i][j];
+        }
+    }
+    return result;
+}
+
 Mechanism::Mechanism(const RobotModel& model)
     : signs_(model.geometry.signs), shifts_(Joints::zeros(model.lowerDeg.size())), lower_(model.lowerDeg),
       upper_(model.upperDeg), axisNumbers_(model.axisNumbers) {
@@ -141,8 +162,15 @@ double Mechanism::turnTowards(const Joints& seed, Joints& candidate) const {
     return largest;
 }
 
+double Mechanism::side(const Joints&) const {
+    return 0;
+}
+
 bool Mechanism::nearestOf(const IkBranches& branches, const Joints& seed, Joints& out) const {
+    const double seedSide = side(seed);
     double best = HUGE_VAL;
+    double bestOfSide = HUGE_VAL;
+    Joints ofSide;
     for (int k = 0; k < static_cast<int>(kMostBranches); ++k) {
         if (!branches.has(k)) continue;
         Joints candidate = branches.joints[static_cast<std::size_t>(k)];
@@ -151,7 +179,13 @@ bool Mechanism::nearestOf(const IkBranches& branches, const Joints& seed, Joints
             best = largest;
             out = candidate;
         }
+        if (seedSide != 0 && largest < bestOfSide && largest < kTrustedDeg &&
+            side(candidate) * seedSide > 0) {
+            bestOfSide = largest;
+            ofSide = candidate;
+        }
     }
+    if (bestOfSide < HUGE_VAL) out = ofSide;
     return best < HUGE_VAL;
 }
 

@@ -6,6 +6,8 @@
 
 namespace robot {
 
+/// Movement of an axis since the seed up to which a solution is taken for its continuation without a search.
+inline constexpr double kTrustedDeg = 15.0;
 inline constexpr double kNoise = 1e-7; ///< deg; less is rounding, not posture
 
 /// The angle plus the whole turns that bring it nearest to `goal`.
@@ -21,6 +23,9 @@ Quat fromColumns(const Vec3& x, const Vec3& y, const Vec3& z);
 bool levelTurn(const Quat& flange, const Quat& zero, double& turnDeg);
 /// Solves A x = b by elimination with pivoting, both overwritten (x in b). False for a singular matrix.
 bool solveLinear(std::size_t n, double (&a)[kMostJoints][kMostJoints], double (&b)[kMostJoints]);
+
+/// Determinant of the first n rows and columns, which are overwritten; not a number for such figures.
+double determinant(std::size_t n, double (&a)[kMostJoints][kMostJoints]);
 
 class Mechanism {
   public:
@@ -68,7 +73,10 @@ class Mechanism {
     ConfData quarters(const Joints& joints, int cfx) const;
     /// Largest difference of an axis after each rotary axis of `candidate` was turned to the one nearest to `seed`.
     double turnTowards(const Joints& seed, Joints& candidate) const;
-    /// The nearest to `seed` of several solutions, turned towards it; false without any.
+    /// A number whose sign changes where two solutions meet; 0 for a mechanism that does not need it.
+    virtual double side(const Joints& joints) const;
+    /// The nearest to `seed` of several solutions, turned towards it; false without any. Where two solutions are close
+    /// to each other, the one on the same side as the seed is its continuation even if the other one is nearer.
     bool nearestOf(const IkBranches& branches, const Joints& seed, Joints& out) const;
 
     Joints signs_, shifts_; // model angle = sign * axis angle + shift, degrees

@@ -12,11 +12,10 @@ namespace robot {
 
 namespace {
 
-constexpr int kGrid = 64; // intervals of axis 6 that are looked at first
+constexpr int kGrid = 96; // intervals of axis 6 that are looked at first
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr int kMostDepth = 12;         // halvings of an interval in which the forearm turns fast
-constexpr double kFastTurn = 0.3;      // change of the forearm direction that asks for a halving
-constexpr double kTrustedDeg = 15.0;   // movement since the seed up to which following needs no search
+constexpr double kFastTurn = 0.15;     // change of the forearm direction that asks for a halving
 constexpr double kTrustedSlope = 0.02; // slope of the condition below which two solutions are close
 
 struct Target {
@@ -50,6 +49,9 @@ class OffsetWrist final : public SixAxes {
                     IkBranches& out) const override;
     bool inverseContinue(const Pose& flange, const Joints& seed, double armAngleDeg,
                          Joints& out) const override;
+
+  protected:
+    double side(const Joints& joints) const override { return jacobianDeterminant(joints); }
 
   private:
     friend class RootSearch;
@@ -356,7 +358,8 @@ bool OffsetWrist::inverseContinue(const Pose& flange, const Joints& seed, double
         if (std::fabs(step) < 1e-12) break;
     }
     if (b.isValid && std::fabs(b.value) < 1e-14 && std::fabs(slope) > kTrustedSlope &&
-        solution(target, branch, b.angle, out) && turnTowards(seed, out) < kTrustedDeg)
+        solution(target, branch, b.angle, out) && turnTowards(seed, out) < kTrustedDeg &&
+        side(seed) * side(out) > 0)
         return true;
     IkBranches branches;
     inverseAll(flange, seed, armAngleDeg, branches);

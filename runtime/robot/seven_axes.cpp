@@ -17,12 +17,11 @@ namespace robot {
 namespace {
 
 constexpr std::size_t kOrder[7] = {0, 1, 6, 2, 3, 4, 5}; // place in the chain -> index into Joints
-constexpr double kTrustedDeg = 15.0; // movement since the seed up to which following needs no search
-constexpr double kMm = 0.01;         // weight of a millimetre against a direction cosine
-constexpr double kSolved = 1e-14;    // residual of rounding
-constexpr double kAccepted = 1e-10;  // residual of a solution beside a singularity
-constexpr double kSamePlace = 0.5;   // rad; a start as near as this to a solution would lead to it
-constexpr double kLeastBend = 0.2;   // rad; a start with the arm stretched would not know which way to bend
+constexpr double kMm = 0.01;                             // weight of a millimetre against a direction cosine
+constexpr double kSolved = 1e-14;                        // residual of rounding
+constexpr double kAccepted = 1e-10;                      // residual of a solution beside a singularity
+constexpr double kSamePlace = 0.5; // rad; a start as near as this to a solution would lead to it
+constexpr double kLeastBend = 0.2; // rad; a start with the arm stretched would not know which way to bend
 
 /// The four angles, rad: axis 1, axis 2, axis 5, axis 6.
 struct Ends {
@@ -80,6 +79,9 @@ class SevenAxes final : public Mechanism {
     Singularity singularity(const Joints& joints) const override;
     JacobianMatrix jacobian(const Joints& joints) const override;
     double armAngle(const Joints& joints) const override;
+
+  protected:
+    double side(const Joints& joints) const override;
 
   private:
     struct Chain {
@@ -422,11 +424,31 @@ bool SevenAxes::inverseContinue(const Pose& flange, const Joints& seed, double a
     Lines lines;
     if (polish(target, ends, lines, 8)) {
         toJoints(ends, lines, out);
-        if (turnTowards(seed, out) < kTrustedDeg) return true;
+        if (turnTowards(seed, out) < kTrustedDeg && side(seed) * side(out) >= 0) return true;
     }
     IkBranches branches;
     inverseAll(flange, seed, angle, branches);
     return nearestOf(branches, seed, out);
+}
+
+/// Determinant of the four equations at a posture, relative to the lengths of its columns: 0 where pose and arm angle do
+/// not hold the axes.
+double SevenAxes::side(const Joints& joints) const {
+    Target target;
+    if (!takeApart(forward(joints), armAngle(joints), target)) return 0;
+    Lines lines;
+    linesAt(target, endsOf(joints), lines);
+    double matrix[kMostJoints][kMostJoints];
+    derivatives(lines, matrix);
+    double lengths = 1;
+    for (std::size_t k = 0; k < 4; ++k) {
+        matrix[3][k] = dot(target.normal, Vec3{matrix[4][k], matrix[5][k], matrix[6][k]});
+        double square = 0;
+        for (std::size_t row = 0; row < 4; ++row)
+            square += matrix[row][k] * matrix[row][k];
+        lengths *= std::sqrt(square);
+    }
+    return lengths > 0 ? determinant(4, matrix) / lengths : 0;
 }
 
 ConfData SevenAxes::configuration(const Joints& joints) const {
@@ -448,6 +470,7 @@ Singularity SevenAxes::singularity(const Joints& joints) const {
     result.shoulderDeg = std::fabs(std::remainder(joints[1], 360.0));
     result.armAngleDeg =
         std::atan2(norm(cross(line, reference)), std::fabs(dot(line, reference))) / trig::kDeg;
+    result.foldDeg = std::asin(std::min(std::fabs(side(joints)), 1.0)) / trig::kDeg;
     return result;
 }
 

@@ -19,29 +19,6 @@ struct Forearm {
           z{cosine1 * sine23, sine1 * sine23, cosine23} {}
 };
 
-/// Of six columns.
-double determinant(const JacobianMatrix& jacobian) {
-    double a[6][6];
-    for (std::size_t i = 0; i < 6; ++i)
-        for (std::size_t j = 0; j < 6; ++j)
-            a[i][j] = jacobian(i, j);
-    double result = 1;
-    for (std::size_t i = 0; i < 6; ++i) {
-        std::size_t pivot = i;
-        for (std::size_t k = i + 1; k < 6; ++k)
-            if (std::fabs(a[k][i]) > std::fabs(a[pivot][i])) pivot = k;
-        std::swap(a[i], a[pivot]);
-        result *= a[i][i];
-        if (!(a[i][i] != 0)) return 0;
-        for (std::size_t k = i + 1; k < 6; ++k) {
-            const double factor = a[k][i] / a[i][i];
-            for (std::size_t j = i; j < 6; ++j)
-                a[k][j] -= factor * a[i][j];
-        }
-    }
-    return result;
-}
-
 } // namespace
 
 SixAxes::SixAxes(const RobotModel& model)
@@ -123,9 +100,9 @@ Singularity SixAxes::singularity(const Joints& joints) const {
     if (wristOffset_ == 0) return result;
     // With the offset the wrist is not singular at axis 5 = 0 but where the determinant vanishes; divided by what arm
     // and elbow contribute it is the sine of axis 5 of an arm without the offset.
-    const double contribution =
-        plane_.c2 * plane_.forearm * std::sin(result.elbowDeg * trig::kDeg) * result.armMm;
-    const double sine = std::fabs(determinant(jacobian(joints))) / std::max(contribution, 1e-9);
+    const double contribution = plane_.c2 * plane_.forearm * std::sin(result.elbowDeg * trig::kDeg) *
+                                std::max(result.armMm, std::fabs(wristOffset_));
+    const double sine = std::fabs(jacobianDeterminant(joints)) / std::max(contribution, 1e-9);
     result.wristDeg = std::asin(std::min(sine, 1.0)) / trig::kDeg;
     return result;
 }
@@ -162,6 +139,15 @@ JacobianMatrix SixAxes::jacobian(const Joints& joints) const {
             result(row, i) = entries[row];
     }
     return result;
+}
+
+double SixAxes::jacobianDeterminant(const Joints& joints) const {
+    const JacobianMatrix matrix = jacobian(joints);
+    double a[kMostJoints][kMostJoints];
+    for (std::size_t row = 0; row < 6; ++row)
+        for (std::size_t i = 0; i < 6; ++i)
+            a[row][i] = matrix(row, i);
+    return determinant(6, a);
 }
 
 bool SixAxes::nearestArm(const ArmPlane& plane, const Vec3& point, const Joints& model, const Joints& seed,

@@ -1,6 +1,6 @@
 #pragma once
-// What six-axis arms with an ortho-parallel base share, whether axis 6 meets axis 5 (spherical wrist) or passes it at a
-// distance (offset wrist). Internal to runtime/robot.
+// The common part of six-axis arms with an ortho-parallel base, whether axis 6 meets axis 5 (spherical wrist) or passes
+// it at a distance (offset wrist). Internal to runtime/robot.
 
 #include "runtime/robot/arm_plane.h"
 #include "runtime/robot/mechanism.h"
@@ -21,6 +21,7 @@ class SixAxes : public Mechanism {
                             Joints& out) const final;
 
   protected:
+    double jacobianDeterminant(const Joints& joints) const;
     /// Axis angles of model angles, axes 2, 3 and 5 in the turn that is within limits.
     void toAxes(const Joints& model, Joints& out) const;
     /// The nearest to `seed` of the four branches that carry the plane's point to `point`; axes 4 to 6 as in `model`.
