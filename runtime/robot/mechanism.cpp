@@ -9,10 +9,6 @@
 
 namespace robot {
 
-double nearestTurn(double angle, double goal) {
-    return angle + 360.0 * std::nearbyint((goal - angle) / 360.0);
-}
-
 double nearestTurnWithin(double angle, double goal, double lower, double upper) {
     double best = nearestTurn(angle, goal);
     if (best > upper + kNoise) best -= 360.0 * std::ceil((best - upper - kNoise) / 360.0);
@@ -118,20 +114,6 @@ bool Mechanism::inverseWithWrist(const Vec3&, const Pose&, const Joints&, const 
 
 bool Mechanism::inverseLockedAxis4(const Pose&, const Pose&, double, const Joints&, Joints&) const {
     return false;
-}
-
-int Mechanism::jointOutsideLimits(const Joints& joints, double tolerance) const {
-    for (std::size_t i = 0; i < lower_.size(); ++i) {
-        const bool isInside = joints[i] >= lower_[i] - tolerance && joints[i] <= upper_[i] + tolerance;
-        if (!isInside) return static_cast<int>(i) + 1;
-    }
-    return 0;
-}
-
-double Mechanism::withinLimits(double angle, std::size_t i) const {
-    if (angle > upper_[i] + kNoise && angle - 360 >= lower_[i] - kNoise) return angle - 360;
-    if (angle < lower_[i] - kNoise && angle + 360 <= upper_[i] + kNoise) return angle + 360;
-    return angle;
 }
 
 std::array<int, 3> Mechanism::quarterAxes() const {

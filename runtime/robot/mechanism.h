@@ -2,6 +2,7 @@
 // The interface that every mechanism implements, and what all of them share: choosing among branches. Internal to
 // runtime/robot; callers use Kinematics, which says what the functions mean.
 
+#include "runtime/robot/fast_trig.h"
 #include "runtime/robot/kinematics.h"
 
 namespace robot {
@@ -11,7 +12,9 @@ inline constexpr double kTrustedDeg = 15.0;
 inline constexpr double kNoise = 1e-7; ///< deg; less is rounding, not posture
 
 /// The angle plus the whole turns that bring it nearest to `goal`.
-double nearestTurn(double angle, double goal);
+inline double nearestTurn(double angle, double goal) {
+    return angle + 360.0 * (((goal - angle) * (1.0 / 360.0) + trig::kRounder) - trig::kRounder);
+}
 /// The angle plus the whole turns that bring it as near to `goal` as the range [lower, upper] lets.
 double nearestTurnWithin(double angle, double goal, double lower, double upper);
 /// Column 0, 1 or 2 of the rotation matrix of a unit quaternion.
@@ -52,7 +55,13 @@ class Mechanism {
     virtual bool inverseLockedAxis4(const Pose& base_tcp, const Pose& flange_tcp, double axis4Deg,
                                     const Joints& seed, Joints& out) const;
     Expected<Joints, IkError> inverseNear(const Pose& flange, const Joints& seed, double armAngleDeg) const;
-    int jointOutsideLimits(const Joints& joints, double tolerance) const;
+    int jointOutsideLimits(const Joints& joints, double tolerance) const {
+        for (std::size_t i = 0; i < lower_.size(); ++i) {
+            const bool isInside = joints[i] >= lower_[i] - tolerance && joints[i] <= upper_[i] + tolerance;
+            if (!isInside) return static_cast<int>(i) + 1;
+        }
+        return 0;
+    }
 
     std::size_t jointCount() const { return lower_.size(); }
     int axisNumber(std::size_t i) const { return axisNumbers_[i]; }
@@ -67,7 +76,11 @@ class Mechanism {
     }
     double axisAngle(double model, std::size_t i) const { return signs_[i] * (model - shifts_[i]); }
     /// An angle of an axis with one turn, moved by a turn when that brings it within limits.
-    double withinLimits(double angle, std::size_t i) const;
+    double withinLimits(double angle, std::size_t i) const {
+        if (angle > upper_[i] + kNoise && angle - 360 >= lower_[i] - kNoise) return angle - 360;
+        if (angle < lower_[i] - kNoise && angle + 360 <= upper_[i] + kNoise) return angle + 360;
+        return angle;
+    }
     /// The three axes whose quarter revolutions are cf1, cf4 and cf6, as indices; -1 for none.
     std::array<int, 3> quarterAxes() const;
     ConfData quarters(const Joints& joints, int cfx) const;

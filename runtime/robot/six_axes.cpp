@@ -61,7 +61,7 @@ Pose SixAxes::forward(const Joints& joints) const {
     return flange;
 }
 
-void SixAxes::toAxes(const Joints& model, Joints& out) const {
+void SixAxes::toAxes(const double (&model)[6], Joints& out) const {
     for (std::size_t i = 0; i < 6; ++i)
         out[i] = axisAngle(model[i], i);
     // Axes 2, 3 and 5 have one turn only; it need not be the one around zero (axis 3 goes down to -245

@@ -23,7 +23,7 @@ class SixAxes : public Mechanism {
   protected:
     double jacobianDeterminant(const Joints& joints) const;
     /// Axis angles of model angles, axes 2, 3 and 5 in the turn that is within limits.
-    void toAxes(const Joints& model, Joints& out) const;
+    void toAxes(const double (&model)[6], Joints& out) const;
     /// The nearest to `seed` of the four branches that carry the plane's point to `point`; axes 4 to 6 as in `model`.
     bool nearestArm(const ArmPlane& plane, const Vec3& point, const Joints& model, const Joints& seed,
                     Joints& out) const;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace robot {
 
@@ -30,8 +29,10 @@ class SphericalWrist final : public SixAxes {
 
   private:
     bool takeApart(const Pose& flange, const Joints& seed, Target& target) const;
-    bool solveBranch(const Target& target, int cfx, const Joints& seed, Joints& out) const;
-    void solveFreeWrist(const Target& target, const ArmBranch& arm, const Joints& seed, Joints& model) const;
+    bool solveBranch(const Target& target, int cfx, double axis4, double axis6, Joints& out) const;
+    /// Axes 4 and 6 in line: axis 4 at `axis4` degrees, axis 6 in the turn nearest to `axis6`.
+    void solveFreeWrist(const Target& target, const ArmBranch& arm, double axis4, double axis6,
+                        double (&model)[6]) const;
 };
 
 bool SphericalWrist::takeApart(const Pose& flange, const Joints& seed, Target& target) const {
@@ -41,17 +42,18 @@ bool SphericalWrist::takeApart(const Pose& flange, const Joints& seed, Target& t
     return plane_.aim(flange.pos - target.flangeZ * geometry_.c4, modelAngle(seed, 0), target.arm);
 }
 
-void SphericalWrist::solveFreeWrist(const Target& target, const ArmBranch& arm, const Joints& seed,
-                                    Joints& model) const {
-    model[3] = modelAngle(seed, 3);
+void SphericalWrist::solveFreeWrist(const Target& target, const ArmBranch& arm, double axis4, double axis6,
+                                    double (&model)[6]) const {
+    model[3] = signs_[3] * axis4 + shifts_[3];
     const double turn =
         std::atan2(dot(arm.forearmZ(), target.flangeY), dot(arm.forearmY(), target.flangeY)) / trig::kDeg;
     const bool isFolded = dot(arm.forearmX(), target.flangeZ) < 0; // axis 5 at 180 degrees
     model[5] = isFolded ? model[3] - turn : turn - model[3];
-    model[5] = nearestTurn(model[5], modelAngle(seed, 5));
+    model[5] = nearestTurn(model[5], signs_[5] * axis6 + shifts_[5]);
 }
 
-bool SphericalWrist::solveBranch(const Target& target, int cfx, const Joints& seed, Joints& out) const {
+bool SphericalWrist::solveBranch(const Target& target, int cfx, double axis4, double axis6,
+                                 Joints& out) const {
     ArmBranch arm;
     if (!plane_.solve(target.arm, cfx >> 2 & 1, cfx >> 1 & 1, arm)) return false;
     const double flip = ((cfx & 1) == 0) == (signs_[4] > 0) ? 1.0 : -1.0;
@@ -68,8 +70,8 @@ bool SphericalWrist::solveBranch(const Target& target, int cfx, const Joints& se
                          -flip * dot(arm.forearmX(), target.flangeX)};
     double angle[6];
     trig::atan2Deg(y, x, angle);
-    Joints model{angle[0], angle[1], angle[2] - plane_.angleDeg, angle[3], angle[4], angle[5]};
-    if (sine5 < kFreeWrist) solveFreeWrist(target, arm, seed, model);
+    double model[6] = {angle[0], angle[1], angle[2] - plane_.angleDeg, angle[3], angle[4], angle[5]};
+    if (sine5 < kFreeWrist) solveFreeWrist(target, arm, axis4, axis6, model);
     toAxes(model, out);
     return true;
 }
@@ -108,13 +110,13 @@ void SphericalWrist::inverseAll(const Pose& flange, const Joints& seed, double /
     for (std::size_t i = 0; i < 4; ++i) {
         if (!isArm[i]) continue;
         const double* a = angle + 6 * i;
-        Joints model{a[0], a[1], a[2] - plane_.angleDeg, a[3], a[4], a[5]};
-        if (isFree[i]) solveFreeWrist(target, arms[i], seed, model);
+        double model[6] = {a[0], a[1], a[2] - plane_.angleDeg, a[3], a[4], a[5]};
+        if (isFree[i]) solveFreeWrist(target, arms[i], seed[3], seed[5], model);
         toAxes(model, out.joints[2 * i + positive]);
         model[3] += model[3] > 0 ? -180 : 180;
         model[4] = -model[4];
         model[5] += model[5] > 0 ? -180 : 180;
-        if (isFree[i]) solveFreeWrist(target, arms[i], seed, model);
+        if (isFree[i]) solveFreeWrist(target, arms[i], seed[3], seed[5], model);
         toAxes(model, out.joints[2 * i + 1 - positive]);
         out.valid = static_cast<uint16_t>(out.valid | (3U << (2 * i)));
     }
@@ -126,9 +128,9 @@ Expected<Joints, IkError> SphericalWrist::inverse(const Pose& flange, const Conf
     if (!takeApart(flange, seed, target)) return Unexpected{IkError{}};
     Joints joints;
     if (conf.cfx < 0 || conf.cfx > 7) return Unexpected{IkError{IkErrorKind::NoSuchConfiguration, 0, 0}};
-    Joints hint = seed; // where axis 4 is free it goes into its quarter, as near to the seed as that lets
-    hint[3] = std::clamp(seed[3], 90.0 * conf.cf4, 90.0 * conf.cf4 + 90.0);
-    if (!solveBranch(target, conf.cfx, hint, joints)) {
+    // Where axis 4 is free it goes into its quarter, as near to the seed as that lets.
+    const double axis4 = std::clamp(seed[3], 90.0 * conf.cf4, 90.0 * conf.cf4 + 90.0);
+    if (!solveBranch(target, conf.cfx, axis4, seed[5], joints)) {
         ArmBranch arm;
         const bool isReachable = plane_.solve(target.arm, 0, 0, arm) || plane_.solve(target.arm, 1, 0, arm);
         return Unexpected{
@@ -140,7 +142,8 @@ Expected<Joints, IkError> SphericalWrist::inverse(const Pose& flange, const Conf
         const std::size_t i = axes[k];
         const double centre = 90.0 * quarters[k] + 45.0;
         joints[i] = nearestTurn(joints[i], centre);
-        if (std::abs(quarterRevolution(joints[i]) - quarters[k]) > 1) {
+        const double off = joints[i] + kNoise - centre;
+        if (!(off >= -135.0 && off < 135.0)) { // more than one quarter
             return Unexpected{IkError{IkErrorKind::NoSuchConfiguration, static_cast<int>(i) + 1, joints[i]}};
         }
     }
