@@ -92,7 +92,8 @@ class SevenAxes final : public Mechanism {
     bool referenceAxes(const Vec3& line, Vec3& x, Vec3& y) const;
     bool takeApart(const Pose& flange, double armAngleDeg, Target& target) const;
     void linesAt(const Target& target, const Ends& ends, Lines& lines) const;
-    void derivatives(const Lines& lines, double (&matrix)[kMostJoints][kMostJoints]) const;
+    void equations(const Target& target, const Lines& l, double (&matrix)[kMostJoints][kMostJoints]) const;
+    Ends weakDirection(const Target& target, const Ends& ends) const;
     bool polish(const Target& target, Ends& ends, Lines& lines, int iterations) const;
     void toJoints(const Ends& ends, const Lines& lines, Joints& out) const;
     double stretchedDeg() const {
@@ -236,7 +237,9 @@ void SevenAxes::linesAt(const Target& target, const Ends& ends, Lines& l) const 
     l.residual[3] = dot(target.normal, l.axis3);
 }
 
-void SevenAxes::derivatives(const Lines& l, double (&matrix)[kMostJoints][kMostJoints]) const {
+/// Derivatives of the four residuals by the four angles.
+void SevenAxes::equations(const Target& target, const Lines& l,
+                          double (&matrix)[kMostJoints][kMostJoints]) const {
     // By each angle: the change of s, of f, and of the gap as far as it does not come from these.
     const Vec3 ds[4] = {l.y1 * l.sine2, l.x2, {}, {}};
     const Vec3 df[4] = {{}, {}, l.z5, l.y6 * l.sine5};
@@ -251,10 +254,7 @@ void SevenAxes::derivatives(const Lines& l, double (&matrix)[kMostJoints][kMostJ
         matrix[0][k] = gap.x * kMm;
         matrix[1][k] = gap.y * kMm;
         matrix[2][k] = gap.z * kMm;
-        matrix[3][k] = 0; // needs the target; see polish
-        matrix[4][k] = turned.x;
-        matrix[5][k] = turned.y;
-        matrix[6][k] = turned.z;
+        matrix[3][k] = dot(target.normal, turned);
     }
 }
 
@@ -264,11 +264,9 @@ bool SevenAxes::polish(const Target& target, Ends& ends, Lines& lines, int itera
     for (int n = 0; n < iterations && size > kSolved; ++n) {
         double matrix[kMostJoints][kMostJoints];
         double step[kMostJoints];
-        derivatives(lines, matrix);
-        for (std::size_t k = 0; k < 4; ++k) {
-            matrix[3][k] = dot(target.normal, Vec3{matrix[4][k], matrix[5][k], matrix[6][k]});
+        equations(target, lines, matrix);
+        for (std::size_t k = 0; k < 4; ++k)
             step[k] = -lines.residual[k];
-        }
         if (!solveLinear(4, matrix, step)) break;
         double largest = 0;
         for (std::size_t k = 0; k < 4; ++k)
@@ -413,6 +411,32 @@ void SevenAxes::inverseAll(const Pose& flange, const Joints& seed, double armAng
         search(tilt);
         turnOver();
     }
+    for (std::size_t k = 0; out.count() % 2 != 0 && k < kMostBranches && out.has(static_cast<int>(k)); ++k) {
+        const Ends ends = endsOf(out.joints[k]);
+        const Ends weak = weakDirection(target, ends);
+        for (double step : {0.05, -0.05, 0.15, -0.15, 0.4, -0.4}) {
+            Ends beside = ends;
+            for (std::size_t n = 0; n < 4; ++n)
+                beside.t[n] += step * weak.t[n];
+            tryFrom(beside);
+        }
+    }
+}
+
+/// Two solutions that are close to each other lie along the direction that the equations hold least: the answer of
+/// their inverse to nearly anything, made a unit.
+Ends SevenAxes::weakDirection(const Target& target, const Ends& ends) const {
+    Lines lines;
+    linesAt(target, ends, lines);
+    double matrix[kMostJoints][kMostJoints];
+    equations(target, lines, matrix);
+    double answer[kMostJoints] = {1, 0.7, -0.6, 0.8};
+    Ends direction;
+    if (!solveLinear(4, matrix, answer)) return direction;
+    const double length = std::hypot(std::hypot(answer[0], answer[1]), std::hypot(answer[2], answer[3]));
+    for (std::size_t n = 0; n < 4; ++n)
+        direction.t[n] = answer[n] / length;
+    return direction;
 }
 
 bool SevenAxes::inverseContinue(const Pose& flange, const Joints& seed, double armAngleDeg,
@@ -439,10 +463,9 @@ double SevenAxes::side(const Joints& joints) const {
     Lines lines;
     linesAt(target, endsOf(joints), lines);
     double matrix[kMostJoints][kMostJoints];
-    derivatives(lines, matrix);
+    equations(target, lines, matrix);
     double lengths = 1;
     for (std::size_t k = 0; k < 4; ++k) {
-        matrix[3][k] = dot(target.normal, Vec3{matrix[4][k], matrix[5][k], matrix[6][k]});
         double square = 0;
         for (std::size_t row = 0; row < 4; ++row)
             square += matrix[row][k] * matrix[row][k];
