@@ -1,7 +1,7 @@
 // Seven axes whose neighbours all cross at right angles with offsets (IRB 14000, IRB 14050). The arm angle fixes the
-// half plane through shoulder and wrist in which axis 3 points. Everything follows from four angles: axes 1 and 2 give
-// the line of the upper arm, axes 5 and 6 (seen from the flange) the line of the forearm; axis 3 is perpendicular to
-// both lines. Two lines that close the arm make three equations, the half plane is the fourth.
+// half plane through shoulder and wrist in which axis 3 points. Everything follows from five angles: axes 1 and 2 give
+// the line of the upper arm, axes 5 and 6 (seen from the flange) the line of the forearm, the fifth the direction of axis
+// 3 in its half plane. Axis 3 is perpendicular to both lines, and the arm must close: five equations.
 //
 // Chain from the base: axes 1, 2, 7, 3, 4, 5, 6. Directions at zero: z, y, z, y, x, y, x. See SevenAxisGeometry.
 
@@ -23,9 +23,11 @@ constexpr double kAccepted = 1e-10;                      // residual of a soluti
 constexpr double kSamePlace = 0.5; // rad; a start as near as this to a solution would lead to it
 constexpr double kLeastBend = 0.2; // rad; a start with the arm stretched would not know which way to bend
 
-/// The four angles, rad: axis 1, axis 2, axis 5, axis 6.
+constexpr std::size_t kUnknowns = 5;
+
+/// The five angles, rad: axis 1, axis 2, axis 5, axis 6, axis 3 from the line shoulder-wrist into its half plane.
 struct Ends {
-    double t[4] = {};
+    double t[kUnknowns] = {};
 };
 
 /// The same lines but for the offsets, with the shoulder (axes 1, 2) or the wrist (axes 5, 6) turned over.
@@ -47,7 +49,6 @@ struct Target {
     Vec3 x, y, z; // of the flange, turned so that x is the direction of axis 6 and y, z are level at zero
     Vec3 line;    // from shoulder to wrist, unit
     Vec3 half;    // perpendicular to it, into the half plane of axis 3
-    Vec3 normal;  // of that plane
     double distance = 0;
 };
 
@@ -55,10 +56,11 @@ struct Target {
 struct Lines {
     Vec3 x1, y1, x2, s; // axis 1 turned; upper arm direction s
     Vec3 y6, z5, z6, f; // wrist; forearm direction f
-    Vec3 axis3;         // perpendicular to s and f, in the wanted half plane
+    Vec3 axis3;         // its direction
+    Vec3 axis3Turned;   // derivative of that by the fifth angle
     double sine2 = 0, cosine2 = 1, sine5 = 0, cosine5 = 1;
-    double spread = 0; // |s x f|, signed like the half plane
-    double residual[4] = {};
+    bool onHalf = true; // axis 3 is in its half plane, not in the opposite one
+    double residual[kUnknowns] = {};
     double size() const {
         double largest = 0;
         for (double r : residual)
@@ -92,7 +94,7 @@ class SevenAxes final : public Mechanism {
     bool referenceAxes(const Vec3& line, Vec3& x, Vec3& y) const;
     bool takeApart(const Pose& flange, double armAngleDeg, Target& target) const;
     void linesAt(const Target& target, const Ends& ends, Lines& lines) const;
-    void equations(const Target& target, const Lines& l, double (&matrix)[kMostJoints][kMostJoints]) const;
+    void equations(const Lines& l, double (&matrix)[kMostJoints][kMostJoints]) const;
     Ends weakDirection(const Target& target, const Ends& ends) const;
     bool polish(const Target& target, Ends& ends, Lines& lines, int iterations) const;
     void toJoints(const Ends& ends, const Lines& lines, Joints& out) const;
@@ -101,8 +103,8 @@ class SevenAxes final : public Mechanism {
                90.0;
     }
     void start(const Target& target, double tilt, int branch, Ends& ends) const;
-    Ends endsOf(const Joints& joints) const;
-    bool isNearAny(const Ends& ends, const IkBranches& found) const;
+    Ends endsOf(const Target& target, const Joints& joints) const;
+    bool isNearAny(const Target& target, const Ends& ends, const IkBranches& found) const;
     void add(const Ends& ends, const Lines& lines, IkBranches& out) const;
 
     SevenAxisGeometry g_;
@@ -201,15 +203,15 @@ bool SevenAxes::takeApart(const Pose& flange, double armAngleDeg, Target& target
     if (!referenceAxes(target.line, x, y)) return false;
     const double angle = armAngleDeg * trig::kDeg;
     target.half = x * std::cos(angle) + y * std::sin(angle);
-    target.normal = cross(target.line, target.half);
-    return std::isfinite(dot(target.normal, target.x));
+    return std::isfinite(dot(target.half, target.x));
 }
 
 void SevenAxes::linesAt(const Target& target, const Ends& ends, Lines& l) const {
-    const double degrees[4] = {ends.t[0] / trig::kDeg, ends.t[1] / trig::kDeg, ends.t[2] / trig::kDeg,
-                               ends.t[3] / trig::kDeg};
-    double s[4];
-    double c[4];
+    double degrees[kUnknowns];
+    for (std::size_t k = 0; k < kUnknowns; ++k)
+        degrees[k] = ends.t[k] / trig::kDeg;
+    double s[kUnknowns];
+    double c[kUnknowns];
     trig::sinCosDeg(degrees, s, c);
     const Vec3 up{0, 0, 1};
     l.x1 = {c[0], s[0], 0};
@@ -224,38 +226,39 @@ void SevenAxes::linesAt(const Target& target, const Ends& ends, Lines& l) const 
     l.z6 = target.y * s[3] + target.z * c[3];
     l.f = target.x * c[2] + l.z6 * s[2];
     l.z5 = l.z6 * c[2] - target.x * s[2];
-    const Vec3 across = cross(l.s, l.f);
-    const double length = std::max(norm(across), 1e-12);
-    l.spread = dot(across, target.half) < 0 ? -length : length;
-    l.axis3 = across * (1 / l.spread);
+    l.axis3 = target.line * c[4] + target.half * s[4];
+    l.onHalf = s[4] > 0;
+    l.axis3Turned = target.half * c[4] - target.line * s[4];
     const Vec3 gap = target.wrist - target.shoulder + (l.z6 - l.z5) * g_.wrist - (l.x1 - l.x2) * g_.shoulder -
                      l.s * g_.upperArm - cross(l.axis3, l.s) * g_.elbowOut - l.f * g_.forearm -
                      cross(l.f, l.axis3) * g_.elbowUp;
     l.residual[0] = gap.x * kMm;
     l.residual[1] = gap.y * kMm;
     l.residual[2] = gap.z * kMm;
-    l.residual[3] = dot(target.normal, l.axis3);
+    l.residual[3] = dot(l.s, l.axis3);
+    l.residual[4] = dot(l.f, l.axis3);
 }
 
-/// Derivatives of the four residuals by the four angles.
-void SevenAxes::equations(const Target& target, const Lines& l,
-                          double (&matrix)[kMostJoints][kMostJoints]) const {
+/// Derivatives of the residuals by the angles.
+void SevenAxes::equations(const Lines& l, double (&matrix)[kMostJoints][kMostJoints]) const {
     // By each angle: the change of s, of f, and of the gap as far as it does not come from these.
-    const Vec3 ds[4] = {l.y1 * l.sine2, l.x2, {}, {}};
-    const Vec3 df[4] = {{}, {}, l.z5, l.y6 * l.sine5};
-    const Vec3 rest[4] = {l.y1 * ((l.cosine2 - 1) * g_.shoulder), l.s * -g_.shoulder, l.f * g_.wrist,
-                          l.y6 * ((1 - l.cosine5) * g_.wrist)};
-    for (std::size_t k = 0; k < 4; ++k) {
-        Vec3 turned = (cross(ds[k], l.f) + cross(l.s, df[k])) * (1 / l.spread);
-        turned = turned - l.axis3 * dot(l.axis3, turned);
-        const Vec3 gap = rest[k] - ds[k] * g_.upperArm -
-                         (cross(turned, l.s) + cross(l.axis3, ds[k])) * g_.elbowOut - df[k] * g_.forearm -
-                         (cross(df[k], l.axis3) + cross(l.f, turned)) * g_.elbowUp;
+    const Vec3 ds[kUnknowns] = {l.y1 * l.sine2, l.x2, {}, {}, {}};
+    const Vec3 df[kUnknowns] = {{}, {}, l.z5, l.y6 * l.sine5, {}};
+    const Vec3 rest[kUnknowns] = {l.y1 * ((l.cosine2 - 1) * g_.shoulder), l.s * -g_.shoulder, l.f * g_.wrist,
+                                  l.y6 * ((1 - l.cosine5) * g_.wrist),
+                                  cross(l.axis3Turned, l.s) * -g_.elbowOut -
+                                      cross(l.f, l.axis3Turned) * g_.elbowUp};
+    for (std::size_t k = 0; k < kUnknowns; ++k) {
+        const Vec3 gap = rest[k] - ds[k] * g_.upperArm - cross(l.axis3, ds[k]) * g_.elbowOut -
+                         df[k] * g_.forearm - cross(df[k], l.axis3) * g_.elbowUp;
         matrix[0][k] = gap.x * kMm;
         matrix[1][k] = gap.y * kMm;
         matrix[2][k] = gap.z * kMm;
-        matrix[3][k] = dot(target.normal, turned);
+        matrix[3][k] = dot(ds[k], l.axis3);
+        matrix[4][k] = dot(df[k], l.axis3);
     }
+    matrix[3][4] = dot(l.s, l.axis3Turned);
+    matrix[4][4] = dot(l.f, l.axis3Turned);
 }
 
 bool SevenAxes::polish(const Target& target, Ends& ends, Lines& lines, int iterations) const {
@@ -264,23 +267,23 @@ bool SevenAxes::polish(const Target& target, Ends& ends, Lines& lines, int itera
     for (int n = 0; n < iterations && size > kSolved; ++n) {
         double matrix[kMostJoints][kMostJoints];
         double step[kMostJoints];
-        equations(target, lines, matrix);
-        for (std::size_t k = 0; k < 4; ++k)
+        equations(lines, matrix);
+        for (std::size_t k = 0; k < kUnknowns; ++k)
             step[k] = -lines.residual[k];
-        if (!solveLinear(4, matrix, step)) break;
+        if (!solveLinear(kUnknowns, matrix, step)) break;
         double largest = 0;
-        for (std::size_t k = 0; k < 4; ++k)
+        for (std::size_t k = 0; k < kUnknowns; ++k)
             largest = std::max(largest, std::fabs(step[k]));
         if (!(largest < 1e6)) break;
         const double scale = largest > 0.7 ? 0.7 / largest : 1.0;
-        for (std::size_t k = 0; k < 4; ++k)
+        for (std::size_t k = 0; k < kUnknowns; ++k)
             ends.t[k] += step[k] * scale;
         linesAt(target, ends, lines);
         const double before = size;
         size = lines.size();
         if (size < kAccepted && size >= 0.5 * before) break; // rounding
     }
-    return size < kAccepted;
+    return size < kAccepted && lines.onHalf;
 }
 
 void SevenAxes::toJoints(const Ends& ends, const Lines& l, Joints& out) const {
@@ -336,6 +339,7 @@ void SevenAxes::start(const Target& target, double tilt, int branch, Ends& ends)
         const double side = (branch & 1) != 0 ? -1.0 : 1.0;
         ends.t[2] = std::atan2(side * std::hypot(fy, fz), fx);
         ends.t[3] = std::atan2(side * fy, side * fz);
+        ends.t[4] = std::numbers::pi / 2 - tilt;
         Lines lines;
         linesAt(target, ends, lines);
         from = target.shoulder + (lines.x1 - lines.x2) * g_.shoulder;
@@ -357,19 +361,26 @@ void SevenAxes::add(const Ends& ends, const Lines& lines, IkBranches& out) const
     out.add(joints);
 }
 
-Ends SevenAxes::endsOf(const Joints& joints) const {
+Ends SevenAxes::endsOf(const Target& target, const Joints& joints) const {
     constexpr std::size_t kPlaces[4] = {0, 1, 4, 5};
     Ends ends;
     for (std::size_t k = 0; k < 4; ++k)
         ends.t[k] = modelAngle(joints, kPlaces[k]) * trig::kDeg;
+    const double degrees[3] = {modelAngle(joints, 0), modelAngle(joints, 1), modelAngle(joints, 6)};
+    double s[3];
+    double c[3];
+    trig::sinCosDeg(degrees, s, c);
+    const Vec3 x2{c[0] * c[1], s[0] * c[1], -s[1]};
+    const Vec3 axis3 = Vec3{-s[0], c[0], 0} * c[2] - x2 * s[2];
+    ends.t[4] = std::atan2(dot(axis3, target.half), dot(axis3, target.line));
     return ends;
 }
 
-bool SevenAxes::isNearAny(const Ends& ends, const IkBranches& found) const {
+bool SevenAxes::isNearAny(const Target& target, const Ends& ends, const IkBranches& found) const {
     for (std::size_t n = 0; n < kMostBranches && found.has(static_cast<int>(n)); ++n) {
-        const Ends other = endsOf(found.joints[n]);
+        const Ends other = endsOf(target, found.joints[n]);
         double largest = 0;
-        for (std::size_t k = 0; k < 4; ++k)
+        for (std::size_t k = 0; k < kUnknowns; ++k)
             largest =
                 std::max(largest, std::fabs(std::remainder(ends.t[k] - other.t[k], 2 * std::numbers::pi)));
         if (largest < kSamePlace) return true;
@@ -397,13 +408,13 @@ void SevenAxes::inverseAll(const Pose& flange, const Joints& seed, double armAng
     const auto turnOver = [&] {
         for (std::size_t k = 0; k < kMostBranches && out.has(static_cast<int>(k)); ++k) {
             for (int flip = 1; flip < 4; ++flip) {
-                const Ends ends = flipped(endsOf(out.joints[k]), (flip & 1) != 0, (flip & 2) != 0);
-                if (!isNearAny(ends, out)) tryFrom(ends);
+                const Ends ends = flipped(endsOf(target, out.joints[k]), (flip & 1) != 0, (flip & 2) != 0);
+                if (!isNearAny(target, ends, out)) tryFrom(ends);
             }
         }
     };
     search(0);
-    tryFrom(endsOf(seed));
+    tryFrom(endsOf(target, seed));
     turnOver();
     // Solutions come in pairs: an odd number means that one is missing.
     for (double tilt : {0.4, -0.4}) {
@@ -412,11 +423,11 @@ void SevenAxes::inverseAll(const Pose& flange, const Joints& seed, double armAng
         turnOver();
     }
     for (std::size_t k = 0; out.count() % 2 != 0 && k < kMostBranches && out.has(static_cast<int>(k)); ++k) {
-        const Ends ends = endsOf(out.joints[k]);
+        const Ends ends = endsOf(target, out.joints[k]);
         const Ends weak = weakDirection(target, ends);
         for (double step : {0.05, -0.05, 0.15, -0.15, 0.4, -0.4}) {
             Ends beside = ends;
-            for (std::size_t n = 0; n < 4; ++n)
+            for (std::size_t n = 0; n < kUnknowns; ++n)
                 beside.t[n] += step * weak.t[n];
             tryFrom(beside);
         }
@@ -429,13 +440,15 @@ Ends SevenAxes::weakDirection(const Target& target, const Ends& ends) const {
     Lines lines;
     linesAt(target, ends, lines);
     double matrix[kMostJoints][kMostJoints];
-    equations(target, lines, matrix);
-    double answer[kMostJoints] = {1, 0.7, -0.6, 0.8};
+    equations(lines, matrix);
+    double answer[kMostJoints] = {1, 0.7, -0.6, 0.8, 0.5};
     Ends direction;
-    if (!solveLinear(4, matrix, answer)) return direction;
-    const double length = std::hypot(std::hypot(answer[0], answer[1]), std::hypot(answer[2], answer[3]));
-    for (std::size_t n = 0; n < 4; ++n)
-        direction.t[n] = answer[n] / length;
+    if (!solveLinear(kUnknowns, matrix, answer)) return direction;
+    double square = 0;
+    for (std::size_t n = 0; n < kUnknowns; ++n)
+        square += answer[n] * answer[n];
+    for (std::size_t n = 0; n < kUnknowns; ++n)
+        direction.t[n] = answer[n] / std::sqrt(square);
     return direction;
 }
 
@@ -444,7 +457,7 @@ bool SevenAxes::inverseContinue(const Pose& flange, const Joints& seed, double a
     const double angle = std::isnan(armAngleDeg) ? armAngle(seed) : armAngleDeg;
     Target target;
     if (!takeApart(flange, angle, target)) return false;
-    Ends ends = endsOf(seed);
+    Ends ends = endsOf(target, seed);
     Lines lines;
     if (polish(target, ends, lines, 8)) {
         toJoints(ends, lines, out);
@@ -455,23 +468,23 @@ bool SevenAxes::inverseContinue(const Pose& flange, const Joints& seed, double a
     return nearestOf(branches, seed, out);
 }
 
-/// Determinant of the four equations at a posture, relative to the lengths of its columns: 0 where pose and arm angle do
+/// Determinant of the equations at a posture, relative to the lengths of its columns: 0 where pose and arm angle do
 /// not hold the axes.
 double SevenAxes::side(const Joints& joints) const {
     Target target;
     if (!takeApart(forward(joints), armAngle(joints), target)) return 0;
     Lines lines;
-    linesAt(target, endsOf(joints), lines);
+    linesAt(target, endsOf(target, joints), lines);
     double matrix[kMostJoints][kMostJoints];
-    equations(target, lines, matrix);
+    equations(lines, matrix);
     double lengths = 1;
-    for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t k = 0; k < kUnknowns; ++k) {
         double square = 0;
-        for (std::size_t row = 0; row < 4; ++row)
+        for (std::size_t row = 0; row < kUnknowns; ++row)
             square += matrix[row][k] * matrix[row][k];
         lengths *= std::sqrt(square);
     }
-    return lengths > 0 ? determinant(4, matrix) / lengths : 0;
+    return lengths > 0 ? determinant(kUnknowns, matrix) / lengths : 0;
 }
 
 ConfData SevenAxes::configuration(const Joints& joints) const {
