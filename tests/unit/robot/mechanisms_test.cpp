@@ -198,6 +198,25 @@ TEST_CASE("every solution of every mechanism gives the pose, and the posture is 
     }
 }
 
+TEST_CASE("solutions of an offset wrist come in pairs", "[robot][kinematics]") {
+    // The condition on axis 6 is continuous and closes over a turn, within the reach: its roots are even in number.
+    const RobotModel robot = model("CRB 15000-10/1.52");
+    const Kinematics kinematics(robot);
+    Postures postures(robot, 13);
+    int odd = 0;
+    int most = 0;
+    for (int n = 0; n < 5000; ++n) {
+        const Joints joints = postures.next();
+        if (!isRegular(kinematics, joints)) continue;
+        IkBranches branches;
+        kinematics.inverseAll(kinematics.forward(joints), Joints{}, branches);
+        if (branches.count() % 2 != 0) ++odd;
+        most = std::max(most, branches.count());
+    }
+    CHECK(odd == 0);
+    CHECK(most > 8); // more than a spherical wrist can have
+}
+
 TEST_CASE("configuration data of every mechanism name the posture they were read from",
           "[robot][kinematics]") {
     for (const char* name : kModels) {

@@ -117,3 +117,20 @@ TEST_CASE("seven axes have singularities of shoulder and arm angle", "[robot][ki
     CHECK((kinematics.configuration({0, -30, stretched - 5, 0, 40, 0, 0}).cfx & 2) == 2);
     CHECK((kinematics.configuration({0, -30, stretched + 5, 0, 40, 0, 0}).cfx & 2) == 0);
 }
+
+TEST_CASE("upper arm and forearm may be parallel", "[robot][kinematics]") {
+    const Kinematics kinematics(yumi());
+    // Axis 3 at -90 and beyond: the forearm continues the direction of the upper arm.
+    for (double axis1 : {-40.0, 25.0}) {
+        Joints seed{axis1, -60, -80, 30, 50, 20, 30};
+        for (double axis3 = -80; axis3 >= -100; axis3 -= 0.5) {
+            const Joints joints{axis1, -60, axis3, 30, 50, 20, 30};
+            Joints found;
+            REQUIRE(kinematics.inverseContinue(kinematics.forward(joints), seed, found,
+                                               kinematics.armAngle(joints)));
+            for (std::size_t i = 0; i < 7; ++i)
+                CHECK(found[i] == Approx(joints[i]).margin(1e-7));
+            seed = found;
+        }
+    }
+}
