@@ -19,6 +19,14 @@ template <std::size_t N> std::array<double, N> numbersFrom(const Json& json) {
     return result;
 }
 
+motion::Joints jointsFrom(const Json& json) {
+    const auto numbers = json.get<std::vector<double>>();
+    if (numbers.size() > robot::kMostJoints) throw std::invalid_argument("more axes than an arm has");
+    motion::Joints result = motion::Joints::zeros(numbers.size());
+    std::copy(numbers.begin(), numbers.end(), result.begin());
+    return result;
+}
+
 Json frameJson(const motion::FrameSetup& frames) {
     return {{"toolHeld", frames.tool.robotHeld},
             {"tool", jsonOf(frames.tool.tframe)},
@@ -100,7 +108,7 @@ motion::MoveCommand moveFrom(const Json& json) {
     motion::MoveCommand c;
     constexpr int kLastKind = static_cast<int>(motion::MoveKind::Circular), kMostTurns = 1000;
     c.kind = static_cast<motion::MoveKind>(std::abs(wholeFrom(json.at("kind"), kLastKind)));
-    c.joints = {numbersFrom<6>(json.at("joints")), numbersFrom<6>(json.at("jointAxes"))};
+    c.joints = {jointsFrom(json.at("joints")), numbersFrom<6>(json.at("jointAxes"))};
     const Json& conf = json.at("conf");
     c.target = {poseFrom(json.at("target")),
                 {wholeFrom(conf.at(0), kMostTurns), wholeFrom(conf.at(1), kMostTurns),

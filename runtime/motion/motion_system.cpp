@@ -8,8 +8,13 @@ namespace motion {
 
 namespace {
 
-Joints startPosture() {
-    return {0, 0, 0, 0, 30, 0};
+/// All axes at 0, or as near to it as their ranges allow; axis 5 of six off its singularity.
+Joints startPosture(const robot::RobotModel& model, std::size_t axes) {
+    Joints joints = Joints::zeros(axes);
+    if (axes == 6) joints[4] = 30;
+    for (std::size_t i = 0; i < axes; ++i)
+        joints[i] = std::clamp(joints[i], model.lowerDeg[i], model.upperDeg[i]);
+    return joints;
 }
 
 } // namespace
@@ -23,7 +28,7 @@ MotionSystem::MotionSystem(robot::RobotModel model, MotionOptions options) : imp
         const ExternalAxisModel& axis = options.external[i];
         if (axis.present) external[i] = std::clamp(0.0, axis.lower, axis.upper);
     }
-    const JointTarget start{startPosture(), external};
+    const JointTarget start{startPosture(impl_->model, impl_->kinematics.jointCount()), external};
     impl_->level.path = impl_->newPath(start, 0);
     impl_->follow(impl_->level.path, 0);
 }
@@ -42,7 +47,7 @@ const robot::Kinematics& MotionSystem::kinematics() const {
 Expected<MoveId, MotionError> MotionSystem::enqueue(const MoveCommand& command) {
     Impl& s = *impl_;
     MotionError error;
-    if (s.model.kinematics != robot::KinematicsKind::SphericalWrist) {
+    if (s.model.kinematics == robot::KinematicsKind::SevenAxes) {
         error.kind = MotionErrorKind::UnsupportedRobot;
         return Unexpected{error};
     }
@@ -60,7 +65,7 @@ Expected<MoveId, MotionError> MotionSystem::enqueue(const MoveCommand& command) 
         const double value = made->end().extax[i];
         if (!isConnected(value) || (value >= axis.lower - 1e-9 && value <= axis.upper + 1e-9)) continue;
         error.kind = MotionErrorKind::JointOutOfRange;
-        error.joint = robot::kJointCount + 1 + static_cast<int>(i);
+        error.joint = robot::kFirstExternalAxis + static_cast<int>(i);
         error.value = value;
         error.pathFraction = 1;
         error.position = made->tcpAt(1).pos;

@@ -216,6 +216,7 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
     stretch.leg = legAt(middle);
     stretch.zoneLength = inCorner ? corner(own).length() : 0;
     stretch.middle = pointAt(middle, seed);
+    stretch.first = stretch.second = robot::Joints::zeros(seed.size());
     const RoutePoint low = pointAt(middle - step, stretch.middle.joints);
     const RoutePoint high = pointAt(middle + step, stretch.middle.joints);
     for (std::size_t i = 0; i < stretch.first.size(); ++i) {
@@ -236,9 +237,16 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
     const Pose before = tcp(low);
     const Pose here = tcp(stretch.middle);
     const Pose after = tcp(high);
-    stretch.tcpRate = norm(after.pos - before.pos) / (2 * step);
-    if (inCorner && corner(own).kind == CornerKind::Space) stretch.tcpRate = 1;
-    if (!inCorner && l.path->isCartesian()) stretch.tcpRate = l.length() > 0 ? 1 / l.perMm : 0;
+    if (inCorner && corner(own).kind == CornerKind::Space) {
+        stretch.tcpRate = 1;
+    } else if (!inCorner && l.path->isCartesian()) {
+        stretch.tcpRate = l.length() > 0 ? 1 / l.perMm : 0;
+    } else { // at the middle, since a chord is shorter than the path in a sharp bend
+        const double close = std::min(step, 1e-3);
+        const Vec3 from = tcp(pointAt(middle - close, stretch.middle.joints)).pos;
+        const Vec3 to = tcp(pointAt(middle + close, stretch.middle.joints)).pos;
+        stretch.tcpRate = std::max(norm(to - from) / (2 * close), norm(after.pos - before.pos) / (2 * step));
+    }
     stretch.turnRate = robot::angleBetween(before.rot, after.rot) / (2 * step);
     stretch.curvature = norm(after.pos - here.pos * 2.0 + before.pos) / (step * step);
     return low.isSolved && high.isSolved && stretch.middle.isSolved &&

@@ -26,8 +26,8 @@ MotionError fromInverse(const robot::IkError& error, const Vec3& position) {
 
 std::string axisName(int joint) {
     if (joint == 0) return "an axis";
-    if (joint <= robot::kJointCount) return fmt::format("axis {}", joint);
-    return fmt::format("external axis {}", static_cast<char>('a' + joint - robot::kJointCount - 1));
+    if (joint < robot::kFirstExternalAxis) return fmt::format("axis {}", joint);
+    return fmt::format("external axis {}", static_cast<char>('a' + joint - robot::kFirstExternalAxis));
 }
 
 } // namespace
@@ -108,7 +108,7 @@ std::string MotionError::message() const {
     case MotionErrorKind::CircleTooLarge:
         return fmt::format("circle of {:.1f} degrees in one move; 240 is the most, divide it", value);
     case MotionErrorKind::UnsupportedRobot:
-        return "this robot model has no closed-form kinematics and cannot move";
+        return "arms with seven axes cannot be moved yet; choose another robot model";
     case MotionErrorKind::QueueFull:
         return fmt::format("{:.0f} moves are ordered already; wait for one to end", value);
     }

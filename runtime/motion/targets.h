@@ -96,7 +96,7 @@ enum class MotionErrorKind : uint8_t {
     CirclePointsTooClose,  ///< points of a circle closer than 0.1 mm
     CirclePointsCollinear, ///< all points on one line, the circle point not between start and end
     CircleTooLarge,        ///< more than 240 degrees in one move
-    UnsupportedRobot,      ///< no closed-form kinematics for this model
+    UnsupportedRobot,      ///< motion does not move this mechanism (seven axes)
     QueueFull,             ///< too many moves ordered ahead
 };
 

@@ -35,7 +35,8 @@ void appendSeries(std::string& text, const char* name, double unit, std::size_t 
 void appendSamples(std::string& text, const std::vector<Sample>& samples) {
     const std::size_t count = samples.size();
     appendSeries(text, "time", kTimeUnit, count, [&](std::size_t i) { return samples[i].time; });
-    for (std::size_t axis = 0; axis < robot::kJointCount; ++axis)
+    const std::size_t axes = samples.empty() ? 0 : samples.front().joints.size();
+    for (std::size_t axis = 0; axis < axes; ++axis)
         appendSeries(text, fmt::format("j{}", axis + 1).c_str(), kAngleUnit, count,
                      [&](std::size_t i) { return samples[i].joints[axis]; });
     appendSeries(text, "x", kLengthUnit, count, [&](std::size_t i) { return samples[i].position.x; });

@@ -33,7 +33,10 @@ constexpr std::string_view kKnownFields[] = {"format",
                                              "dynamics",
                                              "sources",
                                              "max_tcp_speed_mm_s",
-                                             "note"};
+                                             "note",
+                                             "axis_numbers",
+                                             "flange_rot",
+                                             "arm_angle_reference"};
 
 /// Walks through the fields of one object and remembers the first thing wrong.
 class Reader {
@@ -104,33 +107,142 @@ class Reader {
     std::string problem_;
 };
 
-void readGeometry(Reader& in, RobotModel& model) {
-    const Json* geometry = in.find(in.root(), "geometry_mm", true);
-    if (geometry == nullptr) return;
-    if (!geometry->is_object())
-        return in.fail("field 'geometry_mm' must be an object with a1 a2 b c1 c2 c3 c4");
-    OpwParameters& g = model.geometry;
-    g.a1 = in.number(*geometry, "a1");
-    g.a2 = in.number(*geometry, "a2");
-    g.b = in.number(*geometry, "b", 0.0);
-    g.c1 = in.number(*geometry, "c1");
-    g.c2 = in.number(*geometry, "c2");
-    g.c3 = in.number(*geometry, "c3");
-    g.c4 = in.number(*geometry, "c4");
+struct KindName {
+    std::string_view name;
+    KinematicsKind kind;
+    std::size_t axes;
+};
+constexpr KindName kKinds[] = {{"spherical-wrist", KinematicsKind::SphericalWrist, 6},
+                               {"offset-wrist", KinematicsKind::OffsetWrist, 6},
+                               {"seven-axes", KinematicsKind::SevenAxes, 7},
+                               {"parallel-rods", KinematicsKind::ParallelRods, 4},
+                               {"scara", KinematicsKind::Scara, 4},
+                               {"delta", KinematicsKind::Delta, 4}};
+
+/// Sets the number of axes, too: everything per axis is read after this.
+void readKinematicsKind(Reader& in, RobotModel& model) {
+    const std::string name = in.text("kinematics");
+    const KindName* found = nullptr;
+    std::string known;
+    for (const KindName& kind : kKinds) {
+        if (kind.name == name) found = &kind;
+        known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", kind.name);
+    }
+    if (found == nullptr) return in.fail(fmt::format("field 'kinematics' must be one of {}", known));
+    model.kinematics = found->kind;
+    const Joints zeros = Joints::zeros(found->axes);
+    model.lowerDeg = model.upperDeg = model.maxSpeed = model.maxAcceleration = model.maxJerk = zeros;
+    model.geometry.offsetsDeg = model.geometry.signs = zeros;
+    model.geometry.signs.fill(1);
+    model.wristOffset = in.number(in.root(), "wrist_offset_mm", 0.0);
+    if ((model.wristOffset != 0) != (model.kinematics == KinematicsKind::OffsetWrist)) {
+        in.fail("field 'wrist_offset_mm' belongs to \"offset-wrist\" and only there");
+    }
+}
+
+void readOpw(Reader& in, const Json& geometry, OpwParameters& g) {
+    g.a1 = in.number(geometry, "a1");
+    g.a2 = in.number(geometry, "a2");
+    g.b = in.number(geometry, "b", 0.0);
+    g.c1 = in.number(geometry, "c1");
+    g.c2 = in.number(geometry, "c2");
+    g.c3 = in.number(geometry, "c3");
+    g.c4 = in.number(geometry, "c4");
     if (in.failed()) return;
     if (!(g.c2 > 0) || !(std::hypot(g.a2, g.c3) > 0)) in.fail("the links c2 and (a2, c3) must have a length");
-    in.numbers(in.root(), "joint_offsets_deg", g.offsetsDeg.data(), kJointCount);
-    in.numbers(in.root(), "joint_signs", g.signs.data(), kJointCount);
-    for (double sign : g.signs) {
+}
+
+void readSevenAxes(Reader& in, const Json& geometry, SevenAxisGeometry& g) {
+    g.base = in.number(geometry, "base");
+    g.shoulder = in.number(geometry, "shoulder");
+    g.upperArm = in.number(geometry, "upper_arm");
+    g.elbowOut = in.number(geometry, "elbow_out");
+    g.elbowUp = in.number(geometry, "elbow_up");
+    g.forearm = in.number(geometry, "forearm");
+    g.wrist = in.number(geometry, "wrist");
+    g.flange = in.number(geometry, "flange");
+    double reference[3] = {0, 0, 1};
+    in.numbers(in.root(), "arm_angle_reference", reference, 3, false);
+    g.armAngleReference = {reference[0], reference[1], reference[2]};
+    if (in.failed()) return;
+    if (!(g.upperArm > 0) || !(g.forearm > 0)) in.fail("the links upper_arm and forearm must have a length");
+    if (std::abs(norm(g.armAngleReference) - 1) > 1e-6)
+        in.fail("field 'arm_angle_reference' must be a vector of length 1");
+}
+
+void readFourAxes(Reader& in, const Json& geometry, RobotModel& model) {
+    if (model.kinematics == KinematicsKind::ParallelRods) {
+        ParallelRodGeometry& g = model.parallelRods;
+        g.a1 = in.number(geometry, "a1");
+        g.c1 = in.number(geometry, "c1");
+        g.c2 = in.number(geometry, "c2");
+        g.c3 = in.number(geometry, "c3");
+        g.out = in.number(geometry, "out");
+        g.down = in.number(geometry, "down");
+        if (!in.failed() && !(g.c2 > 0 && g.c3 > 0)) in.fail("the links c2 and c3 must have a length");
+    } else if (model.kinematics == KinematicsKind::Scara) {
+        ScaraGeometry& g = model.scara;
+        g.height = in.number(geometry, "height");
+        g.upperArm = in.number(geometry, "upper_arm");
+        g.forearm = in.number(geometry, "forearm");
+        if (!in.failed() && !(g.upperArm > 0 && g.forearm > 0))
+            in.fail("the links upper_arm and forearm must have a length");
+    } else {
+        DeltaGeometry& g = model.delta;
+        g.baseRadius = in.number(geometry, "base_radius");
+        g.upperArm = in.number(geometry, "upper_arm");
+        g.rod = in.number(geometry, "rod");
+        g.platformRadius = in.number(geometry, "platform_radius");
+        g.flangeDown = in.number(geometry, "flange_down");
+        if (!in.failed() && !(g.upperArm > 0 && g.rod > 0))
+            in.fail("the links upper_arm and rod must have a length");
+    }
+    double rot[4] = {0, 0, 1, 0};
+    in.numbers(in.root(), "flange_rot", rot, 4, false);
+    const Quat q = normalized({rot[0], rot[1], rot[2], rot[3]});
+    if (!in.failed() && std::hypot(q.w, q.z) > 1e-6)
+        in.fail("field 'flange_rot' must be a quaternion [w, x, y, z] whose z axis points down");
+    model.flangeRot = q;
+}
+
+void readGeometry(Reader& in, RobotModel& model) {
+    const Json* geometry = in.find(in.root(), "geometry_mm", true);
+    if (geometry == nullptr || in.failed()) return;
+    if (!geometry->is_object()) return in.fail("field 'geometry_mm' must be an object with the lengths");
+    const bool isOpw =
+        model.kinematics == KinematicsKind::SphericalWrist || model.kinematics == KinematicsKind::OffsetWrist;
+    if (isOpw)
+        readOpw(in, *geometry, model.geometry);
+    else if (model.kinematics == KinematicsKind::SevenAxes)
+        readSevenAxes(in, *geometry, model.sevenAxes);
+    else
+        readFourAxes(in, *geometry, model);
+    Joints& signs = model.geometry.signs;
+    in.numbers(in.root(), "joint_offsets_deg", model.geometry.offsetsDeg.begin(), signs.size(), isOpw);
+    in.numbers(in.root(), "joint_signs", signs.begin(), signs.size(), isOpw);
+    for (double sign : signs) {
         if (sign != 1 && sign != -1) in.fail("field 'joint_signs' may hold 1 and -1 only");
+    }
+}
+
+void readAxisNumbers(Reader& in, RobotModel& model) {
+    double numbers[kMostJoints] = {1, 2, 3, 4, 5, 6, 7};
+    const std::size_t count = model.lowerDeg.size();
+    in.numbers(in.root(), "axis_numbers", numbers, count, false);
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool isGood = numbers[i] == std::floor(numbers[i]) && numbers[i] <= 7 &&
+                            numbers[i] > (i == 0 ? 0 : numbers[i - 1]);
+        if (!isGood) return in.fail("field 'axis_numbers' must hold rising whole numbers from 1 to 7");
+        model.axisNumbers[i] = static_cast<int>(numbers[i]);
     }
 }
 
 void readLimits(Reader& in, RobotModel& model) {
     const Json* limits = in.find(in.root(), "joint_limits_deg", true);
     if (limits == nullptr) return;
-    bool isGood = limits->is_array() && limits->size() == kJointCount;
-    for (std::size_t i = 0; isGood && i < kJointCount; ++i) {
+    const std::size_t count = model.lowerDeg.size();
+    bool isGood = limits->is_array() && limits->size() == count;
+    for (std::size_t i = 0; isGood && i < count; ++i) {
         const Json& pair = (*limits)[i];
         isGood = pair.is_array() && pair.size() == 2;
         if (!isGood) break;
@@ -139,21 +251,9 @@ void readLimits(Reader& in, RobotModel& model) {
         isGood = in.failed() || model.lowerDeg[i] < model.upperDeg[i];
     }
     if (!isGood)
-        in.fail("field 'joint_limits_deg' must be an array of 6 pairs [lower, upper] with lower < upper");
-}
-
-void readKinematicsKind(Reader& in, RobotModel& model) {
-    const std::string kind = in.text("kinematics");
-    if (kind == "spherical-wrist")
-        model.kinematics = KinematicsKind::SphericalWrist;
-    else if (kind == "offset-wrist")
-        model.kinematics = KinematicsKind::OffsetWrist;
-    else
-        in.fail("field 'kinematics' must be \"spherical-wrist\" or \"offset-wrist\"");
-    model.wristOffset = in.number(in.root(), "wrist_offset_mm", 0.0);
-    if ((model.wristOffset != 0) != (model.kinematics == KinematicsKind::OffsetWrist)) {
-        in.fail("field 'wrist_offset_mm' belongs to \"offset-wrist\" and only there");
-    }
+        in.fail(fmt::format(
+            "field 'joint_limits_deg' must be an array of {} pairs [lower, upper] with lower < upper",
+            count));
 }
 
 void readBaseFrame(Reader& in, RobotModel& model) {
@@ -246,10 +346,11 @@ Expected<RobotModel, ModelError> parseRobotModel(std::string_view jsonText, std:
     model.reachM = in.number(root, "reach_m");
     readKinematicsKind(in, model);
     readGeometry(in, model);
+    readAxisNumbers(in, model);
     readLimits(in, model);
-    in.numbers(root, "max_speed_deg_s", model.maxSpeed.data(), kJointCount);
-    in.numbers(root, "max_acceleration_deg_s2", model.maxAcceleration.data(), kJointCount);
-    in.numbers(root, "max_jerk_deg_s3", model.maxJerk.data(), kJointCount);
+    in.numbers(root, "max_speed_deg_s", model.maxSpeed.begin(), model.maxSpeed.size());
+    in.numbers(root, "max_acceleration_deg_s2", model.maxAcceleration.begin(), model.maxAcceleration.size());
+    in.numbers(root, "max_jerk_deg_s3", model.maxJerk.begin(), model.maxJerk.size());
     in.positive("max_speed_deg_s", model.maxSpeed);
     in.positive("max_acceleration_deg_s2", model.maxAcceleration);
     in.positive("max_jerk_deg_s3", model.maxJerk);

@@ -5,6 +5,7 @@
 #include "runtime/robot/dynamics.h"
 #include "runtime/robot/expected.h"
 #include "runtime/robot/frames.h"
+#include "runtime/robot/joints.h"
 
 #include <array>
 #include <span>
@@ -14,13 +15,13 @@
 
 namespace robot {
 
-inline constexpr int kJointCount = 6;
-/// Axis angles 1..6 in degrees (or a figure per axis in the unit named).
-using Joints = std::array<double, kJointCount>;
-
 enum class KinematicsKind {
     SphericalWrist, ///< six axes, axes 4, 5 and 6 meet in one point: closed-form inverse
-    OffsetWrist     ///< wrist axes do not meet (CRB 15000): listed, but motion refuses it
+    OffsetWrist,    ///< six axes, axis 6 passes axis 5 at a distance (CRB 15000)
+    SevenAxes,      ///< seven axes with an arm angle (IRB 14000, IRB 14050)
+    ParallelRods,   ///< four axes, rods keep the flange level (IRB 260, 460, 660, 760)
+    Scara,          ///< four axes, the third one linear (IRB 910SC, IRB 920T)
+    Delta           ///< three arms with parallel rods and a turning flange (IRB 360)
 };
 
 /// Geometry after Brandstoetter et al. (ortho-parallel base, spherical wrist); lengths in mm.
@@ -33,13 +34,51 @@ struct OpwParameters {
     Joints signs{1, 1, 1, 1, 1, 1}; ///< +1 or -1
 };
 
+/// Lengths in mm of an arm with seven axes, at the zero posture (upper arm upright, forearm along x): axis 1 is z at
+/// height `base`; axis 2 is parallel to y at x = `shoulder`; axis 7, the second of the upper arm, is z again; axis 3 is
+/// parallel to y, `upperArm` above axis 2 at x = `elbowOut`; axis 4 is parallel to x, `elbowUp` above axis 3; axis 5 is
+/// parallel to y, `forearm` from axis 3 and `wrist` above axis 4; axis 6 is in line with axis 4; the flange is `flange`
+/// from axis 5.
+struct SevenAxisGeometry {
+    double base = 0, shoulder = 0, upperArm = 0, elbowOut = 0, elbowUp = 0, forearm = 0, wrist = 0,
+           flange = 0;
+    Vec3 armAngleReference{0, 0, 1}; ///< unit vector in base: system parameter Arm-Angle Reference Direction
+};
+
+/// Lengths in mm of an arm whose rods keep the flange level: a1 axis 1 to axis 2 horizontally, c1 height of axis 2, c2
+/// lower arm, c3 upper arm, then `out` horizontally and `down` to the flange. Axis 2 counts from the vertical, axis 3
+/// from the horizontal (positive: down) whatever axis 2 does.
+struct ParallelRodGeometry {
+    double a1 = 0, c1 = 0, c2 = 0, c3 = 0, out = 0, down = 0;
+};
+
+/// Lengths in mm of a SCARA arm: height of the flange with axis 3 at 0, axis 1 to 2, axis 2 to 3.
+struct ScaraGeometry {
+    double height = 0, upperArm = 0, forearm = 0;
+};
+
+/// Lengths in mm of a delta robot: distance of the arm axes and of the rod joints of the platform from the centre
+/// line, the two links, and the flange below the rod joints. Base frame in the plane of the arm axes, z up; arm 1
+/// points along x, arms 2 and 3 are 120 and 240 degrees further about z; an arm at 0 degrees is level, positive: down.
+struct DeltaGeometry {
+    double baseRadius = 0, upperArm = 0, rod = 0, platformRadius = 0, flangeDown = 0;
+};
+
+/// Only the geometry that belongs to `kinematics` is filled in (the signs and offsets of `geometry` always are).
+/// Figures per axis are in degrees, for a linear axis in mm.
 struct RobotModel {
     std::string name; ///< as people write it: "IRB 120-3/0.58"
     double payloadKg = 0;
     double reachM = 0;
     KinematicsKind kinematics = KinematicsKind::SphericalWrist;
     OpwParameters geometry;
-    Joints lowerDeg{}; ///< joint limits, degrees
+    SevenAxisGeometry sevenAxes;
+    ParallelRodGeometry parallelRods;
+    ScaraGeometry scara;
+    DeltaGeometry delta;
+    std::array<int, kMostJoints> axisNumbers{1, 2, 3, 4, 5, 6, 7}; ///< RAPID's number of each axis
+    Quat flangeRot{0, 0, 1, 0}; ///< four axes: flange in base with all axes at 0; z must point down
+    Joints lowerDeg{};          ///< joint limits, degrees
     Joints upperDeg{};
     Joints maxSpeed{};         ///< deg/s
     Joints maxAcceleration{};  ///< deg/s^2

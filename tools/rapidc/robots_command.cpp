@@ -16,8 +16,9 @@ namespace {
 
 /// Why motion refuses a model; "" when it does not.
 const char* limitationOf(const robot::RobotModel& model) {
-    return model.kinematics == robot::KinematicsKind::OffsetWrist ? "listed only: its wrist axes do not meet"
-                                                                  : "";
+    return model.kinematics != robot::KinematicsKind::SevenAxes
+               ? ""
+               : "listed only: motion does not move its mechanism yet";
 }
 
 std::vector<robot::RobotModel> allModels() {

@@ -73,7 +73,7 @@ motion::MoveCommand circularMove(TaskCore* task, const data::Robtarget& circlePo
 motion::MoveCommand absoluteMove(TaskCore* task, const data::Jointtarget& target, bool noOffsets) {
     motion::MoveCommand command;
     command.kind = motion::MoveKind::AbsJoint;
-    command.joints = toJoints(target);
+    command.joints = toJoints(target, taskOf(task).controller().motion().system().kinematics());
     if (!noOffsets) addOffsets(command.joints.extax, motionState(task).axisOffsets, 1);
     return command;
 }

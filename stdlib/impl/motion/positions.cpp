@@ -65,7 +65,8 @@ Status rt_CPos(TaskCore* task, data::Pos* result, data::Tooldata* Tool, data::Wo
 
 Status rt_CJointT(TaskCore* task, data::Jointtarget* result, Handle* TaskRef, const String* TaskName) {
     if (const Status status = checkTask(task, TaskRef, TaskName)) return status;
-    return lib::give(task, result, lib::toJointtarget(systemOf(task).currentJoints()));
+    return lib::give(task, result,
+                     lib::toJointtarget(systemOf(task).currentJoints(), systemOf(task).kinematics()));
 }
 
 Status rt_CTool(TaskCore* task, data::Tooldata* result, Handle* TaskRef, const String* TaskName) {
@@ -83,8 +84,8 @@ Status rt_CWObj(TaskCore* task, data::Wobjdata* result, Handle* TaskRef, const S
 Status rt_CalcRobT(TaskCore* task, data::Robtarget* result, const data::Jointtarget* Joint_target,
                    data::Tooldata* Tool, data::Wobjdata* WObj) {
     const motion::FrameSetup frames = framesFor(task, Tool, WObj ? WObj : &world());
-    motion::RobTarget target =
-        motion::calcRobTarget(systemOf(task).kinematics(), lib::toJoints(*Joint_target), frames);
+    motion::RobTarget target = motion::calcRobTarget(
+        systemOf(task).kinematics(), lib::toJoints(*Joint_target, systemOf(task).kinematics()), frames);
     lib::addOffsets(target.extax, lib::motionState(task).axisOffsets, -1);
     return lib::give(task, result, lib::toRobtarget(target));
 }
@@ -99,7 +100,7 @@ Status rt_CalcJointT(TaskCore* task, data::Jointtarget* result, bool, const data
     const auto joints =
         motion::calcJointTarget(system.kinematics(), target, frames, system.currentJoints().robax);
     if (ErrorNumber) *ErrorNumber = 0;
-    if (joints) return lib::give(task, result, lib::toJointtarget(*joints));
+    if (joints) return lib::give(task, result, lib::toJointtarget(*joints, systemOf(task).kinematics()));
     const Status number = lib::motionErrno(joints.error());
     if (!ErrorNumber) return lib::fail(task, number, joints.error().message());
     *ErrorNumber = static_cast<float>(number);

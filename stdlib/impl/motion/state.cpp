@@ -71,14 +71,24 @@ data::Robtarget toRobtarget(const motion::RobTarget& target) {
             toExtjoint(target.extax)};
 }
 
-motion::JointTarget toJoints(const data::Jointtarget& target) {
+motion::JointTarget toJoints(const data::Jointtarget& target, const robot::Kinematics& arm) {
     const data::Robjoint& r = target.robax;
-    return {{r.rax_1, r.rax_2, r.rax_3, r.rax_4, r.rax_5, r.rax_6}, toAxes(target.extax)};
+    const float axes[] = {r.rax_1, r.rax_2, r.rax_3, r.rax_4, r.rax_5, r.rax_6};
+    motion::JointTarget joints{robot::Joints::zeros(arm.jointCount()), toAxes(target.extax)};
+    for (size_t i = 0; i < joints.robax.size(); ++i) {
+        const auto number = static_cast<size_t>(arm.axisNumber(i));
+        if (number <= std::size(axes)) joints.robax[i] = axes[number - 1];
+    }
+    return joints;
 }
 
-data::Jointtarget toJointtarget(const motion::JointTarget& joints) {
-    const auto f = [&](size_t i) { return static_cast<float>(joints.robax[i]); };
-    return {{f(0), f(1), f(2), f(3), f(4), f(5)}, toExtjoint(joints.extax)};
+data::Jointtarget toJointtarget(const motion::JointTarget& joints, const robot::Kinematics& arm) {
+    float axes[6] = {};
+    for (size_t i = 0; i < joints.robax.size(); ++i) {
+        const auto number = static_cast<size_t>(arm.axisNumber(i));
+        if (number <= std::size(axes)) axes[number - 1] = static_cast<float>(joints.robax[i]);
+    }
+    return {{axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]}, toExtjoint(joints.extax)};
 }
 
 void addOffsets(motion::ExternalAxes& axes, const motion::ExternalAxes& offsets, double sign) {

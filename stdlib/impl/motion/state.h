@@ -41,8 +41,9 @@ motion::FrameSetup frameSetup(const MotionState& state, const data::Tooldata* to
 /// Positions as programmed; axis offsets are not looked at.
 motion::RobTarget toTarget(const data::Robtarget& target);
 data::Robtarget toRobtarget(const motion::RobTarget& target);
-motion::JointTarget toJoints(const data::Jointtarget& target);
-data::Jointtarget toJointtarget(const motion::JointTarget& joints);
+/// Axes by their numbers: a palletiser has no axes 4 and 5.
+motion::JointTarget toJoints(const data::Jointtarget& target, const robot::Kinematics& arm);
+data::Jointtarget toJointtarget(const motion::JointTarget& joints, const robot::Kinematics& arm);
 /// Adds `sign` times the offsets to the external axes that are connected.
 void addOffsets(motion::ExternalAxes& axes, const motion::ExternalAxes& offsets, double sign);
 motion::ExternalAxes toAxes(const data::Extjoint& axes);

@@ -54,7 +54,8 @@ TEST_CASE("speed and acceleration are the derivatives of the place", "[motion][c
         const double before = course.at(time - kStep).s;
         const double after = course.at(time + kStep).s;
         CHECK(at.v == Approx((after - before) / (2 * kStep)).margin(1e-2));
-        CHECK(at.a == Approx((course.at(time + kStep).v - course.at(time - kStep).v) / (2 * kStep)).margin(1));
+        CHECK(at.a ==
+              Approx((course.at(time + kStep).v - course.at(time - kStep).v) / (2 * kStep)).margin(1));
     }
 }
 

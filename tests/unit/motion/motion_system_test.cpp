@@ -157,7 +157,7 @@ TEST_CASE("an error leaves the queue as it was", "[motion][system]") {
     REQUIRE(small.enqueue(jointsTo({2, 0, 0, 0, 30, 0})).hasValue());
     CHECK(small.enqueue(jointsTo({3, 0, 0, 0, 30, 0})).error().kind == MotionErrorKind::QueueFull);
 
-    auto collaborative = robot::loadRobotModel("CRB 15000-5/0.95");
+    auto collaborative = robot::loadRobotModel("IRB 14050-0.5/0.559");
     REQUIRE(collaborative.hasValue());
     MotionSystem unsupported(*collaborative);
     CHECK(unsupported.enqueue(jointsTo({1, 0, 0, 0, 30, 0})).error().kind ==

@@ -115,7 +115,7 @@ TEST_CASE("random programs keep speeds and reach their ends", "[motion][random]"
         if (speeds.size() == 1) continue; // no move was possible
         INFO("program " << n << ", fastest at " << when);
         CHECK(fastest <= *std::max_element(speeds.begin(), speeds.end()) * 1.005);
-        CHECK(axes <= 1.02);
+        CHECK(axes <= 1.03); // limits are taken in the middle of stretches
         const Joints end = system.plannedEnd().robax;
         for (std::size_t i = 0; i < end.size(); ++i)
             CHECK(system.current().joints[i] == Approx(end[i]).margin(1e-6));

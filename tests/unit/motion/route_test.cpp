@@ -40,9 +40,7 @@ class Lines {
         leg.zone = zone_;
         REQUIRE(route.append(std::move(leg), 0).has_value());
     }
-    Pose at(double place) const {
-        return large().forward(route.at(place).joints);
-    }
+    Pose at(double place) const { return large().forward(route.at(place).joints); }
     Vec3 point(double x, double y, double z) const { return origin_.pos + Vec3{x, y, z}; }
     Quat orientation() const { return origin_.rot; }
     Route route;
@@ -99,7 +97,8 @@ TEST_CASE("a zone is cut to half of the shorter neighbouring move", "[motion][ro
     lines.to(0, 100, 300);
     CHECK(lines.route.leg(0).cutEnd == Approx(50));
     CHECK(lines.route.leg(1).cutStart == Approx(50));
-    CHECK(nearest(lines, lines.point(0, 100, 0)) == Approx(kApproach * 50 * std::sin(M_PI / 4)).epsilon(2e-3));
+    CHECK(nearest(lines, lines.point(0, 100, 0)) ==
+          Approx(kApproach * 50 * std::sin(M_PI / 4)).epsilon(2e-3));
 }
 
 TEST_CASE("orientation turns evenly outside its own zone and is blended inside", "[motion][route]") {

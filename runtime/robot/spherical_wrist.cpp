@@ -1,0 +1,183 @@
+// Closed-form inverse of an ortho-parallel arm whose axes 4, 5 and 6 meet in one point.
+
+#include "runtime/robot/six_axes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace robot {
+
+namespace {
+
+constexpr double kFreeWrist = 1e-10; // sine of axis 5 below which axes 4 and 6 are one axis
+
+/// The flange pose taken apart once for all branches.
+struct Target {
+    Vec3 flangeX, flangeY, flangeZ;
+    ArmTarget arm;
+};
+
+class SphericalWrist final : public SixAxes {
+  public:
+    using SixAxes::SixAxes;
+    void inverseAll(const Pose& flange, const Joints& seed, double armAngleDeg,
+                    IkBranches& out) const override;
+    Expected<Joints, IkError> inverse(const Pose& flange, const ConfData& conf, const Joints& seed,
+                                      double armAngleDeg) const override;
+    bool inverseContinue(const Pose& flange, const Joints& seed, double armAngleDeg,
+                         Joints& out) const override;
+
+  private:
+    bool takeApart(const Pose& flange, const Joints& seed, Target& target) const;
+    bool solveBranch(const Target& target, int cfx, double axis4, double axis6, Joints& out) const;
+    /// Axes 4 and 6 in line: axis 4 at `axis4` degrees, axis 6 in the turn nearest to `axis6`.
+    void solveFreeWrist(const Target& target, const ArmBranch& arm, double axis4, double axis6,
+                        double (&model)[6]) const;
+};
+
+bool SphericalWrist::takeApart(const Pose& flange, const Joints& seed, Target& target) const {
+    target.flangeX = column(flange.rot, 0);
+    target.flangeY = column(flange.rot, 1);
+    target.flangeZ = column(flange.rot, 2);
+    return plane_.aim(flange.pos - target.flangeZ * geometry_.c4, modelAngle(seed, 0), target.arm);
+}
+
+void SphericalWrist::solveFreeWrist(const Target& target, const ArmBranch& arm, double axis4, double axis6,
+                                    double (&model)[6]) const {
+    model[3] = signs_[3] * axis4 + shifts_[3];
+    const double turn =
+        std::atan2(dot(arm.forearmZ(), target.flangeY), dot(arm.forearmY(), target.flangeY)) / trig::kDeg;
+    const bool isFolded = dot(arm.forearmX(), target.flangeZ) < 0; // axis 5 at 180 degrees
+    model[5] = isFolded ? model[3] - turn : turn - model[3];
+    model[5] = nearestTurn(model[5], signs_[5] * axis6 + shifts_[5]);
+}
+
+bool SphericalWrist::solveBranch(const Target& target, int cfx, double axis4, double axis6,
+                                 Joints& out) const {
+    ArmBranch arm;
+    if (!plane_.solve(target.arm, cfx >> 2 & 1, cfx >> 1 & 1, arm)) return false;
+    const double flip = ((cfx & 1) == 0) == (signs_[4] > 0) ? 1.0 : -1.0;
+    const double m10 = dot(arm.forearmY(), target.flangeZ);
+    const double m20 = dot(arm.forearmZ(), target.flangeZ);
+    const double sine5 = std::sqrt(m10 * m10 + m20 * m20);
+    const double y[6] = {arm.sine1,  arm.sine2,    arm.sineEta,
+                         flip * m10, flip * sine5, flip * dot(arm.forearmX(), target.flangeY)};
+    const double x[6] = {arm.cosine1,
+                         arm.cosine2,
+                         arm.cosineEta,
+                         -flip * m20,
+                         dot(arm.forearmX(), target.flangeZ),
+                         -flip * dot(arm.forearmX(), target.flangeX)};
+    double angle[6];
+    trig::atan2Deg(y, x, angle);
+    double model[6] = {angle[0], angle[1], angle[2] - plane_.angleDeg, angle[3], angle[4], angle[5]};
+    if (sine5 < kFreeWrist) solveFreeWrist(target, arm, axis4, axis6, model);
+    toAxes(model, out);
+    return true;
+}
+
+void SphericalWrist::inverseAll(const Pose& flange, const Joints& seed, double /*armAngleDeg*/,
+                                IkBranches& out) const {
+    out.valid = 0;
+    Target target;
+    if (!takeApart(flange, seed, target)) return;
+    ArmBranch arms[4];
+    double y[24] = {};
+    double x[24] = {};
+    double angle[24];
+    bool isArm[4];
+    bool isFree[4];
+    for (std::size_t i = 0; i < 4; ++i) {
+        ArmBranch& arm = arms[i];
+        isArm[i] = plane_.solve(target.arm, static_cast<int>(i >> 1), static_cast<int>(i & 1), arm);
+        const double m10 = dot(arm.forearmY(), target.flangeZ);
+        const double m20 = dot(arm.forearmZ(), target.flangeZ);
+        const double sine5 = std::sqrt(m10 * m10 + m20 * m20);
+        isFree[i] = sine5 < kFreeWrist;
+        const double ys[6] = {arm.sine1, arm.sine2, arm.sineEta,
+                              m10,       sine5,     dot(arm.forearmX(), target.flangeY)};
+        const double xs[6] = {arm.cosine1,
+                              arm.cosine2,
+                              arm.cosineEta,
+                              -m20,
+                              dot(arm.forearmX(), target.flangeZ),
+                              -dot(arm.forearmX(), target.flangeX)};
+        std::copy(ys, ys + 6, y + 6 * i);
+        std::copy(xs, xs + 6, x + 6 * i);
+    }
+    trig::atan2Deg(y, x, angle);
+    const unsigned positive = signs_[4] > 0 ? 0 : 1;
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (!isArm[i]) continue;
+        const double* a = angle + 6 * i;
+        double model[6] = {a[0], a[1], a[2] - plane_.angleDeg, a[3], a[4], a[5]};
+        if (isFree[i]) solveFreeWrist(target, arms[i], seed[3], seed[5], model);
+        toAxes(model, out.joints[2 * i + positive]);
+        model[3] += model[3] > 0 ? -180 : 180;
+        model[4] = -model[4];
+        model[5] += model[5] > 0 ? -180 : 180;
+        if (isFree[i]) solveFreeWrist(target, arms[i], seed[3], seed[5], model);
+        toAxes(model, out.joints[2 * i + 1 - positive]);
+        out.valid = static_cast<uint16_t>(out.valid | (3U << (2 * i)));
+    }
+}
+
+Expected<Joints, IkError> SphericalWrist::inverse(const Pose& flange, const ConfData& conf,
+                                                  const Joints& seed, double /*armAngleDeg*/) const {
+    Target target;
+    if (!takeApart(flange, seed, target)) return Unexpected{IkError{}};
+    Joints joints;
+    if (conf.cfx < 0 || conf.cfx > 7) return Unexpected{IkError{IkErrorKind::NoSuchConfiguration, 0, 0}};
+    // Where axis 4 is free it goes into its quarter, as near to the seed as that lets.
+    const double axis4 = std::clamp(seed[3], 90.0 * conf.cf4, 90.0 * conf.cf4 + 90.0);
+    if (!solveBranch(target, conf.cfx, axis4, seed[5], joints)) {
+        ArmBranch arm;
+        const bool isReachable = plane_.solve(target.arm, 0, 0, arm) || plane_.solve(target.arm, 1, 0, arm);
+        return Unexpected{
+            IkError{isReachable ? IkErrorKind::NoSuchConfiguration : IkErrorKind::Unreachable, 0, 0}};
+    }
+    const int quarters[3] = {conf.cf1, conf.cf4, conf.cf6};
+    const std::size_t axes[3] = {0, 3, 5};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t i = axes[k];
+        const double centre = 90.0 * quarters[k] + 45.0;
+        joints[i] = nearestTurn(joints[i], centre);
+        const double off = joints[i] + kNoise - centre;
+        if (!(off >= -135.0 && off < 135.0)) { // more than one quarter
+            return Unexpected{IkError{IkErrorKind::NoSuchConfiguration, static_cast<int>(i) + 1, joints[i]}};
+        }
+    }
+    if (const int joint = jointOutsideLimits(joints, 1e-6); joint != 0) {
+        return Unexpected{
+            IkError{IkErrorKind::OutOfJointLimits, joint, joints[static_cast<std::size_t>(joint) - 1]}};
+    }
+    return joints;
+}
+
+bool SphericalWrist::inverseContinue(const Pose& flange, const Joints& seed, double armAngleDeg,
+                                     Joints& out) const {
+    IkBranches branches;
+    inverseAll(flange, seed, armAngleDeg, branches);
+    // The elbow cannot change along a path, for that takes the stretched arm; shoulder and wrist can be
+    // passed through.
+    const int elbow = configuration(seed).cfx & 2;
+    double best = HUGE_VAL;
+    for (int cfx : {elbow, elbow | 1, elbow | 4, elbow | 5}) {
+        if (!branches.has(cfx)) continue;
+        Joints candidate = branches.joints[static_cast<std::size_t>(cfx)];
+        const double largest = turnTowards(seed, candidate);
+        if (largest < best) {
+            best = largest;
+            out = candidate;
+        }
+    }
+    return best < HUGE_VAL;
+}
+
+} // namespace
+
+std::shared_ptr<const Mechanism> makeSphericalWrist(const RobotModel& model) {
+    return std::make_shared<SphericalWrist>(model);
+}
+
+} // namespace robot
