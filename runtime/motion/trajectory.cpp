@@ -58,6 +58,7 @@ Leg Trajectory::legOf(const std::shared_ptr<const MotionPath>& path, const MoveC
 
 Trajectory::Appended Trajectory::append(const std::shared_ptr<const MotionPath>& path,
                                         const MoveCommand& command, double now) {
+    planChanged();
     const bool isFlyBy = !command.zone.finep;
     Entry* last = entries_.empty() ? nullptr : &entries_.back();
     endTarget_ = path->end();
@@ -71,6 +72,7 @@ Trajectory::Appended Trajectory::append(const std::shared_ptr<const MotionPath>&
     }
     Leg leg = legOf(path, command);
     if (canFollow && last->run->append(leg, isFlyBy, now)) {
+        planChanged();
         return {{count() - 1, last->run->route().legCount() - 1}, false, false};
     }
     const bool isCornerLost = last != nullptr && last->run->isOpen();
@@ -124,17 +126,19 @@ std::optional<double> Trajectory::startAfter(std::size_t run) const {
     if (ordered > *reached + kSameMoment) return ordered + options_.startDelay;
     if (entry(run).pause > 0 || entry(run - 1).pause > 0) return reached;
     const Course& before = runAt(run - 1).course();
-    return std::max(before.timeAt(before.endPlace() - options_.overlap), before.plannedEnd());
+    return std::max(courseTime(run - 1, before.endPlace() - options_.overlap), before.plannedEnd());
 }
 
 /// Starts of the runs from this one on that have not begun. `earliest`: the arm has been released then.
 void Trajectory::schedule(std::size_t from, double now, double earliest) {
+    planChanged();
     for (std::size_t i = std::max(from, first_); i < count(); ++i) {
         Entry& e = entry(i);
         if (e.isScheduled && e.run->start() <= now && i > from) continue;
         const auto start = isHeld_ ? std::nullopt : startAfter(i);
         e.isScheduled = start.has_value();
         if (start) e.run->startAt(std::max(*start, earliest));
+        planChanged();
     }
 }
 
@@ -146,6 +150,7 @@ std::size_t Trajectory::activeAt(double time) const {
 }
 
 void Trajectory::setSpeedShare(double now, double share) {
+    planChanged();
     share_ = share;
     if (entries_.empty() || isHeld_) return;
     const std::size_t active = activeAt(now);
@@ -160,6 +165,7 @@ void Trajectory::setSpeedShare(double now, double share) {
 }
 
 void Trajectory::hold(double now) {
+    planChanged();
     if (isHeld_) return;
     isHeld_ = true;
     if (entries_.empty()) return;
@@ -173,6 +179,7 @@ void Trajectory::hold(double now) {
 }
 
 void Trajectory::release(double now) {
+    planChanged();
     if (!isHeld_) return;
     isHeld_ = false;
     if (entries_.empty()) return;
@@ -242,13 +249,22 @@ Trajectory::Moment Trajectory::at(double time) const {
     return result;
 }
 
+double Trajectory::courseTime(std::size_t run, double place) const {
+    for (const Found& found : found_)
+        if (found.run == run && found.place == place) return found.time;
+    const double time = runAt(run).course().timeAt(place);
+    found_[nextFound_] = {run, place, time};
+    nextFound_ = (nextFound_ + 1) % found_.size();
+    return time;
+}
+
 std::optional<double> Trajectory::timeAt(const PathPlace& place) const {
     if (place.run < first_ || place.run >= count() || !entry(place.run).isScheduled) return {};
     const Entry& e = entry(place.run);
     if (e.pause > 0) return e.run->start() + (place.s > 0 ? e.pause : 0);
     const Course& course = e.run->course();
     if (place.s > course.endPlace() + kNothing) return {};
-    double low = place.s <= kNothing ? e.run->start() : course.timeAt(place.s);
+    double low = place.s <= kNothing ? e.run->start() : courseTime(place.run, place.s);
     if (missing(place.run, low) <= kNothing) return low;
     double high = std::max(low, runAt(place.run - 1).course().end());
     if (course.at(high).s < place.s) return low; // at rest in between: it comes there as the tail ends
@@ -266,7 +282,7 @@ std::optional<double> Trajectory::inPositionTime(std::size_t run) const {
     if (e.run->isBraking()) return {};
     const Course& course = e.run->course();
     const double length = course.endPlace();
-    return std::max(course.timeAt(length - std::min(options_.inPosition, 0.5 * length)), course.plannedEnd());
+    return std::max(courseTime(run, length - std::min(options_.inPosition, 0.5 * length)), course.plannedEnd());
 }
 
 std::optional<double> Trajectory::decisionTime() const {
@@ -274,7 +290,7 @@ std::optional<double> Trajectory::decisionTime() const {
     const Entry& e = entries_.back();
     if (!e.run->isOpen() || !e.isScheduled || e.run->isBraking()) return {};
     const Route& way = e.run->route();
-    return std::min(e.run->course().lastBraking(), e.run->course().timeAt(way.zoneEntry(way.legCount() - 1)));
+    return std::min(e.run->course().lastBraking(), courseTime(count() - 1, way.zoneEntry(way.legCount() - 1)));
 }
 
 // ---- Places ----
@@ -344,6 +360,7 @@ void Trajectory::finishBack(double now) {
 }
 
 void Trajectory::standAt(double now, const PathPlace& place) {
+    planChanged();
     back_.reset();
     for (std::size_t i = place.run; i < count(); ++i) {
         Entry& e = entry(i);

@@ -5,6 +5,7 @@
 
 #include "runtime/motion/run.h"
 
+#include <array>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -119,6 +120,7 @@ class Trajectory {
     std::size_t count() const { return first_ + entries_.size(); }
     std::size_t activeAt(double time) const;
     std::optional<double> startAfter(std::size_t run) const;
+    double courseTime(std::size_t run, double place) const;
     void schedule(std::size_t from, double now, double earliest);
     double missing(std::size_t run, double time) const;
     Leg legOf(const std::shared_ptr<const MotionPath>& path, const MoveCommand& command) const;
@@ -132,6 +134,15 @@ class Trajectory {
     TrajectoryOptions options_;
     std::size_t first_ = 0; // number of the oldest run that is kept
     std::deque<Entry> entries_;
+    /// Times of places found since the plan changed last: each event asks for the same few again.
+    struct Found {
+        std::size_t run = 0;
+        double place = -1, time = 0;
+    };
+    mutable std::array<Found, 8> found_{};
+    mutable std::size_t nextFound_ = 0;
+    void planChanged() { found_.fill({}); }
+
     JointTarget endTarget_;
     double earliest_ = 0;
     double share_ = 1;
