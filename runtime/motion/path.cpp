@@ -81,6 +81,11 @@ std::optional<MotionError> checkArguments(const MoveCommand& command) {
     for (double value : {speed.vTcp, speed.vOri, speed.vLeax, speed.vReax}) {
         if (!(value >= 0) || std::isinf(value)) return badArgument("a negative speed", value);
     }
+    const ZoneData& zone = command.zone;
+    for (double value :
+         {zone.pzoneTcp, zone.pzoneOri, zone.pzoneEax, zone.zoneOri, zone.zoneLeax, zone.zoneReax}) {
+        if (!(value >= 0) || std::isinf(value)) return badArgument("a negative zone", value);
+    }
     if (!(command.duration >= 0) || std::isinf(command.duration))
         return badArgument("a negative time", command.duration);
     return {};

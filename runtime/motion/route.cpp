@@ -33,6 +33,14 @@ Radii radiiOn(const Leg& leg, const ZoneData& zone) {
     return {std::min(r.tcp, half), std::min(r.turn, half), std::min(r.external, half)};
 }
 
+/// Place where the first of the curve and the blends of a corner begins.
+double zoneBegin(const Corner& corner) {
+    double begin = corner.begin;
+    if (corner.turn.before > 0) begin = std::min(begin, corner.turn.begin);
+    if (corner.external.before > 0) begin = std::min(begin, corner.external.begin);
+    return begin;
+}
+
 } // namespace
 
 bool Route::isRounded(std::size_t number) const {
@@ -58,19 +66,21 @@ std::optional<double> Route::append(Leg leg, double fixedUpTo) {
     if (legs_.back().end() - first < fixedUpTo - kNothing) return {};
     const bool betweenJoints = !legs_.back().path->isCartesian() && !leg.path->isCartesian();
 
-    const std::deque<RouteStretch> earlier = stretches_;
     legs_.push_back(std::move(leg));
     corners_.emplace_back();
     for (const CornerKind kind : {CornerKind::Space, CornerKind::Joint}) {
         if (kind == CornerKind::Space && (!inSpace || betweenJoints)) continue;
-        if (makeCorner(kind, first, second, fixedUpTo)) {
-            const Corner& made = corners_[corners_.size() - 2];
-            double changed = made.begin;
-            if (made.turn.before > 0) changed = std::min(changed, made.turn.begin);
-            if (made.external.before > 0) changed = std::min(changed, made.external.begin);
-            return changed;
+        makeCorner(kind, first, second, fixedUpTo);
+        const double changed = zoneBegin(corners_[corners_.size() - 2]);
+        std::vector<RouteStretch> replaced; // last one first
+        while (!stretches_.empty() && stretches_.back().end > changed + kNothing) {
+            replaced.push_back(stretches_.back());
+            stretches_.pop_back();
         }
-        stretches_ = earlier;
+        const std::size_t kept = stretches_.size();
+        if (layStretches(stretches_.empty() ? changed : stretches_.back().end)) return changed;
+        stretches_.resize(kept);
+        stretches_.insert(stretches_.end(), replaced.rbegin(), replaced.rend());
     }
     legs_.pop_back();
     corners_.pop_back();
@@ -80,7 +90,7 @@ std::optional<double> Route::append(Leg leg, double fixedUpTo) {
     return {};
 }
 
-bool Route::makeCorner(CornerKind kind, double before, double after, double fixedUpTo) {
+void Route::makeCorner(CornerKind kind, double before, double after, double fixedUpTo) {
     Leg& a = legs_[legs_.size() - 2];
     Leg& b = legs_.back();
     Corner& corner = corners_[corners_.size() - 2];
@@ -103,12 +113,6 @@ bool Route::makeCorner(CornerKind kind, double before, double after, double fixe
     a.cutEnd = before;
     b.cutStart = after;
     placeLastCorner();
-    double changed = corner.begin;
-    if (corner.turn.before > 0) changed = std::min(changed, corner.turn.begin);
-    if (corner.external.before > 0) changed = std::min(changed, corner.external.begin);
-    while (!stretches_.empty() && stretches_.back().end > changed + kNothing)
-        stretches_.pop_back();
-    return layStretches(stretches_.empty() ? std::min(changed, corner.begin) : stretches_.back().end);
 }
 
 void Route::placeLastCorner() {
@@ -344,10 +348,7 @@ double Route::zoneEntry(std::size_t number) const {
         const Radii r = radiiOn(l, l.zone);
         return l.end() - (l.zone.finep ? 0 : std::max({r.tcp, r.turn, r.external}));
     }
-    double entry = c.begin;
-    if (c.turn.before > 0) entry = std::min(entry, c.turn.begin);
-    if (c.external.before > 0) entry = std::min(entry, c.external.begin);
-    return entry;
+    return zoneBegin(c);
 }
 
 double Route::placeAfterStart(std::size_t number, double mm) const {

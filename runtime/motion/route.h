@@ -94,7 +94,7 @@ class Route {
     RoutePoint pointOnLeg(std::size_t number, double place, const Joints& seed) const;
     RoutePoint pointInCorner(std::size_t number, double place, const Joints& seed) const;
 
-    bool makeCorner(CornerKind kind, double before, double after, double fixedUpTo);
+    void makeCorner(CornerKind kind, double before, double after, double fixedUpTo);
     static void curveInSpace(Corner& corner, const Leg& a, const Leg& b);
     static void curveOfAxes(Corner& corner, const Leg& a, const Leg& b);
     static void blendTurn(Corner& corner, const Leg& a, const Leg& b, double before, double after);

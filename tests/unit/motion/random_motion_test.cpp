@@ -191,3 +191,83 @@ TEST_CASE("the same program gives the same motion", "[motion][random]") {
         CHECK(first == second);
     }
 }
+
+namespace {
+
+MoveCommand lineBy(const MotionSystem& system, double x, double y, double z, double tcpZone) {
+    MoveCommand command;
+    command.kind = MoveKind::Linear;
+    command.target = calcRobTarget(system.kinematics(), system.plannedEnd(), command.frames);
+    command.target.pose = robot::offs(command.target.pose, x, y, z);
+    command.speed.vTcp = 1000;
+    command.confL = false;
+    if (tcpZone >= 0) command.zone = {false, tcpZone, tcpZone, tcpZone, 1, tcpZone, 1};
+    return command;
+}
+
+/// Orders moves as fast as the queue takes them and runs to the end; s.
+double runAll(MotionSystem& system, const std::vector<std::array<double, 4>>& moves) {
+    for (const auto& m : moves) {
+        REQUIRE(system.enqueue(lineBy(system, m[0], m[1], m[2], m[3])).hasValue());
+        while (system.unfinishedMoves() > 60)
+            system.advanceTo(*system.nextEventTime());
+    }
+    for (int i = 0; i < 100'000 && system.nextEventTime(); ++i)
+        system.advanceTo(*system.nextEventTime());
+    CHECK(system.isIdle());
+    CHECK_FALSE(system.isMoving());
+    const Joints end = system.plannedEnd().robax;
+    for (std::size_t i = 0; i < end.size(); ++i)
+        CHECK(system.current().joints[i] == Approx(end[i]).margin(1e-6));
+    return static_cast<double>(system.now()) * 1e-9;
+}
+
+} // namespace
+
+TEST_CASE("unusual moves are run to their ends", "[motion][random]") {
+    SECTION("back on the same line") {
+        MotionSystem system = smallRobot();
+        const double time = runAll(system, {{0, 100, 0, 10}, {0, -100, 0, 10}, {0, 100, 0, -1}});
+        CHECK(time < 2);
+    }
+    SECTION("a zone larger than the paths") {
+        MotionSystem system = smallRobot();
+        CHECK(runAll(system, {{0, 50, 0, 1e6}, {0, 0, 50, 1e6}, {0, -50, 0, 1e6}, {0, 0, -50, -1}}) < 2);
+    }
+    SECTION("a thousand tiny moves") {
+        MotionSystem system = smallRobot();
+        std::vector<std::array<double, 4>> moves(1000, {0, 0.1, 0, 1});
+        moves.push_back({0, 0, 0, -1});
+        const double time = runAll(system, moves);
+        CHECK(time < 4); // a corner of 0.1 mm takes 2.8 ms at least
+    }
+    SECTION("stop points close to each other") {
+        MotionSystem system = smallRobot();
+        CHECK(runAll(system, {{0, 0.3, 0, -1}, {0, 0.3, 0, -1}, {0, 0.3, 0, -1}, {0, 0.001, 0, -1}}) < 2);
+    }
+    SECTION("moves without a way between fly-by points") {
+        MotionSystem system = smallRobot();
+        CHECK(runAll(system, {{0, 50, 0, 10}, {0, 0, 0, 10}, {0, 0, 50, 10}, {0, 0, 0, -1}}) < 2);
+    }
+    SECTION("reorientation alone between lines") {
+        MotionSystem system = smallRobot();
+        MoveCommand first = lineBy(system, 0, 60, 0, 20);
+        REQUIRE(system.enqueue(first).hasValue());
+        MoveCommand turn = lineBy(system, 0, 0, 0, 20);
+        turn.target.pose.rot = turn.target.pose.rot * robot::fromEulerZyx(60, 0, 0);
+        REQUIRE(system.enqueue(turn).hasValue());
+        CHECK(runAll(system, {{0, 0, 60, -1}}) < 3);
+    }
+}
+
+TEST_CASE("figures of a zone that are no distances are refused", "[motion][random]") {
+    for (const double value : {-1.0, std::nan(""), HUGE_VAL}) {
+        MotionSystem system = smallRobot();
+        MoveCommand command = lineBy(system, 0, 50, 0, 10);
+        command.zone.pzoneOri = value;
+        const auto refused = system.enqueue(command);
+        REQUIRE_FALSE(refused.hasValue());
+        CHECK(refused.error().kind == MotionErrorKind::BadArgument);
+        CHECK(system.isIdle());
+    }
+}

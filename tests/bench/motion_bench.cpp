@@ -1,0 +1,100 @@
+// Speed of motion planning and of the simulated arm. Aims: appending one move 20 us, 1 us a stretch, 4 ms of motion at a
+// thousand times real time (4 us a sample).
+
+#include "runtime/motion/motion_system.h"
+#include "runtime/motion/trajectory.h"
+
+#include <benchmark/benchmark.h>
+
+#include <cstdlib>
+
+namespace {
+
+using namespace motion;
+
+robot::RobotModel arm() {
+    auto model = robot::loadRobotModel("IRB 6640-180/2.55");
+    if (!model) std::abort();
+    return *model;
+}
+
+const JointTarget kStart{{0, 10, 10, 0, 60, 0}, kNoExternalAxes};
+
+/// Line to one of the places of a zigzag of 50 mm legs.
+MoveCommand zigzag(const robot::Kinematics& kinematics, int n) {
+    MoveCommand command;
+    command.kind = MoveKind::Linear;
+    command.target.pose = kinematics.forward(kStart.robax);
+    command.target.pose.pos.y += 40 * (n % 10);
+    command.target.pose.pos.z += n % 2 == 0 ? 30 : 0;
+    command.speed.vTcp = 500;
+    command.zone = {false, 10, 15, 15, 1.5, 15, 1.5};
+    command.confL = false;
+    return command;
+}
+
+void resolveMove(benchmark::State& state) {
+    const robot::Kinematics kinematics(arm());
+    int n = 1;
+    JointTarget at = kStart;
+    for (auto _ : state) {
+        auto path = MotionPath::make(kinematics, at, zigzag(kinematics, n++));
+        at = path->end();
+        benchmark::DoNotOptimize(path);
+    }
+}
+BENCHMARK(resolveMove);
+
+/// A move appended to a path of `range` moves, whose plan is adapted.
+void appendMove(benchmark::State& state) {
+    const robot::RobotModel model = arm();
+    const robot::Kinematics kinematics(model);
+    std::vector<std::shared_ptr<const MotionPath>> paths;
+    std::vector<MoveCommand> commands;
+    JointTarget at = kStart;
+    for (int n = 1; n <= 200; ++n) {
+        commands.push_back(zigzag(kinematics, n));
+        auto path = MotionPath::make(kinematics, at, commands.back());
+        at = path->end();
+        paths.push_back(std::make_shared<const MotionPath>(std::move(*path)));
+    }
+    int64_t stretches = 0;
+    for (auto _ : state) {
+        state.PauseTiming();
+        Trajectory trajectory(model, {}, {}, kStart, 0);
+        const auto before = static_cast<std::size_t>(state.range(0));
+        for (std::size_t n = 0; n < before; ++n)
+            trajectory.append(paths[n], commands[n], 0);
+        const auto old = static_cast<int64_t>(trajectory.route(0).stretches().size());
+        state.ResumeTiming();
+        trajectory.append(paths[before], commands[before], 0);
+        stretches += static_cast<int64_t>(trajectory.route(0).stretches().size()) - old;
+    }
+    state.counters["stretches"] = static_cast<double>(stretches) / static_cast<double>(state.iterations());
+}
+BENCHMARK(appendMove)->Arg(1)->Arg(10)->Arg(60);
+
+/// Motion through zones, a sample each 4 ms, with the events of the moves. Counter: seconds of motion per second.
+void simulate(benchmark::State& state) {
+    double seconds = 0;
+    for (auto _ : state) {
+        MotionSystem system(arm());
+        system.placeAt(kStart);
+        for (int n = 1; n < 100; ++n) {
+            const auto id = system.enqueue(zigzag(system.kinematics(), n));
+            while (id && !system.isReleased(*id)) {
+                const TimeNs tick = (system.now() / 4'000'000 + 1) * 4'000'000;
+                system.advanceTo(std::min(tick, system.nextEventTime().value_or(tick)));
+                benchmark::DoNotOptimize(system.current());
+            }
+            system.takeEvents();
+        }
+        seconds += static_cast<double>(system.now()) * 1e-9;
+    }
+    state.counters["realtime"] = benchmark::Counter(seconds, benchmark::Counter::kIsRate);
+}
+BENCHMARK(simulate)->Unit(benchmark::kMillisecond);
+
+} // namespace
+
+BENCHMARK_MAIN();
