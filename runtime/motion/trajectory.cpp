@@ -282,7 +282,8 @@ std::optional<double> Trajectory::inPositionTime(std::size_t run) const {
     if (e.run->isBraking()) return {};
     const Course& course = e.run->course();
     const double length = course.endPlace();
-    return std::max(courseTime(run, length - std::min(options_.inPosition, 0.5 * length)), course.plannedEnd());
+    return std::max(courseTime(run, length - std::min(options_.inPosition, 0.5 * length)),
+                    course.plannedEnd());
 }
 
 std::optional<double> Trajectory::decisionTime() const {
@@ -290,7 +291,8 @@ std::optional<double> Trajectory::decisionTime() const {
     const Entry& e = entries_.back();
     if (!e.run->isOpen() || !e.isScheduled || e.run->isBraking()) return {};
     const Route& way = e.run->route();
-    return std::min(e.run->course().lastBraking(), courseTime(count() - 1, way.zoneEntry(way.legCount() - 1)));
+    return std::min(e.run->course().lastBraking(),
+                    courseTime(count() - 1, way.zoneEntry(way.legCount() - 1)));
 }
 
 // ---- Places ----

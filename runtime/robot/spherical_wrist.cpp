@@ -156,11 +156,21 @@ Expected<Joints, IkError> SphericalWrist::inverse(const Pose& flange, const Conf
 
 bool SphericalWrist::inverseContinue(const Pose& flange, const Joints& seed, double armAngleDeg,
                                      Joints& out) const {
+    const int own = configuration(seed).cfx;
+    // Another branch turns axis 1 or 4 by about half a revolution: a near solution on the own one is the nearest.
+    constexpr double kNear = 20; // deg
+    Target target;
+    Joints same = seed;
+    if (takeApart(flange, seed, target) && solveBranch(target, own, seed[3], seed[5], same) &&
+        turnTowards(seed, same) < kNear) {
+        out = same;
+        return true;
+    }
     IkBranches branches;
     inverseAll(flange, seed, armAngleDeg, branches);
     // The elbow cannot change along a path, for that takes the stretched arm; shoulder and wrist can be
     // passed through.
-    const int elbow = configuration(seed).cfx & 2;
+    const int elbow = own & 2;
     double best = HUGE_VAL;
     for (int cfx : {elbow, elbow | 1, elbow | 4, elbow | 5}) {
         if (!branches.has(cfx)) continue;
