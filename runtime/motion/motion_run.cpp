@@ -21,7 +21,7 @@ std::deque<Span>::const_iterator MotionSystem::Impl::spanAt(TimeNs time) const {
 bool MotionSystem::Impl::isMoving() const {
     const Span& at = span();
     const double time = seconds();
-    if (at.coast != nullptr) return time < toSeconds(at.start) + at.coast->duration();
+    if (at.coast != nullptr) return now < at.start + toNs(at.coast->duration());
     return at.path != nullptr && at.path->isMoving(time);
 }
 

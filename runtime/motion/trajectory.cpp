@@ -134,7 +134,7 @@ void Trajectory::schedule(std::size_t from, double now, double earliest) {
     planChanged();
     for (std::size_t i = std::max(from, first_); i < count(); ++i) {
         Entry& e = entry(i);
-        if (e.isScheduled && e.run->start() <= now && i > from) continue;
+        if (i > from && hasBegun(e, now)) continue;
         const auto start = isHeld_ ? std::nullopt : startAfter(i);
         e.isScheduled = start.has_value();
         if (start) e.run->startAt(std::max(*start, earliest));
@@ -142,9 +142,13 @@ void Trajectory::schedule(std::size_t from, double now, double earliest) {
     }
 }
 
+bool Trajectory::hasBegun(const Entry& entry, double time) {
+    return entry.isScheduled && entry.run->start() <= time + kNothing;
+}
+
 std::size_t Trajectory::activeAt(double time) const {
     std::size_t run = count() - 1;
-    while (run > first_ && !(entry(run).isScheduled && entry(run).run->start() <= time))
+    while (run > first_ && !hasBegun(entry(run), time))
         --run;
     return run;
 }
@@ -160,8 +164,7 @@ void Trajectory::setSpeedShare(double now, double share) {
         if (now < e.run->course().plannedEnd() || !e.isScheduled)
             e.run->plan(std::max(now, e.run->start()), share);
     }
-    const bool hasBegun = entry(active).isScheduled && entry(active).run->start() <= now;
-    schedule(active + (hasBegun ? 1 : 0), now, now);
+    schedule(active + (hasBegun(entry(active), now) ? 1 : 0), now, now);
 }
 
 void Trajectory::hold(double now) {
@@ -172,9 +175,8 @@ void Trajectory::hold(double now) {
     const std::size_t active = activeAt(now);
     for (std::size_t i = active; i < count(); ++i) {
         Entry& e = entry(i);
-        const bool hasBegun = e.isScheduled && e.run->start() <= now;
-        if (!hasBegun) e.isScheduled = false;
-        if (hasBegun && e.pause == 0 && now < e.run->course().plannedEnd()) e.run->brake(now);
+        if (!hasBegun(e, now)) e.isScheduled = false;
+        if (e.isScheduled && e.pause == 0 && now < e.run->course().plannedEnd()) e.run->brake(now);
     }
 }
 
@@ -185,11 +187,11 @@ void Trajectory::release(double now) {
     if (entries_.empty()) return;
     const std::size_t active = activeAt(now);
     Entry& e = entry(active);
-    const bool hasBegun = e.isScheduled && e.run->start() <= now;
-    if (hasBegun && e.pause == 0 && e.run->isBraking()) e.run->plan(now, share_);
-    for (std::size_t i = active + (hasBegun ? 1 : 0); i < count(); ++i)
+    const bool isUnderWay = hasBegun(e, now);
+    if (isUnderWay && e.pause == 0 && e.run->isBraking()) e.run->plan(now, share_);
+    for (std::size_t i = active + (isUnderWay ? 1 : 0); i < count(); ++i)
         if (entry(i).pause == 0) entry(i).run->plan(entry(i).run->start(), share_);
-    schedule(active + (hasBegun ? 1 : 0), now, now);
+    schedule(active + (isUnderWay ? 1 : 0), now, now);
 }
 
 double Trajectory::restTime() const {
@@ -201,10 +203,11 @@ double Trajectory::restTime() const {
 }
 
 bool Trajectory::isMoving(double time) const {
-    if (back_ && time < back_->course.end()) return true;
+    // Events happen at whole nanoseconds, a little before or after the exact time.
+    const double end = time + kNothing;
+    if (back_ && end < back_->course.end()) return true;
     for (const Entry& e : entries_)
-        if (e.isScheduled && e.pause == 0 && e.run->start() <= time && time < e.run->course().end())
-            return true;
+        if (e.pause == 0 && hasBegun(e, time) && end < e.run->course().end()) return true;
     return false;
 }
 

@@ -118,6 +118,7 @@ class Trajectory {
     Entry& entry(std::size_t run) { return entries_[run - first_]; }
     const Run& runAt(std::size_t run) const { return *entry(run).run; }
     std::size_t count() const { return first_ + entries_.size(); }
+    static bool hasBegun(const Entry& entry, double time);
     std::size_t activeAt(double time) const;
     std::optional<double> startAfter(std::size_t run) const;
     double courseTime(std::size_t run, double place) const;

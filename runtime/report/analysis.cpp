@@ -44,7 +44,8 @@ motion::Joints jointAccelerations(const std::vector<Sample>& samples, std::size_
 class MoveAnalysis {
   public:
     MoveAnalysis(const RunRecord& record, MoveResult& result)
-        : record_(record), samples_(record.samples), result_(result), move_(*result.move) {}
+        : record_(record), accelerations_(record.robot), samples_(record.samples), result_(result),
+          move_(*result.move) {}
 
     void run() {
         for (std::size_t i = result_.first + 1; i <= result_.last; ++i)
@@ -114,12 +115,14 @@ class MoveAnalysis {
     Loss jointLimit(const Step& step) const {
         const motion::Joints speeds = jointSpeeds(samples_[step.to - 1], samples_[step.to]);
         const motion::Joints accelerations = jointAccelerations(samples_, step.to);
+        motion::Joints limits = speeds;
+        accelerations_.limitsAt(samples_[step.to].joints, limits);
         Loss speed{Cause::JointSpeed, 0, 0}, acceleration{Cause::Acceleration, 0, 0};
         double nearestSpeed = kSpeedReached, nearestAcceleration = kAccelerationReached;
         for (std::size_t axis = 0; axis < speeds.size(); ++axis) {
             const double speedShare = std::fabs(speeds[axis]) / record_.robot.maxSpeed[axis];
             const double accelerationShare =
-                std::fabs(accelerations[axis]) / (record_.robot.maxAcceleration[axis] * move_.acceleration);
+                std::fabs(accelerations[axis]) / (limits[axis] * move_.acceleration);
             if (speedShare >= nearestSpeed) {
                 nearestSpeed = speedShare;
                 speed.axis = static_cast<int>(axis) + 1;
@@ -162,6 +165,7 @@ class MoveAnalysis {
 
   private:
     const RunRecord& record_;
+    robot::AccelerationMap accelerations_;
     const std::vector<Sample>& samples_;
     MoveResult& result_;
     const Move& move_;

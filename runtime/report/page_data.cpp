@@ -161,6 +161,26 @@ Json totalsOf(const Analysis& analysis) {
             {"losses", lossesOf(analysis.losses)}};
 }
 
+/// What the page needs to find the acceleration limits of a posture (runtime/robot/dynamics.h); m, rad/s^2.
+Json dynamicsOf(const robot::RobotModel& robot) {
+    Json axes = Json::array();
+    for (std::size_t i = 0; i < robot.maxSpeed.size(); ++i) {
+        const robot::AccelerationLimit& limit = robot.dynamics.axes[i];
+        axes.push_back({{"scale", limit.scale},
+                        {"most", limit.cap},
+                        {"base", limit.base},
+                        {"elbow", limit.elbow},
+                        {"wrist", limit.wrist},
+                        {"reach", limit.reach}});
+    }
+    const robot::OpwParameters& g = robot.geometry;
+    return {{"axes", std::move(axes)},
+            {"a1", 0.001 * g.a1},
+            {"a2", 0.001 * g.a2},
+            {"c2", 0.001 * g.c2},
+            {"c3", 0.001 * g.c3}};
+}
+
 } // namespace
 
 std::string pageData(const ReportContent& content) {
@@ -170,7 +190,7 @@ std::string pageData(const ReportContent& content) {
                  {"end", rounded(record.end)},
                  {"limits",
                   {{"speed", record.robot.maxSpeed},
-                   {"acceleration", record.robot.maxAcceleration},
+                   {"dynamics", dynamicsOf(record.robot)},
                    {"tcp", record.robot.maxTcpSpeed},
                    {"assumed", record.robot.provisional}}},
                  {"totals", totalsOf(content.analysis)},

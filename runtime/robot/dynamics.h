@@ -45,6 +45,8 @@ class AccelerationMap {
             out[i] = limit(dynamics_.axes[i], arm);
     }
 
+    const Dynamics& dynamics() const { return dynamics_; }
+
   private:
     struct Arm {
         double elbow2 = 0, wrist2 = 0, reach2 = 0; // squares, m^2

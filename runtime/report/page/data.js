@@ -61,8 +61,23 @@ function shares(values, limit) {
 
 const jointSpeed = joints.map(speedsOf);
 const speedShare = jointSpeed.map((speeds, axis) => shares(speeds, run.limits.speed[axis]));
+/** The largest acceleration the controller plans for an axis in the posture of a sample, deg/s^2. */
+function accelerationLimit(axis, i) {
+  const { axes, a1, a2, c2, c3 } = run.limits.dynamics;
+  const limit = axes[axis];
+  const q2 = joints[1][i] * Math.PI / 180;
+  const q23 = q2 + (joints.length > 2 ? joints[2][i] : 0) * Math.PI / 180;
+  const elbow = a1 + c2 * Math.sin(q2);
+  const wrist = elbow - a2 * Math.sin(q23) + c3 * Math.cos(q23);
+  const height = c2 * Math.cos(q2) - a2 * Math.cos(q23) - c3 * Math.sin(q23);
+  const inertia = limit.base + limit.elbow * elbow ** 2 + limit.wrist * wrist ** 2 +
+    limit.reach * ((wrist - a1) ** 2 + height ** 2);
+  const most = inertia > 0 ? Math.min(1 / inertia, limit.most) : limit.most;
+  return limit.scale * most * 180 / Math.PI;
+}
+
 const accelerationShare = jointSpeed.map((speeds, axis) =>
-  shares(accelerationsOf(speeds), run.limits.acceleration[axis]));
+  accelerationsOf(speeds).map((value, i) => Math.abs(value) / accelerationLimit(axis, i) * 100));
 
 /** The programmed speed of the movement in progress; not a number where there is none. */
 const programmedSpeed = new Float64Array(count);

@@ -24,7 +24,8 @@ robot::RobotModel simpleRobot() {
     model.kinematics = robot::KinematicsKind::SphericalWrist;
     model.geometry = {0, 0, 0, 290, 270, 302, 72, {0, 0, -90, 0, 0, 0}};
     model.maxSpeed = {100, 100, 100, 100, 100, 100};
-    model.maxAcceleration = {500, 500, 500, 500, 500, 500};
+    for (robot::AccelerationLimit& limit : model.dynamics.axes)
+        limit.cap = 500 * M_PI / 180;
     model.maxTcpSpeed = 2000;
     return model;
 }
