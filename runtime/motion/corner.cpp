@@ -131,7 +131,8 @@ void Route::blendExternal(Corner& corner, const Leg& a, const Leg& b, double bef
 }
 
 double pathRate(double mm, double degrees) {
-    return std::hypot(mm, kMmPerDegree * degrees);
+    const double turning = kMmPerDegree * degrees;
+    return mm >= turning ? mm : std::sqrt(0.5 * (mm * mm + turning * turning));
 }
 
 double externalRate(const AxisVector& slope) {

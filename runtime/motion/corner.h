@@ -75,7 +75,8 @@ template <class Point> struct Blend {
 
 /// On stretches where the TCP hardly moves a degree of turning, or a unit of an external axis, counts as this many mm.
 inline constexpr double kMmPerDegree = 0.2;
-/// mm of route per unit of a parameter by which the TCP moves `mm` and the rest turns `degrees`.
+/// mm of route per unit of a parameter by which the TCP moves `mm` and the rest turns `degrees`: those of the TCP, unless
+/// it moves less than that much turning counts.
 double pathRate(double mm, double degrees);
 /// Speeds of the external axes, added.
 double externalRate(const AxisVector& slope);

@@ -23,6 +23,13 @@ LengthMap LengthMap::measured(const std::function<double(double)>& rate, int pie
         if (i < count) middles[i] = rate((static_cast<double>(i) + 0.5) * step);
         largest = std::max({largest, map.rates_[i], i < count ? middles[i] : 0});
     }
+    // A cubic follows moderate changes only; near a reversal the rate changes fast.
+    constexpr double kModerate = 1.15;
+    constexpr int kMostPieces = 2000;
+    for (std::size_t i = 0; i < count && 4 * pieces <= kMostPieces; ++i) {
+        const auto [low, high] = std::minmax(map.rates_[i], map.rates_[i + 1]);
+        if (high > kModerate * low && high > 0.02 * largest) return measured(rate, 4 * pieces);
+    }
     // Where the curve stands still for a moment the map must stay invertible.
     const double least = 1e-3 * largest;
     for (double& r : map.rates_)

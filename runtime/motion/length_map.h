@@ -10,7 +10,8 @@ class LengthMap {
   public:
     /// The parameter grows in proportion to the distance.
     static LengthMap even(double length);
-    /// `rate`: length per unit of the parameter, measured at 2 * `pieces` + 1 places.
+    /// `rate`: length per unit of the parameter, measured at 2 * `pieces` + 1 places, or more where it
+    /// changes fast.
     static LengthMap measured(const std::function<double(double)>& rate, int pieces);
 
     double length() const { return length_; }

@@ -114,7 +114,9 @@ void Run::limitStretches(std::size_t from) {
         Joints accelerations = s.middle.joints;
         settings_.accelerations->limitsAt(s.middle.joints, accelerations);
         for (std::size_t i = 0; i < s.first.size(); ++i) {
-            l.speed = std::min(l.speed, atMost(most.jointSpeed[i], s.first[i]));
+            // The rate at the ends of the stretch may be higher than in its middle.
+            const double rate = std::abs(s.first[i]) + 0.5 * l.width * std::abs(s.second[i]);
+            l.speed = std::min(l.speed, atMost(most.jointSpeed[i], rate));
             add(s.first[i], s.second[i], most.accelerationShare * accelerations[i]);
         }
         for (std::size_t i = 0; i < s.externalFirst.size(); ++i) {
