@@ -94,6 +94,7 @@ Json jsonOf(const motion::MoveCommand& c) {
             {"confJ", c.confJ},
             {"confL", c.confL},
             {"circleOrientation", static_cast<int>(c.circleOrientation)},
+            {"singularity", static_cast<int>(c.singularity)},
             {"concurrent", c.concurrent},
             {"settings", jsonOf(c.settings)}};
 }
@@ -124,6 +125,9 @@ motion::MoveCommand moveFrom(const Json& json) {
     json.at("confJ").get_to(c.confJ);
     json.at("confL").get_to(c.confL);
     c.circleOrientation = circleOrientationFrom(json.at("circleOrientation").get<int>());
+    constexpr int kLastMode = static_cast<int>(motion::SingularityMode::LockAxis4);
+    c.singularity =
+        static_cast<motion::SingularityMode>(std::abs(wholeFrom(json.at("singularity"), kLastMode)));
     json.at("concurrent").get_to(c.concurrent);
     c.settings = settingsFrom(json.at("settings"));
     return c;

@@ -24,6 +24,13 @@ enum class CircleOrientation : uint8_t {
     CirclePoint ///< relative to the work object, through the orientation of the circle point
 };
 
+/// How lines and circles pass singularities of the wrist (SingArea, manual 1.7).
+enum class SingularityMode : uint8_t {
+    Off,   ///< the orientation is kept; a path through a singularity is refused
+    Wrist, ///< where that would be refused, axes 4 to 6 turn evenly and the orientation deviates on the way
+    LockAxis4 ///< axis 4 stays at 0 or 180 degrees and the orientation comes as near as it can
+};
+
 /// RAPID's speeddata.
 struct SpeedData {
     double vTcp = 100;   ///< mm/s
@@ -69,6 +76,7 @@ struct MoveCommand {
     RobTarget target;   ///< Joint, Linear, Circular
     Pose circlePoint;   ///< Circular
     CircleOrientation circleOrientation = CircleOrientation::PathFrame;
+    SingularityMode singularity = SingularityMode::Off; ///< Linear, Circular
     FrameSetup frames; ///< tool, work object, displacement; the base frame comes from the model
     SpeedData speed;
     double duration = 0; ///< s, RAPID's \T; 0 = not given. Limits still hold: the move may take longer

@@ -17,7 +17,6 @@ constexpr double kLargestStep = 3;    // deg an axis may turn between two nodes
 constexpr double kLargestBend = 0.01; // deg an axis may be off the straight at half a step
 constexpr double kFinestMm = 2e-3;    // a path that still jumps within this is singular
 constexpr double kFinestDeg = 2e-3;
-constexpr double kDerivativeStep = 1e-4;
 constexpr int kJointGrid = 48;
 constexpr std::size_t kMostNodes = 200000;
 
@@ -172,9 +171,35 @@ std::optional<MotionError> MotionPath::resolveCurve(const MoveCommand& command) 
         nodes_ = {{0, start_.robax, 0}, {1, start_.robax, 0}};
         return checkArrival(command);
     }
-    if (auto error = march()) return error;
+    if (auto error = marchWithMode(command)) return error;
     end_.robax = nodes_.back().joints;
     return checkArrival(command);
+}
+
+/// As the orientation is programmed if that can be, else by the mode of SingArea. A tool that the robot does not hold has
+/// no such mode.
+std::optional<MotionError> MotionPath::marchWithMode(const MoveCommand& command) {
+    const bool isPossible = frames_.tool.robotHeld && kinematics_.jointCount() == 6;
+    constexpr double kTurn = 180; // deg, between the places at which axis 4 can be locked
+    lockedAxis4_ = kTurn * std::round(start_.robax[3] / kTurn);
+    constexpr double kLocked = 0.01; // deg
+    if (isPossible && command.singularity == SingularityMode::LockAxis4 &&
+        std::fabs(start_.robax[3] - lockedAxis4_) < kLocked) {
+        mode_ = SingularityMode::LockAxis4;
+        return march();
+    }
+    auto error = march();
+    const bool isSingular = error && (error->kind == MotionErrorKind::Singularity ||
+                                      error->kind == MotionErrorKind::JointOutOfRange);
+    if (!isSingular || !isPossible || command.singularity != SingularityMode::Wrist) return error;
+    const Pose flange = frames_.toFlange(curve_.at(1));
+    const auto end = command.confL ? kinematics_.inverse(flange, command.target.conf, start_.robax)
+                                   : kinematics_.inverseNear(flange, start_.robax);
+    if (!end) return error;
+    nodes_.clear();
+    end_.robax = *end;
+    mode_ = SingularityMode::Wrist;
+    return march();
 }
 
 MotionError MotionPath::errorAt(MotionErrorKind kind, double s, int joint, double value) const {
@@ -188,6 +213,13 @@ MotionError MotionPath::errorAt(MotionErrorKind kind, double s, int joint, doubl
 }
 
 bool MotionPath::solve(double s, const Joints& seed, Joints& out) const {
+    if (mode_ != SingularityMode::Off) {
+        const Pose base_tcp = frames_.toFlange(curve_.at(s)) * frames_.tool.tframe;
+        return mode_ == SingularityMode::Wrist
+                   ? kinematics_.inverseWithWrist(base_tcp.pos, frames_.tool.tframe,
+                                                  between(start_.robax, end_.robax, s), seed, out)
+                   : kinematics_.inverseLockedAxis4(base_tcp, frames_.tool.tframe, lockedAxis4_, seed, out);
+    }
     return kinematics_.inverseContinue(frames_.toFlange(curve_.at(s)), seed, out);
 }
 
@@ -254,7 +286,7 @@ std::optional<MotionError> MotionPath::march() {
 }
 
 std::optional<MotionError> MotionPath::checkArrival(const MoveCommand& command) const {
-    if (!command.confL) return {};
+    if (!command.confL || mode_ == SingularityMode::LockAxis4) return {};
     const robot::Singularity near = kinematics_.singularity(end_.robax);
     const bool isUndecided = near.wristDeg < 0.1 || near.armMm < 0.1 || near.elbowDeg < 0.1;
     if (isUndecided) return {}; // two configurations meet here
@@ -294,47 +326,8 @@ ExternalAxes MotionPath::externalAt(double s) const {
 }
 
 Pose MotionPath::tcpAt(double s) const {
-    if (isCartesian_ && !isEmpty_) return curve_.at(std::clamp(s, 0.0, 1.0));
+    if (isCartesian_ && !isEmpty_ && mode_ == SingularityMode::Off) return curve_.at(std::clamp(s, 0.0, 1.0));
     return frames_.fromFlange(kinematics_.forward(jointsAt(s)));
-}
-
-void MotionPath::derivativesAt(double s, Joints& first, Joints& second) const {
-    if (!isCartesian_ || isEmpty_ || nodes_.size() < 2) {
-        for (std::size_t i = 0; i < first.size(); ++i)
-            first[i] = end_.robax[i] - start_.robax[i];
-        second = {};
-        return;
-    }
-    // Central differences of the exact inverse, narrower than the grid; lines and circles go on beyond their
-    // ends.
-    const auto after = std::upper_bound(nodes_.begin(), nodes_.end(), s,
-                                        [](double value, const PathNode& n) { return value < n.s; });
-    const auto right = after == nodes_.end() ? after - 1 : after;
-    const auto left = right == nodes_.begin() ? right : right - 1;
-    const double spacing = std::max(right->s - left->s, 1e-10);
-    const double h = std::min(kDerivativeStep, 0.1 * spacing);
-    const Joints& seed = nodeNear(s).joints;
-    Joints before;
-    Joints here;
-    Joints behind;
-    const double centre = s;
-    bool isKnown =
-        solve(centre - h, seed, before) && solve(centre, seed, here) && solve(centre + h, seed, behind);
-    for (double inward : {1.0, -1.0}) { // the end of the path may be the end of reach
-        if (isKnown) break;
-        const double c = s + inward * h;
-        isKnown = solve(c - h, seed, before) && solve(c, seed, here) && solve(c + h, seed, behind);
-    }
-    if (!isKnown) {
-        before = left->joints;
-        behind = right->joints;
-        here = between(before, behind, 0.5);
-    }
-    const double width = isKnown ? h : 0.5 * spacing;
-    for (std::size_t i = 0; i < first.size(); ++i) {
-        first[i] = (behind[i] - before[i]) / (2 * width);
-        second[i] = (behind[i] - 2 * here[i] + before[i]) / (width * width);
-    }
 }
 
 void MotionPath::tcpRatesAt(double s, double& mm, double& deg) const {
@@ -348,26 +341,6 @@ void MotionPath::tcpRatesAt(double s, double& mm, double& deg) const {
     const Pose to = frames_.fromFlange(kinematics_.forward(between(start_.robax, end_.robax, s + kStep)));
     mm = norm(to.pos - from.pos) / (2 * kStep);
     deg = robot::angleBetween(from.rot, to.rot) / (2 * kStep);
-}
-
-double MotionPath::distanceAt(double s) const {
-    if (nodes_.size() < 2 || s <= 0) return 0;
-    if (s >= 1) return length();
-    const auto after = std::upper_bound(nodes_.begin(), nodes_.end(), s,
-                                        [](double value, const PathNode& n) { return value < n.s; });
-    const auto before = after - 1;
-    const double share = (s - before->s) / (after->s - before->s);
-    return before->distance + share * (after->distance - before->distance);
-}
-
-double MotionPath::parameterAtDistance(double mm) const {
-    if (nodes_.size() < 2 || mm <= 0) return 0;
-    if (mm >= length()) return 1;
-    const auto after = std::upper_bound(nodes_.begin(), nodes_.end(), mm,
-                                        [](double value, const PathNode& n) { return value < n.distance; });
-    const auto before = after - 1;
-    const double share = (mm - before->distance) / (after->distance - before->distance);
-    return before->s + share * (after->s - before->s);
 }
 
 } // namespace motion

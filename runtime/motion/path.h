@@ -80,8 +80,6 @@ class MotionPath {
     ExternalAxes externalAt(double s) const;
     /// TCP in the object frame.
     Pose tcpAt(double s) const;
-    /// First and second derivative of the axis angles by s, deg.
-    void derivativesAt(double s, Joints& first, Joints& second) const;
     /// Rates of the TCP in the object frame: mm and degrees per unit of s.
     void tcpRatesAt(double s, double& mm, double& deg) const;
 
@@ -90,10 +88,6 @@ class MotionPath {
     bool isEmpty() const { return isEmpty_; }
     /// TCP path length, mm (measured along the grid for joint moves).
     double length() const { return nodes_.empty() ? 0 : nodes_.back().distance; }
-    /// Path parameter at which the TCP has travelled this many mm (clamped).
-    double parameterAtDistance(double mm) const;
-    /// The reverse: mm of TCP path from the start to s.
-    double distanceAt(double s) const;
     const CartesianCurve& curve() const { return curve_; }
     const JointTarget& start() const { return start_; }
     const JointTarget& end() const { return end_; }
@@ -107,6 +101,7 @@ class MotionPath {
     Problem resolveJointTarget(const MoveCommand& command);
     Problem resolveCurve(const MoveCommand& command);
     Problem march();
+    Problem marchWithMode(const MoveCommand& command);
     Problem checkNode(const PathNode& node) const;
     Problem checkArrival(const MoveCommand& command) const;
     bool solve(double s, const Joints& seed, Joints& out) const;
@@ -120,6 +115,8 @@ class MotionPath {
     JointTarget start_, end_;
     bool isCartesian_ = false;
     bool isEmpty_ = true;
+    SingularityMode mode_ = SingularityMode::Off; // in force on this path
+    double lockedAxis4_ = 0;                      // deg
     CartesianCurve curve_;
     std::vector<PathNode> nodes_;
 };

@@ -94,6 +94,9 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
     command.confJ = state.confJ;
     command.confL = state.confL;
     command.circleOrientation = state.circleOrientation;
+    command.singularity = state.singWrist       ? motion::SingularityMode::Wrist
+                          : state.singLockAxis4 ? motion::SingularityMode::LockAxis4
+                                                : motion::SingularityMode::Off;
     command.concurrent = args.conc;
     command.settings = state.settings;
     motion::MoveId id = 0;
