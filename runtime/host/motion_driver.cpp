@@ -293,6 +293,7 @@ void MotionDriver::emergencyStop(bool powerFailure) {
     advance(scheduler_.now());
     programStop_ = true;
     tell(ArmNews::MotorsOff);
+    if (powerFailure) tell(ArmNews::PowerFailed);
     if (powerFailure) brokenPath_ = system_.isIdle() ? 0 : system_.lastOrdered();
     system_.halt();
     if (powerFailure) system_.rearmTriggers();

@@ -32,6 +32,7 @@ enum class ArmNews : uint8_t {
     Event,      ///< a movement has begun or ended, the arm has come to a stand or goes on
     StopOnPath, ///< the program stops; the arm is about to brake on its path, or stands
     MotorsOff,  ///< the arm is about to brake beside its path
+    PowerFailed, ///< follows MotorsOff when the power has failed
     Start,      ///< the program starts again
     CornerLost  ///< a fly-by point has become a stop point, and warnings of that are on (CornerPathWarning)
 };

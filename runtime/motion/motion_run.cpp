@@ -215,6 +215,20 @@ MotionState MotionSystem::Impl::stateAt(TimeNs time) const {
     return at.path == nullptr ? at.still : stateOn(*at.path, at, toSeconds(time));
 }
 
+/// A stop off the path leaves nothing to decide: the arm brakes already.
+MotionState MotionSystem::Impl::stateIfStopped(TimeNs time) const {
+    const Span& at = *spanAt(time);
+    if (at.coast != nullptr) return at.coast->at(at.coast->duration(), kinematics);
+    if (at.path == nullptr || at.path->isEmpty()) return at.still;
+    const PathPlace place = at.path->restPlaceIfHeld(toSeconds(time));
+    const RoutePoint point = at.path->pointAt(place);
+    MotionState state = at.still;
+    state.joints = point.joints;
+    state.extax = point.extax;
+    state.tcp = at.path->framesAt(place).tcpInWorld(kinematics.forward(point.joints));
+    return state;
+}
+
 /// Where the arm is; at a stop point without a further move, the point itself although the last tenths of a mm are still
 /// being covered.
 JointTarget MotionSystem::Impl::standing() const {

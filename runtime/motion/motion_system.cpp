@@ -310,6 +310,9 @@ std::optional<TimeNs> MotionSystem::reachTime(MoveId move) const {
 MotionState MotionSystem::sample(TimeNs time) const {
     return impl_->stateAt(time);
 }
+MotionState MotionSystem::sampleStopped(TimeNs time) const {
+    return impl_->stateIfStopped(time);
+}
 JointTarget MotionSystem::currentJoints() const {
     return impl_->standing();
 }

@@ -143,6 +143,9 @@ class MotionSystem {
     /// not after the end of the current move.
     MotionState sample(TimeNs time) const;
     MotionState current() const { return sample(now()); }
+    /// State at rest if the arm were stopped on its path at that time, for which sample() has an answer: the place where
+    /// stop() would leave it.
+    MotionState sampleStopped(TimeNs time) const;
     /// CJointT: where the axes are now. `plannedEnd`: where the last ordered move will end.
     JointTarget currentJoints() const;
     JointTarget plannedEnd() const;

@@ -126,6 +126,7 @@ struct MotionSystem::Impl {
     // States
     MotionState stateAt(TimeNs time) const;
     MotionState stateOn(const Trajectory& trajectory, const Span& span, double time) const;
+    MotionState stateIfStopped(TimeNs time) const;
     MotionState stillAt(const JointTarget& joints) const;
     JointTarget standing() const;
     void forgetBefore(TimeNs time);

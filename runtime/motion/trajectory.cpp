@@ -194,6 +194,18 @@ double Trajectory::restTime() const {
     return end;
 }
 
+PathPlace Trajectory::restPlaceIfHeld(double time) const {
+    if (isHeld_ || back_) return at(restTime()).place;
+    const std::size_t active = activeAt(time);
+    const Entry& e = entry(active);
+    const bool hasBegun = e.isScheduled && e.run->start() <= time;
+    if (!hasBegun || e.pause > 0) return at(time).place;
+    if (time >= e.run->course().plannedEnd()) return {active, e.run->course().endPlace()};
+    Run braking = *e.run;
+    braking.brake(time);
+    return {active, braking.course().endPlace()};
+}
+
 bool Trajectory::isMoving(double time) const {
     if (back_ && time < back_->course.end()) return true;
     for (const Entry& e : entries_)

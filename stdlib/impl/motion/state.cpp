@@ -2,6 +2,7 @@
 
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/motion/speed_outputs.h"
+#include "stdlib/impl/motion/world_zones.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib_constants.h"
@@ -24,6 +25,7 @@ void resetSettings(Task& task) {
     state = defaults;
     endSpeedOutputs(task.controller());
     endStopSupervision(task.controller());
+    endTemporaryZones(task.controller());
 }
 
 Status requireMotionTask(TaskCore* task) {
