@@ -197,10 +197,13 @@ Status MotionDriver::submit(Task& task, motion::MoveCommand command, motion::Mov
     for (;;) {
         refresh();
         const motion::Pose start = startOf(command);
+        const motion::JointTarget from = system_.plannedEnd();
         const auto ordered = system_.enqueue(command);
         if (ordered) {
             id = *ordered;
             enqueued(id, command, start, &task);
+            for (const auto& listener : orderListeners_)
+                listener({id, command, from, system_.plannedEnd()});
             break;
         }
         if (ordered.error().kind != motion::MotionErrorKind::QueueFull) {

@@ -1,6 +1,7 @@
 #include "stdlib/impl/motion/state.h"
 
 #include "stdlib/impl/math/convert.h"
+#include "stdlib/impl/motion/path_recorder.h"
 #include "stdlib/impl/motion/speed_outputs.h"
 #include "stdlib/impl/motion/world_zones.h"
 #include "stdlib/impl/support/fail.h"
@@ -26,6 +27,7 @@ void resetSettings(Task& task) {
     endSpeedOutputs(task.controller());
     endStopSupervision(task.controller());
     endTemporaryZones(task.controller());
+    endPathRecording(task.controller());
 }
 
 Status requireMotionTask(TaskCore* task) {
