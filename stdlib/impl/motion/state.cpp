@@ -1,6 +1,7 @@
 #include "stdlib/impl/motion/state.h"
 
 #include "stdlib/impl/math/convert.h"
+#include "stdlib/impl/motion/corrections.h"
 #include "stdlib/impl/motion/path_recorder.h"
 #include "stdlib/impl/motion/speed_outputs.h"
 #include "stdlib/impl/motion/world_zones.h"
@@ -28,6 +29,7 @@ void resetSettings(Task& task) {
     endStopSupervision(task.controller());
     endTemporaryZones(task.controller());
     endPathRecording(task.controller());
+    endCorrections(task.controller());
 }
 
 Status requireMotionTask(TaskCore* task) {
