@@ -201,9 +201,7 @@ PathPlace Trajectory::restPlaceIfHeld(double time) const {
     const bool hasBegun = e.isScheduled && e.run->start() <= time;
     if (!hasBegun || e.pause > 0) return at(time).place;
     if (time >= e.run->course().plannedEnd()) return {active, e.run->course().endPlace()};
-    Run braking = *e.run;
-    braking.brake(time);
-    return {active, braking.course().endPlace()};
+    return {active, e.run->restPlace(time)};
 }
 
 bool Trajectory::isMoving(double time) const {

@@ -123,15 +123,17 @@ void WorldZones::look(Controller& controller) {
         const bool inside = concerns(zone, arm, now);
         if (zone.action != Action::Stop) {
             act(controller, zone, inside);
-        } else if (inside || concerns(zone, arm, now + kExactness)) {
+        } else if (inside || (zone.stopAt == now && concerns(zone, arm, now + kExactness))) {
             stopProgram(controller, zone);
             continue;
         }
         if (!isMoving || concerns(zone, arm, next) == inside) continue;
         const Time last = lastMoment(zone, arm, now, next, inside);
-        next = zone.action == Action::Stop ? std::max(last, now + 1) : last + kExactness;
+        const bool isLate =
+            std::exchange(zone.stopAt, last) == now; // it was to be stopped now, and need not be
+        next = zone.action != Action::Stop ? last + kExactness : std::max(last, now + (isLate ? 1 : 0));
     }
-    if (isMoving) lookAt(controller, next);
+    if (isMoving) lookAt(controller, next); // at once again when it has to be stopped now
 }
 
 /// Zones with the same output: it has the value of those the arm is in.

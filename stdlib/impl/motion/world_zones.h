@@ -27,6 +27,7 @@ struct WorldZone {
     Handle output = 0;
     bool value = true;          ///< inside; outside it is the opposite
     std::optional<bool> inside; ///< as it was acted upon last
+    Time stopAt = kNever;       ///< the last moment to stop an arm that would enter
 };
 
 class WorldZones {
