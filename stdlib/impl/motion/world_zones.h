@@ -15,7 +15,7 @@ namespace rt::lib {
 
 struct WorldZone {
     enum class Action : uint8_t {
-        Stop, ///< WZLimSup: the program stops with event 50910 so that the arm comes to rest at the border
+        Stop, ///< WZLimSup: the program stops with event 50920 so that the arm comes to rest at the border
         OutputInside, ///< WZDOSet \Inside: `output` is `value` while the TCP is inside
         OutputBefore  ///< WZDOSet \Before: already where the arm could just be stopped at the border
     };
