@@ -2,6 +2,7 @@
 
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/motion/corrections.h"
+#include "stdlib/impl/motion/independent_axes.h"
 #include "stdlib/impl/motion/path_recorder.h"
 #include "stdlib/impl/motion/speed_outputs.h"
 #include "stdlib/impl/motion/world_zones.h"
@@ -30,6 +31,7 @@ void resetSettings(Task& task) {
     endTemporaryZones(task.controller());
     endPathRecording(task.controller());
     endCorrections(task.controller());
+    endIndependentMode(task.controller());
 }
 
 Status requireMotionTask(TaskCore* task) {
