@@ -14,6 +14,7 @@ AxisMoment AxisCourse::momentOn(const Piece& piece, double time) {
 }
 
 AxisMoment AxisCourse::at(double time) const {
+    time = std::max(time, pieces_.front().start);
     const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), time,
                                         [](double value, const Piece& piece) { return value < piece.start; });
     return momentOn(after == pieces_.begin() ? *after : *(after - 1), time);

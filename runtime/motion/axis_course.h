@@ -22,7 +22,7 @@ class AxisCourse {
     /// ... or at a speed for ever; 0: it comes to rest.
     AxisCourse turning(double time, double speed, double acceleration) const;
 
-    /// Also for times before the last change, as long as it was there.
+    /// Also for times shortly before the last change; before the beginning it is as it begins.
     AxisMoment at(double time) const;
     /// From this time on the speed remains as it is then.
     double settledAt() const { return pieces_.back().start; }

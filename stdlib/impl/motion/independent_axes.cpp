@@ -85,6 +85,12 @@ motion::AxisMoment momentOf(const motion::MotionSystem& arm) {
     return arm.independent()->at(now);
 }
 
+/// It stands, and is not about to move.
+bool isResting(const motion::MotionSystem& arm) {
+    return momentOf(arm).speed == 0 &&
+           arm.independent()->settledAt() <= static_cast<double>(arm.now()) * 1e-9;
+}
+
 Status checkAxis(TaskCore* task, const Handle* unit, float axis) {
     if (const Status status = lib::requireMotionTask(task)) return status;
     Status status = kOk;
@@ -191,7 +197,7 @@ Status rt_IndReset(TaskCore* task, Handle* MecUnit, float Axis, const data::Robt
     motion::MotionSystem& arm = driver.system();
     double position = arm.currentJoints().robax[kAxis];
     if (arm.independent() != nullptr) {
-        if (momentOf(arm).speed != 0)
+        if (!isResting(arm))
             return lib::fail(task, err::ERR_AXIS_MOVING,
                              "the axis moves: wait until it is in position (IndInpos)");
         position = momentOf(arm).position;
@@ -209,8 +215,8 @@ Status rt_IndReset(TaskCore* task, Handle* MecUnit, float Axis, const data::Robt
 Status rt_IndInpos(TaskCore* task, bool* result, Handle* MecUnit, float Axis) {
     if (const Status status = checkIndependent(task, MecUnit, Axis)) return status;
     const IndependentOrder& order = taskOf(task).controller().service<IndependentAxis>().order();
-    const motion::AxisMoment moment = momentOf(systemOf(task));
-    *result = !order.endless && moment.speed == 0 && moment.position == order.goal;
+    const motion::MotionSystem& arm = systemOf(task);
+    *result = !order.endless && isResting(arm) && momentOf(arm).position == order.goal;
     return kOk;
 }
 
@@ -221,7 +227,8 @@ Status rt_IndSpeed(TaskCore* task, bool* result, Handle* MecUnit, float Axis, bo
     const IndependentOrder& order = taskOf(task).controller().service<IndependentAxis>().order();
     const double speed = momentOf(systemOf(task)).speed;
     constexpr double kExact = 1e-6; // deg/s
-    *result = ZeroSpeed ? speed == 0 : std::fabs(std::fabs(speed) - std::fabs(order.speed)) < kExact;
+    *result =
+        ZeroSpeed ? isResting(systemOf(task)) : std::fabs(std::fabs(speed) - std::fabs(order.speed)) < kExact;
     return kOk;
 }
 }
