@@ -1,12 +1,13 @@
 // Manual 1.8, 2.2.4: independent axes. Axis 6 of the robot is the one that may be independent. Where the manual is silent:
 // IndRMove without a direction takes the short way; IndReset without a reference keeps the position; it waits until the robot
 // stands at a stop point. VelSet and the speed override count as they are when a movement is ordered or the program started.
-// WaitRob and world zones look at the path of the arm only. Independent mode ends with the process.
+// WaitRob looks at the path of the arm only; WZLimSup stops a turning axis in the zone, not before. Independent mode ends with the process.
 
 #include "stdlib/impl/motion/independent_axes.h"
 
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/motion/units.h"
+#include "stdlib/impl/motion/world_zones.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib_constants.h"
@@ -60,6 +61,7 @@ class IndependentAxis {
         const double speed = speedOf(controller, order_);
         arm.setIndependent(kAxis, order_.endless ? course.turning(now, speed, acceleration)
                                                  : course.movedTo(now, order_.goal, speed, acceleration));
+        controller.service<lib::WorldZones>().noteMotion(controller);
     }
     /// A program that is stopped stops the axis, too.
     void take(Controller& controller, ArmNews news) {

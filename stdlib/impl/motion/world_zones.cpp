@@ -28,6 +28,14 @@ Time lastMoment(const WorldZone& zone, const motion::MotionSystem& arm, Time fro
     return from;
 }
 
+/// Some axis moves, or is about to.
+bool isUnderWay(const motion::MotionSystem& arm) {
+    if (arm.isMoving()) return true;
+    const motion::AxisCourse* axis = arm.independent();
+    const double now = static_cast<double>(arm.now()) * 1e-9;
+    return axis != nullptr && (axis->settledAt() > now || axis->at(now).speed != 0);
+}
+
 /// The tasks that move the robot stop with an error, and with them all NORMAL tasks.
 void stopProgram(Controller& controller, const WorldZone& zone) {
     const bool isIn = zone.shape.contains(controller.motion().system().current());
@@ -100,6 +108,10 @@ void WorldZones::take(Controller& controller, ArmNews news) {
     if (news == ArmNews::Start && std::exchange(motorsOff_, false))
         for (WorldZone& zone : zones_)
             zone.inside.reset();
+    noteMotion(controller);
+}
+
+void WorldZones::noteMotion(Controller& controller) {
     if (!zones_.empty() && !motorsOff_) lookAt(controller, controller.scheduler().now());
 }
 
@@ -116,7 +128,7 @@ void WorldZones::look(Controller& controller) {
     if (motorsOff_ || zones_.empty()) return;
     const motion::MotionSystem& arm = controller.motion().system();
     const Time now = controller.scheduler().now();
-    const bool isMoving = arm.isMoving();
+    const bool isMoving = isUnderWay(arm);
     Time next = now + kStep;
     for (WorldZone& zone : zones_) {
         if (!zone.enabled || (zone.action == Action::Stop && (!isMoving || arm.isStopRequested()))) continue;

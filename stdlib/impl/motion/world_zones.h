@@ -43,6 +43,8 @@ class WorldZones {
     void disable(WorldZone& zone) { zone.enabled = false; }
     void erase(int number);
     void eraseTemporary();
+    /// The arm may have begun to move without a movement on its path.
+    void noteMotion(Controller& controller);
     const std::vector<WorldZone>& all() const { return zones_; }
     /// Temporary zones of an earlier process, in place of all there are.
     void restore(Controller& controller, std::vector<WorldZone> zones, int lastNumber);
