@@ -197,10 +197,13 @@ Status MotionDriver::submit(Task& task, motion::MoveCommand command, motion::Mov
     for (;;) {
         refresh();
         const motion::Pose start = startOf(command);
+        const motion::JointTarget from = system_.plannedEnd();
         const auto ordered = system_.enqueue(command);
         if (ordered) {
             id = *ordered;
             enqueued(id, command, start, &task);
+            for (const auto& listener : orderListeners_)
+                listener({id, command, from, system_.plannedEnd()});
             break;
         }
         if (ordered.error().kind != motion::MotionErrorKind::QueueFull) {
@@ -293,6 +296,7 @@ void MotionDriver::emergencyStop(bool powerFailure) {
     advance(scheduler_.now());
     programStop_ = true;
     tell(ArmNews::MotorsOff);
+    if (powerFailure) tell(ArmNews::PowerFailed);
     if (powerFailure) brokenPath_ = system_.isIdle() ? 0 : system_.lastOrdered();
     system_.halt();
     if (powerFailure) system_.rearmTriggers();

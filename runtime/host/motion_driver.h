@@ -29,11 +29,12 @@ struct PathAction {
 
 /// What happens to the arm, for those who accompany it (TriggSpeed, TriggStopProc).
 enum class ArmNews : uint8_t {
-    Event,      ///< a movement has begun or ended, the arm has come to a stand or goes on
-    StopOnPath, ///< the program stops; the arm is about to brake on its path, or stands
-    MotorsOff,  ///< the arm is about to brake beside its path
-    Start,      ///< the program starts again
-    CornerLost  ///< a fly-by point has become a stop point, and warnings of that are on (CornerPathWarning)
+    Event,       ///< a movement has begun or ended, the arm has come to a stand or goes on
+    StopOnPath,  ///< the program stops; the arm is about to brake on its path, or stands
+    MotorsOff,   ///< the arm is about to brake beside its path
+    PowerFailed, ///< follows MotorsOff when the power has failed
+    Start,       ///< the program starts again
+    CornerLost   ///< a fly-by point has become a stop point, and warnings of that are on (CornerPathWarning)
 };
 
 class MotionDriver final : public SteppedArm {
@@ -67,6 +68,16 @@ class MotionDriver final : public SteppedArm {
 
     /// Notified after every motion event.
     WaitQueue& changed() { return changed_; }
+    /// A movement as it has been ordered, with the axes where it begins and ends.
+    struct Ordered {
+        motion::MoveId id = 0;
+        const motion::MoveCommand& command;
+        motion::JointTarget from, to;
+    };
+    /// Called on the fibre of the task after each movement that the program has ordered (path recorder).
+    void addOrderListener(std::function<void(const Ordered&)> listener) {
+        orderListeners_.push_back(std::move(listener));
+    }
     /// Called for the life of the driver, not on a task's fibre.
     void addListener(std::function<void(ArmNews)> listener) { listeners_.push_back(std::move(listener)); }
 
@@ -179,6 +190,7 @@ class MotionDriver final : public SteppedArm {
     bool cornerWarning_ = true;
     std::function<Status(Task&)> circlePointStop_;
     std::vector<std::function<void(ArmNews)>> listeners_;
+    std::vector<std::function<void(const Ordered&)>> orderListeners_;
     bool advancing_ = false;
 };
 

@@ -181,6 +181,7 @@ MotionState MotionSystem::Impl::stillAt(const JointTarget& joints) const {
     if (level.path != nullptr && !path().isEmpty()) frames = path().framesAt(path().end());
     frames.baseFrame = model.baseFrame;
     state.tcp = frames.tcpInWorld(kinematics.forward(joints.robax));
+    state.toolHeld = frames.tool.robotHeld;
     state.move = lastDone;
     if (!level.finished.empty()) state.tag = level.finished.back()->tag;
     return state;
@@ -193,7 +194,9 @@ MotionState MotionSystem::Impl::stateOn(const Trajectory& trajectory, const Span
     MotionState state = span.still;
     state.joints = point.joints;
     state.extax = point.extax;
-    state.tcp = trajectory.framesAt(moment.place).tcpInWorld(kinematics.forward(point.joints));
+    const FrameSetup& frames = trajectory.framesAt(moment.place);
+    state.tcp = frames.tcpInWorld(kinematics.forward(point.joints));
+    state.toolHeld = frames.tool.robotHeld;
     state.moving = trajectory.isMoving(time);
     if (state.moving && moment.speed != 0) {
         double rate = 0;
@@ -213,6 +216,32 @@ MotionState MotionSystem::Impl::stateAt(TimeNs time) const {
     const Span& at = *spanAt(time);
     if (at.coast != nullptr) return at.coast->at(toSeconds(time - at.start), kinematics);
     return at.path == nullptr ? at.still : stateOn(*at.path, at, toSeconds(time));
+}
+
+/// With the axis that moves for itself; its share in the speed of the TCP is left out.
+MotionState MotionSystem::Impl::shown(MotionState state, TimeNs time) const {
+    if (!independent) return state;
+    const AxisMoment moment = independent->at(toSeconds(time));
+    const Pose before = model.baseFrame * kinematics.forward(state.joints);
+    state.joints[independentAxis] = moment.position;
+    state.jointSpeed[independentAxis] = moment.speed;
+    if (state.toolHeld)
+        state.tcp = model.baseFrame * kinematics.forward(state.joints) * robot::inverse(before) * state.tcp;
+    return state;
+}
+
+/// A stop off the path leaves nothing to decide: the arm brakes already.
+MotionState MotionSystem::Impl::stateIfStopped(TimeNs time) const {
+    const Span& at = *spanAt(time);
+    if (at.coast != nullptr) return at.coast->at(at.coast->duration(), kinematics);
+    if (at.path == nullptr || at.path->isEmpty()) return at.still;
+    const PathPlace place = at.path->restPlaceIfHeld(toSeconds(time));
+    const RoutePoint point = at.path->pointAt(place);
+    MotionState state = at.still;
+    state.joints = point.joints;
+    state.extax = point.extax;
+    state.tcp = at.path->framesAt(place).tcpInWorld(kinematics.forward(point.joints));
+    return state;
 }
 
 /// Where the arm is; at a stop point without a further move, the point itself although the last tenths of a mm are still

@@ -16,6 +16,7 @@ struct MotionState {
     int64_t move = 0;    ///< id of the move in progress or finished last; 0 = none yet
     uint64_t tag = 0;    ///< its tag
     bool moving = false;
+    bool toolHeld = true; ///< the robot holds the active tool; a stationary one does not move
 };
 
 } // namespace motion

@@ -208,6 +208,23 @@ void MotionSystem::start() {
     impl_->noteMotion();
 }
 
+void MotionSystem::setIndependent(std::size_t axis, AxisCourse course) {
+    impl_->independent = std::move(course);
+    impl_->independentAxis = axis;
+}
+
+bool MotionSystem::endIndependent(double position) {
+    JointTarget joints = impl_->standing();
+    joints.robax[impl_->independentAxis] = position;
+    if (!placeAt(joints)) return false;
+    impl_->independent.reset();
+    return true;
+}
+
+const AxisCourse* MotionSystem::independent() const {
+    return impl_->independent ? &*impl_->independent : nullptr;
+}
+
 bool MotionSystem::isStopRequested() const {
     return impl_->isStopRequested;
 }
@@ -313,10 +330,16 @@ std::optional<TimeNs> MotionSystem::reachTime(MoveId move) const {
 }
 
 MotionState MotionSystem::sample(TimeNs time) const {
-    return impl_->stateAt(time);
+    return impl_->shown(impl_->stateAt(time), time);
+}
+MotionState MotionSystem::sampleStopped(TimeNs time) const {
+    return impl_->shown(impl_->stateIfStopped(time), time);
 }
 JointTarget MotionSystem::currentJoints() const {
-    return impl_->standing();
+    JointTarget joints = impl_->standing();
+    if (impl_->independent)
+        joints.robax[impl_->independentAxis] = impl_->independent->at(impl_->seconds()).position;
+    return joints;
 }
 JointTarget MotionSystem::plannedEnd() const {
     return impl_->path().endTarget();
@@ -325,7 +348,7 @@ JointTarget MotionSystem::plannedEnd() const {
 RobTarget MotionSystem::currentTarget(const FrameSetup& frames) const {
     FrameSetup based = frames;
     based.baseFrame = impl_->model.baseFrame;
-    return calcRobTarget(impl_->kinematics, impl_->standing(), based);
+    return calcRobTarget(impl_->kinematics, currentJoints(), based);
 }
 
 RobTarget MotionSystem::toRobTarget(const JointTarget& joints, const FrameSetup& frames) const {

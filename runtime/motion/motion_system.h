@@ -4,6 +4,7 @@
 // depends only on the calls made and the times given. Time is int64 nanoseconds of the virtual clock; no call
 // goes back in time.
 
+#include "runtime/motion/axis_course.h"
 #include "runtime/motion/motion_state.h"
 #include "runtime/motion/move_command.h"
 #include "runtime/motion/move_limits.h"
@@ -115,6 +116,15 @@ class MotionSystem {
     void setOverride(double percent);
     double speedOverride() const;
 
+    // ---- independent axes ----
+    /// From now on this axis (from 0) of the robot moves for itself: what is asked of the arm shows it where the course has
+    /// it, while the path is planned and executed as if it were not so. Another course replaces the one before.
+    void setIndependent(std::size_t axis, AxisCourse course);
+    /// Back on the path, at this position of the axis (deg). Only while the arm is idle and stands; false otherwise.
+    bool endIndependent(double position);
+    /// Null when no axis moves for itself.
+    const AxisCourse* independent() const;
+
     // ---- time ----
     /// Lets motion go on until `time`; events up to and including it are collected.
     void advanceTo(TimeNs time);
@@ -143,6 +153,9 @@ class MotionSystem {
     /// not after the end of the current move.
     MotionState sample(TimeNs time) const;
     MotionState current() const { return sample(now()); }
+    /// State at rest if the arm were stopped on its path at that time, for which sample() has an answer: the place where
+    /// stop() would leave it.
+    MotionState sampleStopped(TimeNs time) const;
     /// CJointT: where the axes are now. `plannedEnd`: where the last ordered move will end.
     JointTarget currentJoints() const;
     JointTarget plannedEnd() const;

@@ -70,6 +70,9 @@ struct MotionSystem::Impl {
     bool isStepping = false;            // going back along the path
     std::shared_ptr<Trajectory> detour; // back to the path, axis by axis
 
+    std::optional<AxisCourse> independent; // of an axis that moves for itself
+    std::size_t independentAxis = 0;
+
     Level level; // the one in use
     std::vector<Level> stored;
     std::deque<Span> spans;
@@ -126,6 +129,8 @@ struct MotionSystem::Impl {
     // States
     MotionState stateAt(TimeNs time) const;
     MotionState stateOn(const Trajectory& trajectory, const Span& span, double time) const;
+    MotionState shown(MotionState state, TimeNs time) const;
+    MotionState stateIfStopped(TimeNs time) const;
     MotionState stillAt(const JointTarget& joints) const;
     JointTarget standing() const;
     void forgetBefore(TimeNs time);

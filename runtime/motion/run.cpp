@@ -251,14 +251,8 @@ void Run::plan(double now, double speedShare) {
     planForward(now);
 }
 
-void Run::brake(double now) {
-    isBraking_ = true;
-    if (now <= start_) { // it has not moved
-        course_ = Course(start_, 0, settings_.longWindow, settings_.shortWindow);
-        return;
-    }
-    const CourseState state = course_.plannedAt(now);
-    course_.cutAfter(now);
+/// Calls `step` with place and speed at the end of each piece of the way on which the arm brakes from `state`.
+template <class Step> void Run::brakeFrom(const CourseState& state, Step step) const {
     double place = state.s;
     double square = state.v * state.v;
     for (std::size_t i = route_.stretchAt(place); i < limits_.size() && square > 0; ++i) {
@@ -268,15 +262,34 @@ void Run::brake(double now) {
         const double slowest = std::min(reachableFrom(square, limits_[i], width, true).low, 0.999 * square);
         if (slowest <= 0 || i + 1 == limits_.size()) {
             const double rest = slowest < 0 ? width * square / (square - slowest) : width;
-            course_.moveTo(place + rest, 0);
+            step(place + rest, 0.0);
             break;
         }
-        course_.moveTo(to, std::sqrt(slowest));
+        step(to, std::sqrt(slowest));
         square = slowest;
         place = to;
     }
+}
+
+void Run::brake(double now) {
+    isBraking_ = true;
+    if (now <= start_) { // it has not moved
+        course_ = Course(start_, 0, settings_.longWindow, settings_.shortWindow);
+        return;
+    }
+    const CourseState state = course_.plannedAt(now);
+    course_.cutAfter(now);
+    brakeFrom(state, [this](double place, double speed) { course_.moveTo(place, speed); });
     course_.rest(0);
     isBraking_ = course_.endPlace() < route_.length() - kNothing;
+}
+
+double Run::restPlace(double now) const {
+    if (now <= start_) return 0;
+    const CourseState state = course_.plannedAt(now);
+    double rest = state.s;
+    brakeFrom(state, [&rest](double place, double) { rest = place; });
+    return rest;
 }
 
 void Run::standAt(double time, double place) {

@@ -47,6 +47,8 @@ class Run {
     void plan(double now, double speedShare);
     /// Replans from `now` on: brakes as fast as the limits allow and stands there.
     void brake(double now);
+    /// Where brake() would let the arm come to rest.
+    double restPlace(double now) const;
     /// Stands at a place since `time`.
     void standAt(double time, double place);
     /// Course back along the route, from a place to an earlier one, as mm from the first; at most at this speed.
@@ -63,6 +65,7 @@ class Run {
 
   private:
     void limitStretches(std::size_t from);
+    template <class Step> void brakeFrom(const CourseState& state, Step step) const;
     double speedSquare(std::size_t stretch) const;
     void planBackward(std::size_t from);
     void planForward(double now);

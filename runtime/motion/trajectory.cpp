@@ -202,6 +202,16 @@ double Trajectory::restTime() const {
     return end;
 }
 
+PathPlace Trajectory::restPlaceIfHeld(double time) const {
+    if (isHeld_ || back_) return at(restTime()).place;
+    const std::size_t active = activeAt(time);
+    const Entry& e = entry(active);
+    const bool hasBegun = e.isScheduled && e.run->start() <= time;
+    if (!hasBegun || e.pause > 0) return at(time).place;
+    if (time >= e.run->course().plannedEnd()) return {active, e.run->course().endPlace()};
+    return {active, e.run->restPlace(time)};
+}
+
 bool Trajectory::isMoving(double time) const {
     // Events happen at whole nanoseconds, a little before or after the exact time.
     const double end = time + kNothing;

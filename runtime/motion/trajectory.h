@@ -59,6 +59,8 @@ class Trajectory {
     bool isMoving(double time) const;
     /// When everything comes to rest, as planned.
     double restTime() const;
+    /// Where the arm would come to rest if hold() were called at that time, which has been planned already.
+    PathPlace restPlaceIfHeld(double time) const;
 
     /// Where the arm is, and its speed (mm/s) and acceleration along the path.
     struct Moment {

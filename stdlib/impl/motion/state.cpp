@@ -1,7 +1,11 @@
 #include "stdlib/impl/motion/state.h"
 
 #include "stdlib/impl/math/convert.h"
+#include "stdlib/impl/motion/corrections.h"
+#include "stdlib/impl/motion/independent_axes.h"
+#include "stdlib/impl/motion/path_recorder.h"
 #include "stdlib/impl/motion/speed_outputs.h"
+#include "stdlib/impl/motion/world_zones.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib_constants.h"
@@ -24,6 +28,10 @@ void resetSettings(Task& task) {
     state = defaults;
     endSpeedOutputs(task.controller());
     endStopSupervision(task.controller());
+    endTemporaryZones(task.controller());
+    endPathRecording(task.controller());
+    endCorrections(task.controller());
+    endIndependentMode(task.controller());
 }
 
 Status requireMotionTask(TaskCore* task) {

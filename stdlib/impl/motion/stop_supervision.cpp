@@ -68,6 +68,7 @@ class StopSupervision {
             onPath_ = news == ArmNews::StopOnPath;
             begin(controller);
             [[fallthrough]];
+        case ArmNews::PowerFailed:
         case ArmNews::CornerLost:
         case ArmNews::Event:
             if (braking_ && !controller.motion().system().isMoving()) end(controller);

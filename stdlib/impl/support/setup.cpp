@@ -3,6 +3,7 @@
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/motion/triggers.h"
+#include "stdlib/impl/motion/world_zones.h"
 #include "stdlib/impl/queues/message_queue.h"
 #include "stdlib/impl/time/clocks.h"
 #include "stdlib/native_table.h"
@@ -24,6 +25,7 @@ void setUpStandardLibrary(Controller& controller) {
     lib::keepSignalVariables(controller, kept);
     lib::keepMessages(controller, kept);
     lib::keepTriggers(controller, kept);
+    lib::keepWorldZones(controller, kept);
 }
 
 } // namespace rt

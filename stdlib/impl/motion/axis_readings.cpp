@@ -1,0 +1,112 @@
+// Manual 1.7, 1.8: what is read and set of single axes.
+
+#include "stdlib/impl/motion/state.h"
+#include "stdlib/impl/motion/units.h"
+#include "stdlib/impl/support/fail.h"
+
+#include "stdlib_constants.h"
+#include "stdlib_natives.h"
+
+#include <cmath>
+#include <numbers>
+
+using namespace rt;
+
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180;
+
+struct ArmReach {
+    double ofWrist = 0;   ///< m, horizontally from axis 2 to the centre of the wrist
+    double ofForearm = 0; ///< m, horizontally from axis 3 to there
+};
+
+ArmReach reachAt(const robot::OpwParameters& g, double axis2, double axis3) {
+    const double q23 = (axis2 + axis3) * kRadians;
+    const double forearm = 0.001 * (g.c3 * std::cos(q23) - g.a2 * std::sin(q23));
+    return {forearm + 0.001 * g.c2 * std::sin(axis2 * kRadians), forearm};
+}
+
+/// Share of the torque of an axis that holds the arm against gravity, for an arm on the floor. The moved mass is the one
+/// whose inertia the model's limits of acceleration contain, thought in the centre of the wrist.
+double holdingShare(const robot::RobotModel& model, const motion::Joints& joints, std::size_t axis) {
+    constexpr double kGravity = 9.81; // m/s^2
+    const ArmReach reach = reachAt(model.geometry, joints[1], joints[2]);
+    const robot::AccelerationLimit& limit = model.dynamics.axes[axis];
+    if (axis == 1) return -kGravity * limit.reach / limit.scale * reach.ofWrist;
+    if (axis != 2 || !(limit.cap > 0)) return 0;
+    const double length = 0.001 * std::hypot(model.geometry.a2, model.geometry.c3);
+    return length > 0 ? -kGravity * reach.ofForearm / (length * length * limit.cap * limit.scale) : 0;
+}
+
+Status checkPercent(TaskCore* task, float value, double least, double most, const char* text) {
+    if (value >= least && value <= most) return kOk;
+    return lib::failWith(task, err::ERR_ARGVALERR, text, least, most);
+}
+
+} // namespace
+
+extern "C" {
+
+/// Transmissions are not known: a motor turns as far as its axis, in radians.
+Status rt_ReadMotor(TaskCore* task, float* result, Handle* MecUnit, float Axis) {
+    Status status = kOk;
+    const int axis = lib::robotAxis(task, MecUnit, Axis, status);
+    if (axis < 0) return status;
+    const motion::MotionSystem& arm = taskOf(task).controller().motion().system();
+    *result = static_cast<float>(arm.currentJoints().robax[static_cast<std::size_t>(axis)] * kRadians);
+    return kOk;
+}
+
+/// An estimate, as a share of the greatest torque of the axis: what its acceleration needs of the greatest one it is capable
+/// of in this posture, and what holds axes 2 and 3 against gravity. Loads, friction and the other axes do not count.
+Status rt_GetMotorTorque(TaskCore* task, float* result, Handle* MecUnit, float AxisNo) {
+    Status status = kOk;
+    const int number = lib::robotAxis(task, MecUnit, AxisNo, status);
+    if (number < 0) return status;
+    const auto axis = static_cast<std::size_t>(number);
+    const motion::MotionSystem& arm = taskOf(task).controller().motion().system();
+    const Time now = arm.now();
+    const motion::MotionState state = arm.sample(now);
+    constexpr Time kApart = kMillisecond;
+    const double gained = arm.sample(now + kApart).jointSpeed[axis] - state.jointSpeed[axis];
+    motion::Joints most = state.joints;
+    robot::AccelerationMap(arm.model()).limitsAt(state.joints, most);
+    const double share = gained / (static_cast<double>(kApart) * 1e-9) / most[axis];
+    *result = static_cast<float>(share + holdingShare(arm.model(), state.joints, axis));
+    return kOk;
+}
+
+// The virtual controller has no system input LimitSpeed, which would put these limits into force: they are checked, and have
+// no effect.
+Status rt_SpeedLimAxis(TaskCore* task, Handle* MechUnit, float AxisNo, float AxisSpeed) {
+    Status status = kOk;
+    if (lib::robotAxis(task, MechUnit, AxisNo, status) < 0) return status;
+    if (AxisSpeed > 0) return kOk;
+    return lib::fail(task, err::ERR_SPEEDLIM_VALUE, "SpeedLimAxis: the limit must be above 0");
+}
+
+Status rt_SpeedLimCheckPoint(TaskCore* task, float RobSpeed) {
+    if (RobSpeed > 0) return kOk;
+    return lib::fail(task, err::ERR_SPEEDLIM_VALUE, "SpeedLimCheckPoint: the limit must be above 0 mm/s");
+}
+
+// Axes follow their path exactly: softness and servo tuning are checked, and have nothing to act on.
+Status rt_SoftAct(TaskCore* task, Handle* MechUnit, float Axis, float Softness, const float* Ramp) {
+    Status status = kOk;
+    if (lib::robotAxis(task, MechUnit, Axis, status) < 0) return status;
+    if (Ramp != nullptr && !(*Ramp > 0))
+        return lib::fail(task, err::ERR_ARGVALERR, "SoftAct: the ramp must be above 0 percent");
+    return checkPercent(task, Softness, 0, 100, "SoftAct: the softness must lie between {} and {} percent");
+}
+
+Status rt_TuneServo(TaskCore* task, Handle* MecUnit, float Axis, float TuneValue, const float* Type) {
+    Status status = kOk;
+    if (lib::robotAxis(task, MecUnit, Axis, status) < 0) return status;
+    if (Type != nullptr) {
+        status = checkPercent(task, *Type, k::TUNE_DF, k::TUNE_DL, "TuneServo: types of tuning are {} to {}");
+        if (status != kOk) return status;
+    }
+    return checkPercent(task, TuneValue, 1, 500, "TuneServo: the value must lie between {} and {} percent");
+}
+}

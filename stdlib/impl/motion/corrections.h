@@ -1,0 +1,11 @@
+#pragma once
+// Correction generators (manual 1.8, CorrCon).
+
+#include "runtime/host/controller.h"
+
+namespace rt::lib {
+
+/// The program begins anew, or CorrClear: no generator is connected.
+void endCorrections(Controller& controller);
+
+} // namespace rt::lib

@@ -1,0 +1,168 @@
+#include "stdlib/impl/motion/world_zones.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace rt::lib {
+namespace {
+
+using Action = WorldZone::Action;
+
+constexpr Time kStep = kMillisecond; // between two looks at a moving arm
+constexpr Time kExactness = 1000;    // ns, of the moment of a change
+
+/// Whether the zone acts on an arm that is where it will be at that time. The moment from which on an arm can no longer be
+/// stopped outside counts for what has to happen before.
+bool concerns(const WorldZone& zone, const motion::MotionSystem& arm, Time time) {
+    if (zone.shape.contains(arm.sample(time))) return true;
+    return zone.action != Action::OutputInside && zone.shape.contains(arm.sampleStopped(time));
+}
+
+/// The zone concerns the arm at one of the two times only: the last moment, up to kExactness, at which it is as at `from`.
+Time lastMoment(const WorldZone& zone, const motion::MotionSystem& arm, Time from, Time to, bool atFrom) {
+    while (to - from > kExactness) {
+        const Time middle = from + (to - from) / 2;
+        (concerns(zone, arm, middle) == atFrom ? from : to) = middle;
+    }
+    return from;
+}
+
+/// Some axis moves, or is about to.
+bool isUnderWay(const motion::MotionSystem& arm) {
+    if (arm.isMoving()) return true;
+    const motion::AxisCourse* axis = arm.independent();
+    const double now = static_cast<double>(arm.now()) * 1e-9;
+    return axis != nullptr && (axis->settledAt() > now || axis->at(now).speed != 0);
+}
+
+/// The tasks that move the robot stop with an error, and with them all NORMAL tasks.
+void stopProgram(Controller& controller, const WorldZone& zone) {
+    const bool isIn = zone.shape.contains(controller.motion().system().current());
+    Task* mover = nullptr;
+    for (const auto& task : controller.tasks())
+        if (task->isMotionTask() && task->isExecuting()) mover = task.get();
+    controller.log().write(EventId::WorldZoneStop, mover,
+                           {controller.motion().unitName(), isIn ? "it is inside" : "it would enter",
+                            std::to_string(zone.number)});
+    if (mover != nullptr) {
+        mover->stop(StopCause::Error);
+        controller.taskFailed(*mover);
+    } else {
+        controller.motion().programStop();
+    }
+}
+
+} // namespace
+
+int WorldZones::add(Controller& controller, const WorldZone& zone) {
+    if (zones_.size() >= kMost) return 0;
+    zones_.push_back(zone);
+    zones_.back().number = ++lastNumber_;
+    enable(controller, zones_.back());
+    return lastNumber_;
+}
+
+WorldZone* WorldZones::find(int number) {
+    const auto found = std::find_if(zones_.begin(), zones_.end(),
+                                    [number](const WorldZone& zone) { return zone.number == number; });
+    return found == zones_.end() ? nullptr : &*found;
+}
+
+void WorldZones::enable(Controller& controller, WorldZone& zone) {
+    listen(controller);
+    zone.enabled = true;
+    zone.inside.reset();
+    if (motorsOff_) return;
+    const motion::MotionSystem& arm = controller.motion().system();
+    if (zone.action != Action::Stop) act(controller, zone, concerns(zone, arm, arm.now()));
+    lookAt(controller, controller.scheduler().now());
+}
+
+void WorldZones::erase(int number) {
+    std::erase_if(zones_, [number](const WorldZone& zone) { return zone.number == number; });
+}
+
+void WorldZones::eraseTemporary() {
+    std::erase_if(zones_, [](const WorldZone& zone) { return !zone.stationary; });
+}
+
+void WorldZones::restore(Controller& controller, std::vector<WorldZone> zones, int lastNumber) {
+    listen(controller);
+    zones_ = std::move(zones);
+    lastNumber_ = lastNumber;
+    lookAt(controller, controller.scheduler().now());
+}
+
+void WorldZones::listen(Controller& controller) {
+    if (std::exchange(listening_, true)) return;
+    motorsOff_ = !controller.motorsOn();
+    controller.motion().addListener([this, &controller](ArmNews news) { take(controller, news); });
+}
+
+/// While the motors are off nothing is looked at; what they find when they are on again is acted upon anew.
+void WorldZones::take(Controller& controller, ArmNews news) {
+    if (news == ArmNews::MotorsOff) motorsOff_ = true;
+    if (news == ArmNews::PowerFailed)
+        std::erase_if(zones_, [](const WorldZone& zone) { return zone.stationary; });
+    if (news == ArmNews::Start && std::exchange(motorsOff_, false))
+        for (WorldZone& zone : zones_)
+            zone.inside.reset();
+    noteMotion(controller);
+}
+
+void WorldZones::noteMotion(Controller& controller) {
+    if (!zones_.empty() && !motorsOff_) lookAt(controller, controller.scheduler().now());
+}
+
+void WorldZones::lookAt(Controller& controller, Time time) {
+    controller.scheduler().cancel(tick_);
+    tick_ = controller.scheduler().at(time, [this, &controller] {
+        tick_ = 0;
+        look(controller);
+    });
+}
+
+/// Acts on where the arm is now, and arranges the next look.
+void WorldZones::look(Controller& controller) {
+    if (motorsOff_ || zones_.empty()) return;
+    const motion::MotionSystem& arm = controller.motion().system();
+    const Time now = controller.scheduler().now();
+    const bool isMoving = isUnderWay(arm);
+    Time next = now + kStep;
+    for (WorldZone& zone : zones_) {
+        if (!zone.enabled || (zone.action == Action::Stop && (!isMoving || arm.isStopRequested()))) continue;
+        const bool inside = concerns(zone, arm, now);
+        if (zone.action != Action::Stop) {
+            act(controller, zone, inside);
+        } else if (inside || (zone.stopAt == now && concerns(zone, arm, now + kExactness))) {
+            stopProgram(controller, zone);
+            continue;
+        }
+        if (!isMoving || concerns(zone, arm, next) == inside) continue;
+        const Time last = lastMoment(zone, arm, now, next, inside);
+        const bool isLate =
+            std::exchange(zone.stopAt, last) == now; // it was to be stopped now, and need not be
+        next = zone.action != Action::Stop ? last + kExactness : std::max(last, now + (isLate ? 1 : 0));
+    }
+    if (isMoving) lookAt(controller, next); // at once again when it has to be stopped now
+}
+
+/// Zones with the same output: it has the value of those the arm is in.
+void WorldZones::act(Controller& controller, WorldZone& zone, bool inside) {
+    if (zone.inside == inside) return;
+    zone.inside = inside;
+    const auto keeps = [&](const WorldZone& other) {
+        return other.enabled && other.action != Action::Stop && other.output == zone.output &&
+               other.inside == true;
+    };
+    if (!inside && std::any_of(zones_.begin(), zones_.end(), keeps)) return;
+    IoSystem& io = controller.io();
+    (void)io.force(io.idOf(zone.output), zone.value == inside ? 1 : 0); // checked by WZDOSet
+}
+
+void endTemporaryZones(Controller& controller) {
+    controller.service<WorldZones>().eraseTemporary();
+}
+
+} // namespace rt::lib
