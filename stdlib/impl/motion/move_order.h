@@ -18,6 +18,7 @@ struct MoveArguments {
     const data::Stoppointdata* inpos = nullptr;
     const data::Tooldata* tool = nullptr; ///< always given
     const data::Wobjdata* workObject = nullptr;
+    bool exactConfiguration = false; ///< a line ends in the configuration of its target, also with ConfL \Off
 };
 
 /// The movement to a target; the rest of the command is completed by orderMove.

@@ -92,7 +92,7 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
     command.duration = args.t ? static_cast<double>(*args.t) : 0.0;
     command.zone = zoneOf(args);
     command.confJ = state.confJ;
-    command.confL = state.confL;
+    command.confL = state.confL || args.exactConfiguration;
     command.circleOrientation = state.circleOrientation;
     command.concurrent = args.conc;
     command.settings = state.settings;
@@ -120,6 +120,22 @@ Status rt_MoveAbsJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPo
                    data::Wobjdata* WObj, data::Loaddata*) {
     return lib::orderMove(task, lib::absoluteMove(task, *ToJointPos, NoEOffs),
                           {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
+}
+
+/// The line to where the tool is at these axis angles, which the robot must reach in just that configuration.
+Status rt_MoveAbsL(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float*, bool NoEOffs,
+                   const data::Speeddata* Speed, const float* V, const float* T, const data::Zonedata* Zone,
+                   const float* Z, const data::Stoppointdata* Inpos, data::Tooldata* Tool,
+                   data::Wobjdata* WObj, data::Loaddata*) {
+    if (const Status status = lib::requireMotionTask(task)) return status;
+    const motion::MoveCommand absolute = lib::absoluteMove(task, *ToJointPos, NoEOffs);
+    motion::MoveCommand command;
+    command.kind = motion::MoveKind::Linear;
+    const data::Wobjdata world = lib::MotionState().workObject;
+    const motion::MotionSystem& system = taskOf(task).controller().motion().system();
+    command.target = system.toRobTarget(
+        absolute.joints, lib::frameSetup(lib::motionState(task), Tool, WObj != nullptr ? WObj : &world));
+    return lib::orderMove(task, command, {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj, true});
 }
 
 Status rt_MoveJ(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float*,
