@@ -226,9 +226,9 @@ Status MotionDriver::waitReleased(Task& task, motion::MoveId id) {
         return task.isStepwise() ? system().isDone(id) && !system_.isMoving() : system().isReleased(id);
     };
     WaitResult result{};
-    awaited_ = id;
+    const motion::MoveId outer = std::exchange(awaited_, id); // a trap routine moves the robot
     const Status status = task.waitFor({{&changed_}, mayGoOn}, result);
-    awaited_ = 0;
+    awaited_ = outer;
     return status == kOk ? takeProcessError(task) : status;
 }
 
@@ -262,7 +262,7 @@ Status MotionDriver::waitZeroSpeed(Task& task) {
 
 void MotionDriver::applyStops() {
     advance(scheduler_.now());
-    const bool held = stopMove_ || programStop_;
+    const bool held = stopMove_ || programStop_ || levelHold_;
     if (held && !system_.isStopRequested()) system_.stop();
     if (!held && system_.isStopRequested()) system_.start();
     refresh();
@@ -274,7 +274,7 @@ void MotionDriver::stopMove() {
 }
 
 void MotionDriver::startMove() {
-    stopMove_ = false;
+    stopMove_ = levelHold_ = false;
     applyStops();
 }
 
@@ -294,14 +294,10 @@ void MotionDriver::emergencyStop(bool powerFailure) {
     programStop_ = true;
     tell(ArmNews::MotorsOff);
     if (powerFailure) brokenPath_ = system_.isIdle() ? 0 : system_.lastOrdered();
+    brokenLevel_ = pathLevel();
     system_.halt();
     if (powerFailure) system_.rearmTriggers();
     refresh();
-}
-
-bool MotionDriver::pathInterrupted() {
-    if (brokenPath_ != 0 && system().isDone(brokenPath_)) brokenPath_ = 0;
-    return brokenPath_ != 0;
 }
 
 Status MotionDriver::stepBack(Task& task, double mm, double mmPerSecond, bool& possible) {
@@ -316,15 +312,23 @@ Status MotionDriver::stepBack(Task& task, double mm, double mmPerSecond, bool& p
     return waitZeroSpeed(task);
 }
 
-void MotionDriver::clearPath() {
+void MotionDriver::clearLevel() {
     advance(scheduler_.now());
     interrupted_ = {};
     earlier_ = {};
+    levelHold_ = false;
     system_.clear();
     dropActions(
         [this](const PendingAction& pending) { return pending.move != 0 && system_.isDone(pending.move); });
-    refresh();
+    applyStops();
     changed_.notifyAll(); // moves that tasks wait for are gone
+}
+
+void MotionDriver::clearPath() {
+    levels_.clear();
+    stopMove_ = false; // nothing is left that it could hold
+    system().clearStored();
+    clearLevel();
 }
 
 // ---- Between two processes -----------------------------------------------------------------------------------------

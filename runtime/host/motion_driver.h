@@ -74,6 +74,17 @@ class MotionDriver final : public SteppedArm {
     void stopMove();
     void startMove();
     bool isStopMoveActive() const { return stopMove_; }
+    /// 1 on the base level, one more for each path that is put aside.
+    int pathLevel() const { return 1 + static_cast<int>(levels_.size()); }
+    /// StorePath: stops the arm on its path, waits until it stands, and puts the unfinished movements aside, with StopMove.
+    Status storePath(Task& task);
+    /// RestoPath: waits until the movements of this level are finished (those that StopMove holds are thrown away) and takes
+    /// back the path put aside last. It is held until startMove(), RETRY or clearLevel(). Not on the base level.
+    Status restorePath(Task& task);
+    /// Where StartMove would have to bring the arm back to its path: how far that is.
+    std::optional<motion::MotionSystem::PathGap> gapToPath() { return system().gapToPath(); }
+    /// An error handler has executed RETRY: a path that was taken back goes on.
+    void noteRetry();
     void programStop() override;
     /// The program stops by itself, with the arm standing still.
     void noteStop() { tell(ArmNews::StopOnPath); }
@@ -81,13 +92,15 @@ class MotionDriver final : public SteppedArm {
     /// The motors go off: the arm leaves its path; programStart() brings it back first. `powerFailure`: notes that a path
     /// was interrupted.
     void emergencyStop(bool powerFailure);
-    /// A power failure interrupted a path, and that path is not finished yet (PFRestart).
-    bool pathInterrupted();
+    /// A power failure interrupted a path on this level, and that path is not finished yet (PFRestart).
+    bool pathInterrupted(int level);
     /// StepBwdPath: back on the path while the robot is held there; returns when it stands. `possible` is false when there
     /// is nothing more to step back on.
     Status stepBack(Task& task, double mm, double mmPerSecond, bool& possible);
-    /// ClearPath, program pointer moved.
+    /// Program pointer moved: the paths of all levels are gone, and StopMove with them.
     void clearPath() override;
+    /// ClearPath: the path of the present level is gone.
+    void clearLevel();
 
     /// What an earlier process left of its path.
     struct EarlierPath {
@@ -163,14 +176,21 @@ class MotionDriver final : public SteppedArm {
     std::vector<TraceSink*> traces_;
     Time nextSample_ = 0;
     bool stopMove_ = false, programStop_ = false;
+    bool levelHold_ = false; // between StorePath and the stand of the arm; from RestoPath until it may go on
     Status processError_ = kOk;
-    struct { // the movement instruction that raised a process error while it waited
+    struct Interrupted { // the movement instruction that raised a process error while it waited
         const Frame* frame = nullptr;
         int32_t statement = -1;
         motion::MoveId move = 0;
         int32_t retry = 0; ///< Task::latestRetry at that time
     } interrupted_;
+    struct StoredLevel { // what belongs to a path that is put aside
+        bool stopMove = false;
+        Interrupted interrupted;
+    };
+    std::vector<StoredLevel> levels_;
     motion::MoveId brokenPath_ = 0; // last move of the path at the power failure; 0 = none
+    int brokenLevel_ = 1;           // on which it was
     MotionPointer pointer_;
     std::deque<UnfinishedMove> ordered_;
     motion::MoveId awaited_ = 0; // by the instruction that ordered it

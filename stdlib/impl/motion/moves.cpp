@@ -34,6 +34,9 @@ Status checkConcurrent(TaskCore* task, lib::MotionState& state, bool conc) {
         state.concurrentMoves = 0;
         return kOk;
     }
+    if (taskOf(task).controller().motion().pathLevel() > 1)
+        return lib::fail(task, err::ERR_CONC_MAX,
+                         "movement instructions with \\Conc are not allowed between StorePath and RestoPath");
     if (state.concurrentMoves < kMostConcurrent) {
         ++state.concurrentMoves;
         return kOk;
