@@ -152,9 +152,7 @@ Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::Move
     MotionPointer pointer = pointerOf(task, command);
     if (processError_ != kOk) return takeProcessError(task);
     const auto interrupted = std::exchange(interrupted_, {});
-    if (interrupted.frame != nullptr && interrupted.frame == pointer.frame &&
-        interrupted.statement == pointer.statement && interrupted.retry != task.latestRetry() &&
-        !system_.isDone(interrupted.move)) {
+    if (isSame(interrupted, task, pointer) && !system_.isDone(interrupted.move)) {
         id = interrupted.move;
         error.reset();
         const Status status = waitReleased(task, id);
@@ -170,6 +168,15 @@ Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::Move
     return status;
 }
 
+bool MotionDriver::isSame(const Interrupted& interrupted, const Task& task, const MotionPointer& pointer) {
+    return interrupted.frame != nullptr && interrupted.frame == pointer.frame &&
+           interrupted.statement == pointer.statement && interrupted.retry != task.latestRetry();
+}
+
+bool MotionDriver::continuesMovement(const Task& task) {
+    return isSame(interrupted_, task, pointerOf(task, {})) && !system().isDone(interrupted_.move);
+}
+
 Status MotionDriver::orderParts(Task& task, motion::MoveCommand command, const MotionPointer& pointer,
                                 motion::MoveId& id, std::optional<motion::MotionError>& error) {
     if (backward_ && pointer_.valid) command = reversed(command, pointer_.command);
@@ -177,7 +184,8 @@ Status MotionDriver::orderParts(Task& task, motion::MoveCommand command, const M
     if (command.kind == motion::MoveKind::Circular && task.isStepwise() && !backward_ && circlePointStop_)
         parts = motion::splitAtCirclePoint(command, system().currentTarget(command.frames).pose);
     if (parts.empty()) parts.push_back(std::move(command));
-    for (std::size_t i = 0; i < parts.size(); ++i) {
+    brokenOff_ = false;
+    for (std::size_t i = 0; i < parts.size() && !brokenOff_; ++i) {
         if (i > 0) {
             if (const Status status = circlePointStop_(task); status < 0) return status;
         }
@@ -322,6 +330,13 @@ void MotionDriver::clearLevel() {
         [this](const PendingAction& pending) { return pending.move != 0 && system_.isDone(pending.move); });
     applyStops();
     changed_.notifyAll(); // moves that tasks wait for are gone
+}
+
+void MotionDriver::breakOff(bool stiff) {
+    advance(scheduler_.now());
+    if (stiff) system_.halt();
+    clearLevel();
+    brokenOff_ = true;
 }
 
 void MotionDriver::clearPath() {

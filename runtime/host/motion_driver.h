@@ -101,6 +101,11 @@ class MotionDriver final : public SteppedArm {
     void clearPath() override;
     /// ClearPath: the path of the present level is gone.
     void clearLevel();
+    /// The movement in progress ends here (searches): the arm brakes on its path as fast as it can, or `stiff`: each axis
+    /// for itself. What is ordered next begins where it comes to rest.
+    void breakOff(bool stiff);
+    /// Executed now, the instruction would continue the movement that it has ordered already (RETRY after a process error).
+    bool continuesMovement(const Task& task);
 
     /// What an earlier process left of its path.
     struct EarlierPath {
@@ -123,6 +128,7 @@ class MotionDriver final : public SteppedArm {
     const MotionPointer& pointer() const override { return pointer_; }
     /// Movements are executed backwards from now on: to their target, with type and speed of the motion pointer's.
     void setBackward(bool backward) override { backward_ = backward; }
+    bool isBackward() const { return backward_; }
 
     /// Gets every sample from now on; must outlive the driver.
     void addTrace(TraceSink& trace) { traces_.push_back(&trace); }
@@ -138,6 +144,13 @@ class MotionDriver final : public SteppedArm {
         motion::MoveId id = 0;
         motion::MoveCommand command;
         motion::Pose start; ///< in the frames of the command
+    };
+    /// The movement instruction that raised a process error while it waited.
+    struct Interrupted {
+        const Frame* frame = nullptr;
+        int32_t statement = -1;
+        motion::MoveId move = 0;
+        int32_t retry = 0; ///< Task::latestRetry at that time
     };
     struct PendingAction {
         PathAction action;
@@ -158,6 +171,7 @@ class MotionDriver final : public SteppedArm {
     /// The movement that an earlier process waited for; of a circle that it had begun the rest.
     void continueEarlier(motion::MoveCommand& command);
     Status takeProcessError(Task& task);
+    static bool isSame(const Interrupted& interrupted, const Task& task, const MotionPointer& pointer);
     void advance(Time time);
     void handle(const motion::MotionEvent& event);
     void schedule();
@@ -178,12 +192,7 @@ class MotionDriver final : public SteppedArm {
     bool stopMove_ = false, programStop_ = false;
     bool levelHold_ = false; // between StorePath and the stand of the arm; from RestoPath until it may go on
     Status processError_ = kOk;
-    struct Interrupted { // the movement instruction that raised a process error while it waited
-        const Frame* frame = nullptr;
-        int32_t statement = -1;
-        motion::MoveId move = 0;
-        int32_t retry = 0; ///< Task::latestRetry at that time
-    } interrupted_;
+    Interrupted interrupted_;
     struct StoredLevel { // what belongs to a path that is put aside
         bool stopMove = false;
         Interrupted interrupted;
@@ -196,6 +205,7 @@ class MotionDriver final : public SteppedArm {
     motion::MoveId awaited_ = 0; // by the instruction that ordered it
     EarlierPath earlier_;        // what is left to be taken over
     bool backward_ = false;
+    bool brokenOff_ = false; // the movement of the latest order was
     bool cornerWarning_ = true;
     std::function<Status(Task&)> circlePointStop_;
     std::vector<std::function<void(ArmNews)>> listeners_;

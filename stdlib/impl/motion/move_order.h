@@ -28,6 +28,9 @@ motion::MoveCommand circularMove(TaskCore* task, const data::Robtarget& circlePo
                                  const data::Robtarget& target);
 motion::MoveCommand absoluteMove(TaskCore* task, const data::Jointtarget& target, bool noOffsets);
 
+/// The additional axes to these places; the arm stays where its last movement ends.
+motion::MoveCommand externalMove(TaskCore* task, const data::Jointtarget& target, bool withOffsets);
+
 /// Completes the command with what is common, orders it with what is to be done on its path, and waits until the program
 /// may go on.
 Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArguments& arguments,

@@ -81,6 +81,15 @@ motion::MoveCommand absoluteMove(TaskCore* task, const data::Jointtarget& target
     return command;
 }
 
+motion::MoveCommand externalMove(TaskCore* task, const data::Jointtarget& target, bool withOffsets) {
+    motion::MoveCommand command;
+    command.kind = motion::MoveKind::AbsJoint;
+    command.joints = taskOf(task).controller().motion().system().plannedEnd();
+    command.joints.extax = toAxes(target.extax);
+    if (withOffsets) addOffsets(command.joints.extax, motionState(task).axisOffsets, 1);
+    return command;
+}
+
 Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArguments& args,
                  std::vector<PathAction> actions) {
     if (const Status status = requireMotionTask(task)) return status;
@@ -169,15 +178,10 @@ Status rt_MoveExtJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPo
                    bool UseEOffs, const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
                    const data::Stoppointdata* Inpos) {
     if (const Status status = lib::requireMotionTask(task)) return status;
-    motion::MoveCommand command;
-    command.kind = motion::MoveKind::AbsJoint;
-    // The arm stays where the last movement ends; only the additional axes move.
-    command.joints = taskOf(task).controller().motion().system().plannedEnd();
-    command.joints.extax = lib::toAxes(ToJointPos->extax);
     const lib::MotionState& state = lib::motionState(task);
-    if (UseEOffs) lib::addOffsets(command.joints.extax, state.axisOffsets, 1);
     const data::Tooldata tool = state.tool;
     const data::Wobjdata workObject = state.workObject;
-    return lib::orderMove(task, command, {Conc, Speed, nullptr, T, Zone, nullptr, Inpos, &tool, &workObject});
+    return lib::orderMove(task, lib::externalMove(task, *ToJointPos, UseEOffs),
+                          {Conc, Speed, nullptr, T, Zone, nullptr, Inpos, &tool, &workObject});
 }
 }
