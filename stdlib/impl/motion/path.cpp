@@ -18,7 +18,7 @@ MotionDriver& driverOf(TaskCore* task) {
 
 /// Not recoverable: the instruction does not fit the path level.
 Status misused(TaskCore* task, std::string why) {
-    return taskOf(task).fatal(static_cast<int>(EventId::PathLevelMisused), std::move(why));
+    return taskOf(task).fatal(static_cast<int>(EventId::LevelMisused), std::move(why));
 }
 
 } // namespace
