@@ -356,7 +356,7 @@ void MotionDriver::enqueued(motion::MoveId id, const motion::MoveCommand& comman
                             const Task* task) {
     while (!ordered_.empty() && system_.isDone(ordered_.front().id))
         ordered_.pop_front();
-    ordered_.push_back({id, command, start});
+    ordered_.push_back({id, command, start, pathLevel()});
     if (traces_.empty()) return;
     motion::FrameSetup frames = command.frames;
     frames.workObject = {}; // world
@@ -366,51 +366,6 @@ void MotionDriver::enqueued(motion::MoveId id, const motion::MoveCommand& comman
     const MoveOrder order{command.tag, command, end, task ? placeOf(frameOf(*task)) : SourcePlace()};
     for (TraceSink* trace : traces_)
         trace->ordered(order);
-}
-
-MotionDriver::EarlierPath MotionDriver::remainingPath() {
-    const motion::MotionSystem& arm = system();
-    EarlierPath path;
-    bool first = true;
-    for (const UnfinishedMove& move : ordered_) {
-        if (arm.isDone(move.id)) continue;
-        if (std::exchange(first, false) && arm.isStarted(move.id)) path.begun = move.start;
-        if (move.id == awaited_)
-            path.awaited = move.command;
-        else
-            path.moves.push_back(move.command);
-    }
-    if (!path.awaited && earlier_.awaited) path.awaited = earlier_.awaited; // not ordered again yet
-    if (first) path.begun = earlier_.begun;
-    path.stopMove = stopMove_;
-    return path;
-}
-
-void MotionDriver::continuePath(const EarlierPath& path) {
-    earlier_ = path;
-    earlier_.awaited.reset();
-    for (motion::MoveCommand command : path.moves) {
-        continueEarlier(command);
-        command.tag = ++instructions_;
-        const motion::Pose start = startOf(command);
-        if (const auto id = system_.enqueue(command)) enqueued(*id, command, start, nullptr);
-    }
-    earlier_.awaited = path.awaited;
-    stopMove_ = path.stopMove;
-    applyStops();
-}
-
-void MotionDriver::continueEarlier(motion::MoveCommand& command) {
-    if (const auto awaited = std::exchange(earlier_.awaited, {})) {
-        auto triggers = std::move(command.triggers);
-        const uint64_t tag = command.tag;
-        command = *awaited;
-        command.triggers = std::move(triggers);
-        command.tag = tag;
-    }
-    const auto begun = std::exchange(earlier_.begun, {});
-    if (begun && command.kind == motion::MoveKind::Circular)
-        command = motion::restOfCircle(command, *begun, system_.currentTarget(command.frames).pose);
 }
 
 bool MotionDriver::isSettled() const {

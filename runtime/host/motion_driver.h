@@ -107,13 +107,22 @@ class MotionDriver final : public SteppedArm {
     /// Executed now, the instruction would continue the movement that it has ordered already (RETRY after a process error).
     bool continuesMovement(const Task& task);
 
+    /// What an earlier process had put aside (StorePath).
+    struct EarlierLevel {
+        std::vector<motion::MoveCommand> moves;
+        std::optional<motion::Pose> begun; ///< where the first of them began; it is under way
+        motion::JointTarget left;          ///< where the arm stood then
+        bool stopMove = false;
+    };
     /// What an earlier process left of its path.
     struct EarlierPath {
+        std::vector<EarlierLevel> stored;       ///< from the base level on
         std::vector<motion::MoveCommand> moves; ///< to be ordered at once
         std::optional<motion::MoveCommand>
             awaited;                       ///< then the one whose instruction the program executes again
         std::optional<motion::Pose> begun; ///< where the first of all these began; it is under way
         bool stopMove = false;             ///< StopMove holds the arm
+        bool levelHold = false;            ///< RestoPath does
     };
     EarlierPath remainingPath();
     /// From where the arm stands. The next movement the program orders is `awaited`, whatever its arguments are now.
@@ -144,6 +153,7 @@ class MotionDriver final : public SteppedArm {
         motion::MoveId id = 0;
         motion::MoveCommand command;
         motion::Pose start; ///< in the frames of the command
+        int level = 1;      ///< path level
     };
     /// The movement instruction that raised a process error while it waited.
     struct Interrupted {
@@ -170,6 +180,8 @@ class MotionDriver final : public SteppedArm {
                   const Task* task);
     /// The movement that an earlier process waited for; of a circle that it had begun the rest.
     void continueEarlier(motion::MoveCommand& command);
+    void orderEarlier(const std::vector<motion::MoveCommand>& moves);
+    void storeEarlier(const EarlierLevel& level);
     Status takeProcessError(Task& task);
     static bool isSame(const Interrupted& interrupted, const Task& task, const MotionPointer& pointer);
     void advance(Time time);
@@ -196,6 +208,7 @@ class MotionDriver final : public SteppedArm {
     struct StoredLevel { // what belongs to a path that is put aside
         bool stopMove = false;
         Interrupted interrupted;
+        motion::JointTarget left;
     };
     std::vector<StoredLevel> levels_;
     motion::MoveId brokenPath_ = 0; // last move of the path at the power failure; 0 = none

@@ -16,7 +16,8 @@ Status MotionDriver::storePath(Task& task) {
         applyStops();
         return status;
     }
-    levels_.push_back({std::exchange(stopMove_, false), std::exchange(interrupted_, {})});
+    levels_.push_back(
+        {std::exchange(stopMove_, false), std::exchange(interrupted_, {}), system_.currentJoints()});
     applyStops();
     return kOk;
 }
