@@ -197,6 +197,10 @@ void Controller::taskStopped(Task& task) {
     if (task.kind() != TaskKind::Normal) backgroundStopped(task);
 }
 
+void Controller::cycleLeft(Task& task) {
+    if (task.isMotionTask()) motion_->leaveLevels();
+}
+
 void Controller::retried(Task& task) {
     if (task.isMotionTask()) motion_->noteRetry();
 }

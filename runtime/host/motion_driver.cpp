@@ -301,8 +301,10 @@ void MotionDriver::emergencyStop(bool powerFailure) {
     advance(scheduler_.now());
     programStop_ = true;
     tell(ArmNews::MotorsOff);
-    if (powerFailure) brokenPath_ = system_.isIdle() ? 0 : system_.lastOrdered();
-    brokenLevel_ = pathLevel();
+    if (powerFailure) {
+        brokenPath_ = system_.isIdle() ? 0 : system_.lastOrdered();
+        brokenLevel_ = pathLevel();
+    }
     system_.halt();
     if (powerFailure) system_.rearmTriggers();
     refresh();
@@ -344,6 +346,10 @@ void MotionDriver::clearPath() {
     stopMove_ = false; // nothing is left that it could hold
     system().clearStored();
     clearLevel();
+}
+
+void MotionDriver::leaveLevels() {
+    if (!levels_.empty()) clearPath();
 }
 
 // ---- Between two processes -----------------------------------------------------------------------------------------

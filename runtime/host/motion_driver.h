@@ -99,6 +99,8 @@ class MotionDriver final : public SteppedArm {
     Status stepBack(Task& task, double mm, double mmPerSecond, bool& possible);
     /// Program pointer moved: the paths of all levels are gone, and StopMove with them.
     void clearPath() override;
+    /// ExitCycle: as clearPath() when a path is put aside, else nothing.
+    void leaveLevels();
     /// ClearPath: the path of the present level is gone.
     void clearLevel();
     /// The movement in progress ends here (searches): the arm brakes on its path as fast as it can, or `stiff`: each axis
