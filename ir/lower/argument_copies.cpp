@@ -129,8 +129,9 @@ void ArgumentCopies::propagate() {
     }
 }
 
-/// Trap routines are executed between any two instructions.
+/// Trap routines are executed between any two instructions; so are procedures of movements (MoveLSync), found by name.
 void ArgumentCopies::findAsynchronous() {
+    unknownCode_ = unknownCode_ || program_.uses(sema::Trait::CallsLater);
     for (const auto& [routine, body] : bodies_) {
         if (routine->routineKind != RoutineKind::Trap) continue;
         asynchronous_.insert(body.written.begin(), body.written.end());

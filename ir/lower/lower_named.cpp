@@ -30,12 +30,16 @@ const RoutineSymbol* ProgramLowering::usedBuiltIn(sema::Role role) const {
 bool ProgramLowering::usesContinue() const {
     if (stepping() && (unit_ || program_.uses(sema::Trait::Loads))) return true;
     const RoutineSymbol* raise = usedBuiltIn(sema::Role::RaiseToUser);
-    if (!raise) return false;
+    return raise && isGiven(*raise, "continue");
+}
+
+/// Some call of the routine has an argument for this parameter (lower case).
+bool ProgramLowering::isGiven(const RoutineSymbol& routine, std::string_view param) const {
     for (const auto& facts : program_.facts)
         for (const auto& [node, call] : facts->calls)
             for (const BoundArg& arg : call.args)
-                if (call.routine == raise && arg.kind != BoundArg::Kind::Absent &&
-                    foldCase(arg.param->name) == "continue")
+                if (call.routine == &routine && arg.kind != BoundArg::Kind::Absent &&
+                    foldCase(arg.param->name) == param)
                     return true;
     return false;
 }
@@ -290,7 +294,8 @@ void ProgramLowering::addTablesOf(uint32_t task, const sema::Module& module, boo
 
 /// Needed when the program is complete: what it asks for by name.
 void ProgramLowering::addTables() {
-    const bool callsByName = natives_.contains("rt_lateCall") || erases_;
+    const bool callsByName =
+        natives_.contains("rt_lateCall") || erases_ || program_.uses(sema::Trait::CallsLater);
     for (uint32_t task = 0; task < program_.tasks.size(); ++task)
         for (const sema::Module* module : program_.tasks[task]->modules)
             addTablesOf(task, *module, callsByName);

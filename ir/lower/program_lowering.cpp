@@ -384,7 +384,8 @@ uint32_t ProgramLowering::nativeFor(const RoutineSymbol& symbol) {
     const bool isConst = symbol.effects == sema::Effects::Const;
     native.nativeClass = rt::returnsItsValue(isConst, scalarResult, allValues) ? ir::NativeClass::Const
                                                                                : ir::NativeClass::Plain;
-    native.watches = symbol.effects == sema::Effects::Watches;
+    native.watches = symbol.effects == sema::Effects::Watches ||
+                     (symbol.traits.has(sema::Trait::WatchesData) && isGiven(symbol, "persbool"));
     return addNative(std::move(native));
 }
 

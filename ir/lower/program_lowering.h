@@ -117,6 +117,7 @@ class ProgramLowering {
     uint32_t addNative(ir::Native native);
     void findCopies();
     bool usesContinue() const;
+    bool isGiven(const sema::RoutineSymbol& routine, std::string_view param) const;
     void addPredefinedData(uint32_t task);
     void addRoutineData(uint32_t task, const sema::Module& module);
     void addSearchTypes();

@@ -197,6 +197,14 @@ void Controller::taskStopped(Task& task) {
     if (task.kind() != TaskKind::Normal) backgroundStopped(task);
 }
 
+void Controller::cycleLeft(Task& task) {
+    if (task.isMotionTask()) motion_->leaveLevels();
+}
+
+void Controller::retried(Task& task) {
+    if (task.isMotionTask()) motion_->noteRetry();
+}
+
 void Controller::taskExited(Task& task) {
     if (task.isMotionTask())
         motion_->clearPath(); // the program pointer is lost, and the path with it (1.2.2)

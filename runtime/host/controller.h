@@ -135,6 +135,8 @@ class Controller final : public DebugHost {
     /// The stimulus has a `start` ahead.
     bool startToCome() const override { return startsToCome_ > 0 || debugger_.hasClient(); }
     void taskStopped(Task& task) override;
+    void cycleLeft(Task& task) override;
+    void retried(Task& task) override;
     void taskExited(Task& task) override;
     void eventRoutinesEnded(Task& task, SystemEvent event) override;
     void programReset(Task& task) override;

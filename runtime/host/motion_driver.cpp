@@ -152,9 +152,7 @@ Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::Move
     MotionPointer pointer = pointerOf(task, command);
     if (processError_ != kOk) return takeProcessError(task);
     const auto interrupted = std::exchange(interrupted_, {});
-    if (interrupted.frame != nullptr && interrupted.frame == pointer.frame &&
-        interrupted.statement == pointer.statement && interrupted.retry != task.latestRetry() &&
-        !system_.isDone(interrupted.move)) {
+    if (isSame(interrupted, task, pointer) && !system_.isDone(interrupted.move)) {
         id = interrupted.move;
         error.reset();
         const Status status = waitReleased(task, id);
@@ -170,6 +168,15 @@ Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::Move
     return status;
 }
 
+bool MotionDriver::isSame(const Interrupted& interrupted, const Task& task, const MotionPointer& pointer) {
+    return interrupted.frame != nullptr && interrupted.frame == pointer.frame &&
+           interrupted.statement == pointer.statement && interrupted.retry != task.latestRetry();
+}
+
+bool MotionDriver::continuesMovement(const Task& task) {
+    return isSame(interrupted_, task, pointerOf(task, {})) && !system().isDone(interrupted_.move);
+}
+
 Status MotionDriver::orderParts(Task& task, motion::MoveCommand command, const MotionPointer& pointer,
                                 motion::MoveId& id, std::optional<motion::MotionError>& error) {
     if (backward_ && pointer_.valid) command = reversed(command, pointer_.command);
@@ -177,7 +184,8 @@ Status MotionDriver::orderParts(Task& task, motion::MoveCommand command, const M
     if (command.kind == motion::MoveKind::Circular && task.isStepwise() && !backward_ && circlePointStop_)
         parts = motion::splitAtCirclePoint(command, system().currentTarget(command.frames).pose);
     if (parts.empty()) parts.push_back(std::move(command));
-    for (std::size_t i = 0; i < parts.size(); ++i) {
+    brokenOff_ = false;
+    for (std::size_t i = 0; i < parts.size() && !brokenOff_; ++i) {
         if (i > 0) {
             if (const Status status = circlePointStop_(task); status < 0) return status;
         }
@@ -229,9 +237,9 @@ Status MotionDriver::waitReleased(Task& task, motion::MoveId id) {
         return task.isStepwise() ? system().isDone(id) && !system_.isMoving() : system().isReleased(id);
     };
     WaitResult result{};
-    awaited_ = id;
+    const motion::MoveId outer = std::exchange(awaited_, id); // a trap routine moves the robot
     const Status status = task.waitFor({{&changed_}, mayGoOn}, result);
-    awaited_ = 0;
+    awaited_ = outer;
     return status == kOk ? takeProcessError(task) : status;
 }
 
@@ -265,7 +273,7 @@ Status MotionDriver::waitZeroSpeed(Task& task) {
 
 void MotionDriver::applyStops() {
     advance(scheduler_.now());
-    const bool held = stopMove_ || programStop_;
+    const bool held = stopMove_ || programStop_ || levelHold_;
     if (held && !system_.isStopRequested()) system_.stop();
     if (!held && system_.isStopRequested()) system_.start();
     refresh();
@@ -277,7 +285,7 @@ void MotionDriver::stopMove() {
 }
 
 void MotionDriver::startMove() {
-    stopMove_ = false;
+    stopMove_ = levelHold_ = false;
     applyStops();
 }
 
@@ -296,16 +304,14 @@ void MotionDriver::emergencyStop(bool powerFailure) {
     advance(scheduler_.now());
     programStop_ = true;
     tell(ArmNews::MotorsOff);
-    if (powerFailure) tell(ArmNews::PowerFailed);
-    if (powerFailure) brokenPath_ = system_.isIdle() ? 0 : system_.lastOrdered();
+    if (powerFailure) {
+        tell(ArmNews::PowerFailed);
+        brokenPath_ = system_.isIdle() ? 0 : system_.lastOrdered();
+        brokenLevel_ = pathLevel();
+    }
     system_.halt();
     if (powerFailure) system_.rearmTriggers();
     refresh();
-}
-
-bool MotionDriver::pathInterrupted() {
-    if (brokenPath_ != 0 && system().isDone(brokenPath_)) brokenPath_ = 0;
-    return brokenPath_ != 0;
 }
 
 Status MotionDriver::stepBack(Task& task, double mm, double mmPerSecond, bool& possible) {
@@ -320,15 +326,34 @@ Status MotionDriver::stepBack(Task& task, double mm, double mmPerSecond, bool& p
     return waitZeroSpeed(task);
 }
 
-void MotionDriver::clearPath() {
+void MotionDriver::clearLevel() {
     advance(scheduler_.now());
     interrupted_ = {};
     earlier_ = {};
+    levelHold_ = false;
     system_.clear();
     dropActions(
         [this](const PendingAction& pending) { return pending.move != 0 && system_.isDone(pending.move); });
-    refresh();
+    applyStops();
     changed_.notifyAll(); // moves that tasks wait for are gone
+}
+
+void MotionDriver::breakOff(bool stiff) {
+    advance(scheduler_.now());
+    if (stiff) system_.halt();
+    clearLevel();
+    brokenOff_ = true;
+}
+
+void MotionDriver::clearPath() {
+    levels_.clear();
+    stopMove_ = false; // nothing is left that it could hold
+    system().clearStored();
+    clearLevel();
+}
+
+void MotionDriver::leaveLevels() {
+    if (!levels_.empty()) clearPath();
 }
 
 // ---- Between two processes -----------------------------------------------------------------------------------------
@@ -341,7 +366,7 @@ void MotionDriver::enqueued(motion::MoveId id, const motion::MoveCommand& comman
                             const Task* task) {
     while (!ordered_.empty() && system_.isDone(ordered_.front().id))
         ordered_.pop_front();
-    ordered_.push_back({id, command, start});
+    ordered_.push_back({id, command, start, pathLevel()});
     if (traces_.empty()) return;
     motion::FrameSetup frames = command.frames;
     frames.workObject = {}; // world
@@ -351,51 +376,6 @@ void MotionDriver::enqueued(motion::MoveId id, const motion::MoveCommand& comman
     const MoveOrder order{command.tag, command, end, task ? placeOf(frameOf(*task)) : SourcePlace()};
     for (TraceSink* trace : traces_)
         trace->ordered(order);
-}
-
-MotionDriver::EarlierPath MotionDriver::remainingPath() {
-    const motion::MotionSystem& arm = system();
-    EarlierPath path;
-    bool first = true;
-    for (const UnfinishedMove& move : ordered_) {
-        if (arm.isDone(move.id)) continue;
-        if (std::exchange(first, false) && arm.isStarted(move.id)) path.begun = move.start;
-        if (move.id == awaited_)
-            path.awaited = move.command;
-        else
-            path.moves.push_back(move.command);
-    }
-    if (!path.awaited && earlier_.awaited) path.awaited = earlier_.awaited; // not ordered again yet
-    if (first) path.begun = earlier_.begun;
-    path.stopMove = stopMove_;
-    return path;
-}
-
-void MotionDriver::continuePath(const EarlierPath& path) {
-    earlier_ = path;
-    earlier_.awaited.reset();
-    for (motion::MoveCommand command : path.moves) {
-        continueEarlier(command);
-        command.tag = ++instructions_;
-        const motion::Pose start = startOf(command);
-        if (const auto id = system_.enqueue(command)) enqueued(*id, command, start, nullptr);
-    }
-    earlier_.awaited = path.awaited;
-    stopMove_ = path.stopMove;
-    applyStops();
-}
-
-void MotionDriver::continueEarlier(motion::MoveCommand& command) {
-    if (const auto awaited = std::exchange(earlier_.awaited, {})) {
-        auto triggers = std::move(command.triggers);
-        const uint64_t tag = command.tag;
-        command = *awaited;
-        command.triggers = std::move(triggers);
-        command.tag = tag;
-    }
-    const auto begun = std::exchange(earlier_.begun, {});
-    if (begun && command.kind == motion::MoveKind::Circular)
-        command = motion::restOfCircle(command, *begun, system_.currentTarget(command.frames).pose);
 }
 
 bool MotionDriver::isSettled() const {

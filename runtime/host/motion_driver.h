@@ -85,6 +85,17 @@ class MotionDriver final : public SteppedArm {
     void stopMove();
     void startMove();
     bool isStopMoveActive() const { return stopMove_; }
+    /// 1 on the base level, one more for each path that is put aside.
+    int pathLevel() const { return 1 + static_cast<int>(levels_.size()); }
+    /// StorePath: stops the arm on its path, waits until it stands, and puts the unfinished movements aside, with StopMove.
+    Status storePath(Task& task);
+    /// RestoPath: waits until the movements of this level are finished (those that StopMove holds are thrown away) and takes
+    /// back the path put aside last. It is held until startMove(), RETRY or clearLevel(). Not on the base level.
+    Status restorePath(Task& task);
+    /// Where StartMove would have to bring the arm back to its path: how far that is.
+    std::optional<motion::MotionSystem::PathGap> gapToPath() { return system().gapToPath(); }
+    /// An error handler has executed RETRY: a path that was taken back goes on.
+    void noteRetry();
     void programStop() override;
     /// The program stops by itself, with the arm standing still.
     void noteStop() { tell(ArmNews::StopOnPath); }
@@ -92,21 +103,39 @@ class MotionDriver final : public SteppedArm {
     /// The motors go off: the arm leaves its path; programStart() brings it back first. `powerFailure`: notes that a path
     /// was interrupted.
     void emergencyStop(bool powerFailure);
-    /// A power failure interrupted a path, and that path is not finished yet (PFRestart).
-    bool pathInterrupted();
+    /// A power failure interrupted a path on this level, and that path is not finished yet (PFRestart).
+    bool pathInterrupted(int level);
     /// StepBwdPath: back on the path while the robot is held there; returns when it stands. `possible` is false when there
     /// is nothing more to step back on.
     Status stepBack(Task& task, double mm, double mmPerSecond, bool& possible);
-    /// ClearPath, program pointer moved.
+    /// Program pointer moved: the paths of all levels are gone, and StopMove with them.
     void clearPath() override;
+    /// ExitCycle: as clearPath() when a path is put aside, else nothing.
+    void leaveLevels();
+    /// ClearPath: the path of the present level is gone.
+    void clearLevel();
+    /// The movement in progress ends here (searches): the arm brakes on its path as fast as it can, or `stiff`: each axis
+    /// for itself. What is ordered next begins where it comes to rest.
+    void breakOff(bool stiff);
+    /// Executed now, the instruction would continue the movement that it has ordered already (RETRY after a process error).
+    bool continuesMovement(const Task& task);
 
+    /// What an earlier process had put aside (StorePath).
+    struct EarlierLevel {
+        std::vector<motion::MoveCommand> moves;
+        std::optional<motion::Pose> begun; ///< where the first of them began; it is under way
+        motion::JointTarget left;          ///< where the arm stood then
+        bool stopMove = false;
+    };
     /// What an earlier process left of its path.
     struct EarlierPath {
+        std::vector<EarlierLevel> stored;       ///< from the base level on
         std::vector<motion::MoveCommand> moves; ///< to be ordered at once
         std::optional<motion::MoveCommand>
             awaited;                       ///< then the one whose instruction the program executes again
         std::optional<motion::Pose> begun; ///< where the first of all these began; it is under way
         bool stopMove = false;             ///< StopMove holds the arm
+        bool levelHold = false;            ///< RestoPath does
     };
     EarlierPath remainingPath();
     /// From where the arm stands. The next movement the program orders is `awaited`, whatever its arguments are now.
@@ -121,6 +150,7 @@ class MotionDriver final : public SteppedArm {
     const MotionPointer& pointer() const override { return pointer_; }
     /// Movements are executed backwards from now on: to their target, with type and speed of the motion pointer's.
     void setBackward(bool backward) override { backward_ = backward; }
+    bool isBackward() const { return backward_; }
 
     /// Gets every sample from now on; must outlive the driver.
     void addTrace(TraceSink& trace) { traces_.push_back(&trace); }
@@ -136,6 +166,14 @@ class MotionDriver final : public SteppedArm {
         motion::MoveId id = 0;
         motion::MoveCommand command;
         motion::Pose start; ///< in the frames of the command
+        int level = 1;      ///< path level
+    };
+    /// The movement instruction that raised a process error while it waited.
+    struct Interrupted {
+        const Frame* frame = nullptr;
+        int32_t statement = -1;
+        motion::MoveId move = 0;
+        int32_t retry = 0; ///< Task::latestRetry at that time
     };
     struct PendingAction {
         PathAction action;
@@ -155,7 +193,10 @@ class MotionDriver final : public SteppedArm {
                   const Task* task);
     /// The movement that an earlier process waited for; of a circle that it had begun the rest.
     void continueEarlier(motion::MoveCommand& command);
+    void orderEarlier(const std::vector<motion::MoveCommand>& moves);
+    void storeEarlier(const EarlierLevel& level);
     Status takeProcessError(Task& task);
+    static bool isSame(const Interrupted& interrupted, const Task& task, const MotionPointer& pointer);
     void advance(Time time);
     void handle(const motion::MotionEvent& event);
     void schedule();
@@ -174,19 +215,23 @@ class MotionDriver final : public SteppedArm {
     std::vector<TraceSink*> traces_;
     Time nextSample_ = 0;
     bool stopMove_ = false, programStop_ = false;
+    bool levelHold_ = false; // between StorePath and the stand of the arm; from RestoPath until it may go on
     Status processError_ = kOk;
-    struct { // the movement instruction that raised a process error while it waited
-        const Frame* frame = nullptr;
-        int32_t statement = -1;
-        motion::MoveId move = 0;
-        int32_t retry = 0; ///< Task::latestRetry at that time
-    } interrupted_;
+    Interrupted interrupted_;
+    struct StoredLevel { // what belongs to a path that is put aside
+        bool stopMove = false;
+        Interrupted interrupted;
+        motion::JointTarget left;
+    };
+    std::vector<StoredLevel> levels_;
     motion::MoveId brokenPath_ = 0; // last move of the path at the power failure; 0 = none
+    int brokenLevel_ = 1;           // on which it was
     MotionPointer pointer_;
     std::deque<UnfinishedMove> ordered_;
     motion::MoveId awaited_ = 0; // by the instruction that ordered it
     EarlierPath earlier_;        // what is left to be taken over
     bool backward_ = false;
+    bool brokenOff_ = false; // the movement of the latest order was
     bool cornerWarning_ = true;
     std::function<Status(Task&)> circlePointStop_;
     std::vector<std::function<void(ArmNews)>> listeners_;

@@ -133,6 +133,60 @@ motion::MoveCommand moveFrom(const Json& json) {
     return c;
 }
 
+namespace {
+
+Json movesJson(const std::vector<motion::MoveCommand>& moves) {
+    Json json = Json::array();
+    for (const motion::MoveCommand& move : moves)
+        json.push_back(jsonOf(move));
+    return json;
+}
+
+std::vector<motion::MoveCommand> movesFrom(const Json& json) {
+    std::vector<motion::MoveCommand> moves;
+    for (const Json& move : json)
+        moves.push_back(moveFrom(move));
+    return moves;
+}
+
+} // namespace
+
+Json jsonOf(const MotionDriver::EarlierPath& path) {
+    Json json = {{"path", movesJson(path.moves)}, {"stopMove", path.stopMove}, {"levelHold", path.levelHold}};
+    if (path.awaited) json["awaited"] = jsonOf(*path.awaited);
+    if (path.begun) json["begun"] = jsonOf(*path.begun);
+    Json stored = Json::array();
+    for (const MotionDriver::EarlierLevel& level : path.stored) {
+        Json one = {{"path", movesJson(level.moves)},
+                    {"stopMove", level.stopMove},
+                    {"left", level.left.robax},
+                    {"leftAxes", level.left.extax}};
+        if (level.begun) one["begun"] = jsonOf(*level.begun);
+        stored.push_back(std::move(one));
+    }
+    json["stored"] = std::move(stored);
+    return json;
+}
+
+MotionDriver::EarlierPath earlierPathFrom(const Json& json) {
+    MotionDriver::EarlierPath path;
+    path.moves = movesFrom(json.at("path"));
+    json.at("stopMove").get_to(path.stopMove);
+    if (json.contains("awaited")) path.awaited = moveFrom(json.at("awaited"));
+    if (json.contains("begun")) path.begun = poseFrom(json.at("begun"));
+    if (!json.contains("stored")) return path; // written by an earlier version
+    json.at("levelHold").get_to(path.levelHold);
+    for (const Json& one : json.at("stored")) {
+        MotionDriver::EarlierLevel level;
+        level.moves = movesFrom(one.at("path"));
+        one.at("stopMove").get_to(level.stopMove);
+        level.left = {jointsFrom(one.at("left")), numbersFrom<6>(one.at("leftAxes"))};
+        if (one.contains("begun")) level.begun = poseFrom(one.at("begun"));
+        path.stored.push_back(std::move(level));
+    }
+    return path;
+}
+
 Json jsonOf(const SavedInterrupt& i) {
     return {{"number", i.number},       {"single", i.single},        {"safe", i.safe},
             {"asleep", i.asleep},       {"ordered", i.ordered},      {"kind", i.order.kind},

@@ -2,7 +2,7 @@
 // Movements and ordered interrupts as JSON, parts of the state file. The readers throw an exception of the JSON library, or
 // std::invalid_argument, when it is something else.
 
-#include "runtime/motion/move_command.h"
+#include "runtime/host/motion_driver.h"
 #include "runtime/sched/interrupts.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -17,6 +17,9 @@ nlohmann::json jsonOf(const motion::Pose& pose);
 motion::Pose poseFrom(const nlohmann::json& json);
 nlohmann::json jsonOf(const motion::MotionSettings& settings);
 motion::MotionSettings settingsFrom(const nlohmann::json& json);
+/// The paths of all levels.
+nlohmann::json jsonOf(const MotionDriver::EarlierPath& path);
+MotionDriver::EarlierPath earlierPathFrom(const nlohmann::json& json);
 /// Without the trap routine, whose address means nothing to another process.
 nlohmann::json jsonOf(const SavedInterrupt& interrupt);
 SavedInterrupt interruptFrom(const nlohmann::json& json);

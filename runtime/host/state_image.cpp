@@ -134,11 +134,7 @@ StateImage imageFrom(const Json& json) {
     if (json.contains("motion")) {
         const Json& motion = json.at("motion");
         image.interruptNumbers = dataFrom(json.at("interruptNumbers"));
-        for (const Json& move : motion.at("path"))
-            image.path.moves.push_back(moveFrom(move));
-        if (motion.contains("awaited")) image.path.awaited = moveFrom(motion.at("awaited"));
-        if (motion.contains("begun")) image.path.begun = poseFrom(motion.at("begun"));
-        motion.at("stopMove").get_to(image.path.stopMove);
+        image.path = earlierPathFrom(motion);
         for (const auto& [name, kept] : json.at("kept").items())
             image.kept[name] = rapid::config::textOf(kept);
     }
@@ -158,12 +154,8 @@ std::string writeImage(const StateImage& image) {
         tasks[name] = jsonOf(task);
     for (const Event& event : image.events)
         events.push_back(jsonOf(event));
-    Json path = Json::array(), kept = Json::object();
-    for (const motion::MoveCommand& move : image.path.moves)
-        path.push_back(jsonOf(move));
-    Json motion = {{"path", path}, {"stopMove", image.path.stopMove}};
-    if (image.path.awaited) motion["awaited"] = jsonOf(*image.path.awaited);
-    if (image.path.begun) motion["begun"] = jsonOf(*image.path.begun);
+    Json kept = Json::object();
+    const Json motion = jsonOf(image.path);
     for (const auto& [name, text] : image.kept)
         kept[name] = rapid::config::tryParseJson(text);
     const Json json = {{"format", kFormat},

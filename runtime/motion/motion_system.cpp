@@ -169,6 +169,25 @@ bool MotionSystem::restorePath() {
     return true;
 }
 
+void MotionSystem::clearStored() {
+    Impl& s = *impl_;
+    for (const Level& level : s.stored)
+        if (!level.queue.empty()) s.noteCleared(level.queue.front()->id);
+    s.stored.clear();
+}
+
+std::optional<MotionSystem::PathGap> MotionSystem::gapToPath() const {
+    const Impl& s = *impl_;
+    if (!s.isHalted || s.isCoasting || s.level.queue.empty() || s.path().isEmpty()) return {};
+    const PathPlace place = s.path().at(s.seconds()).place;
+    const FrameSetup frames = s.path().framesAt(place);
+    const Pose goal = frames.tcpInWorld(s.kinematics.forward(s.path().pointAt(place).joints));
+    const Pose here = frames.tcpInWorld(s.kinematics.forward(s.stateAt(s.now).joints));
+    constexpr double kDegreesPerRadian = 57.295779513082323;
+    const double turn = 2 * std::acos(std::min(1.0, std::fabs(dot(goal.rot, here.rot))));
+    return PathGap{norm(goal.pos - here.pos), turn * kDegreesPerRadian};
+}
+
 bool MotionSystem::placeAt(const JointTarget& joints) {
     Impl& s = *impl_;
     if (!s.level.queue.empty() || s.isMoving()) return false;

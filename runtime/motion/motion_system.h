@@ -88,6 +88,14 @@ class MotionSystem {
     /// first goes back to the path axis by axis when motion goes on. False while moves of this level are
     /// unfinished or when nothing was put aside.
     bool restorePath();
+    /// Throws away the unfinished moves of every level that was put aside, and those levels.
+    void clearStored();
+    /// How far the arm stands from where its path continues: place of the TCP and turn of the tool. Nothing when it stands
+    /// on its path, or there is none to continue.
+    struct PathGap {
+        double mm = 0, degrees = 0;
+    };
+    std::optional<PathGap> gapToPath() const;
 
     // ---- stopping on the path ----
     /// Brakes on the path as fast as the limits allow; a Stopped event follows. No effect when stopped

@@ -91,7 +91,9 @@ bool InterruptTable::remove(int number) {
 }
 
 template <class Condition> void InterruptTable::dropQueued(Condition drop) {
-    const auto gone = [&drop](const Occurrence& occurrence) { return drop(occurrence.number); };
+    const auto gone = [&drop](const Occurrence& occurrence) {
+        return !occurrence.call && drop(occurrence.number);
+    };
     queue_.erase(std::remove_if(queue_.begin(), queue_.end(), gone), queue_.end());
 }
 
@@ -113,8 +115,8 @@ void InterruptTable::post(int number, Cause cause) {
         ((task_.isStopped() || task_.isStepwise()) && !definition.safe))
         return;
     if (queue_.size() >= kMaxQueued) {
-        if (!overflowReported_) task_.report(EventId::InterruptsLost, {std::to_string(number)});
-        overflowReported_ = true;
+        if (!std::exchange(overflowReported_, true))
+            task_.report(EventId::InterruptsLost, {std::to_string(number)});
         return;
     }
     queue_.push_back({number, std::move(cause)});
@@ -124,6 +126,12 @@ void InterruptTable::post(int number, Cause cause) {
         definition.disarm = nullptr;
         if (disarm) disarm();
     }
+    if (deliverable()) task_.interruptPosted();
+}
+
+void InterruptTable::postCall(Call call) {
+    if (task_.state() == TaskState::Finished || queue_.size() >= kMaxQueued) return;
+    queue_.push_back({0, nullptr, std::move(call)});
     if (deliverable()) task_.interruptPosted();
 }
 
@@ -165,6 +173,7 @@ Status InterruptTable::deliverFirst() {
     const Occurrence occurrence = std::move(queue_.front());
     queue_.pop_front();
     if (queue_.empty()) overflowReported_ = false;
+    if (occurrence.call) return callNow(occurrence.call);
     const auto found = defined_.find(occurrence.number);
     if (found == defined_.end()) return kOk;
     const Trap trap = found->second.trap;
@@ -173,16 +182,25 @@ Status InterruptTable::deliverFirst() {
                            fmt::format("{}: its trap routine is {}", occurrence.number, trap.absent));
     if (trap.function == nullptr)
         return task_.fatal(static_cast<int>(EventId::TrapMissing), std::to_string(occurrence.number));
-    // The interrupted code must not see that a trap ran in between: ERRNO and INTNO are its own.
+    return runOnTop(occurrence.number, occurrence.cause,
+                    [&trap](Task& task, Frame* caller) { return trap.function(&task, caller); });
+}
+
+Status InterruptTable::callNow(const Call& call) {
+    return runOnTop(0, nullptr, call);
+}
+
+/// The interrupted code must not see that a trap ran in between: ERRNO and INTNO are its own.
+Status InterruptTable::runOnTop(int number, Cause cause, const Call& call) {
     Frame* const interrupted = task_.frame;
     Task::ErrorInProgress error = task_.errorInProgress();
     const int32_t interruptNumber = task_.interruptNumber;
     Frame boundary{interrupted, &kTrapBoundary, -1, 0};
-    task_.interruptNumber = occurrence.number;
+    task_.interruptNumber = number;
     task_.charge(1); // an empty trap costs an instruction as well
-    cause_ = occurrence.cause;
+    cause_ = std::move(cause);
     running_ = true;
-    const Status status = trap.function(&task_, &boundary);
+    const Status status = call(task_, &boundary);
     unwound();
     task_.frame = interrupted;
     task_.setErrorInProgress(std::move(error));

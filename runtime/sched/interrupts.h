@@ -50,6 +50,9 @@ class InterruptTable {
     static constexpr std::size_t kMaxQueued = 1000;
     /// What made an interrupt occur, for those who ask in the trap (GetTrapData).
     using Cause = std::shared_ptr<const void>;
+    /// What is executed as a trap routine is, without a number (MoveLSync). It finds its routine when it is called and calls
+    /// it with the frame given; positive: an error to be raised there.
+    using Call = std::function<Status(Task&, Frame*)>;
 
     explicit InterruptTable(Task& task) : task_(task) {}
     ~InterruptTable() { clear(); }
@@ -86,6 +89,10 @@ class InterruptTable {
     /// The condition of an interrupt became true. Queued while interrupts are disabled or a trap runs;
     /// ignored while the interrupt sleeps, and while the task is stopped unless the interrupt is safe.
     void post(int number, Cause cause = nullptr);
+    /// The call waits in the same queue. It outlives a stop of the program, and is executed after the next start.
+    void postCall(Call call);
+    /// Executes it at once, on the level of trap routines; negative when it unwinds the task.
+    Status callNow(const Call& call);
     /// ISleep / IWatch. False when the number is not defined.
     bool sleep(int number);
     bool watch(int number);
@@ -124,10 +131,12 @@ class InterruptTable {
         InterruptOrder what;
     };
     struct Occurrence {
-        int number = 0;
+        int number = 0; ///< 0: a call
         Cause cause;
+        Call call = {};
     };
     Status deliverFirst();
+    Status runOnTop(int number, Cause cause, const Call& call);
     template <class Condition> void dropQueued(Condition drop);
 
     Task& task_;

@@ -122,8 +122,8 @@ bool Task::endCycle(Unwind how) {
     case Unwind::ToMain: return true;
     case Unwind::None:
     case Unwind::Jump:
-    case Unwind::Event:
-    case Unwind::ExitCycle: break;
+    case Unwind::Event: break;
+    case Unwind::ExitCycle: host_.cycleLeft(*this); break;
     }
     ++cyclesDone_;
     if (!host_.cyclesLeft(*this)) return false;

@@ -124,6 +124,10 @@ class TaskHost {
     virtual Status resetUnits(Task&) { return kOk; }
     /// The routines of this event have ended or were unwound.
     virtual void eventRoutinesEnded(Task&, SystemEvent) {}
+    /// The task executed ExitCycle.
+    virtual void cycleLeft(Task&) {}
+    /// An error handler of the task executed RETRY.
+    virtual void retried(Task&) {}
     /// The task executed EXIT and will not go on by itself.
     virtual void taskExited(Task&) {}
     virtual void stopNormalTasks(StopCause cause) = 0;

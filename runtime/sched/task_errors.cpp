@@ -389,6 +389,7 @@ Status Task::retryAt(Frame* handler) {
     ++count;
     // The frame record carries the id: a later invocation at the same address starts counting anew.
     entry->id = handler->reserved = ++lastRetryId_;
+    host_.retried(*this);
     return kOk;
 }
 

@@ -18,6 +18,7 @@ struct MoveArguments {
     const data::Stoppointdata* inpos = nullptr;
     const data::Tooldata* tool = nullptr; ///< always given
     const data::Wobjdata* workObject = nullptr;
+    bool exactConfiguration = false; ///< a line ends in the configuration of its target, also with ConfL \Off
 };
 
 /// The movement to a target; the rest of the command is completed by orderMove.
@@ -26,6 +27,9 @@ motion::MoveCommand linearMove(TaskCore* task, const data::Robtarget& target);
 motion::MoveCommand circularMove(TaskCore* task, const data::Robtarget& circlePoint,
                                  const data::Robtarget& target);
 motion::MoveCommand absoluteMove(TaskCore* task, const data::Jointtarget& target, bool noOffsets);
+
+/// The additional axes to these places; the arm stays where its last movement ends.
+motion::MoveCommand externalMove(TaskCore* task, const data::Jointtarget& target, bool withOffsets);
 
 /// Completes the command with what is common, orders it with what is to be done on its path, and waits until the program
 /// may go on.

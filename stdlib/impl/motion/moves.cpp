@@ -34,6 +34,9 @@ Status checkConcurrent(TaskCore* task, lib::MotionState& state, bool conc) {
         state.concurrentMoves = 0;
         return kOk;
     }
+    if (taskOf(task).controller().motion().pathLevel() > 1)
+        return lib::fail(task, err::ERR_CONC_MAX,
+                         "movement instructions with \\Conc are not allowed between StorePath and RestoPath");
     if (state.concurrentMoves < kMostConcurrent) {
         ++state.concurrentMoves;
         return kOk;
@@ -78,6 +81,15 @@ motion::MoveCommand absoluteMove(TaskCore* task, const data::Jointtarget& target
     return command;
 }
 
+motion::MoveCommand externalMove(TaskCore* task, const data::Jointtarget& target, bool withOffsets) {
+    motion::MoveCommand command;
+    command.kind = motion::MoveKind::AbsJoint;
+    command.joints = taskOf(task).controller().motion().system().plannedEnd();
+    command.joints.extax = toAxes(target.extax);
+    if (withOffsets) addOffsets(command.joints.extax, motionState(task).axisOffsets, 1);
+    return command;
+}
+
 Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArguments& args,
                  std::vector<PathAction> actions) {
     if (const Status status = requireMotionTask(task)) return status;
@@ -92,7 +104,7 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
     command.duration = args.t ? static_cast<double>(*args.t) : 0.0;
     command.zone = zoneOf(args);
     command.confJ = state.confJ;
-    command.confL = state.confL;
+    command.confL = state.confL || args.exactConfiguration;
     command.circleOrientation = state.circleOrientation;
     command.singularity = state.singWrist       ? motion::SingularityMode::Wrist
                           : state.singLockAxis4 ? motion::SingularityMode::LockAxis4
@@ -125,6 +137,22 @@ Status rt_MoveAbsJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPo
                           {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
 }
 
+/// The line to where the tool is at these axis angles, which the robot must reach in just that configuration.
+Status rt_MoveAbsL(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float*, bool NoEOffs,
+                   const data::Speeddata* Speed, const float* V, const float* T, const data::Zonedata* Zone,
+                   const float* Z, const data::Stoppointdata* Inpos, data::Tooldata* Tool,
+                   data::Wobjdata* WObj, data::Loaddata*) {
+    if (const Status status = lib::requireMotionTask(task)) return status;
+    const motion::MoveCommand absolute = lib::absoluteMove(task, *ToJointPos, NoEOffs);
+    motion::MoveCommand command;
+    command.kind = motion::MoveKind::Linear;
+    const data::Wobjdata world = lib::MotionState().workObject;
+    const motion::MotionSystem& system = taskOf(task).controller().motion().system();
+    command.target = system.toRobTarget(
+        absolute.joints, lib::frameSetup(lib::motionState(task), Tool, WObj != nullptr ? WObj : &world));
+    return lib::orderMove(task, command, {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj, true});
+}
+
 Status rt_MoveJ(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float*,
                 const data::Speeddata* Speed, const float* V, const float* T, const data::Zonedata* Zone,
                 const float* Z, const data::Stoppointdata* Inpos, data::Tooldata* Tool, data::Wobjdata* WObj,
@@ -153,15 +181,10 @@ Status rt_MoveExtJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPo
                    bool UseEOffs, const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
                    const data::Stoppointdata* Inpos) {
     if (const Status status = lib::requireMotionTask(task)) return status;
-    motion::MoveCommand command;
-    command.kind = motion::MoveKind::AbsJoint;
-    // The arm stays where the last movement ends; only the additional axes move.
-    command.joints = taskOf(task).controller().motion().system().plannedEnd();
-    command.joints.extax = lib::toAxes(ToJointPos->extax);
     const lib::MotionState& state = lib::motionState(task);
-    if (UseEOffs) lib::addOffsets(command.joints.extax, state.axisOffsets, 1);
     const data::Tooldata tool = state.tool;
     const data::Wobjdata workObject = state.workObject;
-    return lib::orderMove(task, command, {Conc, Speed, nullptr, T, Zone, nullptr, Inpos, &tool, &workObject});
+    return lib::orderMove(task, lib::externalMove(task, *ToJointPos, UseEOffs),
+                          {Conc, Speed, nullptr, T, Zone, nullptr, Inpos, &tool, &workObject});
 }
 }

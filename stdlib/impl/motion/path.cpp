@@ -1,4 +1,4 @@
-// Manual 1.8: stopping and starting movement.
+// Manual 1.8: stopping and starting movement, path levels.
 
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/fail.h"
@@ -16,6 +16,11 @@ MotionDriver& driverOf(TaskCore* task) {
     return taskOf(task).controller().motion();
 }
 
+/// Not recoverable: the instruction does not fit the path level.
+Status misused(TaskCore* task, std::string why) {
+    return taskOf(task).fatal(static_cast<int>(EventId::LevelMisused), std::move(why));
+}
+
 } // namespace
 
 // \AllMotionTasks changes nothing: there is one robot.
@@ -28,9 +33,16 @@ Status rt_StopMove(TaskCore* task, bool, bool) {
 }
 
 Status rt_StartMove(TaskCore* task, bool) {
+    constexpr double kFarthest = 10, kMostTurned = 20; // mm, deg
     MotionDriver& driver = driverOf(task);
     if (!driver.isStopMoveActive() && driver.system().isMoving())
         return lib::fail(task, err::ERR_ALRDY_MOVING, "the robot moves already");
+    if (const auto gap = driver.gapToPath(); gap && (gap->mm > kFarthest || gap->degrees > kMostTurned))
+        return lib::failWith(
+            task, err::ERR_PATHDIST,
+            "the robot stands {} mm and {} degrees from its path; at most 10 mm and 20 degrees are "
+            "allowed: move it back to where the path was interrupted, ahead of RestoPath",
+            gap->mm, gap->degrees);
     driver.startMove();
     return kOk;
 }
@@ -59,13 +71,13 @@ Status rt_ProcerrRecovery(TaskCore* task, bool SyncOrgMoveInst, bool SyncLastMov
 Status rt_StopMoveReset(TaskCore* task, bool) {
     MotionDriver& driver = driverOf(task);
     if (!driver.isStopMoveActive()) return kOk;
-    driver.clearPath();
+    driver.clearLevel();
     driver.startMove();
     return kOk;
 }
 
 Status rt_ClearPath(TaskCore* task) {
-    driverOf(task).clearPath();
+    driverOf(task).clearLevel();
     return kOk;
 }
 
@@ -92,14 +104,34 @@ Status rt_StepBwdPath(TaskCore* task, float StepLength, float StepTime) {
         "further than the beginning of the movement before the one that was stopped");
 }
 
-Status rt_PathLevel(TaskCore*, float* result) {
-    *result = 1; // StorePath is not available
+/// There is no synchronized movement that \KeepSync could keep. Without Path Recovery one path can be put aside.
+Status rt_StorePath(TaskCore* task, bool KeepSync) {
+    if (const Status status = lib::requireMotionTask(task)) return status;
+    if (KeepSync)
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "\\KeepSync is for robots in synchronized movement; this controller has one robot");
+    if (driverOf(task).pathLevel() > 1)
+        return misused(task,
+                       "StorePath: a path is stored already, and only one can be. Execute RestoPath first.");
+    return driverOf(task).storePath(taskOf(task));
+}
+
+Status rt_RestoPath(TaskCore* task) {
+    if (const Status status = lib::requireMotionTask(task)) return status;
+    if (driverOf(task).pathLevel() == 1)
+        return misused(task, "RestoPath: no path is stored. Execute StorePath first.");
+    return driverOf(task).restorePath(taskOf(task));
+}
+
+Status rt_PathLevel(TaskCore* task, float* result) {
+    *result = static_cast<float>(driverOf(task).pathLevel());
     return kOk;
 }
 
-/// There is one path level: nothing is ever stored below an interrupt's.
-Status rt_PFRestart(TaskCore* task, bool* result, bool, bool Irpt) {
-    *result = !Irpt && driverOf(task).pathInterrupted();
+/// Without a switch: on the present path level.
+Status rt_PFRestart(TaskCore* task, bool* result, bool Base, bool Irpt) {
+    MotionDriver& driver = driverOf(task);
+    *result = driver.pathInterrupted(Base ? 1 : Irpt ? 2 : driver.pathLevel());
     return kOk;
 }
 }

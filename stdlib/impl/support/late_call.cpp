@@ -3,6 +3,7 @@
 #include "runtime/abi/support_natives.h"
 #include "runtime/base/text_util.h"
 #include "runtime/host/controller.h"
+#include "stdlib/impl/support/called_name.h"
 #include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/type_match.h"
@@ -10,7 +11,6 @@
 #include "stdlib_constants.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <cstring>
 #include <fmt/format.h>
@@ -18,27 +18,9 @@
 #include <vector>
 
 using namespace rt;
+using lib::CalledName;
 
 namespace {
-
-bool isIdentifier(std::string_view text) {
-    return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) &&
-           std::all_of(text.begin(), text.end(),
-                       [](unsigned char c) { return std::isalnum(c) || c == '_' || c >= 0x80; });
-}
-
-/// "name" or "Module:name".
-struct CalledName {
-    std::string_view module, routine;
-    bool isValid = false;
-
-    explicit CalledName(std::string_view written) {
-        const std::size_t colon = written.find(':');
-        if (colon != std::string_view::npos) module = trimmed(written.substr(0, colon));
-        routine = trimmed(written.substr(colon + 1)); // npos + 1 is 0: the whole text
-        isValid = isIdentifier(routine) && (colon == std::string_view::npos || isIdentifier(module));
-    }
-};
 
 /// What absent arguments are described by: no dimensions.
 const TypeDesc kAbsent = {"", "", DescKind::Other, 0, 0, {0, 0, 0}, nullptr, nullptr, nullptr};

@@ -591,6 +591,43 @@ TEST_CASE("clearing throws away what is not finished", "[motion][system]") {
     CHECK(system.currentJoints().robax == rest);
 }
 
+TEST_CASE("how far the arm stands from a path that was taken back", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    REQUIRE(system.enqueue(lineFrom(system, 50, 100, -150)).hasValue());
+    system.advanceTo(*system.reachTime(1) / 2);
+    system.stop();
+    while (system.isMoving())
+        system.advanceTo(*system.nextEventTime());
+    const Vec3 left = system.current().tcp.pos;
+    CHECK_FALSE(system.gapToPath().has_value()); // stopped on its path
+    REQUIRE(system.storePath());
+    CHECK_FALSE(system.gapToPath().has_value()); // nothing to continue on this level
+    Joints aside = system.currentJoints().robax;
+    aside[5] += 15; // turns the tool, which has no length, about its own axis
+    REQUIRE(system.enqueue(jointsTo(aside)).hasValue());
+    run(system);
+    REQUIRE(system.restorePath());
+    REQUIRE(system.gapToPath().has_value());
+    CHECK(system.gapToPath()->mm == Approx(norm(system.current().tcp.pos - left)).margin(1e-6));
+    CHECK(system.gapToPath()->degrees == Approx(15).margin(1e-3));
+}
+
+TEST_CASE("paths that were put aside can be thrown away", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    REQUIRE(system.enqueue(lineFrom(system, 50, 100, -150)).hasValue());
+    system.advanceTo(*system.reachTime(1) / 2);
+    system.stop();
+    while (system.isMoving())
+        system.advanceTo(*system.nextEventTime());
+    REQUIRE(system.storePath());
+    system.clearStored();
+    CHECK(system.status(1) == MoveStatus::Cleared);
+    CHECK_FALSE(system.restorePath());
+    REQUIRE(system.enqueue(jointsTo({0, 0, 0, 0, 30, 0})).hasValue());
+    run(system);
+    CHECK(system.currentJoints().robax == Joints{0, 0, 0, 0, 30, 0});
+}
+
 TEST_CASE("a path can be put aside for an errand and taken up again", "[motion][system]") {
     for (bool returnsByProgram : {true, false}) {
         MotionSystem system = makeSystem();

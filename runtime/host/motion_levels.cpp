@@ -1,0 +1,49 @@
+// MotionDriver: path levels (manual 1.8: StorePath, RestoPath).
+
+#include "runtime/host/motion_driver.h"
+#include "runtime/sched/task.h"
+
+#include <utility>
+
+namespace rt {
+
+Status MotionDriver::storePath(Task& task) {
+    levelHold_ = !system().isIdle();
+    applyStops();
+    const Status status = waitZeroSpeed(task);
+    levelHold_ = false;
+    if (status != kOk || !system().storePath()) {
+        applyStops();
+        return status;
+    }
+    levels_.push_back(
+        {std::exchange(stopMove_, false), std::exchange(interrupted_, {}), system_.currentJoints()});
+    applyStops();
+    return kOk;
+}
+
+Status MotionDriver::restorePath(Task& task) {
+    const auto isOver = [this] { return !system().isMoving() && (stopMove_ || system().isIdle()); };
+    WaitResult result{};
+    if (const Status status = task.waitFor({{&changed_}, isOver}, result); status != kOk) return status;
+    clearLevel();
+    if (!system().restorePath()) return kOk;
+    const StoredLevel level = levels_.back();
+    levels_.pop_back();
+    stopMove_ = level.stopMove;
+    interrupted_ = level.interrupted;
+    levelHold_ = !system_.isIdle();
+    applyStops();
+    return kOk;
+}
+
+void MotionDriver::noteRetry() {
+    if (std::exchange(levelHold_, false)) applyStops();
+}
+
+bool MotionDriver::pathInterrupted(int level) {
+    if (brokenPath_ != 0 && system().isDone(brokenPath_)) brokenPath_ = 0;
+    return brokenPath_ != 0 && brokenLevel_ == level;
+}
+
+} // namespace rt

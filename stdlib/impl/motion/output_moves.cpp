@@ -1,0 +1,111 @@
+// Manual 1.8: movements that set an output in the middle of the corner path of their point; at a stop point, when it is
+// reached. Executed backwards they set nothing.
+
+#include "stdlib/impl/motion/move_order.h"
+#include "stdlib/impl/motion/triggers.h"
+#include "stdlib/impl/support/fail.h"
+
+#include "stdlib_constants.h"
+#include "stdlib_natives.h"
+
+#include <utility>
+
+using namespace rt;
+
+namespace {
+
+/// The value is checked before the movement is ordered: an error leaves robot and output as they are.
+Status moveAndSet(TaskCore* task, motion::MoveCommand command, const lib::MoveArguments& arguments,
+                  Handle signal, double value) {
+    if (const Status status = lib::checkOutput(task, signal, value)) return status;
+    lib::TriggerDefinition atPoint; // 0 mm before the end of the movement
+    atPoint.signal = signal;
+    atPoint.value = value;
+    std::vector<PathAction> actions;
+    lib::addActions(task, atPoint, actions);
+    return lib::orderMove(task, std::move(command), arguments, std::move(actions));
+}
+
+/// The arguments of a group output: exactly one of \Value and \DValue.
+Status moveAndSetGroup(TaskCore* task, motion::MoveCommand command, const lib::MoveArguments& arguments,
+                       Handle signal, const float* num, const double* dnum) {
+    if (num == nullptr && dnum == nullptr)
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "the group output needs a value: one of \\Value and \\DValue");
+    return moveAndSet(task, std::move(command), arguments, signal,
+                      num != nullptr ? static_cast<double>(*num) : *dnum);
+}
+
+lib::MoveArguments arguments(const data::Speeddata* speed, const float* t, const data::Zonedata* zone,
+                             const data::Tooldata* tool, const data::Wobjdata* workObject) {
+    return {false, speed, nullptr, t, zone, nullptr, nullptr, tool, workObject};
+}
+
+} // namespace
+
+extern "C" {
+
+Status rt_MoveLDO(TaskCore* task, const data::Robtarget* ToPoint, const float*, const data::Speeddata* Speed,
+                  const float* T, const data::Zonedata* Zone, data::Tooldata* Tool, data::Wobjdata* WObj,
+                  Handle* Signal, float Value, data::Loaddata*) {
+    return moveAndSet(task, lib::linearMove(task, *ToPoint), arguments(Speed, T, Zone, Tool, WObj), *Signal,
+                      Value);
+}
+
+Status rt_MoveJDO(TaskCore* task, const data::Robtarget* ToPoint, const float*, const data::Speeddata* Speed,
+                  const float* T, const data::Zonedata* Zone, data::Tooldata* Tool, data::Wobjdata* WObj,
+                  Handle* Signal, float Value, data::Loaddata*) {
+    return moveAndSet(task, lib::jointMove(task, *ToPoint), arguments(Speed, T, Zone, Tool, WObj), *Signal,
+                      Value);
+}
+
+Status rt_MoveCDO(TaskCore* task, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
+                  const float*, const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
+                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value, data::Loaddata*) {
+    return moveAndSet(task, lib::circularMove(task, *CirPoint, *ToPoint),
+                      arguments(Speed, T, Zone, Tool, WObj), *Signal, Value);
+}
+
+Status rt_MoveLAO(TaskCore* task, const data::Robtarget* ToPoint, const float*, const data::Speeddata* Speed,
+                  const float* T, const data::Zonedata* Zone, data::Tooldata* Tool, data::Wobjdata* WObj,
+                  Handle* Signal, float Value, data::Loaddata*) {
+    return moveAndSet(task, lib::linearMove(task, *ToPoint), arguments(Speed, T, Zone, Tool, WObj), *Signal,
+                      Value);
+}
+
+Status rt_MoveJAO(TaskCore* task, const data::Robtarget* ToPoint, const float*, const data::Speeddata* Speed,
+                  const float* T, const data::Zonedata* Zone, data::Tooldata* Tool, data::Wobjdata* WObj,
+                  Handle* Signal, float Value, data::Loaddata*) {
+    return moveAndSet(task, lib::jointMove(task, *ToPoint), arguments(Speed, T, Zone, Tool, WObj), *Signal,
+                      Value);
+}
+
+Status rt_MoveCAO(TaskCore* task, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
+                  const float*, const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
+                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value, data::Loaddata*) {
+    return moveAndSet(task, lib::circularMove(task, *CirPoint, *ToPoint),
+                      arguments(Speed, T, Zone, Tool, WObj), *Signal, Value);
+}
+
+Status rt_MoveLGO(TaskCore* task, const data::Robtarget* ToPoint, const float*, const data::Speeddata* Speed,
+                  const float* T, const data::Zonedata* Zone, data::Tooldata* Tool, data::Wobjdata* WObj,
+                  Handle* Signal, const float* Value, const double* DValue, data::Loaddata*) {
+    return moveAndSetGroup(task, lib::linearMove(task, *ToPoint), arguments(Speed, T, Zone, Tool, WObj),
+                           *Signal, Value, DValue);
+}
+
+Status rt_MoveJGO(TaskCore* task, const data::Robtarget* ToPoint, const float*, const data::Speeddata* Speed,
+                  const float* T, const data::Zonedata* Zone, data::Tooldata* Tool, data::Wobjdata* WObj,
+                  Handle* Signal, const float* Value, const double* DValue, data::Loaddata*) {
+    return moveAndSetGroup(task, lib::jointMove(task, *ToPoint), arguments(Speed, T, Zone, Tool, WObj),
+                           *Signal, Value, DValue);
+}
+
+Status rt_MoveCGO(TaskCore* task, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
+                  const float*, const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
+                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, const float* Value,
+                  const double* DValue, data::Loaddata*) {
+    return moveAndSetGroup(task, lib::circularMove(task, *CirPoint, *ToPoint),
+                           arguments(Speed, T, Zone, Tool, WObj), *Signal, Value, DValue);
+}
+}
