@@ -43,7 +43,7 @@ void MotionDriver::orderEarlier(const std::vector<motion::MoveCommand>& moves) {
     }
 }
 
-/// Its path begins where the arm left it; the arm itself stays where it stands.
+/// Its path begins where the arm left it; the arm itself stays where it is.
 void MotionDriver::storeEarlier(const EarlierLevel& level) {
     const motion::JointTarget here = system_.currentJoints();
     system_.placeAt(level.left);

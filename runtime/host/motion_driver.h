@@ -87,14 +87,14 @@ class MotionDriver final : public SteppedArm {
     bool isStopMoveActive() const { return stopMove_; }
     /// 1 on the base level, one more for each path that is put aside.
     int pathLevel() const { return 1 + static_cast<int>(levels_.size()); }
-    /// StorePath: stops the arm on its path, waits until it stands, and puts the unfinished movements aside, with StopMove.
+    /// StorePath: stops the arm on its path, waits until it is at rest, and puts the unfinished movements aside, with StopMove.
     Status storePath(Task& task);
     /// RestoPath: waits until the movements of this level are finished (those that StopMove holds are thrown away) and takes
     /// back the path put aside last. It is held until startMove(), RETRY or clearLevel(). Not on the base level.
     Status restorePath(Task& task);
-    /// Where StartMove would have to bring the arm back to its path: how far that is.
+    /// How far StartMove would have to bring the arm back to its path; nothing when it is there.
     std::optional<motion::MotionSystem::PathGap> gapToPath() { return system().gapToPath(); }
-    /// An error handler has executed RETRY: a path that was taken back goes on.
+    /// An error handler has executed RETRY: a path that was taken back continues.
     void noteRetry();
     void programStop() override;
     /// The program stops by itself, with the arm standing still.
@@ -120,7 +120,7 @@ class MotionDriver final : public SteppedArm {
     /// Executed now, the instruction would continue the movement that it has ordered already (RETRY after a process error).
     bool continuesMovement(const Task& task);
 
-    /// What an earlier process had put aside (StorePath).
+    /// A path that an earlier process had put aside (StorePath).
     struct EarlierLevel {
         std::vector<motion::MoveCommand> moves;
         std::optional<motion::Pose> begun; ///< where the first of them began; it is under way
@@ -215,7 +215,7 @@ class MotionDriver final : public SteppedArm {
     std::vector<TraceSink*> traces_;
     Time nextSample_ = 0;
     bool stopMove_ = false, programStop_ = false;
-    bool levelHold_ = false; // between StorePath and the stand of the arm; from RestoPath until it may go on
+    bool levelHold_ = false; // from StorePath until the arm is at rest; from RestoPath until it may move
     Status processError_ = kOk;
     Interrupted interrupted_;
     struct StoredLevel { // what belongs to a path that is put aside

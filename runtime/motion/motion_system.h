@@ -90,7 +90,7 @@ class MotionSystem {
     bool restorePath();
     /// Throws away the unfinished moves of every level that was put aside, and those levels.
     void clearStored();
-    /// How far the arm stands from where its path continues: place of the TCP and turn of the tool. Nothing when it stands
+    /// How far the arm is from where its path continues: place of the TCP and turn of the tool. Nothing when it is
     /// on its path, or there is none to continue.
     struct PathGap {
         double mm = 0, degrees = 0;

@@ -50,7 +50,7 @@ class InterruptTable {
     static constexpr std::size_t kMaxQueued = 1000;
     /// What made an interrupt occur, for those who ask in the trap (GetTrapData).
     using Cause = std::shared_ptr<const void>;
-    /// What is executed as a trap routine is, without a number (MoveLSync). It finds its routine when it is called and calls
+    /// A call that is executed as a trap routine is, without a number (MoveLSync). It finds its routine when it is called and calls
     /// it with the frame given; positive: an error to be raised there.
     using Call = std::function<Status(Task&, Frame*)>;
 

@@ -40,8 +40,8 @@ Status rt_StartMove(TaskCore* task, bool) {
     if (const auto gap = driver.gapToPath(); gap && (gap->mm > kFarthest || gap->degrees > kMostTurned))
         return lib::failWith(
             task, err::ERR_PATHDIST,
-            "the robot stands {} mm and {} degrees from its path; at most 10 mm and 20 degrees are "
-            "allowed: move it back to where the path was interrupted, ahead of RestoPath",
+            "the robot is {} mm and {} degrees from its path; at most 10 mm and 20 degrees are "
+            "allowed: move it back to where the path was interrupted before RestoPath",
             gap->mm, gap->degrees);
     driver.startMove();
     return kOk;

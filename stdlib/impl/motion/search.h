@@ -1,5 +1,5 @@
 #pragma once
-// What a search looks at while the robot moves (manual 1.8): changes of a digital input or a persistent, from the beginning
+// The watching of a search while the robot moves (manual 1.8): changes of a digital input or a persistent, from the beginning
 // of its own movement to its end.
 
 #include "runtime/host/controller.h"
@@ -18,7 +18,7 @@ struct SearchConditions {
     bool stiff = false; ///< \Stop: each axis brakes for itself
 };
 
-/// Where the value comes from: a digital input or a persistent bool.
+/// The source of the value: a digital input or a persistent bool.
 struct SearchSource {
     SignalId signal = -1;
     const bool* persistent = nullptr; ///< null: the signal
@@ -45,7 +45,7 @@ class Search {
     bool wasBrokenOff() const { return wasActive_ || (conditions_.stops && hits_ > 0); }
     /// Active at the beginning: the movement was broken off.
     bool wasActive() const { return wasActive_; }
-    /// Where the axes were at the first hit.
+    /// Places of the axes at the first hit.
     const motion::JointTarget& place() const { return place_; }
 
   private:

@@ -47,7 +47,7 @@ Status failSupervision(TaskCore* task, const SearchArguments& args, std::string_
 }
 
 /// Moves and searches; `place` gets the axes at the first hit, nothing when the instruction is executed backwards.
-/// Positive: the robot stands at the end of the movement, or where it was stopped.
+/// Positive: the robot is at the end of the movement, or at rest where it was stopped.
 Status search(TaskCore* task, motion::MoveCommand command, const SearchArguments& args,
               const lib::MoveArguments& move, std::optional<motion::JointTarget>& place) {
     if (const Status status = lib::requireMotionTask(task)) return status;

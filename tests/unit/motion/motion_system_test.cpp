@@ -591,7 +591,7 @@ TEST_CASE("clearing throws away what is not finished", "[motion][system]") {
     CHECK(system.currentJoints().robax == rest);
 }
 
-TEST_CASE("how far the arm stands from a path that was taken back", "[motion][system]") {
+TEST_CASE("how far the arm is from a path that was taken back", "[motion][system]") {
     MotionSystem system = makeSystem();
     REQUIRE(system.enqueue(lineFrom(system, 50, 100, -150)).hasValue());
     system.advanceTo(*system.reachTime(1) / 2);
