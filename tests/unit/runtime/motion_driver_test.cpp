@@ -84,7 +84,8 @@ TEST_CASE("the trace has a sample each 4 ms, moving or standing", "[motion_drive
     CHECK(trace.back().axis1 == Approx(-10).margin(0.2));
     CHECK(trace.back().move == 2);
     const auto standing = [](const Row& row) { return std::fabs(row.axis1 - 40) < 1e-9 && row.speed == 0; };
-    CHECK(std::count_if(trace.begin(), trace.end(), standing) >= 18); // the 0.1 s in between, less the last half mm
+    CHECK(std::count_if(trace.begin(), trace.end(), standing) >=
+          18); // the 0.1 s in between, less the last half mm
 }
 
 TEST_CASE("the same program and stimulus give the same trace to the byte", "[motion_driver]") {
