@@ -137,7 +137,7 @@ ExitStatus Controller::openRobot() {
     motion_ = std::make_unique<MotionDriver>(scheduler_, std::move(arm));
     motion_->addListener([this](ArmNews news) {
         if (news != ArmNews::CornerLost) return;
-        log_.write(EventId::CornerPathFailure, nullptr, {motion_->unitName()});
+        log_.write(EventId::CornerPathFailure, motion_->orderingTask(), {motion_->unitName()});
     });
     return ExitStatus::Ended;
 }

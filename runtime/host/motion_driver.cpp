@@ -200,12 +200,14 @@ Status MotionDriver::submit(Task& task, motion::MoveCommand command, motion::Mov
                             std::optional<motion::MotionError>& error) {
     error.reset();
     command.tag = instructions_ + 1;
+    if (task.isStepwise()) command.zone.finep = true; // each step ends at its point
     continueEarlier(command);
     WaitResult result{};
     for (;;) {
         refresh();
         const motion::Pose start = startOf(command);
         const motion::JointTarget from = system_.plannedEnd();
+        ordering_ = &task;
         const auto ordered = system_.enqueue(command);
         if (ordered) {
             id = *ordered;
@@ -227,6 +229,7 @@ Status MotionDriver::submit(Task& task, motion::MoveCommand command, motion::Mov
     for (const motion::PathTrigger& trigger : command.triggers)
         actions_.at(trigger.id).move = id;
     refresh();
+    ordering_ = nullptr;
     return waitReleased(task, id);
 }
 

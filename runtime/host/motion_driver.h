@@ -144,6 +144,8 @@ class MotionDriver final : public SteppedArm {
     /// `errorNumber`. Executed again (RETRY) such an instruction goes on with the movement it has ordered.
     void raiseProcessError(Status errorNumber);
 
+    /// The task whose movement is being ordered, which may be too late for the corner before it; null otherwise.
+    const Task* orderingTask() const { return ordering_; }
     /// CornerPathWarning: whether a fly-by point that has to become a stop point is reported.
     void setCornerWarning(bool on) { cornerWarning_ = on; }
 
@@ -233,6 +235,7 @@ class MotionDriver final : public SteppedArm {
     bool backward_ = false;
     bool brokenOff_ = false; // the movement of the latest order was
     bool cornerWarning_ = true;
+    const Task* ordering_ = nullptr;
     std::function<Status(Task&)> circlePointStop_;
     std::vector<std::function<void(ArmNews)>> listeners_;
     std::vector<std::function<void(const Ordered&)>> orderListeners_;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kLeastDistance = 0.1; // mm between the points of a circle
 constexpr double kLeastAngle = 0.05;   // deg in the triangle of the three points; less is a line
-constexpr double kLeastTwist = 1.0;    // deg; below, the way of twisting is no question
+constexpr double kLeastTwist = 1.0;    // deg; below, both ways of twisting are the same
 constexpr double kLargestSweep = 240;  // deg
 
 MotionError circleError(MotionErrorKind kind, double value, const Vec3& position) {

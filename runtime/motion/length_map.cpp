@@ -30,7 +30,7 @@ LengthMap LengthMap::measured(const std::function<double(double)>& rate, int pie
         const auto [low, high] = std::minmax(map.rates_[i], map.rates_[i + 1]);
         if (high > kModerate * low && high > 0.02 * largest) return measured(rate, 4 * pieces);
     }
-    // Where the curve stands still for a moment the map must stay invertible.
+    // The map must stay invertible where the curve stops for a moment.
     const double least = 1e-3 * largest;
     for (double& r : map.rates_)
         r = std::max(r, least);

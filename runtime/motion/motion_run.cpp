@@ -25,7 +25,7 @@ bool MotionSystem::Impl::isMoving() const {
     return at.path != nullptr && at.path->isMoving(time);
 }
 
-/// When the arm stands still if nothing is ordered any more; not before now.
+/// When the arm comes to rest if nothing more is ordered; not before now.
 TimeNs MotionSystem::Impl::restTime() const {
     TimeNs rest = now;
     for (auto at = spanAt(now); at != spans.end(); ++at) {
@@ -41,7 +41,7 @@ std::shared_ptr<Trajectory> MotionSystem::Impl::newPath(const JointTarget& start
     return path;
 }
 
-/// `what` becomes what the arm follows from a time on; until it has moves the arm stands there.
+/// `what` becomes what the arm follows from a time on; until it has moves the arm rests there.
 void MotionSystem::Impl::follow(std::shared_ptr<const Trajectory> what, TimeNs from) {
     Span next;
     next.start = from;
@@ -67,7 +67,7 @@ void MotionSystem::Impl::abandonPath() {
     if (!isCoasting) follow(level.path, rest);
 }
 
-/// All moves from this one on. Who asks for one that was cleared long ago is answered that it is done.
+/// All moves from this one on. A move that was cleared long ago counts as done.
 void MotionSystem::Impl::noteCleared(MoveId first) {
     if (first >= nextId) return;
     cleared.emplace_back(first, nextId - 1);
@@ -112,7 +112,7 @@ void MotionSystem::Impl::resume() {
     holdOrRelease();
 }
 
-/// Back to where the path goes on, axis by axis; false when the arm stands there.
+/// Back to where the path continues, axis by axis; false when the arm is there already.
 bool MotionSystem::Impl::startDetour() {
     isHalted = false;
     if (!level.queue.empty() && !path().isEmpty()) {

@@ -161,7 +161,7 @@ bool MotionSystem::restorePath() {
     standing.start = s.now;
     standing.still = s.stillAt(here);
     s.spans.back() = standing;
-    s.isHalted = true; // where the path goes on is somewhere else
+    s.isHalted = true; // the path may continue somewhere else
     if (s.isHeld())
         s.isStopAnnounced = true;
     else

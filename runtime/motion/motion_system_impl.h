@@ -47,12 +47,12 @@ struct Level {
     bool isStopRequested = false;
 };
 
-/// What the arm does from a time on, until the next span begins.
+/// The arm's activity from a time on, until the next span begins.
 struct Span {
     TimeNs start = 0;
     std::shared_ptr<const Trajectory> path; // follows it ...
-    std::shared_ptr<const Coast> coast;     // ... or brakes off its path, and stands there
-    MotionState still;                      // ... or stands; also the state before the first move of a path
+    std::shared_ptr<const Coast> coast;     // ... or brakes off its path, and rests there
+    MotionState still;                      // ... or rests; also the state before the first move of a path
 };
 
 struct MotionSystem::Impl {

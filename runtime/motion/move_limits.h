@@ -8,7 +8,7 @@
 
 namespace motion {
 
-/// What the planner needs to know about an external axis; not present unless configured.
+/// An external axis as the planner sees it; not present unless configured.
 struct ExternalAxisModel {
     bool present = false;
     bool rotating = true; ///< degrees, else mm

@@ -16,7 +16,7 @@ struct AccelerationRow {
     double most = 0;              ///< limit, in the unit of the quantity per s^2
 };
 
-/// What limits the speed on one stretch.
+/// Limits of the speed on one stretch.
 struct StretchLimits {
     double width = 0;          ///< mm
     double speed = 0;          ///< mm/s of route at full override
@@ -33,7 +33,7 @@ struct RunSettings {
 
 class Run {
   public:
-    /// Stands at the start of an empty route. Nothing moves before `start` (s).
+    /// At rest at the start of an empty route. Nothing moves before `start` (s).
     Run(const RunSettings& settings, double start);
 
     /// Appends a leg; nothing planned before `now` changes. False when the end of the route has to stay a stop point
@@ -45,11 +45,11 @@ class Run {
 
     /// Replans from `now` on: to the end of the route at this share of the programmed speed (above 0, to 1).
     void plan(double now, double speedShare);
-    /// Replans from `now` on: brakes as fast as the limits allow and stands there.
+    /// Replans from `now` on: brakes as fast as the limits allow and rests there.
     void brake(double now);
     /// Where brake() would let the arm come to rest.
     double restPlace(double now) const;
-    /// Stands at a place since `time`.
+    /// At rest at a place since `time`.
     void standAt(double time, double place);
     /// Course back along the route, from a place to an earlier one, as mm from the first; at most at this speed.
     Course courseBack(double time, double from, double to, double mmPerSecond) const;

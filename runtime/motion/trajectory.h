@@ -26,15 +26,15 @@ struct LegRef {
 };
 
 struct TrajectoryOptions {
-    double startDelay = 0.020; ///< s, from the order of a move to its start when the arm stands
+    double startDelay = 0.020; ///< s, from the order of a move to its start when the arm is at rest
     double overlap = 1.0;      ///< mm left of a run when the next one begins
-    double inPosition = 0.5;   ///< mm left when the program goes on after a stop point
+    double inPosition = 0.5;   ///< mm left when the program continues after a stop point
     double emptyMove = 0.073;  ///< s, a move to where the arm is
 };
 
 class Trajectory {
   public:
-    /// Without moves yet; the arm stands at `start`, and moves from the time `earliest` on.
+    /// Without moves yet; the arm is at `start`, and moves from the time `earliest` on.
     Trajectory(const robot::RobotModel& model, const ExternalAxisModels& external, TrajectoryOptions options,
                const JointTarget& start, double earliest);
 
@@ -44,7 +44,7 @@ class Trajectory {
         bool isPoint = false;      ///< no way of its own: the end of that leg
         bool isCornerLost = false; ///< the fly-by point before has become a stop point
     };
-    /// Appends a move, the arm standing or moving. `isFlyBy`: at its end the path goes on without a stop if another move follows.
+    /// Appends a move while the arm moves or rests.
     Appended append(const std::shared_ptr<const MotionPath>& path, const MoveCommand& command, double now);
     /// The last point of the path is a stop point.
     void closeLast();
@@ -89,17 +89,17 @@ class Trajectory {
     bool leadsToEnd() const {
         return !entries_.empty() && entries_.back().isScheduled && !entries_.back().run->isBraking();
     }
-    /// Where the last move ends, or the arm stands when there is none.
+    /// Where the last move ends, or the arm is when there is none.
     const JointTarget& endTarget() const { return endTarget_; }
 
     // ---- back along the path ----
-    /// Moves back from the place where the arm stands, held, to an earlier one on the same or the previous run.
+    /// Moves back from the place where the arm is held to an earlier one on the same or the previous run.
     void goBack(double now, const PathPlace& to, double mmPerSecond);
     bool isGoingBack(double time) const { return back_.has_value() && time < back_->course.end(); }
     double backEnd() const { return back_->course.end(); }
     /// The arm has come to rest there.
     void finishBack(double now);
-    /// The arm stands at a place, without having moved there (after braking off the path).
+    /// The arm is at a place, without having moved there (after braking off the path).
     void standAt(double now, const PathPlace& place);
 
     void forgetBefore(double time, const PathPlace& place);

@@ -731,7 +731,7 @@ TEST_CASE("an external axis outside its range is refused by its number", "[motio
     CHECK(system.currentJoints().extax[1] == 80);
 }
 
-TEST_CASE("moves to where the arm stands take 73 ms each, in order", "[motion][system]") {
+TEST_CASE("moves to the present position take 73 ms each, in order", "[motion][system]") {
     MotionSystem system = makeSystem();
     for (int i = 0; i < 5; ++i)
         REQUIRE(system.enqueue(jointsTo({0, 0, 0, 0, 30, 0})).hasValue());
