@@ -61,7 +61,8 @@ std::optional<double> MotionSystem::Impl::reachTime(const Move& move) const {
 }
 
 std::optional<double> MotionSystem::Impl::releaseTime(const Move& move) const {
-    if (move.isConcurrent) return startTime(move);
+    // After a fly-by point the order itself came the lead before its zone (manual 2.3).
+    if (move.isConcurrent) return move.leg.leg > 0 ? std::optional(seconds()) : startTime(move);
     if (!move.isFlyBy) return reachTime(move);
     if (level.queue.back().get() != &move) return seconds(); // a move that follows is known already
     const auto decision = path().decisionTime();
