@@ -180,6 +180,7 @@ std::vector<double> Route::bordersFrom(double from) const {
 bool Route::layStretches(double from) {
     const std::vector<double> borders = bordersFrom(from);
     double begin = from;
+    bool wasInZone = false;
     for (std::size_t i = 1; i < borders.size(); ++i) {
         const double gap = borders[i] - begin;
         // Borders closer than this add nothing; the last one is kept in any case.
@@ -193,8 +194,10 @@ bool Route::layStretches(double from) {
             const bool isFirst = stretches_.empty();
             const Joints seed = isFirst ? legs_.front().path->start().robax : stretches_.back().middle.joints;
             const bool isGood = measure(stretch, seed);
-            if (!isFirst && isShaped(0.5 * (stretch.begin + stretch.end))) {
-                if (!isGood) return false;
+            const bool isInZone = isShaped(0.5 * (stretch.begin + stretch.end));
+            if (isInZone && !isGood) return false;
+            // The first stretch after a zone, too: there the legs' own axes count again, perhaps a turn further.
+            if (!isFirst && (isInZone || wasInZone)) {
                 const RouteStretch& last = stretches_.back();
                 const double way = 0.5 * (stretch.end - last.begin);
                 for (std::size_t axis = 0; axis < seed.size(); ++axis) {
@@ -204,6 +207,7 @@ bool Route::layStretches(double from) {
                 }
             }
             stretches_.push_back(stretch);
+            wasInZone = isInZone;
         }
         begin = borders[i];
     }

@@ -276,6 +276,28 @@ TEST_CASE("unusual moves are run to their ends", "[motion][random]") {
     }
 }
 
+TEST_CASE("an axis that turns a revolution in a joint move does not jump in the corner after it",
+          "[motion][random]") {
+    MotionSystem system = smallRobot();
+    MoveCommand turn;
+    turn.joints.robax = {10, 10, 10, 0, 60, 390};
+    turn.speed.vTcp = 300;
+    REQUIRE(system.enqueue(turn).hasValue());
+    turn.joints.robax = {-10, 15, 10, 0, 60, -15};
+    turn.zone = {false, 200, 300, 300, 30, 300, 30};
+    REQUIRE(system.enqueue(turn).hasValue());
+    REQUIRE(system.enqueue(lineBy(system, 0, 180, -30, -1)).hasValue());
+    double before = system.current().joints[5];
+    double largest = 0;
+    while (!system.isIdle() || system.isMoving()) {
+        system.advanceTo(system.now() + kMs);
+        largest = std::max(largest, std::abs(system.current().joints[5] - before));
+        before = system.current().joints[5];
+    }
+    CHECK(largest <= 0.001 * system.model().maxSpeed[5] * 1.05);
+    CHECK(before == Approx(system.plannedEnd().robax[5]).margin(1e-6));
+}
+
 TEST_CASE("figures of a zone that are no distances are refused", "[motion][random]") {
     for (const double value : {-1.0, std::nan(""), HUGE_VAL}) {
         MotionSystem system = smallRobot();
