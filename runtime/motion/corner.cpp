@@ -9,11 +9,22 @@ namespace motion {
 
 namespace {
 
-constexpr double kRadToDeg = 57.29577951308232;
-
 /// Derivative of a quantity along a leg by central differences.
 template <class Function> auto slopeOf(Function&& value, double at, double step) {
     return (value(at + step) - value(at - step)) * (1 / (2 * step));
+}
+
+/// The curve that leaves the course of the first leg `before` mm of path from its end (at `entry`) and joins that of the
+/// second `after` mm from its start.
+template <class First, class Second>
+auto joiningCurve(First&& first, double entry, double before, Second&& second, double after) {
+    const double step = 1e-3 * std::min(before, after);
+    const auto from = first(entry);
+    const auto to = second(after);
+    Bezier<std::decay_t<decltype(from)>> curve;
+    curve.p = {from, from + slopeOf(first, entry, step) * (kCornerTension * before),
+               to - slopeOf(second, after, step) * (kCornerTension * after), to};
+    return curve;
 }
 
 bool isConnectedAxis(const Leg& leg, std::size_t axis) {
@@ -43,15 +54,8 @@ AxisVector Route::axesOn(const Leg& leg, double distance) {
 }
 
 void Route::curveInSpace(Corner& corner, const Leg& a, const Leg& b) {
-    const double entry = a.length() - corner.before;
-    const auto before = [&](double d) { return poseIn(a, b, d).pos; };
-    const auto after = [&](double d) { return poseOn(b, d).pos; };
-    const double step = 1e-3 * std::min(corner.before, corner.after);
-    const Vec3 from = before(entry);
-    const Vec3 to = after(corner.after);
-    const Vec3 leaving = slopeOf(before, entry, step) * (kCornerTension * corner.before);
-    const Vec3 joining = slopeOf(after, corner.after, step) * (kCornerTension * corner.after);
-    corner.space.p = {from, from + leaving, to - joining, to};
+    corner.space = joiningCurve([&](double d) { return poseIn(a, b, d).pos; }, a.length() - corner.before,
+                                corner.before, [&](double d) { return poseOn(b, d).pos; }, corner.after);
     corner.lengths =
         LengthMap::measured([&](double x) { return norm(corner.space.slopeAt(x)); }, kCornerPieces);
     corner.halfLength = corner.lengths.distanceAt(0.5);
@@ -96,19 +100,14 @@ void Route::blendTurn(Corner& corner, const Leg& a, const Leg& b, double before,
     const auto turned = [&](const Quat& rot) {
         return robot::rotationVector(conjugate(corner.centre) * rot);
     };
-    const auto first = [&](double d) { return turned(poseIn(a, b, d).rot); };
-    const auto second = [&](double d) { return turned(poseOn(b, d).rot); };
-    const double entry = a.length() - before;
-    const Vec3 from = first(entry);
-    const Vec3 to = second(after);
+    const auto curve =
+        joiningCurve([&](double d) { return turned(poseIn(a, b, d).rot); }, a.length() - before, before,
+                     [&](double d) { return turned(poseOn(b, d).rot); }, after);
     constexpr double kNothing = 1e-9; // rad
-    if (norm(from) < kNothing && norm(to) < kNothing) return;
-    const double step = 1e-3 * std::min(before, after);
-    const Vec3 leaving = slopeOf(first, entry, step) * (kCornerTension * before);
-    const Vec3 joining = slopeOf(second, after, step) * (kCornerTension * after);
+    if (norm(curve.p[0]) < kNothing && norm(curve.p[3]) < kNothing) return;
     corner.turn.before = before;
     corner.turn.after = after;
-    corner.turn.curve.p = {from, from + leaving, to - joining, to};
+    corner.turn.curve = curve;
 }
 
 void Route::blendExternal(Corner& corner, const Leg& a, const Leg& b, double before, double after) {
@@ -118,16 +117,10 @@ void Route::blendExternal(Corner& corner, const Leg& a, const Leg& b, double bef
         moves = moves || (isConnectedAxis(a, i) && (a.path->start().extax[i] != a.path->end().extax[i] ||
                                                     b.path->start().extax[i] != b.path->end().extax[i]));
     if (!moves) return;
-    const double entry = a.length() - before;
-    const double step = 1e-3 * std::min(before, after);
-    const auto first = [&](double d) { return axesOn(a, d); };
-    const auto second = [&](double d) { return axesOn(b, d); };
-    const AxisVector from = first(entry);
-    const AxisVector to = second(after);
     corner.external.before = before;
     corner.external.after = after;
-    corner.external.curve.p = {from, from + slopeOf(first, entry, step) * (kCornerTension * before),
-                               to - slopeOf(second, after, step) * (kCornerTension * after), to};
+    corner.external.curve = joiningCurve([&](double d) { return axesOn(a, d); }, a.length() - before, before,
+                                         [&](double d) { return axesOn(b, d); }, after);
 }
 
 double pathRate(double mm, double degrees) {
@@ -140,12 +133,6 @@ double externalRate(const AxisVector& slope) {
     for (std::size_t i = slope.v.size() - kExternalCount; i < slope.v.size(); ++i)
         sum += std::abs(slope.v[i]);
     return std::isfinite(sum) ? sum : 0;
-}
-
-Quat turnedBy(const Quat& centre, const Vec3& rotation) {
-    const double angle = norm(rotation);
-    if (angle == 0) return centre;
-    return centre * robot::fromAxisAngle(rotation * (1 / angle), angle * kRadToDeg);
 }
 
 } // namespace motion

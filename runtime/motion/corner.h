@@ -80,9 +80,6 @@ inline constexpr double kMmPerDegree = 0.2;
 double pathRate(double mm, double degrees);
 /// Speeds of the external axes, added.
 double externalRate(const AxisVector& slope);
-/// Orientation turned by a rotation vector in rad, seen from the orientation itself.
-Quat turnedBy(const Quat& centre, const Vec3& rotation);
-
 inline constexpr int kCornerPieces = 24; ///< in which the length of a corner's curve is measured
 inline constexpr int kAxesPieces = 96;   ///< ... of a curve of the axes, on which the TCP's rate varies more
 

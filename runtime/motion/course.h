@@ -35,7 +35,6 @@ class Course {
     CourseState plannedAt(double time) const;
     double plannedEnd() const { return knots_.back().t; } ///< s
     double endPlace() const { return knots_.back().s + origin_; }
-    double endSpeed() const { return knots_.back().v; }
     /// When the last braking of the plan begins; its end if it does not end with braking.
     double lastBraking() const;
     /// When the plan comes to this place for the first time; its end if it does not.

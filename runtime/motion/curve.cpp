@@ -30,12 +30,6 @@ double angleAt(const Vec3& corner, const Vec3& a, const Vec3& b) {
     return std::atan2(norm(cross(u, v)), dot(u, v)) / kDeg;
 }
 
-Quat turn(const Quat& base, const Vec3& rotation, double k) {
-    const double angle = norm(rotation);
-    if (angle == 0) return base;
-    return base * robot::fromAxisAngle(rotation * (1 / angle), k * angle / kDeg);
-}
-
 } // namespace
 
 CartesianCurve CartesianCurve::line(const Pose& start, const Pose& end) {
@@ -112,8 +106,8 @@ void CartesianCurve::twistOnCircle(const Pose& via, double viaAngle) {
         const Vec3 longTwist = shortTwist * (1 - 2 * std::numbers::pi / shortAngle);
         const double share = viaAngle / sweepDeg_;
         const Quat there = robot::fromAxisAngle(axis_, viaAngle) * start_.rot;
-        const double missShort = robot::angleBetween(turn(there, shortTwist, share), via.rot);
-        const double missLong = robot::angleBetween(turn(there, longTwist, share), via.rot);
+        const double missShort = robot::angleBetween(robot::turnedBy(there, shortTwist, share), via.rot);
+        const double missLong = robot::angleBetween(robot::turnedBy(there, longTwist, share), via.rot);
         if (missLong < missShort - 1e-9) twist_ = longTwist;
     }
     rotationDeg_ = norm(axis_ * (sweepDeg_ * kDeg) + rotate(start_.rot, twist_)) / kDeg;
@@ -129,13 +123,14 @@ void CartesianCurve::twistInObject(const Pose& via, CircleOrientation orientatio
 }
 
 Quat CartesianCurve::orientationAt(double s) const {
-    if (isCarried_) return turn(robot::fromAxisAngle(axis_, sweepDeg_ * s) * start_.rot, twist_, s);
-    if (s <= viaShare_) return turn(start_.rot, twist_, s / viaShare_);
-    return turn(viaRot_, twistAfter_, (s - viaShare_) / (1 - viaShare_));
+    if (isCarried_)
+        return robot::turnedBy(robot::fromAxisAngle(axis_, sweepDeg_ * s) * start_.rot, twist_, s);
+    if (s <= viaShare_) return robot::turnedBy(start_.rot, twist_, s / viaShare_);
+    return robot::turnedBy(viaRot_, twistAfter_, (s - viaShare_) / (1 - viaShare_));
 }
 
 Pose CartesianCurve::at(double s) const {
-    if (!isArc_) return {start_.pos + (end_.pos - start_.pos) * s, turn(start_.rot, twist_, s)};
+    if (!isArc_) return {start_.pos + (end_.pos - start_.pos) * s, robot::turnedBy(start_.rot, twist_, s)};
     return {centre_ + rotate(robot::fromAxisAngle(axis_, sweepDeg_ * s), spoke_), orientationAt(s)};
 }
 

@@ -177,15 +177,12 @@ bool MotionSystem::Impl::handleMoves() {
 }
 
 void MotionSystem::Impl::handleEventsNow() {
-    const auto first = [&]() -> const Move* {
-        return level.queue.empty() ? nullptr : level.queue.front().get();
-    };
     if (isCoasting) {
         isCoasting = false;
         if (!isHalted) follow(level.path, now); // its moves have been cleared meanwhile
         isRestAnnounced = true;
         report(std::exchange(isStopAnnounced, true) ? MotionEventKind::AtRest : MotionEventKind::Stopped,
-               first());
+               front());
         if (!isHeld()) resume();
         noteMotion();
         return;
@@ -199,9 +196,9 @@ void MotionSystem::Impl::handleEventsNow() {
     if (now < restTime()) return;
     const bool isAtRest = !std::exchange(isRestAnnounced, true);
     if (isStopRequested && !std::exchange(isStopAnnounced, true))
-        report(MotionEventKind::Stopped, first());
+        report(MotionEventKind::Stopped, front());
     else if (isAtRest)
-        report(MotionEventKind::AtRest, first());
+        report(MotionEventKind::AtRest, front());
 }
 
 } // namespace motion

@@ -139,7 +139,7 @@ void MotionSystem::Impl::finishDetour() {
     follow(level.path, now);
     if (isHeld()) {
         isStopAnnounced = isRestAnnounced = true;
-        report(MotionEventKind::Stopped, level.queue.empty() ? nullptr : level.queue.front().get());
+        report(MotionEventKind::Stopped, front());
     }
     holdOrRelease();
     noteMotion();
@@ -150,15 +150,14 @@ std::optional<PathPlace> MotionSystem::Impl::placeBack(double mm) const {
     constexpr double kNothing = 1e-6;
     if (path().isEmpty()) return {};
     const PathPlace here = path().at(seconds()).place;
-    const bool isBegun = !level.queue.empty() && level.queue.front()->isStarted;
     const auto within = [&](const Move& move) -> std::optional<PathPlace> {
         const PathPlace start = startOf(move);
         const PathPlace from = here.run == start.run ? here : endOf(move);
         if (here < start || from.s <= start.s + kNothing) return {};
         return PathPlace{start.run, std::max(start.s, from.s - mm)};
     };
-    if (isBegun)
-        if (const auto place = within(*level.queue.front())) return place;
+    if (front() != nullptr && front()->isStarted)
+        if (const auto place = within(*front())) return place;
     return level.finished.empty() ? std::nullopt : within(*level.finished.back());
 }
 
@@ -166,7 +165,7 @@ void MotionSystem::Impl::finishStepping() {
     isStepping = false;
     path().finishBack(seconds());
     isStopAnnounced = isRestAnnounced = true;
-    report(MotionEventKind::Stopped, level.queue.empty() ? nullptr : level.queue.front().get());
+    report(MotionEventKind::Stopped, front());
     if (!isHeld()) holdOrRelease();
     noteMotion();
 }
@@ -257,9 +256,7 @@ void MotionSystem::Impl::forgetBefore(TimeNs time) {
     while (spans.size() > 1 && spans[1].start <= time)
         spans.pop_front();
     if (path().isEmpty() || spans.front().path != level.path) return;
-    const Move* oldest = !level.finished.empty() ? level.finished.front().get()
-                         : !level.queue.empty()  ? level.queue.front().get()
-                                                 : nullptr;
+    const Move* oldest = level.finished.empty() ? front() : level.finished.front().get();
     if (oldest == nullptr) return;
     const PathPlace place = startOf(*oldest);
     path().forgetBefore(toSeconds(time), place);

@@ -209,7 +209,7 @@ void MotionSystem::stop() {
     s.holdOrRelease();
     if (s.isMoving()) return;
     s.isStopAnnounced = true;
-    s.report(MotionEventKind::Stopped, s.level.queue.empty() ? nullptr : s.level.queue.front().get());
+    s.report(MotionEventKind::Stopped, s.front());
 }
 
 void MotionSystem::halt() {

@@ -107,6 +107,8 @@ struct MotionSystem::Impl {
     std::optional<PathPlace> placeBack(double mm) const;
 
     // Places and moves
+    /// The first unfinished move; null when there is none.
+    const Move* front() const { return level.queue.empty() ? nullptr : level.queue.front().get(); }
     const Move* findUnfinished(MoveId id) const;
     const Move* moveAt(const PathPlace& place) const;
     PathPlace startOf(const Move& move) const;

@@ -33,6 +33,11 @@ Radii radiiOn(const Leg& leg, const ZoneData& zone) {
     return {std::min(r.tcp, half), std::min(r.turn, half), std::min(r.external, half)};
 }
 
+void takeExternal(const AxisVector& axes, ExternalAxes& external) {
+    for (std::size_t i = 0; i < external.size(); ++i)
+        if (isConnected(external[i])) external[i] = axes.v[axes.v.size() - kExternalCount + i];
+}
+
 /// Place where the first of the curve and the blends of a corner begins.
 double zoneBegin(const Corner& corner) {
     double begin = corner.begin;
@@ -291,11 +296,7 @@ RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints& see
     for (const bool atEnd : {false, true}) {
         if (!atEnd && number == firstLeg_) continue;
         const Corner& c = corner(atEnd ? number : number - 1);
-        if (c.external.covers(place)) {
-            const AxisVector axes = c.external.at(place);
-            for (std::size_t i = 0; i < point.extax.size(); ++i)
-                if (isConnected(point.extax[i])) point.extax[i] = axes.v[axes.v.size() - kExternalCount + i];
-        }
+        if (c.external.covers(place)) takeExternal(c.external.at(place), point.extax);
         if (!c.turn.covers(place)) continue;
         turning = &c;
         if (atEnd) frames = &leg(number + 1);
@@ -305,7 +306,7 @@ RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints& see
         return point;
     }
     Pose pose = poseIn(l, *frames, distance);
-    pose.rot = turnedBy(turning->centre, turning->turn.at(place));
+    pose.rot = robot::turnedBy(turning->centre, turning->turn.at(place));
     point.joints = seed;
     point.isSolved =
         l.path->kinematics().inverseContinue(frames->path->frames().toFlange(pose), seed, point.joints);
@@ -322,16 +323,12 @@ RoutePoint Route::pointInCorner(std::size_t number, double place, const Joints& 
     if (c.kind == CornerKind::Joint) {
         const AxisVector axes = c.axes.at(x);
         std::copy_n(axes.v.begin(), point.joints.size(), point.joints.begin());
-        for (std::size_t i = 0; i < point.extax.size(); ++i)
-            if (isConnected(point.extax[i])) point.extax[i] = axes.v[axes.v.size() - kExternalCount + i];
+        takeExternal(axes, point.extax);
         return point;
     }
-    if (c.external.covers(place)) {
-        const AxisVector axes = c.external.at(place);
-        for (std::size_t i = 0; i < point.extax.size(); ++i)
-            if (isConnected(point.extax[i])) point.extax[i] = axes.v[axes.v.size() - kExternalCount + i];
-    }
-    const Pose pose{c.space.at(x), c.turn.covers(place) ? turnedBy(c.centre, c.turn.at(place)) : c.centre};
+    if (c.external.covers(place)) takeExternal(c.external.at(place), point.extax);
+    const Pose pose{c.space.at(x),
+                    c.turn.covers(place) ? robot::turnedBy(c.centre, c.turn.at(place)) : c.centre};
     point.isSolved =
         next.path->kinematics().inverseContinue(next.path->frames().toFlange(pose), seed, point.joints);
     return point;

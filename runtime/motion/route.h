@@ -56,7 +56,6 @@ class Route {
     /// can be made any more: the route is unchanged then, and its end is a stop point.
     std::optional<double> append(Leg leg, double fixedUpTo);
 
-    std::size_t firstLeg() const { return firstLeg_; } ///< number of the oldest leg that is kept
     std::size_t legCount() const { return firstLeg_ + legs_.size(); }
     const Leg& leg(std::size_t number) const { return legs_[number - firstLeg_]; }
     Leg& leg(std::size_t number) { return legs_[number - firstLeg_]; }

@@ -73,7 +73,7 @@ void shapeStretch(Course& course, double from, double to, const StretchSpeeds& x
 
 Run::Run(const RunSettings& settings, double start)
     : settings_(settings), course_(start, 0, settings.longWindow, settings.shortWindow), start_(start),
-      reachable_{0}, planned_{0} {}
+      share_(settings.speedShare), reachable_{0}, planned_{0} {}
 
 bool Run::append(Leg leg, bool isOpen, double now) {
     const bool isFirst = route_.legCount() == 0;
@@ -214,30 +214,27 @@ void Run::passStretch(std::size_t stretch, double from, double square) {
 void Run::meetDuration() {
     if (route_.legCount() != 1 || !(route_.leg(0).duration > 0)) return;
     const double wanted = route_.leg(0).duration;
+    route_.leg(0).limits.pathSpeed = kUnlimited;
+    limitStretches(0);
+    std::vector<double> fastest;
+    for (const StretchLimits& limits : limits_)
+        fastest.push_back(limits.speed);
     const auto durationAt = [&](double speed) {
-        for (StretchLimits& limits : limits_)
-            limits.speed = std::min(limits.speed, speed);
+        for (std::size_t i = 0; i < limits_.size(); ++i)
+            limits_[i].speed = std::min(fastest[i], speed);
         planBackward(0);
         changed_ = 0;
         course_ = Course(start_, 0, settings_.longWindow, settings_.shortWindow);
         planForward(start_);
         return course_.end() - start_;
     };
-    const auto fastest = [&] {
-        limits_.clear();
-        route_.leg(0).limits.pathSpeed = kUnlimited;
-        limitStretches(0);
-    };
-    fastest();
     if (durationAt(kUnlimited) >= wanted) return;
     double low = 0;
     double high = route_.length() / std::max(1e-3, wanted - settings_.longWindow - settings_.shortWindow) * 4;
     for (int i = 0; i < 60 && high - low > 1e-12 * high; ++i) {
         const double middle = 0.5 * (low + high);
-        fastest();
         (durationAt(middle) > wanted ? low : high) = middle;
     }
-    fastest();
     durationAt(high);
 }
 

@@ -29,6 +29,7 @@ struct StretchLimits {
 struct RunSettings {
     const robot::AccelerationMap* accelerations = nullptr;
     double longWindow = 0.108, shortWindow = 0.048; ///< s
+    double speedShare = 1;                          ///< of the programmed speed, above 0 to 1
 };
 
 class Run {
@@ -60,7 +61,6 @@ class Run {
     /// Shifts the start; the run has not begun.
     void startAt(double time);
     bool isBraking() const { return isBraking_; } ///< the plan ends before the route does
-    bool hasArrived(double time) const { return !isBraking_ && time >= course_.end(); }
     void forgetBefore(double time, double place);
 
   private:

@@ -82,8 +82,8 @@ Trajectory::Appended Trajectory::append(const std::shared_ptr<const MotionPath>&
     // Windows that are longer let acceleration change more slowly (AccSet \Ramp).
     settings.longWindow = model_.dynamics.longWindow / leg.limits.rampShare;
     settings.shortWindow = model_.dynamics.shortWindow / leg.limits.rampShare;
+    settings.speedShare = share_;
     auto run = std::make_unique<Run>(settings, now);
-    run->plan(now, share_);
     run->append(std::move(leg), isFlyBy, now);
     Appended result = appendRun(std::move(run), path, 0, now);
     result.isCornerLost = isCornerLost;
@@ -221,16 +221,18 @@ bool Trajectory::isMoving(double time) const {
     return false;
 }
 
-/// mm that the runs before this one have left at that time.
-double Trajectory::missing(std::size_t run, double time) const {
-    double sum = 0;
+/// The runs before this one that have not settled at that time: mm left and speed, added.
+Trajectory::Tail Trajectory::tailBefore(std::size_t run, double time) const {
+    Tail tail;
     for (std::size_t i = run; i-- > first_;) {
-        const Course& course = runAt(i).course();
         if (entry(i).pause > 0) continue;
+        const Course& course = runAt(i).course();
         if (time >= course.end()) break;
-        sum += course.endPlace() - course.at(time).s;
+        const CourseState state = course.at(time);
+        tail.left += course.endPlace() - state.s;
+        tail.speed += state.v;
     }
-    return sum;
+    return tail;
 }
 
 Trajectory::Moment Trajectory::at(double time) const {
@@ -240,22 +242,13 @@ Trajectory::Moment Trajectory::at(double time) const {
         const CourseState state = back_->course.at(time);
         result.place = {back_->from.run, back_->from.s - state.s};
         result.speed = -state.v;
-        result.acceleration = -state.a;
         return result;
     }
     std::size_t run = activeAt(time);
     const CourseState state = entry(run).isScheduled ? runAt(run).course().at(time) : CourseState{};
-    result.speed = state.v;
-    result.acceleration = state.a;
-    double place = state.s;
-    for (std::size_t i = run; i-- > first_;) { // runs before that have not settled
-        const Course& course = runAt(i).course();
-        if (time >= course.end()) break;
-        const CourseState tail = course.at(time);
-        result.speed += tail.v;
-        result.acceleration += tail.a;
-    }
-    place -= missing(run, time);
+    const Tail tail = tailBefore(run, time);
+    result.speed = state.v + tail.speed;
+    double place = state.s - tail.left;
     while (place < 0 && run > first_)
         place += runAt(--run).route().length();
     result.place = {run, std::max(place, 0.0)};
@@ -278,12 +271,12 @@ std::optional<double> Trajectory::timeAt(const PathPlace& place) const {
     const Course& course = e.run->course();
     if (place.s > course.endPlace() + kNothing) return {};
     double low = place.s <= kNothing ? e.run->start() : courseTime(place.run, place.s);
-    if (missing(place.run, low) <= kNothing) return low;
+    if (tailBefore(place.run, low).left <= kNothing) return low;
     double high = std::max(low, runAt(place.run - 1).course().end());
     if (course.at(high).s < place.s) return low; // at rest in between: it comes there as the tail ends
     for (int i = 0; i < 60 && high - low > 1e-11; ++i) {
         const double middle = 0.5 * (low + high);
-        (course.at(middle).s - missing(place.run, middle) < place.s ? low : high) = middle;
+        (course.at(middle).s - tailBefore(place.run, middle).left < place.s ? low : high) = middle;
     }
     return high;
 }

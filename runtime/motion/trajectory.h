@@ -62,10 +62,10 @@ class Trajectory {
     /// Where the arm would come to rest if hold() were called at that time, which has been planned already.
     PathPlace restPlaceIfHeld(double time) const;
 
-    /// Where the arm is, and its speed (mm/s) and acceleration along the path.
+    /// Where the arm is, and its speed (mm/s) along the path.
     struct Moment {
         PathPlace place;
-        double speed = 0, acceleration = 0;
+        double speed = 0;
     };
     Moment at(double time) const;
     /// When the arm comes to this place; nothing if the plan does not lead there.
@@ -95,7 +95,6 @@ class Trajectory {
     // ---- back along the path ----
     /// Moves back from the place where the arm is held to an earlier one on the same or the previous run.
     void goBack(double now, const PathPlace& to, double mmPerSecond);
-    bool isGoingBack(double time) const { return back_.has_value() && time < back_->course.end(); }
     double backEnd() const { return back_->course.end(); }
     /// The arm has come to rest there.
     void finishBack(double now);
@@ -125,7 +124,10 @@ class Trajectory {
     std::optional<double> startAfter(std::size_t run) const;
     double courseTime(std::size_t run, double place) const;
     void schedule(std::size_t from, double now, double earliest);
-    double missing(std::size_t run, double time) const;
+    struct Tail {
+        double left = 0, speed = 0; // mm, mm/s
+    };
+    Tail tailBefore(std::size_t run, double time) const;
     Leg legOf(const std::shared_ptr<const MotionPath>& path, const MoveCommand& command) const;
     Appended appendPause(const std::shared_ptr<const MotionPath>& path, double seconds, double now);
     Appended appendRun(std::unique_ptr<Run> run, const std::shared_ptr<const MotionPath>& path, double pause,

@@ -52,16 +52,19 @@ double angleBetween(const Quat& a, const Quat& b) {
 }
 
 Quat slerp(const Quat& a, const Quat& b, double k) {
-    const Vec3 v = rotationVector(conjugate(a) * b);
-    const double angle = norm(v);
-    if (angle == 0) return a;
-    return a * fromAxisAngle(v * (1.0 / angle), k * angle / kDeg);
+    return turnedBy(a, rotationVector(conjugate(a) * b), k);
 }
 
 Quat fromAxisAngle(const Vec3& axis, double angleDeg) {
     const double half = angleDeg * kDeg / 2;
     const double s = std::sin(half);
     return {std::cos(half), axis.x * s, axis.y * s, axis.z * s};
+}
+
+Quat turnedBy(const Quat& base, const Vec3& rotation, double share) {
+    const double angle = norm(rotation);
+    if (angle == 0) return base;
+    return base * fromAxisAngle(rotation * (1 / angle), share * angle / kDeg);
 }
 
 Quat fromEulerZyx(double zDeg, double yDeg, double xDeg) {

@@ -94,6 +94,8 @@ Quat slerp(const Quat& a, const Quat& b, double k);
 Quat fromAxisAngle(const Vec3& axis, double angleDeg);
 /// Rotation vector (axis times angle in radians, angle 0..pi) of a unit quaternion.
 Vec3 rotationVector(const Quat& q);
+/// Orientation turned by a share of a rotation vector in rad, which is given as seen from the orientation itself.
+Quat turnedBy(const Quat& base, const Vec3& rotation, double share = 1);
 /// RAPID's OrientZYX: rotations in degrees about z, then the new y, then the new x.
 Quat fromEulerZyx(double zDeg, double yDeg, double xDeg);
 /// RAPID's EulerZYX: the three angles in degrees, as x, y, z members; y within +-90.

@@ -3,6 +3,7 @@
 
 #include "runtime/robot/six_axes.h"
 
+#include <array>
 #include <cmath>
 
 namespace robot {
@@ -150,6 +151,19 @@ double SixAxes::jacobianDeterminant(const Joints& joints) const {
     return determinant(6, a);
 }
 
+namespace {
+
+/// Angles of axes 1 and 2, and of the forearm against the upper arm, degrees.
+std::array<double, 3> anglesOf(const ArmBranch& arm) {
+    const double y[3] = {arm.sine1, arm.sine2, arm.sineEta};
+    const double x[3] = {arm.cosine1, arm.cosine2, arm.cosineEta};
+    double angle[3];
+    trig::atan2Deg(y, x, angle);
+    return {angle[0], angle[1], angle[2]};
+}
+
+} // namespace
+
 bool SixAxes::nearestArm(const ArmPlane& plane, const Vec3& point, const Joints& model, const Joints& seed,
                          Joints& out) const {
     ArmTarget target;
@@ -158,10 +172,7 @@ bool SixAxes::nearestArm(const ArmPlane& plane, const Vec3& point, const Joints&
     for (int branch = 0; branch < 4; ++branch) {
         ArmBranch arm;
         if (!plane.solve(target, branch >> 1, branch & 1, arm)) continue;
-        const double y[3] = {arm.sine1, arm.sine2, arm.sineEta};
-        const double x[3] = {arm.cosine1, arm.cosine2, arm.cosineEta};
-        double angle[3];
-        trig::atan2Deg(y, x, angle);
+        const std::array<double, 3> angle = anglesOf(arm);
         Joints candidate;
         toAxes({angle[0], angle[1], angle[2] - plane.angleDeg, model[3], model[4], model[5]}, candidate);
         const double largest = turnTowards(seed, candidate);
@@ -259,10 +270,7 @@ bool SixAxes::nearestLocked(const Locked& locked, bool isTurned, double axis4Deg
     for (int branch = 0; branch < 4; ++branch) {
         ArmBranch arm;
         if (!plane_.solve(target, branch >> 1, branch & 1, arm)) continue;
-        const double y[3] = {arm.sine1, arm.sine2, arm.sineEta};
-        const double x[3] = {arm.cosine1, arm.cosine2, arm.cosineEta};
-        double angle[3];
-        trig::atan2Deg(y, x, angle);
+        const std::array<double, 3> angle = anglesOf(arm);
         // The other shoulder needs axis 1 half a turn further, for which the orientation was not made.
         if (std::fabs(std::remainder(angle[0] - locked.axis1, 360.0)) > 1e-3) continue;
         const double axis3 = angle[2] - plane_.angleDeg;

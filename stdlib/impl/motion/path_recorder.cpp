@@ -4,8 +4,6 @@
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/fail.h"
 
-#include "stdlib_natives.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -112,9 +110,7 @@ void PathRecorder::forgetOldest() {
 
 void PathRecorder::note(const MotionDriver::Ordered& order) {
     if (!recording_ || replaying_) return;
-    float level = 1;
-    (void)rt_PathLevel(task_, &level);
-    if (level > 1) return;
+    if (taskOf(task_).controller().motion().pathLevel() > 1) return;
     joinTo(order.from);
     moves_.push_back({order.id, order.command, order.from, order.to, false});
     if (moves_.size() > kMost) forgetOldest();
