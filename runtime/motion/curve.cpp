@@ -159,10 +159,15 @@ double partAt(const CartesianCurve& arc, const Pose& start, const Pose& point) {
     return angle / arc.sweepDeg();
 }
 
+/// The circle a command means, from `start`.
+Expected<CartesianCurve, MotionError> arcOf(const MoveCommand& command, const Pose& start) {
+    return CartesianCurve::arc(start, command.circlePoint, command.target.pose, command.circleOrientation);
+}
+
 } // namespace
 
 MoveCommand restOfCircle(const MoveCommand& command, const Pose& start, const Pose& here) {
-    const auto arc = CartesianCurve::arc(start, command.circlePoint, command.target.pose);
+    const auto arc = arcOf(command, start);
     if (!arc) return command;
     if (!arc->isArc()) {
         MoveCommand rest = command;
@@ -179,7 +184,7 @@ MoveCommand restOfCircle(const MoveCommand& command, const Pose& start, const Po
 }
 
 std::vector<MoveCommand> splitAtCirclePoint(const MoveCommand& command, const Pose& start) {
-    const auto arc = CartesianCurve::arc(start, command.circlePoint, command.target.pose);
+    const auto arc = arcOf(command, start);
     if (!arc || !arc->isArc()) return {};
     const double part = partAt(*arc, start, command.circlePoint);
     if (!(part > 0 && part < 1)) return {};

@@ -405,6 +405,20 @@ TEST_CASE("the triggers of a circle in two parts stay where they are", "[motion]
     CHECK(parts[1].triggers[2].id == 5);
 }
 
+TEST_CASE("a circle in two parts turns as CirPathMode says", "[motion][path]") {
+    // A quarter of a circle; relative to the object the tool turns by 60 degrees about x, half of it up to the circle point.
+    MoveCommand circle;
+    circle.kind = MoveKind::Circular;
+    circle.circleOrientation = CircleOrientation::ObjectFrame;
+    circle.circlePoint.pos = {100 * std::sqrt(0.5), 100 * std::sqrt(0.5), 0};
+    circle.target.pose = {{0, 100, 0}, robot::fromAxisAngle({1, 0, 0}, 60)};
+    Pose start;
+    start.pos = {100, 0, 0};
+    const std::vector<MoveCommand> parts = splitAtCirclePoint(circle, start);
+    REQUIRE(parts.size() == 2);
+    CHECK(robot::angleBetween(parts[0].target.pose.rot, robot::fromAxisAngle({1, 0, 0}, 30)) < 1e-6);
+}
+
 TEST_CASE("stop brakes on the path and start goes on from there", "[motion][system]") {
     MotionSystem straight = makeSystem();
     MotionSystem system = makeSystem();
