@@ -29,7 +29,7 @@ struct PathAction {
 
 /// What happens to the arm, for those who accompany it (TriggSpeed, TriggStopProc).
 enum class ArmNews : uint8_t {
-    Event,       ///< a movement has begun or ended, the arm has come to a stand or goes on
+    Event,       ///< a movement has begun or ended, the arm has come to rest or continues
     StopOnPath,  ///< the program stops; the arm is about to brake on its path, or stands
     MotorsOff,   ///< the arm is about to brake beside its path
     PowerFailed, ///< follows MotorsOff when the power has failed

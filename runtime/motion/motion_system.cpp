@@ -150,7 +150,7 @@ bool MotionSystem::restorePath() {
     s.isStopRequested = level.isStopRequested;
     s.level = std::move(level);
     s.follow(s.level.path, s.now);
-    if (s.level.path->isEmpty() || s.level.queue.empty()) { // nothing to go on with: from here
+    if (s.level.path->isEmpty() || s.level.queue.empty()) { // no move is left: the path begins here
         s.level.finished.clear();
         s.level.path = s.newPath(here, s.seconds());
         s.follow(s.level.path, s.now);

@@ -80,8 +80,8 @@ void PathRecorder::truncate(std::size_t position) {
     std::erase_if(names_, [&](const Named& name) { return name.position > moves_.size(); });
 }
 
-/// The path continues at `from`: after a way back, or after movements that were thrown away, what is no part of the way to
-/// there is dropped. When nothing recorded leads there, everything is.
+/// The path continues at `from`: after a way back, or after movements that were thrown away, the movements that do not
+/// lead there are dropped; all of them when none does.
 void PathRecorder::joinTo(const motion::JointTarget& from) {
     if (replay_ && replay_->at < replay_->way.size() && isSamePlace(replay_->way[replay_->at].from, from))
         truncate(replay_->at);
