@@ -5,6 +5,7 @@
 #include "runtime/program/program_tables.h"
 #include "runtime/sched/task.h"
 
+#include <functional>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -28,8 +29,9 @@ class DebugHost : public TaskHost {
     /// Routine for late binding; `module` may be empty.
     virtual const RoutineEntry* findRoutine(std::string_view name, std::string_view module,
                                             const Task& task) const = 0;
-    /// Present as soon as the program can run.
-    virtual SteppedArm& arm() = 0;
+    /// The arm that the task moves. Present as soon as the program can run.
+    virtual SteppedArm& arm(const Task& task) = 0;
+    virtual void forEachArm(const std::function<void(SteppedArm&)>& action) = 0;
     /// Who keeps the objects that variables name by handles.
     virtual const StateKeepers& stateKeepers() = 0;
     /// Program pointer to main in all NORMAL tasks; refused with an event unless the program is stopped.

@@ -208,7 +208,7 @@ int32_t Debugger::stopHere(Task& task, State& state, Frame* at, int32_t here, St
     task.setStepwise(true);
     task.stop(StopCause::Step);
     host_.stopNormalTasks(StopCause::Order);
-    host_.arm().programStop();
+    host_.forEachArm([](SteppedArm& arm) { arm.programStop(); });
     const Status status = task.suspendStopped();
     state.standing = nullptr;
     if (status < 0) {
@@ -271,7 +271,7 @@ std::string Debugger::begin(Task& task, Mode mode, bool alone) {
         other->setStepwise(false);
         if (other->canResume()) other->resume();
     }
-    host_.arm().programStart();
+    host_.forEachArm([](SteppedArm& arm) { arm.programStart(); });
     // What the program pointer was moved to by hand decides between START and RESTART; a step is neither.
     if (mode == Mode::Run || mode == Mode::Cursor)
         host_.oweStart(task);
@@ -346,7 +346,7 @@ std::string Debugger::pointerToLine(Task& task, uint32_t line) {
         state.backwardLast = false;
         state.backwardFrame = nullptr;
         task.notePointerMoved(false);
-        host_.arm().clearPath();
+        host_.arm(task).clearPath();
         return "";
     }
     return fmt::format("no instruction of routine {} begins in line {}", routine.name, line);
@@ -362,7 +362,7 @@ std::string Debugger::pointerToRoutine(Task& task, std::string_view name) {
     if (routine == nullptr) return fmt::format("there is no routine '{}' in task {}", name, task.name());
     if (routine->desc->callable == 0)
         return fmt::format("'{}' is no procedure without parameters", routine->name);
-    host_.arm().clearPath();
+    host_.arm(task).clearPath();
     task.moveToRoutine(reinterpret_cast<EntryFunction>(routine->address));
     forget(task);
     noteStop(task, StopReason::Pointer);

@@ -70,7 +70,7 @@ std::string Debugger::startBackward(Task& task, State& state, Frame* at) {
     if ((statement.flags & (kStmtInBackward | kStmtInHandler)) != 0)
         return "instructions of a handler cannot be executed backwards";
     if (!state.backwardLast) {
-        const int32_t movement = lastMovement(host_.arm().pointer(), *at);
+        const int32_t movement = lastMovement(host_.arm(task).pointer(), *at);
         const int32_t above = row(*at, movement >= 0 ? movement : at->statement).previous;
         if (above < 0) return kTop;
         state.backwardLast = true;
@@ -88,7 +88,7 @@ std::string Debugger::startBackward(Task& task, State& state, Frame* at) {
         return fmt::format("the procedure called in line {} has no BACKWARD handler", statement.line);
     if (call || (statement.flags & kStmtMovement) != 0) {
         task.orderBackward(call ? at : nullptr);
-        host_.arm().setBackward(true);
+        host_.arm(task).setBackward(true);
         state.backwardFrame = at;
         state.backwardStatement = at->statement;
         return "";
@@ -101,7 +101,7 @@ std::string Debugger::startBackward(Task& task, State& state, Frame* at) {
 
 /// The statement is done; its frame is asked about the one behind it.
 void Debugger::finishBackward(Task& task, State& state, Frame* at) {
-    host_.arm().setBackward(false);
+    host_.arm(task).setBackward(false);
     task.orderBackward(nullptr);
     state.backwardFrame = nullptr;
     if (std::exchange(state.backwardRefused, false)) { // the program pointer stays
@@ -125,10 +125,10 @@ bool Debugger::allowsCall(Task& task, const Frame* caller, const RoutineDesc& ca
     return false;
 }
 
-bool Debugger::turnForward(Task&, State& state) {
+bool Debugger::turnForward(Task& task, State& state) {
     state.backwardLast = state.backwardTop = false;
     Frame* at = state.standing;
-    const MotionPointer& pointer = host_.arm().pointer();
+    const MotionPointer& pointer = host_.arm(task).pointer();
     const bool here = pointer.valid && pointer.frame == at && pointer.routine == at->routine;
     const int32_t next = statementAfter(*at->routine, here ? pointer.statement : at->statement);
     if (next < 0) return false;

@@ -9,6 +9,7 @@
 #include "runtime/host/saved_state.h"
 #include "runtime/host/stop_signals.h"
 #include "runtime/sim/csv_writers.h"
+#include "runtime/sim/trace_merger.h"
 
 #include <fmt/format.h>
 
@@ -53,10 +54,17 @@ Controller::~Controller() {
     // Interrupts and services may hold listeners and timers of the parts below them.
     tasks_.clear();
     services_.clear();
+    for (const auto& motion : motions_)
+        motion->dropServices();
 }
 
 int64_t Controller::calendarSeconds() const {
     return startCalendar_ + scheduler_.now() / kSecond;
+}
+
+void Controller::forEachArm(const std::function<void(SteppedArm&)>& action) {
+    for (const auto& motion : motions_)
+        action(*motion);
 }
 
 // ---- Program -------------------------------------------------------------------------------------------------------
@@ -81,7 +89,8 @@ const RoutineEntry* Controller::findRoutine(std::string_view name, std::string_v
 // ---- Run -----------------------------------------------------------------------------------------------------------
 
 ExitStatus Controller::run() {
-    motion_->setCirclePointStop([this](Task& task) { return debugger_.stopInside(task); });
+    for (const auto& motion : motions_)
+        motion->setCirclePointStop([this](Task& task) { return debugger_.stopInside(task); });
     scheduleStimulus();
     for (const auto& task : tasks_) {
         scheduler_.add(*task);
@@ -107,7 +116,9 @@ bool Controller::runOver() {
             return false;
         }
     }
-    return motion_->isSettled() && !backgroundAtWork();
+    return std::all_of(motions_.begin(), motions_.end(),
+                       [](const auto& motion) { return motion->isSettled(); }) &&
+           !backgroundAtWork();
 }
 
 /// What the end of the last program raised in a background task (an error that it logs, a signal) is dealt with before the
@@ -163,7 +174,9 @@ ExitStatus Controller::finish(RunEnd end) {
         log_.write(EventId::MaxTimeReached, nullptr, {whereTasksAre("is")});
         status = ExitStatus::MaxTimeReached;
     }
-    motion_->finishTrace();
+    for (const auto& motion : motions_)
+        motion->finishTrace();
+    if (traceMerger_) traceMerger_->finish();
     bool complete = state_->write();
     scheduler_.abandonTasks();
     if (options_.save) complete = saver_->saveAll() && complete;
@@ -193,21 +206,21 @@ bool Controller::cyclesLeft(const Task& task) const {
 
 void Controller::taskStopped(Task& task) {
     debugger_.noteStop(task, StopReason::Stop);
-    if (task.isMotionTask()) motion_->noteStop();
+    if (task.isMotionTask()) motion(task).noteStop();
     if (task.kind() != TaskKind::Normal) backgroundStopped(task);
 }
 
 void Controller::cycleLeft(Task& task) {
-    if (task.isMotionTask()) motion_->leaveLevels();
+    if (task.isMotionTask()) motion(task).leaveLevels();
 }
 
 void Controller::retried(Task& task) {
-    if (task.isMotionTask()) motion_->noteRetry();
+    if (task.isMotionTask()) motion(task).noteRetry();
 }
 
 void Controller::taskExited(Task& task) {
     if (task.isMotionTask())
-        motion_->clearPath(); // the program pointer is lost, and the path with it (1.2.2)
+        motion(task).clearPath(); // the program pointer is lost, and the path with it (1.2.2)
     if (task.kind() != TaskKind::Normal) backgroundStopped(task);
 }
 
@@ -223,7 +236,7 @@ void Controller::taskFailed(Task& task) {
         return;
     }
     stopNormalTasks(StopCause::Order);
-    motion_->programStop();
+    forEachArm([](SteppedArm& arm) { arm.programStop(); });
 }
 
 void Controller::stopNormalTasks(StopCause cause) {
@@ -260,7 +273,7 @@ void Controller::stopTasks(const char* order, SystemEvent event) {
 /// The arm brakes on its path as fast as its limits allow in either case.
 void Controller::actionStop(SystemEvent event) {
     stopTasks(event == SystemEvent::QuickStop ? "quick stop order" : "stop order", event);
-    motion_->programStop();
+    forEachArm([](SteppedArm& arm) { arm.programStop(); });
 }
 
 void Controller::oweStart(Task& task) {
@@ -300,14 +313,18 @@ void Controller::actionStart() {
         task->resume();
     }
     // The robot goes on when the RESTART routines have done what they are there for (StepBwdPath).
-    const auto restarts = [](const auto& task) {
-        return task->isMotionTask() && !task->isStopped() && task->events().concerns(SystemEvent::Restart);
-    };
-    if (std::none_of(tasks_.begin(), tasks_.end(), restarts)) motion_->programStart();
+    for (const auto& motion : motions_) {
+        const auto restarts = [&](const auto& task) {
+            return task->motionGroup() == static_cast<int>(motion->group()) && !task->isStopped() &&
+                   task->events().concerns(SystemEvent::Restart);
+        };
+        if (std::none_of(tasks_.begin(), tasks_.end(), restarts)) motion->programStart();
+    }
 }
 
 void Controller::eventRoutinesEnded(Task& task, SystemEvent event) {
-    if (event == SystemEvent::Restart && task.isMotionTask() && !task.isStopped()) motion_->programStart();
+    if (event == SystemEvent::Restart && task.isMotionTask() && !task.isStopped())
+        motion(task).programStart();
 }
 
 void Controller::actionPpToMain() {
@@ -316,7 +333,7 @@ void Controller::actionPpToMain() {
         log_.write(EventId::ActionRefusedRunning, task.get(), {"pp_to_main", task->name()});
         return;
     }
-    motion_->clearPath();
+    forEachArm([](SteppedArm& arm) { arm.clearPath(); });
     for (const auto& task : tasks_) {
         if (!isNormal(task) || task->state() == TaskState::Finished) continue;
         task->moveToMain();

@@ -8,8 +8,10 @@
 #include "runtime/host/clock_object.h"
 #include "runtime/host/handle_table.h"
 #include "runtime/host/home_folder.h"
+#include "runtime/host/mechanical_units.h"
 #include "runtime/host/motion_driver.h"
 #include "runtime/host/run_options.h"
+#include "runtime/host/service_table.h"
 #include "runtime/host/system_signals.h"
 #include "runtime/io/cfg_parser.h"
 #include "runtime/io/io_system.h"
@@ -20,9 +22,9 @@
 #include "runtime/sim/operator_panel.h"
 #include "runtime/sim/stimulus.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <random>
 #include <string>
@@ -35,6 +37,7 @@ class ModuleSaver;
 class RunReports;
 class SavedState;
 class SignalsWriter;
+class TraceMerger;
 class TraceWriter;
 
 /// Parameters of SYS.cfg that the runtime itself obeys.
@@ -55,9 +58,15 @@ class Controller final : public DebugHost {
     EventLog& log() override { return log_; }
     OperatorPanel& panel() { return panel_; }
     HomeFolder& home() { return home_; }
-    /// Present as soon as prepare() succeeded.
-    MotionDriver& motion() { return *motion_; }
-    SteppedArm& arm() override { return *motion_; }
+    /// The motion groups, one at least as soon as prepare() succeeded.
+    const std::vector<std::unique_ptr<MotionDriver>>& motions() const { return motions_; }
+    /// The group that the task controls; for a task that controls none the first one, which it may ask.
+    MotionDriver& motion(const Task& task) const {
+        return *motions_[static_cast<std::size_t>(std::max(task.motionGroup(), 0))];
+    }
+    MechanicalUnits& units() { return units_; }
+    SteppedArm& arm(const Task& task) override { return motion(task); }
+    void forEachArm(const std::function<void(SteppedArm&)>& action) override;
     HandleTable<ClockObject>& clocks() { return clocks_; }
     Debugger& debugger() { return debugger_; }
     ModuleSaver& saver() { return *saver_; }
@@ -67,8 +76,6 @@ class Controller final : public DebugHost {
     const std::vector<CfgFile>& configuration() const { return configuration_; }
     /// All instances of a type in the files of a domain, in order.
     std::vector<const CfgInstance*> instances(std::string_view domain, std::string_view type) const;
-    /// Their names: the simulated robot first, then those of the configuration (MOC).
-    std::vector<std::string> mechanicalUnits() const;
     /// Random numbers for Rand, started with --seed; the same sequence on every machine.
     std::mt19937& random() { return random_; }
     /// Date and time of the controller: the wall's at the start plus virtual time. Seconds since 1970, UTC.
@@ -76,12 +83,7 @@ class Controller final : public DebugHost {
 
     /// Data that a part of the standard library keeps per controller; made on first use, destroyed with the
     /// controller.
-    template <class T> T& service() {
-        static char key = 0;
-        std::shared_ptr<void>& slot = services_[&key];
-        if (!slot) slot = std::make_shared<T>();
-        return *static_cast<T*>(slot.get());
-    }
+    template <class T> T& service() { return services_.get<T>(); }
 
     // ---- Program ------------------------------------------------------------------------------------------
     const ProgramDesc& program() const override { return *program_; }
@@ -150,9 +152,11 @@ class Controller final : public DebugHost {
   private:
     ExitStatus readConfiguration(const ProgramDesc& program);
     void applySystemParameters();
-    ExitStatus openRobot();
-    void applyMotionParameters(robot::RobotModel& model) const;
+    std::vector<bool> motionTasks(const ProgramDesc& program) const;
+    ExitStatus openRobots(const ProgramDesc& program);
+    void assignGroups();
     ExitStatus openFiles();
+    void traceMotion();
     ExitStatus openState();
     ExitStatus readStimulusFile();
     bool connectExternals(const ProgramDesc& program);
@@ -184,8 +188,10 @@ class Controller final : public DebugHost {
     SystemSignals systemSignals_{*this};
     OperatorPanel panel_{log_};
     HomeFolder home_;
-    std::unique_ptr<MotionDriver> motion_;
+    MechanicalUnits units_;
+    std::vector<std::unique_ptr<MotionDriver>> motions_;
     std::unique_ptr<TraceWriter> trace_;
+    std::unique_ptr<TraceMerger> traceMerger_; // between several groups and the trace
     std::unique_ptr<SignalsWriter> signalsWriter_;
     std::unique_ptr<RunReports> reports_;
     HandleTable<ClockObject> clocks_;
@@ -194,7 +200,7 @@ class Controller final : public DebugHost {
     std::vector<StimulusItem> stimulus_;
     std::mt19937 random_;
     int64_t startCalendar_ = 0;
-    std::map<const void*, std::shared_ptr<void>> services_;
+    ServiceTable services_;
     std::vector<std::function<void(Task&)>> resetActions_;
     const ProgramDesc* program_ = nullptr;
     ProgramTables tables_;

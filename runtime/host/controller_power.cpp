@@ -9,7 +9,8 @@ void Controller::actionEmergencyStop() {
     log_.write(EventId::EmergencyStop, nullptr);
     motorsOn_ = false;
     stopTasks("emergency stop", SystemEvent::QuickStop);
-    motion_->emergencyStop(false);
+    for (const auto& motion : motions_)
+        motion->emergencyStop(false);
 }
 
 void Controller::actionPowerFail() {
@@ -25,7 +26,8 @@ void Controller::actionPowerFail() {
         task->stop(StopCause::Order);
         task->noteEnd("power failure");
     }
-    motion_->emergencyStop(true);
+    for (const auto& motion : motions_)
+        motion->emergencyStop(true);
     state_->write();
 }
 

@@ -9,13 +9,12 @@
 #include "runtime/host/saved_state.h"
 #include "runtime/robot/robot_model.h"
 #include "runtime/sim/csv_writers.h"
+#include "runtime/sim/trace_merger.h"
 
 #include <fmt/format.h>
 
 namespace rt {
 namespace {
-
-constexpr double kDegreesPerRadian = 57.295779513082320876798154814105;
 
 void print(const std::string& message) {
     fmt::print(stderr, "error: {}\n", message);
@@ -58,12 +57,13 @@ ExitStatus Controller::prepare(const ProgramDesc& program) {
     saver_->remember();
     // An order in which each step can use what came before; the first that fails ends it.
     ExitStatus status = readConfiguration(program);
-    if (status == ExitStatus::Ended) status = openRobot();
+    if (status == ExitStatus::Ended) status = openRobots(program);
     if (status == ExitStatus::Ended) status = readStimulusFile();
     if (status == ExitStatus::Ended && !connectExternals(program)) status = ExitStatus::BadProgram;
     if (status == ExitStatus::Ended) status = openFiles();
     if (status != ExitStatus::Ended) return status;
     makeTasks(program);
+    assignGroups();
     applyTaskParameters();
     return openState();
 }
@@ -108,64 +108,86 @@ void Controller::applySystemParameters() {
     }
 }
 
-std::vector<std::string> Controller::mechanicalUnits() const {
-    std::vector<std::string> units{std::string(motion_->unitName())};
-    for (const char* type : {"ROBOT", "MECHANICAL_UNIT"})
-        for (const CfgInstance* instance : instances("MOC", type))
-            if (const std::string name = instance->text("name"); !sameName(name, units.front()))
-                units.push_back(name);
-    return units;
+// ---- Robots --------------------------------------------------------------------------------------------------------
+
+namespace {
+
+/// T_ROB2, T_ROB3 ...: the further robots of a controller without a configuration of its tasks.
+bool isNamedAsRobot(std::string_view task) {
+    constexpr std::string_view kPrefix = "T_ROB";
+    return task.size() > kPrefix.size() && sameName(task.substr(0, kPrefix.size()), kPrefix) &&
+           std::all_of(task.begin() + kPrefix.size(), task.end(),
+                       [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// ---- Robot ---------------------------------------------------------------------------------------------------------
+} // namespace
 
-ExitStatus Controller::openRobot() {
-    std::string name = options_.robot;
-    for (const CfgInstance* instance : instances("RAPIDC", "OPTIONS")) { // of rapidc build
-        if (name.empty()) name = instance->text("robot");
+/// Which tasks control mechanical units: those with MotionTask in SYS.cfg. When it names none, the first one, and those
+/// that are named as the tasks of further robots.
+std::vector<bool> Controller::motionTasks(const ProgramDesc& program) const {
+    const auto tasks = instances("SYS", "CAB_TASKS");
+    const bool isConfigured = std::any_of(
+        tasks.begin(), tasks.end(), [](const CfgInstance* instance) { return instance->flag("MotionTask"); });
+    std::vector<bool> result;
+    for (uint32_t i = 0; i < program.taskCount; ++i) {
+        const TaskDesc& task = program.tasks[i];
+        const auto here = std::find_if(tasks.begin(), tasks.end(), [&](const CfgInstance* instance) {
+            return sameName(instance->text("Name"), task.name);
+        });
+        result.push_back(isConfigured ? here != tasks.end() && (*here)->flag("MotionTask")
+                                      : task.motionTask != 0 || isNamedAsRobot(task.name));
     }
-    for (const CfgInstance* instance : instances("MOC", "ROBOT")) {
-        if (name.empty()) name = instance->text("use_robot_type");
+    return result;
+}
+
+ExitStatus Controller::openRobots(const ProgramDesc& program) {
+    std::vector<std::string> robots;
+    for (const CfgInstance* instance : instances("RAPIDC", "OPTIONS")) // of rapidc build
+        if (const std::string robot = instance->text("robot"); !robot.empty()) robots.push_back(robot);
+    if (!options_.robots.empty()) robots = options_.robots;
+    const std::vector<bool> moving = motionTasks(program);
+    const auto needed = static_cast<std::size_t>(std::count(moving.begin(), moving.end(), true));
+    bool isUsage = false;
+    const std::string problem = units_.read(
+        [this](std::string_view domain, std::string_view type) { return instances(domain, type); }, robots,
+        kDefaultRobot, needed, isUsage);
+    if (!problem.empty()) {
+        print(problem);
+        return isUsage && !options_.robots.empty() ? ExitStatus::BadUsage : ExitStatus::BadProgram;
     }
-    const auto model = robot::loadRobotModel(name.empty() ? kDefaultRobot : name);
-    if (!model) {
-        print(model.error().message);
-        return options_.robot.empty() ? ExitStatus::BadProgram : ExitStatus::BadUsage;
+    for (const std::string& robot : units_.unknown())
+        fmt::print(stderr, "warning: the robot {} of MOC.cfg is not in the catalogue: it does not move\n",
+                   robot);
+    for (const MotionGroup& group : units_.groups()) {
+        motions_.push_back(std::make_unique<MotionDriver>(scheduler_, group.model, group.options, group.robot,
+                                                          motions_.size()));
+        motions_.back()->addListener([this, &motion = *motions_.back()](ArmNews news) {
+            if (news != ArmNews::CornerLost) return;
+            log_.write(EventId::CornerPathFailure, motion.orderingTask(), {motion.unitName()});
+        });
     }
-    robot::RobotModel arm = *model;
-    applyMotionParameters(arm);
-    motion_ = std::make_unique<MotionDriver>(scheduler_, std::move(arm));
-    motion_->addListener([this](ArmNews news) {
-        if (news != ArmNews::CornerLost) return;
-        log_.write(EventId::CornerPathFailure, motion_->orderingTask(), {motion_->unitName()});
-    });
     return ExitStatus::Ended;
 }
 
-/// Base frame and joint bounds of MOC.cfg; metres and radians there.
-void Controller::applyMotionParameters(robot::RobotModel& model) const {
-    for (const CfgInstance* instance : instances("MOC", "ROBOT")) {
-        double* const position[] = {&model.baseFrame.pos.x, &model.baseFrame.pos.y, &model.baseFrame.pos.z};
-        for (int i = 0; i < 3; ++i) {
-            double metres = 0;
-            const std::string attribute = fmt::format("base_frame_pos_{}", "xyz"[i]);
-            if (instance->number(attribute, metres)) *position[i] = metres * 1000;
-        }
-        robot::Quat rotation = model.baseFrame.rot;
-        double* const q[] = {&rotation.w, &rotation.x, &rotation.y, &rotation.z};
-        for (int i = 0; i < 4; ++i)
-            instance->number(fmt::format("base_frame_orient_u{}", i), *q[i]);
-        model.baseFrame.rot = robot::normalized(rotation);
-        break; // one robot
+/// A motion task gets the group that SYS.cfg names, else the next robot that has no task yet. Without one it moves nothing.
+void Controller::assignGroups() {
+    const std::vector<bool> moving = motionTasks(*program_);
+    std::vector<bool> taken(motions_.size());
+    const auto assign = [&](Task& task, int group) {
+        task.setMotionGroup(group);
+        if (group >= 0) taken[static_cast<std::size_t>(group)] = true;
+    };
+    for (const auto& task : tasks_) {
+        task->setMotionGroup(-1);
+        if (!moving[task->index()]) continue;
+        for (const CfgInstance* instance : instances("SYS", "CAB_TASKS"))
+            if (sameName(instance->text("Name"), task->name()))
+                assign(*task, units_.groupNamed(instance->text("UseMechanicalUnitGroup")));
     }
-    for (const CfgInstance* instance : instances("MOC", "ARM")) {
-        const std::string name = instance->text("name");
-        if (name.size() != 6 || !sameName(name.substr(0, 5), "rob1_") || name[5] < '1' || name[5] > '6')
-            continue;
-        const auto axis = static_cast<std::size_t>(name[5] - '1');
-        double bound = 0;
-        if (instance->number("upper_joint_bound", bound)) model.upperDeg[axis] = bound * kDegreesPerRadian;
-        if (instance->number("lower_joint_bound", bound)) model.lowerDeg[axis] = bound * kDegreesPerRadian;
+    for (const auto& task : tasks_) {
+        if (!moving[task->index()] || task->motionGroup() >= 0) continue;
+        const auto free = std::find(taken.begin(), taken.end(), false);
+        if (free != taken.end()) assign(*task, static_cast<int>(free - taken.begin()));
     }
 }
 
@@ -183,7 +205,7 @@ ExitStatus Controller::openFiles() {
             print("--trace: " + error);
             return ExitStatus::BadUsage;
         }
-        motion_->addTrace(*trace_);
+        traceMotion();
     }
     if (!options_.signals.empty()) {
         signalsWriter_ = std::make_unique<SignalsWriter>();
@@ -206,6 +228,21 @@ ExitStatus Controller::openFiles() {
         return ExitStatus::BadUsage;
     }
     return ExitStatus::Ended;
+}
+
+void Controller::traceMotion() {
+    if (motions_.size() == 1) {
+        motions_.front()->addTrace(*trace_);
+        return;
+    }
+    traceMerger_ = std::make_unique<TraceMerger>(*trace_, [this] {
+        for (const auto& motion : motions_)
+            motion->refresh();
+    });
+    for (const auto& motion : motions_) {
+        traceMerger_->addUnit(motion->unitName());
+        motion->addTrace(*traceMerger_);
+    }
 }
 
 ExitStatus Controller::openState() {
@@ -295,9 +332,9 @@ bool connectExternal(Controller& controller, const ExternalDesc& external) {
         return true;
     }
     if (sameName(kind, "mecunit")) { // one that is not there: an error when it is used
-        const std::vector<std::string> units = controller.mechanicalUnits();
+        const auto& units = controller.units().all();
         const auto found = std::find_if(units.begin(), units.end(),
-                                        [&name](const std::string& unit) { return sameName(unit, name); });
+                                        [&name](const auto& unit) { return sameName(unit->name, name); });
         *external.slot = found == units.end() ? 0 : found - units.begin() + 1;
         return true;
     }

@@ -51,8 +51,9 @@ motion::MoveCommand reversed(const motion::MoveCommand& target, const motion::Mo
 
 } // namespace
 
-MotionDriver::MotionDriver(Scheduler& scheduler, robot::RobotModel model)
-    : scheduler_(scheduler), system_(std::move(model)) {}
+MotionDriver::MotionDriver(Scheduler& scheduler, robot::RobotModel model, motion::MotionOptions options,
+                           std::string unit, std::size_t group)
+    : scheduler_(scheduler), system_(std::move(model), options), unitName_(std::move(unit)), group_(group) {}
 
 MotionDriver::~MotionDriver() = default;
 

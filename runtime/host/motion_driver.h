@@ -3,6 +3,7 @@
 // back at their exact times, the trace is sampled.
 
 #include "runtime/debug/stepped_arm.h"
+#include "runtime/host/service_table.h"
 #include "runtime/motion/motion_system.h"
 #include "runtime/sched/scheduler.h"
 #include "runtime/sched/wait_queue.h"
@@ -39,7 +40,9 @@ enum class ArmNews : uint8_t {
 
 class MotionDriver final : public SteppedArm {
   public:
-    MotionDriver(Scheduler& scheduler, robot::RobotModel model);
+    /// `unit`: name of the robot; "" for external units alone. `group`: number of the motion group, from 0.
+    MotionDriver(Scheduler& scheduler, robot::RobotModel model, motion::MotionOptions options = {},
+                 std::string unit = "ROB_1", std::size_t group = 0);
     ~MotionDriver();
     MotionDriver(const MotionDriver&) = delete;
     MotionDriver& operator=(const MotionDriver&) = delete;
@@ -50,8 +53,12 @@ class MotionDriver final : public SteppedArm {
     motion::MotionSystem& system();
     void refresh();
     const robot::RobotModel& model() const { return system_.model(); }
-    /// Name of the mechanical unit: "ROB_1".
+    /// Name of the robot: "ROB_1"; "" for external units alone.
     const std::string& unitName() const { return unitName_; }
+    std::size_t group() const { return group_; }
+    /// Data that a part of the standard library keeps per motion group; made on first use.
+    template <class T> T& service() { return services_.get<T>(); }
+    void dropServices() { services_.clear(); }
 
     /// Orders a move and suspends the task until the program may go on (fine point reached, look-ahead,
     /// \Conc: started). While the queue is full the task waits first. A move that cannot be made is told in
@@ -207,7 +214,9 @@ class MotionDriver final : public SteppedArm {
 
     Scheduler& scheduler_;
     motion::MotionSystem system_;
-    std::string unitName_ = "ROB_1";
+    std::string unitName_;
+    std::size_t group_ = 0;
+    ServiceTable services_;
     EventToken next_ = 0;
     Time nextTime_ = kNever;
     uint64_t instructions_ = 0; // move instructions ordered so far

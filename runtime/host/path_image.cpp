@@ -28,22 +28,28 @@ motion::Joints jointsFrom(const Json& json) {
 }
 
 Json frameJson(const motion::FrameSetup& frames) {
-    return {{"toolHeld", frames.tool.robotHeld},
-            {"tool", jsonOf(frames.tool.tframe)},
-            {"objectHeld", frames.workObject.robotHeld},
-            {"user", jsonOf(frames.workObject.uframe)},
-            {"object", jsonOf(frames.workObject.oframe)},
-            {"displacement", jsonOf(frames.displacement)},
-            {"base", jsonOf(frames.baseFrame)}};
+    Json json = {{"toolHeld", frames.tool.robotHeld},
+                 {"tool", jsonOf(frames.tool.tframe)},
+                 {"objectHeld", frames.workObject.robotHeld},
+                 {"user", jsonOf(frames.workObject.uframe)},
+                 {"object", jsonOf(frames.workObject.oframe)},
+                 {"displacement", jsonOf(frames.displacement)},
+                 {"base", jsonOf(frames.baseFrame)}};
+    if (frames.userMover != nullptr) json["unit"] = frames.userMover->name;
+    return json;
 }
 
-motion::FrameSetup framesFrom(const Json& json) {
+motion::FrameSetup framesFrom(const Json& json, const robot::UnitLookup& units) {
     motion::FrameSetup frames;
     frames.tool = {json.at("toolHeld").get<bool>(), poseFrom(json.at("tool"))};
     frames.workObject = {json.at("objectHeld").get<bool>(), poseFrom(json.at("user")),
                          poseFrom(json.at("object"))};
     frames.displacement = poseFrom(json.at("displacement"));
     frames.baseFrame = poseFrom(json.at("base"));
+    if (json.contains("unit")) {
+        frames.userMover = units ? units(json.at("unit").get<std::string>()) : nullptr;
+        if (frames.userMover == nullptr) throw std::invalid_argument("no such mechanical unit");
+    }
     return frames;
 }
 
@@ -105,7 +111,7 @@ motion::CircleOrientation circleOrientationFrom(int number) {
     return static_cast<motion::CircleOrientation>(number);
 }
 
-motion::MoveCommand moveFrom(const Json& json) {
+motion::MoveCommand moveFrom(const Json& json, const robot::UnitLookup& units) {
     motion::MoveCommand c;
     constexpr int kLastKind = static_cast<int>(motion::MoveKind::Circular), kMostTurns = 1000;
     c.kind = static_cast<motion::MoveKind>(std::abs(wholeFrom(json.at("kind"), kLastKind)));
@@ -116,7 +122,7 @@ motion::MoveCommand moveFrom(const Json& json) {
                  wholeFrom(conf.at(2), kMostTurns), wholeFrom(conf.at(3), kMostTurns)},
                 numbersFrom<6>(json.at("targetAxes"))};
     c.circlePoint = poseFrom(json.at("circlePoint"));
-    c.frames = framesFrom(json.at("frames"));
+    c.frames = framesFrom(json.at("frames"), units);
     const auto speed = numbersFrom<4>(json.at("speed"));
     c.speed = {speed[0], speed[1], speed[2], speed[3]};
     json.at("duration").get_to(c.duration);
@@ -142,10 +148,10 @@ Json movesJson(const std::vector<motion::MoveCommand>& moves) {
     return json;
 }
 
-std::vector<motion::MoveCommand> movesFrom(const Json& json) {
+std::vector<motion::MoveCommand> movesFrom(const Json& json, const robot::UnitLookup& units) {
     std::vector<motion::MoveCommand> moves;
     for (const Json& move : json)
-        moves.push_back(moveFrom(move));
+        moves.push_back(moveFrom(move, units));
     return moves;
 }
 
@@ -168,17 +174,17 @@ Json jsonOf(const MotionDriver::EarlierPath& path) {
     return json;
 }
 
-MotionDriver::EarlierPath earlierPathFrom(const Json& json) {
+MotionDriver::EarlierPath earlierPathFrom(const Json& json, const robot::UnitLookup& units) {
     MotionDriver::EarlierPath path;
-    path.moves = movesFrom(json.at("path"));
+    path.moves = movesFrom(json.at("path"), units);
     json.at("stopMove").get_to(path.stopMove);
-    if (json.contains("awaited")) path.awaited = moveFrom(json.at("awaited"));
+    if (json.contains("awaited")) path.awaited = moveFrom(json.at("awaited"), units);
     if (json.contains("begun")) path.begun = poseFrom(json.at("begun"));
     if (!json.contains("stored")) return path; // written by an earlier version
     json.at("levelHold").get_to(path.levelHold);
     for (const Json& one : json.at("stored")) {
         MotionDriver::EarlierLevel level;
-        level.moves = movesFrom(one.at("path"));
+        level.moves = movesFrom(one.at("path"), units);
         one.at("stopMove").get_to(level.stopMove);
         level.left = {jointsFrom(one.at("left")), numbersFrom<6>(one.at("leftAxes"))};
         if (one.contains("begun")) level.begun = poseFrom(one.at("begun"));

@@ -11,7 +11,7 @@ namespace rt {
 
 /// Without triggers, which are functions of the running process.
 nlohmann::json jsonOf(const motion::MoveCommand& command);
-motion::MoveCommand moveFrom(const nlohmann::json& json);
+motion::MoveCommand moveFrom(const nlohmann::json& json, const robot::UnitLookup& units);
 motion::CircleOrientation circleOrientationFrom(int number);
 nlohmann::json jsonOf(const motion::Pose& pose);
 motion::Pose poseFrom(const nlohmann::json& json);
@@ -19,7 +19,7 @@ nlohmann::json jsonOf(const motion::MotionSettings& settings);
 motion::MotionSettings settingsFrom(const nlohmann::json& json);
 /// The paths of all levels.
 nlohmann::json jsonOf(const MotionDriver::EarlierPath& path);
-MotionDriver::EarlierPath earlierPathFrom(const nlohmann::json& json);
+MotionDriver::EarlierPath earlierPathFrom(const nlohmann::json& json, const robot::UnitLookup& units);
 /// Without the trap routine, whose address means nothing to another process.
 nlohmann::json jsonOf(const SavedInterrupt& interrupt);
 SavedInterrupt interruptFrom(const nlohmann::json& json);

@@ -6,7 +6,9 @@ void guardOutputs(const RunOptions& options, rapid::config::OutputGuard& guard) 
     for (const std::string& path : options.configFiles)
         guard.reads(path, "the configuration");
     if (options.stimulus != "-") guard.reads(options.stimulus, "the stimulus");
-    if (options.robot.ends_with(".json")) guard.reads(options.robot, "the robot model");
+    for (const std::string& robot : options.robots)
+        if (const std::string model = robot.substr(robot.find('=') + 1); model.ends_with(".json"))
+            guard.reads(model, "the robot model");
     guard.reads(options.compare, "the recording");
     guard.writes(options.trace, "--trace");
     guard.writes(options.signals, "--signals");

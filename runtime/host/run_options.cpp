@@ -76,8 +76,12 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
              "EIO, SYS, MOC, SIO or PROC parameters in ABB's text format; repeatable")
         .typeName("FILE.cfg")
         .oneValueEach();
-    command.add("--robot", options.robot, fmt::format("robot model; default \"{}\"", kDefaultRobot))
-        .typeName("MODEL");
+    command
+        .add("--robot", options.robots,
+             fmt::format("robot model, of a further robot UNIT=MODEL; repeatable; default \"{}\"",
+                         kDefaultRobot))
+        .typeName("[UNIT=]MODEL")
+        .oneValueEach();
     command
         .add("--home", options.home, "the controller's HOME:; default: an empty folder, removed at the end")
         .typeName("DIR");

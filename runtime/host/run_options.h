@@ -16,7 +16,8 @@ struct RunOptions {
     int64_t cycles = 1;             ///< how often main is run; 0 = for ever
     std::vector<std::string> tasks; ///< --task=NAME[:TYPE]=INPUT; used by `rapidc run` alone
     std::vector<std::string> configFiles;
-    std::string robot;                            ///< "" = as the configuration says, else kDefaultRobot
+    /// Each MODEL, of the first robot, or UNIT=MODEL; without one as the configuration says, else kDefaultRobot.
+    std::vector<std::string> robots;
     std::string home;                             ///< "" = an empty folder that is removed at the end
     std::string stimulus, trace, signals, events; ///< paths; "" = not asked for
     std::string picture, report, compare;         ///< the same

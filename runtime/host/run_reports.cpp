@@ -27,7 +27,7 @@ std::string RunReports::prepare(Controller& controller, const ProgramDesc& progr
         if (const std::string problem = report::readRecording(options_.compare, recording_); !problem.empty())
             return "--compare: " + problem;
     }
-    recorder_ = std::make_unique<report::RunRecorder>(program.name, controller.motion().model());
+    recorder_ = std::make_unique<report::RunRecorder>(program.name, controller.motions().front()->model());
     recorder_->setFolder(program.folder != nullptr ? program.folder : "");
     if (const std::string problem = writeFiles({}, nullptr); !problem.empty()) return problem;
     listen(controller);
@@ -35,7 +35,7 @@ std::string RunReports::prepare(Controller& controller, const ProgramDesc& progr
 }
 
 void RunReports::listen(Controller& controller) {
-    controller.motion().addTrace(*recorder_);
+    controller.motions().front()->addTrace(*recorder_);
     IoSystem& io = controller.io();
     for (std::size_t i = 0; i < io.size(); ++i) {
         const auto id = static_cast<SignalId>(i);

@@ -181,17 +181,19 @@ StateImage SavedState::present() const {
     add(persistents_, image.persistents);
     add(variables_, image.variables);
     add(interruptNumbers_, image.interruptNumbers);
-    image.path = controller_.motion().remainingPath();
     for (const auto& [name, keeper] : keepers.keepers)
         image.kept[name] = rapid::config::textOf(keeper.save());
     IoSystem& io = controller_.io();
     for (SignalId id = 0; id < static_cast<SignalId>(io.size()); ++id)
         if (io.config(id).store) image.signals[upperCase(io.config(id).name)] = io.value(id);
-    motion::MotionSystem& arm = controller_.motion().system();
-    const motion::JointTarget joints = arm.currentJoints();
-    image.robot = arm.model().name;
-    image.axes.assign(joints.robax.begin(), joints.robax.end());
-    image.axes.insert(image.axes.end(), joints.extax.begin(), joints.extax.end());
+    for (const auto& motion : controller_.motions()) {
+        const motion::JointTarget joints = motion->system().currentJoints();
+        StateImage::Group& group = image.groups.emplace_back();
+        group.robot = motion->model().name;
+        group.axes.assign(joints.robax.begin(), joints.robax.end());
+        group.axes.insert(group.axes.end(), joints.extax.begin(), joints.extax.end());
+        group.path = motion->remainingPath();
+    }
     const auto& events = controller_.log().events();
     const std::size_t first = events.size() > kKeptEvents ? events.size() - kKeptEvents : 0;
     image.events.assign(events.begin() + static_cast<std::ptrdiff_t>(first), events.end());
@@ -244,7 +246,12 @@ bool SavedState::restore(std::string& error) {
         return false;
     }
     StateImage image;
-    if (const std::string problem = readImage(text, image); !problem.empty())
+    if (const std::string problem = readImage(text, image,
+                                              [this](const std::string& name) -> const robot::ExternalUnit* {
+                                                  const MechanicalUnit* unit = controller_.units().find(name);
+                                                  return unit != nullptr ? &unit->geometry : nullptr;
+                                              });
+        !problem.empty())
         putAside(problem);
     else
         restore(image);
@@ -260,7 +267,9 @@ void SavedState::restore(const StateImage& image) {
     for (const auto& task : controller_.tasks()) {
         if (!task->isReentering()) continue;
         restoreInterrupts(*task, earlier_.at(task.get()));
-        if (task->isMotionTask()) controller_.motion().continuePath(image.path);
+        const auto group = static_cast<std::size_t>(std::max(task->motionGroup(), 0));
+        if (task->isMotionTask() && group < image.groups.size())
+            controller_.motion(*task).continuePath(image.groups[group].path);
     }
 }
 
@@ -370,26 +379,33 @@ void SavedState::restoreData(const Rows& rows, const std::map<std::string, State
     if (!misfits.empty()) controller_.log().write(EventId::StateMisfit, nullptr, {listed(misfits)});
 }
 
-/// Signals and the posture of the arm.
+namespace {
+
+/// Nothing happens when it is another arm.
+void restorePosture(motion::MotionSystem& arm, const StateImage::Group& group) {
+    motion::JointTarget posture = arm.currentJoints();
+    const robot::RobotModel& model = arm.model();
+    if (group.robot != model.name || group.axes.size() != posture.robax.size() + posture.extax.size()) return;
+    for (std::size_t i = 0; i < posture.robax.size(); ++i) {
+        if (!(group.axes[i] >= model.lowerDeg[i] && group.axes[i] <= model.upperDeg[i])) return;
+        posture.robax[i] = group.axes[i];
+    }
+    for (std::size_t i = 0; i < posture.extax.size(); ++i)
+        posture.extax[i] = group.axes[posture.robax.size() + i];
+    arm.placeAt(posture);
+}
+
+} // namespace
+
+/// Signals and the postures of the arms.
 void SavedState::restoreSurroundings(const StateImage& image) {
     IoSystem& io = controller_.io();
     for (const auto& [name, value] : image.signals) {
         const SignalId id = io.find(name);
         if (id >= 0 && io.config(id).store) (void)io.force(id, value);
     }
-    MotionDriver& motion = controller_.motion();
-    motion::JointTarget posture = motion.system().currentJoints();
-    if (image.robot != motion.system().model().name ||
-        image.axes.size() != posture.robax.size() + posture.extax.size())
-        return; // another arm
-    const robot::RobotModel& model = motion.system().model();
-    for (std::size_t i = 0; i < posture.robax.size(); ++i) {
-        if (!(image.axes[i] >= model.lowerDeg[i] && image.axes[i] <= model.upperDeg[i])) return;
-        posture.robax[i] = image.axes[i];
-    }
-    for (std::size_t i = 0; i < posture.extax.size(); ++i)
-        posture.extax[i] = image.axes[posture.robax.size() + i];
-    motion.system().placeAt(posture);
+    for (std::size_t i = 0; i < std::min(image.groups.size(), controller_.motions().size()); ++i)
+        restorePosture(controller_.motions()[i]->system(), image.groups[i]);
 }
 
 } // namespace rt

@@ -55,16 +55,21 @@ struct StateImage {
     std::map<std::string, Datum> persistents; ///< by keyOf
     std::map<std::string, Datum> variables;
     std::map<std::string, Datum> interruptNumbers; ///< intnum variables: of use to a task that goes on alone
-    MotionDriver::EarlierPath path;
+    /// Of each motion group.
+    struct Group {
+        std::string robot;        ///< model
+        std::vector<double> axes; ///< robot, then external axes; degrees, mm
+        MotionDriver::EarlierPath path;
+    };
+    std::vector<Group> groups;
     std::map<std::string, std::string> kept; ///< of StateKeepers, JSON
     std::map<std::string, double> signals;   ///< those that keep their value over a power failure (Store)
-    std::vector<double> axes;                ///< robot, then external axes; degrees, mm
-    std::string robot;
     std::vector<Event> events;
 };
 
-/// Reads and writes the text of a state file. The reader never throws: "" or what is wrong.
-std::string readImage(const std::string& text, StateImage& image);
+/// Reads and writes the text of a state file. The reader never throws: "" or what is wrong. `units`: those that move work
+/// objects.
+std::string readImage(const std::string& text, StateImage& image, const robot::UnitLookup& units = {});
 std::string writeImage(const StateImage& image);
 
 class SavedState {

@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 using Data = std::map<std::string, StateImage::Datum>;
 
 constexpr const char* kFormat = "rapidc controller state";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 constexpr std::pair<const char*, StateImage::Pointer> kPointers[] = {
     {"main", StateImage::Pointer::Main},
     {"ended", StateImage::Pointer::Ended},
@@ -125,22 +125,20 @@ StateImage::TaskImage taskFrom(const Json& json) {
     return task;
 }
 
-StateImage imageFrom(const Json& json) {
+StateImage imageFrom(const Json& json, const robot::UnitLookup& units) {
     StateImage image;
     for (const auto& [name, task] : json.at("tasks").items())
         image.tasks[name] = taskFrom(task);
     image.persistents = dataFrom(json.at("persistents"));
     image.variables = dataFrom(json.at("variables"));
-    if (json.contains("motion")) {
-        const Json& motion = json.at("motion");
-        image.interruptNumbers = dataFrom(json.at("interruptNumbers"));
-        image.path = earlierPathFrom(motion);
-        for (const auto& [name, kept] : json.at("kept").items())
-            image.kept[name] = rapid::config::textOf(kept);
-    }
+    image.interruptNumbers = dataFrom(json.at("interruptNumbers"));
+    for (const auto& [name, kept] : json.at("kept").items())
+        image.kept[name] = rapid::config::textOf(kept);
     json.at("signals").get_to(image.signals);
-    json.at("robot").get_to(image.robot);
-    json.at("axes").get_to(image.axes);
+    for (const Json& group : json.at("groups"))
+        image.groups.push_back({group.at("robot").get<std::string>(),
+                                group.at("axes").get<std::vector<double>>(),
+                                earlierPathFrom(group.at("motion"), units)});
     for (const Json& event : json.at("events"))
         image.events.push_back(eventFrom(event));
     return image;
@@ -155,7 +153,9 @@ std::string writeImage(const StateImage& image) {
     for (const Event& event : image.events)
         events.push_back(jsonOf(event));
     Json kept = Json::object();
-    const Json motion = jsonOf(image.path);
+    Json groups = Json::array();
+    for (const StateImage::Group& group : image.groups)
+        groups.push_back({{"robot", group.robot}, {"axes", group.axes}, {"motion", jsonOf(group.path)}});
     for (const auto& [name, text] : image.kept)
         kept[name] = rapid::config::tryParseJson(text);
     const Json json = {{"format", kFormat},
@@ -164,22 +164,20 @@ std::string writeImage(const StateImage& image) {
                        {"persistents", jsonOf(image.persistents)},
                        {"variables", jsonOf(image.variables)},
                        {"interruptNumbers", jsonOf(image.interruptNumbers)},
-                       {"motion", motion},
                        {"kept", kept},
                        {"signals", image.signals},
-                       {"robot", image.robot},
-                       {"axes", image.axes},
+                       {"groups", groups},
                        {"events", events}};
     return rapid::config::textOf(json, 1) + "\n";
 }
 
-std::string readImage(const std::string& text, StateImage& image) {
+std::string readImage(const std::string& text, StateImage& image, const robot::UnitLookup& units) {
     const Json json = rapid::config::tryParseJson(text);
     if (json.is_discarded()) return "it is no JSON text, or a part of one";
     if (!json.is_object() || json.value("format", Json()) != kFormat) return "it is no state of a controller";
     if (json.value("version", Json()) != kVersion) return "it was written by another version of rapidc";
     try {
-        image = imageFrom(json);
+        image = imageFrom(json, units);
     } catch (const std::exception&) {
         return "a part of it is missing or has another form";
     }

@@ -102,7 +102,11 @@ double SystemSignals::stateValue(const Output& output) const {
         const Task* task = controller_.findTask(output.task);
         return task != nullptr && task->isExecuting() ? 1 : 0;
     }
-    case State::NotMoving: return controller_.motion().isMoving() ? 0 : 1;
+    case State::NotMoving:
+        return std::any_of(controller_.motions().begin(), controller_.motions().end(),
+                           [](const auto& motion) { return motion->isMoving(); })
+                   ? 0
+                   : 1;
     case State::Error: return controller_.stoppedByError() ? 1 : 0;
     case State::MotorsOn: return controller_.motorsOn() ? 1 : 0;
     case State::MotorsOff: return controller_.motorsOn() ? 0 : 1;

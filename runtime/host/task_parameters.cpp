@@ -105,7 +105,7 @@ void Controller::backgroundStopped(Task& task) {
         motorsOn_ = motorsOn_ && !sameName(level, "SysHalt");
     }
     stopNormalTasks(StopCause::Order);
-    motion_->programStop();
+    forEachArm([](SteppedArm& arm) { arm.programStop(); });
 }
 
 } // namespace rt

@@ -26,14 +26,14 @@ MotionState Coast::at(double seconds, const robot::Kinematics& kinematics) const
             std::clamp(place, std::min(lower_[i], from_.joints[i]), std::max(upper_[i], from_.joints[i]));
         if (state.joints[i] != place) speed[i] = 0;
     }
-    state.tcp = frames_.tcpInWorld(kinematics.forward(state.joints));
+    state.tcp = frames_.tcpInWorld(kinematics.forward(state.joints), state.extax);
     state.moving = seconds < duration_;
     // The path of the TCP has no closed form: its speed by the difference over a tenth of a millisecond.
     constexpr double kStep = 1e-4;
     Joints next = state.joints;
     for (std::size_t i = 0; i < next.size(); ++i)
         next[i] += speed[i] * kStep;
-    const Pose ahead = frames_.tcpInWorld(kinematics.forward(next));
+    const Pose ahead = frames_.tcpInWorld(kinematics.forward(next), state.extax);
     const double dx = ahead.pos.x - state.tcp.pos.x, dy = ahead.pos.y - state.tcp.pos.y,
                  dz = ahead.pos.z - state.tcp.pos.z;
     state.tcpSpeed = std::sqrt(dx * dx + dy * dy + dz * dz) / kStep;

@@ -40,7 +40,8 @@ Pose Route::poseOn(const Leg& leg, double distance) {
 Pose Route::poseIn(const Leg& from, const Leg& frames, double distance) {
     const Pose pose = poseOn(from, distance);
     if (sameFrames(from.path->frames(), frames.path->frames())) return pose;
-    return frames.path->frames().fromFlange(from.path->frames().toFlange(pose));
+    const ExternalAxes axes = from.path->externalAt(from.lengths.parameterAt(distance));
+    return frames.path->frames().fromFlange(from.path->frames().toFlange(pose, axes), axes);
 }
 
 AxisVector Route::axesOn(const Leg& leg, double distance) {
@@ -82,7 +83,9 @@ void Route::curveOfAxes(Corner& corner, const Leg& a, const Leg& b) {
             const AxisVector axes = corner.axes.at(place);
             Joints joints = b.path->start().robax;
             std::copy_n(axes.v.begin(), joints.size(), joints.begin());
-            return b.path->frames().fromFlange(b.path->kinematics().forward(joints));
+            ExternalAxes external = b.path->start().extax;
+            takeExternal(axes, external);
+            return b.path->frames().fromFlange(b.path->kinematics().forward(joints), external);
         };
         const Pose low = poseAt(x - kStep);
         const Pose high = poseAt(x + kStep);
@@ -126,6 +129,11 @@ void Route::blendExternal(Corner& corner, const Leg& a, const Leg& b, double bef
 double pathRate(double mm, double degrees) {
     const double turning = kMmPerDegree * degrees;
     return mm >= turning ? mm : std::sqrt(0.5 * (mm * mm + turning * turning));
+}
+
+void takeExternal(const AxisVector& axes, ExternalAxes& external) {
+    for (std::size_t i = 0; i < external.size(); ++i)
+        if (isConnected(external[i])) external[i] = axes.v[axes.v.size() - kExternalCount + i];
 }
 
 double externalRate(const AxisVector& slope) {

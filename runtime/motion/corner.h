@@ -78,6 +78,8 @@ inline constexpr double kMmPerDegree = 0.2;
 /// mm of route per unit of a parameter by which the TCP moves `mm` and the rest turns `degrees`: those of the TCP, unless
 /// it moves less than that much turning counts.
 double pathRate(double mm, double degrees);
+/// Sets the external axes that are connected.
+void takeExternal(const AxisVector& axes, ExternalAxes& external);
 /// Speeds of the external axes, added.
 double externalRate(const AxisVector& slope);
 inline constexpr int kCornerPieces = 24; ///< in which the length of a corner's curve is measured

@@ -95,9 +95,7 @@ void MotionSystem::Impl::coastNow() {
     Span next;
     next.start = now;
     next.still = from;
-    FrameSetup frames;
-    frames.baseFrame = model.baseFrame;
-    if (!path().isEmpty()) frames = path().framesAt(path().at(seconds()).place);
+    const FrameSetup frames = path().isEmpty() ? based({}) : path().framesAt(path().at(seconds()).place);
     next.coast = std::make_shared<const Coast>(from, model, frames);
     while (!spans.empty() && spans.back().start >= now)
         spans.pop_back();
@@ -178,8 +176,7 @@ MotionState MotionSystem::Impl::stillAt(const JointTarget& joints) const {
     state.extax = joints.extax;
     FrameSetup frames;
     if (level.path != nullptr && !path().isEmpty()) frames = path().framesAt(path().end());
-    frames.baseFrame = model.baseFrame;
-    state.tcp = frames.tcpInWorld(kinematics.forward(joints.robax));
+    state.tcp = based(frames).tcpInWorld(kinematics.forward(joints.robax), joints.extax);
     state.toolHeld = frames.tool.robotHeld;
     state.move = lastDone;
     if (!level.finished.empty()) state.tag = level.finished.back()->tag;
@@ -194,7 +191,7 @@ MotionState MotionSystem::Impl::stateOn(const Trajectory& trajectory, const Span
     state.joints = point.joints;
     state.extax = point.extax;
     const FrameSetup& frames = trajectory.framesAt(moment.place);
-    state.tcp = frames.tcpInWorld(kinematics.forward(point.joints));
+    state.tcp = frames.tcpInWorld(kinematics.forward(point.joints), point.extax);
     state.toolHeld = frames.tool.robotHeld;
     state.moving = trajectory.isMoving(time);
     if (state.moving && moment.speed != 0) {
@@ -221,11 +218,12 @@ MotionState MotionSystem::Impl::stateAt(TimeNs time) const {
 MotionState MotionSystem::Impl::shown(MotionState state, TimeNs time) const {
     if (!independent) return state;
     const AxisMoment moment = independent->at(toSeconds(time));
-    const Pose before = model.baseFrame * kinematics.forward(state.joints);
+    const Pose base = based({}).base(state.extax);
+    const Pose before = base * kinematics.forward(state.joints);
     state.joints[independentAxis] = moment.position;
     state.jointSpeed[independentAxis] = moment.speed;
     if (state.toolHeld)
-        state.tcp = model.baseFrame * kinematics.forward(state.joints) * robot::inverse(before) * state.tcp;
+        state.tcp = base * kinematics.forward(state.joints) * robot::inverse(before) * state.tcp;
     return state;
 }
 
@@ -239,7 +237,7 @@ MotionState MotionSystem::Impl::stateIfStopped(TimeNs time) const {
     MotionState state = at.still;
     state.joints = point.joints;
     state.extax = point.extax;
-    state.tcp = at.path->framesAt(place).tcpInWorld(kinematics.forward(point.joints));
+    state.tcp = at.path->framesAt(place).tcpInWorld(kinematics.forward(point.joints), point.extax);
     return state;
 }
 

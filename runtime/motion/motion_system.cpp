@@ -57,7 +57,7 @@ Expected<MoveId, MotionError> MotionSystem::enqueue(const MoveCommand& command) 
         return Unexpected{error};
     }
     MoveCommand based = command;
-    based.frames.baseFrame = s.model.baseFrame;
+    based.frames = s.based(command.frames);
     auto made = MotionPath::make(s.kinematics, s.path().endTarget(), based);
     if (!made) return Unexpected{made.error()};
     for (std::size_t i = 0; i < static_cast<std::size_t>(kExternalCount); ++i) {
@@ -181,8 +181,11 @@ std::optional<MotionSystem::PathGap> MotionSystem::gapToPath() const {
     if (!s.isHalted || s.isCoasting || s.level.queue.empty() || s.path().isEmpty()) return {};
     const PathPlace place = s.path().at(s.seconds()).place;
     const FrameSetup frames = s.path().framesAt(place);
-    const Pose goal = frames.tcpInWorld(s.kinematics.forward(s.path().pointAt(place).joints));
-    const Pose here = frames.tcpInWorld(s.kinematics.forward(s.stateAt(s.now).joints));
+    const auto tcp = [&](const auto& at) {
+        return frames.tcpInWorld(s.kinematics.forward(at.joints), at.extax);
+    };
+    const Pose goal = tcp(s.path().pointAt(place));
+    const Pose here = tcp(s.stateAt(s.now));
     constexpr double kDegreesPerRadian = 57.295779513082323;
     const double turn = 2 * std::acos(std::min(1.0, std::fabs(dot(goal.rot, here.rot))));
     return PathGap{norm(goal.pos - here.pos), turn * kDegreesPerRadian};
@@ -195,9 +198,7 @@ bool MotionSystem::placeAt(const JointTarget& joints) {
     const FrameSetup frames = s.path().isEmpty() ? FrameSetup{} : s.path().framesAt(s.path().end());
     s.level.path = s.newPath(joints, s.seconds());
     s.follow(s.level.path, s.now);
-    FrameSetup based = frames;
-    based.baseFrame = s.model.baseFrame;
-    s.spans.back().still.tcp = based.tcpInWorld(s.kinematics.forward(joints.robax));
+    s.spans.back().still.tcp = s.based(frames).tcpInWorld(s.kinematics.forward(joints.robax), joints.extax);
     s.holdOrRelease();
     return true;
 }
@@ -364,23 +365,27 @@ JointTarget MotionSystem::plannedEnd() const {
     return impl_->path().endTarget();
 }
 
+Pose MotionSystem::flangeInWorld(const JointTarget& joints) const {
+    return impl_->based({}).base(joints.extax) * impl_->kinematics.forward(joints.robax);
+}
+
 RobTarget MotionSystem::currentTarget(const FrameSetup& frames) const {
-    FrameSetup based = frames;
-    based.baseFrame = impl_->model.baseFrame;
-    return calcRobTarget(impl_->kinematics, currentJoints(), based);
+    return calcRobTarget(impl_->kinematics, currentJoints(), impl_->based(frames));
 }
 
 RobTarget MotionSystem::toRobTarget(const JointTarget& joints, const FrameSetup& frames) const {
-    FrameSetup based = frames;
-    based.baseFrame = impl_->model.baseFrame;
-    return calcRobTarget(impl_->kinematics, joints, based);
+    return calcRobTarget(impl_->kinematics, joints, impl_->based(frames));
 }
 
 Expected<JointTarget, MotionError> MotionSystem::toJointTarget(const RobTarget& target,
                                                                const FrameSetup& frames) const {
-    FrameSetup based = frames;
-    based.baseFrame = impl_->model.baseFrame;
-    return calcJointTarget(impl_->kinematics, target, based, impl_->standing().robax);
+    const JointTarget here = impl_->standing();
+    RobTarget placed = target; // external axes that it does not give remain where they are
+    for (std::size_t i = 0; i < placed.extax.size(); ++i)
+        if (!isConnected(placed.extax[i])) placed.extax[i] = here.extax[i];
+    auto joints = calcJointTarget(impl_->kinematics, placed, impl_->based(frames), here.robax);
+    if (joints) joints->extax = target.extax;
+    return joints;
 }
 
 } // namespace motion

@@ -52,6 +52,8 @@ struct MotionEvent {
 
 struct MotionOptions {
     ExternalAxisModels external{};
+    const robot::ExternalUnit* baseMover =
+        nullptr;                ///< moves the base of the robot; outlives the motion system
     std::size_t maxQueued = 64; ///< moves ordered ahead; more is QueueFull
     /// How long before its zone is entered, or braking for its point has to begin, a fly-by move lets the program go on.
     TimeNs programLead = 100'000'000;
@@ -167,6 +169,8 @@ class MotionSystem {
     /// CJointT: where the axes are now. `plannedEnd`: where the last ordered move will end.
     JointTarget currentJoints() const;
     JointTarget plannedEnd() const;
+    /// Wrist frame of the robot in world.
+    Pose flangeInWorld(const JointTarget& joints) const;
     /// CRobT: the TCP now, for a tool and work object.
     RobTarget currentTarget(const FrameSetup& frames) const;
     /// CalcRobT and CalcJointT with the base frame of this robot; the arm's present posture decides where a

@@ -83,6 +83,12 @@ struct MotionSystem::Impl {
     std::deque<std::pair<MoveId, TimeNs>> reached; // the most recent
 
     double seconds() const { return toSeconds(now); }
+    /// The same frames on the base of this robot.
+    FrameSetup based(FrameSetup frames) const {
+        frames.baseFrame = model.baseFrame;
+        frames.baseMover = options.baseMover;
+        return frames;
+    }
     Trajectory& path() const { return *level.path; }
     bool isHeld() const { return isStopRequested || override <= 0; }
     double speedShare() const { return 0.01 * std::clamp(override, 0.01, 100.0); }

@@ -121,7 +121,7 @@ std::optional<MotionError> MotionPath::resolveJointTarget(const MoveCommand& com
     if (command.kind == MoveKind::AbsJoint) {
         end_.robax = command.joints.robax;
     } else {
-        const Pose flange = frames_.toFlange(command.target.pose);
+        const Pose flange = frames_.toFlange(command.target.pose, end_.extax);
         const auto joints = command.confJ ? kinematics_.inverse(flange, command.target.conf, start_.robax)
                                           : kinematics_.inverseNear(flange, start_.robax);
         if (!joints) {
@@ -149,7 +149,7 @@ void MotionPath::layStraightGrid() {
     for (int i = 0; i <= kJointGrid; ++i) {
         const double s = static_cast<double>(i) / kJointGrid;
         const Joints joints = between(start_.robax, end_.robax, s);
-        const Vec3 tcp = frames_.fromFlange(kinematics_.forward(joints)).pos;
+        const Vec3 tcp = frames_.fromFlange(kinematics_.forward(joints), externalAt(s)).pos;
         if (i > 0) distance += norm(tcp - last);
         last = tcp;
         nodes_.push_back({s, joints, distance});
@@ -157,7 +157,7 @@ void MotionPath::layStraightGrid() {
 }
 
 std::optional<MotionError> MotionPath::resolveCurve(const MoveCommand& command) {
-    const Pose from = frames_.fromFlange(kinematics_.forward(start_.robax));
+    const Pose from = frames_.fromFlange(kinematics_.forward(start_.robax), start_.extax);
     const Pose to{command.target.pose.pos, robot::normalized(command.target.pose.rot)};
     if (command.kind == MoveKind::Linear) {
         curve_ = CartesianCurve::line(from, to);
@@ -166,7 +166,8 @@ std::optional<MotionError> MotionPath::resolveCurve(const MoveCommand& command) 
         if (!arc) return arc.error();
         curve_ = *arc;
     }
-    isEmpty_ = curve_.length() < kRounding && curve_.rotationDeg() < kRounding;
+    const bool isCarried = frames_.dependsOnAxes() && end_.extax != start_.extax;
+    isEmpty_ = curve_.length() < kRounding && curve_.rotationDeg() < kRounding && !isCarried;
     if (isEmpty_) {
         nodes_ = {{0, start_.robax, 0}, {1, start_.robax, 0}};
         return checkArrival(command);
@@ -192,7 +193,7 @@ std::optional<MotionError> MotionPath::marchWithMode(const MoveCommand& command)
     const bool isSingular = error && (error->kind == MotionErrorKind::Singularity ||
                                       error->kind == MotionErrorKind::JointOutOfRange);
     if (!isSingular || !isPossible || command.singularity != SingularityMode::Wrist) return error;
-    const Pose flange = frames_.toFlange(curve_.at(1));
+    const Pose flange = frames_.toFlange(curve_.at(1), end_.extax);
     const auto end = command.confL ? kinematics_.inverse(flange, command.target.conf, start_.robax)
                                    : kinematics_.inverseNear(flange, start_.robax);
     if (!end) return error;
@@ -214,13 +215,13 @@ MotionError MotionPath::errorAt(MotionErrorKind kind, double s, int joint, doubl
 
 bool MotionPath::solve(double s, const Joints& seed, Joints& out) const {
     if (mode_ != SingularityMode::Off) {
-        const Pose base_tcp = frames_.toFlange(curve_.at(s)) * frames_.tool.tframe;
+        const Pose base_tcp = frames_.toFlange(curve_.at(s), externalAt(s)) * frames_.tool.tframe;
         return mode_ == SingularityMode::Wrist
                    ? kinematics_.inverseWithWrist(base_tcp.pos, frames_.tool.tframe,
                                                   between(start_.robax, end_.robax, s), seed, out)
                    : kinematics_.inverseLockedAxis4(base_tcp, frames_.tool.tframe, lockedAxis4_, seed, out);
     }
-    return kinematics_.inverseContinue(frames_.toFlange(curve_.at(s)), seed, out);
+    return kinematics_.inverseContinue(frames_.toFlange(curve_.at(s), externalAt(s)), seed, out);
 }
 
 std::optional<MotionError> MotionPath::checkNode(const PathNode& node) const {
@@ -253,7 +254,8 @@ bool MotionPath::isSmoothStep(const PathNode& from, const PathNode& to) const {
 }
 
 std::optional<MotionError> MotionPath::march() {
-    const double size = std::max(curve_.length() / kCoarseMm, curve_.rotationDeg() / kCoarseDeg);
+    const double carried = frames_.dependsOnAxes() ? externalTravel() / kCoarseDeg : 0;
+    const double size = std::max({curve_.length() / kCoarseMm, curve_.rotationDeg() / kCoarseDeg, carried});
     const double coarse = 1.0 / std::ceil(std::clamp(size, 8.0, 4000.0));
     const double finest =
         std::min(coarse, std::max(1e-10, std::min(kFinestMm / std::max(curve_.length(), 1e-12),
@@ -290,8 +292,8 @@ std::optional<MotionError> MotionPath::checkArrival(const MoveCommand& command) 
     const robot::Singularity near = kinematics_.singularity(end_.robax);
     const bool isUndecided = near.wristDeg < 0.1 || near.armMm < 0.1 || near.elbowDeg < 0.1;
     if (isUndecided) return {}; // two configurations meet here
-    const auto wanted =
-        kinematics_.inverse(frames_.toFlange(command.target.pose), command.target.conf, end_.robax);
+    const auto wanted = kinematics_.inverse(frames_.toFlange(command.target.pose, end_.extax),
+                                            command.target.conf, end_.robax);
     if (wanted && largestDifference(*wanted, end_.robax) < 0.01) return {};
     const int joint = wanted ? mostDifferent(*wanted, end_.robax) : wanted.error().joint;
     return errorAt(MotionErrorKind::ConfigurationMismatch, 1, joint,
@@ -316,18 +318,27 @@ Joints MotionPath::jointsAt(double s) const {
 }
 
 ExternalAxes MotionPath::externalAt(double s) const {
+    return s >= 1 ? end_.extax : externalNear(std::max(s, 0.0));
+}
+
+/// Beyond the ends of the path as well.
+ExternalAxes MotionPath::externalNear(double s) const {
     ExternalAxes result = start_.extax;
-    const double k = std::clamp(s, 0.0, 1.0);
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        if (!isConnected(result[i])) continue;
-        result[i] = k == 1 ? end_.extax[i] : result[i] + (end_.extax[i] - result[i]) * k;
-    }
+    for (std::size_t i = 0; i < result.size(); ++i)
+        if (isConnected(result[i])) result[i] += (end_.extax[i] - result[i]) * s;
     return result;
+}
+
+double MotionPath::externalTravel() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < start_.extax.size(); ++i)
+        if (isConnected(start_.extax[i])) sum += std::abs(end_.extax[i] - start_.extax[i]);
+    return sum;
 }
 
 Pose MotionPath::tcpAt(double s) const {
     if (isCartesian_ && !isEmpty_ && mode_ == SingularityMode::Off) return curve_.at(std::clamp(s, 0.0, 1.0));
-    return frames_.fromFlange(kinematics_.forward(jointsAt(s)));
+    return frames_.fromFlange(kinematics_.forward(jointsAt(s)), externalAt(s));
 }
 
 void MotionPath::tcpRatesAt(double s, double& mm, double& deg) const {
@@ -337,8 +348,12 @@ void MotionPath::tcpRatesAt(double s, double& mm, double& deg) const {
         return;
     }
     constexpr double kStep = 1e-4;
-    const Pose from = frames_.fromFlange(kinematics_.forward(between(start_.robax, end_.robax, s - kStep)));
-    const Pose to = frames_.fromFlange(kinematics_.forward(between(start_.robax, end_.robax, s + kStep)));
+    const auto tcp = [&](double at) {
+        return frames_.fromFlange(kinematics_.forward(between(start_.robax, end_.robax, at)),
+                                  externalNear(at));
+    };
+    const Pose from = tcp(s - kStep);
+    const Pose to = tcp(s + kStep);
     mm = norm(to.pos - from.pos) / (2 * kStep);
     deg = robot::angleBetween(from.rot, to.rot) / (2 * kStep);
 }

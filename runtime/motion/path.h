@@ -78,6 +78,8 @@ class MotionPath {
     /// Axis angles at s in [0, 1]; exactly on the line or circle, not an interpolation between grid nodes.
     Joints jointsAt(double s) const;
     ExternalAxes externalAt(double s) const;
+    /// Ways of the external axes, added; deg and mm alike.
+    double externalTravel() const;
     /// TCP in the object frame.
     Pose tcpAt(double s) const;
     /// Rates of the TCP in the object frame: mm and degrees per unit of s.
@@ -108,6 +110,7 @@ class MotionPath {
     bool isSmoothStep(const PathNode& from, const PathNode& to) const;
     MotionError errorAt(MotionErrorKind kind, double s, int joint, double value) const;
     void layStraightGrid();
+    ExternalAxes externalNear(double s) const;
     const PathNode& nodeNear(double s) const;
 
     robot::Kinematics kinematics_;

@@ -33,11 +33,6 @@ Radii radiiOn(const Leg& leg, const ZoneData& zone) {
     return {std::min(r.tcp, half), std::min(r.turn, half), std::min(r.external, half)};
 }
 
-void takeExternal(const AxisVector& axes, ExternalAxes& external) {
-    for (std::size_t i = 0; i < external.size(); ++i)
-        if (isConnected(external[i])) external[i] = axes.v[axes.v.size() - kExternalCount + i];
-}
-
 /// Place where the first of the curve and the blends of a corner begins.
 double zoneBegin(const Corner& corner) {
     double begin = corner.begin;
@@ -245,7 +240,7 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
     const robot::Kinematics& kinematics = l.path->kinematics();
     const FrameSetup& frames = (inCorner ? leg(own + 1) : l).path->frames();
     const auto tcp = [&](const RoutePoint& point) {
-        return frames.fromFlange(kinematics.forward(point.joints));
+        return frames.fromFlange(kinematics.forward(point.joints), point.extax);
     };
     const Pose before = tcp(low);
     const Pose here = tcp(stretch.middle);
@@ -292,24 +287,28 @@ RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints& see
     RoutePoint point;
     point.extax = l.path->externalAt(parameter);
     const Corner* turning = nullptr;
+    bool isCarried = false; // by external axes that are elsewhere than on the leg itself
     const Leg* frames = &l;
     for (const bool atEnd : {false, true}) {
         if (!atEnd && number == firstLeg_) continue;
         const Corner& c = corner(atEnd ? number : number - 1);
-        if (c.external.covers(place)) takeExternal(c.external.at(place), point.extax);
+        if (c.external.covers(place)) {
+            takeExternal(c.external.at(place), point.extax);
+            isCarried = l.path->isCartesian() && l.path->frames().dependsOnAxes();
+        }
         if (!c.turn.covers(place)) continue;
         turning = &c;
         if (atEnd) frames = &leg(number + 1);
     }
-    if (turning == nullptr) {
+    if (turning == nullptr && !isCarried) {
         point.joints = l.path->jointsAt(parameter);
         return point;
     }
     Pose pose = poseIn(l, *frames, distance);
-    pose.rot = robot::turnedBy(turning->centre, turning->turn.at(place));
+    if (turning != nullptr) pose.rot = robot::turnedBy(turning->centre, turning->turn.at(place));
     point.joints = seed;
-    point.isSolved =
-        l.path->kinematics().inverseContinue(frames->path->frames().toFlange(pose), seed, point.joints);
+    point.isSolved = l.path->kinematics().inverseContinue(frames->path->frames().toFlange(pose, point.extax),
+                                                          seed, point.joints);
     return point;
 }
 
@@ -329,8 +328,8 @@ RoutePoint Route::pointInCorner(std::size_t number, double place, const Joints& 
     if (c.external.covers(place)) takeExternal(c.external.at(place), point.extax);
     const Pose pose{c.space.at(x),
                     c.turn.covers(place) ? robot::turnedBy(c.centre, c.turn.at(place)) : c.centre};
-    point.isSolved =
-        next.path->kinematics().inverseContinue(next.path->frames().toFlange(pose), seed, point.joints);
+    point.isSolved = next.path->kinematics().inverseContinue(next.path->frames().toFlange(pose, point.extax),
+                                                             seed, point.joints);
     return point;
 }
 

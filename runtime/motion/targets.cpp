@@ -32,32 +32,36 @@ std::string axisName(int joint) {
 
 } // namespace
 
-Pose FrameSetup::toFlange(const Pose& target) const {
-    const Pose object = workObject.uframe * workObject.oframe * displacement * target;
-    if (tool.robotHeld) return inverse(baseFrame) * object * inverse(tool.tframe);
-    // The robot holds the work object: uframe counts from the flange and the tool stands in world.
-    return inverse(baseFrame) * tool.tframe * inverse(object);
+Pose FrameSetup::object(const ExternalAxes& axes) const {
+    const Pose user = userMover == nullptr ? workObject.uframe : userMover->frame(axes);
+    return user * workObject.oframe * displacement;
 }
 
-Pose FrameSetup::fromFlange(const Pose& flange) const {
-    const Pose object = workObject.uframe * workObject.oframe * displacement;
-    if (tool.robotHeld) return inverse(object) * baseFrame * flange * tool.tframe;
-    return inverse(object) * inverse(baseFrame * flange) * tool.tframe;
+Pose FrameSetup::toFlange(const Pose& target, const ExternalAxes& axes) const {
+    const Pose place = object(axes) * target;
+    if (tool.robotHeld) return inverse(base(axes)) * place * inverse(tool.tframe);
+    // The robot holds the work object: uframe counts from the flange and the tool is fixed in world.
+    return inverse(base(axes)) * tool.tframe * inverse(place);
 }
 
-Pose FrameSetup::tcpInWorld(const Pose& flange) const {
-    return tool.robotHeld ? baseFrame * flange * tool.tframe : tool.tframe;
+Pose FrameSetup::fromFlange(const Pose& flange, const ExternalAxes& axes) const {
+    if (tool.robotHeld) return inverse(object(axes)) * base(axes) * flange * tool.tframe;
+    return inverse(object(axes)) * inverse(base(axes) * flange) * tool.tframe;
+}
+
+Pose FrameSetup::tcpInWorld(const Pose& flange, const ExternalAxes& axes) const {
+    return tool.robotHeld ? base(axes) * flange * tool.tframe : tool.tframe;
 }
 
 bool sameTool(const FrameSetup& a, const FrameSetup& b) {
     return a.tool.robotHeld == b.tool.robotHeld && a.tool.tframe == b.tool.tframe &&
-           a.workObject.robotHeld == b.workObject.robotHeld;
+           a.workObject.robotHeld == b.workObject.robotHeld && a.userMover == b.userMover;
 }
 
 bool sameFrames(const FrameSetup& a, const FrameSetup& b) {
     return sameTool(a, b) && a.workObject.uframe == b.workObject.uframe &&
            a.workObject.oframe == b.workObject.oframe && a.displacement == b.displacement &&
-           a.baseFrame == b.baseFrame;
+           a.baseFrame == b.baseFrame && a.baseMover == b.baseMover;
 }
 
 Pose poseFromFloats(const float* trans, const float* rot) {
@@ -123,14 +127,14 @@ Expected<JointTarget, MotionError> calcJointTarget(const robot::Kinematics& kine
         error.what = "a tool and a work object of which not exactly one is held by the robot";
         return Unexpected{error};
     }
-    const auto joints = kinematics.inverse(frames.toFlange(target.pose), target.conf, seed);
+    const auto joints = kinematics.inverse(frames.toFlange(target.pose, target.extax), target.conf, seed);
     if (!joints) return Unexpected{fromInverse(joints.error(), target.pose.pos)};
     return JointTarget{*joints, target.extax};
 }
 
 RobTarget calcRobTarget(const robot::Kinematics& kinematics, const JointTarget& joints,
                         const FrameSetup& frames) {
-    Pose pose = frames.fromFlange(kinematics.forward(joints.robax));
+    Pose pose = frames.fromFlange(kinematics.forward(joints.robax), joints.extax);
     // Of the two quaternions of an orientation controllers show the one with q1 >= 0.
     if (pose.rot.w < 0) pose.rot = {-pose.rot.w, -pose.rot.x, -pose.rot.y, -pose.rot.z};
     return {pose, kinematics.configuration(joints.robax), joints.extax};

@@ -3,6 +3,7 @@
 // and back. Lengths mm, angles degrees, quaternions w x y z.
 
 #include "runtime/robot/expected.h"
+#include "runtime/robot/external_unit.h"
 #include "runtime/robot/frames.h"
 #include "runtime/robot/kinematics.h"
 
@@ -20,16 +21,11 @@ using robot::Quat;
 using robot::Unexpected;
 using robot::Vec3;
 
-/// Value of an external axis that is not connected (RAPID's 9E9).
-inline constexpr double kNotConnected = 9e9;
-inline constexpr int kExternalCount = 6;
-/// External axes a..f, degrees or mm; kNotConnected where there is none.
-using ExternalAxes = std::array<double, kExternalCount>;
-inline constexpr ExternalAxes kNoExternalAxes{kNotConnected, kNotConnected, kNotConnected,
-                                              kNotConnected, kNotConnected, kNotConnected};
-inline bool isConnected(double externalValue) {
-    return externalValue < 8.9e9;
-}
+using robot::ExternalAxes;
+using robot::isConnected;
+using robot::kExternalCount;
+using robot::kNoExternalAxes;
+using robot::kNotConnected;
 
 /// RAPID's jointtarget.
 struct JointTarget {
@@ -59,23 +55,36 @@ struct WorkObjectFrame {
 };
 
 /// Everything between a programmed pose and the flange. Exactly one of tool and work object is held by the
-/// robot.
+/// robot. Units that move the base or the user frame make it depend on the external axes.
 struct FrameSetup {
     ToolFrame tool;
     WorkObjectFrame workObject;
     Pose displacement; ///< program displacement, in the object frame
-    Pose baseFrame;    ///< robot base in world; MotionSystem and planMove set it from the model
+    Pose baseFrame;    ///< robot base in world, of a unit that moves it at 0; MotionSystem sets both
+    const robot::ExternalUnit* baseMover = nullptr; ///< moves the base frame (track motion)
+    /// Moves the user frame, whose own pose does not count then (wobjdata with ufprog FALSE and the unit's name in ufmec).
+    const robot::ExternalUnit* userMover = nullptr;
 
     bool isConsistent() const { return tool.robotHeld != workObject.robotHeld; }
     /// Flange in base for a TCP pose in the displaced object frame.
-    Pose toFlange(const Pose& target) const;
+    Pose toFlange(const Pose& target, const ExternalAxes& axes) const;
     /// The reverse: TCP pose in the displaced object frame.
-    Pose fromFlange(const Pose& flange) const;
+    Pose fromFlange(const Pose& flange, const ExternalAxes& axes) const;
     /// TCP in world for a flange pose in base (a stationary tool does not move).
-    Pose tcpInWorld(const Pose& flange) const;
+    Pose tcpInWorld(const Pose& flange, const ExternalAxes& axes) const;
+    /// Robot base in world.
+    Pose base(const ExternalAxes& axes) const {
+        return baseMover == nullptr ? baseFrame : baseMover->carry(baseFrame, axes);
+    }
+    bool dependsOnAxes() const { return baseMover != nullptr || userMover != nullptr; }
+
+  private:
+    /// The displaced object frame, in world or in the wrist frame.
+    Pose object(const ExternalAxes& axes) const;
 };
 
-/// The same tool, held in the same way: the TCP does not jump between moves with these two.
+/// The same tool, held in the same way, and the same unit that moves the user frame: the TCP does not jump between moves
+/// with these two, nor does its way relative to the work object.
 bool sameTool(const FrameSetup& a, const FrameSetup& b);
 /// Coordinates mean the same place.
 bool sameFrames(const FrameSetup& a, const FrameSetup& b);

@@ -11,13 +11,6 @@ namespace {
 constexpr double kNothing = 1e-9;    // mm or s
 constexpr double kSameMoment = 1e-7; // s; the virtual clock has whole nanoseconds
 
-double externalTravel(const MotionPath& path) {
-    double sum = 0;
-    for (std::size_t i = 0; i < path.start().extax.size(); ++i)
-        if (isConnected(path.start().extax[i])) sum += std::abs(path.end().extax[i] - path.start().extax[i]);
-    return sum;
-}
-
 } // namespace
 
 Trajectory::Trajectory(const robot::RobotModel& model, const ExternalAxisModels& external,
@@ -33,7 +26,7 @@ Leg Trajectory::legOf(const std::shared_ptr<const MotionPath>& path, const MoveC
     leg.zone = command.zone;
     leg.limits = limitsOf(command, model_, external_);
     leg.duration = command.duration;
-    const double external = externalTravel(*path);
+    const double external = path->externalTravel();
     double mm = path->length();
     if (path->isCartesian()) {
         mm = path->curve().length();
@@ -341,8 +334,8 @@ void Trajectory::ratesAt(const PathPlace& place, Joints& first, double& tcpRate)
         first[i] = (after.joints[i] - before.joints[i]) / (high - low);
     const FrameSetup& frames = framesAt(place);
     const robot::Kinematics& kinematics = entry(place.run).path->kinematics();
-    const Vec3 from = frames.fromFlange(kinematics.forward(before.joints)).pos;
-    const Vec3 to = frames.fromFlange(kinematics.forward(after.joints)).pos;
+    const Vec3 from = frames.fromFlange(kinematics.forward(before.joints), before.extax).pos;
+    const Vec3 to = frames.fromFlange(kinematics.forward(after.joints), after.extax).pos;
     tcpRate = norm(to - from) / (high - low);
 }
 

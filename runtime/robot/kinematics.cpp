@@ -20,6 +20,7 @@ std::shared_ptr<const Mechanism> makeMechanism(const RobotModel& model) {
     case KinematicsKind::ParallelRods: return makeParallelRods(model);
     case KinematicsKind::Scara: return makeScara(model);
     case KinematicsKind::Delta: return makeDelta(model);
+    case KinematicsKind::NoArm: return makeNoArm(model);
     }
     return makeSphericalWrist(model);
 }

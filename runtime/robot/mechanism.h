@@ -104,5 +104,6 @@ std::shared_ptr<const Mechanism> makeSevenAxes(const RobotModel& model);
 std::shared_ptr<const Mechanism> makeParallelRods(const RobotModel& model);
 std::shared_ptr<const Mechanism> makeScara(const RobotModel& model);
 std::shared_ptr<const Mechanism> makeDelta(const RobotModel& model);
+std::shared_ptr<const Mechanism> makeNoArm(const RobotModel& model);
 
 } // namespace robot

@@ -21,7 +21,8 @@ enum class KinematicsKind {
     SevenAxes,      ///< seven axes with an arm angle (IRB 14000, IRB 14050)
     ParallelRods,   ///< four axes, rods keep the flange level (IRB 260, 460, 660, 760)
     Scara,          ///< four axes, the third one linear (IRB 910SC, IRB 920T)
-    Delta           ///< three arms with parallel rods and a turning flange (IRB 360)
+    Delta,          ///< three arms with parallel rods and a turning flange (IRB 360)
+    NoArm           ///< no axes; not in data files
 };
 
 /// Geometry after Brandstoetter et al. (ortho-parallel base, spherical wrist); lengths in mm.
@@ -107,6 +108,9 @@ Expected<RobotModel, ModelError> loadRobotModel(std::string_view nameOrPath,
 
 /// Reads one model from the text of a data file; `origin` names it in errors.
 Expected<RobotModel, ModelError> parseRobotModel(std::string_view jsonText, std::string_view origin);
+
+/// A model without an arm, for a motion task that moves external units alone.
+RobotModel armlessModel();
 
 /// Names of all embedded models, sorted.
 std::vector<std::string> robotModelNames();

@@ -42,6 +42,7 @@ TaskKind kindFrom(const char* type) {
 Task::Task(TaskHost& host, Controller* controller, Scheduler& scheduler, const TaskDesc& desc, uint32_t index)
     : TaskCore{}, host_(host), controller_(controller), scheduler_(scheduler), desc_(desc), index_(index),
       name_(desc.name), kind_(kindFrom(desc.type)) {
+    motionGroup_ = desc.motionTask != 0 ? 0 : -1;
     fibre_ = std::make_unique<Fibre>(scheduler.options().stackBytes, [this] { fibreMain(); });
     stackLimit = fibre_->stackLimit();
 }

@@ -148,7 +148,11 @@ class Task : public TaskCore {
     const std::string& name() const { return name_; }
     TaskKind kind() const { return kind_; }
     uint32_t index() const { return index_; } ///< in ProgramDesc::tasks
-    bool isMotionTask() const { return desc_.motionTask != 0; }
+    /// Controls mechanical units.
+    bool isMotionTask() const { return motionGroup_ >= 0; }
+    /// Number of the group of mechanical units that it controls, from 0; -1 for none.
+    int motionGroup() const { return motionGroup_; }
+    void setMotionGroup(int group) { motionGroup_ = group; }
     Controller& controller() const { return *controller_; }
     Scheduler& scheduler() const { return scheduler_; }
     TaskState state() const { return state_; }
@@ -431,6 +435,7 @@ class Task : public TaskCore {
     Controller* controller_;
     Scheduler& scheduler_;
     const TaskDesc& desc_;
+    int motionGroup_ = -1;
     uint32_t index_;
     std::string name_;
     TaskKind kind_;

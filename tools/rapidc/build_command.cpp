@@ -73,11 +73,13 @@ std::string outputProblem(const std::string& output) {
 }
 
 /// --robot becomes the model of the executable; its own option --robot comes first.
-void keepRobot(Compilation& compilation, const std::string& robot) {
-    if (robot.empty()) return;
+void keepRobots(Compilation& compilation, const std::vector<std::string>& robots) {
+    if (robots.empty()) return;
+    std::string text = "RAPIDC:CFG_1.0:7:0::\n#\nOPTIONS:\n";
+    for (const std::string& robot : robots)
+        text += fmt::format("\n      -robot \"{}\"\n", robot);
     compilation.configNames.emplace_back("--robot");
-    compilation.configTexts.push_back(
-        fmt::format("RAPIDC:CFG_1.0:7:0::\n#\nOPTIONS:\n\n      -robot \"{}\"\n", robot));
+    compilation.configTexts.push_back(std::move(text));
 }
 
 /// Object file and executable are made in a folder beside the output, which is replaced in one step: whatever goes
@@ -135,7 +137,7 @@ int build(BuildSettings& settings) {
         fmt::print(stderr, "rapidc build: {}\n", conflict);
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
-    keepRobot(*compilation, settings.inputs.robot);
+    keepRobots(*compilation, settings.inputs.robots);
     std::error_code ignored;
     compilation->folder = fs::current_path(ignored).string();
     compilation->overflowChecks = !settings.withoutOverflowChecks;

@@ -355,7 +355,7 @@ bool LineDebugger::list(std::string_view) {
 }
 
 bool LineDebugger::robot(std::string_view) {
-    rt::MotionDriver& motion = controller_.motion();
+    rt::MotionDriver& motion = controller_.motion(*task_);
     const auto target = motion.system().currentTarget(motion.pointer().command.frames);
     const auto joints = motion.system().currentJoints();
     // Adding 0 turns -0 into 0.

@@ -319,7 +319,11 @@ void addConfigOption(const rt::Command& command, Inputs& inputs) {
 }
 
 void addRobotOption(const rt::Command& command, Inputs& inputs) {
-    command.add("--robot", inputs.robot, "Robot model; rapidc robots lists them").typeName("MODEL");
+    command
+        .add("--robot", inputs.robots,
+             "Robot model, of a further robot UNIT=MODEL; repeatable; rapidc robots lists the models")
+        .typeName("[UNIT=]MODEL")
+        .oneValueEach();
 }
 
 std::string outputConflict(const Compilation& compilation,
@@ -338,8 +342,8 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     std::set<std::string> typesTold{"T_ROB1"};
     const std::vector<rapid::project::TaskSpec> specs =
         readTaskSpecs(inputs.tasks, typesTold, compilation->usageErrors);
-    if (!inputs.robot.empty())
-        if (const auto model = robot::loadRobotModel(inputs.robot); !model)
+    for (const std::string& robot : inputs.robots)
+        if (const auto model = robot::loadRobotModel(robot.substr(robot.find('=') + 1)); !model)
             compilation->usageErrors.push_back("--robot: " + model.error().message);
     readWarningLevels(inputs, *compilation);
     if (!compilation->usageErrors.empty()) return compilation;

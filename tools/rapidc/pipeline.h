@@ -25,7 +25,7 @@ struct Inputs {
     std::vector<std::string> paths;       ///< files, folders, programs
     std::vector<std::string> tasks;       ///< NAME[:TYPE]=INPUT[,INPUT]
     std::vector<std::string> configFiles; ///< --config
-    std::string robot;                    ///< --robot; an unknown one is wrong usage
+    std::vector<std::string> robots;      ///< --robot, [UNIT=]MODEL; an unknown one is wrong usage
     bool requireMain = false;
     std::vector<std::string> warnings; ///< -W
     bool lint = false;                 ///< with the warnings of 8xxx, also where -W does not name them

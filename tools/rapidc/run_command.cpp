@@ -122,7 +122,7 @@ int run(RunSettings& settings) {
     Inputs& inputs = settings.inputs;
     inputs.tasks = settings.options.tasks;
     inputs.configFiles = settings.options.configFiles;
-    inputs.robot = settings.options.robot;
+    inputs.robots = settings.options.robots;
     inputs.requireMain = true;
     const auto compilation = checkInputs(inputs);
     if (!compilation->usageErrors.empty()) {

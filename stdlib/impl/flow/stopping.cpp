@@ -17,7 +17,7 @@ Status rt_Stop(TaskCore* task, bool, bool AllMoveTasks) {
     Task& owner = taskOf(task);
     if (owner.ignoredInUndo("Stop")) return kOk;
     if (owner.isMotionTask())
-        if (const Status status = owner.controller().motion().waitIdle(owner)) return status;
+        if (const Status status = owner.controller().motion(owner).waitIdle(owner)) return status;
     return owner.stopHere("Stop", AllMoveTasks);
 }
 
@@ -25,7 +25,7 @@ Status rt_Stop(TaskCore* task, bool, bool AllMoveTasks) {
 Status rt_DebugBreak(TaskCore* task) {
     Task& owner = taskOf(task);
     if (owner.ignoredInUndo("DebugBreak")) return kOk;
-    if (owner.isMotionTask()) owner.controller().motion().programStop();
+    if (owner.isMotionTask()) owner.controller().motion(owner).programStop();
     return owner.stopHere("DebugBreak");
 }
 
@@ -36,7 +36,7 @@ Status rt_SystemStopAction(TaskCore* task, bool Stop, bool StopBlock, bool Halt)
                          "SystemStopAction needs one of \\Stop, \\StopBlock and \\Halt");
     Task& owner = taskOf(task);
     if (owner.ignoredInUndo("SystemStopAction")) return kOk;
-    owner.controller().motion().programStop();
+    owner.controller().motion(owner).programStop();
     return owner.stopHere("SystemStopAction", true, StopBlock ? StopCause::Blocked : StopCause::Instruction);
 }
 

@@ -20,7 +20,7 @@ constexpr Time kHopeless = 8 * (3600 * kSecond);
 /// Until robot and additional axes stand in the last point; a task without a robot has nothing to wait for.
 Status waitInPosition(TaskCore* task) {
     Task& owner = taskOf(task);
-    return owner.isMotionTask() ? owner.controller().motion().waitIdle(owner) : kOk;
+    return owner.isMotionTask() ? owner.controller().motion(owner).waitIdle(owner) : kOk;
 }
 
 /// A shift of virtual time in which this task alone looked at its condition and nothing else was to happen: it can only
@@ -51,7 +51,7 @@ Status rt_WaitRob(TaskCore* task, bool InPos, bool ZeroSpeed) {
         return lib::fail(task, err::ERR_ARGVALERR, "WaitRob needs one of \\InPos and \\ZeroSpeed");
     if (InPos) return waitInPosition(task);
     Task& owner = taskOf(task);
-    return owner.isMotionTask() ? owner.controller().motion().waitZeroSpeed(owner) : kOk;
+    return owner.isMotionTask() ? owner.controller().motion(owner).waitZeroSpeed(owner) : kOk;
 }
 
 Status rt_waitInPos(TaskCore* task, bool inPos) {

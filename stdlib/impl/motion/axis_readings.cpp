@@ -53,7 +53,7 @@ Status rt_ReadMotor(TaskCore* task, float* result, Handle* MecUnit, float Axis) 
     Status status = kOk;
     const int axis = lib::robotAxis(task, MecUnit, Axis, status);
     if (axis < 0) return status;
-    const motion::MotionSystem& arm = taskOf(task).controller().motion().system();
+    const motion::MotionSystem& arm = lib::motionOf(task).system();
     *result = static_cast<float>(arm.currentJoints().robax[static_cast<std::size_t>(axis)] * kRadians);
     return kOk;
 }
@@ -65,7 +65,7 @@ Status rt_GetMotorTorque(TaskCore* task, float* result, Handle* MecUnit, float A
     const int number = lib::robotAxis(task, MecUnit, AxisNo, status);
     if (number < 0) return status;
     const auto axis = static_cast<std::size_t>(number);
-    const motion::MotionSystem& arm = taskOf(task).controller().motion().system();
+    const motion::MotionSystem& arm = lib::motionOf(task).system();
     const Time now = arm.now();
     const motion::MotionState state = arm.sample(now);
     constexpr Time kApart = kMillisecond;

@@ -3,6 +3,7 @@
 
 #include "stdlib/impl/motion/corrections.h"
 #include "stdlib/impl/math/convert.h"
+#include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib_constants.h"
@@ -34,7 +35,7 @@ struct Corrections {
 };
 
 Corrections& correctionsOf(TaskCore* task) {
-    return taskOf(task).controller().service<Corrections>();
+    return lib::motionOf(task).service<Corrections>();
 }
 
 Status notConnected(TaskCore* task) {
@@ -46,8 +47,8 @@ Status notConnected(TaskCore* task) {
 
 namespace rt::lib {
 
-void endCorrections(Controller& controller) {
-    controller.service<Corrections>().generators = {};
+void endCorrections(MotionDriver& motion) {
+    motion.service<Corrections>().generators = {};
 }
 
 } // namespace rt::lib
@@ -95,7 +96,7 @@ Status rt_CorrDiscon(TaskCore* task, Handle* Descr) {
 }
 
 Status rt_CorrClear(TaskCore* task) {
-    lib::endCorrections(taskOf(task).controller());
+    lib::endCorrections(lib::motionOf(task));
     return kOk;
 }
 }

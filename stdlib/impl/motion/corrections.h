@@ -6,6 +6,6 @@
 namespace rt::lib {
 
 /// The program begins anew, or CorrClear: no generator is connected.
-void endCorrections(Controller& controller);
+void endCorrections(MotionDriver& motion);
 
 } // namespace rt::lib

@@ -34,23 +34,23 @@ struct IndependentOrder {
 
 class IndependentAxis {
   public:
-    void order(Controller& controller, const IndependentOrder& order) {
+    void order(MotionDriver& motion, const IndependentOrder& order) {
         if (!std::exchange(listening_, true))
-            controller.motion().addListener([this, &controller](ArmNews news) { take(controller, news); });
+            motion.addListener([this, &motion](ArmNews news) { take(motion, news); });
         order_ = order;
-        carryOut(controller);
+        carryOut(motion);
     }
     const IndependentOrder& order() const { return order_; }
     /// The speed in force.
-    static double speedOf(Controller& controller, const IndependentOrder& order) {
-        const double share = controller.service<lib::MotionState>().settings.velocityPercent *
-                             controller.motion().system().speedOverride() * 1e-4;
+    static double speedOf(MotionDriver& motion, const IndependentOrder& order) {
+        const double share = motion.service<lib::MotionState>().settings.velocityPercent *
+                             motion.system().speedOverride() * 1e-4;
         return order.speed * std::clamp(share, 1e-3, 1.0);
     }
 
   private:
-    void carryOut(Controller& controller) {
-        motion::MotionSystem& arm = controller.motion().system();
+    void carryOut(MotionDriver& motion) {
+        motion::MotionSystem& arm = motion.system();
         const double now = toSeconds(arm.now());
         const motion::MotionState state = arm.current();
         const motion::AxisCourse course =
@@ -58,16 +58,16 @@ class IndependentAxis {
                 ? *arm.independent()
                 : motion::AxisCourse(now, {state.joints[kAxis], state.jointSpeed[kAxis]});
         const double acceleration = arm.model().maxAcceleration[kAxis] * order_.ramp;
-        const double speed = speedOf(controller, order_);
+        const double speed = speedOf(motion, order_);
         arm.setIndependent(kAxis, order_.endless ? course.turning(now, speed, acceleration)
                                                  : course.movedTo(now, order_.goal, speed, acceleration));
-        controller.service<lib::WorldZones>().noteMotion(controller);
+        motion.service<lib::WorldZones>().noteMotion();
     }
     /// A program that is stopped stops the axis, too.
-    void take(Controller& controller, ArmNews news) {
-        motion::MotionSystem& arm = controller.motion().system();
+    void take(MotionDriver& motion, ArmNews news) {
+        motion::MotionSystem& arm = motion.system();
         if (arm.independent() == nullptr) return;
-        if (news == ArmNews::Start) carryOut(controller);
+        if (news == ArmNews::Start) carryOut(motion);
         if (news == ArmNews::StopOnPath || news == ArmNews::MotorsOff)
             arm.setIndependent(kAxis, arm.independent()->turning(toSeconds(arm.now()), 0,
                                                                  arm.model().maxAcceleration[kAxis]));
@@ -79,7 +79,7 @@ class IndependentAxis {
 };
 
 motion::MotionSystem& systemOf(TaskCore* task) {
-    return taskOf(task).controller().motion().system();
+    return lib::motionOf(task).system();
 }
 
 motion::AxisMoment momentOf(const motion::MotionSystem& arm) {
@@ -115,9 +115,10 @@ Status orderMove(TaskCore* task, bool endless, double goal, double speed, const 
         return lib::fail(task, err::ERR_ARGVALERR, "an independent axis needs numbers that are finite");
     if (ramp != nullptr && !(*ramp >= 1 && *ramp <= 100))
         return lib::fail(task, err::ERR_ARGVALERR, "\\Ramp must lie between 1 and 100 percent");
-    Controller& controller = taskOf(task).controller();
-    IndependentOrder order{endless, goal, speed, ramp == nullptr ? 1.0 : 0.01 * static_cast<double>(*ramp)};
-    controller.service<IndependentAxis>().order(controller, order);
+    const IndependentOrder order{endless, goal, speed,
+                                 ramp == nullptr ? 1.0 : 0.01 * static_cast<double>(*ramp)};
+    MotionDriver& motion = lib::motionOf(task);
+    motion.service<IndependentAxis>().order(motion, order);
     return kOk;
 }
 
@@ -146,12 +147,12 @@ Status checkOneDirection(TaskCore* task, int count) {
 
 namespace rt::lib {
 
-void endIndependentMode(Controller& controller) {
-    motion::MotionSystem& arm = controller.motion().system();
+void endIndependentMode(MotionDriver& motion) {
+    motion::MotionSystem& arm = motion.system();
     if (arm.independent() == nullptr) return;
     const double position = momentOf(arm).position;
     arm.endIndependent(position - kTurn * std::round(position / kTurn));
-    controller.motion().refresh();
+    motion.refresh();
 }
 
 } // namespace rt::lib
@@ -193,7 +194,7 @@ Status rt_IndReset(TaskCore* task, Handle* MecUnit, float Axis, const data::Robt
     if (RefPos != nullptr)
         if (const Status status = checkNumber(task, RefPos, RefNum)) return status;
     if (const Status status = checkOneDirection(task, Short + Fwd + Bwd + Old)) return status;
-    MotionDriver& driver = taskOf(task).controller().motion();
+    MotionDriver& driver = lib::motionOf(task);
     if (const Status status = driver.waitIdle(taskOf(task))) return status;
     if (const Status status = driver.waitZeroSpeed(taskOf(task))) return status;
     motion::MotionSystem& arm = driver.system();
@@ -216,7 +217,7 @@ Status rt_IndReset(TaskCore* task, Handle* MecUnit, float Axis, const data::Robt
 /// FALSE for an axis that turns for ever.
 Status rt_IndInpos(TaskCore* task, bool* result, Handle* MecUnit, float Axis) {
     if (const Status status = checkIndependent(task, MecUnit, Axis)) return status;
-    const IndependentOrder& order = taskOf(task).controller().service<IndependentAxis>().order();
+    const IndependentOrder& order = lib::motionOf(task).service<IndependentAxis>().order();
     const motion::MotionSystem& arm = systemOf(task);
     *result = !order.endless && isResting(arm) && momentOf(arm).position == order.goal;
     return kOk;
@@ -226,7 +227,7 @@ Status rt_IndSpeed(TaskCore* task, bool* result, Handle* MecUnit, float Axis, bo
     if (const Status status = checkIndependent(task, MecUnit, Axis)) return status;
     if (InSpeed == ZeroSpeed)
         return lib::fail(task, err::ERR_ARGVALERR, "IndSpeed needs one of \\InSpeed and \\ZeroSpeed");
-    const IndependentOrder& order = taskOf(task).controller().service<IndependentAxis>().order();
+    const IndependentOrder& order = lib::motionOf(task).service<IndependentAxis>().order();
     const double speed = momentOf(systemOf(task)).speed;
     constexpr double kExact = 1e-6; // deg/s
     *result =

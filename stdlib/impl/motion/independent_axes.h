@@ -6,6 +6,6 @@
 namespace rt::lib {
 
 /// The program begins anew: the axis is in normal mode again, within half a turn of 0.
-void endIndependentMode(Controller& controller);
+void endIndependentMode(MotionDriver& motion);
 
 } // namespace rt::lib

@@ -2,6 +2,7 @@
 // object in force.
 
 #include "config/json_text.h"
+#include "stdlib/impl/motion/kept_per_group.h"
 #include "stdlib/impl/motion/state.h"
 
 #include "runtime/debug/state_keepers.h"
@@ -76,10 +77,27 @@ MotionState load(const Json& json) {
 
 } // namespace
 
+StateKeepers::Keeper keptPerGroup(Controller& controller, std::function<Json(MotionDriver&)> saveOne,
+                                  std::function<void(MotionDriver&, const Json&)> loadOne) {
+    const auto saveAll = [&controller, saveOne = std::move(saveOne)] {
+        Json list = Json::array();
+        for (const auto& motion : controller.motions())
+            list.push_back(saveOne(*motion));
+        return list;
+    };
+    const auto loadAll = [&controller, loadOne = std::move(loadOne)](const Json& json) {
+        if (json.size() != controller.motions().size())
+            throw std::invalid_argument("there was another number of motion groups");
+        for (std::size_t i = 0; i < json.size(); ++i)
+            loadOne(*controller.motions()[i], json[i]);
+    };
+    return {saveAll, loadAll};
+}
+
 void keepSettings(Controller& controller, StateKeepers& kept) {
-    kept.keepers["motionSettings"] = {
-        [&controller] { return save(controller.service<MotionState>()); },
-        [&controller](const Json& json) { controller.service<MotionState>() = load(json); }};
+    kept.keepers["motionSettings"] = keptPerGroup(
+        controller, [](MotionDriver& motion) { return save(motion.service<MotionState>()); },
+        [](MotionDriver& motion, const Json& json) { motion.service<MotionState>() = load(json); });
 }
 
 } // namespace rt::lib

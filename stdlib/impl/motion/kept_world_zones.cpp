@@ -2,6 +2,7 @@
 // by the routine of the event POWER ON (manual 2.9). A shapedata keeps its contents.
 
 #include "config/json_text.h"
+#include "stdlib/impl/motion/kept_per_group.h"
 #include "stdlib/impl/motion/world_zones.h"
 
 #include "runtime/debug/state_keepers.h"
@@ -48,8 +49,8 @@ ZoneShape shapeFrom(const Json& json) {
     return s;
 }
 
-Json save(Controller& controller) {
-    const auto& zones = controller.service<WorldZones>();
+Json save(Controller& controller, MotionDriver& motion) {
+    const WorldZones& zones = zonesOf(controller, motion);
     Json list = Json::array();
     for (const WorldZone& zone : zones.all()) {
         if (zone.stationary) continue;
@@ -63,7 +64,7 @@ Json save(Controller& controller) {
     return {{"last", zones.lastNumber()}, {"zones", std::move(list)}};
 }
 
-void load(Controller& controller, const Json& json) {
+void load(Controller& controller, MotionDriver& motion, const Json& json) {
     std::vector<WorldZone> zones;
     for (const Json& entry : json.at("zones")) {
         WorldZone zone;
@@ -82,14 +83,15 @@ void load(Controller& controller, const Json& json) {
         zones.push_back(zone);
     }
     if (zones.size() > WorldZones::kMost) throw std::invalid_argument("too many world zones");
-    controller.service<WorldZones>().restore(controller, std::move(zones), numberFrom<int>(json.at("last")));
+    zonesOf(controller, motion).restore(std::move(zones), numberFrom<int>(json.at("last")));
 }
 
 } // namespace
 
 void keepWorldZones(Controller& controller, StateKeepers& kept) {
-    kept.keepers["worldZones"] = {[&controller] { return save(controller); },
-                                  [&controller](const Json& json) { load(controller, json); }};
+    kept.keepers["worldZones"] = keptPerGroup(
+        controller, [&controller](MotionDriver& motion) { return save(controller, motion); },
+        [&controller](MotionDriver& motion, const Json& json) { load(controller, motion, json); });
     const auto textOf = [&controller](Handle handle) -> std::string {
         const ZoneShape* shape = controller.service<ZoneShapes>().find(handle);
         return shape == nullptr ? std::string() : rapid::config::textOf(jsonOf(*shape));

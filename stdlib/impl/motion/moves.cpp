@@ -34,7 +34,7 @@ Status checkConcurrent(TaskCore* task, lib::MotionState& state, bool conc) {
         state.concurrentMoves = 0;
         return kOk;
     }
-    if (taskOf(task).controller().motion().pathLevel() > 1)
+    if (lib::motionOf(task).pathLevel() > 1)
         return lib::fail(task, err::ERR_CONC_MAX,
                          "movement instructions with \\Conc are not allowed between StorePath and RestoPath");
     if (state.concurrentMoves < kMostConcurrent) {
@@ -76,7 +76,7 @@ motion::MoveCommand circularMove(TaskCore* task, const data::Robtarget& circlePo
 motion::MoveCommand absoluteMove(TaskCore* task, const data::Jointtarget& target, bool noOffsets) {
     motion::MoveCommand command;
     command.kind = motion::MoveKind::AbsJoint;
-    command.joints = toJoints(target, taskOf(task).controller().motion().system().kinematics());
+    command.joints = toJoints(target, lib::motionOf(task).system().kinematics());
     if (!noOffsets) addOffsets(command.joints.extax, motionState(task).axisOffsets, 1);
     return command;
 }
@@ -84,7 +84,7 @@ motion::MoveCommand absoluteMove(TaskCore* task, const data::Jointtarget& target
 motion::MoveCommand externalMove(TaskCore* task, const data::Jointtarget& target, bool withOffsets) {
     motion::MoveCommand command;
     command.kind = motion::MoveKind::AbsJoint;
-    command.joints = taskOf(task).controller().motion().system().plannedEnd();
+    command.joints = lib::motionOf(task).system().plannedEnd();
     command.joints.extax = toAxes(target.extax);
     if (withOffsets) addOffsets(command.joints.extax, motionState(task).axisOffsets, 1);
     return command;
@@ -99,7 +99,7 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
     if (const Status status = checkConcurrent(task, state, args.conc)) return status;
     static const data::Wobjdata kWorld = MotionState().workObject;
     const data::Wobjdata* workObject = args.workObject ? args.workObject : &kWorld;
-    command.frames = frameSetup(state, args.tool, workObject);
+    if (const Status status = frameSetup(task, args.tool, workObject, command.frames)) return status;
     command.speed = speedOf(args);
     command.duration = args.t ? static_cast<double>(*args.t) : 0.0;
     command.zone = zoneOf(args);
@@ -114,7 +114,7 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
     motion::MoveId id = 0;
     std::optional<motion::MotionError> error;
     const Status status =
-        owner.controller().motion().order(owner, std::move(command), id, error, std::move(actions));
+        owner.controller().motion(owner).order(owner, std::move(command), id, error, std::move(actions));
     if (status != kOk) return status;
     if (error) return fail(task, motionErrno(*error), error->message());
     state.tool = *args.tool;
@@ -147,9 +147,10 @@ Status rt_MoveAbsL(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPo
     motion::MoveCommand command;
     command.kind = motion::MoveKind::Linear;
     const data::Wobjdata world = lib::MotionState().workObject;
-    const motion::MotionSystem& system = taskOf(task).controller().motion().system();
-    command.target = system.toRobTarget(
-        absolute.joints, lib::frameSetup(lib::motionState(task), Tool, WObj != nullptr ? WObj : &world));
+    motion::FrameSetup frames;
+    if (const Status status = lib::frameSetup(task, Tool, WObj != nullptr ? WObj : &world, frames))
+        return status;
+    command.target = lib::motionOf(task).system().toRobTarget(absolute.joints, frames);
     return lib::orderMove(task, command, {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj, true});
 }
 

@@ -13,7 +13,7 @@ using namespace rt;
 namespace {
 
 MotionDriver& driverOf(TaskCore* task) {
-    return taskOf(task).controller().motion();
+    return lib::motionOf(task);
 }
 
 /// Not recoverable: the instruction does not fit the path level.
@@ -63,7 +63,7 @@ Status rt_ProcerrRecovery(TaskCore* task, bool SyncOrgMoveInst, bool SyncLastMov
     if (ProcSignal != nullptr && io.value(io.idOf(*ProcSignal)) == 0)
         return lib::fail(task, err::ERR_PROCSIGNAL_OFF,
                          "the process signal is 0: the process is off already");
-    controller.motion().raiseProcessError(err::ERR_PATH_STOP);
+    lib::motionOf(task).raiseProcessError(err::ERR_PATH_STOP);
     return kOk;
 }
 

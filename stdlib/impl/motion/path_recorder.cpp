@@ -60,7 +60,7 @@ motion::MoveCommand circleBack(const motion::MoveCommand& recorded, const motion
 
 void PathRecorder::start(TaskCore* task, Handle id) {
     task_ = task;
-    MotionDriver& driver = taskOf(task).controller().motion();
+    MotionDriver& driver = lib::motionOf(task);
     if (!std::exchange(listening_, true))
         driver.addOrderListener([this](const MotionDriver::Ordered& ordered) { note(ordered); });
     if (!std::exchange(recording_, true)) joinTo(driver.system().plannedEnd());
@@ -87,7 +87,7 @@ void PathRecorder::joinTo(const motion::JointTarget& from) {
         truncate(replay_->at);
     replay_.reset();
     if (moves_.empty() || isSamePlace(moves_.back().to, from)) return;
-    const motion::MotionSystem& arm = taskOf(task_).controller().motion().system();
+    const motion::MotionSystem& arm = lib::motionOf(task_).system();
     std::size_t cleared = moves_.size();
     while (cleared > 0 && arm.status(moves_[cleared - 1].id) == motion::MoveStatus::Cleared)
         --cleared;
@@ -110,15 +110,14 @@ void PathRecorder::forgetOldest() {
 
 void PathRecorder::note(const MotionDriver::Ordered& order) {
     if (!recording_ || replaying_) return;
-    if (taskOf(task_).controller().motion().pathLevel() > 1) return;
+    if (lib::motionOf(task_).pathLevel() > 1) return;
     joinTo(order.from);
     moves_.push_back({order.id, order.command, order.from, order.to, false});
     if (moves_.size() > kMost) forgetOldest();
 }
 
 /// The recorded movements up to where the arm is.
-std::vector<PathRecorder::Recorded> PathRecorder::wayToHere(Controller& controller) const {
-    const motion::MotionSystem& arm = controller.motion().system();
+std::vector<PathRecorder::Recorded> PathRecorder::wayToHere(const motion::MotionSystem& arm) const {
     using motion::MoveStatus;
     std::size_t count = moves_.size();
     while (count > 0 && arm.status(moves_[count - 1].id) != MoveStatus::Done &&
@@ -136,9 +135,9 @@ std::vector<PathRecorder::Recorded> PathRecorder::wayToHere(Controller& controll
     return way;
 }
 
-std::optional<std::size_t> PathRecorder::goalBack(Controller& controller, Handle id) const {
+std::optional<std::size_t> PathRecorder::goalBack(const motion::MotionSystem& arm, Handle id) const {
     if (!recording_) return {};
-    const std::size_t here = replay_ ? replay_->at : wayToHere(controller).size();
+    const std::size_t here = replay_ ? replay_->at : wayToHere(arm).size();
     std::optional<std::size_t> goal;
     for (const Named& name : names_)
         if (name.position < here && (id == 0 || name.id == id))
@@ -158,16 +157,16 @@ std::optional<std::size_t> PathRecorder::goalForward(Handle id) const {
 Status PathRecorder::order(Task& task, motion::MoveCommand command, motion::MoveId& id) {
     std::optional<motion::MotionError> error;
     replaying_ = true;
-    const Status status = task.controller().motion().order(task, std::move(command), id, error);
+    const Status status = task.controller().motion(task).order(task, std::move(command), id, error);
     replaying_ = false;
     if (status != kOk) return status;
     return error ? fail(&task, motionErrno(*error), error->message()) : kOk;
 }
 
 Status PathRecorder::moveBack(Task& task, std::size_t goal, const Manner& manner) {
-    MotionDriver& driver = task.controller().motion();
+    MotionDriver& driver = task.controller().motion(task);
     if (!replay_) {
-        std::vector<Recorded> way = wayToHere(task.controller());
+        std::vector<Recorded> way = wayToHere(driver.system());
         const std::size_t end = way.size();
         replay_ = Replay{std::move(way), end};
     }
@@ -190,7 +189,7 @@ Status PathRecorder::moveBack(Task& task, std::size_t goal, const Manner& manner
 }
 
 Status PathRecorder::moveForward(Task& task, std::size_t goal, const Manner& manner) {
-    MotionDriver& driver = task.controller().motion();
+    MotionDriver& driver = task.controller().motion(task);
     motion::MoveId id = 0;
     while (replay_->at < goal) {
         const Recorded& move = replay_->way[replay_->at];
@@ -208,8 +207,8 @@ Status PathRecorder::moveForward(Task& task, std::size_t goal, const Manner& man
     return kOk;
 }
 
-void endPathRecording(Controller& controller) {
-    controller.service<PathRecorder>().clear();
+void endPathRecording(MotionDriver& motion) {
+    motion.service<PathRecorder>().clear();
 }
 
 } // namespace rt::lib

@@ -26,7 +26,7 @@ class PathRecorder {
 
     /// The position to go back to: that of `id`, for 0 the latest named one that is not where the arm is. Nothing when there
     /// is no way back to it.
-    std::optional<std::size_t> goalBack(Controller& controller, Handle id) const;
+    std::optional<std::size_t> goalBack(const motion::MotionSystem& arm, Handle id) const;
     /// The position to go forward to: that of `id`, for 0 where the way back began.
     std::optional<std::size_t> goalForward(Handle id) const;
 
@@ -60,7 +60,7 @@ class PathRecorder {
     void joinTo(const motion::JointTarget& from);
     void truncate(std::size_t position);
     void forgetOldest();
-    std::vector<Recorded> wayToHere(Controller& controller) const;
+    std::vector<Recorded> wayToHere(const motion::MotionSystem& arm) const;
     Status order(Task& task, motion::MoveCommand command, motion::MoveId& id);
 
     TaskCore* task_ = nullptr;
@@ -72,6 +72,6 @@ class PathRecorder {
 };
 
 /// The program begins anew: nothing is recorded any more.
-void endPathRecording(Controller& controller);
+void endPathRecording(MotionDriver& motion);
 
 } // namespace rt::lib

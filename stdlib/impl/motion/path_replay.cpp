@@ -18,7 +18,7 @@ using namespace rt;
 namespace {
 
 lib::PathRecorder& recorderOf(TaskCore* task) {
-    return taskOf(task).controller().service<lib::PathRecorder>();
+    return lib::motionOf(task).service<lib::PathRecorder>();
 }
 
 Status misused(TaskCore* task, std::string why) {
@@ -41,7 +41,7 @@ Handle idOf(const Handle* id) {
 /// kOk, or the reason why the recorder cannot move the robot now.
 Status checkMovable(TaskCore* task, const char* instruction) {
     if (const Status status = lib::requireMotionTask(task)) return status;
-    if (taskOf(task).controller().motion().system().isIdle()) return kOk;
+    if (lib::motionOf(task).system().isIdle()) return kOk;
     return misused(task,
                    std::string(instruction) +
                        ": movements are unfinished. Put them aside with StorePath, or wait until the robot "
@@ -71,7 +71,7 @@ Status rt_PathRecMoveBwd(TaskCore* task, Handle* ID, const data::Pos* ToolOffs,
                          const data::Speeddata* Speed) {
     if (const Status status = checkMovable(task, "PathRecMoveBwd")) return status;
     Task& owner = taskOf(task);
-    const auto goal = recorderOf(task).goalBack(owner.controller(), idOf(ID));
+    const auto goal = recorderOf(task).goalBack(lib::motionOf(task).system(), idOf(ID));
     if (!goal)
         return misused(task,
                        "PathRecMoveBwd: there is no recorded path back to there (see PathRecValidBwd).");
@@ -89,7 +89,7 @@ Status rt_PathRecMoveFwd(TaskCore* task, Handle* ID, const data::Pos* ToolOffs,
 }
 
 Status rt_PathRecValidBwd(TaskCore* task, bool* result, Handle* ID) {
-    *result = recorderOf(task).goalBack(taskOf(task).controller(), idOf(ID)).has_value();
+    *result = recorderOf(task).goalBack(lib::motionOf(task).system(), idOf(ID)).has_value();
     return kOk;
 }
 

@@ -13,14 +13,15 @@ using namespace rt;
 namespace {
 
 motion::MotionSystem& systemOf(TaskCore* task) {
-    return taskOf(task).controller().motion().system();
+    return lib::motionOf(task).system();
 }
 
-/// \TaskRef and \TaskName name the motion task whose robot is meant; without them it is the only robot there is.
-Status checkTask(TaskCore* task, const Handle* ref, const String* name) {
+/// The task whose robot is meant: that of \TaskRef or \TaskName, else the calling one.
+Status askedTask(TaskCore* task, const Handle* ref, const String* name, TaskCore*& asked) {
+    asked = task;
     if (!ref && !name) return kOk;
     Controller& controller = taskOf(task).controller();
-    const Task* other = nullptr;
+    Task* other = nullptr;
     if (name)
         other = controller.findTask(name->view());
     else if (*ref >= 1 && *ref <= static_cast<Handle>(controller.tasks().size()))
@@ -28,13 +29,8 @@ Status checkTask(TaskCore* task, const Handle* ref, const String* name) {
     if (!other) return lib::fail(task, err::ERR_TASKNAME, "there is no such task");
     if (!other->isMotionTask())
         return lib::fail(task, err::ERR_NOT_MOVETASK, "task " + other->name() + " moves no robot");
+    asked = other;
     return kOk;
-}
-
-motion::FrameSetup framesFor(TaskCore* task, const data::Tooldata* tool, const data::Wobjdata* workObject) {
-    motion::FrameSetup frames = lib::frameSetup(lib::motionState(task), tool, workObject);
-    frames.baseFrame = systemOf(task).model().baseFrame;
-    return frames;
 }
 
 const data::Wobjdata& world() {
@@ -42,11 +38,18 @@ const data::Wobjdata& world() {
     return kWorld;
 }
 
-motion::RobTarget currentTarget(TaskCore* task, const data::Tooldata* tool,
-                                const data::Wobjdata* workObject) {
-    motion::RobTarget target = systemOf(task).currentTarget(framesFor(task, tool, workObject));
-    lib::addOffsets(target.extax, lib::motionState(task).axisOffsets, -1);
-    return target;
+/// Null for tool and work object: those in force in the task that is asked.
+Status currentTarget(TaskCore* task, TaskCore* asked, const data::Tooldata* tool,
+                     const data::Wobjdata* workObject, motion::RobTarget& target) {
+    const lib::MotionState& state = lib::motionState(asked);
+    motion::FrameSetup frames;
+    if (const Status status = lib::frameSetup(task, tool ? tool : &state.tool,
+                                              workObject ? workObject : &state.workObject, frames))
+        return status;
+    frames.displacement = state.displacement;
+    target = systemOf(asked).currentTarget(frames);
+    lib::addOffsets(target.extax, state.axisOffsets, -1);
+    return kOk;
 }
 
 } // namespace
@@ -55,52 +58,66 @@ extern "C" {
 
 Status rt_CRobT(TaskCore* task, data::Robtarget* result, Handle* TaskRef, const String* TaskName,
                 data::Tooldata* Tool, data::Wobjdata* WObj) {
-    if (const Status status = checkTask(task, TaskRef, TaskName)) return status;
-    return lib::give(task, result, lib::toRobtarget(currentTarget(task, Tool, WObj)));
+    TaskCore* asked = nullptr;
+    if (const Status status = askedTask(task, TaskRef, TaskName, asked)) return status;
+    motion::RobTarget target;
+    if (const Status status = currentTarget(task, asked, Tool, WObj, target)) return status;
+    return lib::give(task, result, lib::toRobtarget(target));
 }
 
 Status rt_CPos(TaskCore* task, data::Pos* result, data::Tooldata* Tool, data::Wobjdata* WObj) {
-    return lib::give(task, result, lib::toPos(currentTarget(task, Tool, WObj).pose.pos));
+    motion::RobTarget target;
+    if (const Status status = currentTarget(task, task, Tool, WObj, target)) return status;
+    return lib::give(task, result, lib::toPos(target.pose.pos));
 }
 
 Status rt_CJointT(TaskCore* task, data::Jointtarget* result, Handle* TaskRef, const String* TaskName) {
-    if (const Status status = checkTask(task, TaskRef, TaskName)) return status;
+    TaskCore* asked = nullptr;
+    if (const Status status = askedTask(task, TaskRef, TaskName, asked)) return status;
     return lib::give(task, result,
-                     lib::toJointtarget(systemOf(task).currentJoints(), systemOf(task).kinematics()));
+                     lib::toJointtarget(systemOf(asked).currentJoints(), systemOf(asked).kinematics()));
 }
 
 Status rt_CTool(TaskCore* task, data::Tooldata* result, Handle* TaskRef, const String* TaskName) {
-    if (const Status status = checkTask(task, TaskRef, TaskName)) return status;
-    *result = lib::motionState(task).tool;
+    TaskCore* asked = nullptr;
+    if (const Status status = askedTask(task, TaskRef, TaskName, asked)) return status;
+    *result = lib::motionState(asked).tool;
     return kOk;
 }
 
 Status rt_CWObj(TaskCore* task, data::Wobjdata* result, Handle* TaskRef, const String* TaskName) {
-    if (const Status status = checkTask(task, TaskRef, TaskName)) return status;
-    *result = lib::motionState(task).workObject;
+    TaskCore* asked = nullptr;
+    if (const Status status = askedTask(task, TaskRef, TaskName, asked)) return status;
+    *result = lib::motionState(asked).workObject;
     return kOk;
 }
 
 Status rt_CalcRobT(TaskCore* task, data::Robtarget* result, const data::Jointtarget* Joint_target,
                    data::Tooldata* Tool, data::Wobjdata* WObj) {
-    const motion::FrameSetup frames = framesFor(task, Tool, WObj ? WObj : &world());
-    motion::RobTarget target = motion::calcRobTarget(
-        systemOf(task).kinematics(), lib::toJoints(*Joint_target, systemOf(task).kinematics()), frames);
+    motion::FrameSetup frames;
+    if (const Status status = lib::frameSetup(task, Tool, WObj ? WObj : &world(), frames)) return status;
+    const motion::MotionSystem& system = systemOf(task);
+    motion::RobTarget target = system.toRobTarget(lib::toJoints(*Joint_target, system.kinematics()), frames);
     lib::addOffsets(target.extax, lib::motionState(task).axisOffsets, -1);
     return lib::give(task, result, lib::toRobtarget(target));
 }
 
-/// \UseCurWObjPos only matters for work objects that another unit moves.
-Status rt_CalcJointT(TaskCore* task, data::Jointtarget* result, bool, const data::Robtarget* Rob_target,
-                     data::Tooldata* Tool, data::Wobjdata* WObj, float* ErrorNumber) {
-    const motion::FrameSetup frames = framesFor(task, Tool, WObj ? WObj : &world());
+/// Without \UseCurWObjPos a work object that a unit moves is where the external axes of the target bring it.
+Status rt_CalcJointT(TaskCore* task, data::Jointtarget* result, bool UseCurWObjPos,
+                     const data::Robtarget* Rob_target, data::Tooldata* Tool, data::Wobjdata* WObj,
+                     float* ErrorNumber) {
+    motion::FrameSetup frames;
+    if (const Status status = lib::frameSetup(task, Tool, WObj ? WObj : &world(), frames)) return status;
     motion::RobTarget target = lib::toTarget(*Rob_target);
     lib::addOffsets(target.extax, lib::motionState(task).axisOffsets, 1);
-    motion::MotionSystem& system = systemOf(task);
-    const auto joints =
-        motion::calcJointTarget(system.kinematics(), target, frames, system.currentJoints().robax);
+    const motion::MotionSystem& system = systemOf(task);
+    if (UseCurWObjPos && frames.userMover != nullptr) {
+        frames.workObject.uframe = frames.userMover->frame(system.currentJoints().extax);
+        frames.userMover = nullptr;
+    }
+    const auto joints = system.toJointTarget(target, frames);
     if (ErrorNumber) *ErrorNumber = 0;
-    if (joints) return lib::give(task, result, lib::toJointtarget(*joints, systemOf(task).kinematics()));
+    if (joints) return lib::give(task, result, lib::toJointtarget(*joints, system.kinematics()));
     const Status number = lib::motionErrno(joints.error());
     if (!ErrorNumber) return lib::fail(task, number, joints.error().message());
     *ErrorNumber = static_cast<float>(number);
@@ -121,8 +138,8 @@ Status rt_ORobT(TaskCore* task, data::Robtarget* result, const data::Robtarget* 
 
 Status rt_RobName(TaskCore* task, String* result) {
     Task& owner = taskOf(task);
-    result->assign(owner.isMotionTask() ? std::string_view(owner.controller().motion().unitName())
-                                        : std::string_view());
+    result->assign(lib::movesRobot(owner) ? std::string_view(lib::motionOf(task).unitName())
+                                          : std::string_view());
     return kOk;
 }
 }

@@ -66,7 +66,7 @@ Status moveAndCall(TaskCore* core, motion::MoveCommand command, const lib::MoveA
         return lib::orderMove(core, std::move(command), arguments, {std::move(atPoint)});
     }
     status = lib::orderMove(core, std::move(command), arguments);
-    if (status != kOk || task.controller().motion().isBackward()) return status;
+    if (status != kOk || task.controller().motion(task).isBackward()) return status;
     return task.passOn(task.interrupts().callNow(call));
 }
 

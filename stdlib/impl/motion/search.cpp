@@ -13,11 +13,11 @@ void Search::begin() {
     if (isOver_) return;
     if (conditions_.activeLevel != value()) return watch();
     wasActive_ = true;
-    task_.controller().motion().breakOff(false);
+    task_.controller().motion(task_).breakOff(false);
 }
 
 void Search::watch() {
-    level_ = task_.controller().motion().pathLevel();
+    level_ = task_.controller().motion(task_).pathLevel();
     last_ = value();
     if (source_.persistent != nullptr)
         dataWatch_ = task_.scheduler().watchData([this] { look(); });
@@ -30,7 +30,7 @@ void Search::watch() {
 void Search::look() {
     const bool now = value();
     if (now == std::exchange(last_, now)) return;
-    MotionDriver& driver = task_.controller().motion();
+    MotionDriver& driver = task_.controller().motion(task_);
     if (driver.pathLevel() != level_ || !(now ? conditions_.rising : conditions_.falling)) return;
     if (hits_++ > 0) return;
     place_ = driver.system().currentJoints();

@@ -52,7 +52,7 @@ Status search(TaskCore* task, motion::MoveCommand command, const SearchArguments
               const lib::MoveArguments& move, std::optional<motion::JointTarget>& place) {
     if (const Status status = lib::requireMotionTask(task)) return status;
     Task& owner = taskOf(task);
-    MotionDriver& driver = owner.controller().motion();
+    MotionDriver& driver = owner.controller().motion(owner);
     lib::SearchSource source{-1, args.persistent};
     Status status = kOk;
     if (args.persistent == nullptr) source.signal = lib::signalOf(task, *args.signal, status);
@@ -97,9 +97,11 @@ Status giveTarget(TaskCore* task, const motion::JointTarget& place, const lib::M
                   data::Robtarget* result) {
     const lib::MotionState& state = lib::motionState(task);
     const data::Wobjdata world = lib::MotionState().workObject;
-    const motion::FrameSetup frames =
-        lib::frameSetup(state, move.tool, move.workObject != nullptr ? move.workObject : &world);
-    motion::RobTarget target = taskOf(task).controller().motion().system().toRobTarget(place, frames);
+    motion::FrameSetup frames;
+    if (const Status status =
+            lib::frameSetup(task, move.tool, move.workObject != nullptr ? move.workObject : &world, frames))
+        return status;
+    motion::RobTarget target = lib::motionOf(task).system().toRobTarget(place, frames);
     lib::addOffsets(target.extax, state.axisOffsets, -1);
     return lib::give(task, result, lib::toRobtarget(target));
 }
@@ -118,7 +120,7 @@ Status searchJoints(TaskCore* task, motion::MoveCommand command, const SearchArg
     if (const Status status = search(task, std::move(command), args, move, place)) return status;
     if (!place) return kOk;
     if (offsets) lib::addOffsets(place->extax, lib::motionState(task).axisOffsets, -1);
-    const robot::Kinematics& arm = taskOf(task).controller().motion().system().kinematics();
+    const robot::Kinematics& arm = lib::motionOf(task).system().kinematics();
     return lib::give(task, result, lib::toJointtarget(*place, arm));
 }
 

@@ -33,7 +33,7 @@ Status pathLimit(TaskCore* task, bool on, const float* value, double& limit) {
 extern "C" {
 
 Status rt_MaxRobSpeed(TaskCore* task, float* result) {
-    *result = static_cast<float>(taskOf(task).controller().motion().system().model().maxTcpSpeed);
+    *result = static_cast<float>(lib::motionOf(task).system().model().maxTcpSpeed);
     return kOk;
 }
 
@@ -82,14 +82,14 @@ Status rt_ConfL(TaskCore* task, bool, bool Off) {
 Status rt_SpeedRefresh(TaskCore* task, float Override) {
     if (!(Override >= 0 && Override <= 100))
         return lib::fail(task, err::ERR_SPEED_REFRESH_LIM, "the override must lie between 0 and 100 percent");
-    MotionDriver& driver = taskOf(task).controller().motion();
+    MotionDriver& driver = lib::motionOf(task);
     driver.system().setOverride(Override);
     driver.refresh();
     return kOk;
 }
 
 Status rt_CSpeedOverride(TaskCore* task, float* result, bool) {
-    *result = static_cast<float>(taskOf(task).controller().motion().system().speedOverride());
+    *result = static_cast<float>(lib::motionOf(task).system().speedOverride());
     return kOk;
 }
 
@@ -108,15 +108,14 @@ Status rt_PDispOn(TaskCore* task, bool Rot, const data::Robtarget* ExeP, const d
                   data::Tooldata* Tool, data::Wobjdata* WObj) {
     lib::MotionState& state = lib::motionState(task);
     static const data::Wobjdata kWorld = lib::MotionState().workObject;
-    motion::FrameSetup frames = lib::frameSetup(state, Tool, WObj ? WObj : &kWorld);
+    motion::FrameSetup frames;
+    if (const Status status = lib::frameSetup(task, Tool, WObj ? WObj : &kWorld, frames)) return status;
     frames.displacement = {};
     motion::Pose executed;
     if (ExeP) {
         executed = lib::toFrame(*ExeP);
     } else {
-        motion::MotionSystem& system = taskOf(task).controller().motion().system();
-        frames.baseFrame = system.model().baseFrame;
-        executed = system.currentTarget(frames).pose;
+        executed = lib::motionOf(task).system().currentTarget(frames).pose;
     }
     const motion::Pose point = lib::toFrame(*ProgPoint);
     state.displacement = Rot ? executed * robot::inverse(point) : motion::Pose{executed.pos - point.pos, {}};
@@ -138,7 +137,7 @@ Status rt_EOffsOff(TaskCore* task) {
 
 Status rt_EOffsOn(TaskCore* task, const data::Robtarget* ExeP, const data::Robtarget* ProgPoint) {
     const motion::ExternalAxes executed =
-        ExeP ? lib::toAxes(ExeP->extax) : taskOf(task).controller().motion().system().currentJoints().extax;
+        ExeP ? lib::toAxes(ExeP->extax) : lib::motionOf(task).system().currentJoints().extax;
     const motion::ExternalAxes point = lib::toAxes(ProgPoint->extax);
     motion::ExternalAxes offsets{};
     for (size_t i = 0; i < offsets.size(); ++i)
@@ -174,7 +173,7 @@ Status rt_MotionSup(TaskCore*, bool, bool, const float*, bool) {
     return kOk;
 }
 Status rt_CornerPathWarning(TaskCore* task, bool Active) {
-    taskOf(task).controller().motion().setCornerWarning(Active);
+    lib::motionOf(task).setCornerWarning(Active);
     return kOk;
 }
 Status rt_GripLoad(TaskCore*, data::Loaddata*) {

@@ -16,8 +16,7 @@ constexpr double kNoise = 1e-5;
 
 /// Speed of the TCP `lag` from now. What comes behind the end of the movement in progress is not planned yet: the arm stops
 /// there.
-double speedIn(Controller& controller, Time lag) {
-    const motion::MotionSystem& arm = controller.motion().system();
+double speedIn(const motion::MotionSystem& arm, Time lag) {
     if (!arm.isMoving()) return 0;
     const auto end = arm.reachTime(arm.currentMove());
     if (lag == 0 || !end) return arm.current().tcpSpeed; // nothing is known ahead of an arm that brakes
@@ -27,9 +26,9 @@ double speedIn(Controller& controller, Time lag) {
 
 class SpeedOutputs {
   public:
-    void follow(Controller& controller, Handle output, const SpeedScale& scale) {
-        if (!std::exchange(listening_, true))
-            controller.motion().addListener([this, &controller](ArmNews) { update(controller); });
+    void follow(Controller& controller, MotionDriver& motion, Handle output, const SpeedScale& scale) {
+        if (std::exchange(motion_, &motion) == nullptr)
+            motion.addListener([this, &controller](ArmNews) { update(controller); });
         outputs_[output] = scale;
         update(controller);
         if (scale.scale == 0) outputs_.erase(output);
@@ -45,7 +44,7 @@ class SpeedOutputs {
     void update(Controller& controller) {
         for (const auto& [output, scale] : outputs_)
             set(controller, output, scale);
-        if (outputs_.empty() || tick_ != 0 || !controller.motion().system().isMoving()) return;
+        if (outputs_.empty() || tick_ != 0 || !motion_->system().isMoving()) return;
         const Time now = controller.scheduler().now();
         tick_ = controller.scheduler().at((now / kPeriod + 1) * kPeriod, [this, &controller] {
             tick_ = 0;
@@ -53,10 +52,10 @@ class SpeedOutputs {
         });
     }
 
-    static void set(Controller& controller, Handle output, const SpeedScale& scale) {
+    void set(Controller& controller, Handle output, const SpeedScale& scale) const {
         IoSystem& io = controller.io();
         const SignalConfig& limits = io.config(io.idOf(output));
-        const double wanted = scale.scale * speedIn(controller, scale.dipLag);
+        const double wanted = scale.scale * speedIn(motion_->system(), scale.dipLag);
         const double value = std::clamp(wanted, limits.minValue, limits.maxValue);
         (void)io.set(output, value); // checked when the trigger was defined
         const bool outside = std::fabs(value - wanted) > kNoise * (limits.maxValue - limits.minValue);
@@ -65,17 +64,18 @@ class SpeedOutputs {
 
     std::map<Handle, SpeedScale> outputs_;
     EventToken tick_ = 0;
-    bool listening_ = false;
+    MotionDriver* motion_ = nullptr; // known when the first output follows it
 };
 
 } // namespace
 
-void followSpeed(Controller& controller, Handle output, const SpeedScale& scale) {
-    controller.service<SpeedOutputs>().follow(controller, output, scale);
+void followSpeed(Task& task, Handle output, const SpeedScale& scale) {
+    MotionDriver& motion = task.controller().motion(task);
+    motion.service<SpeedOutputs>().follow(task.controller(), motion, output, scale);
 }
 
-void endSpeedOutputs(Controller& controller) {
-    controller.service<SpeedOutputs>().end(controller);
+void endSpeedOutputs(Task& task) {
+    task.controller().motion(task).service<SpeedOutputs>().end(task.controller());
 }
 
 } // namespace rt::lib

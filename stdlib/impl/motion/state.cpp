@@ -15,40 +15,30 @@
 namespace rt::lib {
 
 MotionState& motionState(TaskCore* task) {
-    return taskOf(task).controller().service<MotionState>();
+    return motionOf(task).service<MotionState>();
 }
 
 void resetSettings(Task& task) {
     if (!task.isMotionTask()) return;
-    task.controller().motion().setCornerWarning(true);
-    auto& state = task.controller().service<MotionState>();
+    auto& state = task.controller().motion(task).service<MotionState>();
     MotionState defaults;
     defaults.tool = state.tool;
     defaults.workObject = state.workObject;
     state = defaults;
-    endSpeedOutputs(task.controller());
-    endStopSupervision(task.controller());
-    endTemporaryZones(task.controller());
-    endPathRecording(task.controller());
-    endCorrections(task.controller());
-    endIndependentMode(task.controller());
+    MotionDriver& motion = task.controller().motion(task);
+    motion.setCornerWarning(true);
+    endSpeedOutputs(task);
+    endStopSupervision(task);
+    endTemporaryZones(task);
+    endPathRecording(motion);
+    endCorrections(motion);
+    endIndependentMode(motion);
 }
 
 Status requireMotionTask(TaskCore* task) {
     if (taskOf(task).isMotionTask()) return kOk;
     return fail(task, err::ERR_NOT_MOVETASK,
                 "only a motion task may move the robot; set MotionTask of this task");
-}
-
-motion::FrameSetup frameSetup(const MotionState& state, const data::Tooldata* tool,
-                              const data::Wobjdata* workObject) {
-    const data::Tooldata& t = tool ? *tool : state.tool;
-    const data::Wobjdata& w = workObject ? *workObject : state.workObject;
-    motion::FrameSetup frames;
-    frames.tool = {t.robhold, toFrame(t.tframe)};
-    frames.workObject = {w.robhold, toFrame(w.uframe), toFrame(w.oframe)};
-    frames.displacement = state.displacement;
-    return frames;
 }
 
 motion::ExternalAxes toAxes(const data::Extjoint& a) {

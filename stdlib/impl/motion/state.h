@@ -11,7 +11,19 @@ struct StateKeepers;
 
 namespace rt::lib {
 
-/// Settings of the robot; one per controller. The defaults are those SYS_RESET restores.
+/// The motion group that the task controls, or, if it controls none, the first one, which it may ask.
+inline MotionDriver& motionOf(TaskCore* task) {
+    const Task& owner = taskOf(task);
+    return owner.controller().motion(owner);
+}
+
+/// The task controls a robot with a TCP, not only external units.
+inline bool movesRobot(const Task& task) {
+    return task.isMotionTask() &&
+           task.controller().motion(task).model().kinematics != robot::KinematicsKind::NoArm;
+}
+
+/// Settings of a motion group. The defaults are those SYS_RESET restores.
 struct MotionState {
     motion::MotionSettings settings;
     bool confJ = true, confL = true;
@@ -27,16 +39,17 @@ MotionState& motionState(TaskCore* task);
 /// What SYS_RESET does when the program of a motion task begins anew (manual 1.7): defaults; tool and work object stay.
 void resetSettings(Task& task);
 /// The program begins anew: TriggStopProc supervises no more.
-void endStopSupervision(Controller& controller);
+void endStopSupervision(Task& task);
 /// The settings are kept between two processes (--state).
 void keepSettings(Controller& controller, StateKeepers& kept);
 
 /// kOk, or ERR_NOT_MOVETASK raised: only a task that controls the robot may move it.
 Status requireMotionTask(TaskCore* task);
 
-/// Frames for a tool and a work object; null = the one in force. With the program displacement.
-motion::FrameSetup frameSetup(const MotionState& state, const data::Tooldata* tool,
-                              const data::Wobjdata* workObject);
+/// Frames for a tool and a work object; null = the one in force. With the program displacement. ERR_ARGVALERR when the work
+/// object is moved by a mechanical unit that is not there, ERR_WOBJ_MOVING when one of another task moves.
+Status frameSetup(TaskCore* task, const data::Tooldata* tool, const data::Wobjdata* workObject,
+                  motion::FrameSetup& frames);
 
 /// Positions as programmed; axis offsets are not looked at.
 motion::RobTarget toTarget(const data::Robtarget& target);

@@ -36,9 +36,9 @@ std::array<float*, kSignals> after(data::Restartdata& d) {
 class StopSupervision {
   public:
     /// In place of an earlier one with the same data.
-    void add(Controller& controller, const Supervised& supervised) {
-        if (!std::exchange(listening_, true))
-            controller.motion().addListener([this, &controller](ArmNews news) { take(controller, news); });
+    void add(Controller& controller, MotionDriver& motion, const Supervised& supervised) {
+        if (std::exchange(motion_, &motion) == nullptr)
+            motion.addListener([this, &controller](ArmNews news) { take(controller, news); });
         std::erase_if(all_, [&](const Supervised& known) { return known.data == supervised.data; });
         all_.push_back(supervised);
         invalidate(*supervised.data);
@@ -71,7 +71,7 @@ class StopSupervision {
         case ArmNews::PowerFailed:
         case ArmNews::CornerLost:
         case ArmNews::Event:
-            if (braking_ && !controller.motion().system().isMoving()) end(controller);
+            if (braking_ && !motion_->system().isMoving()) end(controller);
             return;
         }
     }
@@ -113,15 +113,16 @@ class StopSupervision {
 
     std::vector<Supervised> all_;
     uint64_t listener_ = 0;
-    bool listening_ = false, stopped_ = false, braking_ = false, onPath_ = true;
+    MotionDriver* motion_ = nullptr; // known when the first one is supervised
+    bool stopped_ = false, braking_ = false, onPath_ = true;
 };
 
 } // namespace
 
 namespace rt::lib {
 
-void endStopSupervision(Controller& controller) {
-    controller.service<StopSupervision>().clear();
+void endStopSupervision(Task& task) {
+    task.controller().motion(task).service<StopSupervision>().clear();
 }
 
 } // namespace rt::lib
@@ -148,7 +149,8 @@ Status rt_TriggStopProc(TaskCore* task, data::Restartdata* RestartRef, Handle* D
     if (!any)
         return lib::fail(task, err::ERR_ARGVALERR,
                          "TriggStopProc needs a process signal: at least one of \\DO1 and \\GO1 to \\GO4");
-    controller.service<StopSupervision>().add(controller, supervised);
+    MotionDriver& motion = lib::motionOf(task);
+    motion.service<StopSupervision>().add(controller, motion, supervised);
     return kOk;
 }
 }

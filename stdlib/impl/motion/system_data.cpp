@@ -59,7 +59,7 @@ extern "C" Status rt_systemData(TaskCore* task, void* data, const String* name) 
     Task& owner = taskOf(task);
     const lib::MotionState& state = lib::motionState(task);
     if (sameName(name->view(), "C_MOTSET")) {
-        const double most = owner.controller().motion().system().model().maxTcpSpeed;
+        const double most = owner.controller().motion(owner).system().model().maxTcpSpeed;
         const data::Motsetdata settings = motionSettings(state, most);
         std::memcpy(data, &settings, sizeof settings);
         return kOk;

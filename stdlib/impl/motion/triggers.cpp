@@ -56,7 +56,7 @@ void checkSignal(Task& task, const TriggerDefinition& trigger) {
     IoResult result = IoResult::Ok;
     const double value = task.controller().io().read(trigger.signal, result);
     if (lib::related(value, trigger.relation, trigger.value).value_or(false)) return;
-    if (trigger.stopMove) task.controller().motion().stopMove();
+    if (trigger.stopMove) task.controller().motion(task).stopMove();
     task.interrupts().post(trigger.interrupt);
 }
 
@@ -64,7 +64,7 @@ void execute(Task& task, const TriggerDefinition& trigger) {
     if (trigger.kind == TriggerDefinition::Kind::Output) return setOutput(task, trigger, trigger.value);
     if (trigger.kind == TriggerDefinition::Kind::Speed)
         return lib::followSpeed(
-            task.controller(), trigger.signal,
+            task, trigger.signal,
             {valueAtPlace(trigger, trigger.value), fromSeconds(trigger.dipLag), trigger.errorSignal});
     if (trigger.inhibit != nullptr && *trigger.inhibit) return;
     if (trigger.kind == TriggerDefinition::Kind::Check) return checkSignal(task, trigger);

@@ -37,29 +37,30 @@ bool isUnderWay(const motion::MotionSystem& arm) {
 }
 
 /// The tasks that move the robot stop with an error, and with them all NORMAL tasks.
-void stopProgram(Controller& controller, const WorldZone& zone) {
-    const bool isIn = zone.shape.contains(controller.motion().system().current());
+void stopProgram(Controller& controller, MotionDriver& motion, const WorldZone& zone) {
+    const bool isIn = zone.shape.contains(motion.system().current());
     Task* mover = nullptr;
     for (const auto& task : controller.tasks())
-        if (task->isMotionTask() && task->isExecuting()) mover = task.get();
-    controller.log().write(EventId::WorldZoneStop, mover,
-                           {controller.motion().unitName(), isIn ? "it is inside" : "it would enter",
-                            std::to_string(zone.number)});
+        if (task->motionGroup() == static_cast<int>(motion.group()) && task->isExecuting())
+            mover = task.get();
+    controller.log().write(
+        EventId::WorldZoneStop, mover,
+        {motion.unitName(), isIn ? "it is inside" : "it would enter", std::to_string(zone.number)});
     if (mover != nullptr) {
         mover->stop(StopCause::Error);
         controller.taskFailed(*mover);
     } else {
-        controller.motion().programStop();
+        motion.programStop();
     }
 }
 
 } // namespace
 
-int WorldZones::add(Controller& controller, const WorldZone& zone) {
+int WorldZones::add(const WorldZone& zone) {
     if (zones_.size() >= kMost) return 0;
     zones_.push_back(zone);
     zones_.back().number = ++lastNumber_;
-    enable(controller, zones_.back());
+    enable(zones_.back());
     return lastNumber_;
 }
 
@@ -69,14 +70,14 @@ WorldZone* WorldZones::find(int number) {
     return found == zones_.end() ? nullptr : &*found;
 }
 
-void WorldZones::enable(Controller& controller, WorldZone& zone) {
-    listen(controller);
+void WorldZones::enable(WorldZone& zone) {
+    listen();
     zone.enabled = true;
     zone.inside.reset();
     if (motorsOff_) return;
-    const motion::MotionSystem& arm = controller.motion().system();
-    if (zone.action != Action::Stop) act(controller, zone, concerns(zone, arm, arm.now()));
-    lookAt(controller, controller.scheduler().now());
+    const motion::MotionSystem& arm = motion_->system();
+    if (zone.action != Action::Stop) act(zone, concerns(zone, arm, arm.now()));
+    lookAt(controller_->scheduler().now());
 }
 
 void WorldZones::erase(int number) {
@@ -87,56 +88,56 @@ void WorldZones::eraseTemporary() {
     std::erase_if(zones_, [](const WorldZone& zone) { return !zone.stationary; });
 }
 
-void WorldZones::restore(Controller& controller, std::vector<WorldZone> zones, int lastNumber) {
-    listen(controller);
+void WorldZones::restore(std::vector<WorldZone> zones, int lastNumber) {
+    listen();
     zones_ = std::move(zones);
     lastNumber_ = lastNumber;
-    lookAt(controller, controller.scheduler().now());
+    lookAt(controller_->scheduler().now());
 }
 
-void WorldZones::listen(Controller& controller) {
+void WorldZones::listen() {
     if (std::exchange(listening_, true)) return;
-    motorsOff_ = !controller.motorsOn();
-    controller.motion().addListener([this, &controller](ArmNews news) { take(controller, news); });
+    motorsOff_ = !controller_->motorsOn();
+    motion_->addListener([this](ArmNews news) { take(news); });
 }
 
 /// While the motors are off nothing is looked at; what they find when they are on again is acted upon anew.
-void WorldZones::take(Controller& controller, ArmNews news) {
+void WorldZones::take(ArmNews news) {
     if (news == ArmNews::MotorsOff) motorsOff_ = true;
     if (news == ArmNews::PowerFailed)
         std::erase_if(zones_, [](const WorldZone& zone) { return zone.stationary; });
     if (news == ArmNews::Start && std::exchange(motorsOff_, false))
         for (WorldZone& zone : zones_)
             zone.inside.reset();
-    noteMotion(controller);
+    noteMotion();
 }
 
-void WorldZones::noteMotion(Controller& controller) {
-    if (!zones_.empty() && !motorsOff_) lookAt(controller, controller.scheduler().now());
+void WorldZones::noteMotion() {
+    if (!zones_.empty() && !motorsOff_) lookAt(controller_->scheduler().now());
 }
 
-void WorldZones::lookAt(Controller& controller, Time time) {
-    controller.scheduler().cancel(tick_);
-    tick_ = controller.scheduler().at(time, [this, &controller] {
+void WorldZones::lookAt(Time time) {
+    controller_->scheduler().cancel(tick_);
+    tick_ = controller_->scheduler().at(time, [this] {
         tick_ = 0;
-        look(controller);
+        look();
     });
 }
 
 /// Acts on where the arm is now, and arranges the next look.
-void WorldZones::look(Controller& controller) {
+void WorldZones::look() {
     if (motorsOff_ || zones_.empty()) return;
-    const motion::MotionSystem& arm = controller.motion().system();
-    const Time now = controller.scheduler().now();
+    const motion::MotionSystem& arm = motion_->system();
+    const Time now = controller_->scheduler().now();
     const bool isMoving = isUnderWay(arm);
     Time next = now + kStep;
     for (WorldZone& zone : zones_) {
         if (!zone.enabled || (zone.action == Action::Stop && (!isMoving || arm.isStopRequested()))) continue;
         const bool inside = concerns(zone, arm, now);
         if (zone.action != Action::Stop) {
-            act(controller, zone, inside);
+            act(zone, inside);
         } else if (inside || (zone.stopAt == now && concerns(zone, arm, now + kExactness))) {
-            stopProgram(controller, zone);
+            stopProgram(*controller_, *motion_, zone);
             continue;
         }
         if (!isMoving || concerns(zone, arm, next) == inside) continue;
@@ -145,11 +146,11 @@ void WorldZones::look(Controller& controller) {
             std::exchange(zone.stopAt, last) == now; // it was to be stopped now, and need not be
         next = zone.action != Action::Stop ? last + kExactness : std::max(last, now + (isLate ? 1 : 0));
     }
-    if (isMoving) lookAt(controller, next); // at once again when it has to be stopped now
+    if (isMoving) lookAt(next); // at once again when it has to be stopped now
 }
 
 /// Zones with the same output: it has the value of those the arm is in.
-void WorldZones::act(Controller& controller, WorldZone& zone, bool inside) {
+void WorldZones::act(WorldZone& zone, bool inside) {
     if (zone.inside == inside) return;
     zone.inside = inside;
     const auto keeps = [&](const WorldZone& other) {
@@ -157,12 +158,18 @@ void WorldZones::act(Controller& controller, WorldZone& zone, bool inside) {
                other.inside == true;
     };
     if (!inside && std::any_of(zones_.begin(), zones_.end(), keeps)) return;
-    IoSystem& io = controller.io();
+    IoSystem& io = controller_->io();
     (void)io.force(io.idOf(zone.output), zone.value == inside ? 1 : 0); // checked by WZDOSet
 }
 
-void endTemporaryZones(Controller& controller) {
-    controller.service<WorldZones>().eraseTemporary();
+WorldZones& zonesOf(Controller& controller, MotionDriver& motion) {
+    auto& zones = motion.service<WorldZones>();
+    zones.connect(controller, motion);
+    return zones;
+}
+
+void endTemporaryZones(Task& task) {
+    zonesOf(task.controller(), task.controller().motion(task)).eraseTemporary();
 }
 
 } // namespace rt::lib

@@ -34,29 +34,36 @@ class WorldZones {
   public:
     static constexpr std::size_t kMost = 20; ///< at the same time
 
+    /// Once, before anything else.
+    void connect(Controller& controller, MotionDriver& motion) {
+        controller_ = &controller;
+        motion_ = &motion;
+    }
     /// Gives the zone its number and acts on where the arm is; 0 when there are kMost already.
-    int add(Controller& controller, const WorldZone& zone);
+    int add(const WorldZone& zone);
     /// Null when there is no such zone.
     WorldZone* find(int number);
-    void enable(Controller& controller, WorldZone& zone);
+    void enable(WorldZone& zone);
     /// Its output keeps its value.
     void disable(WorldZone& zone) { zone.enabled = false; }
     void erase(int number);
     void eraseTemporary();
     /// The arm may have begun to move without a movement on its path.
-    void noteMotion(Controller& controller);
+    void noteMotion();
     const std::vector<WorldZone>& all() const { return zones_; }
     /// Temporary zones of an earlier process, in place of all there are.
-    void restore(Controller& controller, std::vector<WorldZone> zones, int lastNumber);
+    void restore(std::vector<WorldZone> zones, int lastNumber);
     int lastNumber() const { return lastNumber_; }
 
   private:
-    void listen(Controller& controller);
-    void take(Controller& controller, ArmNews news);
-    void lookAt(Controller& controller, Time time);
-    void look(Controller& controller);
-    void act(Controller& controller, WorldZone& zone, bool inside);
+    void listen();
+    void take(ArmNews news);
+    void lookAt(Time time);
+    void look();
+    void act(WorldZone& zone, bool inside);
 
+    Controller* controller_ = nullptr;
+    MotionDriver* motion_ = nullptr;
     std::vector<WorldZone> zones_;
     int lastNumber_ = 0;
     EventToken tick_ = 0;
@@ -64,8 +71,10 @@ class WorldZones {
     bool motorsOff_ = false;
 };
 
+/// The zones of a motion group: they supervise its robot.
+WorldZones& zonesOf(Controller& controller, MotionDriver& motion);
 /// The program begins anew: temporary zones are erased.
-void endTemporaryZones(Controller& controller);
+void endTemporaryZones(Task& task);
 /// Temporary zones and shapedata variables between two processes (--state).
 void keepWorldZones(Controller& controller, StateKeepers& kept);
 

@@ -21,7 +21,7 @@ using lib::ZoneShape;
 namespace {
 
 lib::WorldZones& zonesOf(TaskCore* task) {
-    return taskOf(task).controller().service<lib::WorldZones>();
+    return lib::zonesOf(taskOf(task).controller(), lib::motionOf(task));
 }
 
 Status misused(TaskCore* task, std::string why) {
@@ -101,7 +101,7 @@ Status prepare(TaskCore* task, const char* instruction, bool temp, bool stat, fl
 }
 
 Status add(TaskCore* task, const WorldZone& zone, float& number) {
-    const int made = zonesOf(task).add(taskOf(task).controller(), zone);
+    const int made = zonesOf(task).add(zone);
     if (made == 0)
         return misused(task, "There are 20 world zones already, which is the most. Erase one with WZFree.");
     number = static_cast<float>(made);
@@ -228,7 +228,7 @@ Status rt_WZDisable(TaskCore* task, data::Wztemporary* WorldZoneData) {
 Status rt_WZEnable(TaskCore* task, data::Wztemporary* WorldZoneData) {
     Status status = kOk;
     WorldZone* zone = zoneOf(task, "WZEnable", *WorldZoneData, status);
-    if (zone != nullptr && !zone->enabled) zonesOf(task).enable(taskOf(task).controller(), *zone);
+    if (zone != nullptr && !zone->enabled) zonesOf(task).enable(*zone);
     return status;
 }
 

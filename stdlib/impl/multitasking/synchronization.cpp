@@ -127,7 +127,7 @@ Status rt_WaitSyncTask(TaskCore* task, bool InPos, Handle* SyncID, data::Tasks* 
     arrival.point = nameOfPoint(owner, SyncID);
     if (const Status status = readList(owner, TaskList, TaskListDim1, arrival.partners)) return status;
     if (InPos && owner.isMotionTask()) {
-        if (const Status status = controller.motion().waitIdle(owner)) return status;
+        if (const Status status = controller.motion(owner).waitIdle(owner)) return status;
     }
     auto& points = controller.service<SyncPoints>();
     if (const Status status = compareLists(owner, points, arrival)) return status;

@@ -1,6 +1,6 @@
 // Manual 1.6 and 1.17: modes, tasks, types of data.
 
-#include "runtime/host/controller.h"
+#include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/task_asked.h"
@@ -74,7 +74,7 @@ Status rt_GetTaskName(TaskCore* task, String* result, float* TaskNo, float* MecT
     const Task& owner = taskOf(task);
     const auto number = static_cast<float>(owner.index() + 1);
     if (TaskNo) *TaskNo = number;
-    if (MecTaskNo) *MecTaskNo = owner.isMotionTask() ? 1 : 0; // one robot
+    if (MecTaskNo) *MecTaskNo = static_cast<float>(owner.motionGroup() + 1);
     result->assign(owner.name());
     return kOk;
 }
@@ -83,7 +83,7 @@ Status rt_TaskRunMec(TaskCore* task, bool* result) {
     return kOk;
 }
 Status rt_TaskRunRob(TaskCore* task, bool* result) {
-    *result = taskOf(task).isMotionTask();
+    *result = lib::movesRobot(taskOf(task));
     return kOk;
 }
 Status rt_TaskIsExecuting(TaskCore* task, bool* result, Handle* TaskRef, const String* TaskName) {
@@ -106,16 +106,8 @@ Status rt_GetTSPStatus(TaskCore* task, float* result, Handle* TaskRef, const Str
         *result = other->kind() == TaskKind::Normal ? k::TSP_STATUS_ACT : k::TSP_STATUS_NOT_NORMAL_TASK;
     return status;
 }
-Status rt_GetMecUnitName(TaskCore* task, String* result, Handle* MechUnit) {
-    const std::vector<std::string> units = taskOf(task).controller().mechanicalUnits();
-    const auto index = static_cast<std::size_t>(*MechUnit - 1);
-    if (index >= units.size())
-        return lib::fail(task, err::ERR_REFUNKDAT, "the configuration does not define this mechanical unit");
-    result->assign(units[index]);
-    return kOk;
-}
 Status rt_MotionPlannerNo(TaskCore* task, float* result) {
-    *result = taskOf(task).isMotionTask() ? 1 : 0;
+    *result = static_cast<float>(taskOf(task).motionGroup() + 1);
     return kOk;
 }
 Status rt_IsSyncMoveOn(TaskCore*, bool* result) {

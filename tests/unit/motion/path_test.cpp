@@ -62,21 +62,21 @@ TEST_CASE("tool, work object and displacement compose in the manual's order", "[
     frames.workObject.oframe = pose(0, 40, 0);
     frames.displacement = pose(1, 2, 3);
     const Pose target = pose(10, 20, 30, fromEulerZyx(0, 180, 0));
-    const Pose flange = frames.toFlange(target);
+    const Pose flange = frames.toFlange(target, kNoExternalAxes);
     checkSame(frames.baseFrame * flange * frames.tool.tframe,
               frames.workObject.uframe * frames.workObject.oframe * frames.displacement * target);
-    checkSame(frames.fromFlange(flange), target);
-    checkSame(frames.tcpInWorld(flange), frames.baseFrame * flange * frames.tool.tframe);
+    checkSame(frames.fromFlange(flange, kNoExternalAxes), target);
+    checkSame(frames.tcpInWorld(flange, kNoExternalAxes), frames.baseFrame * flange * frames.tool.tframe);
 
     // Stationary tool: the object rides on the flange.
     frames.tool.robotHeld = false;
     frames.workObject.robotHeld = true;
-    const Pose held = frames.toFlange(target);
+    const Pose held = frames.toFlange(target, kNoExternalAxes);
     checkSame(frames.baseFrame * held * frames.workObject.uframe * frames.workObject.oframe *
                   frames.displacement * target,
               frames.tool.tframe);
-    checkSame(frames.fromFlange(held), target);
-    checkSame(frames.tcpInWorld(held), frames.tool.tframe);
+    checkSame(frames.fromFlange(held, kNoExternalAxes), target);
+    checkSame(frames.tcpInWorld(held, kNoExternalAxes), frames.tool.tframe);
 }
 
 TEST_CASE("robtarget and jointtarget turn into each other", "[motion][targets]") {
@@ -246,7 +246,7 @@ TEST_CASE("a resolved line keeps the TCP on the line at every parameter", "[moti
     command.confL = false;
     const auto path = MotionPath::make(irb120(), kReady, command);
     REQUIRE(path.hasValue());
-    const Pose from = command.frames.fromFlange(irb120().forward(kReady.robax));
+    const Pose from = command.frames.fromFlange(irb120().forward(kReady.robax), kReady.extax);
     for (int i = 0; i <= 500; ++i) {
         const double s = i / 500.0;
         const Pose at = irb120().forward(path->jointsAt(s));
@@ -310,13 +310,13 @@ TEST_CASE("a line with a stationary tool is straight on the work object", "[moti
     command.frames.tool.tframe = pose(420, 60, 500, fromEulerZyx(0, 90, 0));
     command.frames.workObject.uframe = pose(0, 0, 40);
     command.confL = false;
-    const Pose from = command.frames.fromFlange(irb120().forward(kReady.robax));
+    const Pose from = command.frames.fromFlange(irb120().forward(kReady.robax), kReady.extax);
     command.target.pose = robot::offs(from, 30, -20, 10);
     const auto path = MotionPath::make(irb120(), kReady, command);
     REQUIRE(path.hasValue());
     for (int i = 0; i <= 100; ++i) {
         const double s = i / 100.0;
-        const Pose at = command.frames.fromFlange(irb120().forward(path->jointsAt(s)));
+        const Pose at = command.frames.fromFlange(irb120().forward(path->jointsAt(s)), path->externalAt(s));
         CHECK(norm(at.pos - (from.pos + Vec3{30, -20, 10} * s)) < 1e-8);
         CHECK(angleBetween(at.rot, from.rot) < 1e-7);
     }

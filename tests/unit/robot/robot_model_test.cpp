@@ -53,6 +53,7 @@ double stretchedReach(const RobotModel& model) {
     }
     case KinematicsKind::Scara: return model.scara.upperArm + model.scara.forearm;
     case KinematicsKind::Delta: return 1000 * model.reachM; // a chosen cylinder, not the whole reach
+    case KinematicsKind::NoArm: break;
     }
     return 0;
 }

@@ -83,7 +83,7 @@ TEST_CASE("options of run", "[host]") {
                 options) == 0);
     CHECK(options.cycles == 0);
     CHECK(options.configFiles == std::vector<std::string>{"a.cfg", "b.cfg"});
-    CHECK(options.robot == "IRB 120-3/0.58");
+    CHECK(options.robots == std::vector<std::string>{"IRB 120-3/0.58"});
     CHECK(options.realtime);
     CHECK(options.hasMaxTime);
     CHECK(options.maxTime == 2.5);
@@ -208,7 +208,7 @@ TEST_CASE("wrong use of options ends with status 3, wrong configuration with 2",
         return run.run();
     };
     CHECK(tried([](RunOptions& o) { o.home = "/nowhere/at/all"; }) == ExitStatus::BadUsage);
-    CHECK(tried([](RunOptions& o) { o.robot = "no such robot"; }) == ExitStatus::BadUsage);
+    CHECK(tried([](RunOptions& o) { o.robots = {"no such robot"}; }) == ExitStatus::BadUsage);
     CHECK(tried([](RunOptions& o) { o.stimulus = "/nowhere.csv"; }) == ExitStatus::BadUsage);
     CHECK(tried([](RunOptions& o) { o.trace = "/nowhere/t.csv"; }) == ExitStatus::BadUsage);
     CHECK(tried([](RunOptions& o) { o.configFiles = {"/nowhere.cfg"}; }) == ExitStatus::BadUsage);

@@ -22,7 +22,7 @@ Status move(TaskCore* core, double degrees) {
     Task& task = taskOf(core);
     motion::MoveId id = 0;
     std::optional<motion::MotionError> error;
-    const Status status = task.controller().motion().order(task, toAxis1(degrees), id, error);
+    const Status status = task.controller().motion(task).order(task, toAxis1(degrees), id, error);
     CHECK_FALSE(error);
     return status;
 }
@@ -117,7 +117,7 @@ TEST_CASE("triggers call back at their time on the path", "[motion_driver]") {
     Run run;
     run.task("T_ROB1", [](TaskCore* core, Frame*) -> Status {
         Task& task = taskOf(core);
-        MotionDriver& driver = task.controller().motion();
+        MotionDriver& driver = task.controller().motion(task);
         motion::MoveCommand command = toAxis1(40);
         PathAction action;
         action.act = [&task] { fired = task.scheduler().now(); };
@@ -143,13 +143,13 @@ TEST_CASE("the run ends when the robot stands, not before", "[motion_driver]") {
         command.concurrent = true;
         motion::MoveId id = 0;
         std::optional<motion::MotionError> error;
-        const Status status = task.controller().motion().order(task, command, id, error);
+        const Status status = task.controller().motion(task).order(task, command, id, error);
         CHECK(task.now() == 20 * kMillisecond); // with the start of the movement
         return status;
     });
     REQUIRE(run.run() == ExitStatus::Ended);
     CHECK(run.now() > 100 * kMillisecond);
-    CHECK(run.controller->motion().system().currentJoints().robax[0] == Approx(40));
+    CHECK(run.controller->motions().front()->system().currentJoints().robax[0] == Approx(40));
 }
 
 TEST_CASE("pp_to_main throws the path away and the program begins again", "[motion_driver]") {
@@ -167,7 +167,7 @@ TEST_CASE("a move that cannot be made is told, not made", "[motion_driver]") {
         Task& task = taskOf(core);
         motion::MoveId id = 0;
         std::optional<motion::MotionError> error;
-        const Status status = task.controller().motion().order(task, toAxis1(999), id, error);
+        const Status status = task.controller().motion(task).order(task, toAxis1(999), id, error);
         REQUIRE(error);
         CHECK(error->kind == motion::MotionErrorKind::JointOutOfRange);
         return status;

@@ -69,7 +69,6 @@ struct Run {
     std::unique_ptr<rt::Controller> controller;
     rt::ExitStatus status{};
 
-    Run() { options.robot = ""; }
     Run& task(const char* name, rt::EntryFunction entry, const char* type = "NORMAL",
               rt::EntryFunction reset = nullptr) {
         tasks.push_back({name, type, entry, reset, static_cast<uint8_t>(tasks.empty())});
