@@ -44,24 +44,24 @@ const robot::Kinematics& MotionSystem::kinematics() const {
     return impl_->kinematics;
 }
 
-Expected<MoveId, MotionError> MotionSystem::enqueue(const MoveCommand& command) {
-    Impl& s = *impl_;
+/// The move with its path from where the last one ends.
+Expected<Trajectory::Ordered, MotionError> MotionSystem::Impl::prepared(const MoveCommand& command) const {
     MotionError error;
-    if (s.model.kinematics == robot::KinematicsKind::SevenAxes) {
+    if (model.kinematics == robot::KinematicsKind::SevenAxes) {
         error.kind = MotionErrorKind::UnsupportedRobot;
         return Unexpected{error};
     }
-    if (s.level.queue.size() >= s.options.maxQueued) {
+    if (level.queue.size() >= options.maxQueued) {
         error.kind = MotionErrorKind::QueueFull;
-        error.value = static_cast<double>(s.level.queue.size());
+        error.value = static_cast<double>(level.queue.size());
         return Unexpected{error};
     }
-    MoveCommand based = command;
-    based.frames = s.based(command.frames);
-    auto made = MotionPath::make(s.kinematics, s.path().endTarget(), based);
+    MoveCommand onBase = command;
+    onBase.frames = based(command.frames);
+    auto made = MotionPath::make(kinematics, path().endTarget(), onBase);
     if (!made) return Unexpected{made.error()};
     for (std::size_t i = 0; i < static_cast<std::size_t>(kExternalCount); ++i) {
-        const ExternalAxisModel& axis = s.options.external[i];
+        const ExternalAxisModel& axis = options.external[i];
         const double value = made->end().extax[i];
         if (!isConnected(value) || (value >= axis.lower - 1e-9 && value <= axis.upper + 1e-9)) continue;
         error.kind = MotionErrorKind::JointOutOfRange;
@@ -71,12 +71,15 @@ Expected<MoveId, MotionError> MotionSystem::enqueue(const MoveCommand& command) 
         error.position = made->tcpAt(1).pos;
         return Unexpected{error};
     }
-    const auto path = std::make_shared<const MotionPath>(std::move(*made));
-    const auto appended = s.path().append(path, based, s.seconds());
-    const std::shared_ptr<Move> before = s.level.queue.empty() ? nullptr : s.level.queue.back();
-    if (appended.isCornerLost) s.report(MotionEventKind::CornerLost, before.get());
+    return Trajectory::Ordered{std::make_shared<const MotionPath>(std::move(*made)), std::move(onBase)};
+}
+
+/// The move is on its way.
+MoveId MotionSystem::Impl::registerMove(const MoveCommand& command, const Trajectory::Appended& appended) {
+    const std::shared_ptr<Move> before = level.queue.empty() ? nullptr : level.queue.back();
+    if (appended.isCornerLost) report(MotionEventKind::CornerLost, before.get());
     auto move = std::make_shared<Move>();
-    move->id = s.nextId++;
+    move->id = nextId++;
     move->tag = command.tag;
     move->leg = appended.at;
     move->isPoint = appended.isPoint;
@@ -84,10 +87,17 @@ Expected<MoveId, MotionError> MotionSystem::enqueue(const MoveCommand& command) 
     move->isFlyBy = !command.zone.finep;
     for (const PathTrigger& trigger : command.triggers)
         move->triggers.push_back({trigger, false});
-    s.level.queue.push_back(move);
+    level.queue.push_back(move);
     if (before != nullptr && !std::exchange(before->isReleased, true) && !before->isConcurrent)
-        s.report(MotionEventKind::Released, before.get());
+        report(MotionEventKind::Released, before.get());
     return move->id;
+}
+
+Expected<MoveId, MotionError> MotionSystem::enqueue(const MoveCommand& command) {
+    Impl& s = *impl_;
+    const auto ordered = s.prepared(command);
+    if (!ordered) return Unexpected{ordered.error()};
+    return s.registerMove(ordered->command, s.path().append(ordered->path, ordered->command, s.seconds()));
 }
 
 void MotionSystem::clear() {

@@ -75,6 +75,23 @@ class MotionSystem {
     /// stands idle, otherwise after the moves before it. All geometric errors are found here and leave the
     /// queue as it was.
     Expected<MoveId, MotionError> enqueue(const MoveCommand& command);
+    // ---- synchronised movements ----
+    /// From now on these robots move together (MultiMove): every move is ordered for all of them. False, with nothing done,
+    /// unless all of them are idle and at rest.
+    static bool beginTogether(const std::vector<MotionSystem*>& systems);
+    /// Each robot moves for itself again. Idle and at rest, as above.
+    static bool endTogether(const std::vector<MotionSystem*>& systems);
+    /// Can the robots still order together: none of them has thrown away its path or put it aside.
+    static bool areTogether(const std::vector<MotionSystem*>& systems);
+    /// A move for each of the systems of beginTogether, in the same order. They begin and end together, and their speeds are in
+    /// proportion all the way. An error concerns the command with that number, and nothing happens then.
+    struct TogetherError {
+        std::size_t command = 0;
+        MotionError error;
+    };
+    static Expected<std::vector<MoveId>, TogetherError>
+    enqueueTogether(const std::vector<MotionSystem*>& systems, const std::vector<MoveCommand>& commands);
+
     /// Throws away all moves not finished (ClearPath, program pointer moved). The arm must stand still: a
     /// moving arm is stopped on its path first and the rest is thrown away when it stands.
     void clear();

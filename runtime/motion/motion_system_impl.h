@@ -100,6 +100,9 @@ struct MotionSystem::Impl {
     void noteMotion() { isRestAnnounced = isRestAnnounced && !isMoving(); }
 
     // Orders
+    Expected<Trajectory::Ordered, MotionError> prepared(const MoveCommand& command) const;
+    MoveId registerMove(const MoveCommand& command, const Trajectory::Appended& appended);
+    bool isResting() const { return level.queue.empty() && !isMoving() && !isHalted && detour == nullptr; }
     std::shared_ptr<Trajectory> newPath(const JointTarget& start, double earliest) const;
     void follow(std::shared_ptr<const Trajectory> what, TimeNs from);
     void abandonPath();

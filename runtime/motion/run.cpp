@@ -9,12 +9,6 @@ namespace {
 
 constexpr double kUnlimited = 1e300;
 constexpr double kNothing = 1e-9;        // mm
-constexpr double kShortestZone = 0.0028; // s: a corner takes at least this long (docs/motion.md)
-
-double atMost(double limit, double rate) {
-    const double size = std::abs(rate);
-    return size > 1e-12 ? limit / size : kUnlimited;
-}
 
 /// Squares of the speed at one end of a stretch that go with a square at the other end.
 struct Interval {
@@ -30,17 +24,20 @@ Interval reachableFrom(double square, const StretchLimits& limits, double width,
     result.high = square + 2 * width * gain;
     result.low = square - 2 * width * drop;
     const double sign = towardsEnd ? 1 : -1;
-    for (std::size_t i = 0; i < limits.rowCount; ++i) {
-        const AccelerationRow& row = limits.rows[i];
+    const auto obey = [&](const AccelerationRow& row) {
         const double change = sign * row.first / (2 * width);
         const double there = change + 0.5 * row.second;
         const double here = (0.5 * row.second - change) * square;
-        if (std::abs(there) < 1e-15) continue;
+        if (std::abs(there) < 1e-15) return;
         const double a = (row.most - here) / there;
         const double b = (-row.most - here) / there;
         result.high = std::min(result.high, std::max(a, b));
         result.low = std::max(result.low, std::min(a, b));
-    }
+    };
+    for (std::size_t i = 0; i < limits.rowCount; ++i)
+        obey(limits.rows[i]);
+    for (const AccelerationRow& row : limits.more)
+        obey(row);
     return result;
 }
 
@@ -76,12 +73,9 @@ Run::Run(const RunSettings& settings, double start)
       share_(settings.speedShare), reachable_{0}, planned_{0} {}
 
 bool Run::append(Leg leg, bool isOpen, double now) {
+    if (!canAppend(now)) return false;
     const bool isFirst = route_.legCount() == 0;
-    if (!isFirst && (!isOpen_ || (!isBraking_ && now >= course_.plannedEnd()))) return false;
-    const double fixed = isFirst         ? 0
-                         : isBraking_    ? course_.endPlace()
-                         : now <= start_ ? 0
-                                         : course_.plannedAt(now).s;
+    const double fixed = fixedPlace(now);
     if (leg.duration > 0) leg.limits.pathSpeed = leg.length() / leg.duration;
     const auto changed = route_.append(std::move(leg), fixed);
     if (!changed) return false;
@@ -94,44 +88,33 @@ bool Run::append(Leg leg, bool isOpen, double now) {
     return true;
 }
 
+bool Run::canAppend(double now) const {
+    if (route_.legCount() == 0) return true;
+    return isOpen_ && (isBraking_ || now < course_.plannedEnd());
+}
+
+/// The part of the route up to there can no longer change.
+double Run::fixedPlace(double now) const {
+    if (route_.legCount() == 0 || (!isBraking_ && now <= start_)) return 0;
+    return isBraking_ ? course_.endPlace() : course_.plannedAt(now).s;
+}
+
+bool Run::appendTogether(Leg leg, std::vector<Leg> others, bool isOpen, double now) {
+    if (!canAppend(now)) return false;
+    const Companions before = *settings_.companions;
+    if (!settings_.companions->append(std::move(others), route_, fixedPlace(now))) return false;
+    if (append(std::move(leg), isOpen, now)) return true;
+    *settings_.companions = before;
+    return false;
+}
+
 void Run::limitStretches(std::size_t from) {
     const auto& stretches = route_.stretches();
     limits_.resize(from);
     for (std::size_t k = from; k < stretches.size(); ++k) {
         const RouteStretch& s = stretches[k];
-        const MoveLimits& most = route_.leg(s.leg).limits;
-        StretchLimits l;
-        l.width = s.end - s.begin;
-        l.speed = std::min(
-            {atMost(most.tcpSpeed, s.tcpRate), atMost(most.orientationSpeed, s.turnRate), most.pathSpeed});
-        if (s.zoneLength > 0) l.speed = std::min(l.speed, s.zoneLength / kShortestZone);
-        l.bendSquare = kUnlimited;
-        const auto add = [&](double first, double second, double acceleration) {
-            if (std::abs(first) < 1e-12 && std::abs(second) < 1e-12) return;
-            l.bendSquare = std::min(l.bendSquare, atMost(acceleration, second));
-            l.rows[l.rowCount++] = {first, second, acceleration};
-        };
-        Joints accelerations = s.middle.joints;
-        settings_.accelerations->limitsAt(s.middle.joints, accelerations);
-        for (std::size_t i = 0; i < s.first.size(); ++i) {
-            // The rate at the ends of the stretch may be higher than in its middle.
-            const double rate = std::abs(s.first[i]) + 0.5 * l.width * std::abs(s.second[i]);
-            l.speed = std::min(l.speed, atMost(most.jointSpeed[i], rate));
-            add(s.first[i], s.second[i], most.accelerationShare * accelerations[i]);
-        }
-        for (std::size_t i = 0; i < s.externalFirst.size(); ++i) {
-            l.speed = std::min(l.speed, atMost(most.externalSpeed[i], s.externalFirst[i]));
-            add(s.externalFirst[i], s.externalSecond[i], most.externalAcceleration[i]);
-        }
-        if (most.worldAcceleration < kUnlimited) {
-            // Along and across the path together: each takes its share.
-            constexpr double kShare = 0.7071;
-            add(s.tcpRate, 0, kShare * most.worldAcceleration);
-            l.bendSquare = std::min(l.bendSquare, atMost(kShare * most.worldAcceleration, s.curvature));
-        }
-        l.gain = atMost(most.pathAcceleration, s.tcpRate);
-        l.drop = atMost(most.pathDeceleration, s.tcpRate);
-        limits_.push_back(l);
+        limits_.push_back(limitsOn(s, route_.leg(s.leg).limits, *settings_.accelerations));
+        if (settings_.companions != nullptr) settings_.companions->tighten(route_, s, limits_.back());
     }
 }
 

@@ -3,33 +3,20 @@
 // all limits, with full acceleration before and after; the course averages it in time.
 
 #include "runtime/motion/course.h"
+#include "runtime/motion/companions.h"
 #include "runtime/motion/route.h"
+#include "runtime/motion/stretch_limits.h"
 #include "runtime/robot/dynamics.h"
 
 #include <vector>
 
 namespace motion {
 
-/// One axis, or one other quantity that may not accelerate arbitrarily, on a stretch.
-struct AccelerationRow {
-    double first = 0, second = 0; ///< derivatives by the place
-    double most = 0;              ///< limit, in the unit of the quantity per s^2
-};
-
-/// Limits of the speed on one stretch.
-struct StretchLimits {
-    double width = 0;          ///< mm
-    double speed = 0;          ///< mm/s of route at full override
-    double bendSquare = 0;     ///< (mm/s)^2, as the axes must turn with the path
-    double gain = 0, drop = 0; ///< mm/s^2 along the route
-    std::array<AccelerationRow, 14> rows{};
-    std::size_t rowCount = 0;
-};
-
 struct RunSettings {
     const robot::AccelerationMap* accelerations = nullptr;
     double longWindow = 0.108, shortWindow = 0.048; ///< s
     double speedShare = 1;                          ///< of the programmed speed, above 0 to 1
+    std::shared_ptr<Companions> companions; ///< robots that move together with this one; null for none
 };
 
 class Run {
@@ -40,6 +27,9 @@ class Run {
     /// Appends a leg; nothing planned before `now` changes. False when the end of the route has to stay a stop point
     /// (too late, or no corner possible). `isOpen`: its end is a fly-by point.
     bool append(Leg leg, bool isOpen, double now);
+    /// The same, with a leg for each companion.
+    bool appendTogether(Leg leg, std::vector<Leg> others, bool isOpen, double now);
+    const Companions& companions() const { return *settings_.companions; }
     /// The end of the route is passed by on a curve as soon as a leg follows; until then the plan stops there.
     bool isOpen() const { return isOpen_; }
     void close() { isOpen_ = false; }
@@ -64,6 +54,8 @@ class Run {
     void forgetBefore(double time, double place);
 
   private:
+    bool canAppend(double now) const;
+    double fixedPlace(double now) const;
     void limitStretches(std::size_t from);
     template <class Step> void brakeFrom(const CourseState& state, Step step) const;
     double speedSquare(std::size_t stretch) const;

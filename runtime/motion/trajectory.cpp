@@ -15,7 +15,7 @@ constexpr double kSameMoment = 1e-7; // s; the virtual clock has whole nanosecon
 
 Trajectory::Trajectory(const robot::RobotModel& model, const ExternalAxisModels& external,
                        TrajectoryOptions options, const JointTarget& start, double earliest)
-    : model_(model), external_(external), accelerations_(model), options_(options), endTarget_(start),
+    : endTarget_(start), model_(model), external_(external), accelerations_(model), options_(options),
       earliest_(earliest) {}
 
 // ---- What is to be run ----
@@ -70,15 +70,79 @@ Trajectory::Appended Trajectory::append(const std::shared_ptr<const MotionPath>&
     }
     const bool isCornerLost = last != nullptr && last->run->isOpen();
     closeLast();
-    RunSettings settings;
-    settings.accelerations = &accelerations_;
-    // Windows that are longer let acceleration change more slowly (AccSet \Ramp).
-    settings.longWindow = model_.dynamics.longWindow / leg.limits.rampShare;
-    settings.shortWindow = model_.dynamics.shortWindow / leg.limits.rampShare;
-    settings.speedShare = share_;
-    auto run = std::make_unique<Run>(settings, now);
+    auto run = std::make_unique<Run>(settingsOf(leg.limits.rampShare), now);
     run->append(std::move(leg), isFlyBy, now);
     Appended result = appendRun(std::move(run), path, 0, now);
+    result.isCornerLost = isCornerLost;
+    return result;
+}
+
+/// Windows that are longer let acceleration change more slowly (AccSet \Ramp).
+RunSettings Trajectory::settingsOf(double rampShare) const {
+    RunSettings settings;
+    settings.accelerations = &accelerations_;
+    settings.longWindow = model_.dynamics.longWindow / rampShare;
+    settings.shortWindow = model_.dynamics.shortWindow / rampShare;
+    settings.speedShare = share_;
+    return settings;
+}
+
+/// A robot that keeps its place gets a leg without movement, as long as the longest one of the others.
+std::vector<Leg> Trajectory::legsTogether(const std::vector<Ordered>& moves) const {
+    std::vector<Leg> legs;
+    double longest = 1;
+    double duration = 0;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+        legs.push_back(i == 0 ? legOf(moves[i].path, moves[i].command)
+                              : followers_[i - 1].lock()->legOf(moves[i].path, moves[i].command));
+        duration = std::max(duration, legs.back().duration);
+        if (!moves[i].path->isEmpty()) longest = std::max(longest, legs.back().length());
+    }
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+        legs[i].duration = i == 0 ? duration : 0;
+        if (!moves[i].path->isEmpty()) continue;
+        legs[i].lengths = LengthMap::even(longest);
+        legs[i].perMm = 1;
+        legs[i].isTurning = false;
+        legs[i].limits.tcpSpeed = 1e300;
+    }
+    return legs;
+}
+
+Trajectory::Appended Trajectory::appendTogether(const std::vector<Ordered>& moves, double now) {
+    planChanged();
+    const auto all = [&](const auto& condition) { return std::all_of(moves.begin(), moves.end(), condition); };
+    const auto isEmptyMove = [](const Ordered& move) { return move.path->isEmpty(); };
+    endTarget_ = moves.front().path->end();
+    for (std::size_t i = 0; i < followers_.size(); ++i)
+        if (const auto follower = followers_[i].lock()) follower->endTarget_ = moves[i + 1].path->end();
+    Entry* last = entries_.empty() ? nullptr : &entries_.back();
+    if (all(isEmptyMove)) {
+        double pause = options_.emptyMove;
+        for (const Ordered& move : moves)
+            pause = std::max(pause, move.command.duration);
+        return appendPause(moves.front().path, pause, now);
+    }
+    // One that keeps its place while others move has no corner to begin or to end its movement in.
+    const bool isFlyBy = all([](const Ordered& m) { return !m.command.zone.finep && !m.path->isEmpty(); });
+    std::vector<Leg> legs = legsTogether(moves);
+    Leg own = std::move(legs.front());
+    legs.erase(legs.begin());
+    const bool canFollow = last != nullptr && last->run->isOpen() && last->isScheduled &&
+                           std::none_of(moves.begin(), moves.end(), isEmptyMove);
+    if (canFollow && last->run->appendTogether(own, legs, isFlyBy, now)) {
+        planChanged();
+        return {{count() - 1, last->run->route().legCount() - 1}, false, false};
+    }
+    const bool isCornerLost = last != nullptr && last->run->isOpen();
+    closeLast();
+    RunSettings settings = settingsOf(own.limits.rampShare);
+    settings.companions = std::make_shared<Companions>(0.5 * (settings.longWindow + settings.shortWindow));
+    for (const auto& follower : followers_)
+        settings.companions->add(follower.lock()->accelerations_);
+    auto run = std::make_unique<Run>(settings, now);
+    run->appendTogether(std::move(own), std::move(legs), isFlyBy, now);
+    Appended result = appendRun(std::move(run), moves.front().path, 0, now);
     result.isCornerLost = isCornerLost;
     return result;
 }
@@ -320,7 +384,7 @@ RoutePoint Trajectory::pointAt(const PathPlace& place) const {
 void Trajectory::ratesAt(const PathPlace& place, Joints& first, double& tcpRate) const {
     first = pointAt(place).joints;
     tcpRate = 0;
-    if (entry(place.run).pause > 0) {
+    if (isPause(place.run)) {
         std::fill(first.begin(), first.end(), 0.0);
         return;
     }
@@ -333,7 +397,7 @@ void Trajectory::ratesAt(const PathPlace& place, Joints& first, double& tcpRate)
     for (std::size_t i = 0; i < first.size(); ++i)
         first[i] = (after.joints[i] - before.joints[i]) / (high - low);
     const FrameSetup& frames = framesAt(place);
-    const robot::Kinematics& kinematics = entry(place.run).path->kinematics();
+    const robot::Kinematics& kinematics = way.leg(way.legAt(place.s)).path->kinematics();
     const Vec3 from = frames.fromFlange(kinematics.forward(before.joints), before.extax).pos;
     const Vec3 to = frames.fromFlange(kinematics.forward(after.joints), after.extax).pos;
     tcpRate = norm(to - from) / (high - low);

@@ -37,6 +37,9 @@ class Trajectory {
     /// Without moves yet; the arm is at `start`, and moves from the time `earliest` on.
     Trajectory(const robot::RobotModel& model, const ExternalAxisModels& external, TrajectoryOptions options,
                const JointTarget& start, double earliest);
+    virtual ~Trajectory() = default;
+    Trajectory(const Trajectory&) = delete;
+    Trajectory& operator=(const Trajectory&) = delete;
 
     // ---- what is to be run ----
     struct Appended {
@@ -45,48 +48,63 @@ class Trajectory {
         bool isCornerLost = false; ///< the fly-by point before has become a stop point
     };
     /// Appends a move while the arm moves or rests.
-    Appended append(const std::shared_ptr<const MotionPath>& path, const MoveCommand& command, double now);
+    virtual Appended append(const std::shared_ptr<const MotionPath>& path, const MoveCommand& command,
+                            double now);
+    /// One move of each robot of a synchronised movement, this one's first; the companions' in the order in which they were
+    /// added, all of which still exist. They begin and end together, and every fly-by point is one for all of them.
+    struct Ordered {
+        std::shared_ptr<const MotionPath> path;
+        MoveCommand command;
+    };
+    Appended appendTogether(const std::vector<Ordered>& moves, double now);
+    /// From now on moves are appended together with those of `follower`; the path is empty.
+    void addCompanion(const std::shared_ptr<Trajectory>& follower) { followers_.push_back(follower); }
+    const Companions& companionsOf(std::size_t run) const { return runAt(run).companions(); }
+    /// The run is a pause; nothing moves.
+    virtual bool isPause(std::size_t run) const { return entry(run).pause > 0; }
+    std::size_t firstRun() const { return first_; }
+    std::size_t lastRun() const { return count() - 1; }
     /// The last point of the path is a stop point.
-    void closeLast();
-    bool isEmpty() const { return entries_.empty(); }
+    virtual void closeLast();
+    virtual bool isEmpty() const { return entries_.empty(); }
 
     // ---- time ----
-    void setSpeedShare(double now, double share);
+    virtual void setSpeedShare(double now, double share);
     /// Brakes on the path and stays there until release().
-    void hold(double now);
-    void release(double now);
-    bool isHeld() const { return isHeld_; }
-    bool isMoving(double time) const;
+    virtual void hold(double now);
+    virtual void release(double now);
+    virtual bool isHeld() const { return isHeld_; }
+    virtual bool isMoving(double time) const;
     /// When everything comes to rest, as planned.
-    double restTime() const;
+    virtual double restTime() const;
     /// Where the arm would come to rest if hold() were called at that time, which has been planned already.
-    PathPlace restPlaceIfHeld(double time) const;
+    virtual PathPlace restPlaceIfHeld(double time) const;
 
     /// Where the arm is, and its speed (mm/s) along the path.
     struct Moment {
         PathPlace place;
         double speed = 0;
     };
-    Moment at(double time) const;
+    virtual Moment at(double time) const;
     /// When the arm comes to this place; nothing if the plan does not lead there.
-    std::optional<double> timeAt(const PathPlace& place) const;
+    virtual std::optional<double> timeAt(const PathPlace& place) const;
     /// When the run is in position at its end; nothing if the plan does not lead there.
-    std::optional<double> inPositionTime(std::size_t run) const;
+    virtual std::optional<double> inPositionTime(std::size_t run) const;
     /// When the planner needs to know what follows an open end of the last run; nothing when it is not open.
-    std::optional<double> decisionTime() const;
+    virtual std::optional<double> decisionTime() const;
 
     // ---- places ----
-    const Route& route(std::size_t run) const { return runAt(run).route(); }
-    PathPlace legStart(const LegRef& leg) const;
-    PathPlace legEnd(const LegRef& leg) const;
-    RoutePoint pointAt(const PathPlace& place) const;
+    virtual const Route& route(std::size_t run) const { return runAt(run).route(); }
+    virtual PathPlace legStart(const LegRef& leg) const;
+    virtual PathPlace legEnd(const LegRef& leg) const;
+    virtual RoutePoint pointAt(const PathPlace& place) const;
     /// Derivatives of the axes by the place, deg/mm, and mm of TCP path per mm.
     void ratesAt(const PathPlace& place, Joints& first, double& tcpRate) const;
     /// Frames of the move the place belongs to.
-    const FrameSetup& framesAt(const PathPlace& place) const;
-    PathPlace end() const;
+    virtual const FrameSetup& framesAt(const PathPlace& place) const;
+    virtual PathPlace end() const;
     /// The plan leads to the end of the last move.
-    bool leadsToEnd() const {
+    virtual bool leadsToEnd() const {
         return !entries_.empty() && entries_.back().isScheduled && !entries_.back().run->isBraking();
     }
     /// Where the last move ends, or the arm is when there is none.
@@ -94,14 +112,17 @@ class Trajectory {
 
     // ---- back along the path ----
     /// Moves back from the place where the arm is held to an earlier one on the same or the previous run.
-    void goBack(double now, const PathPlace& to, double mmPerSecond);
-    double backEnd() const { return back_->course.end(); }
+    virtual void goBack(double now, const PathPlace& to, double mmPerSecond);
+    virtual double backEnd() const { return back_->course.end(); }
     /// The arm has come to rest there.
-    void finishBack(double now);
+    virtual void finishBack(double now);
     /// The arm is at a place, without having moved there (after braking off the path).
-    void standAt(double now, const PathPlace& place);
+    virtual void standAt(double now, const PathPlace& place);
 
-    void forgetBefore(double time, const PathPlace& place);
+    virtual void forgetBefore(double time, const PathPlace& place);
+
+  protected:
+    JointTarget endTarget_;
 
   private:
     struct Back {
@@ -129,6 +150,8 @@ class Trajectory {
     };
     Tail tailBefore(std::size_t run, double time) const;
     Leg legOf(const std::shared_ptr<const MotionPath>& path, const MoveCommand& command) const;
+    std::vector<Leg> legsTogether(const std::vector<Ordered>& moves) const;
+    RunSettings settingsOf(double rampShare) const;
     Appended appendPause(const std::shared_ptr<const MotionPath>& path, double seconds, double now);
     Appended appendRun(std::unique_ptr<Run> run, const std::shared_ptr<const MotionPath>& path, double pause,
                        double now);
@@ -148,8 +171,8 @@ class Trajectory {
     mutable std::size_t nextFound_ = 0;
     void planChanged() { found_.fill({}); }
 
-    JointTarget endTarget_;
     double earliest_ = 0;
+    std::vector<std::weak_ptr<Trajectory>> followers_;
     double share_ = 1;
     bool isHeld_ = false;
     std::optional<Back> back_;

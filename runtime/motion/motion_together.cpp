@@ -1,0 +1,82 @@
+// MotionSystem: several robots that move together (MultiMove, synchronised movements).
+
+#include "runtime/motion/follower.h"
+#include "runtime/motion/motion_system_impl.h"
+
+#include <algorithm>
+
+namespace motion {
+
+bool MotionSystem::beginTogether(const std::vector<MotionSystem*>& systems) {
+    const bool areResting = std::all_of(systems.begin(), systems.end(), [](const MotionSystem* system) {
+        return system->impl_->isResting();
+    });
+    if (!areResting || systems.empty()) return false;
+    const auto continueOn = [](Impl& s, std::shared_ptr<Trajectory> path) {
+        s.level.finished.clear();
+        s.level.path = std::move(path);
+        s.follow(s.level.path, s.now);
+    };
+    Impl& first = *systems.front()->impl_;
+    const std::shared_ptr<Trajectory> leader = first.newPath(first.standing(), first.seconds());
+    for (std::size_t i = 1; i < systems.size(); ++i) {
+        Impl& s = *systems[i]->impl_;
+        const FrameSetup frames = s.path().isEmpty() ? s.based({}) : s.path().framesAt(s.path().end());
+        auto path = std::make_shared<Follower>(leader, i - 1, s.model, s.options.external, s.standing(), frames);
+        leader->addCompanion(path);
+        continueOn(s, std::move(path));
+    }
+    continueOn(first, leader);
+    for (MotionSystem* system : systems)
+        system->impl_->holdOrRelease();
+    return true;
+}
+
+bool MotionSystem::endTogether(const std::vector<MotionSystem*>& systems) {
+    const bool areResting = std::all_of(systems.begin(), systems.end(), [](const MotionSystem* system) {
+        return system->impl_->isResting();
+    });
+    if (!areResting) return false;
+    for (MotionSystem* system : systems) {
+        Impl& s = *system->impl_;
+        const JointTarget here = s.standing();
+        s.level.finished.clear();
+        s.level.path = s.newPath(here, s.seconds());
+        s.follow(s.level.path, s.now);
+        s.holdOrRelease();
+    }
+    return true;
+}
+
+bool MotionSystem::areTogether(const std::vector<MotionSystem*>& systems) {
+    const Trajectory* leader = systems.front()->impl_->level.path.get();
+    for (std::size_t i = 1; i < systems.size(); ++i) {
+        const auto* follower = dynamic_cast<const Follower*>(systems[i]->impl_->level.path.get());
+        if (follower == nullptr || follower->leader() != leader) return false;
+    }
+    return true;
+}
+
+Expected<std::vector<MoveId>, MotionSystem::TogetherError>
+MotionSystem::enqueueTogether(const std::vector<MotionSystem*>& systems,
+                              const std::vector<MoveCommand>& commands) {
+    // A point where one of them stops is a stop point for all.
+    const bool isFine =
+        std::any_of(commands.begin(), commands.end(), [](const MoveCommand& c) { return c.zone.finep; });
+    std::vector<Trajectory::Ordered> moves;
+    for (std::size_t i = 0; i < systems.size(); ++i) {
+        MoveCommand command = commands[i];
+        command.zone.finep = isFine;
+        auto ordered = systems[i]->impl_->prepared(command);
+        if (!ordered) return Unexpected{TogetherError{i, ordered.error()}};
+        moves.push_back(std::move(*ordered));
+    }
+    Impl& first = *systems.front()->impl_;
+    const Trajectory::Appended appended = first.path().appendTogether(moves, first.seconds());
+    std::vector<MoveId> ids;
+    for (std::size_t i = 0; i < systems.size(); ++i)
+        ids.push_back(systems[i]->impl_->registerMove(moves[i].command, appended));
+    return ids;
+}
+
+} // namespace motion

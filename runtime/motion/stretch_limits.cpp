@@ -1,0 +1,56 @@
+#include "runtime/motion/stretch_limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace motion {
+
+namespace {
+
+constexpr double kUnlimited = 1e300;
+constexpr double kShortestZone = 0.0028; // s: a corner takes at least this long (docs/motion.md)
+
+double atMost(double limit, double rate) {
+    const double size = std::abs(rate);
+    return size > 1e-12 ? limit / size : kUnlimited;
+}
+
+} // namespace
+
+StretchLimits limitsOn(const RouteStretch& s, const MoveLimits& most,
+                       const robot::AccelerationMap& accelerationMap) {
+    StretchLimits l;
+    l.width = s.end - s.begin;
+    l.speed = std::min(
+        {atMost(most.tcpSpeed, s.tcpRate), atMost(most.orientationSpeed, s.turnRate), most.pathSpeed});
+    if (s.zoneLength > 0) l.speed = std::min(l.speed, s.zoneLength / kShortestZone);
+    l.bendSquare = kUnlimited;
+    const auto add = [&](double first, double second, double acceleration) {
+        if (std::abs(first) < 1e-12 && std::abs(second) < 1e-12) return;
+        l.bendSquare = std::min(l.bendSquare, atMost(acceleration, second));
+        l.rows[l.rowCount++] = {first, second, acceleration};
+    };
+    Joints accelerations = s.middle.joints;
+    accelerationMap.limitsAt(s.middle.joints, accelerations);
+    for (std::size_t i = 0; i < s.first.size(); ++i) {
+        // The rate at the ends of the stretch may be higher than in its middle.
+        const double rate = std::abs(s.first[i]) + 0.5 * l.width * std::abs(s.second[i]);
+        l.speed = std::min(l.speed, atMost(most.jointSpeed[i], rate));
+        add(s.first[i], s.second[i], most.accelerationShare * accelerations[i]);
+    }
+    for (std::size_t i = 0; i < s.externalFirst.size(); ++i) {
+        l.speed = std::min(l.speed, atMost(most.externalSpeed[i], s.externalFirst[i]));
+        add(s.externalFirst[i], s.externalSecond[i], most.externalAcceleration[i]);
+    }
+    if (most.worldAcceleration < kUnlimited) {
+        // Along and across the path together: each takes its share.
+        constexpr double kShare = 0.7071;
+        add(s.tcpRate, 0, kShare * most.worldAcceleration);
+        l.bendSquare = std::min(l.bendSquare, atMost(kShare * most.worldAcceleration, s.curvature));
+    }
+    l.gain = atMost(most.pathAcceleration, s.tcpRate);
+    l.drop = atMost(most.pathDeceleration, s.tcpRate);
+    return l;
+}
+
+} // namespace motion
