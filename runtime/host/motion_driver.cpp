@@ -1,5 +1,7 @@
 #include "runtime/host/motion_driver.h"
 
+#include "runtime/host/synchronised_group.h"
+#include "runtime/log/event_log.h"
 #include "runtime/motion/path.h"
 #include "runtime/sched/error_search.h"
 #include "runtime/sched/task.h"
@@ -63,6 +65,13 @@ motion::MotionSystem& MotionDriver::system() {
 }
 
 void MotionDriver::refresh() {
+    refreshAlone();
+    if (synchronised_ == nullptr) return;
+    for (const SynchronisedGroup::Member& member : synchronised_->members()) // what one does changes the others' times
+        if (member.driver != this) member.driver->refreshAlone();
+}
+
+void MotionDriver::refreshAlone() {
     advance(scheduler_.now());
     schedule();
 }
@@ -203,18 +212,15 @@ Status MotionDriver::submit(Task& task, motion::MoveCommand command, motion::Mov
     command.tag = instructions_ + 1;
     if (task.isStepwise()) command.zone.finep = true; // each step ends at its point
     continueEarlier(command);
+    if (synchronised() != nullptr) return submitTogether(task, std::move(command), id, error);
     WaitResult result{};
     for (;;) {
         refresh();
-        const motion::Pose start = startOf(command);
-        const motion::JointTarget from = system_.plannedEnd();
-        ordering_ = &task;
+        const Beginning beginning = beginOrder(task, command);
         const auto ordered = system_.enqueue(command);
         if (ordered) {
             id = *ordered;
-            enqueued(id, command, start, &task);
-            for (const auto& listener : orderListeners_)
-                listener({id, command, from, system_.plannedEnd()});
+            noteOrdered(task, command, id, beginning);
             break;
         }
         if (ordered.error().kind != motion::MotionErrorKind::QueueFull) {
@@ -226,12 +232,70 @@ Status MotionDriver::submit(Task& task, motion::MoveCommand command, motion::Mov
             task.waitFor({{&changed_}, [&] { return system().unfinishedMoves() < full; }}, result);
         if (status < 0) return status;
     }
+    refresh();
+    return waitReleased(task, id);
+}
+
+MotionDriver::Beginning MotionDriver::beginOrder(const Task& task, motion::MoveCommand& command) {
+    ordering_ = &task;
+    command.tag = instructions_ + 1;
+    return {startOf(command), system_.plannedEnd()};
+}
+
+void MotionDriver::noteOrdered(const Task& task, const motion::MoveCommand& command, motion::MoveId id,
+                               const Beginning& beginning) {
+    enqueued(id, command, beginning.pose, &task);
+    for (const auto& listener : orderListeners_)
+        listener({id, command, beginning.joints, system_.plannedEnd()});
     ++instructions_;
     for (const motion::PathTrigger& trigger : command.triggers)
         actions_.at(trigger.id).move = id;
-    refresh();
+    refreshAlone();
     ordering_ = nullptr;
-    return waitReleased(task, id);
+}
+
+Status MotionDriver::submitTogether(Task& task, motion::MoveCommand command, motion::MoveId& id,
+                                    std::optional<motion::MotionError>& error) {
+    const std::shared_ptr<SynchronisedGroup> group = synchronised_;
+    SynchronisedGroup::Order order;
+    order.task = &task;
+    order.command = std::move(command);
+    if (const std::string problem = group->give(*this, order); !problem.empty())
+        return task.fatal(static_cast<int>(EventId::SyncMisused), problem);
+    const auto isOver = [&] { return order.isDone || group->isOver(); };
+    Status status = kOk;
+    WaitResult result{};
+    while (status == kOk && !isOver()) {
+        if (group->isReady())
+            group->orderStep();
+        else
+            status = task.waitFor({group->queues(), [&] { return isOver() || group->isReady(); }}, result);
+    }
+    if (!order.isDone) group->withdraw(*this);
+    if (status != kOk) return status;
+    if (!order.isDone)
+        return task.fatal(static_cast<int>(EventId::SyncMisused),
+                          "The synchronised movement ended while the task waited for the others. Execute "
+                          "SyncMoveOn again.");
+    id = order.id;
+    error = order.error;
+    return error ? kOk : waitReleased(task, id);
+}
+
+void MotionDriver::joinGroup(std::shared_ptr<SynchronisedGroup> synchronised) {
+    synchronised_ = std::move(synchronised);
+    isSuspended_ = false;
+}
+
+void MotionDriver::leaveGroup() {
+    synchronised_ = nullptr;
+    isSuspended_ = false;
+    refreshAlone();
+}
+
+const std::shared_ptr<SynchronisedGroup>& MotionDriver::synchronised() const {
+    static const std::shared_ptr<SynchronisedGroup> kNone;
+    return isSuspended_ ? kNone : synchronised_;
 }
 
 /// Until the program may go on; in steps every movement is finished before the next instruction.
@@ -276,11 +340,19 @@ Status MotionDriver::waitZeroSpeed(Task& task) {
 }
 
 void MotionDriver::applyStops() {
+    holdOrRelease();
+    if (synchronised_ == nullptr) return refresh();
+    for (const SynchronisedGroup::Member& member : synchronised_->members())
+        member.driver->holdOrRelease();
+    refresh();
+}
+
+/// Robots that move together stop and start together.
+void MotionDriver::holdOrRelease() {
     advance(scheduler_.now());
-    const bool held = stopMove_ || programStop_ || levelHold_;
+    const bool held = synchronised() != nullptr ? synchronised()->isHeld() : isHeldItself();
     if (held && !system_.isStopRequested()) system_.stop();
     if (!held && system_.isStopRequested()) system_.start();
-    refresh();
 }
 
 void MotionDriver::stopMove() {
@@ -338,6 +410,9 @@ void MotionDriver::clearLevel() {
     system_.clear();
     dropActions(
         [this](const PendingAction& pending) { return pending.move != 0 && system_.isDone(pending.move); });
+    if (const auto group = synchronised()) // the others cannot finish the movement alone
+        for (const SynchronisedGroup::Member& member : group->members())
+            if (member.driver != this && !member.driver->system().isIdle()) member.driver->clearLevel();
     applyStops();
     changed_.notifyAll(); // moves that tasks wait for are gone
 }
@@ -350,6 +425,7 @@ void MotionDriver::breakOff(bool stiff) {
 }
 
 void MotionDriver::clearPath() {
+    if (const auto group = synchronised_) group->end();
     levels_.clear();
     stopMove_ = false; // nothing is left that it could hold
     system().clearStored();

@@ -11,6 +11,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +19,7 @@
 
 namespace rt {
 
+class SynchronisedGroup;
 class Task;
 class TraceSink;
 
@@ -66,6 +68,23 @@ class MotionDriver final : public SteppedArm {
     /// counted from 1. `actions` vanish with the move; movements executed backwards have none.
     Status order(Task& task, motion::MoveCommand command, motion::MoveId& id,
                  std::optional<motion::MotionError>& error, std::vector<PathAction> actions = {});
+    /// SyncMoveOn: from now on movements are ordered for all robots of the group. Null: this robot moves for itself.
+    void joinGroup(std::shared_ptr<SynchronisedGroup> synchronised);
+    void leaveGroup();
+    /// Null when this robot moves for itself, also while SyncMoveSuspend or a path level of its own lets it.
+    const std::shared_ptr<SynchronisedGroup>& synchronised() const;
+    /// SyncMoveSuspend, SyncMoveResume.
+    void suspendGroup(bool suspended) { isSuspended_ = suspended; }
+    bool isSuspended() const { return isSuspended_; }
+    /// Where the movement that is being ordered begins.
+    struct Beginning {
+        motion::Pose pose;
+        motion::JointTarget joints;
+    };
+    /// Around each order of a movement: what is known before, and what has to be noted after it.
+    Beginning beginOrder(const Task& task, motion::MoveCommand& command);
+    void noteOrdered(const Task& task, const motion::MoveCommand& command, motion::MoveId id,
+                     const Beginning& beginning);
     /// Called between the two parts of a circle that is stepped forward: stops the task there.
     void setCirclePointStop(std::function<Status(Task&)> stop) { circlePointStop_ = std::move(stop); }
     Status waitDone(Task& task, motion::MoveId id);
@@ -92,10 +111,13 @@ class MotionDriver final : public SteppedArm {
     void stopMove();
     void startMove();
     bool isStopMoveActive() const { return stopMove_; }
+    /// By StopMove, a stop of the program or a path level; not because of another robot.
+    bool isHeldItself() const { return stopMove_ || programStop_ || levelHold_; }
     /// 1 on the base level, one more for each path that is put aside.
     int pathLevel() const { return 1 + static_cast<int>(levels_.size()); }
     /// StorePath: stops the arm on its path, waits until it is at rest, and puts the unfinished movements aside, with StopMove.
-    Status storePath(Task& task);
+    /// `keepSync`: a synchronised robot remains so on the new level, otherwise it moves for itself there.
+    Status storePath(Task& task, bool keepSync = false);
     /// RestoPath: waits until the movements of this level are finished (those that StopMove holds are thrown away) and takes
     /// back the path put aside last. It is held until startMove(), RETRY or clearLevel(). Not on the base level.
     Status restorePath(Task& task);
@@ -195,6 +217,10 @@ class MotionDriver final : public SteppedArm {
     template <class Condition> void dropActions(Condition drop);
     Status submit(Task& task, motion::MoveCommand command, motion::MoveId& id,
                   std::optional<motion::MotionError>& error);
+    Status submitTogether(Task& task, motion::MoveCommand command, motion::MoveId& id,
+                          std::optional<motion::MotionError>& error);
+    void refreshAlone();
+    void holdOrRelease();
     Status waitReleased(Task& task, motion::MoveId id);
     motion::Pose startOf(const motion::MoveCommand& command) const;
     /// `task` null: the place of the movement in the program is not known.
@@ -225,6 +251,8 @@ class MotionDriver final : public SteppedArm {
     WaitQueue changed_;
     std::vector<TraceSink*> traces_;
     Time nextSample_ = 0;
+    std::shared_ptr<SynchronisedGroup> synchronised_;
+    bool isSuspended_ = false;
     bool stopMove_ = false, programStop_ = false;
     bool levelHold_ = false; // from StorePath until the arm is at rest; from RestoPath until it may move
     Status processError_ = kOk;
@@ -233,6 +261,7 @@ class MotionDriver final : public SteppedArm {
         bool stopMove = false;
         Interrupted interrupted;
         motion::JointTarget left;
+        bool wasSuspended = false;
     };
     std::vector<StoredLevel> levels_;
     motion::MoveId brokenPath_ = 0; // last move of the path at the power failure; 0 = none

@@ -7,7 +7,7 @@
 
 namespace rt {
 
-Status MotionDriver::storePath(Task& task) {
+Status MotionDriver::storePath(Task& task, bool keepSync) {
     levelHold_ = !system().isIdle();
     applyStops();
     const Status status = waitZeroSpeed(task);
@@ -16,8 +16,9 @@ Status MotionDriver::storePath(Task& task) {
         applyStops();
         return status;
     }
-    levels_.push_back(
-        {std::exchange(stopMove_, false), std::exchange(interrupted_, {}), system_.currentJoints()});
+    levels_.push_back({std::exchange(stopMove_, false), std::exchange(interrupted_, {}),
+                       system_.currentJoints(), isSuspended_});
+    if (synchronised_ != nullptr && !keepSync) isSuspended_ = true;
     applyStops();
     return kOk;
 }
@@ -32,6 +33,7 @@ Status MotionDriver::restorePath(Task& task) {
     levels_.pop_back();
     stopMove_ = level.stopMove;
     interrupted_ = level.interrupted;
+    isSuspended_ = level.wasSuspended;
     levelHold_ = !system_.isIdle();
     applyStops();
     return kOk;

@@ -304,6 +304,9 @@ bool MotionSystem::isIdle() const {
 bool MotionSystem::isMoving() const {
     return impl_->isMoving();
 }
+bool MotionSystem::hasRoom() const {
+    return impl_->level.queue.size() < impl_->options.maxQueued;
+}
 std::size_t MotionSystem::unfinishedMoves() const {
     return impl_->level.queue.size();
 }

@@ -165,6 +165,7 @@ class MotionSystem {
     bool isIdle() const;   ///< no move unfinished
     bool isMoving() const; ///< some axis is moving now
     std::size_t unfinishedMoves() const;
+    bool hasRoom() const; ///< another move can be ordered
     MoveStatus status(MoveId move) const;
     bool isStarted(MoveId move) const;  ///< Moving or Done
     bool isReleased(MoveId move) const; ///< its Released event has happened, or it was cleared

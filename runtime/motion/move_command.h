@@ -86,7 +86,8 @@ struct MoveCommand {
     bool concurrent = false; ///< \Conc: the program goes on when the move starts
     MotionSettings settings;
     std::vector<PathTrigger> triggers;
-    uint64_t tag = 0; ///< the caller's, given back in samples and events (number of the move instruction)
+    int64_t ident = 0; ///< RAPID's \ID, the same for all robots of a synchronised movement; 0 = not given
+    uint64_t tag = 0;  ///< the caller's, given back in samples and events (number of the move instruction)
 };
 
 } // namespace motion

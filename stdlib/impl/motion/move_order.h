@@ -21,15 +21,17 @@ struct MoveArguments {
     bool exactConfiguration = false; ///< a line ends in the configuration of its target, also with ConfL \Off
 };
 
-/// The movement to a target; the rest of the command is completed by orderMove.
-motion::MoveCommand jointMove(TaskCore* task, const data::Robtarget& target);
-motion::MoveCommand linearMove(TaskCore* task, const data::Robtarget& target);
+/// The movement to a target; the rest of the command is completed by orderMove. `id`: \ID, null when it is not given.
+motion::MoveCommand jointMove(TaskCore* task, const data::Robtarget& target, const float* id);
+motion::MoveCommand linearMove(TaskCore* task, const data::Robtarget& target, const float* id);
 motion::MoveCommand circularMove(TaskCore* task, const data::Robtarget& circlePoint,
-                                 const data::Robtarget& target);
-motion::MoveCommand absoluteMove(TaskCore* task, const data::Jointtarget& target, bool noOffsets);
+                                 const data::Robtarget& target, const float* id);
+motion::MoveCommand absoluteMove(TaskCore* task, const data::Jointtarget& target, bool noOffsets,
+                                 const float* id);
 
 /// The additional axes to these places; the arm stays where its last movement ends.
-motion::MoveCommand externalMove(TaskCore* task, const data::Jointtarget& target, bool withOffsets);
+motion::MoveCommand externalMove(TaskCore* task, const data::Jointtarget& target, bool withOffsets,
+                                 const float* id);
 
 /// Completes the command with what is common, orders it with what is to be done on its path, and waits until the program
 /// may go on.

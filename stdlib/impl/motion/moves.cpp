@@ -45,9 +45,16 @@ Status checkConcurrent(TaskCore* task, lib::MotionState& state, bool conc) {
                      "at most 5 movement instructions with \\Conc may follow each other");
 }
 
+/// 0 when it is not given; a number that is not above 0 names no movement.
+int64_t identOf(const float* id) {
+    return id != nullptr && *id >= 1 ? static_cast<int64_t>(*id) : 0;
+}
+
 /// As programmed, with the axis offsets in force.
-motion::MoveCommand moveTo(TaskCore* task, motion::MoveKind kind, const data::Robtarget& target) {
+motion::MoveCommand moveTo(TaskCore* task, motion::MoveKind kind, const data::Robtarget& target,
+                           const float* id) {
     motion::MoveCommand command;
+    command.ident = identOf(id);
     command.kind = kind;
     command.target = lib::toTarget(target);
     lib::addOffsets(command.target.extax, lib::motionState(task).axisOffsets, 1);
@@ -58,31 +65,35 @@ motion::MoveCommand moveTo(TaskCore* task, motion::MoveKind kind, const data::Ro
 
 namespace rt::lib {
 
-motion::MoveCommand jointMove(TaskCore* task, const data::Robtarget& target) {
-    return moveTo(task, motion::MoveKind::Joint, target);
+motion::MoveCommand jointMove(TaskCore* task, const data::Robtarget& target, const float* id) {
+    return moveTo(task, motion::MoveKind::Joint, target, id);
 }
 
-motion::MoveCommand linearMove(TaskCore* task, const data::Robtarget& target) {
-    return moveTo(task, motion::MoveKind::Linear, target);
+motion::MoveCommand linearMove(TaskCore* task, const data::Robtarget& target, const float* id) {
+    return moveTo(task, motion::MoveKind::Linear, target, id);
 }
 
 motion::MoveCommand circularMove(TaskCore* task, const data::Robtarget& circlePoint,
-                                 const data::Robtarget& target) {
-    motion::MoveCommand command = moveTo(task, motion::MoveKind::Circular, target);
+                                 const data::Robtarget& target, const float* id) {
+    motion::MoveCommand command = moveTo(task, motion::MoveKind::Circular, target, id);
     command.circlePoint = toFrame(circlePoint);
     return command;
 }
 
-motion::MoveCommand absoluteMove(TaskCore* task, const data::Jointtarget& target, bool noOffsets) {
+motion::MoveCommand absoluteMove(TaskCore* task, const data::Jointtarget& target, bool noOffsets,
+                                 const float* id) {
     motion::MoveCommand command;
+    command.ident = identOf(id);
     command.kind = motion::MoveKind::AbsJoint;
     command.joints = toJoints(target, lib::motionOf(task).system().kinematics());
     if (!noOffsets) addOffsets(command.joints.extax, motionState(task).axisOffsets, 1);
     return command;
 }
 
-motion::MoveCommand externalMove(TaskCore* task, const data::Jointtarget& target, bool withOffsets) {
+motion::MoveCommand externalMove(TaskCore* task, const data::Jointtarget& target, bool withOffsets,
+                                 const float* id) {
     motion::MoveCommand command;
+    command.ident = identOf(id);
     command.kind = motion::MoveKind::AbsJoint;
     command.joints = lib::motionOf(task).system().plannedEnd();
     command.joints.extax = toAxes(target.extax);
@@ -94,6 +105,11 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
                  std::vector<PathAction> actions) {
     if (const Status status = requireMotionTask(task)) return status;
     Task& owner = taskOf(task);
+    if (command.ident != 0 && owner.controller().motions().size() > 1 &&
+        motionOf(task).synchronised() == nullptr)
+        return owner.fatal(static_cast<int>(EventId::SyncMisused),
+                           "A movement instruction with \\ID is not between SyncMoveOn and SyncMoveOff. Remove "
+                           "\\ID, or synchronise the tasks first.");
     MotionState& state = motionState(task);
     if (args.t && !(*args.t > 0)) return fail(task, err::ERR_ARGVALERR, "\\T must be a time above 0 s");
     if (const Status status = checkConcurrent(task, state, args.conc)) return status;
@@ -129,23 +145,24 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
 
 extern "C" {
 
-Status rt_MoveAbsJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float*, bool NoEOffs,
+Status rt_MoveAbsJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float* ID, bool NoEOffs,
                    const data::Speeddata* Speed, const float* V, const float* T, const data::Zonedata* Zone,
                    const float* Z, const data::Stoppointdata* Inpos, data::Tooldata* Tool,
                    data::Wobjdata* WObj, data::Loaddata*) {
-    return lib::orderMove(task, lib::absoluteMove(task, *ToJointPos, NoEOffs),
+    return lib::orderMove(task, lib::absoluteMove(task, *ToJointPos, NoEOffs, ID),
                           {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
 }
 
 /// The line to where the tool is at these axis angles, which the robot must reach in just that configuration.
-Status rt_MoveAbsL(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float*, bool NoEOffs,
+Status rt_MoveAbsL(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float* ID, bool NoEOffs,
                    const data::Speeddata* Speed, const float* V, const float* T, const data::Zonedata* Zone,
                    const float* Z, const data::Stoppointdata* Inpos, data::Tooldata* Tool,
                    data::Wobjdata* WObj, data::Loaddata*) {
     if (const Status status = lib::requireMotionTask(task)) return status;
-    const motion::MoveCommand absolute = lib::absoluteMove(task, *ToJointPos, NoEOffs);
+    const motion::MoveCommand absolute = lib::absoluteMove(task, *ToJointPos, NoEOffs, ID);
     motion::MoveCommand command;
     command.kind = motion::MoveKind::Linear;
+    command.ident = absolute.ident;
     const data::Wobjdata world = lib::MotionState().workObject;
     motion::FrameSetup frames;
     if (const Status status = lib::frameSetup(task, Tool, WObj != nullptr ? WObj : &world, frames))
@@ -154,38 +171,38 @@ Status rt_MoveAbsL(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPo
     return lib::orderMove(task, command, {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj, true});
 }
 
-Status rt_MoveJ(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float*,
+Status rt_MoveJ(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float* ID,
                 const data::Speeddata* Speed, const float* V, const float* T, const data::Zonedata* Zone,
                 const float* Z, const data::Stoppointdata* Inpos, data::Tooldata* Tool, data::Wobjdata* WObj,
                 data::Loaddata*) {
-    return lib::orderMove(task, lib::jointMove(task, *ToPoint),
+    return lib::orderMove(task, lib::jointMove(task, *ToPoint, ID),
                           {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
 }
 
-Status rt_MoveL(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float*,
+Status rt_MoveL(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float* ID,
                 const data::Speeddata* Speed, const float* V, const float* T, const float*, const float*,
                 const data::Zonedata* Zone, const float* Z, const data::Stoppointdata* Inpos,
                 data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata*) {
-    return lib::orderMove(task, lib::linearMove(task, *ToPoint),
+    return lib::orderMove(task, lib::linearMove(task, *ToPoint, ID),
                           {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
 }
 
 Status rt_MoveC(TaskCore* task, bool Conc, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
-                const float*, const data::Speeddata* Speed, const float* V, const float* T,
+                const float* ID, const data::Speeddata* Speed, const float* V, const float* T,
                 const data::Zonedata* Zone, const float* Z, const data::Stoppointdata* Inpos,
                 data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata*) {
-    return lib::orderMove(task, lib::circularMove(task, *CirPoint, *ToPoint),
+    return lib::orderMove(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
                           {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
 }
 
-Status rt_MoveExtJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float*,
+Status rt_MoveExtJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float* ID,
                    bool UseEOffs, const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
                    const data::Stoppointdata* Inpos) {
     if (const Status status = lib::requireMotionTask(task)) return status;
     const lib::MotionState& state = lib::motionState(task);
     const data::Tooldata tool = state.tool;
     const data::Wobjdata workObject = state.workObject;
-    return lib::orderMove(task, lib::externalMove(task, *ToJointPos, UseEOffs),
+    return lib::orderMove(task, lib::externalMove(task, *ToJointPos, UseEOffs, ID),
                           {Conc, Speed, nullptr, T, Zone, nullptr, Inpos, &tool, &workObject});
 }
 }

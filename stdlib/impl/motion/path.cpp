@@ -107,13 +107,13 @@ Status rt_StepBwdPath(TaskCore* task, float StepLength, float StepTime) {
 /// There is no synchronized movement that \KeepSync could keep. Without Path Recovery one path can be put aside.
 Status rt_StorePath(TaskCore* task, bool KeepSync) {
     if (const Status status = lib::requireMotionTask(task)) return status;
-    if (KeepSync)
+    if (KeepSync && driverOf(task).synchronised() == nullptr)
         return lib::fail(task, err::ERR_ARGVALERR,
-                         "\\KeepSync is for robots in synchronized movement; this controller has one robot");
+                         "\\KeepSync is for robots in synchronised movement (SyncMoveOn)");
     if (driverOf(task).pathLevel() > 1)
         return misused(task,
                        "StorePath: a path is stored already, and only one can be. Execute RestoPath first.");
-    return driverOf(task).storePath(taskOf(task));
+    return driverOf(task).storePath(taskOf(task), KeepSync);
 }
 
 Status rt_RestoPath(TaskCore* task) {

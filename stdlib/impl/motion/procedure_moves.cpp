@@ -79,23 +79,23 @@ lib::MoveArguments arguments(const data::Speeddata* speed, const float* t, const
 
 extern "C" {
 
-Status rt_MoveLSync(TaskCore* task, const data::Robtarget* ToPoint, const float*,
+Status rt_MoveLSync(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
                     const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
                     data::Tooldata* Tool, data::Wobjdata* WObj, const String* ProcName, data::Loaddata*) {
-    return moveAndCall(task, lib::linearMove(task, *ToPoint), arguments(Speed, T, Zone, Tool, WObj),
+    return moveAndCall(task, lib::linearMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj),
                        ProcName);
 }
 
-Status rt_MoveJSync(TaskCore* task, const data::Robtarget* ToPoint, const float*,
+Status rt_MoveJSync(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
                     const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
                     data::Tooldata* Tool, data::Wobjdata* WObj, const String* ProcName, data::Loaddata*) {
-    return moveAndCall(task, lib::jointMove(task, *ToPoint), arguments(Speed, T, Zone, Tool, WObj), ProcName);
+    return moveAndCall(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj), ProcName);
 }
 
 Status rt_MoveCSync(TaskCore* task, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
-                    const float*, const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
+                    const float* ID, const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
                     data::Tooldata* Tool, data::Wobjdata* WObj, const String* ProcName, data::Loaddata*) {
-    return moveAndCall(task, lib::circularMove(task, *CirPoint, *ToPoint),
+    return moveAndCall(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
                        arguments(Speed, T, Zone, Tool, WObj), ProcName);
 }
 }

@@ -130,11 +130,11 @@ extern "C" {
 
 Status rt_SearchL(TaskCore* task, bool Stop, bool PStop, bool SStop, bool Sup, Handle* Signal, bool* PersBool,
                   bool Flanks, bool PosFlank, bool NegFlank, bool HighLevel, bool LowLevel,
-                  data::Robtarget* SearchPoint, const data::Robtarget* ToPoint, const float*,
+                  data::Robtarget* SearchPoint, const data::Robtarget* ToPoint, const float* ID,
                   const data::Speeddata* Speed, const float* V, const float* T, data::Tooldata* Tool,
                   data::Wobjdata* WObj, bool, data::Loaddata*) {
     return searchTarget(
-        task, lib::linearMove(task, *ToPoint),
+        task, lib::linearMove(task, *ToPoint, ID),
         {{Stop, PStop, SStop, Sup, Flanks, PosFlank, NegFlank, HighLevel, LowLevel}, Signal, PersBool},
         moveArguments(Speed, V, T, Tool, WObj), SearchPoint);
 }
@@ -142,10 +142,10 @@ Status rt_SearchL(TaskCore* task, bool Stop, bool PStop, bool SStop, bool Sup, H
 Status rt_SearchC(TaskCore* task, bool Stop, bool PStop, bool SStop, bool Sup, Handle* Signal, bool* PersBool,
                   bool Flanks, bool PosFlank, bool NegFlank, bool HighLevel, bool LowLevel,
                   data::Robtarget* SearchPoint, const data::Robtarget* CirPoint,
-                  const data::Robtarget* ToPoint, const float*, const data::Speeddata* Speed, const float* V,
+                  const data::Robtarget* ToPoint, const float* ID, const data::Speeddata* Speed, const float* V,
                   const float* T, data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata*) {
     return searchTarget(
-        task, lib::circularMove(task, *CirPoint, *ToPoint),
+        task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
         {{Stop, PStop, SStop, Sup, Flanks, PosFlank, NegFlank, HighLevel, LowLevel}, Signal, PersBool},
         moveArguments(Speed, V, T, Tool, WObj), SearchPoint);
 }
@@ -153,28 +153,28 @@ Status rt_SearchC(TaskCore* task, bool Stop, bool PStop, bool SStop, bool Sup, H
 Status rt_SearchJ(TaskCore* task, bool Stop, bool PStop, bool SStop, bool Sup, Handle* Signal, bool* PersBool,
                   bool Flanks, bool PosFlank, bool NegFlank, bool HighLevel, bool LowLevel,
                   data::Jointtarget* SearchJointPos, data::Robtarget* SearchPoint,
-                  const data::Robtarget* ToPoint, const data::Jointtarget* ToJointPos, const float*,
+                  const data::Robtarget* ToPoint, const data::Jointtarget* ToJointPos, const float* ID,
                   const data::Speeddata* Speed, const float* V, const float* T, data::Tooldata* Tool,
                   data::Wobjdata* WObj, data::Loaddata*) {
     const SearchArguments args{
         {Stop, PStop, SStop, Sup, Flanks, PosFlank, NegFlank, HighLevel, LowLevel}, Signal, PersBool};
     const lib::MoveArguments move = moveArguments(Speed, V, T, Tool, WObj);
     motion::MoveCommand command =
-        ToPoint != nullptr ? lib::jointMove(task, *ToPoint) : lib::absoluteMove(task, *ToJointPos, false);
+        ToPoint != nullptr ? lib::jointMove(task, *ToPoint, ID) : lib::absoluteMove(task, *ToJointPos, false, ID);
     if (SearchPoint != nullptr) return searchTarget(task, std::move(command), args, move, SearchPoint);
     return searchJoints(task, std::move(command), args, move, true, SearchJointPos);
 }
 
 Status rt_SearchExtJ(TaskCore* task, bool Stop, bool PStop, bool SStop, bool Sup, Handle* Signal,
                      bool* PersBool, bool Flanks, bool PosFlank, bool NegFlank, bool HighLevel, bool LowLevel,
-                     data::Jointtarget* SearchJointPos, const data::Jointtarget* ToJointPos, const float*,
+                     data::Jointtarget* SearchJointPos, const data::Jointtarget* ToJointPos, const float* ID,
                      bool UseEOffs, const data::Speeddata* Speed, const float* T) {
     if (const Status status = lib::requireMotionTask(task)) return status;
     const lib::MotionState& state = lib::motionState(task);
     const data::Tooldata tool = state.tool;
     const data::Wobjdata workObject = state.workObject;
     return searchJoints(
-        task, lib::externalMove(task, *ToJointPos, UseEOffs),
+        task, lib::externalMove(task, *ToJointPos, UseEOffs, ID),
         {{Stop, PStop, SStop, Sup, Flanks, PosFlank, NegFlank, HighLevel, LowLevel}, Signal, PersBool},
         moveArguments(Speed, nullptr, T, &tool, &workObject), UseEOffs, SearchJointPos);
 }

@@ -185,67 +185,67 @@ lib::MoveArguments arguments(bool conc, const data::Speeddata* speed, const floa
 
 extern "C" {
 
-Status rt_TriggL(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float*,
+Status rt_TriggL(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float* ID,
                  const data::Speeddata* Speed, const float* T, Handle* Trigg_1, Handle* TriggArray,
                  int32_t TriggArrayDim1, Handle* T2, Handle* T3, Handle* T4, Handle* T5, Handle* T6,
                  Handle* T7, Handle* T8, const data::Zonedata* Zone, const data::Stoppointdata* Inpos,
                  data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata*) {
-    return moveWithTriggers(task, lib::linearMove(task, *ToPoint),
+    return moveWithTriggers(task, lib::linearMove(task, *ToPoint, ID),
                             arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj),
                             {Trigg_1, TriggArray, TriggArrayDim1, {T2, T3, T4, T5, T6, T7, T8}});
 }
 
-Status rt_TriggJ(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float*,
+Status rt_TriggJ(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float* ID,
                  const data::Speeddata* Speed, const float* T, Handle* Trigg_1, Handle* TriggArray,
                  int32_t TriggArrayDim1, Handle* T2, Handle* T3, Handle* T4, Handle* T5, Handle* T6,
                  Handle* T7, Handle* T8, const data::Zonedata* Zone, const data::Stoppointdata* Inpos,
                  data::Tooldata* Tool, data::Wobjdata* WObj, data::Loaddata*) {
-    return moveWithTriggers(task, lib::jointMove(task, *ToPoint),
+    return moveWithTriggers(task, lib::jointMove(task, *ToPoint, ID),
                             arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj),
                             {Trigg_1, TriggArray, TriggArrayDim1, {T2, T3, T4, T5, T6, T7, T8}});
 }
 
 Status rt_TriggC(TaskCore* task, bool Conc, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
-                 const float*, const data::Speeddata* Speed, const float* T, Handle* Trigg_1,
+                 const float* ID, const data::Speeddata* Speed, const float* T, Handle* Trigg_1,
                  Handle* TriggArray, int32_t TriggArrayDim1, Handle* T2, Handle* T3, Handle* T4, Handle* T5,
                  Handle* T6, Handle* T7, Handle* T8, const data::Zonedata* Zone,
                  const data::Stoppointdata* Inpos, data::Tooldata* Tool, data::Wobjdata* WObj, bool,
                  data::Loaddata*) {
-    return moveWithTriggers(task, lib::circularMove(task, *CirPoint, *ToPoint),
+    return moveWithTriggers(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
                             arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj),
                             {Trigg_1, TriggArray, TriggArrayDim1, {T2, T3, T4, T5, T6, T7, T8}});
 }
 
-Status rt_TriggAbsJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float*,
+Status rt_TriggAbsJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float* ID,
                     bool NoEOffs, const data::Speeddata* Speed, const float* T, Handle* Trigg_1,
                     Handle* TriggArray, int32_t TriggArrayDim1, Handle* T2, Handle* T3, Handle* T4,
                     Handle* T5, Handle* T6, Handle* T7, Handle* T8, const data::Zonedata* Zone,
                     const data::Stoppointdata* Inpos, data::Tooldata* Tool, data::Wobjdata* WObj,
                     data::Loaddata*) {
-    return moveWithTriggers(task, lib::absoluteMove(task, *ToJointPos, NoEOffs),
+    return moveWithTriggers(task, lib::absoluteMove(task, *ToJointPos, NoEOffs, ID),
                             arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj),
                             {Trigg_1, TriggArray, TriggArrayDim1, {T2, T3, T4, T5, T6, T7, T8}});
 }
 
-Status rt_TriggLIOs(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float*,
+Status rt_TriggLIOs(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float* ID,
                     const data::Speeddata* Speed, const float* T, const data::Triggios* TriggData1,
                     int32_t TriggData1Dim1, const data::Triggstrgo* TriggData2, int32_t TriggData2Dim1,
                     const data::Triggiosdnum* TriggData3, int32_t TriggData3Dim1, const data::Zonedata* Zone,
                     const data::Stoppointdata* Inpos, data::Tooldata* Tool, data::Wobjdata* WObj, bool,
                     data::Loaddata*) {
     return moveWithOutputs(
-        task, lib::linearMove(task, *ToPoint), arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj),
+        task, lib::linearMove(task, *ToPoint, ID), arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj),
         {TriggData1, TriggData1Dim1, TriggData2, TriggData2Dim1, TriggData3, TriggData3Dim1});
 }
 
-Status rt_TriggJIOs(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float*,
+Status rt_TriggJIOs(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float* ID,
                     const data::Speeddata* Speed, const float* T, const data::Triggios* TriggData1,
                     int32_t TriggData1Dim1, const data::Triggstrgo* TriggData2, int32_t TriggData2Dim1,
                     const data::Triggiosdnum* TriggData3, int32_t TriggData3Dim1, const data::Zonedata* Zone,
                     const data::Stoppointdata* Inpos, data::Tooldata* Tool, data::Wobjdata* WObj,
                     data::Loaddata*) {
     return moveWithOutputs(
-        task, lib::jointMove(task, *ToPoint), arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj),
+        task, lib::jointMove(task, *ToPoint, ID), arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj),
         {TriggData1, TriggData1Dim1, TriggData2, TriggData2Dim1, TriggData3, TriggData3Dim1});
 }
 }

@@ -110,10 +110,6 @@ Status rt_MotionPlannerNo(TaskCore* task, float* result) {
     *result = static_cast<float>(taskOf(task).motionGroup() + 1);
     return kOk;
 }
-Status rt_IsSyncMoveOn(TaskCore*, bool* result) {
-    *result = false; // one robot: never synchronized
-    return kOk;
-}
 
 Status rt_Rand(TaskCore* task, float* result) {
     // 24 bits: every value is exact in binary32 and below 1

@@ -1,0 +1,103 @@
+#include "runtime/host/synchronised_group.h"
+
+#include "runtime/host/motion_driver.h"
+#include "runtime/sched/task.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rt {
+
+std::string SynchronisedGroup::give(MotionDriver& driver, Order& order) {
+    if (order.command.ident == 0)
+        return "A movement instruction between SyncMoveOn and SyncMoveOff has no \\ID. Give it the number that the "
+               "other tasks use.";
+    for (const auto& [other, given] : given_) {
+        if (given->command.ident == order.command.ident) continue;
+        return fmt::format("Task {} executes the movement with \\ID {} while task {} is at \\ID {}. The movements "
+                           "of all tasks must have the same numbers in the same order.",
+                           order.task->name(), order.command.ident, given->task->name(), given->command.ident);
+    }
+    given_.emplace_back(&driver, &order);
+    changed_.notifyAll();
+    return "";
+}
+
+void SynchronisedGroup::withdraw(MotionDriver& driver) {
+    std::erase_if(given_, [&](const auto& given) { return given.first == &driver; });
+}
+
+std::vector<motion::MotionSystem*> SynchronisedGroup::systems() const {
+    std::vector<motion::MotionSystem*> result;
+    for (const Member& member : members_)
+        result.push_back(&member.driver->system());
+    return result;
+}
+
+std::vector<WaitQueue*> SynchronisedGroup::queues() {
+    std::vector<WaitQueue*> result{&changed_};
+    for (const Member& member : members_)
+        result.push_back(&member.driver->changed());
+    return result;
+}
+
+bool SynchronisedGroup::isReady() const {
+    if (isOver_ || given_.size() < members_.size()) return false;
+    const auto all = systems();
+    if (!motion::MotionSystem::areTogether(all)) // after ClearPath, or on a new path level
+        return std::all_of(all.begin(), all.end(),
+                           [](const auto* system) { return system->isIdle() && !system->isMoving(); });
+    return std::all_of(all.begin(), all.end(), [](const auto* system) { return system->hasRoom(); });
+}
+
+void SynchronisedGroup::orderStep() {
+    const auto all = systems();
+    if (!motion::MotionSystem::areTogether(all) && !motion::MotionSystem::beginTogether(all)) return;
+    std::vector<Order*> orders;
+    std::vector<motion::MoveCommand> commands;
+    std::vector<MotionDriver::Beginning> beginnings;
+    for (const Member& member : members_) {
+        const auto given = std::find_if(given_.begin(), given_.end(),
+                                        [&](const auto& entry) { return entry.first == member.driver; });
+        orders.push_back(given->second);
+        beginnings.push_back(member.driver->beginOrder(*orders.back()->task, orders.back()->command));
+        commands.push_back(orders.back()->command);
+    }
+    const auto ordered = motion::MotionSystem::enqueueTogether(all, commands);
+    if (!ordered) {
+        Order& refused = *orders[ordered.error().command];
+        refused.error = ordered.error().error;
+        refused.isDone = true;
+        withdraw(*members_[ordered.error().command].driver);
+        changed_.notifyAll();
+        return;
+    }
+    given_.clear();
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        orders[i]->id = (*ordered)[i];
+        orders[i]->isDone = true;
+        members_[i].driver->noteOrdered(*orders[i]->task, orders[i]->command, orders[i]->id, beginnings[i]);
+    }
+    for (const Member& member : members_)
+        member.driver->refresh();
+    changed_.notifyAll();
+}
+
+void SynchronisedGroup::end() {
+    if (std::exchange(isOver_, true)) return;
+    const auto all = systems();
+    (void)motion::MotionSystem::endTogether(all); // robots that still move have their paths cleared by the caller
+    for (const Member& member : members_)
+        member.driver->leaveGroup();
+    changed_.notifyAll();
+}
+
+bool SynchronisedGroup::isHeld() const {
+    return std::any_of(members_.begin(), members_.end(),
+                       [](const Member& member) {
+                           return member.driver->isHeldItself() || member.driver->isSuspended();
+                       });
+}
+
+} // namespace rt
