@@ -121,6 +121,11 @@ DebugVariable componentOf(const DebugVariable& variable, std::string_view& path,
     return {};
 }
 
+/// Data without a value in the language.
+bool hasNoText(const TypeDesc& type) {
+    return type.kind == DescKind::Handle || type.kind == DescKind::Bytes || type.kind == DescKind::Other;
+}
+
 } // namespace
 
 std::string typeName(const DebugVariable& variable) {
@@ -135,8 +140,7 @@ std::string typeName(const DebugVariable& variable) {
 std::string valueText(const DebugVariable& variable, uint32_t maxElements) {
     if (variable.data == nullptr) return "<not present>";
     const TypeDesc& element = elementType(variable);
-    if (element.kind == DescKind::Handle || element.kind == DescKind::Other)
-        return fmt::format("<{}>", element.name);
+    if (hasNoText(element)) return fmt::format("<{}>", element.name);
     int32_t dims[3] = {0, 0, 0};
     const uint8_t rank = dimensions(variable, dims);
     if (rank == 0) return valueToText(variable.data, element);
@@ -166,7 +170,7 @@ std::string assignText(const DebugVariable& variable, std::string_view text) {
     if (variable.isConstant) return fmt::format("'{}' is a constant", variable.name);
     if (variable.rank > 0 || variable.type->kind == DescKind::Array)
         return fmt::format("'{}' is an array: change its elements one by one", variable.name);
-    if (variable.type->kind == DescKind::Handle || variable.type->kind == DescKind::Other)
+    if (hasNoText(*variable.type))
         return fmt::format("data of type {} cannot be assigned", typeName(variable));
     if (!textToValue(text, variable.data, *variable.type))
         return fmt::format("'{}' is no value of type {}", text, typeName(variable));
