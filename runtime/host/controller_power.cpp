@@ -26,6 +26,7 @@ void Controller::actionPowerFail() {
         task->noteEnd("power failure");
     }
     motion_->emergencyStop(true);
+    shutDown();
     state_->write();
 }
 
