@@ -111,6 +111,9 @@ class Controller final : public DebugHost {
     /// progress any more. The event log still takes events.
     void onShutDown(std::function<void()> action) { shutDownActions_.push_back(std::move(action)); }
 
+    /// Called before the process sleeps for the wall clock or for something outside: what people look at is to be complete.
+    void onSleep(std::function<void()> action) { sleepActions_.push_back(std::move(action)); }
+
     // ---- Controller actions (stimulus, clients): reach all NORMAL tasks -----------------------------------
     /// `event`: Stop, or QuickStop for a quick or an emergency stop.
     void actionStop(SystemEvent event = SystemEvent::Stop);
@@ -201,7 +204,7 @@ class Controller final : public DebugHost {
     int64_t startCalendar_ = 0;
     std::map<const void*, std::shared_ptr<void>> services_;
     std::vector<std::function<void(Task&)>> resetActions_;
-    std::vector<std::function<void()>> shutDownActions_;
+    std::vector<std::function<void()>> shutDownActions_, sleepActions_;
     const ProgramDesc* program_ = nullptr;
     ProgramTables tables_;
     std::vector<std::unique_ptr<Task>> tasks_;
