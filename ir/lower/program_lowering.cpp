@@ -35,8 +35,7 @@ ir::DescKind descKind(const sema::Type& type) {
     case TypeKind::Bool: return ir::DescKind::Bool;
     case TypeKind::String: return ir::DescKind::String;
     case TypeKind::Record: return ir::DescKind::Record;
-    case TypeKind::NonValue:
-        return type.base()->bytes > 0 ? ir::DescKind::Bytes : ir::DescKind::Handle;
+    case TypeKind::NonValue: return type.base()->bytes > 0 ? ir::DescKind::Bytes : ir::DescKind::Handle;
     case TypeKind::SemiValue: return ir::DescKind::Handle;
     case TypeKind::Error:
     case TypeKind::Switch:

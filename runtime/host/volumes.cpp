@@ -66,7 +66,7 @@ class Walk {
     std::string place(VolumePlace& place) {
         const bool atRoot = done_.size() < 2;
         const int folder = atRoot ? root_ : done_[done_.size() - 2].file.number();
-        if (folder < 0) return fmt::format("there is no folder {}", done_[done_.size() - 2].name);
+        if (folder < 0) return fmt::format("folder {} does not exist", done_[done_.size() - 2].name);
         place.name = done_.empty() ? "." : done_.back().name;
         if (!atRoot)
             place.folder = std::move(done_[done_.size() - 2].file);
@@ -78,7 +78,7 @@ class Walk {
   private:
     struct Step {
         std::string name;
-        Descriptor file; ///< not open: there is no such part
+        Descriptor file; ///< not open: this part does not exist
     };
 
     std::string take(std::string part, Volumes::LastLink last) {

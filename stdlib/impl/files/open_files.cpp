@@ -13,7 +13,7 @@
 namespace rt::lib {
 namespace {
 
-/// Nobody waits longer for a device that is a file of a volume: nothing but the program itself could add to it in virtual time.
+/// The longest wait for a device that is a file of a volume: only programs of the controller add to it in virtual time.
 constexpr Time kLongestWait = 8 * (3600 * kSecond);
 constexpr Time kPollPeriod = kSecond / 10;
 
@@ -29,7 +29,8 @@ OpenFiles& OpenFiles::of(Controller& controller) {
 
 void OpenFiles::flushAll(Controller& controller) {
     for (auto& [handle, entry] : files_)
-        if (entry.file->wasWritten()) entry.file->flush(calendarNow(controller)); // told when it is closed
+        if (entry.file->wasWritten())
+            entry.file->flush(calendarNow(controller)); // an error is reported when it is closed
 }
 
 void OpenFiles::closeOf(Controller& controller, Task* owner) {

@@ -37,7 +37,9 @@ Status rt_Save(TaskCore* task, Handle* TaskRef, const String* TaskName, const St
     std::string destination;
     if (FilePath != nullptr || File != nullptr) {
         if (!controller.volumes().resolve(textOf(FilePath), textOf(File), destination))
-            return lib::fail(task, err::ERR_FILEACC, "Save: the path leaves its volume, or names a device that the controller does not have");
+            return lib::fail(
+                task, err::ERR_FILEACC,
+                "Save: the path leaves its volume, or names a device that the controller does not have");
         std::error_code ignored;
         if (std::filesystem::is_directory(destination, ignored))
             return lib::fail(task, err::ERR_PATH,

@@ -37,7 +37,7 @@ struct Disks {
         fs::create_symlink(target, folder.path / "home" / name);
     }
 
-    /// Whether the file behind a path was opened, and whether it is the one outside.
+    /// Whether the file that a path leads to was opened, and whether it is the one outside.
     enum class Reached { Nothing, Inside, Outside };
     Reached reach(const std::string& path) {
         VolumePlace place;
