@@ -19,6 +19,7 @@ constexpr rt::DescKind kindOf(ir::DescKind kind) {
     case ir::DescKind::Array: return rt::DescKind::Array;
     case ir::DescKind::Handle: return rt::DescKind::Handle;
     case ir::DescKind::Other: return rt::DescKind::Other;
+    case ir::DescKind::Bytes: return rt::DescKind::Bytes;
     }
     llvm_unreachable("kind of a type");
 }

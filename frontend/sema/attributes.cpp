@@ -83,9 +83,14 @@ TypeClass classOf(const DeclarationComment& comment) {
 } // namespace
 
 void Analyzer::applyTypeAttributes(TypeSymbol& symbol) {
-    const TypeClass typeClass = classOf(commentOf(*context_.tree, *symbol.decl));
+    const DeclarationComment comment = commentOf(*context_.tree, *symbol.decl);
+    const TypeClass typeClass = classOf(comment);
     TypeKind& kind = symbol.type->kind;
-    if (typeClass == TypeClass::NonValue) kind = TypeKind::NonValue;
+    if (typeClass == TypeClass::NonValue) {
+        kind = TypeKind::NonValue;
+        for (const char digit : comment.get("bytes"))
+            symbol.type->bytes = symbol.type->bytes * 10 + static_cast<uint32_t>(digit - '0');
+    }
     if (typeClass == TypeClass::SemiValue) kind = TypeKind::SemiValue;
     if (typeClass == TypeClass::Pseudo) kind = TypeKind::AnyType;
 }

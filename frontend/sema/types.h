@@ -21,7 +21,7 @@ enum class TypeKind : uint8_t {
     Bool,
     String,
     Record,
-    NonValue,  ///< clock, iodev, rawbytes ... : a handle
+    NonValue,  ///< clock, iodev ... : a handle; rawbytes: a container
     SemiValue, ///< signalxx: a handle with a readable value
     Switch,
     AnyType ///< pseudo-type of built-ins
@@ -44,6 +44,7 @@ struct Type {
     uint32_t leaves = 1;               ///< atomic parts of a value; stops counting beyond kMaxLeaves
     /// Records of few atomic parts: the pieces of which all literals of the type consist.
     std::vector<syntax::PlainPiece> literalShape;
+    uint32_t bytes = 0; ///< non-value types that are containers of bytes: their capacity; 0: a handle
     bool containsNonValue = false; ///< records with a non-value component are non-value
     bool unclear = false;          ///< a record of which a part could not be read
 

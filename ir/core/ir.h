@@ -303,7 +303,7 @@ struct ModuleEntry {
     uint32_t gone = kNone; ///< global I32 that becomes 1 when the module leaves memory; kNone: nobody asks
 };
 
-enum class DescKind : uint8_t { Float, Double, Bool, String, Record, Array, Handle, Other };
+enum class DescKind : uint8_t { Float, Double, Bool, String, Record, Array, Handle, Other, Bytes };
 /// Run-time description of a source-language type.
 struct TypeDesc {
     std::string name;     ///< as declared, an alias keeps its name

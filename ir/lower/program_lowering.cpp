@@ -35,7 +35,7 @@ ir::DescKind descKind(const sema::Type& type) {
     case TypeKind::Bool: return ir::DescKind::Bool;
     case TypeKind::String: return ir::DescKind::String;
     case TypeKind::Record: return ir::DescKind::Record;
-    case TypeKind::NonValue:
+    case TypeKind::NonValue: return type.base()->bytes > 0 ? ir::DescKind::Bytes : ir::DescKind::Handle;
     case TypeKind::SemiValue: return ir::DescKind::Handle;
     case TypeKind::Error:
     case TypeKind::Switch:
@@ -92,6 +92,8 @@ ir::TypeId ProgramLowering::irType(const sema::Type* type) {
     case TypeKind::Switch: return ir::kBool;
     case TypeKind::String: return stringType();
     case TypeKind::NonValue:
+        if (base->bytes > 0) return module_.stringOf(base->bytes);
+        return ir::kI64;
     case TypeKind::SemiValue:
     case TypeKind::Error: return ir::kI64; // of a module that is not here: a place, which nothing reads
     case TypeKind::AnyType: return ir::kVoid;
@@ -163,7 +165,7 @@ void ProgramLowering::flatten(const sema::ConstValue& value, const DataType& typ
     case TypeKind::Dnum: scalar.kind = ir::TypeKind::F64; break;
     case TypeKind::Bool: scalar.kind = ir::TypeKind::Bool; break;
     case TypeKind::String: scalar.kind = ir::TypeKind::Str; break;
-    case TypeKind::NonValue:
+    case TypeKind::NonValue: scalar.kind = base->bytes > 0 ? ir::TypeKind::Str : ir::TypeKind::I64; break;
     case TypeKind::SemiValue:
     case TypeKind::Error: scalar.kind = ir::TypeKind::I64; break;
     case TypeKind::Switch:

@@ -46,7 +46,8 @@ inline constexpr Status kJumpPast = -5;
 /// the statement of the frame record is executed again. Never leaves a routine.
 inline constexpr Status kAgain = -6;
 
-enum class DescKind : uint8_t { Num, Dnum, Bool, String, Record, Array, Handle, Other };
+/// Bytes: a container of bytes (rawbytes), laid out as a string of its own capacity.
+enum class DescKind : uint8_t { Num, Dnum, Bool, String, Record, Array, Handle, Other, Bytes };
 
 /// Handle of an object that the controller owns (signal, clock, file ...); 0 = not connected yet.
 using Handle = int64_t;

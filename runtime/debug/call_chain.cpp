@@ -37,7 +37,8 @@ bool isValue(const unsigned char* data, const TypeDesc& type) {
     case DescKind::Num: return std::isfinite(numberAt<float>(data));
     case DescKind::Dnum: return std::isfinite(numberAt<double>(data));
     case DescKind::Bool: return *data <= 1;
-    case DescKind::String: return numberAt<uint32_t>(data) <= sizeof(String::bytes);
+    case DescKind::String:
+    case DescKind::Bytes: return numberAt<uint32_t>(data) <= type.size - sizeof(String::length);
     case DescKind::Array:
         for (uint32_t i = 0; i < type.count; ++i)
             if (!isValue(data + uint64_t{i} * type.fields[0]->size, *type.fields[0])) return false;

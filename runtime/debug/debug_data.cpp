@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cstring>
@@ -121,6 +122,24 @@ DebugVariable componentOf(const DebugVariable& variable, std::string_view& path,
     return {};
 }
 
+/// "<rawbytes, 3 bytes: 61 62 63>"; the first 16 of many.
+std::string bytesText(const void* data, const TypeDesc& type) {
+    constexpr uint32_t kShown = 16;
+    uint32_t length = 0;
+    std::memcpy(&length, data, sizeof length);
+    length = std::min(length, static_cast<uint32_t>(type.size - sizeof length));
+    std::string text = fmt::format("<{}, {} bytes", type.name, length);
+    const auto* bytes = static_cast<const unsigned char*>(data) + sizeof length;
+    for (uint32_t i = 0; i < std::min(length, kShown); ++i)
+        text += fmt::format("{}{:02X}", i == 0 ? ": " : " ", bytes[i]);
+    return text + (length > kShown ? " ...>" : ">");
+}
+
+/// Data without a value in the language.
+bool hasNoText(const TypeDesc& type) {
+    return type.kind == DescKind::Handle || type.kind == DescKind::Bytes || type.kind == DescKind::Other;
+}
+
 } // namespace
 
 std::string typeName(const DebugVariable& variable) {
@@ -135,8 +154,9 @@ std::string typeName(const DebugVariable& variable) {
 std::string valueText(const DebugVariable& variable, uint32_t maxElements) {
     if (variable.data == nullptr) return "<not present>";
     const TypeDesc& element = elementType(variable);
-    if (element.kind == DescKind::Handle || element.kind == DescKind::Other)
-        return fmt::format("<{}>", element.name);
+    if (element.kind == DescKind::Bytes && variable.rank == 0 && variable.type->kind != DescKind::Array)
+        return bytesText(variable.data, element);
+    if (hasNoText(element)) return fmt::format("<{}>", element.name);
     int32_t dims[3] = {0, 0, 0};
     const uint8_t rank = dimensions(variable, dims);
     if (rank == 0) return valueToText(variable.data, element);
@@ -166,7 +186,7 @@ std::string assignText(const DebugVariable& variable, std::string_view text) {
     if (variable.isConstant) return fmt::format("'{}' is a constant", variable.name);
     if (variable.rank > 0 || variable.type->kind == DescKind::Array)
         return fmt::format("'{}' is an array: change its elements one by one", variable.name);
-    if (variable.type->kind == DescKind::Handle || variable.type->kind == DescKind::Other)
+    if (hasNoText(*variable.type))
         return fmt::format("data of type {} cannot be assigned", typeName(variable));
     if (!textToValue(text, variable.data, *variable.type))
         return fmt::format("'{}' is no value of type {}", text, typeName(variable));

@@ -46,11 +46,14 @@ Controller::Controller(const RunOptions& options)
     scheduler_.setBeforeSleep([this] {
         panel_.flush();
         log_.flush();
+        for (const auto& action : sleepActions_)
+            action();
     });
 }
 
 Controller::~Controller() {
     scheduler_.abandonTasks();
+    shutDown();
     // Interrupts and services may hold listeners and timers of the parts below them.
     tasks_.clear();
     services_.clear();
@@ -197,6 +200,11 @@ bool Controller::closeOutputs() {
     if (trace_) complete = trace_->close() && complete;
     if (signalsWriter_) complete = signalsWriter_->close() && complete;
     return complete;
+}
+
+void Controller::shutDown() {
+    for (const auto& action : shutDownActions_)
+        action();
 }
 
 bool Controller::cyclesLeft(const Task& task) const {

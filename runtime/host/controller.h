@@ -7,12 +7,12 @@
 #include "runtime/debug/state_keepers.h"
 #include "runtime/host/clock_object.h"
 #include "runtime/host/handle_table.h"
-#include "runtime/host/home_folder.h"
 #include "runtime/host/mechanical_units.h"
 #include "runtime/host/motion_driver.h"
 #include "runtime/host/run_options.h"
 #include "runtime/host/service_table.h"
 #include "runtime/host/system_signals.h"
+#include "runtime/host/volumes.h"
 #include "runtime/io/cfg_parser.h"
 #include "runtime/io/io_system.h"
 #include "runtime/log/event_log.h"
@@ -57,7 +57,7 @@ class Controller final : public DebugHost {
     IoSystem& io() { return io_; }
     EventLog& log() override { return log_; }
     OperatorPanel& panel() { return panel_; }
-    HomeFolder& home() { return home_; }
+    Volumes& volumes() { return volumes_; }
     /// The motion groups, one at least as soon as prepare() succeeded.
     const std::vector<std::unique_ptr<MotionDriver>>& motions() const { return motions_; }
     /// The group that the task controls; for a task that controls none the first one, which it may ask.
@@ -108,6 +108,13 @@ class Controller final : public DebugHost {
 
     /// Called whenever the program of a task begins anew, ahead of its RESET routines (settings go back to their defaults).
     void onProgramReset(std::function<void(Task&)> action) { resetActions_.push_back(std::move(action)); }
+
+    /// Called when everything that is open is closed: at a power failure and at the end of the run, once no routine is in
+    /// progress any more. The event log still takes events.
+    void onShutDown(std::function<void()> action) { shutDownActions_.push_back(std::move(action)); }
+
+    /// Called before the process sleeps for the wall clock or for something outside: what people look at is to be complete.
+    void onSleep(std::function<void()> action) { sleepActions_.push_back(std::move(action)); }
 
     // ---- Controller actions (stimulus, clients): reach all NORMAL tasks -----------------------------------
     /// `event`: Stop, or QuickStop for a quick or an emergency stop.
@@ -177,6 +184,7 @@ class Controller final : public DebugHost {
     void reportEnds();
     ExitStatus finish(RunEnd end);
     bool closeOutputs();
+    void shutDown();
     std::string whereTasksAre(const char* verb) const;
     std::string startRefusal(const Task& task) const;
     std::string trustLevel(const Task& task) const;
@@ -187,7 +195,7 @@ class Controller final : public DebugHost {
     IoSystem io_;
     SystemSignals systemSignals_{*this};
     OperatorPanel panel_{log_};
-    HomeFolder home_;
+    Volumes volumes_;
     MechanicalUnits units_;
     std::vector<std::unique_ptr<MotionDriver>> motions_;
     std::unique_ptr<TraceWriter> trace_;
@@ -202,6 +210,7 @@ class Controller final : public DebugHost {
     int64_t startCalendar_ = 0;
     ServiceTable services_;
     std::vector<std::function<void(Task&)>> resetActions_;
+    std::vector<std::function<void()>> shutDownActions_, sleepActions_;
     const ProgramDesc* program_ = nullptr;
     ProgramTables tables_;
     std::vector<std::unique_ptr<Task>> tasks_;

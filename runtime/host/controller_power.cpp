@@ -28,6 +28,7 @@ void Controller::actionPowerFail() {
     }
     for (const auto& motion : motions_)
         motion->emergencyStop(true);
+    shutDown();
     state_->write();
 }
 

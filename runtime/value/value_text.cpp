@@ -389,6 +389,7 @@ std::string describeType(const TypeDesc& type) {
             text += fmt::format("{}{}", k > 0 ? "," : "", type.dims[k]);
         return text + "]" + describeType(*type.fields[0]);
     }
+    case DescKind::Bytes:
     case DescKind::Handle:
     case DescKind::Other: break;
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstring>
 #include <set>
 
 namespace stdlibgen {
@@ -134,6 +135,7 @@ std::string cppType(const Model& model, std::string_view type) {
     case Repr::Handle: return "rt::Handle";
     case Repr::Switch: return "bool";
     case Repr::Any: return "void";
+    case Repr::Bytes:
     case Repr::Record: break;
     }
     std::string name(base ? base->name : std::string(type));
@@ -156,7 +158,12 @@ std::string emitTypes(const Model& model) {
            "#include \"runtime/abi/rt_abi.h\"\n\nnamespace rt::data {\n\n";
     std::set<std::string> done;
     for (const TypeInfo& type : model.types)
-        if (type.repr == Repr::Record && type.aliasOf.empty()) emitRecord(model, type, done, out);
+        if (type.repr == Repr::Record && type.aliasOf.empty())
+            emitRecord(model, type, done, out);
+        else if (type.repr == Repr::Bytes)
+            out +=
+                fmt::format("struct {} {{\n    uint32_t length = 0;\n    uint8_t bytes[{}] = {{}};\n}};\n\n",
+                            cppType(model, type.name).substr(std::strlen("rt::data::")), type.bytes);
     return out + "\n} // namespace rt::data\n";
 }
 

@@ -28,6 +28,7 @@ const char* kindOf(const Routine& r) {
 
 std::string typeText(const TypeInfo& type) {
     if (!type.aliasOf.empty()) return "alias of " + type.aliasOf;
+    if (type.repr == Repr::Bytes) return fmt::format("container of {} bytes", type.bytes);
     if (type.fields.empty()) return type.repr == Repr::Handle ? "handle" : "atomic";
     std::string out = "record";
     for (const auto& f : type.fields)

@@ -20,6 +20,7 @@ ir::TypeId layoutOf(const Model& model, std::string_view type, Module& module) {
     case Repr::Switch: return ir::kBool;
     case Repr::String: return module.stringOf(rt::kStringCapacity);
     case Repr::Handle: return ir::kI64;
+    case Repr::Bytes: return module.stringOf(base->bytes);
     case Repr::Any: return ir::kVoid;
     case Repr::Record: break;
     }
@@ -37,7 +38,7 @@ std::string emitLayoutChecks(const Model& model) {
                     "#include \"stdlib_types.h\"\n\n#include <cstddef>\n\n");
     Module module;
     for (const TypeInfo& type : model.types) {
-        if (type.repr != Repr::Record || !type.aliasOf.empty()) continue;
+        if ((type.repr != Repr::Record && type.repr != Repr::Bytes) || !type.aliasOf.empty()) continue;
         const TypeId id = layoutOf(model, type.name, module);
         const std::string name = cppType(model, type.name);
         out += fmt::format("static_assert(sizeof({0}) == {1} && alignof({0}) == {2});\n", name,

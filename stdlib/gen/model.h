@@ -30,7 +30,7 @@ struct Doc {
 };
 
 /// How a type is represented (design chapter 3).
-enum class Repr : uint8_t { Num, Dnum, Bool, String, Record, Handle, Any, Switch };
+enum class Repr : uint8_t { Num, Dnum, Bool, String, Record, Handle, Bytes, Any, Switch };
 
 struct TypeInfo {
     struct Field {
@@ -39,6 +39,7 @@ struct TypeInfo {
     std::string name;
     std::string aliasOf; ///< empty for records and atomic types
     Repr repr = Repr::Record;
+    uint32_t bytes = 0; ///< Repr::Bytes: the capacity
     std::vector<Field> fields;
     Doc doc;
     Place place;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -131,6 +132,12 @@ class Reader {
         type.place = place(decl);
         type.doc = documentation(decl, type.name, true);
         type.repr = reprOf(type.name, type.doc.get("class"));
+        if (const std::string bytes = type.doc.get("bytes"); !bytes.empty()) {
+            type.repr = Repr::Bytes;
+            const auto end = bytes.data() + bytes.size();
+            if (std::from_chars(bytes.data(), end, type.bytes).ptr != end || type.bytes == 0)
+                fail(type.place, fmt::format("'{}': bytes must be a number above 0", type.name));
+        }
         for (const auto* c : decl.components)
             type.fields.push_back({word(c->type), word(c->name)});
         if (type.repr == Repr::Record && type.fields.empty())

@@ -113,7 +113,7 @@ class Binder {
     /// IN is a value: whoever made the call could not know the mode, and the routine may reach the object otherwise.
     void* copyOf(const LateCallArg& arg) {
         const DescKind kind = lib::elementOf(*arg.type).kind;
-        if (kind == DescKind::Handle || kind == DescKind::Other) return arg.data;
+        if (kind == DescKind::Handle || kind == DescKind::Bytes || kind == DescKind::Other) return arg.data;
         std::byte* const copy = roomFor(arg.type->size);
         std::memcpy(copy, arg.data, arg.type->size);
         return copy;

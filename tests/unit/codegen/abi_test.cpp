@@ -284,6 +284,7 @@ TEST_CASE("what only shows while code is made ends the compiler", "[codegen][abi
 TEST_CASE("kinds of the IR have their counterparts in the runtime", "[codegen][abi]") {
     // That every name has one is checked by the compiler (abi_kinds.h); these are the values that both sides count by.
     CHECK(abi::kindOf(ir::DescKind::Other) == rt::DescKind::Other);
+    CHECK(abi::kindOf(ir::DescKind::Bytes) == rt::DescKind::Bytes);
     CHECK(abi::kindOf(ir::StmtKind::Handler) == rt::kStmtHandler);
     CHECK(abi::kindOf(ir::GlobalKind::External) == rt::kGlobalPersistent);
     CHECK(abi::kindOf(ir::RoutineKind::Interrupt) == rt::kRoutineTrap);
