@@ -107,6 +107,12 @@ class Controller final : public DebugHost {
     /// Called whenever the program of a task begins anew, ahead of its RESET routines (settings go back to their defaults).
     void onProgramReset(std::function<void(Task&)> action) { resetActions_.push_back(std::move(action)); }
 
+    /// Called when EXIT has ended the program of a task, and for each task when the power fails: what the program has open
+    /// outside it is lost. `why`: for an event, "the power failed".
+    void onConnectionsLost(std::function<void(Task&, const char* why)> action) {
+        lossActions_.push_back(std::move(action));
+    }
+
     // ---- Controller actions (stimulus, clients): reach all NORMAL tasks -----------------------------------
     /// `event`: Stop, or QuickStop for a quick or an emergency stop.
     void actionStop(SystemEvent event = SystemEvent::Stop);
@@ -165,6 +171,7 @@ class Controller final : public DebugHost {
     bool hookConcerns(const CfgInstance& hook, const Task& task) const;
     void backgroundStopped(Task& task);
     void stopTasks(const char* order, SystemEvent event);
+    void loseConnections(Task& task, const char* why);
     void scheduleStimulus();
     void perform(const StimulusItem& item);
     bool runOver();
@@ -196,6 +203,7 @@ class Controller final : public DebugHost {
     int64_t startCalendar_ = 0;
     std::map<const void*, std::shared_ptr<void>> services_;
     std::vector<std::function<void(Task&)>> resetActions_;
+    std::vector<std::function<void(Task&, const char*)>> lossActions_;
     const ProgramDesc* program_ = nullptr;
     ProgramTables tables_;
     std::vector<std::unique_ptr<Task>> tasks_;

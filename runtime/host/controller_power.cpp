@@ -25,6 +25,8 @@ void Controller::actionPowerFail() {
         task->stop(StopCause::Order);
         task->noteEnd("power failure");
     }
+    for (const auto& task : tasks_)
+        loseConnections(*task, "the power failed");
     motion_->emergencyStop(true);
     state_->write();
 }
