@@ -150,7 +150,8 @@ Option Command::addChecked(const std::string& name, std::function<std::string(co
 }
 
 Option Command::addOptional(const std::string& name, const std::string& otherwise,
-                            std::function<std::string(const std::string&)> take, const std::string& text) const {
+                            std::function<std::string(const std::string&)> take,
+                            const std::string& text) const {
     auto values = std::make_shared<std::vector<std::string>>();
     CLI::Option* option = app_->add_flag(name + "{" + otherwise + "}", *values, text);
     option->each([name, values, take = std::move(take)](const std::string& value) {

@@ -62,15 +62,16 @@ void addNetwork(const Command& command, net::NetworkOptions& options) {
     command.addFlag("--offline", options.offline,
                     "sockets connect tasks of this controller only, without this computer's network");
     command
-        .addOptional("--listen", "any", [&options](const std::string& text) { return takeListen(options, text); },
-                     "let other computers connect to sockets of the program: at the address that it names, or at this "
-                     "one; default: this computer only")
+        .addOptional(
+            "--listen", "any", [&options](const std::string& text) { return takeListen(options, text); },
+            "let other computers connect to sockets of the program: at the address that it names, or at this "
+            "one; default: this computer only")
         .typeName("[=ADDRESS]");
     command
-        .addOptional("--connect", "any",
-                     [&options](const std::string& text) { return takeConnect(options, text); },
-                     "let the program connect to other computers: to any, to this one, or to OTHER where it names "
-                     "ADDRESS; repeatable")
+        .addOptional(
+            "--connect", "any", [&options](const std::string& text) { return takeConnect(options, text); },
+            "let the program connect to other computers: to any, to this one, or to OTHER where it names "
+            "ADDRESS; repeatable")
         .typeName("[=ADDRESS[=OTHER]]");
 }
 

@@ -8,7 +8,8 @@ namespace rt::net {
 
 bool parseIp(std::string_view text, uint32_t& ip) {
     in_addr parsed{};
-    if (text.find('\0') != std::string_view::npos || inet_pton(AF_INET, std::string(text).c_str(), &parsed) != 1)
+    if (text.find('\0') != std::string_view::npos ||
+        inet_pton(AF_INET, std::string(text).c_str(), &parsed) != 1)
         return false;
     ip = ntohl(parsed.s_addr);
     return true;

@@ -15,9 +15,9 @@ struct Address {
     auto operator<=>(const Address&) const = default;
 };
 
-inline constexpr uint32_t kAnyAddress = 0;              ///< 0.0.0.0
-inline constexpr uint32_t kLoopback = 0x7F000001;       ///< 127.0.0.1
-inline constexpr uint32_t kServicePort = 0xC0A87D01;    ///< 192.168.125.1, the service port of every controller
+inline constexpr uint32_t kAnyAddress = 0;           ///< 0.0.0.0
+inline constexpr uint32_t kLoopback = 0x7F000001;    ///< 127.0.0.1
+inline constexpr uint32_t kServicePort = 0xC0A87D01; ///< 192.168.125.1, the service port of every controller
 
 /// "192.168.125.1" as a number; false when it is not four numbers from 0 to 255.
 bool parseIp(std::string_view text, uint32_t& ip);

@@ -70,7 +70,8 @@ Outcome HostSocket::open(bool datagrams) {
     close();
     const int type = (datagrams ? SOCK_DGRAM : SOCK_STREAM) | SOCK_NONBLOCK | SOCK_CLOEXEC;
     fd_ = ::socket(AF_INET, type, 0);
-    if (fd_ < 0) return {Fault::Unspecified, fmt::format("the computer gives no socket: {}", std::strerror(errno))};
+    if (fd_ < 0)
+        return {Fault::Unspecified, fmt::format("the computer gives no socket: {}", std::strerror(errno))};
     const int on = 1;
     // Answers of a few bytes are not to wait for the next ones; a port can be used again right after a run.
     if (!datagrams) {

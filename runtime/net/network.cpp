@@ -25,7 +25,8 @@ bool Network::isOwn(uint32_t ip) const {
 
 std::optional<uint32_t> Network::outsideIp(uint32_t named) const {
     if (options_.offline) return std::nullopt;
-    if (const auto found = options_.connect.find(named); found != options_.connect.end()) return found->second;
+    if (const auto found = options_.connect.find(named); found != options_.connect.end())
+        return found->second;
     if (isLoopback(named)) return named;
     if (isOwn(named)) return kLoopback;
     return options_.connectAnywhere ? std::optional(named) : std::nullopt;
@@ -37,11 +38,8 @@ Socket* Network::boundAt(bool datagrams, uint16_t port) const {
 }
 
 Socket* Network::reachedBy(bool datagrams, const Address& address) const {
-    Socket* socket = boundAt(datagrams, address.port);
-    if (socket == nullptr || !isOwn(address.ip)) return nullptr;
-    const uint32_t ip = socket->local().ip;
-    // All that is not bound to loopback itself can be reached by it as well, as from the computer.
-    return ip == address.ip || ip == kAnyAddress || isLoopback(address.ip) ? socket : nullptr;
+    // All addresses of the controller lead to the same place, as they do on the computer.
+    return isOwn(address.ip) ? boundAt(datagrams, address.port) : nullptr;
 }
 
 void Network::removeBound(bool datagrams, uint16_t port, const Socket& socket) {

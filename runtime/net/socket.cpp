@@ -56,16 +56,18 @@ Outcome Socket::bind(const Address& address) {
         return {Fault::AddressInvalid,
                 fmt::format("{} cannot be an address of the controller", ipText(address.ip))};
     if (network_.boundAt(datagrams_, address.port) != nullptr)
-        return {Fault::AddressInUse, fmt::format("port {} is used by another socket of this controller; close that "
-                                                 "one first or use another port",
-                                                 address.port)};
+        return {Fault::AddressInUse,
+                fmt::format("port {} is used by another socket of this controller; close that "
+                            "one first or use another port",
+                            address.port)};
     local_ = address;
     if (!network_.isOffline()) {
         if (Outcome outcome = openHost(); !outcome.ok()) {
             local_ = {};
-            outcome.why = fmt::format("{} cannot be used on this computer ({}); use another port, or --offline when "
-                                      "only tasks of this controller connect",
-                                      addressText(address), outcome.why);
+            outcome.why =
+                fmt::format("{} cannot be used on this computer ({}); use another port, or --offline when "
+                            "only tasks of this controller connect",
+                            addressText(address), outcome.why);
             return outcome;
         }
     }
@@ -93,7 +95,8 @@ Outcome Socket::listen() {
 }
 
 Outcome Socket::joinListener(Socket& listener, const Address& address) {
-    if (listener.state_ != State::Listening || listener.waiting_.size() >= kBacklog) return {Fault::Again, {}};
+    if (listener.state_ != State::Listening || listener.waiting_.size() >= kBacklog)
+        return {Fault::Again, {}};
     auto other = std::make_shared<Socket>(network_, *listener.owner_, false);
     other->peer_ = this;
     other->remote_ = {address.ip, local_.port};
@@ -115,7 +118,8 @@ Outcome Socket::connectOutside(const Address& address) {
     if (!ip && network_.isOffline())
         return {Fault::Unreachable, fmt::format("{} cannot be reached with --offline", addressText(address))};
     if (!ip) {
-        network_.log().write(EventId::ConnectionForbidden, owner_, {addressText(address), ipText(address.ip)});
+        network_.log().write(EventId::ConnectionForbidden, owner_,
+                             {addressText(address), ipText(address.ip)});
         return {Fault::Unreachable, fmt::format("other computers are not reached without --connect")};
     }
     Outcome outcome;
@@ -162,7 +166,8 @@ void Socket::stopConnecting() {
 Outcome Socket::accept(const Task& owner, std::shared_ptr<Socket>& connection) {
     switch (state_) {
     case State::Closed: return ended();
-    case State::Created: return {Fault::NotBound, "the socket is not bound; use SocketBind and SocketListen first"};
+    case State::Created:
+        return {Fault::NotBound, "the socket is not bound; use SocketBind and SocketListen first"};
     case State::Bound: return {Fault::Unspecified, "the socket does not listen; use SocketListen first"};
     case State::Connected: return {Fault::IsConnected, "the socket is a connection, and does not listen"};
     case State::Listening: break;
@@ -240,9 +245,10 @@ Outcome Socket::await(std::size_t bytes) {
     if (received_.size() >= bytes) return {};
     if (!hasEnded_) return {Fault::Again, {}};
     if (received_.empty()) return ended();
-    return {Fault::Closed, fmt::format("the connection has ended after {} of {} bytes; they can be received without "
-                                       "\\ReadNoOfBytes",
-                                       received_.size(), bytes)};
+    return {Fault::Closed,
+            fmt::format("the connection has ended after {} of {} bytes; they can be received without "
+                        "\\ReadNoOfBytes",
+                        received_.size(), bytes)};
 }
 
 Outcome Socket::available(std::size_t& bytes) {
@@ -252,7 +258,8 @@ Outcome Socket::available(std::size_t& bytes) {
         bytes = nextDatagram();
         return {};
     }
-    if (const Outcome outcome = await(1); !outcome.ok()) return outcome.fault == Fault::Again ? Outcome{} : outcome;
+    if (const Outcome outcome = await(1); !outcome.ok())
+        return outcome.fault == Fault::Again ? Outcome{} : outcome;
     fetchBytes();
     bytes = received_.size();
     return {};
@@ -340,7 +347,8 @@ std::size_t Socket::nextDatagram() {
 Outcome Socket::receiveFrom(Datagram& datagram) {
     if (state_ == State::Closed) return ended();
     if (!datagrams_)
-        return {Fault::Unspecified, "the socket is one for connections; use SocketReceive, or SocketCreate \\UDP"};
+        return {Fault::Unspecified,
+                "the socket is one for connections; use SocketReceive, or SocketCreate \\UDP"};
     (void)nextDatagram();
     if (datagramsIn_.empty()) return {Fault::Again, {}};
     datagram = std::move(datagramsIn_.front());

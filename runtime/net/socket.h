@@ -26,9 +26,9 @@ struct Datagram {
 class Socket {
   public:
     enum class State : uint8_t { Created, Bound, Listening, Connected, Closed };
-    static constexpr std::size_t kBacklog = 10;         ///< connections that wait to be accepted
-    static constexpr std::size_t kWindow = 64 * 1024;   ///< bytes on their way to a receiver
-    static constexpr std::size_t kMostDatagrams = 256;  ///< on their way; further ones are lost
+    static constexpr std::size_t kBacklog = 10;        ///< connections that wait to be accepted
+    static constexpr std::size_t kWindow = 64 * 1024;  ///< bytes on their way to a receiver
+    static constexpr std::size_t kMostDatagrams = 256; ///< on their way; further ones are lost
 
     /// `owner`: the task whose program made it.
     Socket(Network& network, const Task& owner, bool datagrams);

@@ -84,7 +84,8 @@ Status remoteOf(TaskCore* task, const String* text, float port, Address& address
 
 /// Repeats `step` until it answers other than Again or the deadline has passed. Negative: the task is being unwound.
 template <class Step>
-Status repeat(TaskCore* task, Socket& socket, bool toSend, Time deadline, Outcome& outcome, const Step& step) {
+Status repeat(TaskCore* task, Socket& socket, bool toSend, Time deadline, Outcome& outcome,
+              const Step& step) {
     outcome = step();
     if (outcome.fault != Fault::Again) return kOk;
     WaitSpec spec;
@@ -153,7 +154,8 @@ Status bytesToAwait(TaskCore* task, const float* wanted, const Incoming& into, s
     return kOk;
 }
 
-Status receiveStream(TaskCore* task, Socket& socket, const Incoming& into, const float* wanted, Time deadline) {
+Status receiveStream(TaskCore* task, Socket& socket, const Incoming& into, const float* wanted,
+                     Time deadline) {
     std::size_t least = 0;
     if (const Status status = bytesToAwait(task, wanted, into, least)) return status;
     Outcome outcome;
@@ -174,8 +176,9 @@ Status receiveDatagram(TaskCore* task, Socket& socket, const Incoming& into, Tim
     if (!outcome.ok()) return finish(task, outcome);
     const std::size_t count = into.fitting(datagram.bytes);
     if (datagram.sent > count)
-        taskOf(task).report(EventId::DatagramCut, {std::to_string(datagram.sent), net::addressText(datagram.from),
-                                                   std::to_string(into.capacity())});
+        taskOf(task).report(EventId::DatagramCut,
+                            {std::to_string(datagram.sent), net::addressText(datagram.from),
+                             std::to_string(into.capacity())});
     into.put(std::string_view(datagram.bytes).substr(0, count));
     from = datagram.from;
     return kOk;
@@ -190,9 +193,10 @@ Status rt_SocketCreate(TaskCore* task, Handle* Socket, bool UDP) {
     if (sockets.find(*Socket))
         return lib::fail(task, err::ERR_SOCK_UNSPEC, "the socket is in use already; use SocketClose first");
     if (sockets.isFull())
-        return lib::fail(task, err::ERR_SOCK_UNSPEC,
-                         fmt::format("{} sockets are in use, which is the most; close those that are not needed",
-                                     Sockets::kMost));
+        return lib::fail(
+            task, err::ERR_SOCK_UNSPEC,
+            fmt::format("{} sockets are in use, which is the most; close those that are not needed",
+                        Sockets::kMost));
     *Socket = sockets.add(std::make_shared<net::Socket>(sockets.network(), taskOf(task), UDP));
     return kOk;
 }
@@ -225,12 +229,14 @@ Status rt_SocketAccept(TaskCore* task, Handle* Socket, Handle* ClientSocket, Str
     Outcome outcome;
     const auto step = [&]() -> Outcome {
         if (!sockets.find(*ClientSocket) && sockets.isFull())
-            return {Fault::Unspecified, fmt::format("{} sockets are in use, which is the most; close those that are "
-                                                    "not needed",
-                                                    Sockets::kMost)};
+            return {Fault::Unspecified,
+                    fmt::format("{} sockets are in use, which is the most; close those that are "
+                                "not needed",
+                                Sockets::kMost)};
         return socket->accept(taskOf(task), connection);
     };
-    if ((status = repeat(task, *socket, false, lib::deadlineOf(task, Time), outcome, step)) != kOk) return status;
+    if ((status = repeat(task, *socket, false, lib::deadlineOf(task, Time), outcome, step)) != kOk)
+        return status;
     if (!outcome.ok()) return finish(task, outcome);
     if (ClientAddress != nullptr) ClientAddress->assign(net::ipText(connection->remote().ip));
     sockets.close(*ClientSocket); // a connection that the variable named before would be lost
@@ -250,9 +256,10 @@ Status rt_SocketConnect(TaskCore* task, Handle* Socket, const String* Address, f
     if (outcome.fault == Fault::Again) {
         if ((status = repeatConnecting(task, *socket, address, deadline, outcome)) != kOk) return status;
         if (outcome.fault == Fault::Again)
-            outcome.why = fmt::format("{} did not take the connection within \\Time; check that the server runs "
-                                      "there and listens",
-                                      net::addressText(address));
+            outcome.why =
+                fmt::format("{} did not take the connection within \\Time; check that the server runs "
+                            "there and listens",
+                            net::addressText(address));
     }
     return finish(task, outcome);
 }
@@ -309,7 +316,8 @@ Status rt_SocketReceiveFrom(TaskCore* task, Handle* Socket, String* Str, data::R
     const Incoming into{Str, RawData, Data, DataDim1, NoRecBytes};
     if ((status = into.check(task)) != kOk) return status;
     Address from;
-    if ((status = receiveDatagram(task, *socket, into, lib::deadlineOf(task, Time), from)) != kOk) return status;
+    if ((status = receiveDatagram(task, *socket, into, lib::deadlineOf(task, Time), from)) != kOk)
+        return status;
     RemoteAddress->assign(net::ipText(from.ip));
     *RemotePort = static_cast<float>(from.port);
     return kOk;

@@ -33,10 +33,13 @@ Status Outgoing::get(TaskCore* task, std::array<char, net::kLargestMessage>& buf
     } else {
         return fail(task, err::ERR_ARGVALERR, kNoData);
     }
-    if (wanted != nullptr && !(*wanted >= 0 && *wanted <= static_cast<float>(size) && std::trunc(*wanted) == *wanted))
-        return fail(task, err::ERR_ARGVALERR,
-                    fmt::format("\\NoOfBytes is {}, but must be a whole number from 0 to {}, the bytes that there are",
-                                *wanted, size));
+    if (wanted != nullptr &&
+        !(*wanted >= 0 && *wanted <= static_cast<float>(size) && std::trunc(*wanted) == *wanted))
+        return fail(
+            task, err::ERR_ARGVALERR,
+            fmt::format(
+                "\\NoOfBytes is {}, but must be a whole number from 0 to {}, the bytes that there are",
+                *wanted, size));
     const std::size_t used = wanted != nullptr ? static_cast<std::size_t>(*wanted) : size;
     if (used > net::kLargestMessage)
         return fail(task, err::ERR_ARGVALERR,
@@ -44,8 +47,9 @@ Status Outgoing::get(TaskCore* task, std::array<char, net::kLargestMessage>& buf
                                 net::kLargestMessage));
     for (std::size_t i = 0; view.data() == nullptr && i < used; ++i) {
         if (!(bytes[i] >= 0 && bytes[i] <= 255 && std::trunc(bytes[i]) == bytes[i]))
-            return fail(task, err::ERR_ARGVALERR,
-                        fmt::format("element {} of \\Data is {}, which is not a byte (0 to 255)", i + 1, bytes[i]));
+            return fail(
+                task, err::ERR_ARGVALERR,
+                fmt::format("element {} of \\Data is {}, which is not a byte (0 to 255)", i + 1, bytes[i]));
         buffer[i] = static_cast<char>(static_cast<uint8_t>(bytes[i]));
     }
     view = view.data() == nullptr ? std::string_view(buffer.data(), used) : view.substr(0, used);
