@@ -50,6 +50,7 @@ Controller::Controller(const RunOptions& options)
 
 Controller::~Controller() {
     scheduler_.abandonTasks();
+    shutDown();
     // Interrupts and services may hold listeners and timers of the parts below them.
     tasks_.clear();
     services_.clear();
@@ -184,6 +185,11 @@ bool Controller::closeOutputs() {
     if (trace_) complete = trace_->close() && complete;
     if (signalsWriter_) complete = signalsWriter_->close() && complete;
     return complete;
+}
+
+void Controller::shutDown() {
+    for (const auto& action : shutDownActions_)
+        action();
 }
 
 bool Controller::cyclesLeft(const Task& task) const {

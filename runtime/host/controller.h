@@ -7,10 +7,10 @@
 #include "runtime/debug/state_keepers.h"
 #include "runtime/host/clock_object.h"
 #include "runtime/host/handle_table.h"
-#include "runtime/host/home_folder.h"
 #include "runtime/host/motion_driver.h"
 #include "runtime/host/run_options.h"
 #include "runtime/host/system_signals.h"
+#include "runtime/host/volumes.h"
 #include "runtime/io/cfg_parser.h"
 #include "runtime/io/io_system.h"
 #include "runtime/log/event_log.h"
@@ -54,7 +54,7 @@ class Controller final : public DebugHost {
     IoSystem& io() { return io_; }
     EventLog& log() override { return log_; }
     OperatorPanel& panel() { return panel_; }
-    HomeFolder& home() { return home_; }
+    Volumes& volumes() { return volumes_; }
     /// Present as soon as prepare() succeeded.
     MotionDriver& motion() { return *motion_; }
     SteppedArm& arm() override { return *motion_; }
@@ -107,6 +107,9 @@ class Controller final : public DebugHost {
     /// Called whenever the program of a task begins anew, ahead of its RESET routines (settings go back to their defaults).
     void onProgramReset(std::function<void(Task&)> action) { resetActions_.push_back(std::move(action)); }
 
+    /// Called when everything that is open is closed: at a power failure and at the end of the run, once no routine is in
+    /// progress any more. The event log still takes events.
+    void onShutDown(std::function<void()> action) { shutDownActions_.push_back(std::move(action)); }
     /// Called when EXIT has ended the program of a task, and for each task when the power fails: what the program has open
     /// outside it is lost. `why`: for an event, "the power failed".
     void onConnectionsLost(std::function<void(Task&, const char* why)> action) {
@@ -180,6 +183,7 @@ class Controller final : public DebugHost {
     void reportEnds();
     ExitStatus finish(RunEnd end);
     bool closeOutputs();
+    void shutDown();
     std::string whereTasksAre(const char* verb) const;
     std::string startRefusal(const Task& task) const;
     std::string trustLevel(const Task& task) const;
@@ -190,7 +194,7 @@ class Controller final : public DebugHost {
     IoSystem io_;
     SystemSignals systemSignals_{*this};
     OperatorPanel panel_{log_};
-    HomeFolder home_;
+    Volumes volumes_;
     std::unique_ptr<MotionDriver> motion_;
     std::unique_ptr<TraceWriter> trace_;
     std::unique_ptr<SignalsWriter> signalsWriter_;
@@ -203,6 +207,7 @@ class Controller final : public DebugHost {
     int64_t startCalendar_ = 0;
     std::map<const void*, std::shared_ptr<void>> services_;
     std::vector<std::function<void(Task&)>> resetActions_;
+    std::vector<std::function<void()>> shutDownActions_;
     std::vector<std::function<void(Task&, const char*)>> lossActions_;
     const ProgramDesc* program_ = nullptr;
     ProgramTables tables_;

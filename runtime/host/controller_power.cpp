@@ -28,6 +28,7 @@ void Controller::actionPowerFail() {
     for (const auto& task : tasks_)
         loseConnections(*task, "the power failed");
     motion_->emergencyStop(true);
+    shutDown();
     state_->write();
 }
 

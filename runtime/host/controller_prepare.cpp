@@ -173,8 +173,18 @@ void Controller::applyMotionParameters(robot::RobotModel& model) const {
 
 ExitStatus Controller::openFiles() {
     std::string error;
-    if (!(options_.home.empty() ? home_.openTemporary(error) : home_.open(options_.home, error))) {
+    if (!(options_.home.empty() ? volumes_.openTemporary(error) : volumes_.open(options_.home, error))) {
         print("--home: " + error);
+        return ExitStatus::BadUsage;
+    }
+    for (const std::string& volume : options_.volumes) {
+        if (volumes_.useAsWritten(volume, error)) continue;
+        print("--volume: " + error);
+        return ExitStatus::BadUsage;
+    }
+    for (const std::string& device : options_.devices) {
+        if (volumes_.addDevice(device, error)) continue;
+        print("--device: " + error);
         return ExitStatus::BadUsage;
     }
     if (!options_.trace.empty()) {

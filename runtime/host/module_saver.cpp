@@ -63,7 +63,7 @@ std::string ModuleSaver::hostPath(const char* file) const {
 std::string ModuleSaver::shown(const std::string& path) const {
     std::error_code ignored;
     const std::string real = fs::weakly_canonical(path, ignored).string();
-    const std::string& home = controller_.home().path();
+    const std::string& home = controller_.volumes().path();
     const bool inside =
         real.size() > home.size() && real.compare(0, home.size(), home) == 0 && real[home.size()] == '/';
     return inside ? "HOME:" + real.substr(home.size()) : path;
@@ -73,7 +73,7 @@ std::string ModuleSaver::shown(const std::string& path) const {
 std::string ModuleSaver::defaultDestination(const std::string& source) const {
     if (controller_.options().save || shown(source).rfind("HOME:", 0) == 0) return source;
     std::string path;
-    return controller_.home().resolve(fs::path(source).filename().string(), path) ? path : std::string();
+    return controller_.volumes().resolve(fs::path(source).filename().string(), path) ? path : std::string();
 }
 
 /// A file may belong to several tasks, each of which has an object of its own (TASK PERS, LOCAL PERS): it can hold one value.

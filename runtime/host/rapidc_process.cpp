@@ -1,5 +1,7 @@
 #include "runtime/host/rapidc_process.h"
 
+#include "runtime/base/descriptor.h"
+
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -15,14 +17,6 @@ extern char** environ;
 
 namespace rt {
 namespace {
-
-/// Closes a file descriptor at the end.
-struct Descriptor {
-    int number = -1;
-    ~Descriptor() {
-        if (number >= 0) ::close(number);
-    }
-};
 
 bool writeAll(int file, std::string_view bytes) {
     while (!bytes.empty()) {
@@ -56,16 +50,16 @@ RapidcAnswer askRapidc(std::vector<std::string> arguments, std::string_view inpu
     // Its output goes to memory: nobody has to read while it writes.
     const Descriptor in{::memfd_create("input", MFD_CLOEXEC)}, out{::memfd_create("output", MFD_CLOEXEC)},
         said{::memfd_create("said", MFD_CLOEXEC)};
-    if (in.number < 0 || out.number < 0 || said.number < 0 || !writeAll(in.number, input)) {
+    if (in.number() < 0 || out.number() < 0 || said.number() < 0 || !writeAll(in.number(), input)) {
         answer.status = -1;
         answer.error = errno;
         return answer;
     }
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, in.number, STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, out.number, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, said.number, STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, in.number(), STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, out.number(), STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, said.number(), STDERR_FILENO);
     std::vector<char*> argv;
     for (std::string& argument : arguments)
         argv.push_back(argument.data());
@@ -81,8 +75,8 @@ RapidcAnswer askRapidc(std::vector<std::string> arguments, std::string_view inpu
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-    answer.out = readAll(out.number);
-    answer.said = readAll(said.number);
+    answer.out = readAll(out.number());
+    answer.said = readAll(said.number());
     while (!answer.said.empty() && answer.said.back() == '\n')
         answer.said.pop_back();
     return answer;

@@ -19,6 +19,8 @@ struct RunOptions {
     std::vector<std::string> configFiles;
     std::string robot;                            ///< "" = as the configuration says, else kDefaultRobot
     std::string home;                             ///< "" = an empty folder that is removed at the end
+    std::vector<std::string> volumes;             ///< NAME=DIR: further disks
+    std::vector<std::string> devices;             ///< NAME=FILE[,FILE]: serial channels and printers
     std::string stimulus, trace, signals, events; ///< paths; "" = not asked for
     std::string picture, report, compare;         ///< the same
     bool summary = false;                         ///< what the movements were slowed by, at the end

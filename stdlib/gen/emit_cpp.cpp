@@ -161,8 +161,9 @@ std::string emitTypes(const Model& model) {
         if (type.repr == Repr::Record && type.aliasOf.empty())
             emitRecord(model, type, done, out);
         else if (type.repr == Repr::Bytes)
-            out += fmt::format("struct {} {{\n    uint32_t length = 0;\n    uint8_t bytes[{}] = {{}};\n}};\n\n",
-                               cppType(model, type.name).substr(std::strlen("rt::data::")), type.bytes);
+            out +=
+                fmt::format("struct {} {{\n    uint32_t length = 0;\n    uint8_t bytes[{}] = {{}};\n}};\n\n",
+                            cppType(model, type.name).substr(std::strlen("rt::data::")), type.bytes);
     return out + "\n} // namespace rt::data\n";
 }
 

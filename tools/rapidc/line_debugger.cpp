@@ -240,7 +240,7 @@ const std::vector<std::string>& LineDebugger::source(const std::string& file) {
     auto [found, isNew] = sources_.try_emplace(file);
     if (isNew) {
         std::string loaded; // modules that came while the program runs are known by their names in HOME:
-        const bool inHome = file.rfind("HOME:", 0) == 0 && controller_.home().resolve(file, loaded);
+        const bool inHome = file.rfind("HOME:", 0) == 0 && controller_.volumes().resolve(file, loaded);
         std::ifstream in(inHome ? loaded : file, std::ios::binary);
         for (std::string line; std::getline(in, line);)
             found->second.push_back(rt::toUtf8(rt::trimmed(line)));

@@ -38,9 +38,9 @@ std::string written(const String& directory, const String* file) {
 }
 
 bool hostPath(TaskCore* task, const String& directory, const String* file, std::string& path) {
-    const HomeFolder& home = taskOf(task).controller().home();
-    return file != nullptr ? home.resolve(directory.view(), file->view(), path)
-                           : home.resolve(directory.view(), path);
+    const Volumes& volumes = taskOf(task).controller().volumes();
+    return file != nullptr ? volumes.resolve(directory.view(), file->view(), path)
+                           : volumes.resolve(directory.view(), path);
 }
 
 /// Some task executes a routine of the module.

@@ -1,34 +1,14 @@
 // Manual 1.10: texts for the operator.
 
 #include "runtime/host/controller.h"
-#include "runtime/value/value_text.h"
 #include "stdlib/impl/support/fail.h"
-#include "stdlib/impl/support/utf8.h"
+#include "stdlib/impl/support/written_value.h"
 
 #include "stdlib_natives.h"
 
 using namespace rt;
 
 namespace {
-
-std::string bracketed(std::initializer_list<float> values) {
-    std::string out;
-    for (const float value : values)
-        out += (out.empty() ? "[" : ",") + formatDisplayNum(value);
-    return out + "]";
-}
-
-/// The text and the value behind it, without a blank between them; at most 80 bytes.
-std::string withValue(const String& text, const float* num, const bool* boolean, const data::Pos* pos,
-                      const data::Orient* orient, const double* dnum) {
-    std::string out(text.view());
-    if (num) out += formatDisplayNum(*num);
-    if (boolean) out += *boolean ? "TRUE" : "FALSE";
-    if (pos) out += bracketed({pos->x, pos->y, pos->z});
-    if (orient) out += bracketed({orient->q1, orient->q2, orient->q3, orient->q4});
-    if (dnum) out += formatDisplayDnum(*dnum);
-    return out;
-}
 
 constexpr int kErrWriteEvent = 80001; // domain 8, user events
 constexpr int kWarnWriteEvent = 80002;
@@ -45,7 +25,7 @@ Status rt_TPErase(TaskCore* task) {
 
 Status rt_TPWrite(TaskCore* task, const String* String, const float* Num, const bool* Bool,
                   const data::Pos* Pos, const data::Orient* Orient, const double* Dnum) {
-    taskOf(task).controller().panel().writeLine(withValue(*String, Num, Bool, Pos, Orient, Dnum));
+    taskOf(task).controller().panel().writeLine(lib::withValue(*String, Num, Bool, Pos, Orient, Dnum));
     return kOk;
 }
 

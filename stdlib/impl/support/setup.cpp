@@ -1,3 +1,4 @@
+#include "stdlib/impl/files/open_files.h"
 #include "stdlib/impl/flow/booked_numbers.h"
 #include "stdlib/impl/interrupts/ordering.h"
 #include "stdlib/impl/io/signals.h"
@@ -25,6 +26,7 @@ void setUpStandardLibrary(Controller& controller) {
     lib::keepSettings(controller, kept);
     lib::keepBookedNumbers(controller, kept);
     lib::keepClocks(controller, kept);
+    lib::keepFiles(controller, kept);
     lib::keepSignalVariables(controller, kept);
     lib::keepMessages(controller, kept);
     lib::keepTriggers(controller, kept);

@@ -28,10 +28,13 @@ DateTime dateTimeOf(int64_t seconds) {
             static_cast<int>(time.seconds().count())};
 }
 
-int64_t calendarNow(const Task& task) {
-    const Controller& controller = task.controller();
+int64_t calendarNow(Controller& controller) {
     if (controller.options().realtime) return controller.calendarSeconds();
-    return kVirtualEpoch + task.now() / kSecond;
+    return kVirtualEpoch + controller.scheduler().now() / kSecond;
+}
+
+int64_t calendarNow(const Task& task) {
+    return calendarNow(task.controller());
 }
 
 } // namespace rt::lib

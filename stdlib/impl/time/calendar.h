@@ -6,6 +6,10 @@
 
 #include <cstdint>
 
+namespace rt {
+class Controller;
+}
+
 namespace rt::lib {
 
 /// 2026-01-01 00:00:00, a Thursday, in seconds since 1970: the moment main starts on virtual time.
@@ -20,6 +24,7 @@ struct DateTime {
 /// Gregorian date of a number of seconds since 1970.
 DateTime dateTimeOf(int64_t seconds);
 /// The controller's date and time now, seconds since 1970.
+int64_t calendarNow(Controller& controller);
 int64_t calendarNow(const Task& task);
 
 } // namespace rt::lib

@@ -36,8 +36,8 @@ Status rt_Save(TaskCore* task, Handle* TaskRef, const String* TaskName, const St
                          "Save: there is no task '" + std::string(textOf(TaskName)) + "'");
     std::string destination;
     if (FilePath != nullptr || File != nullptr) {
-        if (!controller.home().resolve(textOf(FilePath), textOf(File), destination))
-            return lib::fail(task, err::ERR_FILEACC, "Save: the path leaves HOME:, or names another device");
+        if (!controller.volumes().resolve(textOf(FilePath), textOf(File), destination))
+            return lib::fail(task, err::ERR_FILEACC, "Save: the path leaves its volume, or names a device that the controller does not have");
         std::error_code ignored;
         if (std::filesystem::is_directory(destination, ignored))
             return lib::fail(task, err::ERR_PATH,

@@ -107,7 +107,7 @@ TEST_CASE("HOME: nothing outside can be reached", "[host]") {
     std::filesystem::create_symlink("../../outside.txt", root + "/sub/up");
     std::filesystem::create_symlink("loop", root + "/loop");
     std::filesystem::create_symlink(root + "/sub", root + "/absolute");
-    HomeFolder home;
+    Volumes home;
     std::string error, path;
     REQUIRE(home.open(root, error));
     const auto resolves = [&](const char* rapid, const std::string& expected) {
@@ -125,7 +125,7 @@ TEST_CASE("HOME: nothing outside can be reached", "[host]") {
     resolves("inside/../c.txt", "/c.txt");
     resolves("absolute/b.txt", "/sub/b.txt");
     for (const char* outside : {"../x", "HOME:/..", "HOME:/sub/../../x", "out/passwd", "dangling", "sub/up",
-                                "loop", "TEMP:/x", "/../x", "HOME:/a/../../home/../x"}) {
+                                "loop", "USB1:/x", "/../x", "HOME:/a/../../home/../x"}) {
         INFO(outside);
         CHECK_FALSE(home.resolve(outside, path));
     }
@@ -139,7 +139,7 @@ TEST_CASE("HOME: nothing outside can be reached", "[host]") {
 TEST_CASE("HOME: is an empty folder that is removed, unless one is given", "[host]") {
     std::string path, error;
     {
-        HomeFolder home;
+        Volumes home;
         REQUIRE(home.openTemporary(error));
         path = home.path();
         CHECK(std::filesystem::is_empty(path));
@@ -148,11 +148,11 @@ TEST_CASE("HOME: is an empty folder that is removed, unless one is given", "[hos
     CHECK_FALSE(std::filesystem::exists(path));
     const TempFolder folder;
     {
-        HomeFolder home;
+        Volumes home;
         REQUIRE(home.open(folder.path, error));
     }
     CHECK(std::filesystem::exists(folder.path));
-    HomeFolder none;
+    Volumes none;
     CHECK_FALSE(none.open(folder.path + "/missing", error));
 }
 
