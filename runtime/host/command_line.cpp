@@ -153,9 +153,10 @@ Option Command::addOptional(const std::string& name, const std::string& otherwis
                             std::function<std::string(const std::string&)> take,
                             const std::string& text) const {
     auto values = std::make_shared<std::vector<std::string>>();
-    CLI::Option* option = app_->add_flag(name + "{" + otherwise + "}", *values, text);
-    option->each([name, values, take = std::move(take)](const std::string& value) {
-        if (const std::string problem = take(value); !problem.empty())
+    CLI::Option* option = app_->add_flag(name, *values, text);
+    option->each([name, values, otherwise, take = std::move(take)](const std::string& value) {
+        const bool isAlone = value == "true"; // the library's word for it
+        if (const std::string problem = take(isAlone ? otherwise : value); !problem.empty())
             throw CLI::ValidationError(name, problem);
     });
     return Option(option);

@@ -22,6 +22,10 @@ std::optional<OutsideWait> Socket::outside(bool toSend) const {
     return OutsideWait{host_.fd(), static_cast<short>(toSend ? POLLOUT : POLLIN)};
 }
 
+void Socket::expectOutside() {
+    if (!isInside_ && host_.isOpen()) keepPace();
+}
+
 void Socket::keepPace() {
     if (holdsPace_) return;
     holdsPace_ = true;
@@ -256,6 +260,7 @@ Outcome Socket::available(std::size_t& bytes) {
     if (state_ == State::Closed) return ended();
     if (datagrams_) {
         bytes = nextDatagram();
+        if (bytes == 0) expectOutside();
         return {};
     }
     if (const Outcome outcome = await(1); !outcome.ok())

@@ -50,6 +50,10 @@ class Socket {
     /// For a task that waits to receive or accept / to send, to be connected.
     std::optional<OutsideWait> outside(bool toSend) const;
 
+    /// The program has waited for something from outside in vain and may do so again: virtual time keeps step with the wall
+    /// until the socket is closed, also between the attempts.
+    void expectOutside();
+
     // ---- Operations ---------------------------------------------------------------------------------------
     Outcome bind(const Address& address);
     Outcome listen();

@@ -98,7 +98,10 @@ Status repeat(TaskCore* task, Socket& socket, bool toSend, Time deadline, Outcom
     spec.outside = [&] { return socket.outside(toSend); };
     WaitResult result{};
     const Status status = taskOf(task).waitFor(spec, result);
-    if (outcome.fault == Fault::Again) outcome.why = "nothing came within \\Time";
+    if (outcome.fault == Fault::Again) {
+        outcome.why = "nothing came within \\Time";
+        socket.expectOutside();
+    }
     return status;
 }
 

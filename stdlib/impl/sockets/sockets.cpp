@@ -9,9 +9,9 @@ namespace {
 
 std::string describe(const net::Socket& socket) {
     if (socket.state() == net::Socket::State::Connected)
-        return fmt::format("connection with {}", net::addressText(socket.remote()));
-    return socket.local().port == 0 ? "a socket without address"
-                                    : fmt::format("{}", net::addressText(socket.local()));
+        return "connection with " + (socket.remote().port == 0 ? net::ipText(socket.remote().ip)
+                                                               : net::addressText(socket.remote()));
+    return socket.local().port == 0 ? "a socket without address" : net::addressText(socket.local());
 }
 
 } // namespace
@@ -32,12 +32,27 @@ std::shared_ptr<net::Socket> Sockets::find(Handle handle) {
     return nullptr;
 }
 
+/// Those whose connection has ended; no variable may name them any more.
+void Sockets::forgetClosed() {
+    std::vector<Handle> closed;
+    for (const auto& [handle, socket] : table_)
+        if (socket->state() == net::Socket::State::Closed) closed.push_back(handle);
+    for (const Handle handle : closed)
+        table_.erase(handle);
+}
+
+bool Sockets::isFull() {
+    if (table_.size() >= kMost) forgetClosed();
+    return table_.size() >= kMost;
+}
+
 void Sockets::close(Handle handle) {
     if (const std::shared_ptr<net::Socket>* socket = table_.find(handle)) (*socket)->close();
     table_.erase(handle);
 }
 
 std::size_t Sockets::closeAll(const Task& task, std::string& which) {
+    forgetClosed();
     std::vector<Handle> owned;
     for (const auto& [handle, socket] : table_) {
         if (&socket->owner() != &task) continue;

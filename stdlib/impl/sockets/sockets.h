@@ -18,7 +18,7 @@ class Sockets {
     static Sockets& of(Controller& controller);
 
     net::Network& network() { return network_; }
-    bool isFull() const { return table_.size() >= kMost; }
+    bool isFull();
     Handle add(std::shared_ptr<net::Socket> socket) { return table_.create(std::move(socket)); }
     /// Null when the variable names none that is open.
     std::shared_ptr<net::Socket> find(Handle handle);
@@ -27,6 +27,8 @@ class Sockets {
     std::size_t closeAll(const Task& task, std::string& which);
 
   private:
+    void forgetClosed();
+
     net::Network network_;
     bool isOpen_ = false;
     HandleTable<std::shared_ptr<net::Socket>> table_; // after the network, which sockets need to the end

@@ -1,7 +1,7 @@
 """session.py NAME MODULE COMMAND...: runs a command on a copy of the module, and is the other side of its sockets.
 
-In the module, 5000 becomes a port that is free; {program} in the command is the copy. NAME is a function below; it gets that
-port and prints what it sees. The output of the command follows, then its exit status.
+In the module, 5000 becomes a port that is free; {program} in the command is the copy. Commands before a `--` are run first.
+NAME is a function below; it gets that port and prints what it sees. The output of the command follows, then its exit status.
 """
 
 import os
@@ -152,13 +152,29 @@ def datagrams(port):
         print("answer", answer)
 
 
+def polled(port):
+    """Comes some time after the program has begun to look."""
+    time.sleep(0.5)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as client:
+        client.settimeout(0.5)
+        for _ in range(LIMIT):
+            client.sendto(b"hello", ("127.0.0.1", port))
+            try:
+                client.recv(10)
+                break
+            except (TimeoutError, ConnectionRefusedError):
+                continue
+    time.sleep(0.3)
+    connect(port).close()
+
+
 def nothing(_port):
     pass
 
 
 def main():
     name, module, command = sys.argv[1], sys.argv[2], sys.argv[3:]
-    port = free_port(socket.SOCK_DGRAM if name == "datagrams" else socket.SOCK_STREAM)
+    port = free_port(socket.SOCK_DGRAM if name in ("datagrams", "polled") else socket.SOCK_STREAM)
     with tempfile.TemporaryDirectory() as folder:
         program = os.path.join(folder, os.path.basename(module))
         with open(module, encoding="utf-8") as source, open(program, "w", encoding="utf-8") as copy:
@@ -167,6 +183,9 @@ def main():
         if holder is not None:
             next(holder)
         command = [part.replace("{program}", program) for part in command]
+        while "--" in command:
+            subprocess.run(command[:command.index("--")], check=True)
+            command = command[command.index("--") + 1:]
         few = few_files if name == "many_connections" else None
         with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=few) as process:
             try:
