@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cstring>
@@ -121,6 +122,19 @@ DebugVariable componentOf(const DebugVariable& variable, std::string_view& path,
     return {};
 }
 
+/// "<rawbytes, 3 bytes: 61 62 63>"; the first 16 of many.
+std::string bytesText(const void* data, const TypeDesc& type) {
+    constexpr uint32_t kShown = 16;
+    uint32_t length = 0;
+    std::memcpy(&length, data, sizeof length);
+    length = std::min(length, static_cast<uint32_t>(type.size - sizeof length));
+    std::string text = fmt::format("<{}, {} bytes", type.name, length);
+    const auto* bytes = static_cast<const unsigned char*>(data) + sizeof length;
+    for (uint32_t i = 0; i < std::min(length, kShown); ++i)
+        text += fmt::format("{}{:02X}", i == 0 ? ": " : " ", bytes[i]);
+    return text + (length > kShown ? " ...>" : ">");
+}
+
 /// Data without a value in the language.
 bool hasNoText(const TypeDesc& type) {
     return type.kind == DescKind::Handle || type.kind == DescKind::Bytes || type.kind == DescKind::Other;
@@ -140,6 +154,8 @@ std::string typeName(const DebugVariable& variable) {
 std::string valueText(const DebugVariable& variable, uint32_t maxElements) {
     if (variable.data == nullptr) return "<not present>";
     const TypeDesc& element = elementType(variable);
+    if (element.kind == DescKind::Bytes && variable.rank == 0 && variable.type->kind != DescKind::Array)
+        return bytesText(variable.data, element);
     if (hasNoText(element)) return fmt::format("<{}>", element.name);
     int32_t dims[3] = {0, 0, 0};
     const uint8_t rank = dimensions(variable, dims);

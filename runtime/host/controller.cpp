@@ -45,6 +45,8 @@ Controller::Controller(const RunOptions& options)
     scheduler_.setBeforeSleep([this] {
         panel_.flush();
         log_.flush();
+        for (const auto& action : sleepActions_)
+            action();
     });
 }
 

@@ -116,6 +116,9 @@ class Controller final : public DebugHost {
         lossActions_.push_back(std::move(action));
     }
 
+    /// Called before the process sleeps for the wall clock or for something outside: what people look at is to be complete.
+    void onSleep(std::function<void()> action) { sleepActions_.push_back(std::move(action)); }
+
     // ---- Controller actions (stimulus, clients): reach all NORMAL tasks -----------------------------------
     /// `event`: Stop, or QuickStop for a quick or an emergency stop.
     void actionStop(SystemEvent event = SystemEvent::Stop);
@@ -207,7 +210,7 @@ class Controller final : public DebugHost {
     int64_t startCalendar_ = 0;
     std::map<const void*, std::shared_ptr<void>> services_;
     std::vector<std::function<void(Task&)>> resetActions_;
-    std::vector<std::function<void()>> shutDownActions_;
+    std::vector<std::function<void()>> shutDownActions_, sleepActions_;
     std::vector<std::function<void(Task&, const char*)>> lossActions_;
     const ProgramDesc* program_ = nullptr;
     ProgramTables tables_;

@@ -58,6 +58,27 @@ void addMaxTime(const Command& command, RunOptions& options) {
         .typeName("SECONDS");
 }
 
+/// What the controller has of disks and devices.
+void addDisks(const Command& command, RunOptions& options) {
+    command
+        .add("--home", options.home, "the controller's HOME:; default: an empty folder, removed at the end")
+        .typeName("DIR");
+    command
+        .add("--volume", options.volumes,
+             "a further disk of the controller, such as USB1=DIR; TEMP, RAMDISK, BACKUP and DATA are empty "
+             "folders "
+             "otherwise, removed at the end; repeatable")
+        .typeName("NAME=DIR")
+        .oneValueEach();
+    command
+        .add("--device", options.devices,
+             "a serial channel or printer, such as com1=HOME:/in.txt,HOME:/out.txt: it is read from the "
+             "first file (or "
+             "FIFO) of a volume and written to the second, or both the same; repeatable")
+        .typeName("NAME=FILE[,FILE]")
+        .oneValueEach();
+}
+
 void addNetwork(const Command& command, net::NetworkOptions& options) {
     command.addFlag("--offline", options.offline,
                     "sockets connect tasks of this controller only, without this computer's network");
@@ -95,23 +116,7 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
         .oneValueEach();
     command.add("--robot", options.robot, fmt::format("robot model; default \"{}\"", kDefaultRobot))
         .typeName("MODEL");
-    command
-        .add("--home", options.home, "the controller's HOME:; default: an empty folder, removed at the end")
-        .typeName("DIR");
-    command
-        .add("--volume", options.volumes,
-             "a further disk of the controller, such as USB1=DIR; TEMP, RAMDISK, BACKUP and DATA are empty "
-             "folders "
-             "otherwise, removed at the end; repeatable")
-        .typeName("NAME=DIR")
-        .oneValueEach();
-    command
-        .add("--device", options.devices,
-             "a serial channel or printer, such as com1=HOME:/in.txt,HOME:/out.txt: it is read from the "
-             "first file (or "
-             "FIFO) of a volume and written to the second, or both the same; repeatable")
-        .typeName("NAME=FILE[,FILE]")
-        .oneValueEach();
+    addDisks(command, options);
     command
         .add("--stimulus", options.stimulus,
              "what happens from outside: lines time_s,target,value; a file, a pipe, or - for the "

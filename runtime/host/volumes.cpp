@@ -92,7 +92,12 @@ class Walk {
         const int parent = done_.empty() ? root_ : done_.back().file.number();
         Descriptor file;
         if (parent >= 0) file = Descriptor(::openat(parent, part.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
-        if (parent >= 0 && !file.isOpen() && errno != ENOENT && errno != ENOTDIR) return std::strerror(errno);
+        if (parent >= 0 && !file.isOpen()) {
+            if (errno == ENOTDIR)
+                done_.back().file.close(); // a file: nothing can be in it
+            else if (errno != ENOENT)
+                return std::strerror(errno);
+        }
         struct stat status{};
         const bool isLink = file.isOpen() && ::fstat(file.number(), &status) == 0 && S_ISLNK(status.st_mode);
         if (isLink && !(open_.empty() && last == Volumes::LastLink::Keep)) return goTo(file.number());

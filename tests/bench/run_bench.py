@@ -21,8 +21,10 @@ import generate_project
 GOAL_MEAN, GOAL_WORST = 1.15, 2.0  # beside C
 GOAL_OVERFLOW = 1.03  # checked arithmetic beside the same without checks, in the mean
 GOAL_HELLO_MS, GOAL_LIGHT_MS = 25, 10  # a program; commands that compile nothing
-ALONE = (["check"], ["tasks"], ["sockets"], ["start"], ["overflow"], ["compile"])  # parts that can be asked for by name
+ALONE = (["check"], ["tasks"], ["sockets"], ["start"], ["overflow"], ["compile"], ["files"])  # parts that can be asked for by name
 GOAL_LINES, GOAL_CLANG, GOAL_MB, GOAL_EDIT_MS = 1_000_000, 10, 1024, 10
+GOAL_WRITE_MB_S = 20
+GOAL_PACK_NS = 60
 GOAL_ROUND_US = 1
 GOAL_SOCKET_US = 3
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -223,6 +225,21 @@ def scheduler(rapidc, work, rounds):
         print(f"{name:22} {best[name]:7.3f} s   {extra / items:7.4f} us each (goal: below {GOAL_ROUND_US})", flush=True)
 
 
+def files(rapidc, work, rounds):
+    """Lines written to a file, and values packed into rawbytes, less what the loops around them cost."""
+    folder = os.path.join(HERE, "files")
+    best = {}
+    for name in ("lines", "no_lines", "packing", "no_packing"):
+        executable = os.path.join(work, name + ".exe")
+        must([rapidc, "build", os.path.join(folder, name + ".modx"), "-o", executable])
+        best[name] = min(run_timed([executable, "--rate=unlimited"])[0] for _ in range(rounds))
+    seconds = best["lines"] - best["no_lines"]
+    print(f"\nfiles, {rounds} rounds, processor time (best)\n")
+    print(f"10 MB of text line by line {10 / seconds:8.0f} MB/s (goal: at least {GOAL_WRITE_MB_S})")
+    print(f"PackRawBytes               {(best['packing'] - best['no_packing']) * 1e9 / 1e7:8.1f} ns   "
+          f"(goal: at most {GOAL_PACK_NS})", flush=True)
+
+
 def sockets(rapidc, work, rounds):
     """What a message from task to task and back costs."""
     tasks = os.path.join(HERE, "tasks")
@@ -243,7 +260,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", help="only these programs; start: only the start-up; "
                                                  "overflow: only what the checks of overflow cost; compile: only the time that compiling takes; check: only the checker; "
-                                                 "tasks: only the scheduler; sockets: only messages between tasks")
+                                                 "tasks: only the scheduler; files: only files and rawbytes; sockets: only messages between tasks")
     parser.add_argument("--rapidc", default=os.path.join(HERE, "..", "..", "build", "rapidc"))
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--rate", default="unlimited", help="instructions per virtual millisecond")
@@ -270,6 +287,9 @@ def main():
     if options.names == ["tasks"]:
         scheduler(rapidc, work, options.rounds)
         return 0
+    if options.names == ["files"]:
+        files(rapidc, work, options.rounds)
+        return 0
     if options.names == ["sockets"]:
         sockets(rapidc, work, options.rounds)
         return 0
@@ -286,6 +306,7 @@ def main():
         print()
         compile_bench.run(rapidc, work)
         scheduler(rapidc, work, options.rounds)
+        files(rapidc, work, options.rounds)
         sockets(rapidc, work, options.rounds)
         print()
         checker(rapidc, work, options.rounds)

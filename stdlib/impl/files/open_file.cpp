@@ -41,7 +41,9 @@ std::string OpenFile::write(std::string_view bytes) {
     written_ = true;
     if (!isDevice_) return {};
     std::string problem = send();
-    if (!problem.empty() && pending_.size() == before + bytes.size()) pending_.resize(before);
+    if (pending_.size() < before + bytes.size())
+        return {}; // some of it has gone: the rest follows with the next
+    pending_.resize(before);
     return problem;
 }
 

@@ -59,6 +59,7 @@ void keepFiles(Controller& controller, StateKeepers& kept) {
     controller.onProgramReset(
         [&controller](Task& task) { OpenFiles::of(controller).closeOf(controller, &task); });
     controller.onShutDown([&controller] { OpenFiles::of(controller).closeOf(controller, nullptr); });
+    controller.onSleep([&controller] { OpenFiles::of(controller).flushAll(controller); });
     for (const char* type : {"iodev", "dir"})
         kept.handles[type] = {[](Handle) { return std::string(); },
                               [](const std::string&) { return Handle{0}; }};

@@ -15,6 +15,7 @@
 namespace rt::lib {
 
 std::string shown(std::string_view text) {
+    if (text.empty()) return "\"\"";
     std::string out;
     for (const char c : text) {
         const auto code = static_cast<unsigned char>(c);

@@ -185,6 +185,7 @@ TEST_CASE("an attribute with a word that is not in builtin_words.def is refused"
         const Model model = read("!! One.\n!@ " + attribute + "\nPROC Put(num N, anytype A)\n");
         return model.errors.empty() ? std::string() : model.errors.front();
     };
+    CHECK(problem("class: nonvalue   bytes: 1024").empty());
     CHECK(problem("effects: writes   traits: names calls   where: A is value or signal").empty());
     CHECK(
         mentions({problem("effects: write")}, "effects: does not know 'write'; it takes const, pure, reads"));
