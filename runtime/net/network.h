@@ -38,9 +38,9 @@ class Network {
     // ---- Addresses ----------------------------------------------------------------------------------------
     /// The address of the computer that a socket is bound to instead of the one that the program names.
     uint32_t boundIp(uint32_t named) const;
-    /// Where the computer has no address of the program, all of its own are meant.
+    /// Servers whose address the computer does not have are bound to all of its addresses.
     bool listensAnywhere() const { return options_.listen == kAnyAddress; }
-    /// Where a connection to this address leads; none: it is not allowed.
+    /// The address that a connection to this one leads to; none: it is not allowed.
     std::optional<uint32_t> outsideIp(uint32_t named) const;
     /// The program uses this address as one of its controller.
     void addOwn(uint32_t ip) { own_.insert(ip); }

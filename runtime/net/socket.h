@@ -74,7 +74,7 @@ class Socket {
     Outcome sendTo(std::string_view bytes, const Address& to);
     /// Again: none has come. Connected sockets take those of the other side only.
     Outcome receiveFrom(Datagram& datagram);
-    /// What was sent still comes to the other side. Who waits for this socket is notified.
+    /// Bytes that were sent still come to the other side. Tasks that wait for this socket are notified.
     void close();
 
   private:

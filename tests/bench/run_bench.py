@@ -241,7 +241,7 @@ def files(rapidc, work, rounds):
 
 
 def sockets(rapidc, work, rounds):
-    """What a message from task to task and back costs."""
+    """The cost of a message from task to task and back."""
     tasks = os.path.join(HERE, "tasks")
     talk, messages = os.path.join(work, "talk"), 100_000
     must([rapidc, "build", os.path.join(tasks, "socket_client.modx"),
