@@ -42,6 +42,7 @@ LAYERS = {
     "runtime/program": ["runtime/abi", "runtime/base"],
     "runtime/log": ["runtime/base", "config"],
     "runtime/sched": ["runtime/abi", "runtime/base", "runtime/log"],
+    "runtime/net": ["runtime/base", "runtime/log", "runtime/sched"],
     "runtime/io": ["runtime/abi", "runtime/base", "runtime/sched", "config"],
     "runtime/sim": ["runtime/base", "runtime/log", "runtime/sched", "runtime/motion"],
     "runtime/report": ["runtime/base", "runtime/robot", "runtime/motion", "runtime/sim", "config"],

@@ -149,6 +149,19 @@ Option Command::addChecked(const std::string& name, std::function<std::string(co
     return Option(app_->add_option_function<std::string>(name, takeOrThrow, text));
 }
 
+Option Command::addOptional(const std::string& name, const std::string& otherwise,
+                            std::function<std::string(const std::string&)> take,
+                            const std::string& text) const {
+    auto values = std::make_shared<std::vector<std::string>>();
+    CLI::Option* option = app_->add_flag(name, *values, text);
+    option->each([name, values, otherwise, take = std::move(take)](const std::string& value) {
+        const bool isAlone = value == "true"; // the library's word for it
+        if (const std::string problem = take(isAlone ? otherwise : value); !problem.empty())
+            throw CLI::ValidationError(name, problem);
+    });
+    return Option(option);
+}
+
 Option Command::addFlag(const std::string& names, bool& value, const std::string& text) const {
     return Option(app_->add_flag(names, value, text));
 }

@@ -41,6 +41,10 @@ class Command {
     /// `take` stores the value and returns what is wrong with it, or "".
     Option addChecked(const std::string& name, std::function<std::string(const std::string&)> take,
                       const std::string& text) const;
+    /// The same for an option whose value may be left out: `--name` alone means `otherwise`; a value follows after `=` only.
+    /// Repeatable.
+    Option addOptional(const std::string& name, const std::string& otherwise,
+                       std::function<std::string(const std::string&)> take, const std::string& text) const;
     Option addFlag(const std::string& names, bool& value, const std::string& text) const;
     void hide() const; ///< leaves it out of the help
 

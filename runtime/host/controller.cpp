@@ -229,7 +229,13 @@ void Controller::retried(Task& task) {
 void Controller::taskExited(Task& task) {
     if (task.isMotionTask())
         motion(task).clearPath(); // the program pointer is lost, and the path with it (1.2.2)
+    loseConnections(task, "EXIT was executed");
     if (task.kind() != TaskKind::Normal) backgroundStopped(task);
+}
+
+void Controller::loseConnections(Task& task, const char* why) {
+    for (const auto& action : lossActions_)
+        action(task, why);
 }
 
 void Controller::programReset(Task& task) {

@@ -112,6 +112,11 @@ class Controller final : public DebugHost {
     /// Called when everything that is open is closed: at a power failure and at the end of the run, once no routine is in
     /// progress any more. The event log still takes events.
     void onShutDown(std::function<void()> action) { shutDownActions_.push_back(std::move(action)); }
+    /// Called when EXIT has ended the program of a task, and for each task when the power fails: what the program has open
+    /// outside it is lost. `why`: for an event, "the power failed".
+    void onConnectionsLost(std::function<void(Task&, const char* why)> action) {
+        lossActions_.push_back(std::move(action));
+    }
 
     /// Called before the process sleeps for the wall clock or for something outside: what people look at is to be complete.
     void onSleep(std::function<void()> action) { sleepActions_.push_back(std::move(action)); }
@@ -176,6 +181,7 @@ class Controller final : public DebugHost {
     bool hookConcerns(const CfgInstance& hook, const Task& task) const;
     void backgroundStopped(Task& task);
     void stopTasks(const char* order, SystemEvent event);
+    void loseConnections(Task& task, const char* why);
     void scheduleStimulus();
     void perform(const StimulusItem& item);
     bool runOver();
@@ -211,6 +217,7 @@ class Controller final : public DebugHost {
     ServiceTable services_;
     std::vector<std::function<void(Task&)>> resetActions_;
     std::vector<std::function<void()>> shutDownActions_, sleepActions_;
+    std::vector<std::function<void(Task&, const char*)>> lossActions_;
     const ProgramDesc* program_ = nullptr;
     ProgramTables tables_;
     std::vector<std::unique_ptr<Task>> tasks_;

@@ -26,6 +26,8 @@ void Controller::actionPowerFail() {
         task->stop(StopCause::Order);
         task->noteEnd("power failure");
     }
+    for (const auto& task : tasks_)
+        loseConnections(*task, "the power failed");
     for (const auto& motion : motions_)
         motion->emergencyStop(true);
     shutDown();

@@ -79,6 +79,23 @@ void addDisks(const Command& command, RunOptions& options) {
         .oneValueEach();
 }
 
+void addNetwork(const Command& command, net::NetworkOptions& options) {
+    command.addFlag("--offline", options.offline,
+                    "sockets connect tasks of this controller only, without this computer's network");
+    command
+        .addOptional(
+            "--listen", "any", [&options](const std::string& text) { return takeListen(options, text); },
+            "let other computers connect to sockets of the program: at the address that it names, or at this "
+            "one; default: this computer only")
+        .typeName("[=ADDRESS]");
+    command
+        .addOptional(
+            "--connect", "any", [&options](const std::string& text) { return takeConnect(options, text); },
+            "let the program connect to other computers: to any, to this one, or to OTHER where it names "
+            "ADDRESS; repeatable")
+        .typeName("[=ADDRESS[=OTHER]]");
+}
+
 } // namespace
 
 void addRunOptions(const Command& command, RunOptions& options, bool withTasks) {
@@ -137,6 +154,7 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
     command.addFlag(
         "--save", options.save,
         "write the values of persistents back into the source files at the end, and let Save do so");
+    addNetwork(command, options.network);
     command.addFlag("--realtime", options.realtime, "pace virtual time to the wall clock");
     addMaxTime(command, options);
     addWhole(command, "--seed", options.seed, UINT32_MAX, "start value of Rand; default 1");

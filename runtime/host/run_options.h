@@ -1,6 +1,7 @@
 #pragma once
 // RunOptions: the options of `rapidc run`, which a built executable has too, and how they are read.
 
+#include "runtime/net/network_options.h"
 #include "runtime/sched/scheduler.h"
 
 #include <cstdint>
@@ -27,6 +28,7 @@ struct RunOptions {
     std::optional<std::string>
         stimulusText; ///< what `stimulus` holds, when it has been read: a pipe is read once
     bool realtime = false;
+    net::NetworkOptions network;
     std::string state;     ///< folder in which the controller's state survives the process; "" = none
     bool ppToMain = false; ///< with `state`: NORMAL tasks begin at main
     bool save = false;     ///< values of persistents go back into the source files

@@ -244,6 +244,11 @@ void Scheduler::addExternal(ExternalWait& wait) {
     externals_.push_back(&wait);
 }
 
+void Scheduler::holdPace() {
+    if (!paced()) anchorWall();
+    ++paceHolds_;
+}
+
 void Scheduler::removeExternal(ExternalWait& wait) {
     externals_.erase(std::remove(externals_.begin(), externals_.end(), &wait), externals_.end());
 }

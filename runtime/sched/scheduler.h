@@ -99,6 +99,10 @@ class Scheduler {
     };
     void addExternal(ExternalWait& wait);
     void removeExternal(ExternalWait& wait);
+    /// As long as something outside takes part (an open connection), virtual time keeps step with the wall also while no task
+    /// waits for it. Each hold is to be released.
+    void holdPace();
+    void releasePace() { --paceHolds_; }
 
   private:
     using EventKey = std::pair<Time, EventToken>;
@@ -118,7 +122,7 @@ class Scheduler {
     void jumpTo(Time time);
     void anchorWall();
     Time wallTime() const;
-    bool paced() const { return options_.realtime || !externals_.empty(); }
+    bool paced() const { return options_.realtime || paceHolds_ > 0 || !externals_.empty(); }
     void sleepOutside(Time until);
 
     SchedulerOptions options_;
@@ -137,6 +141,7 @@ class Scheduler {
     int64_t sliceUnits_ = 0;
     Time horizon_ = kNever;
     std::vector<ExternalWait*> externals_;
+    int paceHolds_ = 0;
     Time anchorVirtual_ = 0;
     int64_t anchorWall_ = 0; // ns of the steady clock
     std::function<void(Time)> timeObserver_;

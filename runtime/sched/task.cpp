@@ -235,7 +235,11 @@ Status Task::waitFor(const WaitSpec& spec, WaitResult& result) {
         const Time wakeAt = std::min(deadline, nextPoll);
         const EventToken timer =
             wakeAt == kNever ? 0 : scheduler_.at(wakeAt, [this] { scheduler_.makeReady(*this); });
+        const auto outside = spec.outside ? spec.outside() : std::nullopt;
+        Scheduler::ExternalWait wait{this, outside ? outside->fd : -1, outside ? outside->events : short{0}};
+        if (outside) scheduler_.addExternal(wait);
         const Status status = block();
+        if (outside) scheduler_.removeExternal(wait);
         notified = notified_;
         scheduler_.cancel(timer);
         for (WaitQueue* queue : waitingOn_)
@@ -246,31 +250,14 @@ Status Task::waitFor(const WaitSpec& spec, WaitResult& result) {
 }
 
 Status Task::waitExternal(int fd, short pollEvents, Time deadline, WaitResult& result) {
-    const StandingHere standing(standing_, Standing::InWait);
-    flushHandledWarning();
-    const Time span = deadline == kNever ? 0 : std::max<Time>(deadline - now(), 0);
-    uint64_t starts = starts_;
-    for (;;) {
-        if (const Status status = enterWait(); status < 0) return status;
-        countAgain(deadline, span, starts);
+    WaitSpec spec;
+    spec.condition = [fd, pollEvents] { // an error shows itself at the read or write that follows
         pollfd ready{fd, pollEvents, 0};
-        if (::poll(&ready, 1, 0) != 0) { // an error shows itself at the read or write that follows
-            result = WaitResult::Done;
-            return kOk;
-        }
-        if (now() >= deadline) {
-            result = WaitResult::Timeout;
-            return kOk;
-        }
-        Scheduler::ExternalWait wait{this, fd, pollEvents};
-        scheduler_.addExternal(wait);
-        const EventToken timer =
-            deadline == kNever ? 0 : scheduler_.at(deadline, [this] { scheduler_.makeReady(*this); });
-        const Status status = block();
-        scheduler_.cancel(timer);
-        scheduler_.removeExternal(wait);
-        if (status < 0) return status;
-    }
+        return ::poll(&ready, 1, 0) != 0;
+    };
+    spec.deadline = deadline;
+    spec.outside = [fd, pollEvents] { return OutsideWait{fd, pollEvents}; };
+    return waitFor(spec, result);
 }
 
 void Task::notify() {

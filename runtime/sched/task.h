@@ -93,15 +93,23 @@ struct ErrorMemory {
     std::optional<Handled> handled;
 };
 
+/// Something outside the controller that a waiting task looks at. Virtual time keeps step with the wall meanwhile.
+struct OutsideWait {
+    int fd = -1;      ///< -1: only time keeps step
+    short events = 0; ///< POLLIN, POLLOUT of poll(2)
+};
+
 /// What a task waits for: until `condition` is true. It is looked at first at once, then whenever one of
-/// `queues` is notified, and every `pollPeriod` when that is not 0. Without a condition any notification ends
-/// the wait.
+/// `queues` is notified, when what is `outside` is ready, and every `pollPeriod` when that is not 0. Without a condition
+/// any notification ends the wait.
 struct WaitSpec {
     std::vector<WaitQueue*> queues;
     std::function<bool()> condition;
     Time deadline =
         kNever; ///< absolute virtual time; after a stop and start all of it counts again (manual 2.2.6)
     Time pollPeriod = 0;
+    /// Asked each time before the task waits on. None, or no function: nothing outside can end the wait.
+    std::function<std::optional<OutsideWait>()> outside = {};
 };
 
 /// What a task asks of the controller it belongs to (so that tasks can be tested without one).

@@ -21,11 +21,12 @@ import generate_project
 GOAL_MEAN, GOAL_WORST = 1.15, 2.0  # beside C
 GOAL_OVERFLOW = 1.03  # checked arithmetic beside the same without checks, in the mean
 GOAL_HELLO_MS, GOAL_LIGHT_MS = 25, 10  # a program; commands that compile nothing
-ALONE = (["check"], ["tasks"], ["start"], ["overflow"], ["compile"], ["files"])  # parts that can be asked for by name
+ALONE = (["check"], ["tasks"], ["sockets"], ["start"], ["overflow"], ["compile"], ["files"])  # parts that can be asked for by name
 GOAL_LINES, GOAL_CLANG, GOAL_MB, GOAL_EDIT_MS = 1_000_000, 10, 1024, 10
 GOAL_WRITE_MB_S = 20
 GOAL_PACK_NS = 60
 GOAL_ROUND_US = 1
+GOAL_SOCKET_US = 3
 HERE = os.path.dirname(os.path.abspath(__file__))
 PROGRAMS = os.path.join(HERE, "programs")
 
@@ -239,11 +240,27 @@ def files(rapidc, work, rounds):
           f"(goal: at most {GOAL_PACK_NS})", flush=True)
 
 
+def sockets(rapidc, work, rounds):
+    """The cost of a message from task to task and back."""
+    tasks = os.path.join(HERE, "tasks")
+    talk, messages = os.path.join(work, "talk"), 100_000
+    must([rapidc, "build", os.path.join(tasks, "socket_client.modx"),
+          f"--task=T_SERVER:STATIC={os.path.join(tasks, 'socket_server.modx')}", "-o", talk])
+    times = []
+    for _ in range(rounds):
+        seconds, _, out = run_timed([talk, "--offline", "--rate=unlimited"])
+        if out != f"{messages * 30}\n":
+            sys.exit(f"the client of the socket benchmark prints {out!r}")
+        times.append(seconds)
+    print(f"\na message over a socket between two tasks and back, {rounds} rounds, processor time (best): "
+          f"{min(times) / messages * 1e6:.2f} us (goal: at most {GOAL_SOCKET_US})", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", help="only these programs; start: only the start-up; "
                                                  "overflow: only what the checks of overflow cost; compile: only the time that compiling takes; check: only the checker; "
-                                                 "tasks: only the scheduler; files: only files and rawbytes")
+                                                 "tasks: only the scheduler; files: only files and rawbytes; sockets: only messages between tasks")
     parser.add_argument("--rapidc", default=os.path.join(HERE, "..", "..", "build", "rapidc"))
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--rate", default="unlimited", help="instructions per virtual millisecond")
@@ -273,6 +290,9 @@ def main():
     if options.names == ["files"]:
         files(rapidc, work, options.rounds)
         return 0
+    if options.names == ["sockets"]:
+        sockets(rapidc, work, options.rounds)
+        return 0
     if options.names == ["check"]:
         checker(rapidc, work, options.rounds)
         recheck(session, work)
@@ -287,6 +307,7 @@ def main():
         compile_bench.run(rapidc, work)
         scheduler(rapidc, work, options.rounds)
         files(rapidc, work, options.rounds)
+        sockets(rapidc, work, options.rounds)
         print()
         checker(rapidc, work, options.rounds)
         recheck(session, work)

@@ -2,6 +2,7 @@
 
 #include "stdlib/impl/interrupts/ordering.h"
 #include "stdlib/impl/queues/message_queue.h"
+#include "stdlib/impl/support/deadline.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib_constants.h"
@@ -19,8 +20,6 @@ using lib::MessageQueues;
 using lib::QueueMode;
 
 namespace {
-
-constexpr double kUsualTimeout = 60; // s, when \TimeOut is left out
 
 MessageQueues& queuesOf(TaskCore* task) {
     return MessageQueues::of(taskOf(task).controller());
@@ -41,12 +40,6 @@ Status checkWaiting(TaskCore* task, std::string_view instruction) {
     if (taskOf(task).interrupts().inTrap())
         return misused(task, instruction, "cannot be used in a trap routine.");
     return kOk;
-}
-
-Time deadlineOf(TaskCore* task, const float* timeout) {
-    if (timeout != nullptr && *timeout >= k::WAIT_MAX) return kNever;
-    const Task& owner = taskOf(task);
-    return addTime(owner.now(), fromSeconds(timeout != nullptr ? std::max(*timeout, 0.0F) : kUsualTimeout));
 }
 
 Status timedOut(TaskCore* task) {
@@ -131,7 +124,7 @@ Status rt_RMQSendWait(TaskCore* task, Handle* Slot, void* SendData, const TypeDe
     WaitResult result = WaitResult::Done;
     if (status == kOk) {
         const WaitSpec spec{
-            {&own.arrived}, [&own] { return own.answer != nullptr; }, deadlineOf(task, TimeOut), 0};
+            {&own.arrived}, [&own] { return own.answer != nullptr; }, lib::deadlineOf(task, TimeOut), 0};
         status = taskOf(task).waitFor(spec, result);
     }
     own.answerFrom = 0;
@@ -161,7 +154,7 @@ Status rt_RMQReadWait(TaskCore* task, Handle* Message, const float* TimeOut) {
                        "is for tasks in synchronous mode; this one is configured as Interrupt.");
     WaitResult result = WaitResult::Done;
     const WaitSpec spec{
-        {&own.arrived}, [&own] { return !own.messages.empty(); }, deadlineOf(task, TimeOut), 0};
+        {&own.arrived}, [&own] { return !own.messages.empty(); }, lib::deadlineOf(task, TimeOut), 0};
     if (const Status status = taskOf(task).waitFor(spec, result); status != kOk) return status;
     if (result == WaitResult::Timeout) return timedOut(task);
     take(task, own, Message);

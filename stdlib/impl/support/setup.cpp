@@ -6,6 +6,7 @@
 #include "stdlib/impl/motion/triggers.h"
 #include "stdlib/impl/motion/world_zones.h"
 #include "stdlib/impl/queues/message_queue.h"
+#include "stdlib/impl/sockets/sockets.h"
 #include "stdlib/impl/time/clocks.h"
 #include "stdlib/native_table.h"
 #include "stdlib/standard_library.h"
@@ -18,6 +19,8 @@ void setUpStandardLibrary(Controller& controller) {
     for (const ErrorEntry& entry : errorTable())
         controller.log().addErrorName(entry.number, entry.name, entry.summary);
     controller.onProgramReset(lib::resetSettings);
+    controller.onProgramReset([](Task& task) { lib::closeSockets(task, "its program begins anew"); });
+    controller.onConnectionsLost(lib::closeSockets);
     auto& kept = controller.service<StateKeepers>();
     kept.orderAgain = lib::orderAgain;
     lib::keepSettings(controller, kept);
