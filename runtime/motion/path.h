@@ -5,6 +5,7 @@
 #include "runtime/motion/move_command.h"
 #include "runtime/robot/kinematics.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -78,6 +79,10 @@ class MotionPath {
     /// Axis angles at s in [0, 1]; exactly on the line or circle, not an interpolation between grid nodes.
     Joints jointsAt(double s) const;
     ExternalAxes externalAt(double s) const;
+    /// Arm angle of an arm with seven axes, deg: even along lines and circles. Not within a turn. Else 0.
+    double armAngleAt(double s) const;
+    /// deg by which it changes along a line or circle; 0 for joint moves.
+    double armTravel() const { return armTravel_; }
     /// TCP in the object frame.
     Pose tcpAt(double s) const;
     /// Rates of the TCP in the object frame: mm and degrees per unit of s.
@@ -100,11 +105,16 @@ class MotionPath {
     using Problem = std::optional<MotionError>;
     Problem resolveJointTarget(const MoveCommand& command);
     Problem resolveCurve(const MoveCommand& command);
+    void resolveArmAngle(const MoveCommand& command);
     Problem march();
     Problem marchWithMode(const MoveCommand& command);
     Problem checkNode(const PathNode& node) const;
     Problem checkArrival(const MoveCommand& command) const;
     bool solve(double s, const Joints& seed, Joints& out) const;
+    bool solveByWrist(double s, const Joints& seed, Joints& out) const;
+    bool missByWrist(const Joints& joints, const Vec3& goal, double (&miss)[2]) const;
+    Problem takeWristAxes(CircleOrientation orientation);
+    Problem checkWristArrival(const MoveCommand& command) const;
     bool isSmoothStep(const PathNode& from, const PathNode& to) const;
     MotionError errorAt(MotionErrorKind kind, double s, int joint, double value) const;
     void layStraightGrid();
@@ -117,6 +127,9 @@ class MotionPath {
     bool isEmpty_ = true;
     SingularityMode mode_ = SingularityMode::Off; // in force on this path
     double lockedAxis4_ = 0;                      // deg
+    double armStart_ = 0, armTravel_ = 0;         // deg
+    bool isByWrist_ = false;                      // a circle that two axes of the wrist run
+    std::array<std::size_t, 2> wristAxes_{};      // those, as indices
     CartesianCurve curve_;
     std::vector<PathNode> nodes_;
 };

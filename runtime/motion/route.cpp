@@ -261,6 +261,11 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
         stretch.tcpRate = std::max(norm(to - from) / (2 * close), norm(after.pos - before.pos) / (2 * step));
     }
     stretch.turnRate = robot::angleBetween(before.rot, after.rot) / (2 * step);
+    const bool isInterpolated = inCorner ? corner(own).kind == CornerKind::Space : l.path->isCartesian();
+    if (kinematics.hasArmAngle() && isInterpolated) {
+        const double change = kinematics.armAngle(high.joints) - kinematics.armAngle(low.joints);
+        stretch.armRate = std::abs(std::remainder(change, 360.0)) / (2 * step);
+    }
     stretch.curvature = norm(after.pos - here.pos * 2.0 + before.pos) / (step * step);
     return low.isSolved && high.isSolved && stretch.middle.isSolved &&
            kinematics.jointOutsideLimits(stretch.middle.joints) == 0;
@@ -293,23 +298,29 @@ RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints& see
     point.extax = l.path->externalAt(parameter);
     const Corner* turning = nullptr;
     const Leg* frames = &l;
+    std::optional<double> armAngle;
     for (const bool atEnd : {false, true}) {
         if (!atEnd && number == firstLeg_) continue;
         const Corner& c = corner(atEnd ? number : number - 1);
-        if (c.external.covers(place)) takeExternal(c.external.at(place), point.extax);
+        if (c.external.covers(place)) {
+            const AxisVector axes = c.external.at(place);
+            takeExternal(axes, point.extax);
+            if (l.path->kinematics().hasArmAngle()) armAngle = axes.v[kArmAnglePlace];
+        }
         if (!c.turn.covers(place)) continue;
         turning = &c;
         if (atEnd) frames = &leg(number + 1);
     }
-    if (turning == nullptr) {
+    if (turning == nullptr && !armAngle) {
         point.joints = l.path->jointsAt(parameter);
         return point;
     }
     Pose pose = poseIn(l, *frames, distance);
-    pose.rot = robot::turnedBy(turning->centre, turning->turn.at(place));
+    if (turning != nullptr) pose.rot = robot::turnedBy(turning->centre, turning->turn.at(place));
     point.joints = seed;
-    point.isSolved =
-        l.path->kinematics().inverseContinue(frames->path->frames().toFlange(pose), seed, point.joints);
+    point.isSolved = l.path->kinematics().inverseContinue(
+        frames->path->frames().toFlange(pose), seed, point.joints,
+        armAngle ? *armAngle : l.path->armAngleAt(parameter));
     return point;
 }
 
@@ -326,11 +337,16 @@ RoutePoint Route::pointInCorner(std::size_t number, double place, const Joints& 
         takeExternal(axes, point.extax);
         return point;
     }
-    if (c.external.covers(place)) takeExternal(c.external.at(place), point.extax);
+    double armAngle = c.armAngle;
+    if (c.external.covers(place)) {
+        const AxisVector axes = c.external.at(place);
+        takeExternal(axes, point.extax);
+        armAngle = axes.v[kArmAnglePlace];
+    }
     const Pose pose{c.space.at(x),
                     c.turn.covers(place) ? robot::turnedBy(c.centre, c.turn.at(place)) : c.centre};
-    point.isSolved =
-        next.path->kinematics().inverseContinue(next.path->frames().toFlange(pose), seed, point.joints);
+    point.isSolved = next.path->kinematics().inverseContinue(next.path->frames().toFlange(pose), seed,
+                                                             point.joints, armAngle);
     return point;
 }
 

@@ -33,7 +33,7 @@ Leg Trajectory::legOf(const std::shared_ptr<const MotionPath>& path, const MoveC
     leg.zone = command.zone;
     leg.limits = limitsOf(command, model_, external_);
     leg.duration = command.duration;
-    const double external = externalTravel(*path);
+    const double external = externalTravel(*path) + std::abs(path->armTravel());
     double mm = path->length();
     if (path->isCartesian()) {
         mm = path->curve().length();

@@ -49,7 +49,7 @@ Status checkConcurrent(TaskCore* task, lib::MotionState& state, bool conc) {
 motion::MoveCommand moveTo(TaskCore* task, motion::MoveKind kind, const data::Robtarget& target) {
     motion::MoveCommand command;
     command.kind = kind;
-    command.target = lib::toTarget(target);
+    command.target = lib::toTarget(target, taskOf(task).controller().motion().system().kinematics());
     lib::addOffsets(command.target.extax, lib::motionState(task).axisOffsets, 1);
     return command;
 }

@@ -56,7 +56,7 @@ extern "C" {
 Status rt_CRobT(TaskCore* task, data::Robtarget* result, Handle* TaskRef, const String* TaskName,
                 data::Tooldata* Tool, data::Wobjdata* WObj) {
     if (const Status status = checkTask(task, TaskRef, TaskName)) return status;
-    return lib::give(task, result, lib::toRobtarget(currentTarget(task, Tool, WObj)));
+    return lib::give(task, result, lib::toRobtarget(currentTarget(task, Tool, WObj), systemOf(task).kinematics()));
 }
 
 Status rt_CPos(TaskCore* task, data::Pos* result, data::Tooldata* Tool, data::Wobjdata* WObj) {
@@ -84,17 +84,21 @@ Status rt_CWObj(TaskCore* task, data::Wobjdata* result, Handle* TaskRef, const S
 Status rt_CalcRobT(TaskCore* task, data::Robtarget* result, const data::Jointtarget* Joint_target,
                    data::Tooldata* Tool, data::Wobjdata* WObj) {
     const motion::FrameSetup frames = framesFor(task, Tool, WObj ? WObj : &world());
-    motion::RobTarget target = motion::calcRobTarget(
-        systemOf(task).kinematics(), lib::toJoints(*Joint_target, systemOf(task).kinematics()), frames);
+    const motion::MotionSystem& system = systemOf(task);
+    motion::JointTarget joints = lib::toJoints(*Joint_target, system.kinematics());
+    constexpr std::size_t kAxis7 = 6; // 9E9: where it is
+    if (joints.robax.size() > kAxis7 && !motion::isConnected(joints.robax[kAxis7]))
+        joints.robax[kAxis7] = system.currentJoints().robax[kAxis7];
+    motion::RobTarget target = motion::calcRobTarget(system.kinematics(), joints, frames);
     lib::addOffsets(target.extax, lib::motionState(task).axisOffsets, -1);
-    return lib::give(task, result, lib::toRobtarget(target));
+    return lib::give(task, result, lib::toRobtarget(target, system.kinematics()));
 }
 
 /// \UseCurWObjPos only matters for work objects that another unit moves.
 Status rt_CalcJointT(TaskCore* task, data::Jointtarget* result, bool, const data::Robtarget* Rob_target,
                      data::Tooldata* Tool, data::Wobjdata* WObj, float* ErrorNumber) {
     const motion::FrameSetup frames = framesFor(task, Tool, WObj ? WObj : &world());
-    motion::RobTarget target = lib::toTarget(*Rob_target);
+    motion::RobTarget target = lib::toTarget(*Rob_target, systemOf(task).kinematics());
     lib::addOffsets(target.extax, lib::motionState(task).axisOffsets, 1);
     motion::MotionSystem& system = systemOf(task);
     const auto joints =
@@ -113,10 +117,10 @@ Status rt_CalcJointT(TaskCore* task, data::Jointtarget* result, bool, const data
 Status rt_ORobT(TaskCore* task, data::Robtarget* result, const data::Robtarget* OrgPoint, bool InPDisp,
                 bool InEOffs) {
     const lib::MotionState& state = lib::motionState(task);
-    motion::RobTarget target = lib::toTarget(*OrgPoint);
+    motion::RobTarget target = lib::toTarget(*OrgPoint, systemOf(task).kinematics());
     if (!InPDisp) target.pose = state.displacement * target.pose;
     if (!InEOffs) lib::addOffsets(target.extax, state.axisOffsets, 1);
-    return lib::give(task, result, lib::toRobtarget(target));
+    return lib::give(task, result, lib::toRobtarget(target, systemOf(task).kinematics()));
 }
 
 Status rt_RobName(TaskCore* task, String* result) {

@@ -99,9 +99,10 @@ Status giveTarget(TaskCore* task, const motion::JointTarget& place, const lib::M
     const data::Wobjdata world = lib::MotionState().workObject;
     const motion::FrameSetup frames =
         lib::frameSetup(state, move.tool, move.workObject != nullptr ? move.workObject : &world);
-    motion::RobTarget target = taskOf(task).controller().motion().system().toRobTarget(place, frames);
+    const motion::MotionSystem& system = taskOf(task).controller().motion().system();
+    motion::RobTarget target = system.toRobTarget(place, frames);
     lib::addOffsets(target.extax, state.axisOffsets, -1);
-    return lib::give(task, result, lib::toRobtarget(target));
+    return lib::give(task, result, lib::toRobtarget(target, system.kinematics()));
 }
 
 Status searchTarget(TaskCore* task, motion::MoveCommand command, const SearchArguments& args,

@@ -38,10 +38,11 @@ Status requireMotionTask(TaskCore* task);
 motion::FrameSetup frameSetup(const MotionState& state, const data::Tooldata* tool,
                               const data::Wobjdata* workObject);
 
-/// Positions as programmed; axis offsets are not looked at.
-motion::RobTarget toTarget(const data::Robtarget& target);
-data::Robtarget toRobtarget(const motion::RobTarget& target);
-/// Axes by their numbers: a palletiser has no axes 4 and 5.
+/// Positions as programmed; axis offsets are not looked at. eax_a is the arm angle of a seven-axis arm, free with 9E9.
+motion::RobTarget toTarget(const data::Robtarget& target, const robot::Kinematics& arm);
+data::Robtarget toRobtarget(const motion::RobTarget& target, const robot::Kinematics& arm);
+/// Axes by their numbers: a palletiser has no axes 4 and 5, and eax_a is axis 7 of a seven-axis arm (kNotConnected for 9E9:
+/// stays where it is).
 motion::JointTarget toJoints(const data::Jointtarget& target, const robot::Kinematics& arm);
 data::Jointtarget toJointtarget(const motion::JointTarget& joints, const robot::Kinematics& arm);
 /// Adds `sign` times the offsets to the external axes that are connected.
