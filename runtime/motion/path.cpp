@@ -272,6 +272,12 @@ bool MotionPath::isSmoothStep(const PathNode& from, const PathNode& to) const {
     return true;
 }
 
+/// Shoulder and wrist lie along the reference direction of the arm angle, which means nothing there.
+bool MotionPath::isArmAngleLost(const Joints& joints) const {
+    constexpr double kAlong = 0.05; // deg
+    return kinematics_.hasArmAngle() && kinematics_.singularity(joints).armAngleDeg < kAlong;
+}
+
 std::optional<MotionError> MotionPath::march() {
     const double turn = std::max(curve_.rotationDeg(), std::fabs(armTravel_));
     const double size = std::max(curve_.length() / kCoarseMm, turn / kCoarseDeg);
@@ -295,8 +301,10 @@ std::optional<MotionError> MotionPath::march() {
             step = std::min(coarse, 2 * step);
         } else if (step > finest) {
             step *= 0.5;
-        } else if (!isReached) {
+        } else if (!isReached && !isByWrist_ && !isArmAngleLost(node.joints)) {
             return errorAt(MotionErrorKind::Unreachable, next.s, 0, 0);
+        } else if (!isReached) {
+            return errorAt(MotionErrorKind::Singularity, next.s, 0, 0);
         } else {
             const int joint = mostDifferent(node.joints, next.joints);
             return errorAt(MotionErrorKind::Singularity, next.s, joint,

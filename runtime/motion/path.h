@@ -116,6 +116,7 @@ class MotionPath {
     Problem takeWristAxes(CircleOrientation orientation);
     Problem checkWristArrival(const MoveCommand& command) const;
     bool isSmoothStep(const PathNode& from, const PathNode& to) const;
+    bool isArmAngleLost(const Joints& joints) const;
     MotionError errorAt(MotionErrorKind kind, double s, int joint, double value) const;
     void layStraightGrid();
     const PathNode& nodeNear(double s) const;

@@ -4,14 +4,16 @@
 
 #include "runtime/motion/path.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 
 namespace motion {
 
 namespace {
 
-constexpr double kLeastCosine = 0.05; // of the tool against the normal of the plane; less never meets it well
+constexpr double kMostTilt = 60;      // deg, of the tool against the normal of the plane
 constexpr double kSolved = 1e-10;     // mm
 constexpr double kStep = 1e-3;        // deg, of the difference quotients
 constexpr double kLargestTurn = 5;    // deg in one step of the search
@@ -30,6 +32,14 @@ std::optional<MotionError> MotionPath::takeWristAxes(CircleOrientation orientati
         error.value = static_cast<double>(kinematics_.jointCount());
         return error;
     }
+    const Vec3 tool = rotate(frames_.fromFlange(kinematics_.forward(start_.robax)).rot, {0, 0, 1});
+    const double tilt =
+        std::atan2(norm(cross(tool, curve_.axis())), dot(tool, curve_.axis())) * 180 / std::numbers::pi;
+    if (!(std::min(tilt, 180 - tilt) < kMostTilt)) {
+        error.what = "a circle by the wrist in a plane that the tool is tilted against by this many degrees";
+        error.value = std::min(tilt, 180 - tilt);
+        return error;
+    }
     const std::size_t first = orientation == CircleOrientation::Wrist56 ? 4 : 3;
     const std::size_t second = orientation == CircleOrientation::Wrist45 ? 4 : 5;
     wristAxes_ = {first, second};
@@ -43,7 +53,8 @@ bool MotionPath::missByWrist(const Joints& joints, const Vec3& goal, double (&mi
     const Vec3 tool = rotate(tcp.rot, {0, 0, 1});
     const Vec3 normal = curve_.axis();
     const double cosine = dot(normal, tool);
-    if (!(std::fabs(cosine) > kLeastCosine)) return false;
+    static const double kLeastCosine = std::cos(kMostTilt * std::numbers::pi / 180);
+    if (!(std::fabs(cosine) >= kLeastCosine)) return false;
     const Vec3 met = tcp.pos + tool * (dot(normal, curve_.centre() - tcp.pos) / cosine);
     const Vec3 spoke = curve_.at(0).pos - curve_.centre();
     const Vec3 across = spoke * (1 / norm(spoke));
