@@ -243,7 +243,7 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
             (high.extax[i] - 2 * stretch.middle.extax[i] + low.extax[i]) / (step * step);
     }
     const robot::Kinematics& kinematics = l.path->kinematics();
-    const FrameSetup& frames = (inCorner ? leg(own + 1) : l).path->frames();
+    const FrameSetup& frames = leg(inCorner ? own + 1 : own).path->frames();
     const auto tcp = [&](const RoutePoint& point) {
         return frames.fromFlange(kinematics.forward(point.joints));
     };
@@ -259,6 +259,13 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
         const Vec3 from = tcp(pointAt(middle - close, stretch.middle.joints)).pos;
         const Vec3 to = tcp(pointAt(middle + close, stretch.middle.joints)).pos;
         stretch.tcpRate = std::max(norm(to - from) / (2 * close), norm(after.pos - before.pos) / (2 * step));
+        const FrameSetup& earlier = l.path->frames();
+        if (inCorner && !sameTool(earlier, frames)) { // neither tool centre point may be too fast
+            const auto place = [&](const RoutePoint& point) {
+                return earlier.fromFlange(kinematics.forward(point.joints)).pos;
+            };
+            stretch.tcpRate = std::max(stretch.tcpRate, norm(place(high) - place(low)) / (2 * step));
+        }
     }
     stretch.turnRate = robot::angleBetween(before.rot, after.rot) / (2 * step);
     const bool isInterpolated = inCorner ? corner(own).kind == CornerKind::Space : l.path->isCartesian();

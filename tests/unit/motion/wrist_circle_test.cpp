@@ -47,11 +47,14 @@ TEST_CASE("two axes of the wrist cut the circle, the others stand still", "[moti
     struct Case {
         CircleOrientation by;
         std::size_t first, second;
+        double axis6; // so that the two axes move the TCP in different directions
     };
-    for (const Case& c : {Case{CircleOrientation::Wrist45, 3, 4}, Case{CircleOrientation::Wrist46, 3, 5},
-                          Case{CircleOrientation::Wrist56, 4, 5}}) {
+    for (const Case& c : {Case{CircleOrientation::Wrist45, 3, 4, 60}, Case{CircleOrientation::Wrist46, 3, 5, 60},
+                          Case{CircleOrientation::Wrist56, 4, 5, 0}}) {
         CAPTURE(c.first, c.second);
-        MotionSystem system = armAt(kBent);
+        Joints bent = kBent;
+        bent[5] = c.axis6;
+        MotionSystem system = armAt(bent);
         const MoveCommand command = halfCircle(system, 3, c.by);
         const Pose start = system.toRobTarget(system.plannedEnd(), command.frames).pose;
         const auto ordered = system.enqueue(command);
@@ -65,7 +68,7 @@ TEST_CASE("two axes of the wrist cut the circle, the others stand still", "[moti
             system.advanceTo(system.now() + 4 * kMs);
             const MotionState state = system.current();
             for (std::size_t i = 0; i < 6; ++i)
-                if (i != c.first && i != c.second) CHECK(state.joints[i] == kBent[i]);
+                if (i != c.first && i != c.second) CHECK(state.joints[i] == bent[i]);
             const Vec3 tool = rotate(state.tcp.rot, {0, 0, 1});
             const Vec3 cut = state.tcp.pos + tool * (dot(normal, centre - state.tcp.pos) / dot(normal, tool));
             CHECK(norm(cut - centre) == Approx(3).margin(1e-6)); // the tool cuts the circle
