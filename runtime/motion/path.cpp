@@ -63,9 +63,7 @@ std::optional<MotionError> checkArguments(const MoveCommand& command) {
     for (const Pose& pose : {f.tool.tframe, f.workObject.uframe, f.workObject.oframe, f.displacement,
                              f.baseFrame, command.target.pose, command.circlePoint}) {
         if (!isFinite(pose)) return badArgument("a frame or target that is not a number", NAN);
-        if (std::fabs(norm(pose.rot) - 1) > 1e-3) {
-            return badArgument("an orientation that is not a unit quaternion", norm(pose.rot));
-        }
+        if (std::fabs(norm(pose.rot) - 1) > kUnitTolerance) return badArgument(kNoOrientation, norm(pose.rot));
     }
     for (double angle : command.joints.robax) {
         if (!std::isfinite(angle)) return badArgument("an axis angle that is not a number", angle);

@@ -145,6 +145,12 @@ Expected<JointTarget, MotionError> calcJointTarget(const robot::Kinematics& kine
         error.what = "a tool and a work object of which not exactly one is held by the robot";
         return Unexpected{error};
     }
+    if (!(std::fabs(norm(target.pose.rot) - 1) < kUnitTolerance)) {
+        MotionError error;
+        error.what = kNoOrientation;
+        error.value = norm(target.pose.rot);
+        return Unexpected{error};
+    }
     const auto joints = solveTarget(kinematics, frames.toFlange(target.pose), target, true, seed);
     if (!joints) return Unexpected{targetError(joints.error(), target.pose.pos)};
     return JointTarget{*joints, target.extax};

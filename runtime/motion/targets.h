@@ -121,6 +121,10 @@ Expected<Joints, robot::IkError> solveTarget(const robot::Kinematics& kinematics
 /// What an error of the inverse means for a move to this position, at the end of its path.
 MotionError targetError(const robot::IkError& error, const Vec3& position);
 
+/// Length of a quaternion that still counts as 1, and what is wrong with others.
+inline constexpr double kUnitTolerance = 1e-3;
+inline constexpr const char* kNoOrientation = "an orientation whose quaternion has not the length 1 but this one";
+
 /// RAPID's CalcJointT: axis angles for a robtarget, with the configuration it names; `seed` breaks ties at
 /// singularities.
 Expected<JointTarget, MotionError> calcJointTarget(const robot::Kinematics& kinematics,

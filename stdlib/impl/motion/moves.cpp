@@ -69,7 +69,7 @@ motion::MoveCommand linearMove(TaskCore* task, const data::Robtarget& target) {
 motion::MoveCommand circularMove(TaskCore* task, const data::Robtarget& circlePoint,
                                  const data::Robtarget& target) {
     motion::MoveCommand command = moveTo(task, motion::MoveKind::Circular, target);
-    command.circlePoint = toFrame(circlePoint);
+    command.circlePoint = toMovePose(circlePoint);
     return command;
 }
 

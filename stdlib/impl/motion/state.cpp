@@ -65,11 +65,19 @@ data::Extjoint toExtjoint(const motion::ExternalAxes& axes) {
 
 } // namespace
 
+motion::Pose toMovePose(const data::Robtarget& target) {
+    constexpr double kRounding = 0.1; // of programs that write orientations with one or two digits
+    motion::Pose pose = toFrame(target);
+    const motion::Quat raw = toQuat(target.rot);
+    if (!(std::fabs(norm(raw) - 1) < kRounding)) pose.rot = raw;
+    return pose;
+}
+
 motion::RobTarget toTarget(const data::Robtarget& target, const robot::Kinematics& arm) {
     const auto whole = [](float v) { return static_cast<int>(std::lround(v)); };
     const data::Confdata& c = target.robconf;
     motion::RobTarget result{
-        toFrame(target), {whole(c.cf1), whole(c.cf4), whole(c.cf6), whole(c.cfx)}, toAxes(target.extax)};
+        toMovePose(target), {whole(c.cf1), whole(c.cf4), whole(c.cf6), whole(c.cfx)}, toAxes(target.extax)};
     if (!arm.hasArmAngle()) return result;
     if (motion::isConnected(result.extax[0])) result.armAngle = result.extax[0];
     result.extax[0] = motion::kNotConnected;

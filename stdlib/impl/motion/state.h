@@ -38,6 +38,9 @@ Status requireMotionTask(TaskCore* task);
 motion::FrameSetup frameSetup(const MotionState& state, const data::Tooldata* tool,
                               const data::Wobjdata* workObject);
 
+/// Pose of a target for a movement: an orientation that is far from a unit quaternion (a robtarget without value has zeros)
+/// stays as it is, so that the movement refuses it.
+motion::Pose toMovePose(const data::Robtarget& target);
 /// Positions as programmed; axis offsets are not looked at. eax_a is the arm angle of a seven-axis arm, free with 9E9.
 motion::RobTarget toTarget(const data::Robtarget& target, const robot::Kinematics& arm);
 data::Robtarget toRobtarget(const motion::RobTarget& target, const robot::Kinematics& arm);

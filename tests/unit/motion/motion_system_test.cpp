@@ -388,7 +388,7 @@ TEST_CASE("the triggers of a circle in two parts stay where they are", "[motion]
                        {5, false, true, 0.1, 0}};
     Pose start;
     start.pos = {100, 0, 0};
-    const std::vector<MoveCommand> parts = splitAtCirclePoint(circle, start); // two quarters of 157.08 mm
+    const std::vector<MoveCommand> parts = splitAtCirclePoint(circle, {start, {}, kNoExternalAxes}); // two quarters of 157.08 mm
     REQUIRE(parts.size() == 2);
     REQUIRE(parts[0].triggers.size() == 2);
     CHECK(parts[0].triggers[0].id == 1);
@@ -413,7 +413,7 @@ TEST_CASE("a circle in two parts turns as CirPathMode says", "[motion][path]") {
     circle.target.pose = {{0, 100, 0}, robot::fromAxisAngle({1, 0, 0}, 60)};
     Pose start;
     start.pos = {100, 0, 0};
-    const std::vector<MoveCommand> parts = splitAtCirclePoint(circle, start);
+    const std::vector<MoveCommand> parts = splitAtCirclePoint(circle, {start, {}, kNoExternalAxes});
     REQUIRE(parts.size() == 2);
     CHECK(robot::angleBetween(parts[0].target.pose.rot, robot::fromAxisAngle({1, 0, 0}, 30)) < 1e-6);
 }

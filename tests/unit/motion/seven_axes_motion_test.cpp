@@ -2,6 +2,7 @@
 // refused (docs/motion.md).
 
 #include "runtime/motion/motion_system.h"
+#include "runtime/motion/path.h"
 
 #include <catch2/catch.hpp>
 
@@ -335,4 +336,20 @@ TEST_CASE("external axes of a seven-axis arm begin at b", "[motion][seven]") {
     const auto refused = system.enqueue(move);
     REQUIRE_FALSE(refused.hasValue());
     CHECK(refused.error().message().find("external axis b") != std::string::npos);
+}
+
+TEST_CASE("at the circle point of a circle in steps the arm angle has come as far as the TCP", "[motion][seven]") {
+    MotionSystem system = yumi();
+    const RobTarget from = here(system);
+    MoveCommand circle = lineBy(system, 40, 40, 0, 8);
+    circle.kind = MoveKind::Circular;
+    circle.circlePoint = robot::offs(from.pose, 40, 0, 0); // half of the way on a half circle
+    const auto parts = splitAtCirclePoint(circle, from);
+    REQUIRE(parts.size() == 2);
+    CHECK(std::remainder(parts[0].target.armAngle - from.armAngle, 360.0) == Approx(4).margin(1e-9));
+    CHECK(parts[1].target.armAngle == circle.target.armAngle);
+    RobTarget withAxis = from;
+    withAxis.extax[1] = 100;
+    circle.target.extax[1] = 300;
+    CHECK(splitAtCirclePoint(circle, withAxis)[0].target.extax[1] == Approx(200));
 }
