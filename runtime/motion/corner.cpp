@@ -118,8 +118,8 @@ void Route::blendExternal(Corner& corner, const Leg& a, const Leg& b, double bef
     corner.external = {};
     corner.armAngle = armAngleOn(b, 0);
     const bool hasArmAngle = b.path->kinematics().hasArmAngle();
-    bool moves = hasArmAngle && (a.path->armTravel() != 0 || b.path->armTravel() != 0 || !a.path->isCartesian() ||
-                                 !b.path->isCartesian());
+    bool moves = hasArmAngle && (a.path->armTravel() != 0 || b.path->armTravel() != 0 ||
+                                 !a.path->isCartesian() || !b.path->isCartesian());
     for (std::size_t i = 0; i < static_cast<std::size_t>(kExternalCount); ++i)
         moves = moves || (isConnectedAxis(a, i) && (a.path->start().extax[i] != a.path->end().extax[i] ||
                                                     b.path->start().extax[i] != b.path->end().extax[i]));
@@ -128,7 +128,9 @@ void Route::blendExternal(Corner& corner, const Leg& a, const Leg& b, double bef
     corner.external.after = after;
     const auto axes = [&](const Leg& leg, double distance) {
         AxisVector result = axesOn(leg, distance);
-        if (hasArmAngle) result.v[kArmAnglePlace] = corner.armAngle + std::remainder(armAngleOn(leg, distance) - corner.armAngle, 360.0);
+        if (hasArmAngle)
+            result.v[kArmAnglePlace] =
+                corner.armAngle + std::remainder(armAngleOn(leg, distance) - corner.armAngle, 360.0);
         return result;
     };
     corner.external.curve = joiningCurve([&](double d) { return axes(a, d); }, a.length() - before, before,

@@ -98,10 +98,11 @@ struct Corner {
     LengthMap lengths;            ///< of the curve
     Bezier<Vec3> space;
     Bezier<AxisVector> axes;
-    Quat centre;                ///< orientation at the programmed point
-    Blend<Vec3> turn;           ///< rotation vectors relative to `centre`, rad
-    double armAngle = 0;        ///< seven axes: arm angle at the programmed point, deg
-    Blend<AxisVector> external; ///< external axes and, in the place of the first one, the arm angle of seven axes
+    Quat centre;         ///< orientation at the programmed point
+    Blend<Vec3> turn;    ///< rotation vectors relative to `centre`, rad
+    double armAngle = 0; ///< seven axes: arm angle at the programmed point, deg
+    Blend<AxisVector>
+        external; ///< external axes and, in the place of the first one, the arm angle of seven axes
     double length() const { return kind == CornerKind::None ? 0 : lengths.length(); }
     double end() const { return begin + length(); }
     double halfLength = 0; ///< mm of the curve up to the middle of its parameter

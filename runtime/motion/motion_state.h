@@ -10,9 +10,10 @@
 namespace motion {
 
 struct MotionState {
-    Joints joints{};     ///< deg
-    std::array<uint8_t, robot::kMostJoints> axisNumbers{1, 2, 3, 4, 5, 6, 7}; ///< RAPID's number of each joint
-    Joints jointSpeed{}; ///< deg/s
+    Joints joints{}; ///< deg
+    std::array<uint8_t, robot::kMostJoints> axisNumbers{1, 2, 3, 4,
+                                                        5, 6, 7}; ///< RAPID's number of each joint
+    Joints jointSpeed{};                                          ///< deg/s
     ExternalAxes extax = kNoExternalAxes;
     Pose tcp;            ///< TCP of the active tool in world
     double tcpSpeed = 0; ///< mm/s relative to the work object

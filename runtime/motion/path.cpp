@@ -63,7 +63,8 @@ std::optional<MotionError> checkArguments(const MoveCommand& command) {
     for (const Pose& pose : {f.tool.tframe, f.workObject.uframe, f.workObject.oframe, f.displacement,
                              f.baseFrame, command.target.pose, command.circlePoint}) {
         if (!isFinite(pose)) return badArgument("a frame or target that is not a number", NAN);
-        if (std::fabs(norm(pose.rot) - 1) > kUnitTolerance) return badArgument(kNoOrientation, norm(pose.rot));
+        if (std::fabs(norm(pose.rot) - 1) > kUnitTolerance)
+            return badArgument(kNoOrientation, norm(pose.rot));
     }
     for (double angle : command.joints.robax) {
         if (!std::isfinite(angle)) return badArgument("an axis angle that is not a number", angle);
@@ -103,7 +104,8 @@ ExternalAxes targetAxes(const ExternalAxes& start, const ExternalAxes& target) {
 Expected<MotionPath, MotionError> MotionPath::make(const robot::Kinematics& kinematics,
                                                    const JointTarget& start, const MoveCommand& command) {
     if (auto error = checkArguments(command)) return Unexpected{*error};
-    const bool isOfOther = command.kind == MoveKind::AbsJoint && command.joints.robax.size() != start.robax.size();
+    const bool isOfOther =
+        command.kind == MoveKind::AbsJoint && command.joints.robax.size() != start.robax.size();
     if (isOfOther) {
         return Unexpected{badArgument("a posture of an arm with another number of axes",
                                       static_cast<double>(command.joints.robax.size()))};
@@ -167,7 +169,8 @@ std::optional<MotionError> MotionPath::resolveCurve(const MoveCommand& command) 
             if (auto error = takeWristAxes(command.circleOrientation)) return error;
     }
     resolveArmAngle(command);
-    isEmpty_ = curve_.length() < kRounding && curve_.rotationDeg() < kRounding && std::fabs(armTravel_) < kRounding;
+    isEmpty_ =
+        curve_.length() < kRounding && curve_.rotationDeg() < kRounding && std::fabs(armTravel_) < kRounding;
     if (isEmpty_) {
         nodes_ = {{0, start_.robax, 0}, {1, start_.robax, 0}};
         return checkArrival(command);

@@ -325,9 +325,9 @@ RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints& see
     Pose pose = poseIn(l, *frames, distance);
     if (turning != nullptr) pose.rot = robot::turnedBy(turning->centre, turning->turn.at(place));
     point.joints = seed;
-    point.isSolved = l.path->kinematics().inverseContinue(
-        frames->path->frames().toFlange(pose), seed, point.joints,
-        armAngle ? *armAngle : l.path->armAngleAt(parameter));
+    point.isSolved =
+        l.path->kinematics().inverseContinue(frames->path->frames().toFlange(pose), seed, point.joints,
+                                             armAngle ? *armAngle : l.path->armAngleAt(parameter));
     return point;
 }
 

@@ -90,9 +90,10 @@ std::string MotionError::message() const {
             "{} would have to go to {:.2f}, outside its range, {}; change the target or its configuration",
             axisName(joint), value, place);
     case MotionErrorKind::ElbowOutOfRange:
-        return fmt::format("lower and upper arm would be at {:.2f} degrees to each other, outside the range of the "
-                           "rods, {}; move the target or the work object",
-                           value, place);
+        return fmt::format(
+            "lower and upper arm would be at {:.2f} degrees to each other, outside the range of the "
+            "rods, {}; move the target or the work object",
+            value, place);
     case MotionErrorKind::NoSuchConfiguration:
         return fmt::format(
             "the position does not have the programmed configuration ({}); correct its confdata",

@@ -88,10 +88,10 @@ Pose poseFromFloats(const float* trans, const float* rot);
 void poseToFloats(const Pose& pose, float* trans, float* rot);
 
 enum class MotionErrorKind : uint8_t {
-    BadArgument,           ///< not a number, speed or time not positive, frames contradict each other
-    Unreachable,           ///< position outside the reach of the arm
-    JointOutOfRange,       ///< an axis (1..7, external 8..13) would leave its range
-    ElbowOutOfRange,       ///< the rods do not let axes 2 and 3 be there together; `value` is the angle of the elbow
+    BadArgument,     ///< not a number, speed or time not positive, frames contradict each other
+    Unreachable,     ///< position outside the reach of the arm
+    JointOutOfRange, ///< an axis (1..7, external 8..13) would leave its range
+    ElbowOutOfRange, ///< the rods do not let axes 2 and 3 be there together; `value` is the angle of the elbow
     NoSuchConfiguration,   ///< confdata asks for a configuration the position does not have (ConfJ)
     ConfigurationMismatch, ///< a line or circle would arrive in another configuration than programmed (ConfL)
     Singularity,           ///< path too close to a singularity
@@ -123,7 +123,8 @@ MotionError targetError(const robot::IkError& error, const Vec3& position);
 
 /// Length of a quaternion that still counts as 1, and what is wrong with others.
 inline constexpr double kUnitTolerance = 1e-3;
-inline constexpr const char* kNoOrientation = "an orientation whose quaternion has not the length 1 but this one";
+inline constexpr const char* kNoOrientation =
+    "an orientation whose quaternion has not the length 1 but this one";
 
 /// RAPID's CalcJointT: axis angles for a robtarget, with the configuration it names; `seed` breaks ties at
 /// singularities.

@@ -13,10 +13,10 @@ namespace motion {
 
 namespace {
 
-constexpr double kMostTilt = 60;      // deg, of the tool against the normal of the plane
-constexpr double kSolved = 1e-10;     // mm
-constexpr double kStep = 1e-3;        // deg, of the difference quotients
-constexpr double kLargestTurn = 5;    // deg in one step of the search
+constexpr double kMostTilt = 60;   // deg, of the tool against the normal of the plane
+constexpr double kSolved = 1e-10;  // mm
+constexpr double kStep = 1e-3;     // deg, of the difference quotients
+constexpr double kLargestTurn = 5; // deg in one step of the search
 
 } // namespace
 

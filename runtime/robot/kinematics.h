@@ -34,8 +34,8 @@ struct ConfData {
 };
 
 enum class IkErrorKind : uint8_t {
-    Unreachable,         ///< out of reach of the arm, or an orientation that the arm cannot give
-    OutOfJointLimits,    ///< reachable in space, but an axis would leave its range; `joint` says which
+    Unreachable,      ///< out of reach of the arm, or an orientation that the arm cannot give
+    OutOfJointLimits, ///< reachable in space, but an axis would leave its range; `joint` says which
     OutOfElbowLimits, ///< reachable in space, but `angleDeg` between lower and upper arm is outside the range of the rods
     NoSuchConfiguration, ///< reachable, but not with the configuration asked for
 };

@@ -104,11 +104,11 @@ class Mechanism {
     Joints signs_, shifts_; // model angle = sign * axis angle + shift, degrees
     Joints lower_, upper_;
     std::array<int, kMostJoints> axisNumbers_{};
-    int linear_ = -1; // index of the linear axis, -1 for none
-    double quarterShift_ = 0;                           // deg, by which quarter 0 begins before 0
-    bool isElbowLimited_ = false;                       // axes 2 and 3 limit each other
+    int linear_ = -1;                                      // index of the linear axis, -1 for none
+    double quarterShift_ = 0;                              // deg, by which quarter 0 begins before 0
+    bool isElbowLimited_ = false;                          // axes 2 and 3 limit each other
     double leastElbow_ = -HUGE_VAL, mostElbow_ = HUGE_VAL; // deg
-    static constexpr int kElbowAxis = 3;                // the axis that is named then
+    static constexpr int kElbowAxis = 3;                   // the axis that is named then
 };
 
 std::shared_ptr<const Mechanism> makeSphericalWrist(const RobotModel& model);

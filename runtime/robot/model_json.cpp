@@ -184,7 +184,8 @@ void readFourAxes(Reader& in, const Json& geometry, RobotModel& model) {
         if (!in.failed() && !(g.c2 > 0 && g.c3 > 0)) in.fail("the links c2 and c3 must have a length");
         double elbow[2] = {g.leastElbowDeg, g.mostElbowDeg};
         in.numbers(in.root(), "elbow_limits_deg", elbow, 2, false);
-        if (!(elbow[0] < elbow[1])) in.fail("field 'elbow_limits_deg' must hold [lower, upper] with lower < upper");
+        if (!(elbow[0] < elbow[1]))
+            in.fail("field 'elbow_limits_deg' must hold [lower, upper] with lower < upper");
         g.leastElbowDeg = elbow[0];
         g.mostElbowDeg = elbow[1];
     } else if (model.kinematics == KinematicsKind::Scara) {

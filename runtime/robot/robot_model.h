@@ -83,15 +83,15 @@ struct RobotModel {
     Quat flangeRot{0, 0, 1, 0}; ///< four axes: flange in base with all axes at 0; z must point down
     Joints lowerDeg{};          ///< joint limits, degrees
     Joints upperDeg{};
-    Joints maxSpeed{};         ///< deg/s
-    Joints maxAcceleration{};  ///< deg/s^2
-    Joints maxJerk{};          ///< deg/s^3
-    Dynamics dynamics;         ///< of the data file, else estimated
-    double maxTcpSpeed = 5000; ///< mm/s; what MaxRobSpeed gives and vmax means
-    double wristOffset = 0;    ///< mm between axes 5 and 6; not 0 only for OffsetWrist
-    Pose baseFrame;            ///< base in world; identity unless configured
+    Joints maxSpeed{};              ///< deg/s
+    Joints maxAcceleration{};       ///< deg/s^2
+    Joints maxJerk{};               ///< deg/s^3
+    Dynamics dynamics;              ///< of the data file, else estimated
+    double maxTcpSpeed = 5000;      ///< mm/s; what MaxRobSpeed gives and vmax means
+    double wristOffset = 0;         ///< mm between axes 5 and 6; not 0 only for OffsetWrist
+    Pose baseFrame;                 ///< base in world; identity unless configured
     Joints home = Joints::zeros(0); ///< where the arm stands at the start; no axes: the usual posture
-    int externalAxes = 0;      ///< external axes that come with the arm
+    int externalAxes = 0;           ///< external axes that come with the arm
     std::vector<std::string>
         provisional; ///< names of fields of the data file that are assumed, not published
 };

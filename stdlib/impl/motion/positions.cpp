@@ -56,7 +56,8 @@ extern "C" {
 Status rt_CRobT(TaskCore* task, data::Robtarget* result, Handle* TaskRef, const String* TaskName,
                 data::Tooldata* Tool, data::Wobjdata* WObj) {
     if (const Status status = checkTask(task, TaskRef, TaskName)) return status;
-    return lib::give(task, result, lib::toRobtarget(currentTarget(task, Tool, WObj), systemOf(task).kinematics()));
+    return lib::give(task, result,
+                     lib::toRobtarget(currentTarget(task, Tool, WObj), systemOf(task).kinematics()));
 }
 
 Status rt_CPos(TaskCore* task, data::Pos* result, data::Tooldata* Tool, data::Wobjdata* WObj) {

@@ -388,7 +388,8 @@ TEST_CASE("the triggers of a circle in two parts stay where they are", "[motion]
                        {5, false, true, 0.1, 0}};
     Pose start;
     start.pos = {100, 0, 0};
-    const std::vector<MoveCommand> parts = splitAtCirclePoint(circle, {start, {}, kNoExternalAxes}); // two quarters of 157.08 mm
+    const std::vector<MoveCommand> parts =
+        splitAtCirclePoint(circle, {start, {}, kNoExternalAxes}); // two quarters of 157.08 mm
     REQUIRE(parts.size() == 2);
     REQUIRE(parts[0].triggers.size() == 2);
     CHECK(parts[0].triggers[0].id == 1);

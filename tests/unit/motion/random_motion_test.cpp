@@ -34,7 +34,8 @@ ZoneData randomZone(std::mt19937_64& random) {
 /// configuration and arm angle.
 class AnyArm {
   public:
-    AnyArm(const char* name, uint64_t seed) : model_(robot::loadRobotModel(name).value()), arm_(model_), random_(seed) {
+    AnyArm(const char* name, uint64_t seed)
+        : model_(robot::loadRobotModel(name).value()), arm_(model_), random_(seed) {
         middle_ = model_.home.size() > 0 ? model_.home : posture(0.8);
     }
 
@@ -61,7 +62,8 @@ class AnyArm {
         do {
             for (std::size_t i = 0; i < joints.size(); ++i) {
                 const bool isDeltaArm = model_.kinematics == robot::KinematicsKind::Delta && i < 3;
-                const double low = isDeltaArm ? 0 : model_.lowerDeg[i], high = isDeltaArm ? 50 : model_.upperDeg[i];
+                const double low = isDeltaArm ? 0 : model_.lowerDeg[i],
+                             high = isDeltaArm ? 50 : model_.upperDeg[i];
                 joints[i] = 0.5 * (low + high) + 0.5 * share * (high - low) * between(random_, -1, 1);
             }
         } while (arm_.jointOutsideLimits(joints) != 0);
@@ -226,8 +228,9 @@ TEST_CASE("random programs of every mechanism keep speeds and reach their ends",
 #else
     constexpr int kPrograms = 60;
 #endif
-    for (const char* name : {"IRB 14050-0.5/0.559", "IRB 14000-0.5/0.559-L", "CRB 15000-5/0.95", "IRB 460-110/2.4",
-                             "IRB 910SC-3/0.65", "IRB 360-1/1600", "IRB 390-15/1300", "IRB 6640-180/2.55"}) {
+    for (const char* name :
+         {"IRB 14050-0.5/0.559", "IRB 14000-0.5/0.559-L", "CRB 15000-5/0.95", "IRB 460-110/2.4",
+          "IRB 910SC-3/0.65", "IRB 360-1/1600", "IRB 390-15/1300", "IRB 6640-180/2.55"}) {
         CAPTURE(name);
         int made = 0;
         int refused = 0;
@@ -239,15 +242,17 @@ TEST_CASE("random programs of every mechanism keep speeds and reach their ends",
             MotionSystem system = arm.system();
             const robot::RobotModel& model = system.model();
             Joints before = system.current().joints;
-            double axes = 0;   // highest speed of an axis as a share of its limit
+            double axes = 0;    // highest speed of an axis as a share of its limit
             double outside = 0; // deg an axis is beyond its range
             double fastest = 0;
             const auto speeds = runProgram(system, program, [&] {
                 const MotionState state = system.current();
                 fastest = std::max(fastest, state.tcpSpeed);
                 for (std::size_t i = 0; i < before.size(); ++i) {
-                    axes = std::max(axes, std::abs(state.joints[i] - before[i]) / (model.maxSpeed[i] * 0.004));
-                    outside = std::max({outside, model.lowerDeg[i] - state.joints[i], state.joints[i] - model.upperDeg[i]});
+                    axes =
+                        std::max(axes, std::abs(state.joints[i] - before[i]) / (model.maxSpeed[i] * 0.004));
+                    outside = std::max(
+                        {outside, model.lowerDeg[i] - state.joints[i], state.joints[i] - model.upperDeg[i]});
                 }
                 before = state.joints;
             });

@@ -52,7 +52,8 @@ std::vector<Sample> run(MotionSystem& system) {
     for (int i = 0; i < 60'000 && (!system.isIdle() || system.isMoving()); ++i) {
         system.advanceTo(system.now() + kMs);
         const MotionState state = system.current();
-        samples.push_back({static_cast<double>(system.now()) * 1e-9, state, system.kinematics().armAngle(state.joints)});
+        samples.push_back(
+            {static_cast<double>(system.now()) * 1e-9, state, system.kinematics().armAngle(state.joints)});
     }
     REQUIRE(system.isIdle());
     return samples;
@@ -188,7 +189,8 @@ TEST_CASE("a free arm angle that cannot be kept is replaced by the nearest possi
     // No multiple of 5 degrees nearer to the start does it.
     for (double less = 5; less < away - 1e-6; less += 5)
         for (const double side : {-1.0, 1.0})
-            CHECK_FALSE(arm.inverseNear(target.pose, Joints{0, -130, 30, 0, 40, 0, 135}, kept + side * less).hasValue());
+            CHECK_FALSE(arm.inverseNear(target.pose, Joints{0, -130, 30, 0, 40, 0, 135}, kept + side * less)
+                            .hasValue());
 }
 
 TEST_CASE("corners of a seven-axis arm are smooth in all axes and in the arm angle", "[motion][seven]") {
@@ -213,8 +215,8 @@ TEST_CASE("corners of a seven-axis arm are smooth in all axes and in the arm ang
         CHECK(fastestAxis(system, samples) < 1.1);
         double largest = 0; // of the arm angle in a millisecond
         for (std::size_t n = 1; n < samples.size(); ++n)
-            largest = std::max(largest,
-                               std::fabs(std::remainder(samples[n].armAngle - samples[n - 1].armAngle, 360.0)));
+            largest = std::max(
+                largest, std::fabs(std::remainder(samples[n].armAngle - samples[n - 1].armAngle, 360.0)));
         CHECK(largest < 0.3);
     }
 }
@@ -301,7 +303,8 @@ TEST_CASE("moves that a seven-axis arm cannot make say why", "[motion][seven]") 
     CHECK(kindOf(circle) == MotionErrorKind::CirclePointsTooClose);
 }
 
-TEST_CASE("a line through the singularity of the shoulder is refused, a joint move passes it", "[motion][seven]") {
+TEST_CASE("a line through the singularity of the shoulder is refused, a joint move passes it",
+          "[motion][seven]") {
     MotionSystem system = yumi();
     REQUIRE(system.placeAt({{0, -20, 20, 30, 60, 0, 40}, kNoExternalAxes}));
     MoveCommand over;
@@ -338,7 +341,8 @@ TEST_CASE("external axes of a seven-axis arm begin at b", "[motion][seven]") {
     CHECK(refused.error().message().find("external axis b") != std::string::npos);
 }
 
-TEST_CASE("at the circle point of a circle in steps the arm angle has come as far as the TCP", "[motion][seven]") {
+TEST_CASE("at the circle point of a circle in steps the arm angle has come as far as the TCP",
+          "[motion][seven]") {
     MotionSystem system = yumi();
     const RobTarget from = here(system);
     MoveCommand circle = lineBy(system, 40, 40, 0, 8);

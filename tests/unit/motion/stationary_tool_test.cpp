@@ -64,7 +64,8 @@ MoveCommand moveOf(MoveKind kind, const MotionSystem& system, const FrameSetup& 
 
 } // namespace
 
-TEST_CASE("every mechanism moves a held work object along a line at a stationary tool", "[motion][stationary]") {
+TEST_CASE("every mechanism moves a held work object along a line at a stationary tool",
+          "[motion][stationary]") {
     for (const Arm& arm : kArms) {
         CAPTURE(arm.name);
         MotionSystem system = armAt(arm);
@@ -84,11 +85,13 @@ TEST_CASE("every mechanism moves a held work object along a line at a stationary
             fastest = std::max(fastest, system.current().tcpSpeed);
         });
         CHECK(fastest <= 100.5); // relative to the work object
-        CHECK(norm(system.toRobTarget(system.currentJoints(), frames).pose.pos - line.target.pose.pos) < 1e-6);
+        CHECK(norm(system.toRobTarget(system.currentJoints(), frames).pose.pos - line.target.pose.pos) <
+              1e-6);
     }
 }
 
-TEST_CASE("every mechanism moves a held work object on a circle at a stationary tool", "[motion][stationary]") {
+TEST_CASE("every mechanism moves a held work object on a circle at a stationary tool",
+          "[motion][stationary]") {
     for (const Arm& arm : kArms) {
         for (const CircleOrientation mode :
              {CircleOrientation::PathFrame, CircleOrientation::ObjectFrame, CircleOrientation::CirclePoint}) {

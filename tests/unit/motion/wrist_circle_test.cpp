@@ -49,8 +49,9 @@ TEST_CASE("two axes of the wrist cut the circle, the others stand still", "[moti
         std::size_t first, second;
         double axis6; // so that the two axes move the TCP in different directions
     };
-    for (const Case& c : {Case{CircleOrientation::Wrist45, 3, 4, 60}, Case{CircleOrientation::Wrist46, 3, 5, 60},
-                          Case{CircleOrientation::Wrist56, 4, 5, 0}}) {
+    for (const Case& c :
+         {Case{CircleOrientation::Wrist45, 3, 4, 60}, Case{CircleOrientation::Wrist46, 3, 5, 60},
+          Case{CircleOrientation::Wrist56, 4, 5, 0}}) {
         CAPTURE(c.first, c.second);
         Joints bent = kBent;
         bent[5] = c.axis6;
@@ -130,7 +131,8 @@ TEST_CASE("circles that the wrist cannot run are refused", "[motion][wrist]") {
     CHECK(kindOf(system, upright) == MotionErrorKind::BadArgument);
     // Axes 4 and 6 both move this TCP across the plane through them: they cannot cut a circle together.
     MotionSystem straight = armAt({0, 10, 10, 20, 50, 0});
-    CHECK(kindOf(straight, halfCircle(straight, 3, CircleOrientation::Wrist46)) == MotionErrorKind::Singularity);
+    CHECK(kindOf(straight, halfCircle(straight, 3, CircleOrientation::Wrist46)) ==
+          MotionErrorKind::Singularity);
     MoveCommand stationary = halfCircle(system, 3, CircleOrientation::Wrist46);
     stationary.frames.tool.robotHeld = false;
     stationary.frames.workObject.robotHeld = true;

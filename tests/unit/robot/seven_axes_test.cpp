@@ -147,21 +147,33 @@ struct Programmed {
     ConfData conf;
     double armAngle;
 };
-const Programmed kRightHome = {{{-9.578368507, -182.609892723, 198.627808149},
-                                {0.066010726, -0.842420918, -0.111214912, -0.523068661}},
-                               {0, 0, 0, 4},
-                               -101.964427132};
-const Programmed kLeftHome = {{{-9.578368507, 182.609892723, 198.627808149},
-                               {0.066010726, 0.842420918, -0.111214912, 0.523068661}},
-                              {0, 0, 0, 4},
-                              101.964427132};
+const Programmed kRightHome = {
+    {{-9.578368507, -182.609892723, 198.627808149}, {0.066010726, -0.842420918, -0.111214912, -0.523068661}},
+    {0, 0, 0, 4},
+    -101.964427132};
+const Programmed kLeftHome = {
+    {{-9.578368507, 182.609892723, 198.627808149}, {0.066010726, 0.842420918, -0.111214912, 0.523068661}},
+    {0, 0, 0, 4},
+    101.964427132};
 const Programmed kOnRight[] = {
-    {{{392.730652263, -203.618347541, 231.446357113}, {0.707106023, -0.707107539, 0, 0}}, {1, -1, 2, 4}, -120.93495026},
-    {{{248.277963535, 198.887339769, 218.840343011}, {0.707106378, -0.707107184, 0, 0}}, {2, 1, 0, 4}, 129.272916704},
-    {{{399.619288661, 197.139901275, 231.4464029}, {0.707105918, -0.707107645, 0, 0}}, {2, -1, 2, 4}, -87.032967033},
-    {{{406.101117022, -203.61817432, 231.446744669}, {0.70710606, -0.707107503, 0, 0}}, {1, -1, 2, 4}, -87.032967033},
-    {{{399.059788774, 198.886850444, 215.299873739}, {0.707106042, -0.70710752, 0, 0}}, {2, -1, 2, 4}, -123.275938492},
-    {{{248.278007928, 198.886990611, 215.299982769}, {0.707106103, -0.707107459, 0, 0}}, {1, -1, 2, 4}, -123.275939736}};
+    {{{392.730652263, -203.618347541, 231.446357113}, {0.707106023, -0.707107539, 0, 0}},
+     {1, -1, 2, 4},
+     -120.93495026},
+    {{{248.277963535, 198.887339769, 218.840343011}, {0.707106378, -0.707107184, 0, 0}},
+     {2, 1, 0, 4},
+     129.272916704},
+    {{{399.619288661, 197.139901275, 231.4464029}, {0.707105918, -0.707107645, 0, 0}},
+     {2, -1, 2, 4},
+     -87.032967033},
+    {{{406.101117022, -203.61817432, 231.446744669}, {0.70710606, -0.707107503, 0, 0}},
+     {1, -1, 2, 4},
+     -87.032967033},
+    {{{399.059788774, 198.886850444, 215.299873739}, {0.707106042, -0.70710752, 0, 0}},
+     {2, -1, 2, 4},
+     -123.275938492},
+    {{{248.278007928, 198.886990611, 215.299982769}, {0.707106103, -0.707107459, 0, 0}},
+     {1, -1, 2, 4},
+     -123.275939736}};
 
 RobotModel armOf14000(const char* name) {
     auto loaded = loadRobotModel(name);
@@ -187,7 +199,8 @@ TEST_CASE("both arms of the IRB 14000 stand at the home target of their programs
     }
 }
 
-TEST_CASE("targets of programs for the IRB 14000 have the configuration that they name", "[robot][kinematics]") {
+TEST_CASE("targets of programs for the IRB 14000 have the configuration that they name",
+          "[robot][kinematics]") {
     const RobotModel model = armOf14000("IRB 14000-0.5/0.559-R");
     const Kinematics kinematics(model);
     for (const Programmed& target : kOnRight) {
@@ -223,7 +236,8 @@ TEST_CASE("a hundred thousand postures of seven axes come back from pose, config
             elsewhere[i] = range(random);
         }
         const Singularity near = kinematics.singularity(joints);
-        if (std::min({near.wristDeg, near.elbowDeg, near.shoulderDeg, near.armAngleDeg}) < 1 || near.foldDeg < 0.2)
+        if (std::min({near.wristDeg, near.elbowDeg, near.shoulderDeg, near.armAngleDeg}) < 1 ||
+            near.foldDeg < 0.2)
             continue;
         ++regular;
         const Pose flange = kinematics.forward(joints);
@@ -243,8 +257,9 @@ TEST_CASE("a hundred thousand postures of seven axes come back from pose, config
             if (!branches.has(k)) continue;
             double largest = 0;
             for (std::size_t i = 0; i < 7; ++i)
-                largest = std::max(largest, std::fabs(std::remainder(
-                                                branches.joints[static_cast<std::size_t>(k)][i] - joints[i], 360.0)));
+                largest = std::max(largest,
+                                   std::fabs(std::remainder(
+                                       branches.joints[static_cast<std::size_t>(k)][i] - joints[i], 360.0)));
             nearest = std::min(nearest, largest);
         }
         if (nearest > 1e-6) ++missed;
