@@ -158,8 +158,6 @@ TEST_CASE("joint moves reach pose and arm angle of their target", "[motion][seve
     MoveCommand absolute;
     absolute.joints.robax = {10, -100, 20, 15, 50, 20, 100};
     REQUIRE(system.enqueue(absolute).hasValue());
-    const Joints from = system.plannedEnd().robax;
-    (void)from;
     run(system);
     CHECK(system.current().joints == absolute.joints.robax);
     absolute.joints.robax[6] = kNotConnected; // axis 7 stays
