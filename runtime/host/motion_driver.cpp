@@ -192,7 +192,7 @@ Status MotionDriver::orderParts(Task& task, motion::MoveCommand command, const M
     if (backward_ && pointer_.valid) command = reversed(command, pointer_.command);
     std::vector<motion::MoveCommand> parts;
     if (command.kind == motion::MoveKind::Circular && task.isStepwise() && !backward_ && circlePointStop_)
-        parts = motion::splitAtCirclePoint(command, system().currentTarget(command.frames).pose);
+        parts = motion::splitAtCirclePoint(command, system().currentTarget(command.frames));
     if (parts.empty()) parts.push_back(std::move(command));
     brokenOff_ = false;
     for (std::size_t i = 0; i < parts.size() && !brokenOff_; ++i) {

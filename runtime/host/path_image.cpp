@@ -3,6 +3,7 @@
 #include "config/json_text.h"
 
 #include <array>
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -89,6 +90,7 @@ Json jsonOf(const motion::MoveCommand& c) {
             {"target", jsonOf(c.target.pose)},
             {"conf", {conf.cf1, conf.cf4, conf.cf6, conf.cfx}},
             {"targetAxes", c.target.extax},
+            {"armAngle", std::isnan(c.target.armAngle) ? Json() : Json(c.target.armAngle)},
             {"circlePoint", jsonOf(c.circlePoint)},
             {"frames", frameJson(c.frames)},
             {"speed", {c.speed.vTcp, c.speed.vOri, c.speed.vLeax, c.speed.vReax}},
@@ -106,7 +108,7 @@ Json jsonOf(const motion::MoveCommand& c) {
 }
 
 motion::CircleOrientation circleOrientationFrom(int number) {
-    constexpr int kLast = static_cast<int>(motion::CircleOrientation::CirclePoint);
+    constexpr int kLast = static_cast<int>(motion::CircleOrientation::Wrist56);
     if (number < 0 || number > kLast) throw std::invalid_argument("no way of turning on a circle");
     return static_cast<motion::CircleOrientation>(number);
 }
@@ -121,6 +123,8 @@ motion::MoveCommand moveFrom(const Json& json, const robot::UnitLookup& units) {
                 {wholeFrom(conf.at(0), kMostTurns), wholeFrom(conf.at(1), kMostTurns),
                  wholeFrom(conf.at(2), kMostTurns), wholeFrom(conf.at(3), kMostTurns)},
                 numbersFrom<6>(json.at("targetAxes"))};
+    if (json.contains("armAngle") && !json.at("armAngle").is_null())
+        c.target.armAngle = json.at("armAngle").get<double>();
     c.circlePoint = poseFrom(json.at("circlePoint"));
     c.frames = framesFrom(json.at("frames"), units);
     const auto speed = numbersFrom<4>(json.at("speed"));

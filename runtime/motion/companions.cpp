@@ -86,6 +86,7 @@ RouteStretch seenByLeader(RouteStretch s, double slope, double change) {
     }
     s.tcpRate *= slope;
     s.turnRate *= slope;
+    s.armRate *= slope;
     s.curvature *= slope * slope;
     if (slope > kNothing) {
         s.zoneLength /= slope;

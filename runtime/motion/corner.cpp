@@ -54,6 +54,10 @@ AxisVector Route::axesOn(const Leg& leg, double distance) {
     return result;
 }
 
+double Route::armAngleOn(const Leg& leg, double distance) {
+    return leg.path->armAngleAt(leg.lengths.parameterAt(distance));
+}
+
 void Route::curveInSpace(Corner& corner, const Leg& a, const Leg& b) {
     corner.space = joiningCurve([&](double d) { return poseIn(a, b, d).pos; }, a.length() - corner.before,
                                 corner.before, [&](double d) { return poseOn(b, d).pos; }, corner.after);
@@ -115,15 +119,25 @@ void Route::blendTurn(Corner& corner, const Leg& a, const Leg& b, double before,
 
 void Route::blendExternal(Corner& corner, const Leg& a, const Leg& b, double before, double after) {
     corner.external = {};
-    bool moves = false;
+    corner.armAngle = armAngleOn(b, 0);
+    const bool hasArmAngle = b.path->kinematics().hasArmAngle();
+    bool moves = hasArmAngle && (a.path->armTravel() != 0 || b.path->armTravel() != 0 ||
+                                 !a.path->isCartesian() || !b.path->isCartesian());
     for (std::size_t i = 0; i < static_cast<std::size_t>(kExternalCount); ++i)
         moves = moves || (isConnectedAxis(a, i) && (a.path->start().extax[i] != a.path->end().extax[i] ||
                                                     b.path->start().extax[i] != b.path->end().extax[i]));
     if (!moves) return;
     corner.external.before = before;
     corner.external.after = after;
-    corner.external.curve = joiningCurve([&](double d) { return axesOn(a, d); }, a.length() - before, before,
-                                         [&](double d) { return axesOn(b, d); }, after);
+    const auto axes = [&](const Leg& leg, double distance) {
+        AxisVector result = axesOn(leg, distance);
+        if (hasArmAngle)
+            result.v[kArmAnglePlace] =
+                corner.armAngle + std::remainder(armAngleOn(leg, distance) - corner.armAngle, 360.0);
+        return result;
+    };
+    corner.external.curve = joiningCurve([&](double d) { return axes(a, d); }, a.length() - before, before,
+                                         [&](double d) { return axes(b, d); }, after);
 }
 
 double pathRate(double mm, double degrees) {

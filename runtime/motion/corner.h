@@ -26,6 +26,8 @@ template <class Point> struct Bezier {
 /// How far the inner control points lie from the ends, as a share of the zone radius; identified on recordings.
 inline constexpr double kCornerTension = 0.757;
 
+/// Where the arm angle of a seven-axis arm lies in the vector below: the place of external axis a, which it leaves free.
+inline constexpr std::size_t kArmAnglePlace = robot::kMostJoints;
 /// Angles of all axes in one vector, for curves in joint space.
 struct AxisVector {
     std::array<double, 7 + kExternalCount> v{};
@@ -98,9 +100,11 @@ struct Corner {
     LengthMap lengths;            ///< of the curve
     Bezier<Vec3> space;
     Bezier<AxisVector> axes;
-    Quat centre;                ///< orientation at the programmed point
-    Blend<Vec3> turn;           ///< rotation vectors relative to `centre`, rad
-    Blend<AxisVector> external; ///< external axes only
+    Quat centre;         ///< orientation at the programmed point
+    Blend<Vec3> turn;    ///< rotation vectors relative to `centre`, rad
+    double armAngle = 0; ///< seven axes: arm angle at the programmed point, deg
+    Blend<AxisVector>
+        external; ///< external axes and, in the place of the first one, the arm angle of seven axes
     double length() const { return kind == CornerKind::None ? 0 : lengths.length(); }
     double end() const { return begin + length(); }
     double halfLength = 0; ///< mm of the curve up to the middle of its parameter

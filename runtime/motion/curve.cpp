@@ -183,7 +183,8 @@ MoveCommand restOfCircle(const MoveCommand& command, const Pose& start, const Po
     return rest;
 }
 
-std::vector<MoveCommand> splitAtCirclePoint(const MoveCommand& command, const Pose& start) {
+std::vector<MoveCommand> splitAtCirclePoint(const MoveCommand& command, const RobTarget& begin) {
+    const Pose& start = begin.pose;
     const auto arc = arcOf(command, start);
     if (!arc || !arc->isArc()) return {};
     const double part = partAt(*arc, start, command.circlePoint);
@@ -191,6 +192,11 @@ std::vector<MoveCommand> splitAtCirclePoint(const MoveCommand& command, const Po
     std::vector<MoveCommand> halves{command, command};
     halves[0].target.pose = arc->at(part);
     halves[0].circlePoint = arc->at(part / 2);
+    RobTarget& middle = halves[0].target;
+    middle.armAngle = begin.armAngle + part * std::remainder(command.target.armAngle - begin.armAngle, 360.0);
+    for (std::size_t i = 0; i < middle.extax.size(); ++i)
+        if (isConnected(begin.extax[i]) && isConnected(middle.extax[i]))
+            middle.extax[i] = begin.extax[i] + part * (middle.extax[i] - begin.extax[i]);
     halves[0].zone = {};
     halves[0].confL = false; // the configuration is programmed for the target
     shareOut(command.triggers, arc->length() * part, arc->length() * (1 - part), halves);

@@ -174,6 +174,8 @@ MotionState MotionSystem::Impl::stillAt(const JointTarget& joints) const {
     MotionState state;
     state.joints = joints.robax;
     state.extax = joints.extax;
+    for (std::size_t i = 0; i < state.joints.size(); ++i)
+        state.axisNumbers[i] = static_cast<uint8_t>(model.axisNumbers[i]);
     FrameSetup frames;
     if (level.path != nullptr && !path().isEmpty()) frames = path().framesAt(path().end());
     state.tcp = based(frames).tcpInWorld(kinematics.forward(joints.robax), joints.extax);

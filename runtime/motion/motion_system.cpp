@@ -8,8 +8,9 @@ namespace motion {
 
 namespace {
 
-/// All axes at 0, or as near to it as their ranges allow; axis 5 of six off its singularity.
+/// Where the model says; else all axes at 0, or as near to it as their ranges allow, axis 5 of six off its singularity.
 Joints startPosture(const robot::RobotModel& model, std::size_t axes) {
+    if (model.home.size() == axes) return model.home;
     Joints joints = Joints::zeros(axes);
     if (axes == 6) joints[4] = 30;
     for (std::size_t i = 0; i < axes; ++i)
@@ -23,6 +24,8 @@ MotionSystem::MotionSystem(robot::RobotModel model, MotionOptions options) : imp
     impl_->model = std::move(model);
     impl_->options = options;
     impl_->kinematics = robot::Kinematics(impl_->model);
+    if (impl_->kinematics.hasArmAngle()) options.external[0].present = false; // its place is taken by axis 7
+    impl_->options.external[0] = options.external[0];
     ExternalAxes external = kNoExternalAxes;
     for (std::size_t i = 0; i < external.size(); ++i) {
         const ExternalAxisModel& axis = options.external[i];
@@ -47,10 +50,6 @@ const robot::Kinematics& MotionSystem::kinematics() const {
 /// The move with its path from where the last one ends.
 Expected<Trajectory::Ordered, MotionError> MotionSystem::Impl::prepared(const MoveCommand& command) const {
     MotionError error;
-    if (model.kinematics == robot::KinematicsKind::SevenAxes) {
-        error.kind = MotionErrorKind::UnsupportedRobot;
-        return Unexpected{error};
-    }
     if (level.queue.size() >= options.maxQueued) {
         error.kind = MotionErrorKind::QueueFull;
         error.value = static_cast<double>(level.queue.size());

@@ -21,8 +21,15 @@ enum class MoveKind : uint8_t {
 enum class CircleOrientation : uint8_t {
     PathFrame, ///< evenly relative to the circle, so that a tool held towards its centre stays so
     ObjectFrame, ///< evenly relative to the work object, about one axis; the circle point's orientation has no influence
-    CirclePoint ///< relative to the work object, through the orientation of the circle point
+    CirclePoint, ///< relative to the work object, through the orientation of the circle point
+    Wrist45, ///< only axes 4 and 5 move: the z axis of the tool meets the plane of the circle on the circle (thin sheets)
+    Wrist46, ///< the same with axes 4 and 6
+    Wrist56  ///< the same with axes 5 and 6
 };
+/// Whether two axes of the wrist alone run the circle; the orientation is what comes of it.
+inline bool isByWrist(CircleOrientation orientation) {
+    return orientation >= CircleOrientation::Wrist45;
+}
 
 /// How lines and circles pass singularities of the wrist (SingArea, manual 1.7).
 enum class SingularityMode : uint8_t {

@@ -21,6 +21,7 @@ MoveLimits limitsOf(const MoveCommand& command, const robot::RobotModel& model,
     limits.tcpSpeed =
         std::min(programmed(command.speed.vTcp), isTimed ? kUnlimited : std::max(set.maxTcpSpeed, 0.01));
     limits.orientationSpeed = programmed(command.speed.vOri);
+    limits.armAngleSpeed = programmed(command.speed.vReax);
     for (std::size_t i = 0; i < limits.externalSpeed.size(); ++i) {
         const ExternalAxisModel& axis = external[i];
         const double wanted = programmed(axis.rotating ? command.speed.vReax : command.speed.vLeax);

@@ -21,6 +21,8 @@ using ExternalAxisModels = std::array<ExternalAxisModel, kExternalCount>;
 struct MoveLimits {
     double tcpSpeed = 0;
     double orientationSpeed = 0;
+    double armAngleSpeed =
+        0; ///< deg/s, of the arm angle along lines and circles: RAPID's v_reax, as eax_a is its place
     double pathSpeed = 1e300; ///< of the path parameter; used for moves with a given duration
     Joints jointSpeed{};
     double accelerationShare = 1; ///< AccSet, of the robot's accelerations

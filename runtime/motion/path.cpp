@@ -41,7 +41,7 @@ int mostDifferent(const Joints& a, const Joints& b) {
 }
 
 Joints between(const Joints& a, const Joints& b, double k) {
-    Joints result;
+    Joints result = a;
     for (std::size_t i = 0; i < a.size(); ++i)
         result[i] = a[i] + (b[i] - a[i]) * k;
     return result;
@@ -63,9 +63,8 @@ std::optional<MotionError> checkArguments(const MoveCommand& command) {
     for (const Pose& pose : {f.tool.tframe, f.workObject.uframe, f.workObject.oframe, f.displacement,
                              f.baseFrame, command.target.pose, command.circlePoint}) {
         if (!isFinite(pose)) return badArgument("a frame or target that is not a number", NAN);
-        if (std::fabs(norm(pose.rot) - 1) > 1e-3) {
-            return badArgument("an orientation that is not a unit quaternion", norm(pose.rot));
-        }
+        if (std::fabs(norm(pose.rot) - 1) > kUnitTolerance)
+            return badArgument(kNoOrientation, norm(pose.rot));
     }
     for (double angle : command.joints.robax) {
         if (!std::isfinite(angle)) return badArgument("an axis angle that is not a number", angle);
@@ -76,6 +75,8 @@ std::optional<MotionError> checkArguments(const MoveCommand& command) {
                 return badArgument("an external axis value that is not a number", value);
         }
     }
+    if (std::isinf(command.target.armAngle))
+        return badArgument("an arm angle that is not a number", command.target.armAngle);
     const SpeedData& speed = command.speed;
     for (double value : {speed.vTcp, speed.vOri, speed.vLeax, speed.vReax}) {
         if (!(value >= 0) || std::isinf(value)) return badArgument("a negative speed", value);
@@ -103,6 +104,12 @@ ExternalAxes targetAxes(const ExternalAxes& start, const ExternalAxes& target) {
 Expected<MotionPath, MotionError> MotionPath::make(const robot::Kinematics& kinematics,
                                                    const JointTarget& start, const MoveCommand& command) {
     if (auto error = checkArguments(command)) return Unexpected{*error};
+    const bool isOfOther =
+        command.kind == MoveKind::AbsJoint && command.joints.robax.size() != start.robax.size();
+    if (isOfOther) {
+        return Unexpected{badArgument("a posture of an arm with another number of axes",
+                                      static_cast<double>(command.joints.robax.size()))};
+    }
     MotionPath path;
     path.kinematics_ = kinematics;
     path.frames_ = command.frames;
@@ -120,20 +127,13 @@ Expected<MotionPath, MotionError> MotionPath::make(const robot::Kinematics& kine
 std::optional<MotionError> MotionPath::resolveJointTarget(const MoveCommand& command) {
     if (command.kind == MoveKind::AbsJoint) {
         end_.robax = command.joints.robax;
+        constexpr std::size_t kAxis7 = 6;
+        if (kinematics_.hasArmAngle() && !isConnected(end_.robax[kAxis7]))
+            end_.robax[kAxis7] = start_.robax[kAxis7];
     } else {
-        const Pose flange = frames_.toFlange(command.target.pose, end_.extax);
-        const auto joints = command.confJ ? kinematics_.inverse(flange, command.target.conf, start_.robax)
-                                          : kinematics_.inverseNear(flange, start_.robax);
-        if (!joints) {
-            const robot::IkError& problem = joints.error();
-            const MotionErrorKind kind =
-                problem.kind == robot::IkErrorKind::Unreachable        ? MotionErrorKind::Unreachable
-                : problem.kind == robot::IkErrorKind::OutOfJointLimits ? MotionErrorKind::JointOutOfRange
-                                                                       : MotionErrorKind::NoSuchConfiguration;
-            MotionError error = errorAt(kind, 1, problem.joint, problem.angleDeg);
-            error.position = command.target.pose.pos;
-            return error;
-        }
+        const auto joints = solveTarget(kinematics_, frames_.toFlange(command.target.pose, end_.extax), command.target,
+                                        command.confJ, start_.robax);
+        if (!joints) return targetError(joints.error(), command.target.pose.pos);
         end_.robax = *joints;
     }
     layStraightGrid();
@@ -165,9 +165,13 @@ std::optional<MotionError> MotionPath::resolveCurve(const MoveCommand& command) 
         auto arc = CartesianCurve::arc(from, command.circlePoint, to, command.circleOrientation);
         if (!arc) return arc.error();
         curve_ = *arc;
+        if (isByWrist(command.circleOrientation) && curve_.isArc())
+            if (auto error = takeWristAxes(command.circleOrientation)) return error;
     }
+    resolveArmAngle(command);
     const bool isCarried = frames_.dependsOnAxes() && end_.extax != start_.extax;
-    isEmpty_ = curve_.length() < kRounding && curve_.rotationDeg() < kRounding && !isCarried;
+    isEmpty_ = curve_.length() < kRounding && curve_.rotationDeg() < kRounding &&
+               std::fabs(armTravel_) < kRounding && !isCarried;
     if (isEmpty_) {
         nodes_ = {{0, start_.robax, 0}, {1, start_.robax, 0}};
         return checkArrival(command);
@@ -177,10 +181,25 @@ std::optional<MotionError> MotionPath::resolveCurve(const MoveCommand& command) 
     return checkArrival(command);
 }
 
+/// From the arm angle of the start to that of the target, the short way. One that is free stays as it is unless the target
+/// can be reached with another one only.
+void MotionPath::resolveArmAngle(const MoveCommand& command) {
+    if (!kinematics_.hasArmAngle()) return;
+    armStart_ = kinematics_.armAngle(start_.robax);
+    double end = command.target.armAngle;
+    if (std::isnan(end)) {
+        const auto joints = solveTarget(kinematics_, frames_.toFlange(curve_.at(1), end_.extax), command.target,
+                                        command.confL, start_.robax);
+        if (!joints) return;
+        end = kinematics_.armAngle(*joints);
+    }
+    armTravel_ = std::remainder(end - armStart_, 360.0);
+}
+
 /// As the orientation is programmed if that can be, else by the mode of SingArea. A tool that the robot does not hold has
 /// no such mode.
 std::optional<MotionError> MotionPath::marchWithMode(const MoveCommand& command) {
-    const bool isPossible = frames_.tool.robotHeld && kinematics_.jointCount() == 6;
+    const bool isPossible = frames_.tool.robotHeld && kinematics_.jointCount() == 6 && !isByWrist_;
     constexpr double kTurn = 180; // deg, between the places at which axis 4 can be locked
     lockedAxis4_ = kTurn * std::round(start_.robax[3] / kTurn);
     constexpr double kLocked = 0.01; // deg
@@ -190,6 +209,7 @@ std::optional<MotionError> MotionPath::marchWithMode(const MoveCommand& command)
         return march();
     }
     auto error = march();
+    if (isByWrist_) return error;
     const bool isSingular = error && (error->kind == MotionErrorKind::Singularity ||
                                       error->kind == MotionErrorKind::JointOutOfRange);
     if (!isSingular || !isPossible || command.singularity != SingularityMode::Wrist) return error;
@@ -214,6 +234,7 @@ MotionError MotionPath::errorAt(MotionErrorKind kind, double s, int joint, doubl
 }
 
 bool MotionPath::solve(double s, const Joints& seed, Joints& out) const {
+    if (isByWrist_) return solveByWrist(s, seed, out);
     if (mode_ != SingularityMode::Off) {
         const Pose base_tcp = frames_.toFlange(curve_.at(s), externalAt(s)) * frames_.tool.tframe;
         return mode_ == SingularityMode::Wrist
@@ -221,14 +242,15 @@ bool MotionPath::solve(double s, const Joints& seed, Joints& out) const {
                                                   between(start_.robax, end_.robax, s), seed, out)
                    : kinematics_.inverseLockedAxis4(base_tcp, frames_.tool.tframe, lockedAxis4_, seed, out);
     }
-    return kinematics_.inverseContinue(frames_.toFlange(curve_.at(s), externalAt(s)), seed, out);
+    return kinematics_.inverseContinue(frames_.toFlange(curve_.at(s), externalAt(s)), seed, out,
+                                       armStart_ + armTravel_ * s);
 }
 
 std::optional<MotionError> MotionPath::checkNode(const PathNode& node) const {
     const int joint = kinematics_.jointOutsideLimits(node.joints);
     if (joint == 0) return {};
-    return errorAt(MotionErrorKind::JointOutOfRange, node.s, joint,
-                   node.joints[static_cast<std::size_t>(joint) - 1]);
+    const robot::IkError problem = kinematics_.limitError(node.joints, joint);
+    return errorAt(targetError(problem, {}).kind, node.s, joint, problem.angleDeg);
 }
 
 /// No jump between two nodes: the axes go nearly straight from one to the other. Where the branch of the
@@ -253,13 +275,20 @@ bool MotionPath::isSmoothStep(const PathNode& from, const PathNode& to) const {
     return true;
 }
 
+/// Shoulder and wrist lie along the reference direction of the arm angle, which means nothing there.
+bool MotionPath::isArmAngleLost(const Joints& joints) const {
+    constexpr double kAlong = 0.05; // deg
+    return kinematics_.hasArmAngle() && kinematics_.singularity(joints).armAngleDeg < kAlong;
+}
+
 std::optional<MotionError> MotionPath::march() {
+    const double turn = std::max(curve_.rotationDeg(), std::fabs(armTravel_));
     const double carried = frames_.dependsOnAxes() ? externalTravel() / kCoarseDeg : 0;
-    const double size = std::max({curve_.length() / kCoarseMm, curve_.rotationDeg() / kCoarseDeg, carried});
+    const double size = std::max({curve_.length() / kCoarseMm, turn / kCoarseDeg, carried});
     const double coarse = 1.0 / std::ceil(std::clamp(size, 8.0, 4000.0));
     const double finest =
         std::min(coarse, std::max(1e-10, std::min(kFinestMm / std::max(curve_.length(), 1e-12),
-                                                  kFinestDeg / std::max(curve_.rotationDeg(), 1e-12))));
+                                                  kFinestDeg / std::max(turn, 1e-12))));
     PathNode node{0, start_.robax, 0};
     nodes_.push_back(node);
     double step = coarse;
@@ -276,8 +305,10 @@ std::optional<MotionError> MotionPath::march() {
             step = std::min(coarse, 2 * step);
         } else if (step > finest) {
             step *= 0.5;
-        } else if (!isReached) {
+        } else if (!isReached && !isByWrist_ && !isArmAngleLost(node.joints)) {
             return errorAt(MotionErrorKind::Unreachable, next.s, 0, 0);
+        } else if (!isReached) {
+            return errorAt(MotionErrorKind::Singularity, next.s, 0, 0);
         } else {
             const int joint = mostDifferent(node.joints, next.joints);
             return errorAt(MotionErrorKind::Singularity, next.s, joint,
@@ -289,11 +320,13 @@ std::optional<MotionError> MotionPath::march() {
 
 std::optional<MotionError> MotionPath::checkArrival(const MoveCommand& command) const {
     if (!command.confL || mode_ == SingularityMode::LockAxis4) return {};
+    if (isByWrist_) return checkWristArrival(command);
     const robot::Singularity near = kinematics_.singularity(end_.robax);
-    const bool isUndecided = near.wristDeg < 0.1 || near.armMm < 0.1 || near.elbowDeg < 0.1;
+    const bool isUndecided = near.wristDeg < 0.1 || near.armMm < 0.1 || near.elbowDeg < 0.1 ||
+                             near.shoulderDeg < 0.1 || near.armAngleDeg < 0.1 || near.foldDeg < 0.1;
     if (isUndecided) return {}; // two configurations meet here
     const auto wanted = kinematics_.inverse(frames_.toFlange(command.target.pose, end_.extax),
-                                            command.target.conf, end_.robax);
+                                            command.target.conf, end_.robax, armAngleAt(1));
     if (wanted && largestDifference(*wanted, end_.robax) < 0.01) return {};
     const int joint = wanted ? mostDifferent(*wanted, end_.robax) : wanted.error().joint;
     return errorAt(MotionErrorKind::ConfigurationMismatch, 1, joint,
@@ -336,8 +369,14 @@ double MotionPath::externalTravel() const {
     return sum;
 }
 
+double MotionPath::armAngleAt(double s) const {
+    if (!kinematics_.hasArmAngle()) return 0;
+    return isCartesian_ ? armStart_ + armTravel_ * s : kinematics_.armAngle(jointsAt(s));
+}
+
 Pose MotionPath::tcpAt(double s) const {
-    if (isCartesian_ && !isEmpty_ && mode_ == SingularityMode::Off) return curve_.at(std::clamp(s, 0.0, 1.0));
+    const bool isAsProgrammed = mode_ == SingularityMode::Off && !isByWrist_;
+    if (isCartesian_ && !isEmpty_ && isAsProgrammed) return curve_.at(std::clamp(s, 0.0, 1.0));
     return frames_.fromFlange(kinematics_.forward(jointsAt(s)), externalAt(s));
 }
 

@@ -5,6 +5,7 @@
 #include "runtime/motion/move_command.h"
 #include "runtime/robot/kinematics.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -60,8 +61,9 @@ struct PathNode {
 
 /// One move with its start state, resolved to a path in joint space.
 /// A circular move in two: start to circle point, circle point to target, on the same circle (stepwise execution stops
-/// at the circle point, manual 1.21). `start`: TCP in the object frame. Empty when there is no such circle.
-std::vector<MoveCommand> splitAtCirclePoint(const MoveCommand& command, const Pose& start);
+/// at the circle point, manual 1.21). `begin`: TCP in the object frame, arm angle and external axes there: these have come
+/// as far at the circle point as the TCP. Empty when there is no such circle.
+std::vector<MoveCommand> splitAtCirclePoint(const MoveCommand& command, const RobTarget& begin);
 /// A circle that began at `start` and has come to `here`: the rest of it, as a command that begins there. Unchanged when
 /// `here` does not lie on it.
 MoveCommand restOfCircle(const MoveCommand& command, const Pose& start, const Pose& here);
@@ -80,6 +82,10 @@ class MotionPath {
     ExternalAxes externalAt(double s) const;
     /// Ways of the external axes, added; deg and mm alike.
     double externalTravel() const;
+    /// Arm angle of an arm with seven axes, deg: even along lines and circles. Not within a turn. Else 0.
+    double armAngleAt(double s) const;
+    /// deg by which it changes along a line or circle; 0 for joint moves.
+    double armTravel() const { return armTravel_; }
     /// TCP in the object frame.
     Pose tcpAt(double s) const;
     /// Rates of the TCP in the object frame: mm and degrees per unit of s.
@@ -102,12 +108,18 @@ class MotionPath {
     using Problem = std::optional<MotionError>;
     Problem resolveJointTarget(const MoveCommand& command);
     Problem resolveCurve(const MoveCommand& command);
+    void resolveArmAngle(const MoveCommand& command);
     Problem march();
     Problem marchWithMode(const MoveCommand& command);
     Problem checkNode(const PathNode& node) const;
     Problem checkArrival(const MoveCommand& command) const;
     bool solve(double s, const Joints& seed, Joints& out) const;
+    bool solveByWrist(double s, const Joints& seed, Joints& out) const;
+    bool missByWrist(const Joints& joints, const ExternalAxes& axes, const Vec3& goal, double (&miss)[2]) const;
+    Problem takeWristAxes(CircleOrientation orientation);
+    Problem checkWristArrival(const MoveCommand& command) const;
     bool isSmoothStep(const PathNode& from, const PathNode& to) const;
+    bool isArmAngleLost(const Joints& joints) const;
     MotionError errorAt(MotionErrorKind kind, double s, int joint, double value) const;
     void layStraightGrid();
     ExternalAxes externalNear(double s) const;
@@ -120,6 +132,9 @@ class MotionPath {
     bool isEmpty_ = true;
     SingularityMode mode_ = SingularityMode::Off; // in force on this path
     double lockedAxis4_ = 0;                      // deg
+    double armStart_ = 0, armTravel_ = 0;         // deg
+    bool isByWrist_ = false;                      // a circle that two axes of the wrist run
+    std::array<std::size_t, 2> wristAxes_{};      // those, as indices
     CartesianCurve curve_;
     std::vector<PathNode> nodes_;
 };

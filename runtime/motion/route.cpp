@@ -238,7 +238,7 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
             (high.extax[i] - 2 * stretch.middle.extax[i] + low.extax[i]) / (step * step);
     }
     const robot::Kinematics& kinematics = l.path->kinematics();
-    const FrameSetup& frames = (inCorner ? leg(own + 1) : l).path->frames();
+    const FrameSetup& frames = leg(inCorner ? own + 1 : own).path->frames();
     const auto tcp = [&](const RoutePoint& point) {
         return frames.fromFlange(kinematics.forward(point.joints), point.extax);
     };
@@ -254,8 +254,20 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
         const Vec3 from = tcp(pointAt(middle - close, stretch.middle.joints)).pos;
         const Vec3 to = tcp(pointAt(middle + close, stretch.middle.joints)).pos;
         stretch.tcpRate = std::max(norm(to - from) / (2 * close), norm(after.pos - before.pos) / (2 * step));
+        const FrameSetup& earlier = l.path->frames();
+        if (inCorner && !sameTool(earlier, frames)) { // neither tool centre point may be too fast
+            const auto place = [&](const RoutePoint& point) {
+                return earlier.fromFlange(kinematics.forward(point.joints), point.extax).pos;
+            };
+            stretch.tcpRate = std::max(stretch.tcpRate, norm(place(high) - place(low)) / (2 * step));
+        }
     }
     stretch.turnRate = robot::angleBetween(before.rot, after.rot) / (2 * step);
+    const bool isInterpolated = inCorner ? corner(own).kind == CornerKind::Space : l.path->isCartesian();
+    if (kinematics.hasArmAngle() && isInterpolated) {
+        const double change = kinematics.armAngle(high.joints) - kinematics.armAngle(low.joints);
+        stretch.armRate = std::abs(std::remainder(change, 360.0)) / (2 * step);
+    }
     stretch.curvature = norm(after.pos - here.pos * 2.0 + before.pos) / (step * step);
     return low.isSolved && high.isSolved && stretch.middle.isSolved &&
            kinematics.jointOutsideLimits(stretch.middle.joints) == 0;
@@ -289,26 +301,30 @@ RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints& see
     const Corner* turning = nullptr;
     bool isCarried = false; // by external axes that are elsewhere than on the leg itself
     const Leg* frames = &l;
+    std::optional<double> armAngle;
     for (const bool atEnd : {false, true}) {
         if (!atEnd && number == firstLeg_) continue;
         const Corner& c = corner(atEnd ? number : number - 1);
         if (c.external.covers(place)) {
-            takeExternal(c.external.at(place), point.extax);
+            const AxisVector axes = c.external.at(place);
+            takeExternal(axes, point.extax);
+            if (l.path->kinematics().hasArmAngle()) armAngle = axes.v[kArmAnglePlace];
             isCarried = l.path->isCartesian() && l.path->frames().dependsOnAxes();
         }
         if (!c.turn.covers(place)) continue;
         turning = &c;
         if (atEnd) frames = &leg(number + 1);
     }
-    if (turning == nullptr && !isCarried) {
+    if (turning == nullptr && !armAngle && !isCarried) {
         point.joints = l.path->jointsAt(parameter);
         return point;
     }
     Pose pose = poseIn(l, *frames, distance);
     if (turning != nullptr) pose.rot = robot::turnedBy(turning->centre, turning->turn.at(place));
     point.joints = seed;
-    point.isSolved = l.path->kinematics().inverseContinue(frames->path->frames().toFlange(pose, point.extax),
-                                                          seed, point.joints);
+    point.isSolved = l.path->kinematics().inverseContinue(
+        frames->path->frames().toFlange(pose, point.extax), seed, point.joints,
+        armAngle ? *armAngle : l.path->armAngleAt(parameter));
     return point;
 }
 
@@ -325,11 +341,16 @@ RoutePoint Route::pointInCorner(std::size_t number, double place, const Joints& 
         takeExternal(axes, point.extax);
         return point;
     }
-    if (c.external.covers(place)) takeExternal(c.external.at(place), point.extax);
+    double armAngle = c.armAngle;
+    if (c.external.covers(place)) {
+        const AxisVector axes = c.external.at(place);
+        takeExternal(axes, point.extax);
+        armAngle = axes.v[kArmAnglePlace];
+    }
     const Pose pose{c.space.at(x),
                     c.turn.covers(place) ? robot::turnedBy(c.centre, c.turn.at(place)) : c.centre};
-    point.isSolved = next.path->kinematics().inverseContinue(next.path->frames().toFlange(pose, point.extax),
-                                                             seed, point.joints);
+    point.isSolved = next.path->kinematics().inverseContinue(
+        next.path->frames().toFlange(pose, point.extax), seed, point.joints, armAngle);
     return point;
 }
 

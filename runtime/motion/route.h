@@ -45,6 +45,7 @@ struct RouteStretch {
     ExternalAxes externalFirst{}, externalSecond{};
     double tcpRate = 1;    ///< mm of TCP path a mm of route
     double turnRate = 0;   ///< degrees of orientation a mm of route
+    double armRate = 0;    ///< degrees of the arm angle a mm of route, on lines and circles
     double curvature = 0;  ///< of the TCP path, 1/mm
     double zoneLength = 0; ///< mm, of the corner it lies in; 0 = outside
 };
@@ -86,6 +87,7 @@ class Route {
     static Pose poseOn(const Leg& leg, double distance);
     static Pose poseIn(const Leg& from, const Leg& frames, double distance);
     static AxisVector axesOn(const Leg& leg, double distance);
+    static double armAngleOn(const Leg& leg, double distance);
 
     const Corner& corner(std::size_t number) const { return corners_[number - firstLeg_]; }
     std::size_t ownLeg(double place) const;

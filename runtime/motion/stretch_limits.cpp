@@ -21,8 +21,8 @@ StretchLimits limitsOn(const RouteStretch& s, const MoveLimits& most,
                        const robot::AccelerationMap& accelerationMap) {
     StretchLimits l;
     l.width = s.end - s.begin;
-    l.speed = std::min(
-        {atMost(most.tcpSpeed, s.tcpRate), atMost(most.orientationSpeed, s.turnRate), most.pathSpeed});
+    l.speed = std::min({atMost(most.tcpSpeed, s.tcpRate), atMost(most.orientationSpeed, s.turnRate),
+                        atMost(most.armAngleSpeed, s.armRate), most.pathSpeed});
     if (s.zoneLength > 0) l.speed = std::min(l.speed, s.zoneLength / kShortestZone);
     l.bendSquare = kUnlimited;
     const auto add = [&](double first, double second, double acceleration) {

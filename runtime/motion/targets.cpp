@@ -10,11 +10,20 @@ namespace motion {
 
 namespace {
 
-MotionError fromInverse(const robot::IkError& error, const Vec3& position) {
+std::string axisName(int joint) {
+    if (joint == 0) return "an axis";
+    if (joint < robot::kFirstExternalAxis) return fmt::format("axis {}", joint);
+    return fmt::format("external axis {}", static_cast<char>('a' + joint - robot::kFirstExternalAxis));
+}
+
+} // namespace
+
+MotionError targetError(const robot::IkError& error, const Vec3& position) {
     MotionError result;
     switch (error.kind) {
     case robot::IkErrorKind::Unreachable: result.kind = MotionErrorKind::Unreachable; break;
     case robot::IkErrorKind::OutOfJointLimits: result.kind = MotionErrorKind::JointOutOfRange; break;
+    case robot::IkErrorKind::OutOfElbowLimits: result.kind = MotionErrorKind::ElbowOutOfRange; break;
     case robot::IkErrorKind::NoSuchConfiguration: result.kind = MotionErrorKind::NoSuchConfiguration; break;
     }
     result.joint = error.joint;
@@ -23,14 +32,6 @@ MotionError fromInverse(const robot::IkError& error, const Vec3& position) {
     result.position = position;
     return result;
 }
-
-std::string axisName(int joint) {
-    if (joint == 0) return "an axis";
-    if (joint < robot::kFirstExternalAxis) return fmt::format("axis {}", joint);
-    return fmt::format("external axis {}", static_cast<char>('a' + joint - robot::kFirstExternalAxis));
-}
-
-} // namespace
 
 Pose FrameSetup::object(const ExternalAxes& axes) const {
     const Pose user = userMover == nullptr ? workObject.uframe : userMover->frame(axes);
@@ -92,6 +93,11 @@ std::string MotionError::message() const {
         return fmt::format(
             "{} would have to go to {:.2f}, outside its range, {}; change the target or its configuration",
             axisName(joint), value, place);
+    case MotionErrorKind::ElbowOutOfRange:
+        return fmt::format(
+            "lower and upper arm would be at {:.2f} degrees to each other, outside the range of the "
+            "rods, {}; move the target or the work object",
+            value, place);
     case MotionErrorKind::NoSuchConfiguration:
         return fmt::format(
             "the position does not have the programmed configuration ({}); correct its confdata",
@@ -111,12 +117,29 @@ std::string MotionError::message() const {
                            value);
     case MotionErrorKind::CircleTooLarge:
         return fmt::format("circle of {:.1f} degrees in one move; 240 is the most, divide it", value);
-    case MotionErrorKind::UnsupportedRobot:
-        return "arms with seven axes cannot be moved yet; choose another robot model";
     case MotionErrorKind::QueueFull:
         return fmt::format("{:.0f} moves are ordered already; wait for one to end", value);
     }
     return {};
+}
+
+Expected<Joints, robot::IkError> solveTarget(const robot::Kinematics& kinematics, const Pose& flange,
+                                             const RobTarget& target, bool exactConf, const Joints& seed) {
+    const auto at = [&](double armAngle) {
+        return exactConf ? kinematics.inverse(flange, target.conf, seed, armAngle)
+                         : kinematics.inverseNear(flange, seed, armAngle);
+    };
+    const auto first = at(target.armAngle);
+    if (first || !kinematics.hasArmAngle() || !std::isnan(target.armAngle)) return first;
+    const double kept = kinematics.armAngle(seed);
+    constexpr int kStep = 5; // deg
+    for (int away = kStep; away <= 180; away += kStep) {
+        for (const int side : {1, -1}) {
+            auto other = at(std::remainder(kept + side * away, 360.0));
+            if (other) return other;
+        }
+    }
+    return first;
 }
 
 Expected<JointTarget, MotionError> calcJointTarget(const robot::Kinematics& kinematics,
@@ -127,8 +150,14 @@ Expected<JointTarget, MotionError> calcJointTarget(const robot::Kinematics& kine
         error.what = "a tool and a work object of which not exactly one is held by the robot";
         return Unexpected{error};
     }
-    const auto joints = kinematics.inverse(frames.toFlange(target.pose, target.extax), target.conf, seed);
-    if (!joints) return Unexpected{fromInverse(joints.error(), target.pose.pos)};
+    if (!(std::fabs(norm(target.pose.rot) - 1) < kUnitTolerance)) {
+        MotionError error;
+        error.what = kNoOrientation;
+        error.value = norm(target.pose.rot);
+        return Unexpected{error};
+    }
+    const auto joints = solveTarget(kinematics, frames.toFlange(target.pose, target.extax), target, true, seed);
+    if (!joints) return Unexpected{targetError(joints.error(), target.pose.pos)};
     return JointTarget{*joints, target.extax};
 }
 
@@ -137,7 +166,9 @@ RobTarget calcRobTarget(const robot::Kinematics& kinematics, const JointTarget& 
     Pose pose = frames.fromFlange(kinematics.forward(joints.robax), joints.extax);
     // Of the two quaternions of an orientation controllers show the one with q1 >= 0.
     if (pose.rot.w < 0) pose.rot = {-pose.rot.w, -pose.rot.x, -pose.rot.y, -pose.rot.z};
-    return {pose, kinematics.configuration(joints.robax), joints.extax};
+    RobTarget target{pose, kinematics.configuration(joints.robax), joints.extax};
+    if (kinematics.hasArmAngle()) target.armAngle = kinematics.armAngle(joints.robax);
+    return target;
 }
 
 } // namespace motion

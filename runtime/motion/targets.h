@@ -27,7 +27,7 @@ using robot::kExternalCount;
 using robot::kNoExternalAxes;
 using robot::kNotConnected;
 
-/// RAPID's jointtarget.
+/// RAPID's jointtarget. Axis 7 of a seven-axis arm, eax_a there, is the last of robax; external axis a is not connected.
 struct JointTarget {
     Joints robax{};
     ExternalAxes extax = kNoExternalAxes;
@@ -38,6 +38,7 @@ struct RobTarget {
     Pose pose;
     ConfData conf;
     ExternalAxes extax = kNoExternalAxes;
+    double armAngle = robot::kSeedArmAngle; ///< seven axes: eax_a, deg; not a number: free, the arm chooses
 };
 
 /// The geometric part of RAPID's tooldata: tframe is given in the wrist frame (flange) when the robot holds
@@ -96,23 +97,23 @@ Pose poseFromFloats(const float* trans, const float* rot);
 void poseToFloats(const Pose& pose, float* trans, float* rot);
 
 enum class MotionErrorKind : uint8_t {
-    BadArgument,           ///< not a number, speed or time not positive, frames contradict each other
-    Unreachable,           ///< position outside the reach of the arm
-    JointOutOfRange,       ///< an axis (1..6, external 7..12) would leave its range
+    BadArgument,     ///< not a number, speed or time not positive, frames contradict each other
+    Unreachable,     ///< position outside the reach of the arm
+    JointOutOfRange, ///< an axis (1..7, external 8..13) would leave its range
+    ElbowOutOfRange, ///< the rods do not let axes 2 and 3 be there together; `value` is the angle of the elbow
     NoSuchConfiguration,   ///< confdata asks for a configuration the position does not have (ConfJ)
     ConfigurationMismatch, ///< a line or circle would arrive in another configuration than programmed (ConfL)
     Singularity,           ///< path too close to a singularity
     CirclePointsTooClose,  ///< points of a circle closer than 0.1 mm
     CirclePointsCollinear, ///< all points on one line, the circle point not between start and end
     CircleTooLarge,        ///< more than 240 degrees in one move
-    UnsupportedRobot,      ///< motion does not move this mechanism (seven axes)
     QueueFull,             ///< too many moves ordered ahead
 };
 
 /// Why a move cannot be made. A value; the controller turns it into an ERRNO and an event.
 struct MotionError {
     MotionErrorKind kind = MotionErrorKind::BadArgument;
-    int joint = 0;           ///< 1..6, external axes 7..12, 0 = does not concern one axis
+    int joint = 0;           ///< 1..7, external axes 8..13, 0 = does not concern one axis
     double value = 0;        ///< what the axis, the angle or the argument would have been
     double pathFraction = 0; ///< where on the path, 0 = start, 1 = end
     Vec3 position;           ///< TCP there, in the object frame of the move
@@ -120,6 +121,19 @@ struct MotionError {
     /// One sentence with the figures and a remedy.
     std::string message() const;
 };
+
+/// Axis angles for a target whose flange is `flange`, in the configuration it names (`exactConf`), else those nearest to the
+/// seed. A free arm angle is that of the seed or, where the arm cannot be there with it, the nearest one with which it can
+/// (in steps of 5 degrees).
+Expected<Joints, robot::IkError> solveTarget(const robot::Kinematics& kinematics, const Pose& flange,
+                                             const RobTarget& target, bool exactConf, const Joints& seed);
+/// What an error of the inverse means for a move to this position, at the end of its path.
+MotionError targetError(const robot::IkError& error, const Vec3& position);
+
+/// Length of a quaternion that still counts as 1, and what is wrong with others.
+inline constexpr double kUnitTolerance = 1e-3;
+inline constexpr const char* kNoOrientation =
+    "an orientation whose quaternion has not the length 1 but this one";
 
 /// RAPID's CalcJointT: axis angles for a robtarget, with the configuration it names; `seed` breaks ties at
 /// singularities.

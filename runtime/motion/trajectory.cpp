@@ -26,7 +26,7 @@ Leg Trajectory::legOf(const std::shared_ptr<const MotionPath>& path, const MoveC
     leg.zone = command.zone;
     leg.limits = limitsOf(command, model_, external_);
     leg.duration = command.duration;
-    const double external = path->externalTravel();
+    const double external = path->externalTravel() + std::abs(path->armTravel());
     double mm = path->length();
     if (path->isCartesian()) {
         mm = path->curve().length();

@@ -10,9 +10,9 @@ namespace robot {
 
 /// Most axes an arm may have.
 inline constexpr std::size_t kMostJoints = 7;
-/// Number of the first external axis in messages and errors: the axes of the arm come before it, and axis 7 of a
-/// seven-axis arm is external axis a of RAPID's jointtarget.
-inline constexpr int kFirstExternalAxis = 7;
+/// Number of external axis a in messages and errors; the axes of the arm, 1 to 7, come before it. (RAPID keeps axis 7 of a
+/// seven-axis arm in the place of external axis a.)
+inline constexpr int kFirstExternalAxis = 8;
 
 /// Axis angles in degrees (mm for a linear axis), or a figure per axis in the unit named; at most kMostJoints, in
 /// the order of Kinematics::axisNumber. Default: six zeros. The index must be below kMostJoints; entries from

@@ -38,6 +38,11 @@ std::string IkError::message() const {
     case IkErrorKind::Unreachable: return "the position is outside the reach of the arm";
     case IkErrorKind::OutOfJointLimits:
         return fmt::format("axis {} would have to be at {:.2f} degrees, outside its range", joint, angleDeg);
+    case IkErrorKind::OutOfElbowLimits:
+        return fmt::format(
+            "lower and upper arm would be at {:.2f} degrees to each other, which the rods do not "
+            "let them",
+            angleDeg);
     case IkErrorKind::NoSuchConfiguration:
         return joint == 0
                    ? std::string("the position does not have the configuration asked for")
@@ -115,6 +120,15 @@ ConfData Kinematics::configuration(const Joints& joints) const {
 
 int Kinematics::jointOutsideLimits(const Joints& joints, double tolerance) const {
     return mechanism_->jointOutsideLimits(joints, tolerance);
+}
+
+double Kinematics::elbowAngle(const Joints& joints) const {
+    return mechanism_->elbowAngle(joints);
+}
+
+IkError Kinematics::limitError(const Joints& joints, int joint) const {
+    return joint < 1 || joint > static_cast<int>(jointCount()) ? IkError{}
+                                                               : mechanism_->limitError(joints, joint);
 }
 
 Singularity Kinematics::singularity(const Joints& joints) const {

@@ -18,7 +18,8 @@
 namespace robot {
 
 /// RAPID's confdata. cf1, cf4, cf6 are quarter revolutions of the axes of these numbers (0 = [0,90), 1 = [90,180),
-/// -1 = [-90,0) ...), 0 for an axis the arm does not have. cfx names the branch, by mechanism:
+/// -1 = [-90,0) ...; seven axes: the nearest quarter, 0 = [-45,45)), 0 for an axis the arm does not have. cfx names the
+/// branch, by mechanism:
 /// spherical wrist and offset wrist: bit 2 wrist centre behind axis 1, bit 1 wrist centre behind the lower arm, bit 0
 ///   axis 5 negative; with an offset wrist the wrist centre is the foot of axis 5 and more than eight solutions exist:
 ///   of those that share all four figures the one nearest to the seed is taken;
@@ -33,8 +34,9 @@ struct ConfData {
 };
 
 enum class IkErrorKind : uint8_t {
-    Unreachable,         ///< out of reach of the arm, or an orientation that the arm cannot give
-    OutOfJointLimits,    ///< reachable in space, but an axis would leave its range; `joint` says which
+    Unreachable,      ///< out of reach of the arm, or an orientation that the arm cannot give
+    OutOfJointLimits, ///< reachable in space, but an axis would leave its range; `joint` says which
+    OutOfElbowLimits, ///< reachable in space, but `angleDeg` between lower and upper arm is outside the range of the rods
     NoSuchConfiguration, ///< reachable, but not with the configuration asked for
 };
 struct IkError {
@@ -158,8 +160,13 @@ class Kinematics {
     /// Configuration of a posture.
     ConfData configuration(const Joints& joints) const;
 
-    /// First axis (index plus 1) outside its range by more than `tolerance` (deg, mm), 0 if none.
+    /// First axis (index plus 1) outside its range by more than `tolerance` (deg, mm), 0 if none. 3 also where the rods of a
+    /// palletizer do not let axes 2 and 3 be there together.
     int jointOutsideLimits(const Joints& joints, double tolerance = 1e-6) const;
+    /// Angle between lower and upper arm, deg, 180 when stretched; 0 unless rods limit it.
+    double elbowAngle(const Joints& joints) const;
+    /// Why joint `joint` of jointOutsideLimits is not allowed.
+    IkError limitError(const Joints& joints, int joint) const;
 
     Singularity singularity(const Joints& joints) const;
     JacobianMatrix jacobian(const Joints& joints) const;

@@ -108,6 +108,22 @@ double Mechanism::armAngle(const Joints&) const {
     return 0;
 }
 
+double Mechanism::elbowAngle(const Joints&) const {
+    return 0;
+}
+
+bool Mechanism::isElbowOutside(const Joints& joints, double tolerance) const {
+    const double angle = elbowAngle(joints);
+    return !(angle >= leastElbow_ - tolerance && angle <= mostElbow_ + tolerance);
+}
+
+IkError Mechanism::limitError(const Joints& joints, int joint) const {
+    const auto i = static_cast<std::size_t>(joint) - 1;
+    const bool isItself = !(joints[i] >= lower_[i] - 1e-6 && joints[i] <= upper_[i] + 1e-6);
+    if (isItself || !isElbowLimited_) return {IkErrorKind::OutOfJointLimits, joint, joints[i]};
+    return {IkErrorKind::OutOfElbowLimits, joint, elbowAngle(joints)};
+}
+
 bool Mechanism::inverseWithWrist(const Vec3&, const Pose&, const Joints&, const Joints&, Joints&) const {
     return false;
 }
@@ -130,7 +146,7 @@ std::array<int, 3> Mechanism::quarterAxes() const {
 ConfData Mechanism::quarters(const Joints& joints, int cfx) const {
     const std::array<int, 3> axes = quarterAxes();
     const auto quarter = [&](int axis) {
-        return axis < 0 ? 0 : quarterRevolution(joints[static_cast<std::size_t>(axis)]);
+        return axis < 0 ? 0 : quarterOf(joints[static_cast<std::size_t>(axis)]);
     };
     return {quarter(axes[0]), quarter(axes[1]), quarter(axes[2]), cfx};
 }
@@ -199,16 +215,19 @@ Expected<Joints, IkError> Mechanism::inverse(const Pose& flange, const ConfData&
         for (std::size_t c = 0; c < 3; ++c) {
             if (axes[c] < 0) continue;
             const auto i = static_cast<std::size_t>(axes[c]);
-            candidate[i] = nearestTurn(candidate[i], 90.0 * wanted[c] + 45.0);
-            const int distance = std::abs(quarterRevolution(candidate[i]) - wanted[c]);
+            candidate[i] = nearestTurn(candidate[i], middleOf(wanted[c]));
+            const int distance = std::abs(quarterOf(candidate[i]) - wanted[c]);
             off += distance;
             if (distance > 1 && offAxis == 0) offAxis = axes[c] + 1;
         }
         const int outside = jointOutsideLimits(candidate, 1e-6);
-        const int problem = offAxis != 0 ? offAxis : outside;
-        if (problem != 0) {
-            error = {offAxis != 0 ? IkErrorKind::NoSuchConfiguration : IkErrorKind::OutOfJointLimits, problem,
-                     candidate[static_cast<std::size_t>(problem) - 1]};
+        if (offAxis != 0) {
+            error = {IkErrorKind::NoSuchConfiguration, offAxis,
+                     candidate[static_cast<std::size_t>(offAxis) - 1]};
+            continue;
+        }
+        if (outside != 0) {
+            error = limitError(candidate, outside);
             continue;
         }
         Joints turned = candidate;
@@ -249,7 +268,7 @@ Expected<Joints, IkError> Mechanism::inverseNear(const Pose& flange, const Joint
             joints = candidate;
         } else if (joint != 0 && largest < bestOutside) {
             bestOutside = largest;
-            error = {IkErrorKind::OutOfJointLimits, joint, candidate[static_cast<std::size_t>(joint) - 1]};
+            error = limitError(candidate, joint);
         }
     }
     if (best == HUGE_VAL) return Unexpected{error};

@@ -60,8 +60,13 @@ class Mechanism {
             const bool isInside = joints[i] >= lower_[i] - tolerance && joints[i] <= upper_[i] + tolerance;
             if (!isInside) return static_cast<int>(i) + 1;
         }
-        return 0;
+        return isElbowLimited_ && isElbowOutside(joints, tolerance) ? kElbowAxis : 0;
     }
+    /// Angle between lower and upper arm, deg; 0 for an arm on which nothing limits it.
+    virtual double elbowAngle(const Joints& joints) const;
+    bool isElbowOutside(const Joints& joints, double tolerance) const;
+    /// Why joint `joint` (from 1) of these is not allowed: it leaves its own range, or the range of the elbow.
+    IkError limitError(const Joints& joints, int joint) const;
 
     std::size_t jointCount() const { return lower_.size(); }
     int axisNumber(std::size_t i) const { return axisNumbers_[i]; }
@@ -81,6 +86,10 @@ class Mechanism {
         if (angle < lower_[i] - kNoise && angle + 360 <= upper_[i] + kNoise) return angle + 360;
         return angle;
     }
+    /// Quarter revolution in which confdata counts this axis angle.
+    int quarterOf(double angleDeg) const { return quarterRevolution(angleDeg + quarterShift_); }
+    /// The angle in the middle of a quarter revolution.
+    double middleOf(int quarter) const { return 90.0 * quarter + 45.0 - quarterShift_; }
     /// The three axes whose quarter revolutions are cf1, cf4 and cf6, as indices; -1 for none.
     std::array<int, 3> quarterAxes() const;
     ConfData quarters(const Joints& joints, int cfx) const;
@@ -95,7 +104,11 @@ class Mechanism {
     Joints signs_, shifts_; // model angle = sign * axis angle + shift, degrees
     Joints lower_, upper_;
     std::array<int, kMostJoints> axisNumbers_{};
-    int linear_ = -1; // index of the linear axis, -1 for none
+    int linear_ = -1;                                      // index of the linear axis, -1 for none
+    double quarterShift_ = 0;                              // deg, by which quarter 0 begins before 0
+    bool isElbowLimited_ = false;                          // axes 2 and 3 limit each other
+    double leastElbow_ = -HUGE_VAL, mostElbow_ = HUGE_VAL; // deg
+    static constexpr int kElbowAxis = 3;                   // the axis that is named then
 };
 
 std::shared_ptr<const Mechanism> makeSphericalWrist(const RobotModel& model);

@@ -36,7 +36,9 @@ constexpr std::string_view kKnownFields[] = {"format",
                                              "note",
                                              "axis_numbers",
                                              "flange_rot",
-                                             "arm_angle_reference"};
+                                             "arm_angle_reference",
+                                             "elbow_limits_deg",
+                                             "home_deg"};
 
 /// Walks through the fields of one object and remembers the first thing wrong.
 class Reader {
@@ -180,6 +182,12 @@ void readFourAxes(Reader& in, const Json& geometry, RobotModel& model) {
         g.out = in.number(geometry, "out");
         g.down = in.number(geometry, "down");
         if (!in.failed() && !(g.c2 > 0 && g.c3 > 0)) in.fail("the links c2 and c3 must have a length");
+        double elbow[2] = {g.leastElbowDeg, g.mostElbowDeg};
+        in.numbers(in.root(), "elbow_limits_deg", elbow, 2, false);
+        if (!(elbow[0] < elbow[1]))
+            in.fail("field 'elbow_limits_deg' must hold [lower, upper] with lower < upper");
+        g.leastElbowDeg = elbow[0];
+        g.mostElbowDeg = elbow[1];
     } else if (model.kinematics == KinematicsKind::Scara) {
         ScaraGeometry& g = model.scara;
         g.height = in.number(geometry, "height");
@@ -254,6 +262,16 @@ void readLimits(Reader& in, RobotModel& model) {
         in.fail(fmt::format(
             "field 'joint_limits_deg' must be an array of {} pairs [lower, upper] with lower < upper",
             count));
+}
+
+void readHome(Reader& in, RobotModel& model) {
+    if (in.find(in.root(), "home_deg", false) == nullptr) return;
+    model.home = Joints::zeros(model.lowerDeg.size());
+    in.numbers(in.root(), "home_deg", model.home.begin(), model.home.size());
+    for (std::size_t i = 0; i < model.home.size(); ++i) {
+        if (!(model.home[i] >= model.lowerDeg[i] && model.home[i] <= model.upperDeg[i]))
+            return in.fail("field 'home_deg' must lie within joint_limits_deg");
+    }
 }
 
 void readBaseFrame(Reader& in, RobotModel& model) {
@@ -362,6 +380,7 @@ Expected<RobotModel, ModelError> parseRobotModel(std::string_view jsonText, std:
     }
     model.externalAxes = static_cast<int>(external);
     if (!in.failed()) readDynamics(in, model);
+    if (!in.failed()) readHome(in, model);
     readBaseFrame(in, model);
     readProvisional(in, model);
     if (in.failed()) return Unexpected{in.error()};

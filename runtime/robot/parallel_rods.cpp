@@ -19,6 +19,9 @@ class ParallelRods final : public Mechanism {
     ConfData configuration(const Joints& joints) const override;
     Singularity singularity(const Joints& joints) const override;
     JacobianMatrix jacobian(const Joints& joints) const override;
+    double elbowAngle(const Joints& joints) const override {
+        return 90 + modelAngle(joints, 1) - modelAngle(joints, 2);
+    }
 
   private:
     struct Posture; // sines and cosines of one posture
@@ -42,6 +45,9 @@ ParallelRods::ParallelRods(const RobotModel& model)
     plane.c1 = geometry_.c1 - geometry_.down;
     plane.c2 = geometry_.c2;
     plane_ = ArmPlane(plane, 0, geometry_.c3, 0);
+    leastElbow_ = geometry_.leastElbowDeg;
+    mostElbow_ = geometry_.mostElbowDeg;
+    isElbowLimited_ = std::isfinite(leastElbow_) || std::isfinite(mostElbow_);
 }
 
 ParallelRods::Posture ParallelRods::postureOf(const Joints& joints) const {

@@ -8,6 +8,7 @@
 #include "runtime/robot/joints.h"
 
 #include <array>
+#include <cmath>
 #include <span>
 #include <string>
 #include <string_view>
@@ -51,6 +52,8 @@ struct SevenAxisGeometry {
 /// from the horizontal (positive: down) whatever axis 2 does.
 struct ParallelRodGeometry {
     double a1 = 0, c1 = 0, c2 = 0, c3 = 0, out = 0, down = 0;
+    /// Range of the angle between lower and upper arm, degrees (180: stretched). It limits axes 2 and 3 together.
+    double leastElbowDeg = -HUGE_VAL, mostElbowDeg = HUGE_VAL;
 };
 
 /// Lengths in mm of a SCARA arm: height of the flange with axis 3 at 0, axis 1 to 2, axis 2 to 3.
@@ -81,14 +84,15 @@ struct RobotModel {
     Quat flangeRot{0, 0, 1, 0}; ///< four axes: flange in base with all axes at 0; z must point down
     Joints lowerDeg{};          ///< joint limits, degrees
     Joints upperDeg{};
-    Joints maxSpeed{};         ///< deg/s
-    Joints maxAcceleration{};  ///< deg/s^2
-    Joints maxJerk{};          ///< deg/s^3
-    Dynamics dynamics;         ///< of the data file, else estimated
-    double maxTcpSpeed = 5000; ///< mm/s; what MaxRobSpeed gives and vmax means
-    double wristOffset = 0;    ///< mm between axes 5 and 6; not 0 only for OffsetWrist
-    Pose baseFrame;            ///< base in world; identity unless configured
-    int externalAxes = 0;      ///< external axes that come with the arm
+    Joints maxSpeed{};              ///< deg/s
+    Joints maxAcceleration{};       ///< deg/s^2
+    Joints maxJerk{};               ///< deg/s^3
+    Dynamics dynamics;              ///< of the data file, else estimated
+    double maxTcpSpeed = 5000;      ///< mm/s; what MaxRobSpeed gives and vmax means
+    double wristOffset = 0;         ///< mm between axes 5 and 6; not 0 only for OffsetWrist
+    Pose baseFrame;                 ///< base in world; identity unless configured
+    Joints home = Joints::zeros(0); ///< where the arm stands at the start; no axes: the usual posture
+    int externalAxes = 0;           ///< external axes that come with the arm
     std::vector<std::string>
         provisional; ///< names of fields of the data file that are assumed, not published
 };

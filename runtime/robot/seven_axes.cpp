@@ -23,6 +23,9 @@ constexpr double kAccepted = 1e-10;                      // residual of a soluti
 constexpr double kSamePlace = 0.5; // rad; a start as near as this to a solution would lead to it
 constexpr double kLeastBend = 0.2; // rad; a start with the arm stretched would not know which way to bend
 
+constexpr double kBesideSingular = 0.3; // sine of axis 2 or 5 from which on its neighbour is guessed well
+constexpr int kPlacesAround = 8;        // at which that neighbour is tried
+
 constexpr std::size_t kUnknowns = 5;
 
 /// The five angles, rad: axis 1, axis 2, axis 5, axis 6, axis 3 from the line shoulder-wrist into its half plane.
@@ -71,7 +74,9 @@ struct Lines {
 
 class SevenAxes final : public Mechanism {
   public:
-    explicit SevenAxes(const RobotModel& model) : Mechanism(model), g_(model.sevenAxes) {}
+    explicit SevenAxes(const RobotModel& model) : Mechanism(model), g_(model.sevenAxes) {
+        quarterShift_ = 45; // as programs of these robots show
+    }
     Pose forward(const Joints& joints) const override;
     void inverseAll(const Pose& flange, const Joints& seed, double armAngleDeg,
                     IkBranches& out) const override;
@@ -397,11 +402,20 @@ void SevenAxes::inverseAll(const Pose& flange, const Joints& seed, double armAng
         Lines lines;
         if (polish(target, ends, lines, 15)) add(ends, lines, out);
     };
+    // With axis 2 near 0 axis 1 hardly turns the upper arm, and a first guess knows nothing of it; the same with axes 5 and 6.
+    const auto tryAround = [&](Ends ends, std::size_t unknown) {
+        for (int n = 1; n < kPlacesAround; ++n) {
+            ends.t[unknown] += 2 * std::numbers::pi / kPlacesAround;
+            if (!isNearAny(target, ends, out)) tryFrom(ends);
+        }
+    };
     const auto search = [&](double tilt) {
         for (int branch = 0; branch < 8; ++branch) {
             Ends ends;
             start(target, tilt, branch, ends);
             tryFrom(ends);
+            if (std::fabs(std::sin(ends.t[1])) < kBesideSingular) tryAround(ends, 0);
+            if (std::fabs(std::sin(ends.t[2])) < kBesideSingular) tryAround(ends, 3);
         }
     };
     // But for the offsets, every solution has three more with shoulder and wrist turned over.

@@ -37,9 +37,7 @@ bool TraceWriter::open(const std::string& path, std::string& error) {
 
 void TraceWriter::sample(Time time, std::string_view unit, const motion::MotionState& state) {
     std::string line = fmt::format("{},{}", formatSeconds(time, 3), unit);
-    for (const double joint : state.joints)
-        appendFixed(line, joint, 6);
-    for (const double axis : state.extax) {
+    for (const double axis : state.numberedAxes()) {
         if (motion::isConnected(axis))
             appendFixed(line, axis, 6);
         else

@@ -7,6 +7,7 @@
 #include "runtime/host/run_options.h"
 #include "runtime/robot/robot_model.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 
@@ -14,11 +15,11 @@ namespace rapidc {
 
 namespace {
 
-/// Why motion refuses a model; "" when it does not.
+/// What a user of a model must know of it; "" for nothing.
 const char* limitationOf(const robot::RobotModel& model) {
-    return model.kinematics != robot::KinematicsKind::SevenAxes
-               ? ""
-               : "listed only: motion does not move its mechanism yet";
+    const bool isEstimated = std::find(model.provisional.begin(), model.provisional.end(), "geometry_mm") !=
+                             model.provisional.end();
+    return isEstimated ? "lengths are estimated" : "";
 }
 
 std::vector<robot::RobotModel> allModels() {

@@ -56,7 +56,7 @@ motion::MoveCommand moveTo(TaskCore* task, motion::MoveKind kind, const data::Ro
     motion::MoveCommand command;
     command.ident = identOf(id);
     command.kind = kind;
-    command.target = lib::toTarget(target);
+    command.target = lib::toTarget(target, lib::motionOf(task).system().kinematics());
     lib::addOffsets(command.target.extax, lib::motionState(task).axisOffsets, 1);
     return command;
 }
@@ -76,7 +76,7 @@ motion::MoveCommand linearMove(TaskCore* task, const data::Robtarget& target, co
 motion::MoveCommand circularMove(TaskCore* task, const data::Robtarget& circlePoint,
                                  const data::Robtarget& target, const float* id) {
     motion::MoveCommand command = moveTo(task, motion::MoveKind::Circular, target, id);
-    command.circlePoint = toFrame(circlePoint);
+    command.circlePoint = toMovePose(circlePoint);
     return command;
 }
 

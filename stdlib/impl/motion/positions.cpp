@@ -62,7 +62,7 @@ Status rt_CRobT(TaskCore* task, data::Robtarget* result, Handle* TaskRef, const 
     if (const Status status = askedTask(task, TaskRef, TaskName, asked)) return status;
     motion::RobTarget target;
     if (const Status status = currentTarget(task, asked, Tool, WObj, target)) return status;
-    return lib::give(task, result, lib::toRobtarget(target));
+    return lib::give(task, result, lib::toRobtarget(target, systemOf(asked).kinematics()));
 }
 
 Status rt_CPos(TaskCore* task, data::Pos* result, data::Tooldata* Tool, data::Wobjdata* WObj) {
@@ -97,9 +97,13 @@ Status rt_CalcRobT(TaskCore* task, data::Robtarget* result, const data::Jointtar
     motion::FrameSetup frames;
     if (const Status status = lib::frameSetup(task, Tool, WObj ? WObj : &world(), frames)) return status;
     const motion::MotionSystem& system = systemOf(task);
-    motion::RobTarget target = system.toRobTarget(lib::toJoints(*Joint_target, system.kinematics()), frames);
+    motion::JointTarget joints = lib::toJoints(*Joint_target, system.kinematics());
+    constexpr std::size_t kAxis7 = 6; // 9E9: where it is
+    if (joints.robax.size() > kAxis7 && !motion::isConnected(joints.robax[kAxis7]))
+        joints.robax[kAxis7] = system.currentJoints().robax[kAxis7];
+    motion::RobTarget target = system.toRobTarget(joints, frames);
     lib::addOffsets(target.extax, lib::motionState(task).axisOffsets, -1);
-    return lib::give(task, result, lib::toRobtarget(target));
+    return lib::give(task, result, lib::toRobtarget(target, system.kinematics()));
 }
 
 /// Without \UseCurWObjPos a work object that a unit moves is where the external axes of the target bring it.
@@ -108,7 +112,7 @@ Status rt_CalcJointT(TaskCore* task, data::Jointtarget* result, bool UseCurWObjP
                      float* ErrorNumber) {
     motion::FrameSetup frames;
     if (const Status status = lib::frameSetup(task, Tool, WObj ? WObj : &world(), frames)) return status;
-    motion::RobTarget target = lib::toTarget(*Rob_target);
+    motion::RobTarget target = lib::toTarget(*Rob_target, systemOf(task).kinematics());
     lib::addOffsets(target.extax, lib::motionState(task).axisOffsets, 1);
     const motion::MotionSystem& system = systemOf(task);
     if (UseCurWObjPos && frames.userMover != nullptr) {
@@ -130,10 +134,10 @@ Status rt_CalcJointT(TaskCore* task, data::Jointtarget* result, bool UseCurWObjP
 Status rt_ORobT(TaskCore* task, data::Robtarget* result, const data::Robtarget* OrgPoint, bool InPDisp,
                 bool InEOffs) {
     const lib::MotionState& state = lib::motionState(task);
-    motion::RobTarget target = lib::toTarget(*OrgPoint);
+    motion::RobTarget target = lib::toTarget(*OrgPoint, systemOf(task).kinematics());
     if (!InPDisp) target.pose = state.displacement * target.pose;
     if (!InEOffs) lib::addOffsets(target.extax, state.axisOffsets, 1);
-    return lib::give(task, result, lib::toRobtarget(target));
+    return lib::give(task, result, lib::toRobtarget(target, systemOf(task).kinematics()));
 }
 
 Status rt_RobName(TaskCore* task, String* result) {

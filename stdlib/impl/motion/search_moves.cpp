@@ -101,9 +101,10 @@ Status giveTarget(TaskCore* task, const motion::JointTarget& place, const lib::M
     if (const Status status =
             lib::frameSetup(task, move.tool, move.workObject != nullptr ? move.workObject : &world, frames))
         return status;
-    motion::RobTarget target = lib::motionOf(task).system().toRobTarget(place, frames);
+    const motion::MotionSystem& system = lib::motionOf(task).system();
+    motion::RobTarget target = system.toRobTarget(place, frames);
     lib::addOffsets(target.extax, state.axisOffsets, -1);
-    return lib::give(task, result, lib::toRobtarget(target));
+    return lib::give(task, result, lib::toRobtarget(target, system.kinematics()));
 }
 
 Status searchTarget(TaskCore* task, motion::MoveCommand command, const SearchArguments& args,

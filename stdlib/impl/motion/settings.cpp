@@ -184,12 +184,13 @@ Status rt_CirPathMode(TaskCore* task, bool PathFrame, bool ObjectFrame, bool Cir
                       bool Wrist46, bool Wrist56) {
     if (PathFrame + ObjectFrame + CirPointOri + Wrist45 + Wrist46 + Wrist56 > 1)
         return lib::fail(task, err::ERR_ARGVALERR, "CirPathMode takes one mode only");
-    if (Wrist45 || Wrist46 || Wrist56)
-        return taskOf(task).fatal(static_cast<int>(EventId::NotImplemented),
-                                  "CirPathMode with \\Wrist45, \\Wrist46 or \\Wrist56");
-    lib::motionState(task).circleOrientation = ObjectFrame   ? motion::CircleOrientation::ObjectFrame
-                                               : CirPointOri ? motion::CircleOrientation::CirclePoint
-                                                             : motion::CircleOrientation::PathFrame;
+    using Mode = motion::CircleOrientation;
+    lib::motionState(task).circleOrientation = ObjectFrame   ? Mode::ObjectFrame
+                                               : CirPointOri ? Mode::CirclePoint
+                                               : Wrist45     ? Mode::Wrist45
+                                               : Wrist46     ? Mode::Wrist46
+                                               : Wrist56     ? Mode::Wrist56
+                                                             : Mode::PathFrame;
     return kOk;
 }
 }

@@ -11,6 +11,7 @@
 #include "stdlib_constants.h"
 
 #include <cmath>
+#include <utility>
 
 namespace rt::lib {
 
@@ -54,19 +55,34 @@ data::Extjoint toExtjoint(const motion::ExternalAxes& axes) {
 
 } // namespace
 
-motion::RobTarget toTarget(const data::Robtarget& target) {
-    const auto whole = [](float v) { return static_cast<int>(std::lround(v)); };
-    const data::Confdata& c = target.robconf;
-    return {toFrame(target), {whole(c.cf1), whole(c.cf4), whole(c.cf6), whole(c.cfx)}, toAxes(target.extax)};
+motion::Pose toMovePose(const data::Robtarget& target) {
+    constexpr double kRounding = 0.1; // of programs that write orientations with one or two digits
+    motion::Pose pose = toFrame(target);
+    const motion::Quat raw = toQuat(target.rot);
+    if (!(std::fabs(norm(raw) - 1) < kRounding)) pose.rot = raw;
+    return pose;
 }
 
-data::Robtarget toRobtarget(const motion::RobTarget& target) {
+motion::RobTarget toTarget(const data::Robtarget& target, const robot::Kinematics& arm) {
+    const auto whole = [](float v) { return static_cast<int>(std::lround(v)); };
+    const data::Confdata& c = target.robconf;
+    motion::RobTarget result{
+        toMovePose(target), {whole(c.cf1), whole(c.cf4), whole(c.cf6), whole(c.cfx)}, toAxes(target.extax)};
+    if (!arm.hasArmAngle()) return result;
+    if (motion::isConnected(result.extax[0])) result.armAngle = result.extax[0];
+    result.extax[0] = motion::kNotConnected;
+    return result;
+}
+
+data::Robtarget toRobtarget(const motion::RobTarget& target, const robot::Kinematics& arm) {
     const motion::ConfData& c = target.conf;
+    motion::ExternalAxes axes = target.extax;
+    if (arm.hasArmAngle()) axes[0] = std::isnan(target.armAngle) ? motion::kNotConnected : target.armAngle;
     return {toPos(target.pose.pos),
             toOrient(target.pose.rot),
             {static_cast<float>(c.cf1), static_cast<float>(c.cf4), static_cast<float>(c.cf6),
              static_cast<float>(c.cfx)},
-            toExtjoint(target.extax)};
+            toExtjoint(axes)};
 }
 
 motion::JointTarget toJoints(const data::Jointtarget& target, const robot::Kinematics& arm) {
@@ -75,18 +91,23 @@ motion::JointTarget toJoints(const data::Jointtarget& target, const robot::Kinem
     motion::JointTarget joints{robot::Joints::zeros(arm.jointCount()), toAxes(target.extax)};
     for (size_t i = 0; i < joints.robax.size(); ++i) {
         const auto number = static_cast<size_t>(arm.axisNumber(i));
-        if (number <= std::size(axes)) joints.robax[i] = axes[number - 1];
+        joints.robax[i] = number <= std::size(axes) ? axes[number - 1]
+                                                    : std::exchange(joints.extax[0], motion::kNotConnected);
     }
     return joints;
 }
 
 data::Jointtarget toJointtarget(const motion::JointTarget& joints, const robot::Kinematics& arm) {
     float axes[6] = {};
+    motion::ExternalAxes external = joints.extax;
     for (size_t i = 0; i < joints.robax.size(); ++i) {
         const auto number = static_cast<size_t>(arm.axisNumber(i));
-        if (number <= std::size(axes)) axes[number - 1] = static_cast<float>(joints.robax[i]);
+        if (number <= std::size(axes))
+            axes[number - 1] = static_cast<float>(joints.robax[i]);
+        else
+            external[0] = joints.robax[i];
     }
-    return {{axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]}, toExtjoint(joints.extax)};
+    return {{axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]}, toExtjoint(external)};
 }
 
 void addOffsets(motion::ExternalAxes& axes, const motion::ExternalAxes& offsets, double sign) {
@@ -99,6 +120,7 @@ Status motionErrno(const motion::MotionError& error) {
     switch (error.kind) {
     case Kind::BadArgument: return err::ERR_ARGVALERR;
     case Kind::JointOutOfRange:
+    case Kind::ElbowOutOfRange:
     case Kind::NoSuchConfiguration:
     case Kind::ConfigurationMismatch:
     case Kind::Singularity: return err::ERR_ROBLIMIT;
@@ -106,7 +128,6 @@ Status motionErrno(const motion::MotionError& error) {
     case Kind::CirclePointsTooClose:
     case Kind::CirclePointsCollinear:
     case Kind::CircleTooLarge:
-    case Kind::UnsupportedRobot:
     case Kind::QueueFull: return err::ERR_OUTSIDE_REACH;
     }
     return err::ERR_OUTSIDE_REACH;

@@ -51,10 +51,14 @@ Status requireMotionTask(TaskCore* task);
 Status frameSetup(TaskCore* task, const data::Tooldata* tool, const data::Wobjdata* workObject,
                   motion::FrameSetup& frames);
 
-/// Positions as programmed; axis offsets are not looked at.
-motion::RobTarget toTarget(const data::Robtarget& target);
-data::Robtarget toRobtarget(const motion::RobTarget& target);
-/// Axes by their numbers: a palletiser has no axes 4 and 5.
+/// Pose of a target for a movement: an orientation that is far from a unit quaternion (a robtarget without value has zeros)
+/// stays as it is, so that the movement refuses it.
+motion::Pose toMovePose(const data::Robtarget& target);
+/// Positions as programmed; axis offsets are not looked at. eax_a is the arm angle of a seven-axis arm, free with 9E9.
+motion::RobTarget toTarget(const data::Robtarget& target, const robot::Kinematics& arm);
+data::Robtarget toRobtarget(const motion::RobTarget& target, const robot::Kinematics& arm);
+/// Axes by their numbers: a palletiser has no axes 4 and 5, and eax_a is axis 7 of a seven-axis arm (kNotConnected for 9E9:
+/// stays where it is).
 motion::JointTarget toJoints(const data::Jointtarget& target, const robot::Kinematics& arm);
 data::Jointtarget toJointtarget(const motion::JointTarget& joints, const robot::Kinematics& arm);
 /// Adds `sign` times the offsets to the external axes that are connected.

@@ -37,6 +37,7 @@ data::Motsetdata motionSettings(const lib::MotionState& state, double maxRobotSp
     out.accmax = limitOr(s.pathAcceleration);
     out.decellim = s.pathDeceleration > 0;
     out.decelmax = limitOr(s.pathDeceleration);
+    out.cirpathreori = static_cast<float>(state.circleOrientation); // numbered in the order of the switches
     out.worldacclim = s.worldAcceleration > 0;
     out.worldaccmax = limitOr(s.worldAcceleration);
     out.evtbufferact = true;

@@ -24,14 +24,11 @@ bool isInVolume(const ZoneShape& shape, const robot::Vec3& tcp) {
 }
 
 bool isBetween(const ZoneShape& shape, const motion::MotionState& state) {
-    const auto axis = [&](std::size_t i) {
-        constexpr std::size_t kRobotAxes = 6;
-        return i < kRobotAxes ? state.joints[i] : state.extax[i - kRobotAxes];
-    };
+    const auto axes = state.numberedAxes();
     for (std::size_t i = 0; i < shape.lowAxes.size(); ++i) {
         const bool isLookedAt = motion::isConnected(shape.lowAxes[i]) &&
-                                motion::isConnected(shape.highAxes[i]) && motion::isConnected(axis(i));
-        if (isLookedAt && (axis(i) < shape.lowAxes[i] || axis(i) > shape.highAxes[i])) return false;
+                                motion::isConnected(shape.highAxes[i]) && motion::isConnected(axes[i]);
+        if (isLookedAt && (axes[i] < shape.lowAxes[i] || axes[i] > shape.highAxes[i])) return false;
     }
     return true;
 }

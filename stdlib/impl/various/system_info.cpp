@@ -32,7 +32,7 @@ Status rt_GetSysInfo(TaskCore* task, String* result, bool SerialNo, bool SWVersi
     else if (SWVersionName)
         result->assign("RobotWare 7.20");
     else if (RobotType)
-        result->assign(controller.motion().model().name);
+        result->assign(controller.motions().front()->model().name);
     else if (CtrlId || SystemName)
         result->assign("rapidc");
     else if (LanIp)

@@ -14,10 +14,10 @@ using namespace robot;
 
 namespace {
 
-constexpr const char* kModels[] = {"CRB 15000-5/0.95", "CRB 15000-10/1.52", "IRB 14050-0.5/0.559",
-                                   "IRB 460-110/2.4",  "IRB 260-30/1.56",   "IRB 660-180/3.15",
-                                   "IRB 760-450/3.18", "IRB 910SC-3/0.65",  "IRB 920T-6/0.55",
-                                   "IRB 360-1/1600",   "IRB 360-3/1130",    "IRB 2400-16/1.55"};
+constexpr const char* kModels[] = {
+    "CRB 15000-5/0.95", "CRB 15000-10/1.52", "IRB 14050-0.5/0.559", "IRB 460-110/2.4",      "IRB 260-30/1.56",
+    "IRB 660-180/3.15", "IRB 760-450/3.18",  "IRB 910SC-3/0.65",    "IRB 920T-6/0.55",      "IRB 360-1/1600",
+    "IRB 360-3/1130",   "IRB 2400-16/1.55",  "IRB 390-15/1300",     "IRB 14000-0.5/0.559-L"};
 
 RobotModel model(const char* name) {
     auto loaded = loadRobotModel(name);
@@ -28,8 +28,17 @@ RobotModel model(const char* name) {
 /// Random postures inside the limits; a delta robot only with its elbows outward, the one posture it can be built in.
 class Postures {
   public:
-    explicit Postures(const RobotModel& robot, unsigned seed = 7) : model_(robot), random_(seed) {}
+    explicit Postures(const RobotModel& robot, unsigned seed = 7)
+        : model_(robot), kinematics_(robot), random_(seed) {}
     Joints next() {
+        Joints joints = draw();
+        while (kinematics_.jointOutsideLimits(joints) != 0) // the rods of palletizers
+            joints = draw();
+        return joints;
+    }
+
+  private:
+    Joints draw() {
         Joints joints = Joints::zeros(model_.lowerDeg.size());
         for (std::size_t i = 0; i < joints.size(); ++i) {
             const bool isArm = model_.kinematics == KinematicsKind::Delta && i < 3;
@@ -40,8 +49,8 @@ class Postures {
         return joints;
     }
 
-  private:
     const RobotModel& model_;
+    Kinematics kinematics_;
     std::mt19937_64 random_;
 };
 
@@ -340,6 +349,29 @@ TEST_CASE("limits, reach and nonsense give reasons and never a crash", "[robot][
         (void)kinematics.forward(Joints{1, 2}); // another number of axes
     }
     CHECK_FALSE(Kinematics().inverseNear({{100, 0, 0}, {}}, {}).hasValue()); // no arm at all
+}
+
+TEST_CASE("the rods of a palletizer limit the angle between its arms", "[robot][kinematics]") {
+    const Kinematics kinematics(
+        model("IRB 460-110/2.4")); // elbow 20 to 153; axis 2 -40 to 85, axis 3 -20 to 120
+    // Upright lower arm and level upper arm: a right angle. Axis 2 stretches, axis 3 folds.
+    CHECK(kinematics.elbowAngle({0, 0, 0, 0}) == Approx(90));
+    CHECK(kinematics.elbowAngle({0, 30, -10, 0}) == Approx(130));
+    CHECK(kinematics.jointOutsideLimits({0, 60, -2, 0}) == 0); // 152 degrees
+    CHECK(kinematics.jointOutsideLimits({0, 60, -4, 0}) ==
+          3); // 154 degrees, both axes within their own ranges
+    CHECK(kinematics.jointOutsideLimits({0, 0, 69, 0}) == 0);
+    CHECK(kinematics.jointOutsideLimits({0, 0, 71, 0}) == 3);
+    const Joints folded{0, 0, 75, 0};
+    const auto refused =
+        kinematics.inverse(kinematics.forward(folded), kinematics.configuration(folded), folded);
+    REQUIRE_FALSE(refused.hasValue());
+    CHECK(refused.error().kind == IkErrorKind::OutOfElbowLimits);
+    CHECK(refused.error().angleDeg == Approx(15));
+    CHECK(refused.error().message().find("15.00 degrees to each other") != std::string::npos);
+    const Joints bent{0, 0, 121, 0};
+    CHECK(kinematics.limitError(bent, 3).kind ==
+          IkErrorKind::OutOfJointLimits); // axis 3 alone is outside already
 }
 
 TEST_CASE("an arm of four axes cannot tilt its flange", "[robot][kinematics]") {
