@@ -134,7 +134,9 @@ ExitStatus Controller::openRobot() {
     }
     robot::RobotModel arm = *model;
     applyMotionParameters(arm);
-    motion_ = std::make_unique<MotionDriver>(scheduler_, std::move(arm));
+    motion::MotionOptions how;
+    if (options_.planner == "optimal") how.planner = motion::Planner::Optimal;
+    motion_ = std::make_unique<MotionDriver>(scheduler_, std::move(arm), how);
     motion_->addListener([this](ArmNews news) {
         if (news != ArmNews::CornerLost) return;
         log_.write(EventId::CornerPathFailure, motion_->orderingTask(), {motion_->unitName()});

@@ -39,7 +39,7 @@ enum class ArmNews : uint8_t {
 
 class MotionDriver final : public SteppedArm {
   public:
-    MotionDriver(Scheduler& scheduler, robot::RobotModel model);
+    MotionDriver(Scheduler& scheduler, robot::RobotModel model, const motion::MotionOptions& options);
     ~MotionDriver();
     MotionDriver(const MotionDriver&) = delete;
     MotionDriver& operator=(const MotionDriver&) = delete;

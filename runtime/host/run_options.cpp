@@ -79,6 +79,11 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
     command.add("--robot", options.robot, fmt::format("robot model; default \"{}\"", kDefaultRobot))
         .typeName("MODEL");
     command
+        .add("--planner", options.planner,
+             "what times movements: measured (as real controllers; default) or optimal (shortest time within all "
+             "limits, also of jerk)")
+        .oneOf({"measured", "optimal"});
+    command
         .add("--home", options.home, "the controller's HOME:; default: an empty folder, removed at the end")
         .typeName("DIR");
     command

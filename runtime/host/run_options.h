@@ -17,6 +17,7 @@ struct RunOptions {
     std::vector<std::string> tasks; ///< --task=NAME[:TYPE]=INPUT; used by `rapidc run` alone
     std::vector<std::string> configFiles;
     std::string robot;                            ///< "" = as the configuration says, else kDefaultRobot
+    std::string planner = "measured";             ///< what times movements: measured or optimal
     std::string home;                             ///< "" = an empty folder that is removed at the end
     std::string stimulus, trace, signals, events; ///< paths; "" = not asked for
     std::string picture, report, compare;         ///< the same

@@ -77,12 +77,10 @@ Trajectory::Appended Trajectory::append(const std::shared_ptr<const MotionPath>&
     }
     const bool isCornerLost = last != nullptr && last->run->isOpen();
     closeLast();
-    RunSettings settings;
-    settings.accelerations = &accelerations_;
+    RunSettings settings = this->settings();
     // Windows that are longer let acceleration change more slowly (AccSet \Ramp).
     settings.longWindow = model_.dynamics.longWindow / leg.limits.rampShare;
     settings.shortWindow = model_.dynamics.shortWindow / leg.limits.rampShare;
-    settings.speedShare = share_;
     auto run = std::make_unique<Run>(settings, now);
     run->append(std::move(leg), isFlyBy, now);
     Appended result = appendRun(std::move(run), path, 0, now);
@@ -90,12 +88,19 @@ Trajectory::Appended Trajectory::append(const std::shared_ptr<const MotionPath>&
     return result;
 }
 
+RunSettings Trajectory::settings() const {
+    RunSettings settings;
+    settings.accelerations = &accelerations_;
+    settings.speedShare = share_;
+    settings.planner = options_.planner;
+    settings.jerk = model_.maxJerk;
+    return settings;
+}
+
 Trajectory::Appended Trajectory::appendPause(const std::shared_ptr<const MotionPath>& path, double seconds,
                                              double now) {
     closeLast();
-    RunSettings settings;
-    settings.accelerations = &accelerations_;
-    return appendRun(std::make_unique<Run>(settings, now), path, seconds, now);
+    return appendRun(std::make_unique<Run>(settings(), now), path, seconds, now);
 }
 
 Trajectory::Appended Trajectory::appendRun(std::unique_ptr<Run> run,
@@ -296,6 +301,7 @@ std::optional<double> Trajectory::decisionTime() const {
     if (entries_.empty()) return {};
     const Entry& e = entries_.back();
     if (!e.run->isOpen() || !e.isScheduled || e.run->isBraking()) return {};
+    if (options_.planner == Planner::Optimal) return e.run->decisionTime();
     const Route& way = e.run->route();
     return std::min(e.run->course().lastBraking(),
                     courseTime(count() - 1, way.zoneEntry(way.legCount() - 1)));
