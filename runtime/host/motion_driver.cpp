@@ -51,7 +51,8 @@ motion::MoveCommand reversed(const motion::MoveCommand& target, const motion::Mo
 
 } // namespace
 
-MotionDriver::MotionDriver(Scheduler& scheduler, robot::RobotModel model, const motion::MotionOptions& options)
+MotionDriver::MotionDriver(Scheduler& scheduler, robot::RobotModel model,
+                           const motion::MotionOptions& options)
     : scheduler_(scheduler), system_(std::move(model), options) {}
 
 MotionDriver::~MotionDriver() = default;

@@ -80,7 +80,8 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
         .typeName("MODEL");
     command
         .add("--planner", options.planner,
-             "what times movements: measured (as real controllers; default) or optimal (shortest time within all "
+             "what times movements: measured (as real controllers; default) or optimal (shortest time within "
+             "all "
              "limits, also of jerk)")
         .oneOf({"measured", "optimal"});
     command

@@ -90,7 +90,8 @@ AxisCourse AxisCourse::turning(double time, double speed, double acceleration, d
     return result;
 }
 
-AxisCourse AxisCourse::movedTo(double time, double position, double speed, double acceleration, double jerk) const {
+AxisCourse AxisCourse::movedTo(double time, double position, double speed, double acceleration,
+                               double jerk) const {
     AxisCourse result = upTo(time);
     if (jerk > 0) {
         const AxisProfile way =

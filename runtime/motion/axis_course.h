@@ -21,7 +21,8 @@ class AxisCourse {
 
     /// What is executed up to `time` remains. Then to a position, at most at this speed (above 0) ...
     /// `jerk`: deg/s^3; 0 = not limited.
-    AxisCourse movedTo(double time, double position, double speed, double acceleration, double jerk = 0) const;
+    AxisCourse movedTo(double time, double position, double speed, double acceleration,
+                       double jerk = 0) const;
     /// ... or at a speed for ever; 0: it comes to rest.
     AxisCourse turning(double time, double speed, double acceleration, double jerk = 0) const;
 

@@ -120,9 +120,9 @@ class ProfileChoice {
             }
             outer = speed;
             outerMiss = miss;
-            const double found =
-                rootOf(missAt, [&](double, double left) { return std::abs(left) <= tolerance(); }, inner,
-                       innerMiss, outer, outerMiss);
+            const double found = rootOf(
+                missAt, [&](double, double left) { return std::abs(left) <= tolerance(); }, inner, innerMiss,
+                outer, outerMiss);
             const double left = seconds - changesAt(found).time;
             if (left < -1e-12 * seconds) return {}; // the two changes of speed leave a gap in between
             return Candidate{found, std::max(0.0, left), seconds};
@@ -158,8 +158,8 @@ class ProfileChoice {
     /// Between two speeds without keeping one of them; `left` and `right`: what is missing of the way there.
     void addRoot(double low, double left, double high, double right) {
         const double speed = rootOf([&](double v) { return way_ - changesAt(v).way; },
-                                    [&](double, double miss) { return std::abs(miss) <= tolerance(); }, low, left,
-                                    high, right);
+                                    [&](double, double miss) { return std::abs(miss) <= tolerance(); }, low,
+                                    left, high, right);
         add(speed, 0, changesAt(speed).time);
     }
 
@@ -273,7 +273,8 @@ void betweenTogether(std::span<const AxisState> from, std::span<const AxisState>
         const ProfileChoice& choice = *choices[i];
         std::optional<ProfileChoice::Candidate> found;
         for (std::size_t k = choice.count; k-- > 0 && !found;)
-            if (choice.candidates[k].duration <= duration) found = choice.lasting(duration, choice.candidates[k]);
+            if (choice.candidates[k].duration <= duration)
+                found = choice.lasting(duration, choice.candidates[k]);
         if (found) {
             profiles[i] = choice.profile(*found);
             solved[i] = duration;

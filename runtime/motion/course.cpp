@@ -6,7 +6,8 @@
 namespace motion {
 
 Course::Course(double time, double place, double longWindow, double shortWindow)
-    : knots_{Knot{time, 0, 0, 0, 0, 0, {}}}, origin_(place), longWindow_(longWindow), shortWindow_(shortWindow) {}
+    : knots_{Knot{time, 0, 0, 0, 0, 0, {}}}, origin_(place), longWindow_(longWindow),
+      shortWindow_(shortWindow) {}
 
 void Course::push(const Knot& knot) {
     const Integrals there = integralsAt(knot.t); // with the acceleration of the last knot

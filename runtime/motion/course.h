@@ -50,7 +50,7 @@ class Course {
 
     /// The plan, before it is averaged.
     CourseState plannedAt(double time) const;
-    double begin() const { return knots_.front().t; } ///< s, of what is remembered
+    double begin() const { return knots_.front().t; }     ///< s, of what is remembered
     double plannedEnd() const { return knots_.back().t; } ///< s
     double endPlace() const { return knots_.back().s + origin_; }
     /// When the last braking of the plan begins; its end if it does not end with braking.

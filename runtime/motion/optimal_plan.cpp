@@ -7,11 +7,12 @@ namespace motion {
 
 namespace {
 
-constexpr double kNothing = 1e-9;  // mm
-constexpr double kSliver = 1e-6;   // mm, of a cell that is not worth planning
-constexpr double kTick = 0.001;    // s, at which the result is checked
+constexpr double kNothing = 1e-9;   // mm
+constexpr double kSliver = 1e-6;    // mm, of a cell that is not worth planning
+constexpr double kTick = 0.001;     // s, at which the result is checked
 constexpr double kAllowed = 0.9985; // share of an acceleration in the check: samples may lie elsewhere later
-constexpr double kKeptLead = 0.25; // s before the arm would brake, from which on a longer path is planned anew
+constexpr double kKeptLead =
+    0.25; // s before the arm would brake, from which on a longer path is planned anew
 
 /// Writes what was found into the course, from the place `begin` on.
 void takeProfile(Course& course, double begin, const ProfileGrid& grid, const ProfileSolver::Result& found) {
@@ -30,8 +31,8 @@ void takeProfile(Course& course, double begin, const ProfileGrid& grid, const Pr
     }
     place += knots.back().s;
     const double seconds = 3 * grid.endWidth / knots.back().v;
-    course.follow(knots.back().v, -2 * knots.back().v / seconds, {2 * knots.back().v / (seconds * seconds), 0},
-                  seconds, place + grid.endWidth);
+    course.follow(knots.back().v, -2 * knots.back().v / seconds,
+                  {2 * knots.back().v / (seconds * seconds), 0}, seconds, place + grid.endWidth);
     course.rest(0);
 }
 
@@ -94,7 +95,8 @@ bool OptimalPlan::plan(Course& course, const Route& route, double now, double ch
     if (isSameShare && course.plannedEnd() > begun) {
         const double kept =
             std::min(course.lastBraking() - kKeptLead, course.plannedTimeAt(changed) - 0.5 * kKeptLead);
-        if (kept > begun + 0.02 && kept > course.begin() + 0.1 && planFrom(course, route, kept, share)) return true;
+        if (kept > begun + 0.02 && kept > course.begin() + 0.1 && planFrom(course, route, kept, share))
+            return true;
     }
     if (!planFrom(course, route, begun, share)) return false;
     share_ = share;
@@ -106,8 +108,7 @@ bool OptimalPlan::planFrom(Course& course, const Route& route, double time, doub
     const CourseState state = course.plannedAt(time);
     if (state.s >= length() - kNothing) return false;
     const double most = cells_[cellAt(state.s)].mostSquare * share * share;
-    if (state.v * state.v <= most * (1 + 1e-6) && solveFrom(course, route, time, state, share))
-        return true;
+    if (state.v * state.v <= most * (1 + 1e-6) && solveFrom(course, route, time, state, share)) return true;
     if (!(state.v > 0) || share >= share_) return false;
     for (const double part : {0.999, 0.7, 0.4, 0.2}) {
         const double way = state.v * 0.3;
@@ -139,12 +140,17 @@ bool OptimalPlan::solveFrom(Course& course, const Route& route, double time, con
     ProfileStart start;
     if (state.v > kStanding) start = {state.v, state.a, 0};
     bool isPlanned = false;
-    constexpr int kMostRounds = 4;
+    constexpr int kMostRounds = 8;
     for (int round = 0; round < kMostRounds; ++round) {
         const std::vector<ProfileCell> path = pathBetween(state.s, length(), share);
         if (path.empty()) return false;
-        const ProfileGrid grid = gridOf(path, start);
-        const auto found = solver_.solve(grid.cells, grid.start, grid.endWidth);
+        ProfileGrid grid;
+        ProfileSolver::Result found;
+        for (const double firstShare : {1.0, 0.2}) {
+            grid = gridOf(path, start, firstShare);
+            found = solver_.solve(grid.cells, grid.start, grid.endWidth);
+            if (found.isSolved || !(start.v > 0)) break;
+        }
         if (!found.isSolved) return isPlanned;
         course.cutAfter(time);
         if (course.plannedEnd() < time) course.rest(time - course.plannedEnd());
@@ -190,7 +196,8 @@ bool OptimalPlan::tightenWhereExceeded(const Course& course, const Route& route,
         isExceeded = true;
         ProfileCell& cell = cells_[i];
         const double speed = (places[2] - places[0]) / (2 * kTick);
-        if (use > kBent) cell.mostSquare = std::min(cell.mostSquare, std::pow(0.99 * speed / (use * share), 2));
+        if (use > kBent)
+            cell.mostSquare = std::min(cell.mostSquare, std::pow(0.99 * speed / (use * share), 2));
         for (ProfileRows* rows : {&cell.first, &cell.last}) {
             for (std::size_t r = 0; r < rows->count; ++r) {
                 rows->rows[r].up *= kAllowed / std::min(use, kBent);
@@ -213,13 +220,15 @@ void OptimalPlan::slowTo(Course& course, double begin, double seconds) {
 // ---- Slowing down ----
 
 bool OptimalPlan::keepsLimits(const Slowing& slowing) const {
-    constexpr int kSamples = 10;
+    constexpr double kSpacing = 0.7; // mm between the places that are checked
     constexpr double kRounding = 1 + 1e-7;
     AxisState from = slowing.from;
     for (std::size_t piece = 0; piece < 3; ++piece) {
         const double jerk = slowing.ramp.jerkOf(piece);
-        for (int k = 0; k <= kSamples; ++k) {
-            const AxisState at = advanced(from, jerk, slowing.ramp.time[piece] * k / kSamples);
+        const double time = slowing.ramp.time[piece];
+        const int samples = std::clamp(static_cast<int>(from.v * time / kSpacing), 10, 400);
+        for (int k = 0; k <= samples; ++k) {
+            const AxisState at = advanced(from, jerk, time * k / samples);
             if (at.p > length() + kNothing || at.v < -1e-6) return false;
             const std::size_t i = cellAt(at.p);
             const ProfileCell& cell = cells_[i];
@@ -234,7 +243,8 @@ bool OptimalPlan::keepsLimits(const Slowing& slowing) const {
     return true;
 }
 
-std::optional<OptimalPlan::Slowing> OptimalPlan::slowing(const Course& course, double now, double speed) const {
+std::optional<OptimalPlan::Slowing> OptimalPlan::slowing(const Course& course, double now,
+                                                         double speed) const {
     std::optional<Slowing> best;
     double ended = course.plannedEnd();
     for (double delay = 0; now + delay < ended; delay = delay == 0 ? 0.002 : 1.3 * delay) {
@@ -275,15 +285,43 @@ void OptimalPlan::follow(Course& course, const Slowing& slowing) {
     }
 }
 
+/// The course as it comes to rest when it brakes after `now`.
+Course OptimalPlan::stopped(const Course& course, double now) const {
+    constexpr double kAtOnce = 0.01; // s
+    const auto ramp = slowing(course, now, 0);
+    Course result = course;
+    const CourseState state = course.plannedAt(now);
+    const double last = ramp ? ramp->ramp.end(ramp->from).p : course.endPlace();
+    const bool isLate = !ramp || ramp->begin > now + kAtOnce;
+    // Where the path bends much, no even braking keeps the limits: the nearest place at which the arm can rest.
+    for (const double share : {0.05, 0.1, 0.2, 0.35, 0.5, 0.7}) {
+        if (!isLate || !(state.v > 0)) break;
+        const double to = state.s + share * (last - state.s);
+        const std::vector<ProfileCell> path = pathBetween(state.s, to, share_);
+        if (path.empty() || to - state.s < 1e-3) continue;
+        const ProfileGrid grid = gridOf(path, {state.v, state.a, 0});
+        const auto found = ProfileSolver().solve(grid.cells, grid.start, grid.endWidth);
+        if (!found.isSolved) continue;
+        result.cutAfter(now);
+        takeProfile(result, state.s, grid, found);
+        return result;
+    }
+    if (!ramp) return result; // the plan comes to rest as soon
+    result.cutAfter(ramp->begin);
+    follow(result, *ramp);
+    result.rest(0);
+    return result;
+}
+
 void OptimalPlan::brake(Course& course, double now) const {
-    const auto found = slowing(course, now, 0);
-    if (!found) return; // the plan comes to rest as soon
-    course.cutAfter(found->begin);
-    follow(course, *found);
-    course.rest(0);
+    course = stopped(course, now);
 }
 
 double OptimalPlan::restPlace(const Course& course, double now) const {
+    return stopped(course, now).endPlace();
+}
+
+double OptimalPlan::evenRestPlace(const Course& course, double now) const {
     const auto found = slowing(course, now, 0);
     return found ? found->ramp.end(found->from).p : course.endPlace();
 }

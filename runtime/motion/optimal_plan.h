@@ -28,6 +28,8 @@ class OptimalPlan {
     void brake(Course& course, double now) const;
     /// The place where brake() would let it rest.
     double restPlace(const Course& course, double now) const;
+    /// ... if it brakes evenly, which may be further on; found faster.
+    double evenRestPlace(const Course& course, double now) const;
     /// From a place back to an earlier one, as mm from the first; at most at this speed of the TCP.
     Course courseBack(double time, double from, double to, double mmPerSecond) const;
 
@@ -50,6 +52,7 @@ class OptimalPlan {
     /// Samples the course and lowers the limits where the arm would exceed them; false when it was not necessary.
     bool tightenWhereExceeded(const Course& course, const Route& route, double time, double share);
     double useAt(const Route& route, const std::array<Joints, 3>& axes, double place) const;
+    Course stopped(const Course& course, double now) const;
     static void follow(Course& course, const Slowing& slowing);
 
     ArmLimits limits_;

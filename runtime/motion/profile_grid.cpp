@@ -45,7 +45,8 @@ double restWidthOf(const ProfileCell& cell, const ProfileRows& rows, double leng
 }
 
 /// Widths of cells at the borders of the path's pieces.
-std::vector<double> sizesOf(const std::vector<ProfileCell>& path, const ProfileGrid& grid) {
+std::vector<double> sizesOf(const std::vector<ProfileCell>& path, const ProfileGrid& grid,
+                            double firstShare) {
     std::vector<double> sizes(path.size() + 1, 1e300);
     const bool isMoving = grid.start.v > 0;
     sizes.front() = kGrowth * grid.start.restWidth;
@@ -53,14 +54,15 @@ std::vector<double> sizesOf(const std::vector<ProfileCell>& path, const ProfileG
         const double v = grid.start.v;
         sizes.front() = kResolution * limitsOf(path.front().first, path.front().mostSquare).riseAt(v);
         if (grid.start.a != 0) sizes.front() = std::min(sizes.front(), 0.3 * v * v / std::abs(grid.start.a));
-        sizes.front() = std::max(sizes.front(), 1e-6);
+        sizes.front() = std::max(firstShare * sizes.front(), 1e-6);
     }
     sizes.back() = kGrowth * grid.endWidth;
     for (std::size_t i = 1; i < path.size(); ++i) {
         const double low = std::min(path[i - 1].mostSquare, path[i].mostSquare);
         const double high = std::max(path[i - 1].mostSquare, path[i].mostSquare);
         if (path[i].isSmooth && high < 1.3 * low) continue;
-        sizes[i] = std::max(kResolution * limitsOf(path[i].first, low).riseAt(std::sqrt(std::min(low, 1e8))), 1e-3);
+        sizes[i] =
+            std::max(kResolution * limitsOf(path[i].first, low).riseAt(std::sqrt(std::min(low, 1e8))), 1e-3);
     }
     for (std::size_t i = 1; i < sizes.size(); ++i)
         sizes[i] = std::min(sizes[i], sizes[i - 1] + kGrowth * path[i - 1].width);
@@ -94,7 +96,7 @@ ProfileCell partOf(const ProfileCell& cell, double from, double to) {
     return part;
 }
 
-ProfileGrid gridOf(const std::vector<ProfileCell>& path, const ProfileStart& start) {
+ProfileGrid gridOf(const std::vector<ProfileCell>& path, const ProfileStart& start, double firstShare) {
     ProfileGrid grid;
     grid.start = start;
     std::vector<ProfileCell> pieces = path;
@@ -106,7 +108,7 @@ ProfileGrid gridOf(const std::vector<ProfileCell>& path, const ProfileStart& sta
     grid.endWidth = restWidthOf(pieces.back(), pieces.back().last, length);
     if (!isMoving) pieces.front() = partOf(pieces.front(), grid.start.restWidth / pieces.front().width, 1);
     pieces.back() = partOf(pieces.back(), 0, 1 - grid.endWidth / pieces.back().width);
-    const std::vector<double> sizes = sizesOf(pieces, grid);
+    const std::vector<double> sizes = sizesOf(pieces, grid, firstShare);
     std::vector<double> borders;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const double width = pieces[i].width;
@@ -120,8 +122,8 @@ ProfileGrid gridOf(const std::vector<ProfileCell>& path, const ProfileStart& sta
         }
         const double scale = 1 / borders.back();
         for (std::size_t k = 1; k < borders.size(); ++k)
-            grid.cells.push_back(partOf(pieces[i], borders[k - 1] * scale,
-                                        k + 1 == borders.size() ? 1 : borders[k] * scale));
+            grid.cells.push_back(
+                partOf(pieces[i], borders[k - 1] * scale, k + 1 == borders.size() ? 1 : borders[k] * scale));
     }
     return grid;
 }

@@ -13,7 +13,8 @@ struct ProfileGrid {
 };
 
 /// `path`: cells from the place where the arm is, moving as in `start` or at rest, to the end of the path; not empty.
-ProfileGrid gridOf(const std::vector<ProfileCell>& path, const ProfileStart& start);
+/// `firstShare`: below 1 makes the first cells narrower, for a start that leaves little room.
+ProfileGrid gridOf(const std::vector<ProfileCell>& path, const ProfileStart& start, double firstShare = 1);
 
 /// The part of a cell between two shares (0 to 1) of its width.
 ProfileCell partOf(const ProfileCell& cell, double from, double to);

@@ -10,6 +10,7 @@ namespace {
 constexpr double kUnlimited = 1e200;
 constexpr double kLeastSlack = 0.02; // of a bound, at the beginning
 constexpr double kMargin = 1e-7;     // of each limit, kept free for rounding
+constexpr double kJerkShare = 0.997; // in a cell the speed may be a little higher than at its ends
 
 using Three = std::array<double, 3>;
 
@@ -39,6 +40,7 @@ ProfileSolver::Result ProfileSolver::solve(const std::vector<ProfileCell>& cells
     begin();
     constexpr int kMostIterations = 90;
     constexpr double kGapShare = 2e-3; // of the duration
+    constexpr double kBalanceShare = 1e-2;
     double share = 0.2;
     for (; result.iterations < kMostIterations; ++result.iterations) {
         double duration = 0;
@@ -46,8 +48,10 @@ ProfileSolver::Result ProfileSolver::solve(const std::vector<ProfileCell>& cells
             duration += width_[i] / std::sqrt(coefficient_[i + 1]);
         const double open = gap();
         const double pairs = static_cast<double>(2 * terms_.size() + cap_.size());
+        evaluate();
         result.excess = worstExcess();
-        if (open < kGapShare * duration && result.excess <= 0) break;
+        if (open < kGapShare * duration && result.excess <= 0 && imbalance() < kBalanceShare * duration)
+            break;
         assemble(std::max(share * open, 0.2 * kGapShare * duration) / pairs);
         if (!factorAndSolve()) return result;
         const double length = stepLength();
@@ -120,15 +124,14 @@ void ProfileSolver::setCaps(const std::vector<ProfileCell>& cells, const Profile
         for (std::size_t i = 0; i < rows.count; ++i) {
             const ProfileRow& row = rows.rows[i];
             if (row.jerk > kUnlimited) continue;
-            const double factor = std::max(std::abs(row.first) * 2 / (9 * width * width),
-                                           std::abs(row.first * 2 / (9 * width * width) +
-                                                    sign * 2 * row.second / width + row.third));
+            const double factor = std::max(
+                std::abs(row.first) * 2 / (9 * width * width),
+                std::abs(row.first * 2 / (9 * width * width) + sign * 2 * row.second / width + row.third));
             if (factor > 0) most = std::min(most, std::cbrt(row.jerk / factor * row.jerk / factor));
         }
         return most * (1 - kMargin);
     };
-    if (startsAtRest_)
-        lower(1, restSquare(cells.front().first, start.restWidth, 1) * 2 / (1 + firstRatio_));
+    if (startsAtRest_) lower(1, restSquare(cells.front().first, start.restWidth, 1) * 2 / (1 + firstRatio_));
     lower(cells_, restSquare(cells.back().last, endWidth, -1) * 2 / (1 + lastRatio_));
 }
 
@@ -154,7 +157,8 @@ void ProfileSolver::tightenCaps(const std::vector<ProfileCell>& cells) {
 }
 
 /// A speed that nearly keeps accelerations and jerks.
-void ProfileSolver::setGuess(const std::vector<ProfileCell>& cells, const ProfileStart& start, double endWidth) {
+void ProfileSolver::setGuess(const std::vector<ProfileCell>& cells, const ProfileStart& start,
+                             double endWidth) {
     double before = start.restWidth;
     double after = endWidth;
     for (const double width : width_)
@@ -233,9 +237,9 @@ void ProfileSolver::addJerks(std::size_t cell, const ProfileRows& rows, const Li
     double most = 1e7; // largest acceleration along the path
     for (std::size_t i = 0; i < rows.count; ++i)
         if (std::abs(rows.rows[i].first) > 1e-14)
-            most = std::min(most, (std::max(rows.rows[i].up, rows.rows[i].down) +
-                                   std::abs(rows.rows[i].second) * cap) /
-                                      std::abs(rows.rows[i].first));
+            most = std::min(
+                most, (std::max(rows.rows[i].up, rows.rows[i].down) + std::abs(rows.rows[i].second) * cap) /
+                          std::abs(rows.rows[i].first));
     constexpr std::size_t kCorners = 6;
     std::array<std::array<Range, kCorners>, ProfileRows::kMost> ranges;
     std::size_t tight = 0;
@@ -275,7 +279,7 @@ void ProfileSolver::addJerks(std::size_t cell, const ProfileRows& rows, const Li
             term.row[k] =
                 (row.first * change[k] + 3 * row.second * at.slope[k] + row.third * at.place[k]) / unit;
         term.square = at.place;
-        term.up = term.down = std::sqrt(cap) * (1 - kMargin);
+        term.up = term.down = std::sqrt(cap) * kJerkShare;
         addTerm(term);
     }
 }
@@ -300,17 +304,23 @@ ProfileSolver::Bounds ProfileSolver::boundsOf(const Term& term) const {
     const double value = dot(term.row, c);
     if (!term.isJerk) {
         const Three& r = term.row;
-        return {{value - term.up, -value - term.down}, {{r, {-r[0], -r[1], -r[2]}}}};
+        return {{value - term.up, -value - term.down}, {{r, {-r[0], -r[1], -r[2]}}}, {term.up, term.down}};
     }
     const double square = std::max(dot(term.square, c), 1e-12);
     const double bound = term.up / std::sqrt(square);
     const double fall = 0.5 * bound / square;
-    Bounds result{{value - bound, -value - bound}, {}};
+    Bounds result{{value - bound, -value - bound}, {}, {bound, bound}};
     for (std::size_t k = 0; k < 3; ++k) {
         result.gradient[0][k] = term.row[k] + fall * term.square[k];
         result.gradient[1][k] = -term.row[k] + fall * term.square[k];
     }
     return result;
+}
+
+void ProfileSolver::evaluate() {
+    bounds_.resize(terms_.size());
+    for (std::size_t n = 0; n < terms_.size(); ++n)
+        bounds_[n] = boundsOf(terms_[n]);
 }
 
 void ProfileSolver::begin() {
@@ -351,21 +361,23 @@ void ProfileSolver::assemble(double target) {
         diagonal_[i] = -1.5 * slope / coefficient_[i] + ratio;
         right_[i] = -slope - target / capSlack_[i] - ratio * miss;
     }
-    for (const Term& term : terms_) {
-        const Bounds bounds = boundsOf(term);
+    for (std::size_t n = 0; n < terms_.size(); ++n) {
+        const Term& term = terms_[n];
+        const Bounds& bounds = bounds_[n];
         const std::size_t i = term.at;
         for (std::size_t side = 0; side < 2; ++side) {
             const Three& g = bounds.gradient[side];
-            const double ratio = term.force[side] / term.slack[side];
-            const double pull =
-                target / term.slack[side] + ratio * (bounds.value[side] + term.slack[side]);
+            const double inverse = 1 / term.slack[side];
+            const double ratio = term.force[side] * inverse;
+            const double pull = target * inverse + ratio * (bounds.value[side] + term.slack[side]);
+            const Three scaled{ratio * g[0], ratio * g[1], ratio * g[2]};
             for (std::size_t k = 0; k < 3; ++k) {
-                diagonal_[i + k] += ratio * g[k] * g[k];
+                diagonal_[i + k] += scaled[k] * g[k];
                 right_[i + k] -= pull * g[k];
             }
-            next_[i] += ratio * g[0] * g[1];
-            next_[i + 1] += ratio * g[1] * g[2];
-            second_[i] += ratio * g[0] * g[2];
+            next_[i] += scaled[0] * g[1];
+            next_[i + 1] += scaled[1] * g[2];
+            second_[i] += scaled[0] * g[2];
         }
     }
     for (std::size_t i = 0; i < count; ++i) {
@@ -421,15 +433,15 @@ double ProfileSolver::stepLength() {
         keep(capForce_[i], capForceStep_[i] = target_ / capSlack_[i] - capForce_[i] -
                                               capForce_[i] / capSlack_[i] * capSlackStep_[i]);
     }
-    for (Term& term : terms_) {
-        const Bounds bounds = boundsOf(term);
+    for (std::size_t n = 0; n < terms_.size(); ++n) {
+        Term& term = terms_[n];
+        const Bounds& bounds = bounds_[n];
         for (std::size_t side = 0; side < 2; ++side) {
             double& slackStep = term.slackStep[side];
             double& forceStep = term.forceStep[side];
-            slackStep = -(bounds.value[side] + term.slack[side]) -
-                        dot(bounds.gradient[side], &step_[term.at]);
-            forceStep = target_ / term.slack[side] - term.force[side] -
-                        term.force[side] / term.slack[side] * slackStep;
+            slackStep =
+                -(bounds.value[side] + term.slack[side]) - dot(bounds.gradient[side], &step_[term.at]);
+            forceStep = (target_ - term.force[side] * slackStep) / term.slack[side] - term.force[side];
             keep(term.slack[side], slackStep);
             keep(term.force[side], forceStep);
         }
@@ -455,6 +467,25 @@ void ProfileSolver::advance(double length) {
     coefficient_[count - 1] = lastRatio_ * coefficient_[count - 2];
 }
 
+/// How far the forces are from holding the coefficients in balance, as the time that a change by their own size gains, s.
+double ProfileSolver::imbalance() {
+    const std::size_t count = coefficient_.size();
+    step_.assign(count, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (fixed_[i] != 0) continue;
+        const double weight = width_[std::min(i, cells_) - 1];
+        step_[i] = capForce_[i] - 0.5 * weight / (coefficient_[i] * std::sqrt(coefficient_[i]));
+    }
+    for (std::size_t n = 0; n < terms_.size(); ++n)
+        for (std::size_t side = 0; side < 2; ++side)
+            for (std::size_t k = 0; k < 3; ++k)
+                step_[terms_[n].at + k] += terms_[n].force[side] * bounds_[n].gradient[side][k];
+    double sum = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        if (fixed_[i] == 0) sum += std::abs(step_[i]) * coefficient_[i];
+    return sum;
+}
+
 /// What is still to be gained, s.
 double ProfileSolver::gap() const {
     double sum = 0;
@@ -469,12 +500,11 @@ double ProfileSolver::worstExcess() const {
     double worst = -1;
     for (std::size_t i = 0; i < cap_.size(); ++i)
         if (fixed_[i] == 0) worst = std::max(worst, (coefficient_[i] - cap_[i]) / cap_[i] - kMargin / 2);
-    for (const Term& term : terms_) {
-        const Bounds bounds = boundsOf(term);
-        const double square = term.isJerk ? std::max(dot(term.square, &coefficient_[term.at]), 1e-12) : 1;
-        const double up = term.up / std::sqrt(square);
-        const double down = term.down / std::sqrt(square);
-        worst = std::max({worst, bounds.value[0] / up - kMargin / 2, bounds.value[1] / down - kMargin / 2});
+    for (std::size_t n = 0; n < terms_.size(); ++n) {
+        const Bounds& bounds = bounds_[n];
+        // A share of the bound; only whether it is above 0 counts while it is far off.
+        const double up = std::max(bounds.value[0] / bounds.limit[0], bounds.value[1] / bounds.limit[1]);
+        worst = std::max(worst, up - kMargin / 2);
     }
     return worst;
 }

@@ -70,9 +70,11 @@ class ProfileSolver {
     struct Bounds { // of a term at the present coefficients: below 0 when kept; its gradients
         std::array<double, 2> value;
         std::array<std::array<double, 3>, 2> gradient;
+        std::array<double, 2> limit;
     };
     struct Lines {
-        std::array<double, 3> place{}, slope{}; // of a node: square of the speed and acceleration by coefficients
+        std::array<double, 3> place{},
+            slope{}; // of a node: square of the speed and acceleration by coefficients
     };
     void prepare(const std::vector<ProfileCell>& cells, const ProfileStart& start, double endWidth);
     void setCaps(const std::vector<ProfileCell>& cells, const ProfileStart& start, double endWidth);
@@ -85,20 +87,23 @@ class ProfileSolver {
     void addTerm(Term term);
     Bounds boundsOf(const Term& term) const;
     void begin();
+    void evaluate();
     void assemble(double target);
     bool factorAndSolve();
     double stepLength();
     void advance(double length);
+    double imbalance();
     double gap() const;
     double worstExcess() const;
 
     std::size_t cells_ = 0;
     std::vector<double> width_, coefficient_, cap_, capSlack_, capForce_, capSlackStep_, capForceStep_;
     std::vector<Term> terms_;
+    std::vector<Bounds> bounds_; // of the terms at the present coefficients
     std::vector<double> diagonal_, next_, second_, right_, step_;
     std::vector<char> fixed_;
     double firstRatio_ = 1, lastRatio_ = 1; // of the outermost coefficients to their neighbours, at rest
-    double target_ = 0; // product of slack and force that is aimed at
+    double target_ = 0;                     // product of slack and force that is aimed at
     bool startsAtRest_ = true;
 };
 

@@ -114,7 +114,7 @@ class Route {
     std::deque<Leg> legs_;
     std::deque<Corner> corners_; // at the end of each leg
     std::deque<RouteStretch> stretches_;
-    std::size_t keptStretches_ = 0;              // at the last append()
+    std::size_t keptStretches_ = 0;               // at the last append()
     std::vector<RouteStretch> replacedStretches_; // by it, the last one first
 };
 

@@ -121,8 +121,7 @@ void limitSpeed(ProfileCell& cell, const Sampled& sampled, const MoveLimits& mos
     for (std::size_t k = 0; k < kSamples; ++k) {
         const Vec3& p = sampled.tcp[k].pos;
         way[0][k] = p.x, way[1][k] = p.y, way[2][k] = p.z;
-        if (k > 0)
-            turn = std::max(turn, robot::angleBetween(sampled.tcp[k - 1].rot, sampled.tcp[k].rot) / h);
+        if (k > 0) turn = std::max(turn, robot::angleBetween(sampled.tcp[k - 1].rot, sampled.tcp[k].rot) / h);
     }
     for (const bool isLast : {false, true}) {
         double square = 0;
@@ -155,9 +154,9 @@ ProfileCell measuredCell(const Route& route, const RouteStretch& stretch, const 
     for (std::size_t k = 0; k < kSamples; ++k) {
         // Just inside: what counts beyond the border belongs to the neighbour.
         const double inside = k == 0 ? 1e-9 : k + 1 == kSamples ? -1e-9 : 0;
-        sampled.points[k] =
-            route.at(stretch.begin + sampled.step * (static_cast<double>(k) + inside));
-        sampled.tcp[k] = leg.path->frames().fromFlange(leg.path->kinematics().forward(sampled.points[k].joints));
+        sampled.points[k] = route.at(stretch.begin + sampled.step * (static_cast<double>(k) + inside));
+        sampled.tcp[k] =
+            leg.path->frames().fromFlange(leg.path->kinematics().forward(sampled.points[k].joints));
     }
     limitSpeed(cell, sampled, most);
     std::array<Joints, 2> accelerations{sampled.points[0].joints, sampled.points[0].joints};

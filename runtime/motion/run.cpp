@@ -117,7 +117,8 @@ bool Run::appendOptimal(double changed, double now) {
     const bool isFirst = route_.legCount() == 1;
     const std::size_t from = route_.keptStretches();
     optimal_->measure(route_, from);
-    if (isBraking_ || optimal_->plan(course_, route_, std::max(now, start_), changed, share_) || isFirst) return true;
+    if (isBraking_ || optimal_->plan(course_, route_, std::max(now, start_), changed, share_) || isFirst)
+        return true;
     route_.undoAppend();
     optimal_->measure(route_, std::min(from, route_.stretches().size()));
     return false;
@@ -342,7 +343,7 @@ double Run::decisionTime() const {
     double high = std::max(low, known);
     for (int i = 0; i < 16 && high - low > 1e-3; ++i) {
         const double middle = 0.5 * (low + high);
-        (restPlace(middle) <= entry ? low : high) = middle;
+        (optimal_->evenRestPlace(course_, middle) <= entry ? low : high) = middle;
     }
     decision_ = low;
     return low;
