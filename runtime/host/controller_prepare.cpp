@@ -159,8 +159,10 @@ ExitStatus Controller::openRobots(const ProgramDesc& program) {
         fmt::print(stderr, "warning: the robot {} of MOC.cfg is not in the catalogue: it does not move\n",
                    robot);
     for (const MotionGroup& group : units_.groups()) {
-        motions_.push_back(std::make_unique<MotionDriver>(scheduler_, group.model, group.options, group.robot,
-                                                          motions_.size()));
+        motion::MotionOptions how = group.options;
+        if (options_.planner == "optimal") how.planner = motion::Planner::Optimal;
+        motions_.push_back(
+            std::make_unique<MotionDriver>(scheduler_, group.model, how, group.robot, motions_.size()));
         motions_.back()->addListener([this, &motion = *motions_.back()](ArmNews news) {
             if (news != ArmNews::CornerLost) return;
             log_.write(EventId::CornerPathFailure, motion.orderingTask(), {motion.unitName()});

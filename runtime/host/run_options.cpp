@@ -122,6 +122,11 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
         .oneValueEach();
     addDisks(command, options);
     command
+        .add("--planner", options.planner,
+             "what times movements: measured (as real controllers; default) or optimal (shortest time "
+             "within all limits, also of jerk)")
+        .oneOf({"measured", "optimal"});
+    command
         .add("--stimulus", options.stimulus,
              "what happens from outside: lines time_s,target,value; a file, a pipe, or - for the "
              "standard input")

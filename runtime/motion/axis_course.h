@@ -1,6 +1,8 @@
 #pragma once
-// AxisCourse: one axis that moves for itself (manual 2.2.4), in pieces of constant acceleration. Degrees and seconds; a
-// course never changes.
+// AxisCourse: one axis that moves for itself (manual 2.2.4), in pieces of constant acceleration, or of constant jerk when
+// that is limited. Degrees and seconds; a course never changes.
+
+#include "runtime/motion/velocity_ramp.h"
 
 #include <vector>
 
@@ -18,9 +20,11 @@ class AxisCourse {
     AxisCourse(double time, AxisMoment from);
 
     /// What is executed up to `time` remains. Then to a position, at most at this speed (above 0) ...
-    AxisCourse movedTo(double time, double position, double speed, double acceleration) const;
+    /// `jerk`: deg/s^3; 0 = not limited.
+    AxisCourse movedTo(double time, double position, double speed, double acceleration,
+                       double jerk = 0) const;
     /// ... or at a speed for ever; 0: it comes to rest.
-    AxisCourse turning(double time, double speed, double acceleration) const;
+    AxisCourse turning(double time, double speed, double acceleration, double jerk = 0) const;
 
     /// Also for times shortly before the last change; before the beginning it is as it begins.
     AxisMoment at(double time) const;
@@ -29,14 +33,17 @@ class AxisCourse {
 
   private:
     struct Piece {
-        double start, position, speed, acceleration;
+        double start, position, speed, acceleration, jerk = 0;
     };
     static AxisMoment momentOn(const Piece& piece, double time);
     AxisCourse upTo(double time) const;
     void changeSpeed(double speed, double acceleration);
     void keepSpeed(double seconds);
+    AxisState lastState() const;
+    void keepJerk(double seconds, double jerk);
+    void settle(double position, double speed);
 
-    std::vector<Piece> pieces_; ///< the last one without acceleration
+    std::vector<Piece> pieces_; ///< the last one without acceleration and jerk
 };
 
 } // namespace motion

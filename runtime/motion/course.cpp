@@ -6,7 +6,8 @@
 namespace motion {
 
 Course::Course(double time, double place, double longWindow, double shortWindow)
-    : knots_{Knot{time, 0, 0, 0, 0, 0}}, origin_(place), longWindow_(longWindow), shortWindow_(shortWindow) {}
+    : knots_{Knot{time, 0, 0, 0, 0, 0, {}}}, origin_(place), longWindow_(longWindow),
+      shortWindow_(shortWindow) {}
 
 void Course::push(const Knot& knot) {
     const Integrals there = integralsAt(knot.t); // with the acceleration of the last knot
@@ -24,12 +25,75 @@ void Course::moveTo(double place, double speed) {
         return;
     }
     last.a = (speed - last.v) / duration;
-    push({last.t + duration, place - origin_, speed, 0, 0, 0});
+    push({last.t + duration, place - origin_, speed, 0, 0, 0, {}});
+}
+
+void Course::follow(double v, double a, Change change, double seconds, double place) {
+    if (!(seconds > 0)) return;
+    Knot& last = knots_.back();
+    last.v = v;
+    last.a = a;
+    last.change = change;
+    const CourseState end = stateOn(last, seconds);
+    knots_.push_back({last.t + seconds, place - origin_, std::max(0.0, end.v), end.a, 0, 0, {}});
+}
+
+double Course::secondsFor(double way, double v, double endV, double perMm) {
+    const double mean = v + endV;
+    if (!(way > 0) || !(mean > 0)) return 0;
+    const double rate = std::sqrt(std::abs(perMm));
+    const double share = rate * way / mean;
+    if (share < 1e-4) return 2 * way / mean * (1 + (perMm > 0 ? 1 : -1) * share * share / 3);
+    return 2 / rate * (perMm > 0 ? std::atanh(std::min(share, 1 - 1e-15)) : std::atan(share));
+}
+
+/// That long after a knot.
+CourseState Course::stateOn(const Knot& knot, double t) {
+    const double j = knot.change.perSecond;
+    const double bend = knot.change.perMm;
+    const double angle = bend * t * t;
+    if (std::abs(angle) < 1e-3) { // also constant jerk; the rest of the series is below rounding
+        const double j0 = j + bend * knot.v;
+        const double j1 = bend * knot.a, j2 = bend * bend * knot.v, j3 = bend * bend * knot.a;
+        const double s3 = j0 / 6, s4 = j1 / 24, s5 = j2 / 120, s6 = j3 / 720;
+        return {knot.s + t * (knot.v + t * (knot.a / 2 + t * (s3 + t * (s4 + t * (s5 + t * s6))))),
+                knot.v + t * (knot.a + t * (3 * s3 + t * (4 * s4 + t * (5 * s5 + t * 6 * s6)))),
+                knot.a + t * (6 * s3 + t * (12 * s4 + t * (20 * s5 + t * 30 * s6)))};
+    }
+    const double rate = std::sqrt(std::abs(bend));
+    const double x = rate * t;
+    const double even = bend > 0 ? std::cosh(x) : std::cos(x);
+    const double odd = (bend > 0 ? std::sinh(x) : std::sin(x)) / rate;
+    return {knot.s + knot.a * (even - 1) / bend + knot.v * odd, knot.v * even + knot.a * odd,
+            knot.a * even + bend * knot.v * odd};
+}
+
+/// Seconds from a knot over `way` mm, at most `most`.
+double Course::timeOn(const Knot& knot, double way, double most) {
+    if (!(way > 0)) return 0;
+    if (knot.change.perSecond == 0) {
+        const double square = knot.v * knot.v + way * (2 * knot.a + knot.change.perMm * way);
+        return std::min(most, secondsFor(way, knot.v, std::sqrt(std::max(0.0, square)), knot.change.perMm));
+    }
+    double low = 0;
+    double high = most;
+    double time = 0.5 * most;
+    for (int i = 0; i < 80 && high - low > 1e-13; ++i) {
+        const CourseState state = stateOn(knot, time);
+        const double miss = state.s - knot.s - way;
+        (miss < 0 ? low : high) = time;
+        const double newton = state.v > 0 ? time - miss / state.v : low;
+        const bool isInside = newton > low && newton < high;
+        if (isInside && std::abs(newton - time) < 1e-13) return newton;
+        time = isInside ? newton : 0.5 * (low + high);
+    }
+    return time;
 }
 
 void Course::rest(double seconds) {
     knots_.back().v = knots_.back().a = 0;
-    if (seconds > 0) push({knots_.back().t + seconds, knots_.back().s, 0, 0, 0, 0});
+    knots_.back().change = {};
+    if (seconds > 0) push({knots_.back().t + seconds, knots_.back().s, 0, 0, 0, 0, {}});
 }
 
 void Course::cutAfter(double time) {
@@ -39,14 +103,29 @@ void Course::cutAfter(double time) {
         knots_.pop_back();
     if (time <= knots_.front().t) {
         knots_.back().v = knots_.back().a = 0;
+        knots_.back().change = {};
         return;
     }
-    push({time, state.s - origin_, state.v, 0, 0, 0});
+    push({time, state.s - origin_, state.v, isExact() ? state.a : 0, 0, 0, {}});
 }
 
 void Course::shift(double seconds) {
     for (Knot& knot : knots_)
         knot.t += seconds;
+}
+
+double Course::slowBy(double factor) {
+    double fastest = 0;
+    const double begin = knots_.front().t;
+    for (Knot& knot : knots_) {
+        knot.t = begin + factor * (knot.t - begin);
+        knot.v /= factor;
+        knot.a /= factor * factor;
+        knot.change.perSecond /= factor * factor * factor;
+        knot.change.perMm /= factor * factor;
+        fastest = std::max(fastest, knot.v);
+    }
+    return fastest;
 }
 
 void Course::forgetBefore(double time) {
@@ -94,12 +173,19 @@ CourseState Course::plannedAt(double time) const {
     const Knot& from = knotAt(time);
     const double t = std::max(0.0, time - from.t);
     const bool isBefore = time < knots_.front().t;
+    if (isExact()) {
+        const CourseState state = isBefore ? CourseState{from.s, 0, 0} : stateOn(from, t);
+        return {origin_ + state.s, std::max(0.0, state.v), state.a};
+    }
     return {origin_ + from.s + t * (from.v + t * from.a / 2), isBefore ? 0 : from.v + t * from.a, from.a};
 }
 
 double Course::lastBraking() const {
     std::size_t i = knots_.size() - 1;
-    while (i > 0 && knots_[i - 1].a < 0)
+    const auto brakes = [&](std::size_t piece) {
+        return isExact() ? knots_[piece + 1].v < knots_[piece].v * (1 - 1e-5) : knots_[piece].a < 0;
+    };
+    while (i > 0 && brakes(i - 1))
         --i;
     return knots_[i].t;
 }
@@ -112,6 +198,7 @@ double Course::plannedTimeAt(double place) const {
     if (after == knots_.end()) return knots_.back().t;
     const Knot& from = *(after - 1);
     const double way = wanted - from.s;
+    if (isExact()) return from.t + timeOn(from, way, after->t - from.t);
     const double speed = std::sqrt(std::max(0.0, from.v * from.v + 2 * from.a * way));
     return from.t + (way > 0 ? std::min(2 * way / (from.v + speed), after->t - from.t) : 0);
 }
@@ -119,6 +206,7 @@ double Course::plannedTimeAt(double place) const {
 CourseState Course::at(double time) const {
     if (time >= end()) return {endPlace(), 0, 0};
     if (time <= knots_.front().t) return {origin_ + knots_.front().s, 0, 0};
+    if (isExact()) return plannedAt(time);
     const Integrals now = integralsAt(time);
     const Integrals first = integralsAt(time - longWindow_);
     const Integrals second = integralsAt(time - shortWindow_);
@@ -135,6 +223,7 @@ double Course::timeAt(double place) const {
     constexpr double kNothing = 1e-9; // mm
     if (place >= endPlace() - kNothing) return end();
     double low = plannedTimeAt(place);
+    if (isExact()) return low;
     double high = low + longWindow_ + shortWindow_;
     if (place <= origin_ + knots_.front().s + kNothing) return knots_.front().t;
     double time = 0.5 * (low + high);

@@ -2,6 +2,7 @@
 // Course: the place along a path over time. It is planned in pieces of constant acceleration and executed as the average of
 // that plan over two windows in time, which is how controllers limit jerk (docs/motion.md). What has been executed up to
 // a moment depends only on the plan up to that moment, so the rest of the plan can be replaced at any time.
+// An exact course has no windows: it is executed as planned, in pieces that limit jerk themselves.
 
 #include <cstddef>
 #include <deque>
@@ -22,17 +23,34 @@ class Course {
     /// Continues the plan from its end to `place` (not before the end) with constant acceleration; `speed` there.
     /// At least one of the speeds at both ends is positive.
     void moveTo(double place, double speed);
+    /// At rest at `place` from `time` (s) on and before; executed as planned.
+    static Course exact(double time, double place) { return {time, place, 0, 0}; }
+    bool isExact() const { return longWindow_ == 0; }
+    /// How acceleration changes on a piece of an exact course: by the time, or by the place, which makes the square of the
+    /// speed a quadratic function of the place.
+    struct Change {
+        double perSecond = 0; ///< mm/s^3
+        double perMm = 0;     ///< 1/s^2; one of the two is 0
+    };
+    /// Continues an exact plan from its end, where it has speed v and acceleration a, for that many seconds to a place.
+    void follow(double v, double a, Change change, double seconds, double place);
+    /// Seconds for `way` mm on which the acceleration changes by the place, with these speeds at both ends.
+    static double secondsFor(double way, double v, double endV, double perMm);
+
     /// Continues the plan with rest for that many seconds. The plan ends at rest.
     void rest(double seconds);
     /// Drops what is planned after `time`. The plan then ends there, perhaps moving.
     void cutAfter(double time);
     /// Shifts the whole course in time by that many seconds.
     void shift(double seconds);
+    /// Makes the whole exact plan take that many times as long; its highest speed then, mm/s.
+    double slowBy(double factor);
     /// Forgets what no question about `time` or later needs.
     void forgetBefore(double time);
 
     /// The plan, before it is averaged.
     CourseState plannedAt(double time) const;
+    double begin() const { return knots_.front().t; }     ///< s, of what is remembered
     double plannedEnd() const { return knots_.back().t; } ///< s
     double endPlace() const { return knots_.back().s + origin_; }
     /// When the last braking of the plan begins; its end if it does not end with braking.
@@ -51,11 +69,14 @@ class Course {
     struct Knot {
         double t = 0, s = 0, v = 0, a = 0; // the acceleration holds until the next knot
         double once = 0, twice = 0;        // integrals of s over time since the first knot
+        Change change{};                   // until the next knot; of an exact course
     };
     struct Integrals {
         double s, once, twice, v;
     };
     const Knot& knotAt(double time) const;
+    static CourseState stateOn(const Knot& knot, double seconds);
+    static double timeOn(const Knot& knot, double way, double most);
     Integrals integralsAt(double time) const;
     void push(const Knot& knot);
 

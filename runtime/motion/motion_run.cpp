@@ -36,7 +36,9 @@ TimeNs MotionSystem::Impl::restTime() const {
 }
 
 std::shared_ptr<Trajectory> MotionSystem::Impl::newPath(const JointTarget& start, double earliest) const {
-    auto path = std::make_shared<Trajectory>(model, options.external, TrajectoryOptions{}, start, earliest);
+    TrajectoryOptions wanted;
+    wanted.planner = options.planner;
+    auto path = std::make_shared<Trajectory>(model, options.external, wanted, start, earliest);
     path->setSpeedShare(seconds(), speedShare());
     return path;
 }

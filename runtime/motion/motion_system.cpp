@@ -43,6 +43,9 @@ MotionSystem& MotionSystem::operator=(MotionSystem&&) noexcept = default;
 const robot::RobotModel& MotionSystem::model() const {
     return impl_->model;
 }
+Planner MotionSystem::planner() const {
+    return impl_->options.planner;
+}
 const robot::Kinematics& MotionSystem::kinematics() const {
     return impl_->kinematics;
 }

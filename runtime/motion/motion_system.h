@@ -8,6 +8,7 @@
 #include "runtime/motion/motion_state.h"
 #include "runtime/motion/move_command.h"
 #include "runtime/motion/move_limits.h"
+#include "runtime/motion/planner.h"
 #include "runtime/motion/targets.h"
 #include "runtime/robot/kinematics.h"
 #include "runtime/robot/robot_model.h"
@@ -57,6 +58,7 @@ struct MotionOptions {
     std::size_t maxQueued = 64; ///< moves ordered ahead; more is QueueFull
     /// How long before its zone is entered, or braking for its point has to begin, a fly-by move lets the program go on.
     TimeNs programLead = 100'000'000;
+    Planner planner = Planner::Measured;
 };
 
 class MotionSystem {
@@ -69,6 +71,7 @@ class MotionSystem {
 
     const robot::RobotModel& model() const;
     const robot::Kinematics& kinematics() const;
+    Planner planner() const;
 
     // ---- ordering moves ----
     /// Orders a move from where the last ordered one ends. Returns at once; the move starts now if the arm

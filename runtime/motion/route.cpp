@@ -72,22 +72,34 @@ std::optional<double> Route::append(Leg leg, double fixedUpTo) {
         if (kind == CornerKind::Space && (!inSpace || betweenJoints)) continue;
         makeCorner(kind, first, second, fixedUpTo);
         const double changed = zoneBegin(corners_[corners_.size() - 2]);
-        std::vector<RouteStretch> replaced; // last one first
+        std::vector<RouteStretch>& replaced = replacedStretches_;
+        replaced.clear();
         while (!stretches_.empty() && stretches_.back().end > changed + kNothing) {
             replaced.push_back(stretches_.back());
             stretches_.pop_back();
         }
-        const std::size_t kept = stretches_.size();
+        keptStretches_ = stretches_.size();
         if (layStretches(stretches_.empty() ? changed : stretches_.back().end)) return changed;
-        stretches_.resize(kept);
+        stretches_.resize(keptStretches_);
         stretches_.insert(stretches_.end(), replaced.rbegin(), replaced.rend());
     }
+    dropLastLeg();
+    return {};
+}
+
+void Route::dropLastLeg() {
     legs_.pop_back();
     corners_.pop_back();
     legs_.back().cutEnd = 0;
     corners_.back() = {};
     corners_.back().begin = legs_.back().end();
-    return {};
+}
+
+void Route::undoAppend() {
+    stretches_.resize(keptStretches_);
+    stretches_.insert(stretches_.end(), replacedStretches_.rbegin(), replacedStretches_.rend());
+    replacedStretches_.clear();
+    dropLastLeg();
 }
 
 void Route::makeCorner(CornerKind kind, double before, double after, double fixedUpTo) {

@@ -57,6 +57,11 @@ class Route {
     /// can be made any more: the route is unchanged then, and its end is a stop point.
     std::optional<double> append(Leg leg, double fixedUpTo);
 
+    /// How many stretches the last append() has left as they were.
+    std::size_t keptStretches() const { return keptStretches_; }
+    /// Takes back the last append(); its end is a stop point again.
+    void undoAppend();
+
     std::size_t legCount() const { return firstLeg_ + legs_.size(); }
     const Leg& leg(std::size_t number) const { return legs_[number - firstLeg_]; }
     Leg& leg(std::size_t number) { return legs_[number - firstLeg_]; }
@@ -101,6 +106,7 @@ class Route {
     static void blendTurn(Corner& corner, const Leg& a, const Leg& b, double before, double after);
     static void blendExternal(Corner& corner, const Leg& a, const Leg& b, double before, double after);
     void placeLastCorner();
+    void dropLastLeg();
     bool layStretches(double from);
     std::vector<double> bordersFrom(double from) const;
     bool measure(RouteStretch& stretch, const Joints& seed) const;
@@ -110,6 +116,8 @@ class Route {
     std::deque<Leg> legs_;
     std::deque<Corner> corners_; // at the end of each leg
     std::deque<RouteStretch> stretches_;
+    std::size_t keptStretches_ = 0;               // at the last append()
+    std::vector<RouteStretch> replacedStretches_; // by it, the last one first
 };
 
 } // namespace motion

@@ -69,18 +69,39 @@ void shapeStretch(Course& course, double from, double to, const StretchSpeeds& x
 } // namespace
 
 Run::Run(const RunSettings& settings, double start)
-    : settings_(settings), course_(start, 0, settings.longWindow, settings.shortWindow), start_(start),
-      share_(settings.speedShare), reachable_{0}, planned_{0} {}
+    : settings_(settings), course_(newCourse(start, 0)), start_(start), share_(settings.speedShare),
+      reachable_{0}, planned_{0} {
+    if (settings.planner == Planner::Optimal)
+        optimal_.emplace(ArmLimits{settings.accelerations, settings.jerk});
+}
+
+Course Run::newCourse(double time, double place) const {
+    if (settings_.planner == Planner::Optimal) return Course::exact(time, place);
+    return {time, place, settings_.longWindow, settings_.shortWindow};
+}
+
+/// The part of the route up to there can no longer change.
+double Run::fixedPlace(double now) const {
+    if (route_.legCount() == 0) return 0;
+    if (isBraking_) return course_.endPlace();
+    return now <= start_ ? 0 : course_.plannedAt(now).s;
+}
 
 bool Run::append(Leg leg, bool isOpen, double now) {
+    decision_.reset();
     if (!canAppend(now)) return false;
     const bool isFirst = route_.legCount() == 0;
-    const double fixed = fixedPlace(now);
     if (leg.duration > 0) leg.limits.pathSpeed = leg.length() / leg.duration;
-    const auto changed = route_.append(std::move(leg), fixed);
+    if (isFirst && !isOpen && optimal_) leg.limits.pathSpeed = kUnlimited; // meetDuration() slows it down
+    const auto changed = route_.append(std::move(leg), fixedPlace(now));
     if (!changed) return false;
+    if (optimal_ && !appendOptimal(*changed, now)) return false;
     isOpen_ = isOpen;
-    const std::size_t from = isFirst ? 0 : route_.stretchAt(*changed);
+    if (optimal_) {
+        if (isFirst && !isOpen) meetDuration();
+        return true;
+    }
+    const std::size_t from = isFirst ? 0 : std::min(route_.stretchAt(*changed), route_.keptStretches());
     limitStretches(from);
     planBackward(from);
     if (!isBraking_) planForward(now);
@@ -93,18 +114,24 @@ bool Run::canAppend(double now) const {
     return isOpen_ && (isBraking_ || now < course_.plannedEnd());
 }
 
-/// The part of the route up to there can no longer change.
-double Run::fixedPlace(double now) const {
-    if (route_.legCount() == 0 || (!isBraking_ && now <= start_)) return 0;
-    return isBraking_ ? course_.endPlace() : course_.plannedAt(now).s;
-}
-
 bool Run::appendTogether(Leg leg, std::vector<Leg> others, bool isOpen, double now) {
     if (!canAppend(now)) return false;
     const Companions before = *settings_.companions;
     if (!settings_.companions->append(std::move(others), route_, fixedPlace(now))) return false;
     if (append(std::move(leg), isOpen, now)) return true;
     *settings_.companions = before;
+    return false;
+}
+
+/// False, and the route is as before, when the arm can no longer take the corner within its limits.
+bool Run::appendOptimal(double changed, double now) {
+    const bool isFirst = route_.legCount() == 1;
+    const std::size_t from = route_.keptStretches();
+    optimal_->measure(route_, from);
+    if (isBraking_ || optimal_->plan(course_, route_, std::max(now, start_), changed, share_) || isFirst)
+        return true;
+    route_.undoAppend();
+    optimal_->measure(route_, std::min(from, route_.stretches().size()));
     return false;
 }
 
@@ -196,6 +223,7 @@ void Run::passStretch(std::size_t stretch, double from, double square) {
 /// A single move with a given duration: as slow as it has to be.
 void Run::meetDuration() {
     if (route_.legCount() != 1 || !(route_.leg(0).duration > 0)) return;
+    if (optimal_) return optimal_->slowTo(course_, start_, route_.leg(0).duration);
     const double wanted = route_.leg(0).duration;
     route_.leg(0).limits.pathSpeed = kUnlimited;
     limitStretches(0);
@@ -222,6 +250,14 @@ void Run::meetDuration() {
 }
 
 void Run::plan(double now, double speedShare) {
+    decision_.reset();
+    if (optimal_) {
+        share_ = speedShare;
+        if (route_.legCount() == 0) return;
+        isBraking_ = !optimal_->plan(course_, route_, std::max(now, start_), 0, speedShare) &&
+                     course_.endPlace() < route_.length() - kNothing;
+        return;
+    }
     if (speedShare != share_ || isBraking_) {
         share_ = speedShare;
         planBackward(0);
@@ -252,38 +288,62 @@ template <class Step> void Run::brakeFrom(const CourseState& state, Step step) c
 }
 
 void Run::brake(double now) {
+    decision_.reset();
     isBraking_ = true;
     if (now <= start_) { // it has not moved
-        course_ = Course(start_, 0, settings_.longWindow, settings_.shortWindow);
+        course_ = newCourse(start_, 0);
         return;
     }
-    const CourseState state = course_.plannedAt(now);
-    course_.cutAfter(now);
-    brakeFrom(state, [this](double place, double speed) { course_.moveTo(place, speed); });
-    course_.rest(0);
+    if (optimal_) {
+        optimal_->brake(course_, now);
+    } else {
+        const CourseState state = course_.plannedAt(now);
+        course_.cutAfter(now);
+        brakeFrom(state, [this](double place, double speed) { course_.moveTo(place, speed); });
+        course_.rest(0);
+    }
     isBraking_ = course_.endPlace() < route_.length() - kNothing;
 }
 
 double Run::restPlace(double now) const {
     if (now <= start_) return 0;
+    if (optimal_) return optimal_->restPlace(course_, now);
     const CourseState state = course_.plannedAt(now);
     double rest = state.s;
     brakeFrom(state, [&rest](double place, double) { rest = place; });
     return rest;
 }
 
+double Run::decisionTime() const {
+    const double entry = route_.zoneEntry(route_.legCount() - 1);
+    const double known = std::min(course_.lastBraking(), course_.timeAt(entry));
+    if (decision_) return *decision_;
+    // Any corner can be taken from where the arm could still stop before it.
+    double low = std::max(start_, course_.begin());
+    double high = std::max(low, known);
+    for (int i = 0; i < 16 && high - low > 1e-3; ++i) {
+        const double middle = 0.5 * (low + high);
+        (optimal_->evenRestPlace(course_, middle) <= entry ? low : high) = middle;
+    }
+    decision_ = low;
+    return low;
+}
+
 void Run::standAt(double time, double place) {
-    course_ = Course(time, place, settings_.longWindow, settings_.shortWindow);
+    decision_.reset();
+    course_ = newCourse(time, place);
     start_ = std::min(start_, time);
     isBraking_ = place < route_.length() - kNothing;
 }
 
 void Run::startAt(double time) {
+    decision_.reset();
     course_.shift(time - start_);
     start_ = time;
 }
 
 Course Run::courseBack(double time, double from, double to, double mmPerSecond) const {
+    if (optimal_) return optimal_->courseBack(time, from, to, mmPerSecond);
     struct Part {
         std::size_t stretch;
         double low, width, most, square = 0;
@@ -319,6 +379,7 @@ Course Run::courseBack(double time, double from, double to, double mmPerSecond) 
 void Run::forgetBefore(double time, double place) {
     course_.forgetBefore(time);
     const auto count = static_cast<std::ptrdiff_t>(route_.forgetBefore(place));
+    if (optimal_) return optimal_->forget(static_cast<std::size_t>(count));
     limits_.erase(limits_.begin(), limits_.begin() + count);
     reachable_.erase(reachable_.begin(), reachable_.begin() + count);
     planned_.erase(planned_.begin(), planned_.begin() + count);

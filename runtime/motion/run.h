@@ -1,9 +1,11 @@
 #pragma once
-// Run: a route with its timing, from one standstill to the next. The plan takes the highest speed along the route that keeps
-// all limits, with full acceleration before and after; the course averages it in time.
+// Run: a route with its timing, from one standstill to the next. The measured plan takes the highest speed along the route
+// that keeps all limits, with full acceleration before and after; the course averages it in time. The optimal plan is exact.
 
 #include "runtime/motion/course.h"
 #include "runtime/motion/companions.h"
+#include "runtime/motion/optimal_plan.h"
+#include "runtime/motion/planner.h"
 #include "runtime/motion/route.h"
 #include "runtime/motion/stretch_limits.h"
 #include "runtime/robot/dynamics.h"
@@ -17,6 +19,8 @@ struct RunSettings {
     double longWindow = 0.108, shortWindow = 0.048; ///< s
     double speedShare = 1;                          ///< of the programmed speed, above 0 to 1
     std::shared_ptr<Companions> companions; ///< robots that move together with this one; null for none
+    Planner planner = Planner::Measured;
+    Joints jerk{}; ///< deg/s^3; of the optimal planner
 };
 
 class Run {
@@ -45,6 +49,10 @@ class Run {
     /// Course back along the route, from a place to an earlier one, as mm from the first; at most at this speed.
     Course courseBack(double time, double from, double to, double mmPerSecond) const;
 
+    /// When a leg that is to follow the open end has to be known for its corner to be possible,
+    /// s; of the optimal plan.
+    double decisionTime() const;
+
     const Route& route() const { return route_; }
     const Course& course() const { return course_; }
     double start() const { return start_; }
@@ -54,8 +62,10 @@ class Run {
     void forgetBefore(double time, double place);
 
   private:
-    bool canAppend(double now) const;
+    Course newCourse(double time, double place) const;
     double fixedPlace(double now) const;
+    bool appendOptimal(double changed, double now);
+    bool canAppend(double now) const;
     void limitStretches(std::size_t from);
     template <class Step> void brakeFrom(const CourseState& state, Step step) const;
     double speedSquare(std::size_t stretch) const;
@@ -66,13 +76,15 @@ class Run {
     double nodePlace(std::size_t node) const;
 
     RunSettings settings_;
+    std::optional<OptimalPlan> optimal_;
     Route route_;
     Course course_;
     double start_ = 0;
     double share_ = 1;
     bool isOpen_ = false;
     bool isBraking_ = false;
-    std::deque<StretchLimits> limits_; // of each stretch
+    mutable std::optional<double> decision_; // found since the plan changed last; of the optimal plan
+    std::deque<StretchLimits> limits_;       // of each stretch
     std::deque<double> reachable_; // largest squares of speed at the beginnings of stretches, then at the end
     std::deque<double> planned_;   // squares of the plan there
     std::size_t changed_ = 0;      // nodes from this one on have a new reachable speed

@@ -79,11 +79,9 @@ Trajectory::Appended Trajectory::append(const std::shared_ptr<const MotionPath>&
 
 /// Windows that are longer let acceleration change more slowly (AccSet \Ramp).
 RunSettings Trajectory::settingsOf(double rampShare) const {
-    RunSettings settings;
-    settings.accelerations = &accelerations_;
+    RunSettings settings = this->settings();
     settings.longWindow = model_.dynamics.longWindow / rampShare;
     settings.shortWindow = model_.dynamics.shortWindow / rampShare;
-    settings.speedShare = share_;
     return settings;
 }
 
@@ -137,6 +135,7 @@ Trajectory::Appended Trajectory::appendTogether(const std::vector<Ordered>& move
     const bool isCornerLost = last != nullptr && last->run->isOpen();
     closeLast();
     RunSettings settings = settingsOf(own.limits.rampShare);
+    settings.planner = Planner::Measured; // the optimal one times one robot
     settings.companions = std::make_shared<Companions>(0.5 * (settings.longWindow + settings.shortWindow));
     for (const auto& follower : followers_)
         settings.companions->add(follower.lock()->accelerations_);
@@ -147,12 +146,19 @@ Trajectory::Appended Trajectory::appendTogether(const std::vector<Ordered>& move
     return result;
 }
 
+RunSettings Trajectory::settings() const {
+    RunSettings settings;
+    settings.accelerations = &accelerations_;
+    settings.speedShare = share_;
+    settings.planner = options_.planner;
+    settings.jerk = model_.maxJerk;
+    return settings;
+}
+
 Trajectory::Appended Trajectory::appendPause(const std::shared_ptr<const MotionPath>& path, double seconds,
                                              double now) {
     closeLast();
-    RunSettings settings;
-    settings.accelerations = &accelerations_;
-    return appendRun(std::make_unique<Run>(settings, now), path, seconds, now);
+    return appendRun(std::make_unique<Run>(settings(), now), path, seconds, now);
 }
 
 Trajectory::Appended Trajectory::appendRun(std::unique_ptr<Run> run,
@@ -353,6 +359,7 @@ std::optional<double> Trajectory::decisionTime() const {
     if (entries_.empty()) return {};
     const Entry& e = entries_.back();
     if (!e.run->isOpen() || !e.isScheduled || e.run->isBraking()) return {};
+    if (options_.planner == Planner::Optimal) return e.run->decisionTime();
     const Route& way = e.run->route();
     return std::min(e.run->course().lastBraking(),
                     courseTime(count() - 1, way.zoneEntry(way.legCount() - 1)));

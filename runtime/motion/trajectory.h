@@ -30,6 +30,7 @@ struct TrajectoryOptions {
     double overlap = 1.0;      ///< mm left of a run when the next one begins
     double inPosition = 0.5;   ///< mm left when the program continues after a stop point
     double emptyMove = 0.073;  ///< s, a move to where the arm is
+    Planner planner = Planner::Measured;
 };
 
 class Trajectory {
@@ -149,6 +150,7 @@ class Trajectory {
         double left = 0, speed = 0; // mm, mm/s
     };
     Tail tailBefore(std::size_t run, double time) const;
+    RunSettings settings() const;
     Leg legOf(const std::shared_ptr<const MotionPath>& path, const MoveCommand& command) const;
     std::vector<Leg> legsTogether(const std::vector<Ordered>& moves) const;
     RunSettings settingsOf(double rampShare) const;

@@ -1,11 +1,14 @@
 // Speed of motion planning and of the simulated arm. Aims: appending one move 20 us, 1 us a stretch, 4 ms of motion at a
 // thousand times real time (4 us a sample).
 
+#include "runtime/motion/axis_profile.h"
 #include "runtime/motion/motion_system.h"
+#include "runtime/motion/profile_grid.h"
 #include "runtime/motion/trajectory.h"
 
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <cstdlib>
 
 namespace {
@@ -94,6 +97,74 @@ void simulate(benchmark::State& state) {
     state.counters["realtime"] = benchmark::Counter(seconds, benchmark::Counter::kIsRate);
 }
 BENCHMARK(simulate)->Unit(benchmark::kMillisecond);
+
+/// The fastest speed along a path of `range` cells on which three axes wave. Counter: cells a second. Aim: 1 us a cell.
+void solveProfile(benchmark::State& state) {
+    std::vector<ProfileCell> path(static_cast<std::size_t>(state.range(0)));
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        path[i].width = 5;
+        path[i].mostSquare = 500 * 500;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto rowAt = [&](double place) {
+                const double x = 0.02 * place + static_cast<double>(axis);
+                return ProfileRow{std::cos(x), -0.02 * std::sin(x), -4e-4 * std::cos(x), 3000, 3000, 60'000};
+            };
+            path[i].first.add(rowAt(5 * static_cast<double>(i)));
+            path[i].last.add(rowAt(5 * static_cast<double>(i + 1)));
+        }
+    }
+    ProfileSolver solver;
+    int64_t cells = 0;
+    for (auto _ : state) {
+        const ProfileGrid grid = gridOf(path, {});
+        auto found = solver.solve(grid.cells, grid.start, grid.endWidth);
+        benchmark::DoNotOptimize(found);
+        cells += static_cast<int64_t>(grid.cells.size());
+    }
+    state.SetItemsProcessed(cells);
+}
+BENCHMARK(solveProfile)->Arg(20)->Arg(200)->Arg(2000);
+
+/// Six axes from rest to rest, arriving together. Aim: 0.8 us.
+void sixAxesRestToRest(benchmark::State& state) {
+    std::array<double, 6> from{};
+    std::array<double, 6> to{};
+    std::array<AxisLimits, 6> limits{};
+    for (std::size_t i = 0; i < 6; ++i)
+        limits[i] = {1.0 + 0.3 * static_cast<double>(i), 4, 30};
+    std::array<AxisProfile, 6> profiles;
+    double change = 0;
+    for (auto _ : state) {
+        change = change > 3 ? 0 : change + 0.01;
+        for (std::size_t i = 0; i < 6; ++i)
+            to[i] = 0.01 + change * (1 - 0.3 * static_cast<double>(i));
+        restToRestTogether(from, to, limits, profiles);
+        benchmark::DoNotOptimize(profiles);
+    }
+}
+BENCHMARK(sixAxesRestToRest);
+
+/// Six axes between states in motion, arriving together. Aim: 6 us.
+void sixAxesBetweenStates(benchmark::State& state) {
+    std::array<AxisState, 6> from{};
+    std::array<AxisState, 6> to{};
+    std::array<AxisLimits, 6> limits{};
+    for (std::size_t i = 0; i < 6; ++i)
+        limits[i] = {1.0 + 0.3 * static_cast<double>(i), 4, 30};
+    std::array<AxisProfile, 6> profiles;
+    double change = 0;
+    for (auto _ : state) {
+        change = change > 3 ? 0 : change + 0.01;
+        for (std::size_t i = 0; i < 6; ++i) {
+            const double x = change + static_cast<double>(i);
+            from[i] = {0, 0.7 * std::sin(x), 1.5 * std::cos(3 * x)};
+            to[i] = {2 * std::sin(5 * x), 0.7 * std::cos(2 * x), 1.5 * std::sin(x)};
+        }
+        betweenTogether(from, to, limits, profiles);
+        benchmark::DoNotOptimize(profiles);
+    }
+}
+BENCHMARK(sixAxesBetweenStates);
 
 } // namespace
 

@@ -59,8 +59,10 @@ class IndependentAxis {
                 : motion::AxisCourse(now, {state.joints[kAxis], state.jointSpeed[kAxis]});
         const double acceleration = arm.model().maxAcceleration[kAxis] * order_.ramp;
         const double speed = speedOf(motion, order_);
-        arm.setIndependent(kAxis, order_.endless ? course.turning(now, speed, acceleration)
-                                                 : course.movedTo(now, order_.goal, speed, acceleration));
+        const double jerk = jerkOf(arm);
+        arm.setIndependent(kAxis, order_.endless
+                                      ? course.turning(now, speed, acceleration, jerk)
+                                      : course.movedTo(now, order_.goal, speed, acceleration, jerk));
         motion.service<lib::WorldZones>().noteMotion();
     }
     /// A program that is stopped stops the axis, too.
@@ -69,8 +71,13 @@ class IndependentAxis {
         if (arm.independent() == nullptr) return;
         if (news == ArmNews::Start) carryOut(motion);
         if (news == ArmNews::StopOnPath || news == ArmNews::MotorsOff)
-            arm.setIndependent(kAxis, arm.independent()->turning(toSeconds(arm.now()), 0,
-                                                                 arm.model().maxAcceleration[kAxis]));
+            arm.setIndependent(kAxis,
+                               arm.independent()->turning(toSeconds(arm.now()), 0,
+                                                          arm.model().maxAcceleration[kAxis], jerkOf(arm)));
+    }
+    /// deg/s^3; 0 = not limited.
+    static double jerkOf(const motion::MotionSystem& arm) {
+        return arm.planner() == motion::Planner::Optimal ? arm.model().maxJerk[kAxis] : 0;
     }
     static double toSeconds(Time time) { return static_cast<double>(time) * 1e-9; }
 

@@ -1,0 +1,356 @@
+#include "runtime/motion/optimal_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace motion {
+
+namespace {
+
+constexpr double kNothing = 1e-9;   // mm
+constexpr double kSliver = 1e-6;    // mm, of a cell that is not worth planning
+constexpr double kTick = 0.001;     // s, at which the result is checked
+constexpr double kAllowed = 0.9985; // share of an acceleration in the check: samples may lie elsewhere later
+constexpr double kKeptLead =
+    0.25; // s before the arm would brake, from which on a longer path is planned anew
+
+/// Writes what was found into the course, from the place `begin` on.
+void takeProfile(Course& course, double begin, const ProfileGrid& grid, const ProfileSolver::Result& found) {
+    const auto& knots = found.knots;
+    double place = begin;
+    if (!(grid.start.v > 0)) { // the speed grows with the square of the time
+        const double seconds = 3 * grid.start.restWidth / knots.front().v;
+        place += grid.start.restWidth;
+        course.follow(0, 0, {2 * knots.front().v / (seconds * seconds), 0}, seconds, place);
+    }
+    for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+        const double way = knots[i + 1].s - knots[i].s;
+        const double bend = (knots[i + 1].a - knots[i].a) / way;
+        course.follow(knots[i].v, knots[i].a, {0, bend},
+                      Course::secondsFor(way, knots[i].v, knots[i + 1].v, bend), place + knots[i + 1].s);
+    }
+    place += knots.back().s;
+    const double seconds = 3 * grid.endWidth / knots.back().v;
+    course.follow(knots.back().v, -2 * knots.back().v / seconds,
+                  {2 * knots.back().v / (seconds * seconds), 0}, seconds, place + grid.endWidth);
+    course.rest(0);
+}
+
+/// Largest share of a limit that a row takes at this state of the place and jerk.
+double useOf(const ProfileRow& row, const CourseState& state, double jerk) {
+    const double acceleration = row.first * state.a + row.second * state.v * state.v;
+    const double change =
+        row.first * jerk + state.v * (3 * row.second * state.a + row.third * state.v * state.v);
+    return std::max({acceleration / row.up, -acceleration / row.down, std::abs(change) / row.jerk});
+}
+
+} // namespace
+
+void OptimalPlan::measure(const Route& route, std::size_t from) {
+    const auto& stretches = route.stretches();
+    cells_.resize(from);
+    begins_.resize(from);
+    for (std::size_t i = from; i < stretches.size(); ++i) {
+        cells_.push_back(measuredCell(route, stretches[i], limits_));
+        begins_.push_back(stretches[i].begin);
+        if (i > 0) joinCells(cells_[i - 1], cells_[i]);
+    }
+}
+
+void OptimalPlan::forget(std::size_t stretches) {
+    const auto count = static_cast<std::ptrdiff_t>(stretches);
+    cells_.erase(cells_.begin(), cells_.begin() + count);
+    begins_.erase(begins_.begin(), begins_.begin() + count);
+}
+
+std::size_t OptimalPlan::cellAt(double place) const {
+    const auto after = std::upper_bound(begins_.begin(), begins_.end(), place);
+    return after == begins_.begin() ? 0 : static_cast<std::size_t>(after - begins_.begin()) - 1;
+}
+
+std::vector<ProfileCell> OptimalPlan::pathBetween(double from, double to, double share) const {
+    std::vector<ProfileCell> path;
+    double sliver = 0;
+    for (std::size_t i = cellAt(from); i < cells_.size() && begins_[i] < to; ++i) {
+        const double width = cells_[i].width;
+        const double begin = std::max(0.0, from - begins_[i]);
+        const double end = std::min(width, to - begins_[i]);
+        if (end - begin < kSliver && !(path.empty() && i + 1 == cells_.size())) {
+            (path.empty() ? sliver : path.back().width) += std::max(0.0, end - begin);
+            continue;
+        }
+        path.push_back(partOf(cells_[i], begin / width, end / width));
+        path.back().width = end - begin + sliver;
+        sliver = 0;
+        path.back().mostSquare = cells_[i].mostSquare * share * share;
+    }
+    return path;
+}
+
+// ---- To the end of the route ----
+
+bool OptimalPlan::plan(Course& course, const Route& route, double now, double changed, double share) {
+    const bool isSameShare = share == share_;
+    const double begun = std::max(now, course.begin());
+    if (isSameShare && course.plannedEnd() > begun) {
+        const double kept =
+            std::min(course.lastBraking() - kKeptLead, course.plannedTimeAt(changed) - 0.5 * kKeptLead);
+        if (kept > begun + 0.02 && kept > course.begin() + 0.1 && planFrom(course, route, kept, share))
+            return true;
+    }
+    if (!planFrom(course, route, begun, share)) return false;
+    share_ = share;
+    return true;
+}
+
+/// At another speed the arm may have to slow down first.
+bool OptimalPlan::planFrom(Course& course, const Route& route, double time, double share) {
+    const CourseState state = course.plannedAt(time);
+    if (state.s >= length() - kNothing) return false;
+    const double most = cells_[cellAt(state.s)].mostSquare * share * share;
+    if (state.v * state.v <= most * (1 + 1e-6) && solveFrom(course, route, time, state, share)) return true;
+    if (!(state.v > 0) || share >= share_) return false;
+    for (const double part : {0.999, 0.7, 0.4, 0.2}) {
+        const double way = state.v * 0.3;
+        const double speed = part * std::sqrt(mostSquareAhead(state.s, way, share));
+        const auto slower = slowing(course, time, speed);
+        if (!slower) continue;
+        Course candidate = course;
+        candidate.cutAfter(slower->begin);
+        follow(candidate, *slower);
+        const AxisState end = slower->ramp.end(slower->from);
+        if (end.p >= length() - kSliver) continue;
+        if (!solveFrom(candidate, route, candidate.plannedEnd(), {end.p, end.v, 0}, share)) continue;
+        course = std::move(candidate);
+        return true;
+    }
+    return false;
+}
+
+double OptimalPlan::mostSquareAhead(double place, double way, double share) const {
+    double square = 1e8;
+    for (std::size_t i = cellAt(place); i < cells_.size() && begins_[i] <= place + way; ++i)
+        square = std::min(square, cells_[i].mostSquare);
+    return square * share * share;
+}
+
+bool OptimalPlan::solveFrom(Course& course, const Route& route, double time, const CourseState& state,
+                            double share) {
+    constexpr double kStanding = 1e-6; // mm/s
+    ProfileStart start;
+    if (state.v > kStanding) start = {state.v, state.a, 0};
+    bool isPlanned = false;
+    constexpr int kMostRounds = 8;
+    for (int round = 0; round < kMostRounds; ++round) {
+        const std::vector<ProfileCell> path = pathBetween(state.s, length(), share);
+        if (path.empty()) return false;
+        ProfileGrid grid;
+        ProfileSolver::Result found;
+        for (const double firstShare : {1.0, 0.2}) {
+            grid = gridOf(path, start, firstShare);
+            found = solver_.solve(grid.cells, grid.start, grid.endWidth);
+            if (found.isSolved || !(start.v > 0)) break;
+        }
+        if (!found.isSolved) return isPlanned;
+        course.cutAfter(time);
+        if (course.plannedEnd() < time) course.rest(time - course.plannedEnd());
+        takeProfile(course, state.s, grid, found);
+        isPlanned = true;
+        if (!tightenWhereExceeded(course, route, time, share)) break;
+    }
+    return true;
+}
+
+/// Largest share of an acceleration's limit that the axes take, by three samples of the course.
+double OptimalPlan::useAt(const Route& route, const std::array<Joints, 3>& axes, double place) const {
+    Joints most = axes[1];
+    limits_.accelerations->limitsAt(axes[1], most);
+    const double share = route.leg(route.legAt(place)).limits.accelerationShare;
+    double use = 0;
+    for (std::size_t i = 0; i < most.size(); ++i) {
+        const double change = axes[2][i] - 2 * axes[1][i] + axes[0][i];
+        use = std::max(use, std::abs(change) / (kTick * kTick * share * most[i]));
+    }
+    return use;
+}
+
+bool OptimalPlan::tightenWhereExceeded(const Course& course, const Route& route, double time, double share) {
+    constexpr double kBent = 1.02; // more is a bend that is sharper than a stretch shows: slower there
+    std::array<Joints, 3> axes;
+    std::array<double, 3> places{};
+    bool isExceeded = false;
+    std::size_t done = cells_.size();
+    const auto count = static_cast<long>((course.plannedEnd() - time) / kTick) + 5;
+    for (long k = 0; k < count; ++k) {
+        std::rotate(axes.begin(), axes.begin() + 1, axes.end());
+        std::rotate(places.begin(), places.begin() + 1, places.end());
+        const CourseState state = course.plannedAt(time + static_cast<double>(k - 2) * kTick);
+        places[2] = state.s;
+        axes[2] = route.at(state.s).joints;
+        if (k < 2) continue;
+        const double use = useAt(route, axes, places[1]);
+        if (use <= kAllowed) continue;
+        const std::size_t i = cellAt(places[1]);
+        if (i == done && use <= kBent) continue; // lowered already
+        done = i;
+        isExceeded = true;
+        ProfileCell& cell = cells_[i];
+        const double speed = (places[2] - places[0]) / (2 * kTick);
+        if (use > kBent)
+            cell.mostSquare = std::min(cell.mostSquare, std::pow(0.99 * speed / (use * share), 2));
+        for (ProfileRows* rows : {&cell.first, &cell.last}) {
+            for (std::size_t r = 0; r < rows->count; ++r) {
+                rows->rows[r].up *= kAllowed / std::min(use, kBent);
+                rows->rows[r].down *= kAllowed / std::min(use, kBent);
+            }
+        }
+    }
+    return isExceeded;
+}
+
+void OptimalPlan::slowTo(Course& course, double begin, double seconds) {
+    const double factor = seconds / (course.plannedEnd() - begin);
+    if (!(factor > 1)) return;
+    const double fastest = course.slowBy(factor);
+    // Also when the rest is planned anew.
+    for (ProfileCell& cell : cells_)
+        cell.mostSquare = std::min(cell.mostSquare, fastest * fastest);
+}
+
+// ---- Slowing down ----
+
+bool OptimalPlan::keepsLimits(const Slowing& slowing) const {
+    constexpr double kSpacing = 0.7; // mm between the places that are checked
+    constexpr double kRounding = 1 + 1e-7;
+    AxisState from = slowing.from;
+    for (std::size_t piece = 0; piece < 3; ++piece) {
+        const double jerk = slowing.ramp.jerkOf(piece);
+        const double time = slowing.ramp.time[piece];
+        const int samples = std::clamp(static_cast<int>(from.v * time / kSpacing), 10, 400);
+        for (int k = 0; k <= samples; ++k) {
+            const AxisState at = advanced(from, jerk, time * k / samples);
+            if (at.p > length() + kNothing || at.v < -1e-6) return false;
+            const std::size_t i = cellAt(at.p);
+            const ProfileCell& cell = cells_[i];
+            const ProfileRows rows = rowsAt(cell, std::clamp((at.p - begins_[i]) / cell.width, 0.0, 1.0));
+            const bool isFirst = piece == 0 && k == 0;
+            if (at.v * at.v > cell.mostSquare * share_ * share_ * kRounding) return false;
+            for (std::size_t r = 0; r < rows.count && !isFirst; ++r)
+                if (useOf(rows.rows[r], {at.p, at.v, at.a}, jerk) > kRounding) return false;
+        }
+        from = advanced(from, jerk, slowing.ramp.time[piece]);
+    }
+    return true;
+}
+
+std::optional<OptimalPlan::Slowing> OptimalPlan::slowing(const Course& course, double now,
+                                                         double speed) const {
+    std::optional<Slowing> best;
+    double ended = course.plannedEnd();
+    for (double delay = 0; now + delay < ended; delay = delay == 0 ? 0.002 : 1.3 * delay) {
+        const CourseState state = course.plannedAt(now + delay);
+        if (state.v <= speed) break;
+        Slowing candidate;
+        candidate.begin = now + delay;
+        candidate.from = {state.s, state.v, state.a};
+        double acceleration = 1e7;
+        double jerk = 1e9;
+        const std::size_t here = cellAt(state.s);
+        const ProfileRows rows = rowsAt(cells_[here], (state.s - begins_[here]) / cells_[here].width);
+        for (std::size_t r = 0; r < rows.count; ++r) {
+            const double rate = std::max(std::abs(rows.rows[r].first), 1e-12);
+            acceleration = std::min(acceleration, std::min(rows.rows[r].up, rows.rows[r].down) / rate);
+            jerk = std::min(jerk, rows.rows[r].jerk / rate);
+        }
+        for (double share = 1.3; share > 0.03; share *= 0.85) {
+            candidate.ramp = rampTo(speed, candidate.from, share * acceleration, share * jerk);
+            const double end = candidate.begin + candidate.ramp.duration();
+            if (end >= ended) break;
+            if (!keepsLimits(candidate)) continue;
+            best = candidate;
+            ended = end;
+            break;
+        }
+    }
+    return best;
+}
+
+void OptimalPlan::follow(Course& course, const Slowing& slowing) {
+    AxisState at = slowing.from;
+    for (std::size_t piece = 0; piece < 3; ++piece) {
+        const double jerk = slowing.ramp.jerkOf(piece);
+        const AxisState next = advanced(at, jerk, slowing.ramp.time[piece]);
+        course.follow(at.v, at.a, {jerk, 0}, slowing.ramp.time[piece], next.p);
+        at = next;
+    }
+}
+
+/// The course as it comes to rest when it brakes after `now`.
+Course OptimalPlan::stopped(const Course& course, double now) const {
+    constexpr double kAtOnce = 0.01; // s
+    const auto ramp = slowing(course, now, 0);
+    Course result = course;
+    const CourseState state = course.plannedAt(now);
+    const double last = ramp ? ramp->ramp.end(ramp->from).p : course.endPlace();
+    const bool isLate = !ramp || ramp->begin > now + kAtOnce;
+    // Where the path bends much, no even braking keeps the limits: the nearest place at which the arm can rest.
+    for (const double share : {0.05, 0.1, 0.2, 0.35, 0.5, 0.7}) {
+        if (!isLate || !(state.v > 0)) break;
+        const double to = state.s + share * (last - state.s);
+        const std::vector<ProfileCell> path = pathBetween(state.s, to, share_);
+        if (path.empty() || to - state.s < 1e-3) continue;
+        const ProfileGrid grid = gridOf(path, {state.v, state.a, 0});
+        const auto found = ProfileSolver().solve(grid.cells, grid.start, grid.endWidth);
+        if (!found.isSolved) continue;
+        result.cutAfter(now);
+        takeProfile(result, state.s, grid, found);
+        return result;
+    }
+    if (!ramp) return result; // the plan comes to rest as soon
+    result.cutAfter(ramp->begin);
+    follow(result, *ramp);
+    result.rest(0);
+    return result;
+}
+
+void OptimalPlan::brake(Course& course, double now) const {
+    course = stopped(course, now);
+}
+
+double OptimalPlan::restPlace(const Course& course, double now) const {
+    return stopped(course, now).endPlace();
+}
+
+double OptimalPlan::evenRestPlace(const Course& course, double now) const {
+    const auto found = slowing(course, now, 0);
+    return found ? found->ramp.end(found->from).p : course.endPlace();
+}
+
+// ---- Back ----
+
+Course OptimalPlan::courseBack(double time, double from, double to, double mmPerSecond) const {
+    Course course = Course::exact(time, 0);
+    std::vector<ProfileCell> path = pathBetween(to, from, share_);
+    if (path.empty() || !(from - to > kSliver)) return course;
+    std::reverse(path.begin(), path.end());
+    bool wasSmooth = true;
+    for (ProfileCell& cell : path) {
+        std::swap(cell.first, cell.last);
+        std::swap(cell.isSmooth, wasSmooth);
+        cell.mostSquare = std::min(cell.mostSquare, mmPerSecond * mmPerSecond);
+        for (ProfileRows* rows : {&cell.first, &cell.last}) {
+            for (std::size_t i = 0; i < rows->count; ++i) {
+                rows->rows[i].first *= -1;
+                rows->rows[i].third *= -1;
+                std::swap(rows->rows[i].up, rows->rows[i].down);
+            }
+        }
+    }
+    ProfileSolver solver;
+    const ProfileGrid grid = gridOf(path, {});
+    const auto found = solver.solve(grid.cells, grid.start, grid.endWidth);
+    if (found.isSolved) takeProfile(course, 0, grid, found);
+    return course;
+}
+
+} // namespace motion

@@ -1,0 +1,65 @@
+#pragma once
+// OptimalPlan: plans an exact course on a route: the shortest time that keeps all limits, and braking on the path.
+
+#include "runtime/motion/course.h"
+#include "runtime/motion/profile_grid.h"
+#include "runtime/motion/route_profile.h"
+#include "runtime/motion/velocity_ramp.h"
+
+#include <deque>
+#include <optional>
+
+namespace motion {
+
+class OptimalPlan {
+  public:
+    explicit OptimalPlan(const ArmLimits& limits) : limits_(limits) {}
+
+    /// Measures the stretches of the route from this one on; the ones before are known.
+    void measure(const Route& route, std::size_t from);
+    /// The first stretches of the route have been forgotten.
+    void forget(std::size_t stretches);
+    /// Replaces what the course does after `now`: to the end of the route at this share of the programmed speed. The route has
+    /// changed from the place `changed` on. False when the limits cannot be kept from there: the course is unchanged then.
+    bool plan(Course& course, const Route& route, double now, double changed, double share);
+    /// Makes the course, which has not begun, end that many seconds after its beginning if it would end earlier.
+    void slowTo(Course& course, double begin, double seconds);
+    /// Brakes after `now` as fast as the limits allow, and rests.
+    void brake(Course& course, double now) const;
+    /// The place where brake() would let it rest.
+    double restPlace(const Course& course, double now) const;
+    /// ... if it brakes evenly, which may be further on; found faster.
+    double evenRestPlace(const Course& course, double now) const;
+    /// From a place back to an earlier one, as mm from the first; at most at this speed of the TCP.
+    Course courseBack(double time, double from, double to, double mmPerSecond) const;
+
+  private:
+    /// A change of speed that begins some time after `now`, until then the plan remains.
+    struct Slowing {
+        double begin = 0; ///< s
+        AxisState from;
+        VelocityRamp ramp;
+    };
+    double length() const { return begins_.empty() ? 0 : begins_.back() + cells_.back().width; }
+    std::size_t cellAt(double place) const;
+    std::vector<ProfileCell> pathBetween(double from, double to, double share) const;
+    double mostSquareAhead(double place, double way, double share) const;
+    bool keepsLimits(const Slowing& slowing) const;
+    /// The change to this speed that ends first; nothing when none keeps the limits.
+    std::optional<Slowing> slowing(const Course& course, double now, double speed) const;
+    bool planFrom(Course& course, const Route& route, double time, double share);
+    bool solveFrom(Course& course, const Route& route, double time, const CourseState& state, double share);
+    /// Samples the course and lowers the limits where the arm would exceed them; false when it was not necessary.
+    bool tightenWhereExceeded(const Course& course, const Route& route, double time, double share);
+    double useAt(const Route& route, const std::array<Joints, 3>& axes, double place) const;
+    Course stopped(const Course& course, double now) const;
+    static void follow(Course& course, const Slowing& slowing);
+
+    ArmLimits limits_;
+    std::deque<ProfileCell> cells_; // of each stretch, at full override
+    std::deque<double> begins_;
+    double share_ = 1;
+    ProfileSolver solver_;
+};
+
+} // namespace motion
