@@ -188,6 +188,7 @@ class MotionDriver final : public SteppedArm {
     /// Nothing left to do: idle, or held by a stop and standing still.
     bool isSettled() const;
     bool isMoving() const { return system_.isMoving(); }
+    bool isIdle() const { return system_.isIdle(); } ///< no movement unfinished
     /// Samples up to the present are written.
     void finishTrace();
 

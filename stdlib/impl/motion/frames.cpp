@@ -37,7 +37,8 @@ Status moveUserFrame(TaskCore* task, std::string_view name, motion::FrameSetup& 
         frames.userMover = &unit->geometry;
         return kOk;
     }
-    if (controller.motions()[unit->group]->isMoving())
+    const MotionDriver& other = *controller.motions()[unit->group];
+    if (other.isMoving() && !other.isIdle()) // in position at a stop point it counts as arrived
         return fail(
             task, err::ERR_WOBJ_MOVING,
             "mechanical unit " + quoted +
