@@ -23,6 +23,7 @@ class Companions {
     void add(const robot::AccelerationMap& accelerations) { members_.push_back({{}, accelerations}); }
     std::size_t size() const { return members_.size(); }
     const Route& route(std::size_t member) const { return members_[member].route; }
+    Route& route(std::size_t member) { return members_[member].route; }
     /// Place of a companion, and how much it moves a mm of the leader's route.
     struct Mapped {
         double place = 0, slope = 0;

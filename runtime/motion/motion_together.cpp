@@ -7,6 +7,25 @@
 
 namespace motion {
 
+namespace {
+
+/// The user frame that a robot, or an external unit of its group, moves.
+std::function<Pose(const RoutePoint&)> frameOf(const MotionSystem& system, const robot::ExternalUnit* unit) {
+    return [&system, unit](const RoutePoint& point) {
+        return unit != nullptr ? unit->frame(point.extax) : system.flangeInWorld({point.joints, point.extax});
+    };
+}
+
+/// That frame along the carrier's path.
+std::shared_ptr<const std::function<Pose(double)>>
+courseOf(const std::function<Pose(const RoutePoint&)>& frame, const std::shared_ptr<const MotionPath>& path) {
+    return std::make_shared<const std::function<Pose(double)>>([frame, path](double share) {
+        return frame({path->jointsAt(share), path->externalAt(share), true});
+    });
+}
+
+} // namespace
+
 bool MotionSystem::beginTogether(const std::vector<MotionSystem*>& systems) {
     const bool areResting = std::all_of(systems.begin(), systems.end(), [](const MotionSystem* system) {
         return system->impl_->isResting();
@@ -63,13 +82,32 @@ MotionSystem::enqueueTogether(const std::vector<MotionSystem*>& systems,
     // A point where one of them stops is a stop point for all.
     const bool isFine =
         std::any_of(commands.begin(), commands.end(), [](const MoveCommand& c) { return c.zone.finep; });
-    std::vector<Trajectory::Ordered> moves;
-    for (std::size_t i = 0; i < systems.size(); ++i) {
-        MoveCommand command = commands[i];
-        command.zone.finep = isFine;
-        auto ordered = systems[i]->impl_->prepared(command);
-        if (!ordered) return Unexpected{TogetherError{i, ordered.error()}};
-        moves.push_back(std::move(*ordered));
+    std::vector<Trajectory::Ordered> moves(systems.size());
+    // Robots that carry a work object of another one come first.
+    for (const bool areCarried : {false, true}) {
+        for (std::size_t i = 0; i < systems.size(); ++i) {
+            if ((commands[i].frames.carrier != nullptr) != areCarried) continue;
+            MoveCommand command = commands[i];
+            command.zone.finep = isFine;
+            const auto carrier = std::find(systems.begin(), systems.end(), command.frames.carrier);
+            std::function<Pose(const RoutePoint&)> frame;
+            if (areCarried && carrier != systems.end()) {
+                const auto number = static_cast<std::size_t>(carrier - systems.begin());
+                if (commands[number].frames.carrier != nullptr) {
+                    MotionError error;
+                    error.what = "a work object held by a robot whose own work object is held by another one";
+                    return Unexpected{TogetherError{i, error}};
+                }
+                frame = frameOf(**carrier, command.frames.carrierUnit);
+                command.frames.userCourse = courseOf(frame, moves[number].path);
+            }
+            auto ordered = systems[i]->impl_->prepared(command);
+            if (!ordered) return Unexpected{TogetherError{i, ordered.error()}};
+            moves[i] = std::move(*ordered);
+            if (!frame) continue;
+            moves[i].carrier = static_cast<std::size_t>(carrier - systems.begin());
+            moves[i].carrierFrame = std::move(frame);
+        }
     }
     Impl& first = *systems.front()->impl_;
     const Trajectory::Appended appended = first.path().appendTogether(moves, first.seconds());

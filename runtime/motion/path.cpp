@@ -131,7 +131,7 @@ std::optional<MotionError> MotionPath::resolveJointTarget(const MoveCommand& com
         if (kinematics_.hasArmAngle() && !isConnected(end_.robax[kAxis7]))
             end_.robax[kAxis7] = start_.robax[kAxis7];
     } else {
-        const auto joints = solveTarget(kinematics_, frames_.toFlange(command.target.pose, end_.extax), command.target,
+        const auto joints = solveTarget(kinematics_, flangeFor(command.target.pose, 1), command.target,
                                         command.confJ, start_.robax);
         if (!joints) return targetError(joints.error(), command.target.pose.pos);
         end_.robax = *joints;
@@ -149,7 +149,7 @@ void MotionPath::layStraightGrid() {
     for (int i = 0; i <= kJointGrid; ++i) {
         const double s = static_cast<double>(i) / kJointGrid;
         const Joints joints = between(start_.robax, end_.robax, s);
-        const Vec3 tcp = frames_.fromFlange(kinematics_.forward(joints), externalAt(s)).pos;
+        const Vec3 tcp = tcpOf(joints, s).pos;
         if (i > 0) distance += norm(tcp - last);
         last = tcp;
         nodes_.push_back({s, joints, distance});
@@ -157,7 +157,7 @@ void MotionPath::layStraightGrid() {
 }
 
 std::optional<MotionError> MotionPath::resolveCurve(const MoveCommand& command) {
-    const Pose from = frames_.fromFlange(kinematics_.forward(start_.robax), start_.extax);
+    const Pose from = tcpOf(start_.robax, 0);
     const Pose to{command.target.pose.pos, robot::normalized(command.target.pose.rot)};
     if (command.kind == MoveKind::Linear) {
         curve_ = CartesianCurve::line(from, to);
@@ -169,7 +169,8 @@ std::optional<MotionError> MotionPath::resolveCurve(const MoveCommand& command) 
             if (auto error = takeWristAxes(command.circleOrientation)) return error;
     }
     resolveArmAngle(command);
-    const bool isCarried = frames_.dependsOnAxes() && end_.extax != start_.extax;
+    const bool isCarried =
+        (frames_.dependsOnAxes() && end_.extax != start_.extax) || frames_.userCourse != nullptr;
     isEmpty_ = curve_.length() < kRounding && curve_.rotationDeg() < kRounding &&
                std::fabs(armTravel_) < kRounding && !isCarried;
     if (isEmpty_) {
@@ -188,7 +189,7 @@ void MotionPath::resolveArmAngle(const MoveCommand& command) {
     armStart_ = kinematics_.armAngle(start_.robax);
     double end = command.target.armAngle;
     if (std::isnan(end)) {
-        const auto joints = solveTarget(kinematics_, frames_.toFlange(curve_.at(1), end_.extax), command.target,
+        const auto joints = solveTarget(kinematics_, flangeFor(curve_.at(1), 1), command.target,
                                         command.confL, start_.robax);
         if (!joints) return;
         end = kinematics_.armAngle(*joints);
@@ -213,7 +214,7 @@ std::optional<MotionError> MotionPath::marchWithMode(const MoveCommand& command)
     const bool isSingular = error && (error->kind == MotionErrorKind::Singularity ||
                                       error->kind == MotionErrorKind::JointOutOfRange);
     if (!isSingular || !isPossible || command.singularity != SingularityMode::Wrist) return error;
-    const Pose flange = frames_.toFlange(curve_.at(1), end_.extax);
+    const Pose flange = flangeFor(curve_.at(1), 1);
     const auto end = command.confL ? kinematics_.inverse(flange, command.target.conf, start_.robax)
                                    : kinematics_.inverseNear(flange, start_.robax);
     if (!end) return error;
@@ -236,13 +237,13 @@ MotionError MotionPath::errorAt(MotionErrorKind kind, double s, int joint, doubl
 bool MotionPath::solve(double s, const Joints& seed, Joints& out) const {
     if (isByWrist_) return solveByWrist(s, seed, out);
     if (mode_ != SingularityMode::Off) {
-        const Pose base_tcp = frames_.toFlange(curve_.at(s), externalAt(s)) * frames_.tool.tframe;
+        const Pose base_tcp = flangeFor(curve_.at(s), s) * frames_.tool.tframe;
         return mode_ == SingularityMode::Wrist
                    ? kinematics_.inverseWithWrist(base_tcp.pos, frames_.tool.tframe,
                                                   between(start_.robax, end_.robax, s), seed, out)
                    : kinematics_.inverseLockedAxis4(base_tcp, frames_.tool.tframe, lockedAxis4_, seed, out);
     }
-    return kinematics_.inverseContinue(frames_.toFlange(curve_.at(s), externalAt(s)), seed, out,
+    return kinematics_.inverseContinue(flangeFor(curve_.at(s), s), seed, out,
                                        armStart_ + armTravel_ * s);
 }
 
@@ -283,7 +284,10 @@ bool MotionPath::isArmAngleLost(const Joints& joints) const {
 
 std::optional<MotionError> MotionPath::march() {
     const double turn = std::max(curve_.rotationDeg(), std::fabs(armTravel_));
-    const double carried = frames_.dependsOnAxes() ? externalTravel() / kCoarseDeg : 0;
+    constexpr double kCarriedPieces = 64; // of a movement that another robot carries along
+    const double carried = frames_.userCourse != nullptr ? kCarriedPieces
+                           : frames_.dependsOnAxes()     ? externalTravel() / kCoarseDeg
+                                                         : 0;
     const double size = std::max({curve_.length() / kCoarseMm, turn / kCoarseDeg, carried});
     const double coarse = 1.0 / std::ceil(std::clamp(size, 8.0, 4000.0));
     const double finest =
@@ -325,7 +329,7 @@ std::optional<MotionError> MotionPath::checkArrival(const MoveCommand& command) 
     const bool isUndecided = near.wristDeg < 0.1 || near.armMm < 0.1 || near.elbowDeg < 0.1 ||
                              near.shoulderDeg < 0.1 || near.armAngleDeg < 0.1 || near.foldDeg < 0.1;
     if (isUndecided) return {}; // two configurations meet here
-    const auto wanted = kinematics_.inverse(frames_.toFlange(command.target.pose, end_.extax),
+    const auto wanted = kinematics_.inverse(flangeFor(command.target.pose, 1),
                                             command.target.conf, end_.robax, armAngleAt(1));
     if (wanted && largestDifference(*wanted, end_.robax) < 0.01) return {};
     const int joint = wanted ? mostDifferent(*wanted, end_.robax) : wanted.error().joint;
@@ -354,6 +358,20 @@ ExternalAxes MotionPath::externalAt(double s) const {
     return s >= 1 ? end_.extax : externalNear(std::max(s, 0.0));
 }
 
+Pose MotionPath::flangeFor(const Pose& target, double s) const {
+    if (frames_.userCourse == nullptr) return frames_.toFlange(target, externalAt(s));
+    const Pose user = (*frames_.userCourse)(s);
+    return frames_.toFlange(target, externalAt(s), &user);
+}
+
+/// Beyond the ends of the path as well.
+Pose MotionPath::tcpOf(const Joints& joints, double s) const {
+    const ExternalAxes axes = externalNear(s);
+    if (frames_.userCourse == nullptr) return frames_.fromFlange(kinematics_.forward(joints), axes);
+    const Pose user = (*frames_.userCourse)(s);
+    return frames_.fromFlange(kinematics_.forward(joints), axes, &user);
+}
+
 /// Beyond the ends of the path as well.
 ExternalAxes MotionPath::externalNear(double s) const {
     ExternalAxes result = start_.extax;
@@ -377,7 +395,7 @@ double MotionPath::armAngleAt(double s) const {
 Pose MotionPath::tcpAt(double s) const {
     const bool isAsProgrammed = mode_ == SingularityMode::Off && !isByWrist_;
     if (isCartesian_ && !isEmpty_ && isAsProgrammed) return curve_.at(std::clamp(s, 0.0, 1.0));
-    return frames_.fromFlange(kinematics_.forward(jointsAt(s)), externalAt(s));
+    return tcpOf(jointsAt(s), s);
 }
 
 void MotionPath::tcpRatesAt(double s, double& mm, double& deg) const {
@@ -388,8 +406,7 @@ void MotionPath::tcpRatesAt(double s, double& mm, double& deg) const {
     }
     constexpr double kStep = 1e-4;
     const auto tcp = [&](double at) {
-        return frames_.fromFlange(kinematics_.forward(between(start_.robax, end_.robax, at)),
-                                  externalNear(at));
+        return tcpOf(between(start_.robax, end_.robax, at), at);
     };
     const Pose from = tcp(s - kStep);
     const Pose to = tcp(s + kStep);

@@ -123,6 +123,8 @@ class MotionPath {
     MotionError errorAt(MotionErrorKind kind, double s, int joint, double value) const;
     void layStraightGrid();
     ExternalAxes externalNear(double s) const;
+    Pose flangeFor(const Pose& target, double s) const;
+    Pose tcpOf(const Joints& joints, double s) const;
     const PathNode& nodeNear(double s) const;
 
     robot::Kinematics kinematics_;

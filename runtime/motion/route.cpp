@@ -251,20 +251,20 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
     }
     const robot::Kinematics& kinematics = l.path->kinematics();
     const FrameSetup& frames = leg(inCorner ? own + 1 : own).path->frames();
-    const auto tcp = [&](const RoutePoint& point) {
-        return frames.fromFlange(kinematics.forward(point.joints), point.extax);
-    };
-    const Pose before = tcp(low);
-    const Pose here = tcp(stretch.middle);
-    const Pose after = tcp(high);
+    const Pose before = tcpOf(frames, low, middle - step);
+    const Pose here = tcpOf(frames, stretch.middle, middle);
+    const Pose after = tcpOf(frames, high, middle + step);
     if (inCorner && corner(own).kind == CornerKind::Space) {
         stretch.tcpRate = 1;
     } else if (!inCorner && l.path->isCartesian()) {
         stretch.tcpRate = l.length() > 0 ? 1 / l.perMm : 0;
     } else { // at the middle, since a chord is shorter than the path in a sharp bend
         const double close = std::min(step, 1e-3);
-        const Vec3 from = tcp(pointAt(middle - close, stretch.middle.joints)).pos;
-        const Vec3 to = tcp(pointAt(middle + close, stretch.middle.joints)).pos;
+        const auto tcpNear = [&](double place) {
+            return tcpOf(frames, pointAt(place, stretch.middle.joints), place).pos;
+        };
+        const Vec3 from = tcpNear(middle - close);
+        const Vec3 to = tcpNear(middle + close);
         stretch.tcpRate = std::max(norm(to - from) / (2 * close), norm(after.pos - before.pos) / (2 * step));
         const FrameSetup& earlier = l.path->frames();
         if (inCorner && !sameTool(earlier, frames)) { // neither tool centre point may be too fast
@@ -283,6 +283,29 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
     stretch.curvature = norm(after.pos - here.pos * 2.0 + before.pos) / (step * step);
     return low.isSolved && high.isSolved && stretch.middle.isSolved &&
            kinematics.jointOutsideLimits(stretch.middle.joints) == 0;
+}
+
+/// Of a work object that another robot carries. Without a carrier that is known it passes through the programmed points.
+std::optional<Pose> Route::userFrameAt(double place) const {
+    const std::size_t number = legAt(place);
+    const Leg& l = leg(number);
+    if (l.path->frames().userCourse == nullptr) return {};
+    if (carrier_) return carrier_(place);
+    const double whole = legEnd(number) - legStart(number);
+    const double share = whole > 0 ? (place - legStart(number)) / whole : 1;
+    return (*l.path->frames().userCourse)(std::clamp(share, 0.0, 1.0));
+}
+
+Pose Route::tcpOf(const FrameSetup& frames, const RoutePoint& point, double place) const {
+    const Pose flange = legs_.front().path->kinematics().forward(point.joints);
+    const auto user = userFrameAt(place);
+    return frames.fromFlange(flange, point.extax, user ? &*user : nullptr);
+}
+
+Pose Route::flangeFor(const FrameSetup& frames, const Pose& target, const ExternalAxes& axes,
+                      double place) const {
+    const auto user = userFrameAt(place);
+    return frames.toFlange(target, axes, user ? &*user : nullptr);
 }
 
 std::size_t Route::ownLeg(double place) const {
@@ -311,7 +334,8 @@ RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints& see
     RoutePoint point;
     point.extax = l.path->externalAt(parameter);
     const Corner* turning = nullptr;
-    bool isCarried = false; // by external axes that are elsewhere than on the leg itself
+    // By external axes, or another robot, that are elsewhere than on the leg itself.
+    bool isCarried = l.path->isCartesian() && l.path->frames().userCourse != nullptr;
     const Leg* frames = &l;
     std::optional<double> armAngle;
     for (const bool atEnd : {false, true}) {
@@ -321,7 +345,7 @@ RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints& see
             const AxisVector axes = c.external.at(place);
             takeExternal(axes, point.extax);
             if (l.path->kinematics().hasArmAngle()) armAngle = axes.v[kArmAnglePlace];
-            isCarried = l.path->isCartesian() && l.path->frames().dependsOnAxes();
+            isCarried = isCarried || (l.path->isCartesian() && l.path->frames().dependsOnAxes());
         }
         if (!c.turn.covers(place)) continue;
         turning = &c;
@@ -335,7 +359,7 @@ RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints& see
     if (turning != nullptr) pose.rot = robot::turnedBy(turning->centre, turning->turn.at(place));
     point.joints = seed;
     point.isSolved = l.path->kinematics().inverseContinue(
-        frames->path->frames().toFlange(pose, point.extax), seed, point.joints,
+        flangeFor(frames->path->frames(), pose, point.extax, place), seed, point.joints,
         armAngle ? *armAngle : l.path->armAngleAt(parameter));
     return point;
 }
@@ -362,7 +386,7 @@ RoutePoint Route::pointInCorner(std::size_t number, double place, const Joints& 
     const Pose pose{c.space.at(x),
                     c.turn.covers(place) ? robot::turnedBy(c.centre, c.turn.at(place)) : c.centre};
     point.isSolved = next.path->kinematics().inverseContinue(
-        next.path->frames().toFlange(pose, point.extax), seed, point.joints, armAngle);
+        flangeFor(next.path->frames(), pose, point.extax, place), seed, point.joints, armAngle);
     return point;
 }
 

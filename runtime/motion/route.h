@@ -8,6 +8,7 @@
 #include "runtime/motion/path.h"
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -81,6 +82,11 @@ class Route {
     std::size_t legAt(double place) const;
 
     RoutePoint at(double place) const;
+    /// The user frame of the leg at a place, where the robot that carries it really is; without this it is where the legs as
+    /// programmed bring it.
+    void setCarrier(std::function<Pose(double)> carrier) { carrier_ = std::move(carrier); }
+    /// TCP in the object frame for a point at that place.
+    Pose tcpOf(const FrameSetup& frames, const RoutePoint& point, double place) const;
     const std::deque<RouteStretch>& stretches() const { return stretches_; }
     /// Index of the stretch that contains the place.
     std::size_t stretchAt(double place) const;
@@ -111,7 +117,11 @@ class Route {
     std::vector<double> bordersFrom(double from) const;
     bool measure(RouteStretch& stretch, const Joints& seed) const;
     bool isShaped(double place) const;
+    std::optional<Pose> userFrameAt(double place) const;
+    Pose flangeFor(const FrameSetup& frames, const Pose& target, const ExternalAxes& axes,
+                   double place) const;
 
+    std::function<Pose(double)> carrier_;
     std::size_t firstLeg_ = 0;
     std::deque<Leg> legs_;
     std::deque<Corner> corners_; // at the end of each leg

@@ -116,11 +116,27 @@ bool Run::canAppend(double now) const {
 
 bool Run::appendTogether(Leg leg, std::vector<Leg> others, bool isOpen, double now) {
     if (!canAppend(now)) return false;
+    // While legs are appended the carriers' places are not known.
+    route_.setCarrier({});
+    for (std::size_t i = 0; i < settings_.companions->size(); ++i)
+        settings_.companions->route(i).setCarrier({});
     const Companions before = *settings_.companions;
     if (!settings_.companions->append(std::move(others), route_, fixedPlace(now))) return false;
     if (append(std::move(leg), isOpen, now)) return true;
     *settings_.companions = before;
     return false;
+}
+
+void Run::setCarrier(std::size_t carried, std::size_t carrier,
+                     std::function<Pose(const RoutePoint&)> frameOf) {
+    Companions& others = *settings_.companions;
+    Route& own = carried == 0 ? route_ : others.route(carried - 1);
+    own.setCarrier([this, carried, carrier, frameOf = std::move(frameOf)](double place) {
+        const Companions& all = *settings_.companions;
+        const double common = carried == 0 ? place : all.leaderPlace(carried - 1, route_, place);
+        if (carrier == 0) return frameOf(route_.at(common));
+        return frameOf(all.route(carrier - 1).at(all.placeOf(carrier - 1, route_, common).place));
+    });
 }
 
 /// False, and the route is as before, when the arm can no longer take the corner within its limits.

@@ -34,6 +34,9 @@ class Run {
     /// The same, with a leg for each companion.
     bool appendTogether(Leg leg, std::vector<Leg> others, bool isOpen, double now);
     const Companions& companions() const { return *settings_.companions; }
+    /// The robot `carried` moves along with the user frame that `carrier` moves: 0 is this robot, 1 the first companion.
+    /// `frameOf`: the frame for a place of the carrier.
+    void setCarrier(std::size_t carried, std::size_t carrier, std::function<Pose(const RoutePoint&)> frameOf);
     /// The end of the route is passed by on a curve as soon as a leg follows; until then the plan stops there.
     bool isOpen() const { return isOpen_; }
     void close() { isOpen_ = false; }

@@ -33,21 +33,23 @@ MotionError targetError(const robot::IkError& error, const Vec3& position) {
     return result;
 }
 
-Pose FrameSetup::object(const ExternalAxes& axes) const {
-    const Pose user = userMover == nullptr ? workObject.uframe : userMover->frame(axes);
-    return user * workObject.oframe * displacement;
+Pose FrameSetup::object(const ExternalAxes& axes, const Pose* user) const {
+    const Pose frame = user != nullptr        ? *user
+                       : userMover == nullptr ? workObject.uframe
+                                              : userMover->frame(axes);
+    return frame * workObject.oframe * displacement;
 }
 
-Pose FrameSetup::toFlange(const Pose& target, const ExternalAxes& axes) const {
-    const Pose place = object(axes) * target;
+Pose FrameSetup::toFlange(const Pose& target, const ExternalAxes& axes, const Pose* user) const {
+    const Pose place = object(axes, user) * target;
     if (tool.robotHeld) return inverse(base(axes)) * place * inverse(tool.tframe);
     // The robot holds the work object: uframe counts from the flange and the tool is fixed in world.
     return inverse(base(axes)) * tool.tframe * inverse(place);
 }
 
-Pose FrameSetup::fromFlange(const Pose& flange, const ExternalAxes& axes) const {
-    if (tool.robotHeld) return inverse(object(axes)) * base(axes) * flange * tool.tframe;
-    return inverse(object(axes)) * inverse(base(axes) * flange) * tool.tframe;
+Pose FrameSetup::fromFlange(const Pose& flange, const ExternalAxes& axes, const Pose* user) const {
+    if (tool.robotHeld) return inverse(object(axes, user)) * base(axes) * flange * tool.tframe;
+    return inverse(object(axes, user)) * inverse(base(axes) * flange) * tool.tframe;
 }
 
 Pose FrameSetup::tcpInWorld(const Pose& flange, const ExternalAxes& axes) const {
@@ -56,7 +58,8 @@ Pose FrameSetup::tcpInWorld(const Pose& flange, const ExternalAxes& axes) const 
 
 bool sameTool(const FrameSetup& a, const FrameSetup& b) {
     return a.tool.robotHeld == b.tool.robotHeld && a.tool.tframe == b.tool.tframe &&
-           a.workObject.robotHeld == b.workObject.robotHeld && a.userMover == b.userMover;
+           a.workObject.robotHeld == b.workObject.robotHeld && a.userMover == b.userMover &&
+           a.carrier == b.carrier && a.carrierUnit == b.carrierUnit;
 }
 
 bool sameFrames(const FrameSetup& a, const FrameSetup& b) {

@@ -9,9 +9,13 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
 
 namespace motion {
+
+class MotionSystem;
 
 using robot::ConfData;
 using robot::Expected;
@@ -68,20 +72,27 @@ struct FrameSetup {
 
     bool isConsistent() const { return tool.robotHeld != workObject.robotHeld; }
     /// Flange in base for a TCP pose in the displaced object frame.
-    Pose toFlange(const Pose& target, const ExternalAxes& axes) const;
+    /// `user`: the user frame in world at that moment, for one that another robot carries.
+    Pose toFlange(const Pose& target, const ExternalAxes& axes, const Pose* user = nullptr) const;
     /// The reverse: TCP pose in the displaced object frame.
-    Pose fromFlange(const Pose& flange, const ExternalAxes& axes) const;
+    Pose fromFlange(const Pose& flange, const ExternalAxes& axes, const Pose* user = nullptr) const;
     /// TCP in world for a flange pose in base (a stationary tool does not move).
     Pose tcpInWorld(const Pose& flange, const ExternalAxes& axes) const;
     /// Robot base in world.
     Pose base(const ExternalAxes& axes) const {
         return baseMover == nullptr ? baseFrame : baseMover->carry(baseFrame, axes);
     }
+    /// A robot, or a unit of a robot's group, that carries the work object while both move together (MultiMove); the pose of
+    /// the user frame is the present one.
+    const MotionSystem* carrier = nullptr;
+    const robot::ExternalUnit* carrierUnit = nullptr; ///< null: the robot itself
+    /// The user frame after a share of the carrier's movement, 0 to 1; set with the order of a movement.
+    std::shared_ptr<const std::function<Pose(double)>> userCourse;
     bool dependsOnAxes() const { return baseMover != nullptr || userMover != nullptr; }
 
   private:
     /// The displaced object frame, in world or in the wrist frame.
-    Pose object(const ExternalAxes& axes) const;
+    Pose object(const ExternalAxes& axes, const Pose* user) const;
 };
 
 /// The same tool, held in the same way, and the same unit that moves the user frame: the TCP does not jump between moves

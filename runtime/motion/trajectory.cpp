@@ -85,6 +85,15 @@ RunSettings Trajectory::settingsOf(double rampShare) const {
     return settings;
 }
 
+/// In its work object, which may be carried.
+bool Trajectory::keepsPlace(const Ordered& move) {
+    if (move.path->isEmpty()) return true;
+    constexpr double kNoWay = 1e-6; // mm
+    const MotionPath& path = *move.path;
+    return path.isCartesian() && path.curve().length() < kNoWay && path.curve().rotationDeg() < kNoWay &&
+           path.externalTravel() < kNoWay;
+}
+
 /// A robot that keeps its place gets a leg without movement, as long as the longest one of the others.
 std::vector<Leg> Trajectory::legsTogether(const std::vector<Ordered>& moves) const {
     std::vector<Leg> legs;
@@ -94,11 +103,11 @@ std::vector<Leg> Trajectory::legsTogether(const std::vector<Ordered>& moves) con
         legs.push_back(i == 0 ? legOf(moves[i].path, moves[i].command)
                               : followers_[i - 1].lock()->legOf(moves[i].path, moves[i].command));
         duration = std::max(duration, legs.back().duration);
-        if (!moves[i].path->isEmpty()) longest = std::max(longest, legs.back().length());
+        if (!keepsPlace(moves[i])) longest = std::max(longest, legs.back().length());
     }
     for (std::size_t i = 0; i < moves.size(); ++i) {
         legs[i].duration = i == 0 ? duration : 0;
-        if (!moves[i].path->isEmpty()) continue;
+        if (!keepsPlace(moves[i])) continue;
         legs[i].lengths = LengthMap::even(longest);
         legs[i].perMm = 1;
         legs[i].isTurning = false;
@@ -122,13 +131,18 @@ Trajectory::Appended Trajectory::appendTogether(const std::vector<Ordered>& move
         return appendPause(moves.front().path, pause, now);
     }
     // One that keeps its place while others move has no corner to begin or to end its movement in.
-    const bool isFlyBy = all([](const Ordered& m) { return !m.command.zone.finep && !m.path->isEmpty(); });
+    const bool isFlyBy = all([](const Ordered& m) { return !m.command.zone.finep && !keepsPlace(m); });
     std::vector<Leg> legs = legsTogether(moves);
     Leg own = std::move(legs.front());
     legs.erase(legs.begin());
     const bool canFollow = last != nullptr && last->run->isOpen() && last->isScheduled &&
-                           std::none_of(moves.begin(), moves.end(), isEmptyMove);
+                           std::none_of(moves.begin(), moves.end(), keepsPlace);
+    const auto carry = [&](Run& run) {
+        for (std::size_t i = 0; i < moves.size(); ++i)
+            if (moves[i].carrier) run.setCarrier(i, *moves[i].carrier, moves[i].carrierFrame);
+    };
     if (canFollow && last->run->appendTogether(own, legs, isFlyBy, now)) {
+        carry(*last->run);
         planChanged();
         return {{count() - 1, last->run->route().legCount() - 1}, false, false};
     }
@@ -141,6 +155,7 @@ Trajectory::Appended Trajectory::appendTogether(const std::vector<Ordered>& move
         settings.companions->add(follower.lock()->accelerations_);
     auto run = std::make_unique<Run>(settings, now);
     run->appendTogether(std::move(own), std::move(legs), isFlyBy, now);
+    carry(*run);
     Appended result = appendRun(std::move(run), moves.front().path, 0, now);
     result.isCornerLost = isCornerLost;
     return result;
@@ -404,9 +419,8 @@ void Trajectory::ratesAt(const PathPlace& place, Joints& first, double& tcpRate)
     for (std::size_t i = 0; i < first.size(); ++i)
         first[i] = (after.joints[i] - before.joints[i]) / (high - low);
     const FrameSetup& frames = framesAt(place);
-    const robot::Kinematics& kinematics = way.leg(way.legAt(place.s)).path->kinematics();
-    const Vec3 from = frames.fromFlange(kinematics.forward(before.joints), before.extax).pos;
-    const Vec3 to = frames.fromFlange(kinematics.forward(after.joints), after.extax).pos;
+    const Vec3 from = way.tcpOf(frames, before, low).pos;
+    const Vec3 to = way.tcpOf(frames, after, high).pos;
     tcpRate = norm(to - from) / (high - low);
 }
 

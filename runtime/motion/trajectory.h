@@ -56,6 +56,8 @@ class Trajectory {
     struct Ordered {
         std::shared_ptr<const MotionPath> path;
         MoveCommand command;
+        std::optional<std::size_t> carrier; ///< number of the robot that carries the work object, 0 for this one
+        std::function<Pose(const RoutePoint&)> carrierFrame; ///< the user frame where that robot is
     };
     Appended appendTogether(const std::vector<Ordered>& moves, double now);
     /// From now on moves are appended together with those of `follower`; the path is empty.
@@ -152,6 +154,7 @@ class Trajectory {
     Tail tailBefore(std::size_t run, double time) const;
     RunSettings settings() const;
     Leg legOf(const std::shared_ptr<const MotionPath>& path, const MoveCommand& command) const;
+    static bool keepsPlace(const Ordered& move);
     std::vector<Leg> legsTogether(const std::vector<Ordered>& moves) const;
     RunSettings settingsOf(double rampShare) const;
     Appended appendPause(const std::shared_ptr<const MotionPath>& path, double seconds, double now);

@@ -37,13 +37,18 @@ Status moveUserFrame(TaskCore* task, std::string_view name, motion::FrameSetup& 
         frames.userMover = &unit->geometry;
         return kOk;
     }
-    const MotionDriver& other = *controller.motions()[unit->group];
+    MotionDriver& other = *controller.motions()[unit->group];
+    frames.workObject.uframe = frameOfOther(controller, *unit);
+    if (own.synchronised() != nullptr && own.synchronised() == other.synchronised()) {
+        frames.carrier = &other.system();
+        frames.carrierUnit = unit->isRobot ? nullptr : &unit->geometry;
+        return kOk;
+    }
     if (other.isMoving() && !other.isIdle()) // in position at a stop point it counts as arrived
         return fail(
             task, err::ERR_WOBJ_MOVING,
             "mechanical unit " + quoted +
                 " of the work object moves: wait until it stands, or synchronise the tasks (SyncMoveOn)");
-    frames.workObject.uframe = frameOfOther(controller, *unit);
     return kOk;
 }
 

@@ -183,3 +183,49 @@ TEST_CASE("an unreachable target of one robot orders nothing for the others", "[
     CHECK(pair.first.isIdle());
     CHECK(pair.second.isIdle());
 }
+
+TEST_CASE("a robot follows the work object that the other one carries", "[motion][together]") {
+    Pair pair;
+    // The target of the first robot is given in the flange frame of the second one.
+    const auto inOther = [&] {
+        const MotionState other = pair.second.current();
+        const Pose flange = pair.second.flangeInWorld({other.joints, other.extax});
+        return robot::inverse(flange) * pair.first.current().tcp;
+    };
+    const Pose held = inOther();
+    const auto order = [&](const Pose& target, double y, double z, bool isFlyBy) {
+        MoveCommand first = lineTo(pair.first, 0, 0, 0, 400, isFlyBy);
+        first.frames.workObject.uframe = pair.second.flangeInWorld(pair.second.plannedEnd());
+        first.frames.carrier = &pair.second;
+        first.target.pose = target;
+        pair.order(first, lineTo(pair.second, 0, y, z, 400, isFlyBy));
+    };
+    SECTION("at rest in it") {
+        order(held, 40, 0, true);
+        order(held, 0, 40, true);
+        order(held, -40, 0, false);
+        double worst = 0;
+        for (TimeNs time = 0; pair.first.nextEventTime() || pair.second.nextEventTime(); time += kMs) {
+            for (MotionSystem* system : pair.both)
+                system->advanceTo(time);
+            worst = std::max(worst, norm(inOther().pos - held.pos));
+        }
+        CHECK(worst < 1e-3);
+        CHECK(pair.first.currentTarget({}).pose.pos.y == Approx(0).margin(1e-3));
+    }
+    SECTION("on a line in it") {
+        order(robot::offs(held, 0, 0, 60), 60, -30, false);
+        double worst = 0;
+        double fastest = 0;
+        for (TimeNs time = 0; pair.first.nextEventTime() || pair.second.nextEventTime(); time += kMs) {
+            for (MotionSystem* system : pair.both)
+                system->advanceTo(time);
+            const Pose now = inOther();
+            worst = std::max(worst, std::hypot(now.pos.x - held.pos.x, now.pos.y - held.pos.y));
+            fastest = std::max(fastest, pair.first.current().tcpSpeed);
+        }
+        CHECK(worst < 1e-3);
+        CHECK(inOther().pos.z - held.pos.z == Approx(60).margin(1e-6));
+        CHECK(fastest <= 400.5); // relative to the work object
+    }
+}
