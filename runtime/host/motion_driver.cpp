@@ -67,7 +67,8 @@ motion::MotionSystem& MotionDriver::system() {
 void MotionDriver::refresh() {
     refreshAlone();
     if (synchronised_ == nullptr) return;
-    for (const SynchronisedGroup::Member& member : synchronised_->members()) // what one does changes the others' times
+    for (const SynchronisedGroup::Member& member :
+         synchronised_->members()) // what one does changes the others' times
         if (member.driver != this) member.driver->refreshAlone();
 }
 

@@ -11,13 +11,15 @@ namespace rt {
 
 std::string SynchronisedGroup::give(MotionDriver& driver, Order& order) {
     if (order.command.ident == 0)
-        return "A movement instruction between SyncMoveOn and SyncMoveOff has no \\ID. Give it the number that the "
+        return "A movement instruction between SyncMoveOn and SyncMoveOff has no \\ID. Give it the number "
+               "that the "
                "other tasks use.";
     for (const auto& [other, given] : given_) {
         if (given->command.ident == order.command.ident) continue;
-        return fmt::format("Task {} executes the movement with \\ID {} while task {} is at \\ID {}. The movements "
-                           "of all tasks must have the same numbers in the same order.",
-                           order.task->name(), order.command.ident, given->task->name(), given->command.ident);
+        return fmt::format(
+            "Task {} executes the movement with \\ID {} while task {} is at \\ID {}. The movements "
+            "of all tasks must have the same numbers in the same order.",
+            order.task->name(), order.command.ident, given->task->name(), given->command.ident);
     }
     given_.emplace_back(&driver, &order);
     changed_.notifyAll();
@@ -87,17 +89,17 @@ void SynchronisedGroup::orderStep() {
 void SynchronisedGroup::end() {
     if (std::exchange(isOver_, true)) return;
     const auto all = systems();
-    (void)motion::MotionSystem::endTogether(all); // robots that still move have their paths cleared by the caller
+    (void)motion::MotionSystem::endTogether(
+        all); // robots that still move have their paths cleared by the caller
     for (const Member& member : members_)
         member.driver->leaveGroup();
     changed_.notifyAll();
 }
 
 bool SynchronisedGroup::isHeld() const {
-    return std::any_of(members_.begin(), members_.end(),
-                       [](const Member& member) {
-                           return member.driver->isHeldItself() || member.driver->isSuspended();
-                       });
+    return std::any_of(members_.begin(), members_.end(), [](const Member& member) {
+        return member.driver->isHeldItself() || member.driver->isSuspended();
+    });
 }
 
 } // namespace rt

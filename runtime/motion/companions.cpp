@@ -140,7 +140,8 @@ bool Companions::append(std::vector<Leg> legs, const Route& leader, double fixed
 }
 
 double Companions::largestSlope(std::size_t member, const Route& leader, double from, double to) const {
-    const int looks = std::clamp(static_cast<int>(to - from), 6, 60); // about one a mm: it changes fast in a corner
+    const int looks =
+        std::clamp(static_cast<int>(to - from), 6, 60); // about one a mm: it changes fast in a corner
     double largest = 0;
     for (int k = 0; k <= looks; ++k)
         largest = std::max(largest, placeOf(member, leader, from + (to - from) * k / looks).slope);
@@ -163,8 +164,8 @@ void Companions::tighten(const Route& leader, const RouteStretch& stretch, Stret
         const std::size_t last = own.stretchAt(end.place);
         for (std::size_t k = own.stretchAt(begin.place); k <= last; ++k) {
             const RouteStretch& s = own.stretches()[k];
-            const StretchLimits l = limitsOn(seenByLeader(s, slope, change), own.leg(s.leg).limits,
-                                             members_[i].accelerations);
+            const StretchLimits l =
+                limitsOn(seenByLeader(s, slope, change), own.leg(s.leg).limits, members_[i].accelerations);
             limits.speed = std::min(limits.speed, l.speed * (around > kNothing ? slope / around : 1));
             limits.bendSquare = std::min(limits.bendSquare, l.bendSquare);
             limits.gain = std::min(limits.gain, l.gain);

@@ -14,15 +14,14 @@ Trajectory::Appended Follower::append(const std::shared_ptr<const MotionPath>& /
 
 PathPlace Follower::own(const PathPlace& leading) const {
     if (leader_->isEmpty() || leader_->isPause(leading.run)) return leading;
-    return {leading.run, leader_->companionsOf(leading.run)
-                             .placeOf(member_, leader_->route(leading.run), leading.s)
-                             .place};
+    return {
+        leading.run,
+        leader_->companionsOf(leading.run).placeOf(member_, leader_->route(leading.run), leading.s).place};
 }
 
 PathPlace Follower::leading(const PathPlace& own) const {
     if (leader_->isEmpty() || leader_->isPause(own.run)) return own;
-    return {own.run,
-            leader_->companionsOf(own.run).leaderPlace(member_, leader_->route(own.run), own.s)};
+    return {own.run, leader_->companionsOf(own.run).leaderPlace(member_, leader_->route(own.run), own.s)};
 }
 
 PathPlace Follower::restPlaceIfHeld(double time) const {
@@ -33,8 +32,9 @@ Trajectory::Moment Follower::at(double time) const {
     Moment moment = leader_->at(time);
     if (leader_->isEmpty()) return moment;
     if (!leader_->isPause(moment.place.run)) {
-        const Companions::Mapped mapped = leader_->companionsOf(moment.place.run)
-                                              .placeOf(member_, leader_->route(moment.place.run), moment.place.s);
+        const Companions::Mapped mapped =
+            leader_->companionsOf(moment.place.run)
+                .placeOf(member_, leader_->route(moment.place.run), moment.place.s);
         moment.place.s = mapped.place;
         moment.speed *= mapped.slope;
     }
@@ -84,7 +84,8 @@ const FrameSetup& Follower::framesAt(const PathPlace& place) const {
 }
 
 PathPlace Follower::end() const {
-    return leader_->isEmpty() ? PathPlace{} : PathPlace{leader_->lastRun(), route(leader_->lastRun()).length()};
+    return leader_->isEmpty() ? PathPlace{}
+                              : PathPlace{leader_->lastRun(), route(leader_->lastRun()).length()};
 }
 
 void Follower::goBack(double now, const PathPlace& to, double mmPerSecond) {

@@ -73,7 +73,8 @@ Expected<Trajectory::Ordered, MotionError> MotionSystem::Impl::prepared(const Mo
         error.position = made->tcpAt(1).pos;
         return Unexpected{error};
     }
-    return Trajectory::Ordered{std::make_shared<const MotionPath>(std::move(*made)), std::move(onBase), {}, {}};
+    return Trajectory::Ordered{
+        std::make_shared<const MotionPath>(std::move(*made)), std::move(onBase), {}, {}};
 }
 
 /// The move is on its way.

@@ -41,7 +41,8 @@ bool MotionSystem::beginTogether(const std::vector<MotionSystem*>& systems) {
     for (std::size_t i = 1; i < systems.size(); ++i) {
         Impl& s = *systems[i]->impl_;
         const FrameSetup frames = s.path().isEmpty() ? s.based({}) : s.path().framesAt(s.path().end());
-        auto path = std::make_shared<Follower>(leader, i - 1, s.model, s.options.external, s.standing(), frames);
+        auto path =
+            std::make_shared<Follower>(leader, i - 1, s.model, s.options.external, s.standing(), frames);
         leader->addCompanion(path);
         continueOn(s, std::move(path));
     }

@@ -189,8 +189,8 @@ void MotionPath::resolveArmAngle(const MoveCommand& command) {
     armStart_ = kinematics_.armAngle(start_.robax);
     double end = command.target.armAngle;
     if (std::isnan(end)) {
-        const auto joints = solveTarget(kinematics_, flangeFor(curve_.at(1), 1), command.target,
-                                        command.confL, start_.robax);
+        const auto joints =
+            solveTarget(kinematics_, flangeFor(curve_.at(1), 1), command.target, command.confL, start_.robax);
         if (!joints) return;
         end = kinematics_.armAngle(*joints);
     }
@@ -243,8 +243,7 @@ bool MotionPath::solve(double s, const Joints& seed, Joints& out) const {
                                                   between(start_.robax, end_.robax, s), seed, out)
                    : kinematics_.inverseLockedAxis4(base_tcp, frames_.tool.tframe, lockedAxis4_, seed, out);
     }
-    return kinematics_.inverseContinue(flangeFor(curve_.at(s), s), seed, out,
-                                       armStart_ + armTravel_ * s);
+    return kinematics_.inverseContinue(flangeFor(curve_.at(s), s), seed, out, armStart_ + armTravel_ * s);
 }
 
 std::optional<MotionError> MotionPath::checkNode(const PathNode& node) const {
@@ -329,8 +328,8 @@ std::optional<MotionError> MotionPath::checkArrival(const MoveCommand& command) 
     const bool isUndecided = near.wristDeg < 0.1 || near.armMm < 0.1 || near.elbowDeg < 0.1 ||
                              near.shoulderDeg < 0.1 || near.armAngleDeg < 0.1 || near.foldDeg < 0.1;
     if (isUndecided) return {}; // two configurations meet here
-    const auto wanted = kinematics_.inverse(flangeFor(command.target.pose, 1),
-                                            command.target.conf, end_.robax, armAngleAt(1));
+    const auto wanted = kinematics_.inverse(flangeFor(command.target.pose, 1), command.target.conf,
+                                            end_.robax, armAngleAt(1));
     if (wanted && largestDifference(*wanted, end_.robax) < 0.01) return {};
     const int joint = wanted ? mostDifferent(*wanted, end_.robax) : wanted.error().joint;
     return errorAt(MotionErrorKind::ConfigurationMismatch, 1, joint,
@@ -405,9 +404,7 @@ void MotionPath::tcpRatesAt(double s, double& mm, double& deg) const {
         return;
     }
     constexpr double kStep = 1e-4;
-    const auto tcp = [&](double at) {
-        return tcpOf(between(start_.robax, end_.robax, at), at);
-    };
+    const auto tcp = [&](double at) { return tcpOf(between(start_.robax, end_.robax, at), at); };
     const Pose from = tcp(s - kStep);
     const Pose to = tcp(s + kStep);
     mm = norm(to.pos - from.pos) / (2 * kStep);

@@ -115,7 +115,8 @@ class MotionPath {
     Problem checkArrival(const MoveCommand& command) const;
     bool solve(double s, const Joints& seed, Joints& out) const;
     bool solveByWrist(double s, const Joints& seed, Joints& out) const;
-    bool missByWrist(const Joints& joints, const ExternalAxes& axes, const Vec3& goal, double (&miss)[2]) const;
+    bool missByWrist(const Joints& joints, const ExternalAxes& axes, const Vec3& goal,
+                     double (&miss)[2]) const;
     Problem takeWristAxes(CircleOrientation orientation);
     Problem checkWristArrival(const MoveCommand& command) const;
     bool isSmoothStep(const PathNode& from, const PathNode& to) const;

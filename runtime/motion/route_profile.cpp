@@ -155,8 +155,8 @@ ProfileCell measuredCell(const Route& route, const RouteStretch& stretch, const 
         // Just inside: what counts beyond the border belongs to the neighbour.
         const double inside = k == 0 ? 1e-9 : k + 1 == kSamples ? -1e-9 : 0;
         sampled.points[k] = route.at(stretch.begin + sampled.step * (static_cast<double>(k) + inside));
-        sampled.tcp[k] =
-            leg.path->frames().fromFlange(leg.path->kinematics().forward(sampled.points[k].joints), sampled.points[k].extax);
+        sampled.tcp[k] = leg.path->frames().fromFlange(
+            leg.path->kinematics().forward(sampled.points[k].joints), sampled.points[k].extax);
     }
     limitSpeed(cell, sampled, most);
     std::array<Joints, 2> accelerations{sampled.points[0].joints, sampled.points[0].joints};

@@ -8,7 +8,7 @@ namespace motion {
 namespace {
 
 constexpr double kUnlimited = 1e300;
-constexpr double kNothing = 1e-9;        // mm
+constexpr double kNothing = 1e-9; // mm
 
 /// Squares of the speed at one end of a stretch that go with a square at the other end.
 struct Interval {

@@ -2,8 +2,8 @@
 // Run: a route with its timing, from one standstill to the next. The measured plan takes the highest speed along the route
 // that keeps all limits, with full acceleration before and after; the course averages it in time. The optimal plan is exact.
 
-#include "runtime/motion/course.h"
 #include "runtime/motion/companions.h"
+#include "runtime/motion/course.h"
 #include "runtime/motion/optimal_plan.h"
 #include "runtime/motion/planner.h"
 #include "runtime/motion/route.h"

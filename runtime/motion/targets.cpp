@@ -159,7 +159,8 @@ Expected<JointTarget, MotionError> calcJointTarget(const robot::Kinematics& kine
         error.value = norm(target.pose.rot);
         return Unexpected{error};
     }
-    const auto joints = solveTarget(kinematics, frames.toFlange(target.pose, target.extax), target, true, seed);
+    const auto joints =
+        solveTarget(kinematics, frames.toFlange(target.pose, target.extax), target, true, seed);
     if (!joints) return Unexpected{targetError(joints.error(), target.pose.pos)};
     return JointTarget{*joints, target.extax};
 }

@@ -118,7 +118,9 @@ std::vector<Leg> Trajectory::legsTogether(const std::vector<Ordered>& moves) con
 
 Trajectory::Appended Trajectory::appendTogether(const std::vector<Ordered>& moves, double now) {
     planChanged();
-    const auto all = [&](const auto& condition) { return std::all_of(moves.begin(), moves.end(), condition); };
+    const auto all = [&](const auto& condition) {
+        return std::all_of(moves.begin(), moves.end(), condition);
+    };
     const auto isEmptyMove = [](const Ordered& move) { return move.path->isEmpty(); };
     endTarget_ = moves.front().path->end();
     for (std::size_t i = 0; i < followers_.size(); ++i)

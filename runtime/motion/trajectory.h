@@ -56,7 +56,8 @@ class Trajectory {
     struct Ordered {
         std::shared_ptr<const MotionPath> path;
         MoveCommand command;
-        std::optional<std::size_t> carrier; ///< number of the robot that carries the work object, 0 for this one
+        std::optional<std::size_t>
+            carrier; ///< number of the robot that carries the work object, 0 for this one
         std::function<Pose(const RoutePoint&)> carrierFrame; ///< the user frame where that robot is
     };
     Appended appendTogether(const std::vector<Ordered>& moves, double now);

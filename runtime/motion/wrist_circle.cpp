@@ -32,7 +32,8 @@ std::optional<MotionError> MotionPath::takeWristAxes(CircleOrientation orientati
         error.value = static_cast<double>(kinematics_.jointCount());
         return error;
     }
-    const Vec3 tool = rotate(frames_.fromFlange(kinematics_.forward(start_.robax), start_.extax).rot, {0, 0, 1});
+    const Vec3 tool =
+        rotate(frames_.fromFlange(kinematics_.forward(start_.robax), start_.extax).rot, {0, 0, 1});
     const double tilt =
         std::atan2(norm(cross(tool, curve_.axis())), dot(tool, curve_.axis())) * 180 / std::numbers::pi;
     if (!(std::min(tilt, 180 - tilt) < kMostTilt)) {
@@ -48,7 +49,8 @@ std::optional<MotionError> MotionPath::takeWristAxes(CircleOrientation orientati
 }
 
 /// mm in the plane of the circle from `goal` to where the z axis of the tool meets it. False when it is too flat.
-bool MotionPath::missByWrist(const Joints& joints, const ExternalAxes& axes, const Vec3& goal, double (&miss)[2]) const {
+bool MotionPath::missByWrist(const Joints& joints, const ExternalAxes& axes, const Vec3& goal,
+                             double (&miss)[2]) const {
     const Pose tcp = frames_.fromFlange(kinematics_.forward(joints), axes);
     const Vec3 tool = rotate(tcp.rot, {0, 0, 1});
     const Vec3 normal = curve_.axis();
@@ -79,7 +81,9 @@ bool MotionPath::solveByWrist(double s, const Joints& seed, Joints& out) const {
             high[wristAxes_[k]] += kStep;
             double before[2];
             double after[2];
-            if (!missByWrist(low, externalAt(s), goal, before) || !missByWrist(high, externalAt(s), goal, after)) return false;
+            if (!missByWrist(low, externalAt(s), goal, before) ||
+                !missByWrist(high, externalAt(s), goal, after))
+                return false;
             for (std::size_t row = 0; row < 2; ++row)
                 slope[row][k] = (after[row] - before[row]) / (2 * kStep);
         }

@@ -107,9 +107,10 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
     Task& owner = taskOf(task);
     if (command.ident != 0 && owner.controller().motions().size() > 1 &&
         motionOf(task).synchronised() == nullptr)
-        return owner.fatal(static_cast<int>(EventId::SyncMisused),
-                           "A movement instruction with \\ID is not between SyncMoveOn and SyncMoveOff. Remove "
-                           "\\ID, or synchronise the tasks first.");
+        return owner.fatal(
+            static_cast<int>(EventId::SyncMisused),
+            "A movement instruction with \\ID is not between SyncMoveOn and SyncMoveOff. Remove "
+            "\\ID, or synchronise the tasks first.");
     MotionState& state = motionState(task);
     if (args.t && !(*args.t > 0)) return fail(task, err::ERR_ARGVALERR, "\\T must be a time above 0 s");
     if (const Status status = checkConcurrent(task, state, args.conc)) return status;
@@ -145,19 +146,19 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
 
 extern "C" {
 
-Status rt_MoveAbsJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float* ID, bool NoEOffs,
-                   const data::Speeddata* Speed, const float* V, const float* T, const data::Zonedata* Zone,
-                   const float* Z, const data::Stoppointdata* Inpos, data::Tooldata* Tool,
-                   data::Wobjdata* WObj, data::Loaddata*) {
+Status rt_MoveAbsJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float* ID,
+                   bool NoEOffs, const data::Speeddata* Speed, const float* V, const float* T,
+                   const data::Zonedata* Zone, const float* Z, const data::Stoppointdata* Inpos,
+                   data::Tooldata* Tool, data::Wobjdata* WObj, data::Loaddata*) {
     return lib::orderMove(task, lib::absoluteMove(task, *ToJointPos, NoEOffs, ID),
                           {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
 }
 
 /// The line to where the tool is at these axis angles, which the robot must reach in just that configuration.
-Status rt_MoveAbsL(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float* ID, bool NoEOffs,
-                   const data::Speeddata* Speed, const float* V, const float* T, const data::Zonedata* Zone,
-                   const float* Z, const data::Stoppointdata* Inpos, data::Tooldata* Tool,
-                   data::Wobjdata* WObj, data::Loaddata*) {
+Status rt_MoveAbsL(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float* ID,
+                   bool NoEOffs, const data::Speeddata* Speed, const float* V, const float* T,
+                   const data::Zonedata* Zone, const float* Z, const data::Stoppointdata* Inpos,
+                   data::Tooldata* Tool, data::Wobjdata* WObj, data::Loaddata*) {
     if (const Status status = lib::requireMotionTask(task)) return status;
     const motion::MoveCommand absolute = lib::absoluteMove(task, *ToJointPos, NoEOffs, ID);
     motion::MoveCommand command;

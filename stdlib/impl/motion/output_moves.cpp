@@ -45,18 +45,18 @@ lib::MoveArguments arguments(const data::Speeddata* speed, const float* t, const
 
 extern "C" {
 
-Status rt_MoveLDO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID, const data::Speeddata* Speed,
-                  const float* T, const data::Zonedata* Zone, data::Tooldata* Tool, data::Wobjdata* WObj,
-                  Handle* Signal, float Value, data::Loaddata*) {
-    return moveAndSet(task, lib::linearMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj), *Signal,
-                      Value);
+Status rt_MoveLDO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
+                  const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
+                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value, data::Loaddata*) {
+    return moveAndSet(task, lib::linearMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj),
+                      *Signal, Value);
 }
 
-Status rt_MoveJDO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID, const data::Speeddata* Speed,
-                  const float* T, const data::Zonedata* Zone, data::Tooldata* Tool, data::Wobjdata* WObj,
-                  Handle* Signal, float Value, data::Loaddata*) {
-    return moveAndSet(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj), *Signal,
-                      Value);
+Status rt_MoveJDO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
+                  const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
+                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value, data::Loaddata*) {
+    return moveAndSet(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj),
+                      *Signal, Value);
 }
 
 Status rt_MoveCDO(TaskCore* task, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
@@ -66,18 +66,18 @@ Status rt_MoveCDO(TaskCore* task, const data::Robtarget* CirPoint, const data::R
                       arguments(Speed, T, Zone, Tool, WObj), *Signal, Value);
 }
 
-Status rt_MoveLAO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID, const data::Speeddata* Speed,
-                  const float* T, const data::Zonedata* Zone, data::Tooldata* Tool, data::Wobjdata* WObj,
-                  Handle* Signal, float Value, data::Loaddata*) {
-    return moveAndSet(task, lib::linearMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj), *Signal,
-                      Value);
+Status rt_MoveLAO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
+                  const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
+                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value, data::Loaddata*) {
+    return moveAndSet(task, lib::linearMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj),
+                      *Signal, Value);
 }
 
-Status rt_MoveJAO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID, const data::Speeddata* Speed,
-                  const float* T, const data::Zonedata* Zone, data::Tooldata* Tool, data::Wobjdata* WObj,
-                  Handle* Signal, float Value, data::Loaddata*) {
-    return moveAndSet(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj), *Signal,
-                      Value);
+Status rt_MoveJAO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
+                  const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
+                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value, data::Loaddata*) {
+    return moveAndSet(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj),
+                      *Signal, Value);
 }
 
 Status rt_MoveCAO(TaskCore* task, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
@@ -87,16 +87,18 @@ Status rt_MoveCAO(TaskCore* task, const data::Robtarget* CirPoint, const data::R
                       arguments(Speed, T, Zone, Tool, WObj), *Signal, Value);
 }
 
-Status rt_MoveLGO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID, const data::Speeddata* Speed,
-                  const float* T, const data::Zonedata* Zone, data::Tooldata* Tool, data::Wobjdata* WObj,
-                  Handle* Signal, const float* Value, const double* DValue, data::Loaddata*) {
+Status rt_MoveLGO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
+                  const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
+                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, const float* Value,
+                  const double* DValue, data::Loaddata*) {
     return moveAndSetGroup(task, lib::linearMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj),
                            *Signal, Value, DValue);
 }
 
-Status rt_MoveJGO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID, const data::Speeddata* Speed,
-                  const float* T, const data::Zonedata* Zone, data::Tooldata* Tool, data::Wobjdata* WObj,
-                  Handle* Signal, const float* Value, const double* DValue, data::Loaddata*) {
+Status rt_MoveJGO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
+                  const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
+                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, const float* Value,
+                  const double* DValue, data::Loaddata*) {
     return moveAndSetGroup(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj),
                            *Signal, Value, DValue);
 }

@@ -89,7 +89,8 @@ Status rt_MoveLSync(TaskCore* task, const data::Robtarget* ToPoint, const float*
 Status rt_MoveJSync(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
                     const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
                     data::Tooldata* Tool, data::Wobjdata* WObj, const String* ProcName, data::Loaddata*) {
-    return moveAndCall(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj), ProcName);
+    return moveAndCall(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj),
+                       ProcName);
 }
 
 Status rt_MoveCSync(TaskCore* task, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,

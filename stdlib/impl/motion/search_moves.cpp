@@ -143,8 +143,9 @@ Status rt_SearchL(TaskCore* task, bool Stop, bool PStop, bool SStop, bool Sup, H
 Status rt_SearchC(TaskCore* task, bool Stop, bool PStop, bool SStop, bool Sup, Handle* Signal, bool* PersBool,
                   bool Flanks, bool PosFlank, bool NegFlank, bool HighLevel, bool LowLevel,
                   data::Robtarget* SearchPoint, const data::Robtarget* CirPoint,
-                  const data::Robtarget* ToPoint, const float* ID, const data::Speeddata* Speed, const float* V,
-                  const float* T, data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata*) {
+                  const data::Robtarget* ToPoint, const float* ID, const data::Speeddata* Speed,
+                  const float* V, const float* T, data::Tooldata* Tool, data::Wobjdata* WObj, bool,
+                  data::Loaddata*) {
     return searchTarget(
         task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
         {{Stop, PStop, SStop, Sup, Flanks, PosFlank, NegFlank, HighLevel, LowLevel}, Signal, PersBool},
@@ -160,8 +161,8 @@ Status rt_SearchJ(TaskCore* task, bool Stop, bool PStop, bool SStop, bool Sup, H
     const SearchArguments args{
         {Stop, PStop, SStop, Sup, Flanks, PosFlank, NegFlank, HighLevel, LowLevel}, Signal, PersBool};
     const lib::MoveArguments move = moveArguments(Speed, V, T, Tool, WObj);
-    motion::MoveCommand command =
-        ToPoint != nullptr ? lib::jointMove(task, *ToPoint, ID) : lib::absoluteMove(task, *ToJointPos, false, ID);
+    motion::MoveCommand command = ToPoint != nullptr ? lib::jointMove(task, *ToPoint, ID)
+                                                     : lib::absoluteMove(task, *ToJointPos, false, ID);
     if (SearchPoint != nullptr) return searchTarget(task, std::move(command), args, move, SearchPoint);
     return searchJoints(task, std::move(command), args, move, true, SearchJointPos);
 }

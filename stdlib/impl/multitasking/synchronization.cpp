@@ -87,24 +87,26 @@ Status misuse(Task& owner, const std::string& why) {
 }
 
 /// `instruction`: for messages.
-Status readList(Task& owner, const char* instruction, const data::Tasks* list, int32_t count, Tasks& partners) {
+Status readList(Task& owner, const char* instruction, const data::Tasks* list, int32_t count,
+                Tasks& partners) {
     for (int32_t i = 0; i < count; ++i) {
         const std::string name(list[i].taskname.view());
         Task* partner = owner.controller().findTask(name);
         if (partner == nullptr)
-            return misuse(owner, fmt::format("{}: element {} of the task list names \"{}\", but there is no such "
-                                             "task. Name tasks of this controller only.",
-                                             instruction, i + 1, name));
+            return misuse(owner,
+                          fmt::format("{}: element {} of the task list names \"{}\", but there is no such "
+                                      "task. Name tasks of this controller only.",
+                                      instruction, i + 1, name));
         partners.push_back(partner);
     }
     std::sort(partners.begin(), partners.end(),
               [](const Task* a, const Task* b) { return a->index() < b->index(); });
     partners.erase(std::unique(partners.begin(), partners.end()), partners.end());
     if (std::find(partners.begin(), partners.end(), &owner) != partners.end()) return kOk;
-    return misuse(owner,
-                  fmt::format("{}: the task list does not name task {}, which executes the instruction. Every "
-                              "task that takes part must be in the list.",
-                              instruction, owner.name()));
+    return misuse(
+        owner, fmt::format("{}: the task list does not name task {}, which executes the instruction. Every "
+                           "task that takes part must be in the list.",
+                           instruction, owner.name()));
 }
 
 /// Tasks that wait for each other at the same point must agree on who takes part.
@@ -112,10 +114,11 @@ Status compareLists(Task& owner, const char* instruction, const SyncPoints& poin
     for (const Task* partner : own.partners) {
         const Arrival* other = points.find(partner, own.point);
         if (other != nullptr && other->partners != own.partners)
-            return misuse(owner,
-                          fmt::format("{}: the task lists of {} and {} differ. The list must name the same tasks "
-                                      "in every task that takes part.",
-                                      instruction, owner.name(), partner->name()));
+            return misuse(
+                owner,
+                fmt::format("{}: the task lists of {} and {} differ. The list must name the same tasks "
+                            "in every task that takes part.",
+                            instruction, owner.name(), partner->name()));
     }
     return kOk;
 }
@@ -197,7 +200,8 @@ Status rt_SyncMoveOn(TaskCore* task, Handle* SyncID, data::Tasks* TaskList, int3
             return misuse(owner, fmt::format("SyncMoveOn: task {} of the list controls no mechanical unit.",
                                              partner->name()));
     if (groupOf(task) != nullptr)
-        return misuse(owner, "SyncMoveOn: the task is in synchronised movement already. Execute SyncMoveOff first.");
+        return misuse(owner,
+                      "SyncMoveOn: the task is in synchronised movement already. Execute SyncMoveOff first.");
     if (const Status status = waitAtRest(owner)) return status;
     return meet(owner, SyncID, meeting);
 }
@@ -207,9 +211,10 @@ Status rt_SyncMoveOff(TaskCore* task, Handle* SyncID, const float* TimeOut) {
     Task& owner = taskOf(task);
     const auto group = groupOf(task);
     if (group == nullptr)
-        return misuse(owner, "SyncMoveOff: the task is not in synchronised movement. Execute SyncMoveOn first.");
-    Meeting meeting{"SyncMoveOff", {}, TimeOut, err::ERR_SYNCMOVEOFF,
-                    [group](const Tasks&) { group->end(); }};
+        return misuse(owner,
+                      "SyncMoveOff: the task is not in synchronised movement. Execute SyncMoveOn first.");
+    Meeting meeting{
+        "SyncMoveOff", {}, TimeOut, err::ERR_SYNCMOVEOFF, [group](const Tasks&) { group->end(); }};
     for (const SynchronisedGroup::Member& member : group->members())
         meeting.partners.push_back(member.task);
     if (const Status status = waitAtRest(owner)) return status;
@@ -232,8 +237,9 @@ Status rt_SyncMoveSuspend(TaskCore* task) {
     if (const Status status = lib::requireMotionTask(task)) return status;
     MotionDriver& driver = lib::motionOf(task);
     if (driver.pathLevel() == 1 || driver.synchronised() == nullptr)
-        return misuse(taskOf(task), "SyncMoveSuspend is for synchronised robots on the path level of StorePath "
-                                    "\\KeepSync.");
+        return misuse(taskOf(task),
+                      "SyncMoveSuspend is for synchronised robots on the path level of StorePath "
+                      "\\KeepSync.");
     if (const Status status = waitAtRest(taskOf(task))) return status;
     driver.suspendGroup(true);
     (void)motion::MotionSystem::endTogether({&driver.system()});
@@ -245,7 +251,8 @@ Status rt_SyncMoveResume(TaskCore* task) {
     if (const Status status = lib::requireMotionTask(task)) return status;
     MotionDriver& driver = lib::motionOf(task);
     if (!driver.isSuspended())
-        return misuse(taskOf(task), "SyncMoveResume: the synchronised movement is not suspended (SyncMoveSuspend).");
+        return misuse(taskOf(task),
+                      "SyncMoveResume: the synchronised movement is not suspended (SyncMoveSuspend).");
     if (const Status status = waitAtRest(taskOf(task))) return status;
     driver.suspendGroup(false);
     return kOk;

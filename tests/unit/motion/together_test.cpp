@@ -62,11 +62,13 @@ TimeNs timeOf(const std::vector<MotionEvent>& events, MotionEventKind kind, Move
 
 } // namespace
 
-TEST_CASE("robots that move together begin and end together, in proportion on the way", "[motion][together]") {
+TEST_CASE("robots that move together begin and end together, in proportion on the way",
+          "[motion][together]") {
     Pair pair;
     const Vec3 from = pair.first.current().tcp.pos;
     const Vec3 otherFrom = pair.second.current().tcp.pos;
-    pair.order(lineTo(pair.first, 0, 100, -50, 500, false), lineTo(pair.second, -100, -200, -100, 500, false));
+    pair.order(lineTo(pair.first, 0, 100, -50, 500, false),
+               lineTo(pair.second, -100, -200, -100, 500, false));
     std::vector<MotionEvent> events;
     std::vector<MotionEvent> otherEvents;
     double worst = 0;
@@ -103,7 +105,8 @@ TEST_CASE("fly-by points of synchronised movements are passed together", "[motio
     for (int i = 0; i < 4; ++i) {
         const auto move = [&](int robot) {
             const Vec3& way = ways[robot][i];
-            return lineTo(*pair.both[static_cast<std::size_t>(robot)], way.x, way.y, way.z, limits[robot], i < 3);
+            return lineTo(*pair.both[static_cast<std::size_t>(robot)], way.x, way.y, way.z, limits[robot],
+                          i < 3);
         };
         pair.order(move(0), move(1));
     }
@@ -133,8 +136,8 @@ TEST_CASE("fly-by points of synchronised movements are passed together", "[motio
     }
     for (std::size_t r = 0; r < 2; ++r) {
         CHECK(fastest[r] <= limits[r] * 1.002); // shares are looked at every mm
-        CHECK(slowest[r] > 5); // no stop on the way
-        CHECK(largestJump[r] < 1); // deg in a ms
+        CHECK(slowest[r] > 5);                  // no stop on the way
+        CHECK(largestJump[r] < 1);              // deg in a ms
     }
 }
 
@@ -142,7 +145,8 @@ TEST_CASE("one robot keeps its place while the other moves", "[motion][together]
     Pair pair;
     const MotionState before = pair.first.current();
     pair.order(lineTo(pair.first, 0, 0, 0, 100, false), lineTo(pair.second, 0, 100, 0, 200, false));
-    while (pair.step()) CHECK(norm(pair.first.current().tcp.pos - before.tcp.pos) < 1e-9);
+    while (pair.step())
+        CHECK(norm(pair.first.current().tcp.pos - before.tcp.pos) < 1e-9);
     CHECK(pair.second.lastOrdered() == 1);
     CHECK(pair.first.isDone(1));
     CHECK(pair.second.isDone(1));
