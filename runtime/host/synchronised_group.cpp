@@ -10,7 +10,7 @@
 namespace rt {
 
 std::string SynchronisedGroup::give(MotionDriver& driver, Order& order) {
-    if (order.command.ident == 0)
+    if (order.command.ident == motion::kNoIdent)
         return "A movement instruction between SyncMoveOn and SyncMoveOff has no \\ID. Give it the number "
                "that the "
                "other tasks use.";

@@ -77,6 +77,8 @@ struct PathTrigger {
     friend auto operator<=>(const PathTrigger&, const PathTrigger&) = default;
 };
 
+inline constexpr int64_t kNoIdent = -1; ///< a movement without \ID
+
 struct MoveCommand {
     MoveKind kind = MoveKind::AbsJoint;
     JointTarget joints; ///< AbsJoint; a kNotConnected axis keeps its place
@@ -93,7 +95,7 @@ struct MoveCommand {
     bool concurrent = false; ///< \Conc: the program goes on when the move starts
     MotionSettings settings;
     std::vector<PathTrigger> triggers;
-    int64_t ident = 0; ///< RAPID's \ID, the same for all robots of a synchronised movement; 0 = not given
+    int64_t ident = kNoIdent; ///< RAPID's \ID, the same for all robots of a synchronised movement
     uint64_t tag = 0;  ///< the caller's, given back in samples and events (number of the move instruction)
 };
 

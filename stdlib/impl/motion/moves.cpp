@@ -7,6 +7,7 @@
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
 
+#include <algorithm>
 #include <utility>
 
 using namespace rt;
@@ -45,9 +46,8 @@ Status checkConcurrent(TaskCore* task, lib::MotionState& state, bool conc) {
                      "at most 5 movement instructions with \\Conc may follow each other");
 }
 
-/// 0 when it is not given; a number that is not above 0 names no movement.
 int64_t identOf(const float* id) {
-    return id != nullptr && *id >= 1 ? static_cast<int64_t>(*id) : 0;
+    return id != nullptr ? static_cast<int64_t>(std::clamp(*id, 0.0F, 1e9F)) : motion::kNoIdent;
 }
 
 /// As programmed, with the axis offsets in force.
@@ -105,7 +105,7 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
                  std::vector<PathAction> actions) {
     if (const Status status = requireMotionTask(task)) return status;
     Task& owner = taskOf(task);
-    if (command.ident != 0 && owner.controller().motions().size() > 1 &&
+    if (command.ident != motion::kNoIdent && owner.controller().motions().size() > 1 &&
         motionOf(task).synchronised() == nullptr)
         return owner.fatal(
             static_cast<int>(EventId::SyncMisused),
