@@ -83,9 +83,8 @@ class OperatorPanel::Listed {
     }
     ~Listed() {
         std::erase(panel_.asking_, &asking_);
-        if (panel_.terminalUser_ != &asking_) return;
-        panel_.terminalUser_ = nullptr;
-        panel_.answered_.notifyAll(); // the next one may use the terminal
+        if (panel_.terminalUser_ == &asking_) panel_.terminalUser_ = nullptr;
+        if (!panel_.asking_.empty()) panel_.answered_.notifyAll(); // the next one may use the terminal
     }
     Listed(const Listed&) = delete;
     Listed& operator=(const Listed&) = delete;
@@ -224,14 +223,18 @@ Status OperatorPanel::askTerminal(Asking& asking, std::optional<DialogEnd>& end)
     return readAnswer(asking, end);
 }
 
-/// Until no other task uses the terminal.
+/// Until no other task uses the terminal or has waited for it longer.
 Status OperatorPanel::waitForTurn(Asking& asking, std::optional<DialogEnd>& end) {
-    if (terminalUser_ == nullptr) return kOk;
+    const auto hasTurn = [&] {
+        const auto waits = [](const Asking* other) { return !other->answered && other->dialog.answerable; };
+        return terminalUser_ == nullptr && *std::find_if(asking_.begin(), asking_.end(), waits) == &asking;
+    };
+    if (hasTurn()) return kOk;
     WaitSpec spec;
     spec.queues = asking.dialog.breakQueues;
     spec.queues.push_back(&answered_);
     spec.deadline = asking.dialog.deadline;
-    spec.condition = [&] { return terminalUser_ == nullptr || asking.answered || isBroken(asking.dialog); };
+    spec.condition = [&] { return asking.answered || isBroken(asking.dialog) || hasTurn(); };
     WaitResult result = WaitResult::Done;
     const Status status = asking.task.waitFor(spec, result);
     if (status == kOk) endsNow(asking, end);
