@@ -387,7 +387,8 @@ uint32_t ProgramLowering::nativeFor(const RoutineSymbol& symbol) {
     native.nativeClass = rt::returnsItsValue(isConst, scalarResult, allValues) ? ir::NativeClass::Const
                                                                                : ir::NativeClass::Plain;
     native.watches = symbol.effects == sema::Effects::Watches ||
-                     (symbol.traits.has(sema::Trait::WatchesData) && isGiven(symbol, "persbool"));
+                     (symbol.traits.has(sema::Trait::WatchesData) &&
+                      (isGiven(symbol, "persbool") || isGiven(symbol, "persboolbreak")));
     return addNative(std::move(native));
 }
 

@@ -77,7 +77,14 @@ double IoSystem::value(SignalId id) const {
 double IoSystem::read(Handle handle, IoResult& result) const {
     const SignalId id = idOf(handle);
     result = id < 0 ? IoResult::NoSignal : IoResult::Ok;
-    return id < 0 ? 0 : value(id);
+    if (id < 0) return 0;
+    if (signals_[static_cast<std::size_t>(id)]->deviceOff) result = IoResult::DeviceOff;
+    return value(id);
+}
+
+void IoSystem::setDeviceOff(std::string_view device, bool off) {
+    for (const auto& signal : signals_)
+        if (sameName(signal->config.device, device)) signal->deviceOff = off;
 }
 
 IoResult IoSystem::normalise(const SignalConfig& config, double& value) {
@@ -103,8 +110,10 @@ IoResult IoSystem::check(Handle handle, double value, bool forOutput) const {
 IoResult IoSystem::checkWrite(Handle handle, double& value, Signal*& signal) {
     signal = byHandle(handle);
     const IoResult result = check(handle, value, true);
-    if (result == IoResult::Ok) normalise(signal->config, value);
-    return result;
+    if (result != IoResult::Ok) return result;
+    if (signal->deviceOff) return IoResult::DeviceOff;
+    normalise(signal->config, value);
+    return IoResult::Ok;
 }
 
 void IoSystem::cancelPending(Signal& signal) {

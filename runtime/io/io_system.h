@@ -59,6 +59,7 @@ enum class IoResult : uint8_t {
     NotWritable,   ///< an input, or Access does not let RAPID write
     BadTime,       ///< delay or pulse length outside what is allowed (ERR_ARGVALERR)
     TooManyDelays, ///< 20 signals are delayed already
+    DeviceOff,     ///< its I/O device is deactivated (ERR_NORUNUNIT)
 };
 
 enum class CrossOperator : uint8_t { And, Or };
@@ -132,6 +133,10 @@ class IoSystem {
     /// Stimulus, client, test bench: any signal, limits checked, access not. Cancels pending changes as set
     /// does.
     IoResult force(SignalId id, double value);
+
+    /// Signals of a device that is off can be neither read nor set by programs; their values stay. A device is known by
+    /// its signals alone.
+    void setDeviceOff(std::string_view device, bool off);
 
     // ---- Changes ------------------------------------------------------------------------------------------
     /// Notified after each change of the signal's value.

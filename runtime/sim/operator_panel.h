@@ -1,6 +1,6 @@
 #pragma once
 // OperatorPanel: what the person at the FlexPendant sees and answers. TPWrite lines go to stdout; dialogs
-// (texts and answers) to stderr. Answers come from the stimulus, otherwise from the terminal.
+// (texts and answers) to stderr. Answers come from the stimulus, otherwise from the terminal; other clients answer with answerDialog().
 
 #include "runtime/sched/task.h"
 #include "runtime/sched/wait_queue.h"
@@ -9,23 +9,36 @@
 #include <cstdio>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace rt {
 
-/// A question to the operator.
+/// What an answer is.
+enum class DialogKind : uint8_t {
+    Choice, ///< a key or button: its number from 1
+    Number,
+    Text,
+    List ///< an item: its number from 1
+};
+
+/// A question to the operator, as data: the terminal shows it as text, other clients may show it as a window.
 struct Dialog {
-    std::string header;             ///< may be empty
-    std::vector<std::string> lines; ///< the text
-    std::vector<std::string>
-        choices;            ///< keys, buttons or list items, numbered from 1; empty entries are not shown
-    Time deadline = kNever; ///< absolute (\MaxTime)
+    DialogKind kind = DialogKind::Text;
+    std::string header;               ///< may be empty
+    std::string icon;                 ///< "Information", "Warning", "Error"; "" = none
+    std::string image;                ///< picture file, as the program names it; "" = none
+    std::vector<std::string> lines;   ///< the text
+    std::vector<std::string> choices; ///< keys or buttons, numbered from 1; empty entries are not shown
+    std::vector<std::string> items;   ///< of a list, numbered from 1
+    std::vector<std::size_t> visible; ///< numbers of the items that a terminal shows at present
+    std::string hint;                 ///< what may be answered, for people at a terminal; may be empty
+    bool answerable = true;           ///< false: it has no button, and something else ends it
+    Time deadline = kNever;           ///< absolute (\MaxTime)
     /// Ends the dialog early (\DIBreak, \PersBoolBreak); looked at when one of `breakQueues` is notified.
     std::function<bool()> broken;
     std::vector<WaitQueue*> breakQueues;
-    /// Looked at this often when not 0 (for conditions that no queue tells of).
-    Time pollPeriod = 0;
 };
 
 enum class DialogEnd : uint8_t {
@@ -34,6 +47,12 @@ enum class DialogEnd : uint8_t {
     Broken,   ///< ERR_TP_DIBREAK, ERR_TP_DOBREAK, ERR_TP_PERSBOOLBREAK
     NoClient, ///< nobody can ever answer: no stimulus answer left, no terminal. ERR_TP_NO_CLIENT; an event is
               ///< written
+};
+
+/// A text that stays on the display while the program goes on (UIMsgWrite).
+struct PanelMessage {
+    std::string header, icon, image;
+    std::vector<std::string> lines;
 };
 
 class OperatorPanel {
@@ -62,6 +81,22 @@ class OperatorPanel {
 
     /// An answer from outside: goes to the dialog that waits longest, or to the one asked next.
     void giveAnswer(std::string text);
+    /// Dialogs that wait for an answer, the longest first.
+    struct OpenDialog {
+        uint64_t number = 0; ///< of this question, never used twice
+        const Task* task = nullptr;
+        const Dialog* dialog = nullptr; ///< valid until virtual time passes
+    };
+    std::vector<OpenDialog> openDialogs() const;
+    /// Answers that dialog; false when it is not open any more.
+    bool answerDialog(uint64_t number, std::string text);
+
+    /// Shows a message in place of the one before it, or removes it.
+    void showMessage(PanelMessage message);
+    void removeMessage() { message_.reset(); }
+    const std::optional<PanelMessage>& message() const { return message_; }
+    /// A line for the operator beside a dialog, such as the reason why an answer is refused.
+    void remark(std::string_view text);
     /// How many answers are still to come from the stimulus / one of them is due.
     void setAnswersToCome(std::size_t count) { answersToCome_ = count; }
     void answerCame(std::string text) {
@@ -74,13 +109,23 @@ class OperatorPanel {
 
   private:
     struct Asking {
-        Task* task;
+        uint64_t number;
+        Task& task;
+        const Dialog& dialog;
         bool answered = false;
         std::string answer;
     };
-    void show(const Dialog& dialog);
-    Status waitForAnswer(Task& task, const Dialog& dialog, Asking& asking, WaitResult& result, bool& broken);
-    Status askTerminal(Task& task, const Dialog& dialog, DialogEnd& end, std::string& answer);
+    class Listed;
+    void show(const Asking& asking);
+    void answerTo(Asking& asking, std::string text);
+    /// `end` stays empty when the terminal has gone, or has come to be needed.
+    Status waitForAnswer(Asking& asking, std::optional<DialogEnd>& end);
+    Status askTerminal(Asking& asking, std::optional<DialogEnd>& end);
+    Status waitForTurn(Asking& asking, std::optional<DialogEnd>& end);
+    Status readAnswer(Asking& asking, std::optional<DialogEnd>& end);
+    bool endsNow(const Asking& asking, std::optional<DialogEnd>& end) const;
+    bool readTerminal();
+    bool isTerminalTurn() const { return answersToCome_ == 0 && terminalUsable(); }
     bool terminalUsable() const;
 
     EventLog& log_;
@@ -93,6 +138,9 @@ class OperatorPanel {
     std::function<void(std::string_view)> listener_;
     std::deque<std::string> answers_;
     std::deque<Asking*> asking_;
+    uint64_t lastNumber_ = 0;
+    const Asking* terminalUser_ = nullptr; ///< the terminal shows one dialog at a time
+    std::optional<PanelMessage> message_;
     std::size_t answersToCome_ = 0;
     WaitQueue answered_;
     std::string typed_; // read from the terminal, not yet a whole line

@@ -47,6 +47,10 @@ Status ioStatus(TaskCore* task, IoResult result, Handle handle) {
     case IoResult::NotWritable:
         return fail(task, err::ERR_SIG_NOT_VALID,
                     "signal " + name + " cannot be set from a program (input, or Access level)");
+    case IoResult::DeviceOff:
+        return fail(task, err::ERR_NORUNUNIT,
+                    "I/O device " + io.config(id).device + " of signal " + name +
+                        " is deactivated; activate it with IOActivate (IOEnable)");
     case IoResult::BadTime:
         return fail(task, err::ERR_ARGVALERR, "delay and pulse length must lie between 0.001 and 2000 s");
     case IoResult::TooManyDelays:

@@ -4,6 +4,7 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/written_value.h"
 
+#include "stdlib_constants.h"
 #include "stdlib_natives.h"
 
 using namespace rt;
@@ -43,6 +44,25 @@ Status rt_ErrWrite(TaskCore* task, bool W, bool I, const String* Header, const S
     Controller& controller = taskOf(task).controller();
     controller.log().write(type, number, std::string(Header->view()), text, &taskOf(task), lines);
     return kOk;
+}
+
+/// A terminal has one window; the number is not looked at.
+Status rt_TPShow(TaskCore*, float) {
+    return kOk;
+}
+
+/// RobotWare 7 has no views of the old FlexPendant, and this controller is one of it.
+rt::Status rt_UIShow(TaskCore* task, const String* AssemblyName, const String* TypeName, const String*,
+                     float* InstanceId, float* Status, bool) {
+    constexpr float kNoAssembly = -2;
+    if (InstanceId) *InstanceId = 0;
+    if (Status) {
+        *Status = kNoAssembly;
+        return kOk;
+    }
+    return lib::fail(task, err::ERR_UISHOW_FATAL,
+                     "view " + std::string(TypeName->view()) + " of " + std::string(AssemblyName->view()) +
+                         " cannot be shown: RobotWare 7 has no such views");
 }
 
 Status rt_UIClientExist(TaskCore* task, bool* result) {

@@ -1,0 +1,106 @@
+// Manual 1.17: GetSysData and SetSysData: the tool and the work object that are in force.
+
+#include "runtime/base/text_util.h"
+#include "runtime/value/value_text.h"
+#include "stdlib/impl/motion/state.h"
+#include "stdlib/impl/support/data_names.h"
+#include "stdlib/impl/support/fail.h"
+#include "stdlib/impl/support/task_asked.h"
+
+#include "stdlib_constants.h"
+#include "stdlib_natives.h"
+
+#include <cstring>
+
+using namespace rt;
+
+namespace {
+
+/// The settings of the robot of a motion task: the one place where this folder asks for them.
+lib::MotionState& stateOf(Task& owner) {
+    return lib::motionState(&owner);
+}
+
+/// The names that SetSysData has given; they hold as long as the data have that value.
+struct ActiveNames {
+    std::string tool, workObject;
+};
+
+/// Where the value in force is, its size, and its name.
+struct Active {
+    void* value = nullptr;
+    std::size_t size = 0;
+    std::string* name = nullptr;
+};
+
+/// Without a value for a type that is never in force.
+Active activeOf(Task& owner, const TypeDesc& type) {
+    lib::MotionState& state = stateOf(owner);
+    auto& names = owner.controller().service<ActiveNames>();
+    if (sameName(type.baseName, "tooldata")) return {&state.tool, sizeof state.tool, &names.tool};
+    if (sameName(type.baseName, "wobjdata"))
+        return {&state.workObject, sizeof state.workObject, &names.workObject};
+    return {};
+}
+
+Status wrongType(TaskCore* task, const TypeDesc& type) {
+    return lib::fail(task, err::ERR_ARGVALERR,
+                     std::string("data of type ") + type.name +
+                         " is never in force here; use tooldata or wobjdata");
+}
+
+/// Not byte by byte: records have gaps.
+bool sameValue(const void* a, const void* b, const TypeDesc& type) {
+    std::string first, second;
+    return valueToSource(a, type, first) && valueToSource(b, type, second) && first == second;
+}
+
+/// The persistent of this type that has the value in force; movements note the value, not the name. `asked`: not this one,
+/// into which the value may have been copied before.
+std::string nameOf(const Task& owner, const TypeDesc& type, const Active& active, const void* asked) {
+    const Controller& controller = owner.controller();
+    const auto hasValue = [&](const GlobalDesc& data) {
+        return data.kind == kGlobalPersistent && sameName(data.type->baseName, type.baseName) &&
+               sameValue(data.address, active.value, type);
+    };
+    const GlobalDesc* named = controller.findGlobal(*active.name, {}, owner);
+    if (named && hasValue(*named)) return *active.name;
+    const lib::MotionState standard;
+    const bool isTool = sameName(type.baseName, "tooldata");
+    const void* none = isTool ? static_cast<const void*>(&standard.tool) : &standard.workObject;
+    if (sameValue(active.value, none, type)) return isTool ? "tool0" : "wobj0";
+    for (const GlobalDesc* data : controller.tables().globals())
+        if (data->address != asked && hasValue(*data)) return data->name;
+    return {};
+}
+
+} // namespace
+
+extern "C" {
+
+Status rt_GetSysData(TaskCore* task, Handle* TaskRef, const String* TaskName, void* DestObject,
+                     const TypeDesc* DestObjectType, String* ObjectName) {
+    Task* owner = &taskOf(task);
+    Status status = kOk;
+    if (TaskRef || TaskName) owner = lib::taskAsked(task, TaskRef, TaskName, status);
+    if (status != kOk) return status;
+    if (!owner->isMotionTask())
+        return lib::fail(task, err::ERR_NOT_MOVETASK, "task " + owner->name() + " moves no robot");
+    const Active active = activeOf(*owner, *DestObjectType);
+    if (!active.value) return wrongType(task, *DestObjectType);
+    if (ObjectName) ObjectName->assign(nameOf(*owner, *DestObjectType, active, DestObject));
+    std::memcpy(DestObject, active.value, active.size);
+    return kOk;
+}
+
+Status rt_SetSysData(TaskCore* task, void* SourceObject, const TypeDesc* SourceObjectType,
+                     const String* ObjectName) {
+    if (const Status status = lib::requireMotionTask(task)) return status;
+    const Active active = activeOf(taskOf(task), *SourceObjectType);
+    if (!active.value) return wrongType(task, *SourceObjectType);
+    std::memcpy(active.value, SourceObject, active.size);
+    const GlobalDesc* source = lib::dataAt(taskOf(task).controller(), SourceObject);
+    *active.name = ObjectName ? std::string(ObjectName->view()) : source ? source->name : "";
+    return kOk;
+}
+}

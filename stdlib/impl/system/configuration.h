@@ -1,0 +1,48 @@
+#pragma once
+// The configuration as programs read and change it (manual 1.17): a copy of what was loaded, completed by what the
+// controller knows of its robot. Changes do not reach the running controller.
+
+#include "runtime/host/controller.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rt::lib {
+
+/// What an attribute holds, as far as its text tells.
+enum class CfgKind { Number, Bool, Text };
+CfgKind kindOf(const CfgAttribute& attribute);
+bool isTrue(const CfgAttribute& attribute);
+
+class Configuration {
+  public:
+    /// The service of this controller.
+    static Configuration& of(Controller& controller);
+
+    /// "/DOMAIN/TYPE/name" or "/DOMAIN/TYPE/attribute/value".
+    struct Path {
+        std::string domain, type, attribute, value;
+        /// False when the text is no such path.
+        bool read(std::string_view text);
+    };
+    /// All instances that the path names, in order.
+    std::vector<CfgInstance*> find(const Path& path);
+    /// The attribute in any instance of the type: null when none has it.
+    const CfgAttribute* anyOf(const Path& path, std::string_view attribute) const;
+
+    /// The domain in the format of configuration files; empty when nothing of it is loaded.
+    std::string text(std::string_view domain) const;
+
+    void noteChange() { changed_ = true; }
+    bool isChanged() const { return changed_; }
+
+  private:
+    void load(Controller& controller);
+    void addRobot(Controller& controller);
+
+    std::vector<CfgFile> files_;
+    bool loaded_ = false, changed_ = false;
+};
+
+} // namespace rt::lib
