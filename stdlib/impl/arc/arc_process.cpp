@@ -73,17 +73,16 @@ void ArcProcess::openGas() {
     equipment_.set(ArcOutput::GasOn, true);
 }
 
-Status ArcProcess::checkEquipment(TaskCore* task) const {
+Status ArcProcess::checkEquipment(TaskCore* task, Status error) const {
     if (equipment_.input(ArcInput::StopProc).value_or(false))
         return fail(task, err::AW_STOP_ERR, "the input StopProc of the arc equipment is set");
     for (const auto& [input, what] : kSupervised)
         if (isBeforeArc(input) && !equipment_.input(input).value_or(true))
-            return fail(task, err::AW_START_ERR,
-                        fmt::format("the supervision of the {} is not in order", what));
+            return fail(task, error, fmt::format("the supervision of the {} is not in order", what));
     return kOk;
 }
 
-Status ArcProcess::ignite(TaskCore* task) {
+Status ArcProcess::ignite(TaskCore* task, Status notReady) {
     if (inhibited_) {
         phase_ = Phase::Welding;
         return kOk;
@@ -91,7 +90,7 @@ Status ArcProcess::ignite(TaskCore* task) {
     Task& owner = taskOf(task);
     openGas();
     Status status = owner.sleepUntil(addTime(gasSince_, fromSeconds(gasTime())));
-    if (status == kOk) status = checkEquipment(task);
+    if (status == kOk) status = checkEquipment(task, notReady);
     if (status != kOk) {
         kill();
         return status;
@@ -127,7 +126,7 @@ Status ArcProcess::ignite(TaskCore* task) {
 Status ArcProcess::resume(TaskCore* task) {
     if (phase_ != Phase::Interrupted) return kOk;
     phase_ = Phase::Preparing;
-    if (const Status status = ignite(task)) {
+    if (const Status status = ignite(task, err::AW_EQIP_ERR)) {
         if (phase_ == Phase::Off) phase_ = Phase::Interrupted; // RETRY ignites once more
         return status;
     }

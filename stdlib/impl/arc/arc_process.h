@@ -25,8 +25,9 @@ class ArcProcess {
     /// How long the gas is to flow before the arc, in s.
     double gasTime() const { return seam_.purge_time + seam_.preflow_time; }
     void openGas();
-    /// With the robot at rest: waits for the gas, ignites, waits for the arc. On an error all is off.
-    Status ignite(TaskCore* task);
+    /// With the robot at rest: waits for the gas, ignites, waits for the arc. On an error all is off. `notReady`: raised when
+    /// an input says that the equipment is not in order.
+    Status ignite(TaskCore* task, Status notReady);
     /// After an error in the weld: ignites again, and lets the robot move on.
     Status resume(TaskCore* task);
     /// The seam continues with these data from here on; called when the robot is there.
@@ -48,7 +49,7 @@ class ArcProcess {
     void arcOn(const data::Arcdata& arc);
     void apply(const data::Arcdata& arc) const;
     void arcOff();
-    Status checkEquipment(TaskCore* task) const;
+    Status checkEquipment(TaskCore* task, Status error) const;
     void superviseIgnition();
 
     Controller* controller_ = nullptr;

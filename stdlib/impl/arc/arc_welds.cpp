@@ -74,7 +74,7 @@ Status startWeld(TaskCore* task, motion::MoveCommand command, const WeldArgument
         process.kill();
         return status;
     }
-    return process.ignite(task);
+    return process.ignite(task, err::AW_START_ERR);
 }
 
 /// ArcL and ArcLEnd: along the seam.
