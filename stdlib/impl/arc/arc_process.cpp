@@ -211,15 +211,20 @@ void ArcProcess::arcOff() {
     equipment_.set(ArcOutput::FeedOn, false);
 }
 
-/// The robot stops on its path, and the weld instruction in progress raises the error. RETRY ignites and goes on there.
-void ArcProcess::interrupt(Status error) {
+void ArcProcess::putOut() {
+    if (phase_ != Phase::Welding) return;
     controller_->scheduler().cancel(std::exchange(ignition_, 0));
     phase_ = Phase::Interrupted;
     established_ = false;
     arcOff();
     equipment_.set(ArcOutput::GasOn, false);
-    equipment_.set(ArcOutput::AwError, true);
     gasSince_ = kNever;
+    if (!inhibited_) equipment_.set(ArcOutput::AwError, true);
+}
+
+/// The robot stops on its path, and the weld instruction in progress raises the error. RETRY ignites and goes on there.
+void ArcProcess::interrupt(Status error) {
+    putOut();
     motion_->raiseProcessError(error);
 }
 

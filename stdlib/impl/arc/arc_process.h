@@ -30,6 +30,8 @@ class ArcProcess {
     Status ignite(TaskCore* task, Status notReady);
     /// After an error in the weld: ignites again, and lets the robot move on.
     Status resume(TaskCore* task);
+    /// An error interrupts the seam: arc and gas go off, and resume() is needed.
+    void putOut();
     /// The seam continues with these data from here on; called when the robot is there.
     void weldWith(data::Welddata* weld);
     /// ArcLEnd, with the robot at rest: crater, burnback, rollback, gas.

@@ -109,8 +109,10 @@ Status weldOn(TaskCore* task, motion::MoveCommand command, const WeldArguments& 
     change.place.fromStart = true;
     change.act = [&process, weld = args.weld] { process.weldWith(weld); };
     actions.push_back(change);
-    if (const Status status = lib::orderMove(task, std::move(command), move, std::move(actions)))
+    if (const Status status = lib::orderMove(task, std::move(command), move, std::move(actions))) {
+        process.putOut(); // the robot will stand still
         return status;
+    }
     return isEnd ? process.close(task, *args.seam) : kOk;
 }
 

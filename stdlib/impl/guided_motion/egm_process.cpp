@@ -24,12 +24,18 @@ void EgmProcess::connect(GuidanceMode mode, std::unique_ptr<Partner> partner,
 
 void EgmProcess::disconnect() {
     finish();
-    streams_ = false;
+    session_.streams = false;
     endSession();
     partner_.reset();
     settings_.reset();
     data_ = {};
     isConnected_ = timedOut_ = false;
+}
+
+void EgmProcess::lose() {
+    const bool wasGuiding = phase_ != Phase::None;
+    disconnect();
+    timedOut_ = wasGuiding;
 }
 
 void EgmProcess::activate(const GuidanceSettings& settings, Time period) {
@@ -40,21 +46,21 @@ void EgmProcess::activate(const GuidanceSettings& settings, Time period) {
 }
 
 std::string EgmProcess::startStream(Time period) {
-    streams_ = true;
+    session_.streams = true;
     beginSession(period);
     std::string problem = sendState();
-    nextExchange_ = addTime(nextExchange_, period_);
+    session_.next = addTime(controller_.scheduler().now(), session_.period);
     if (!problem.empty()) stopStream();
     return problem;
 }
 
 void EgmProcess::stopStream() {
-    streams_ = false;
+    session_.streams = false;
     if (phase_ == Phase::None) endSession();
 }
 
 void EgmProcess::run(const GuidanceOrder& order) {
-    if (!inSession_) beginSession(period_);
+    if (!session_.isOpen) beginSession(session_.period);
     order_ = order;
     arm_ = std::make_unique<GuidedArm>(motion(), *settings_, order);
     phase_ = Phase::Following;
@@ -69,8 +75,8 @@ void EgmProcess::run(const GuidanceOrder& order) {
 void EgmProcess::stop(bool rampDown, std::optional<double> rampOut) {
     if (phase_ != Phase::Following) return;
     phase_ = Phase::Braking;
-    rampDown_ = rampDown;
-    rampOut_ = rampOut.value_or(order_->rampOut);
+    wayBack_.isWanted = rampDown;
+    wayBack_.rampOut = rampOut.value_or(order_->rampOut);
     schedule();
 }
 
@@ -92,25 +98,25 @@ void EgmProcess::pause(bool paused) {
 
 void EgmProcess::beginSession(Time period) {
     endSession();
-    period_ = period;
-    inSession_ = true;
-    nextExchange_ = 0;
+    session_.period = period;
+    session_.isOpen = true;
+    session_.next = 0;
     if (partner_) partner_->begin();
     schedule();
 }
 
 void EgmProcess::endSession() {
-    if (!std::exchange(inSession_, false)) return;
+    if (!std::exchange(session_.isOpen, false)) return;
     if (partner_) partner_->end();
-    controller_.scheduler().cancel(std::exchange(tick_, 0));
+    controller_.scheduler().cancel(std::exchange(session_.tick, 0));
 }
 
 /// Periods lie at whole multiples of 4 ms, as the samples of the trace.
 void EgmProcess::schedule() {
-    if (tick_ != 0 || !inSession_ || !mustTick()) return;
+    if (session_.tick != 0 || !session_.isOpen || !mustTick()) return;
     const Time now = controller_.scheduler().now();
-    tick_ = controller_.scheduler().at((now / GuidedArm::kPeriod + 1) * GuidedArm::kPeriod, [this] {
-        tick_ = 0;
+    session_.tick = controller_.scheduler().at((now / GuidedArm::kPeriod + 1) * GuidedArm::kPeriod, [this] {
+        session_.tick = 0;
         tick();
     });
 }
@@ -127,7 +133,7 @@ bool EgmProcess::mustTick() const {
 void EgmProcess::tick() {
     const Time now = controller_.scheduler().now();
     if (phase_ == Phase::None && owner_.state() == TaskState::Finished) {
-        streams_ = false;
+        session_.streams = false;
         endSession();
         return;
     }
@@ -136,12 +142,12 @@ void EgmProcess::tick() {
         hasData_ = true;
     }
     if (phase_ != Phase::None) guide(now);
-    if (inSession_ && now >= nextExchange_) exchange();
+    if (session_.isOpen && now >= session_.next) exchange();
     schedule();
 }
 
 void EgmProcess::exchange() {
-    nextExchange_ = addTime(controller_.scheduler().now(), period_);
+    session_.next = addTime(controller_.scheduler().now(), session_.period);
     (void)sendState(); // what cannot be sent is not answered
 }
 
@@ -177,15 +183,15 @@ void EgmProcess::guide(Time now) {
     case Phase::Braking:
         arm_->brake();
         if (!arm_->isStanding()) break;
-        if (!rampDown_) return finish();
+        if (!wayBack_.isWanted) return finish();
         phase_ = Phase::WayBack;
-        wayBackBegan_ = now;
-        wayBackSeconds_ = std::max(rampOut_, arm_->beginWayBack());
+        wayBack_.began = now;
+        wayBack_.seconds = std::max(wayBack_.rampOut, arm_->beginWayBack());
         break;
     case Phase::WayBack: {
-        const double seconds = toSeconds(now - wayBackBegan_);
-        arm_->placeOnWayBack(wayBackSeconds_ > 0 ? seconds / wayBackSeconds_ : 1);
-        if (seconds >= wayBackSeconds_) return finish();
+        const double seconds = toSeconds(now - wayBack_.began);
+        arm_->placeOnWayBack(wayBack_.seconds > 0 ? seconds / wayBack_.seconds : 1);
+        if (seconds >= wayBack_.seconds) return finish();
         break;
     }
     case Phase::None: break;
@@ -224,7 +230,7 @@ void EgmProcess::followOn(Time now) {
 void EgmProcess::finish() {
     if (std::exchange(phase_, Phase::None) == Phase::None) return;
     arm_.reset();
-    if (streams_)
+    if (session_.streams)
         (void)sendState();
     else
         endSession();
@@ -241,7 +247,10 @@ EgmProcesses& EgmProcesses::of(Controller& controller) {
 
 void EgmProcesses::open(Controller& controller) {
     controller_ = &controller;
-    controller.onShutDown([this] { releaseAll(nullptr); });
+    controller.onShutDown([this] {
+        for (auto& [handle, process] : processes_)
+            process->lose();
+    });
 }
 
 EgmProcess* EgmProcesses::reserve(Task& owner, Handle& identity) {
@@ -269,16 +278,16 @@ EgmProcess* EgmProcesses::guiding(const MotionDriver& motion) {
     return nullptr;
 }
 
-void EgmProcesses::releaseAll(const Task* owner) {
+void EgmProcesses::releaseAll(const Task& owner) {
     std::vector<Handle> released;
     for (const auto& [handle, process] : processes_)
-        if (owner == nullptr || &process->owner() == owner) released.push_back(handle);
+        if (&process->owner() == &owner) released.push_back(handle);
     for (const Handle handle : released)
         processes_.erase(handle);
 }
 
 void endGuidance(Task& task) {
-    task.controller().service<EgmProcesses>().releaseAll(&task);
+    task.controller().service<EgmProcesses>().releaseAll(task);
 }
 
 } // namespace rt::lib

@@ -42,6 +42,8 @@ class EgmProcess {
                  Time timeout);
     /// EGMReset: the guidance ends where the robot is.
     void disconnect();
+    /// The power has failed: as disconnect(), and an instruction that waits raises the error of a time-out.
+    void lose();
     /// EGMAct...: the session begins. `period` of the messages.
     void activate(const GuidanceSettings& settings, Time period);
     /// EGMStreamStart: messages without guidance. Returns why none can be sent, or "".
@@ -52,7 +54,7 @@ class EgmProcess {
     /// EGMStop. `rampOut`: s; none: as the order says.
     void stop(bool rampDown, std::optional<double> rampOut);
 
-    /// No answer came in time; once.
+    /// No answer came in time, or the power has failed; once.
     bool takeTimeout() { return std::exchange(timedOut_, false); }
     /// The guidance is over, or its condition has been met.
     bool hasFinished() const { return phase_ == Phase::None; }
@@ -92,14 +94,24 @@ class EgmProcess {
     std::unique_ptr<GuidedArm> arm_;
     SensorData data_;
     bool hasData_ = false; ///< since EGMAct...: before that nothing has been reached
+    struct Session {
+        bool isOpen = false;
+        bool streams = false; ///< lasts beyond the guidance (EGMStreamStart)
+        Time period = GuidedArm::kPeriod, next = 0;
+        EventToken tick = 0;
+    };
+    struct WayBack {
+        bool isWanted = false;
+        double rampOut = 0, seconds = 0; ///< as asked for, and as it takes
+        Time began = 0;
+    };
     Phase phase_ = Phase::None;
-    bool inSession_ = false, streams_ = false, timedOut_ = false, isPaused_ = false, rampDown_ = false;
+    Session session_;
+    WayBack wayBack_;
+    bool timedOut_ = false, isPaused_ = false;
     bool awaitsCondition_ = true; ///< the guidance ends when its condition is met
-    Time period_ = GuidedArm::kPeriod, nextExchange_ = 0;
-    Time began_ = 0, lastAnswer_ = 0, convergedSince_ = kNever, wayBackBegan_ = 0;
-    double wayBackSeconds_ = 0, rampOut_ = 0;
+    Time began_ = 0, lastAnswer_ = 0, convergedSince_ = kNever;
     std::string limit_; ///< reported last
-    EventToken tick_ = 0;
     WaitQueue changed_;
 };
 
@@ -115,8 +127,8 @@ class EgmProcesses {
     void release(Handle identity) { processes_.erase(identity); }
     /// The process that guides this robot now; null when there is none.
     EgmProcess* guiding(const MotionDriver& motion);
-    /// The program begins anew or was ended: what it left is released.
-    void releaseAll(const Task* owner);
+    /// The program of the task begins anew: what it left is released.
+    void releaseAll(const Task& owner);
 
   private:
     void open(Controller& controller);

@@ -86,7 +86,8 @@ Status waitFinished(TaskCore* task, Handle identity) {
         return status;
     }
     if (!process->takeTimeout()) return kOk;
-    return lib::fail(task, err::ERR_UDPUC_COMM, "no data came from the UdpUc device within \\CommTimeout");
+    return lib::fail(task, err::ERR_UDPUC_COMM,
+                     "no data came from the UdpUc device within \\CommTimeout, or the power failed");
 }
 
 Status run(TaskCore* task, Handle identity, GuidanceMode mode, const RunArguments& args,
