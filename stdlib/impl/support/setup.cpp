@@ -1,5 +1,7 @@
+#include "stdlib/impl/arc/arc_process.h"
 #include "stdlib/impl/files/open_files.h"
 #include "stdlib/impl/flow/booked_numbers.h"
+#include "stdlib/impl/guided_motion/egm_process.h"
 #include "stdlib/impl/interrupts/ordering.h"
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/motion/state.h"
@@ -19,6 +21,8 @@ void setUpStandardLibrary(Controller& controller) {
     for (const ErrorEntry& entry : errorTable())
         controller.log().addErrorName(entry.number, entry.name, entry.summary);
     controller.onProgramReset(lib::resetSettings);
+    controller.onProgramReset(lib::endWeld);
+    controller.onProgramReset(lib::endGuidance);
     controller.onProgramReset([](Task& task) { lib::closeSockets(task, "its program begins anew"); });
     controller.onConnectionsLost(lib::closeSockets);
     auto& kept = controller.service<StateKeepers>();

@@ -1,0 +1,177 @@
+// EGM: what is guided and how (EGMAct...), and streaming of positions.
+
+#include "stdlib/impl/guided_motion/egm_asked.h"
+#include "stdlib/impl/math/convert.h"
+#include "stdlib/impl/motion/state.h"
+#include "stdlib/impl/support/fail.h"
+
+#include "stdlib_constants.h"
+#include "stdlib_natives.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+using namespace rt;
+using lib::EgmProcess;
+using lib::GuidanceMode;
+using lib::GuidanceSettings;
+using lib::Window;
+
+namespace {
+
+constexpr Window kAngle{-0.5, 0.5}; // deg, when no window is given
+constexpr Window kLength{-1, 1};    // mm
+
+/// The arguments that EGMActJoint and EGMActPose share.
+struct ActArguments {
+    bool stream;
+    const data::Tooldata* tool;
+    const data::Wobjdata* workObject;
+    const float *filter, *sampleRate, *maxDeviation, *maxSpeed;
+};
+
+const char* nameOf(GuidanceMode mode) {
+    return mode == GuidanceMode::Joint ? "\\Joint" : mode == GuidanceMode::Pose ? "\\Pose" : "\\PathCorr";
+}
+
+/// The process, set up in this mode and not guiding. Null with the reason reported.
+EgmProcess* processFor(TaskCore* task, Handle identity, GuidanceMode mode, Status& status) {
+    EgmProcess* process = lib::egmProcess(task, identity, status);
+    if (process == nullptr) return nullptr;
+    if (process->state() == EgmProcess::State::Disconnected)
+        status = lib::egmMisused(task, "The EGM process has no source of data. Use EGMSetupUC, EGMSetupAI, "
+                                       "EGMSetupAO, EGMSetupGI or EGMSetupLTAPP first.");
+    else if (process->state() == EgmProcess::State::Running)
+        status = lib::egmMisused(task, "The EGM process guides the robot now. Use EGMStop first.");
+    else if (process->mode() != mode)
+        status = lib::egmMisused(
+            task, fmt::format("The EGM process was set up with {}, and this instruction needs {}.",
+                              nameOf(process->mode()), nameOf(mode)));
+    else
+        return process;
+    return nullptr;
+}
+
+Status setWindow(TaskCore* task, const data::Egm_minmax* given, Window usual, Window& window) {
+    window = given == nullptr ? usual : Window{given->min, given->max};
+    if (window.low <= window.high) return kOk;
+    return lib::fail(task, err::ERR_ARGVALERR, "min of a convergence window must not be above max");
+}
+
+Status setLimit(TaskCore* task, const char* name, const float* given, double& limit) {
+    if (given == nullptr) return kOk;
+    limit = *given;
+    if (limit > 0 && std::isfinite(limit)) return kOk;
+    return lib::fail(task, err::ERR_ARGVALERR, fmt::format("{} must be a number above 0", name));
+}
+
+Status activate(TaskCore* task, EgmProcess& process, const ActArguments& args, GuidanceSettings& settings) {
+    static const data::Wobjdata kWorld = lib::MotionState().workObject;
+    const data::Wobjdata* workObject = args.workObject != nullptr ? args.workObject : &kWorld;
+    if (const Status status = lib::frameSetup(task, args.tool, workObject, settings.frames)) return status;
+    settings.filterHz = process.defaults().filterHz;
+    if (const Status status = lib::egmNotNegative(task, "\\LpFilter", args.filter)) return status;
+    if (args.filter != nullptr) settings.filterHz = *args.filter;
+    if (const Status status = setLimit(task, "\\MaxPosDeviation", args.maxDeviation, settings.maxDeviation))
+        return status;
+    if (const Status status = setLimit(task, "\\MaxSpeedDeviation", args.maxSpeed, settings.maxSpeed))
+        return status;
+    Time period = 0;
+    if (const Status status = lib::egmPeriod(task, args.sampleRate, period)) return status;
+    process.activate(settings, period);
+    if (!args.stream) return kOk;
+    const std::string problem = process.startStream(period);
+    return problem.empty() ? kOk : lib::fail(task, err::ERR_UDPUC_COMM, problem);
+}
+
+/// egmframetype of a pose: base, tool, work object or world.
+Status frameType(TaskCore* task, float type, int& result) {
+    result = type >= 0 && type <= k::EGM_FRAME_WORLD ? static_cast<int>(type) : -1;
+    if (result >= 0 && static_cast<float>(result) == type) return kOk;
+    return lib::fail(
+        task, err::ERR_ARGVALERR,
+        "a frame of EGM must be EGM_FRAME_BASE, EGM_FRAME_TOOL, EGM_FRAME_WOBJ or EGM_FRAME_WORLD");
+}
+
+} // namespace
+
+extern "C" {
+
+/// \DOToSensor and \DIFromSensor are accepted and not exchanged.
+Status rt_EGMActJoint(TaskCore* task, Handle* EGMid, bool StreamStart, data::Tooldata* Tool,
+                      data::Wobjdata* WObj, data::Loaddata*, Handle*, Handle*, const data::Egm_minmax* J1,
+                      const data::Egm_minmax* J2, const data::Egm_minmax* J3, const data::Egm_minmax* J4,
+                      const data::Egm_minmax* J5, const data::Egm_minmax* J6, const data::Egm_minmax* J7,
+                      const float* LpFilter, const float* SampleRate, const float* MaxPosDeviation,
+                      const float* MaxSpeedDeviation) {
+    Status status = kOk;
+    EgmProcess* process = processFor(task, *EGMid, GuidanceMode::Joint, status);
+    if (process == nullptr) return status;
+    GuidanceSettings settings;
+    const data::Egm_minmax* const windows[] = {J1, J2, J3, J4, J5, J6, J7};
+    for (std::size_t i = 0; i < std::size(windows); ++i)
+        if ((status = setWindow(task, windows[i], kAngle, settings.windows[i])) != kOk) return status;
+    return activate(task, *process,
+                    {StreamStart, Tool, WObj, LpFilter, SampleRate, MaxPosDeviation, MaxSpeedDeviation},
+                    settings);
+}
+
+Status rt_EGMActPose(TaskCore* task, Handle* EGMid, bool StreamStart, data::Tooldata* Tool,
+                     data::Wobjdata* WObj, data::Loaddata*, Handle*, Handle*, const data::Pose* CorrFrame,
+                     float CorrFrType, const data::Pose* SensorFrame, float SensorFrType,
+                     const data::Egm_minmax* x, const data::Egm_minmax* y, const data::Egm_minmax* z,
+                     const data::Egm_minmax* rx, const data::Egm_minmax* ry, const data::Egm_minmax* rz,
+                     const float* LpFilter, const float* SampleRate, const float* MaxPosDeviation,
+                     const float* MaxSpeedDeviation) {
+    Status status = kOk;
+    EgmProcess* process = processFor(task, *EGMid, GuidanceMode::Pose, status);
+    if (process == nullptr) return status;
+    GuidanceSettings settings;
+    settings.mode = GuidanceMode::Pose;
+    settings.correctionFrame = lib::toFrame(*CorrFrame);
+    settings.sensorFrame = lib::toFrame(*SensorFrame);
+    if ((status = frameType(task, CorrFrType, settings.correctionType)) != kOk) return status;
+    if ((status = frameType(task, SensorFrType, settings.sensorType)) != kOk) return status;
+    const data::Egm_minmax* const windows[] = {x, y, z, rx, ry, rz};
+    for (std::size_t i = 0; i < std::size(windows); ++i)
+        if ((status = setWindow(task, windows[i], i < 3 ? kLength : kAngle, settings.windows[i])) != kOk)
+            return status;
+    return activate(task, *process,
+                    {StreamStart, Tool, WObj, LpFilter, SampleRate, MaxPosDeviation, MaxSpeedDeviation},
+                    settings);
+}
+
+Status rt_EGMActMove(TaskCore* task, Handle* EGMid, const data::Pose* SensorFrame, const float* SampleRate) {
+    Status status = kOk;
+    EgmProcess* process = processFor(task, *EGMid, GuidanceMode::PathCorrection, status);
+    if (process == nullptr) return status;
+    GuidanceSettings settings;
+    settings.mode = GuidanceMode::PathCorrection;
+    settings.sensorFrame = lib::toFrame(*SensorFrame);
+    return activate(task, *process, {false, nullptr, nullptr, nullptr, SampleRate, nullptr, nullptr},
+                    settings);
+}
+
+Status rt_EGMStreamStart(TaskCore* task, Handle* EGMid, const float* SampleRate) {
+    Status status = kOk;
+    EgmProcess* process = lib::egmProcess(task, *EGMid, status);
+    if (process == nullptr) return status;
+    if (process->state() != EgmProcess::State::Connected)
+        return lib::egmMisused(
+            task, "Streaming needs an EGM process that is set up (EGMSetupUC) and does not guide "
+                  "the robot.");
+    Time period = 0;
+    if ((status = lib::egmPeriod(task, SampleRate, period)) != kOk) return status;
+    const std::string problem = process->startStream(period);
+    return problem.empty() ? kOk : lib::fail(task, err::ERR_UDPUC_COMM, problem);
+}
+
+Status rt_EGMStreamStop(TaskCore* task, Handle* EGMid) {
+    Status status = kOk;
+    EgmProcess* process = lib::egmProcess(task, *EGMid, status);
+    if (process == nullptr) return status;
+    process->stopStream();
+    return kOk;
+}
+}

@@ -1,0 +1,293 @@
+#include "stdlib/impl/guided_motion/egm_process.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+namespace rt::lib {
+
+EgmProcess::State EgmProcess::state() const {
+    if (!isConnected_) return State::Disconnected;
+    return phase_ == Phase::None ? State::Connected : State::Running;
+}
+
+void EgmProcess::connect(GuidanceMode mode, std::unique_ptr<Partner> partner,
+                         const ExternalMotionData& defaults, Time timeout) {
+    disconnect();
+    mode_ = mode;
+    partner_ = std::move(partner);
+    defaults_ = defaults;
+    timeout_ = timeout;
+    isConnected_ = true;
+}
+
+void EgmProcess::disconnect() {
+    finish();
+    session_.streams = false;
+    endSession();
+    partner_.reset();
+    settings_.reset();
+    data_ = {};
+    isConnected_ = timedOut_ = false;
+}
+
+void EgmProcess::lose() {
+    const bool wasGuiding = phase_ != Phase::None;
+    disconnect();
+    timedOut_ = wasGuiding;
+}
+
+void EgmProcess::activate(const GuidanceSettings& settings, Time period) {
+    settings_ = settings;
+    data_ = {};
+    hasData_ = false;
+    beginSession(period);
+}
+
+std::string EgmProcess::startStream(Time period) {
+    session_.streams = true;
+    beginSession(period);
+    std::string problem = sendState();
+    session_.next = addTime(controller_.scheduler().now(), session_.period);
+    if (!problem.empty()) stopStream();
+    return problem;
+}
+
+void EgmProcess::stopStream() {
+    session_.streams = false;
+    if (phase_ == Phase::None) endSession();
+}
+
+void EgmProcess::run(const GuidanceOrder& order) {
+    if (!session_.isOpen) beginSession(session_.period);
+    order_ = order;
+    arm_ = std::make_unique<GuidedArm>(motion(), *settings_, order);
+    phase_ = Phase::Following;
+    awaitsCondition_ = !order.continues;
+    timedOut_ = false;
+    began_ = lastAnswer_ = controller_.scheduler().now();
+    convergedSince_ = kNever;
+    limit_.clear();
+    schedule();
+}
+
+void EgmProcess::stop(bool rampDown, std::optional<double> rampOut) {
+    if (phase_ != Phase::Following) return;
+    phase_ = Phase::Braking;
+    wayBack_.isWanted = rampDown;
+    wayBack_.rampOut = rampOut.value_or(order_->rampOut);
+    schedule();
+}
+
+void EgmProcess::awaitCondition() {
+    awaitsCondition_ = true;
+    wake();
+}
+
+void EgmProcess::wake() {
+    if (phase_ != Phase::None) schedule();
+}
+
+void EgmProcess::pause(bool paused) {
+    isPaused_ = paused;
+    // What was not answered while the program stood does not count.
+    lastAnswer_ = controller_.scheduler().now();
+    wake();
+}
+
+void EgmProcess::beginSession(Time period) {
+    endSession();
+    session_.period = period;
+    session_.isOpen = true;
+    session_.next = 0;
+    if (partner_) partner_->begin();
+    schedule();
+}
+
+void EgmProcess::endSession() {
+    if (!std::exchange(session_.isOpen, false)) return;
+    if (partner_) partner_->end();
+    controller_.scheduler().cancel(std::exchange(session_.tick, 0));
+}
+
+/// Periods lie at whole multiples of 4 ms, as the samples of the trace.
+void EgmProcess::schedule() {
+    if (session_.tick != 0 || !session_.isOpen || !mustTick()) return;
+    const Time now = controller_.scheduler().now();
+    session_.tick = controller_.scheduler().at((now / GuidedArm::kPeriod + 1) * GuidedArm::kPeriod, [this] {
+        session_.tick = 0;
+        tick();
+    });
+}
+
+/// With signals alone there is nothing to do while the robot stands where it is asked to be.
+bool EgmProcess::mustTick() const {
+    if (partner_ && partner_->answers()) return true;
+    if (phase_ == Phase::None) return false;
+    if (isPaused_) return !arm_->isStanding();
+    const bool isCounting = awaitsCondition_ && convergedSince_ != kNever;
+    return phase_ != Phase::Following || !arm_->isSteady() || isCounting;
+}
+
+void EgmProcess::tick() {
+    const Time now = controller_.scheduler().now();
+    if (phase_ == Phase::None && owner_.state() == TaskState::Finished) {
+        session_.streams = false;
+        endSession();
+        return;
+    }
+    if (partner_ && partner_->receive(data_)) {
+        lastAnswer_ = now;
+        hasData_ = true;
+    }
+    if (phase_ != Phase::None) guide(now);
+    if (session_.isOpen && now >= session_.next) exchange();
+    schedule();
+}
+
+void EgmProcess::exchange() {
+    session_.next = addTime(controller_.scheduler().now(), session_.period);
+    (void)sendState(); // what cannot be sent is not answered
+}
+
+std::string EgmProcess::sendState() {
+    if (!partner_) return {};
+    RobotData data;
+    motion::MotionSystem& arm = motion().system();
+    data.feedback = data.planned = arm.currentJoints();
+    const GuidanceSettings settings = settings_.value_or(GuidanceSettings{});
+    const motion::FrameSetup frames = basedFrames(motion(), settings.frames);
+    const motion::Pose frame =
+        guidanceFrame(motion(), frames, settings.correctionType) * settings.correctionFrame;
+    data.feedbackPose = data.plannedPose = inverse(frame) * guidedTcp(motion(), frames, data.feedback);
+    data.nanoseconds = controller_.scheduler().now();
+    data.calendar = controller_.calendarSeconds();
+    data.motorsOn = controller_.motorsOn();
+    data.isGuided = phase_ != Phase::None;
+    data.isConverged = phase_ != Phase::None && hasData_ && arm_->isConverged();
+    data.programRuns = owner_.isExecuting();
+    data.utilization = arm_ ? arm_->utilization() : 0;
+    data.moveIndex = static_cast<uint32_t>(arm.lastOrdered());
+    return partner_->send(data);
+}
+
+void EgmProcess::guide(Time now) {
+    if (isPaused_) {
+        arm_->brake();
+        convergedSince_ = kNever;
+        return;
+    }
+    switch (phase_) {
+    case Phase::Following: followOn(now); break;
+    case Phase::Braking:
+        arm_->brake();
+        if (!arm_->isStanding()) break;
+        if (!wayBack_.isWanted) return finish();
+        phase_ = Phase::WayBack;
+        wayBack_.began = now;
+        wayBack_.seconds = std::max(wayBack_.rampOut, arm_->beginWayBack());
+        break;
+    case Phase::WayBack: {
+        const double seconds = toSeconds(now - wayBack_.began);
+        arm_->placeOnWayBack(wayBack_.seconds > 0 ? seconds / wayBack_.seconds : 1);
+        if (seconds >= wayBack_.seconds) return finish();
+        break;
+    }
+    case Phase::None: break;
+    }
+    if (!arm_ || !arm_->isLost()) return;
+    controller_.log().write(
+        EventId::EgmMisused, &owner_,
+        {"A movement was ordered while the robot was guided, so the guidance has ended. Use "
+         "EGMStop or EGMWaitCond before the next movement."});
+    finish();
+}
+
+void EgmProcess::followOn(Time now) {
+    if (partner_ && partner_->answers() && now - lastAnswer_ >= timeout_) {
+        controller_.log().write(EventId::EgmNoData, &owner_,
+                                {partner_->name(), "EGMSetupUC", fmt::format("{:g}", toSeconds(timeout_))});
+        timedOut_ = true;
+        return finish();
+    }
+    const double rampIn = order_->rampIn;
+    arm_->follow(data_, rampIn > 0 ? std::min(1.0, toSeconds(now - began_) / rampIn) : 1);
+    if (!arm_->limit().empty() && limit_.empty())
+        controller_.log().write(EventId::EgmLimited, &owner_, {arm_->limit()});
+    limit_ = arm_->limit();
+    if (!hasData_ || !arm_->isConverged())
+        convergedSince_ = kNever;
+    else if (convergedSince_ == kNever)
+        convergedSince_ = now;
+    if (!awaitsCondition_ || convergedSince_ == kNever ||
+        now - convergedSince_ < fromSeconds(order_->conditionTime))
+        return;
+    stop(order_->rampDown, order_->rampOut);
+}
+
+/// The guidance is over, and with it the messages, unless they were asked for by themselves.
+void EgmProcess::finish() {
+    if (std::exchange(phase_, Phase::None) == Phase::None) return;
+    arm_.reset();
+    if (session_.streams)
+        (void)sendState();
+    else
+        endSession();
+    changed_.notifyAll();
+}
+
+// ---- All of them -------------------------------------------------------------------------------------------------
+
+EgmProcesses& EgmProcesses::of(Controller& controller) {
+    auto& processes = controller.service<EgmProcesses>();
+    if (processes.controller_ == nullptr) processes.open(controller);
+    return processes;
+}
+
+void EgmProcesses::open(Controller& controller) {
+    controller_ = &controller;
+    controller.onShutDown([this] {
+        for (auto& [handle, process] : processes_)
+            process->lose();
+    });
+}
+
+EgmProcess* EgmProcesses::reserve(Task& owner, Handle& identity) {
+    if (processes_.size() >= kMost) return nullptr;
+    MotionDriver& motion = controller_->motion(owner);
+    if (watched_.insert(&motion).second)
+        motion.addListener([this, &motion](ArmNews news) {
+            if (news != ArmNews::StopOnPath && news != ArmNews::MotorsOff && news != ArmNews::Start) return;
+            for (auto& [handle, process] : processes_)
+                if (&controller_->motion(process->owner()) == &motion) process->pause(news != ArmNews::Start);
+        });
+    identity = processes_.create(std::make_unique<EgmProcess>(*controller_, owner));
+    return find(identity);
+}
+
+EgmProcess* EgmProcesses::find(Handle identity) {
+    const auto* process = processes_.find(identity);
+    return process == nullptr ? nullptr : process->get();
+}
+
+EgmProcess* EgmProcesses::guiding(const MotionDriver& motion) {
+    for (auto& [handle, process] : processes_)
+        if (!process->hasFinished() && &controller_->motion(process->owner()) == &motion)
+            return process.get();
+    return nullptr;
+}
+
+void EgmProcesses::releaseAll(const Task& owner) {
+    std::vector<Handle> released;
+    for (const auto& [handle, process] : processes_)
+        if (&process->owner() == &owner) released.push_back(handle);
+    for (const Handle handle : released)
+        processes_.erase(handle);
+}
+
+void endGuidance(Task& task) {
+    task.controller().service<EgmProcesses>().releaseAll(task);
+}
+
+} // namespace rt::lib

@@ -1,0 +1,144 @@
+#pragma once
+// EgmProcess: one EGM process of a controller, which an egmident names (EGMGetId): its source of data, its session of
+// messages and its guidance. EgmProcesses has all of them.
+
+#include "stdlib/impl/guided_motion/guided_arm.h"
+
+#include "runtime/host/controller.h"
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace rt::lib {
+
+/// EXT_MOTION_DATA of MOC.cfg.
+struct ExternalMotionData {
+    double gain = 20;      ///< 1/s
+    double filterHz = 20;  ///< Hz
+    double rampTime = 0.5; ///< s
+};
+
+class EgmProcess {
+  public:
+    enum class State : uint8_t { Disconnected, Connected, Running };
+
+    EgmProcess(Controller& controller, Task& owner) : controller_(controller), owner_(owner) {}
+    ~EgmProcess() { disconnect(); }
+    EgmProcess(const EgmProcess&) = delete;
+    EgmProcess& operator=(const EgmProcess&) = delete;
+
+    State state() const;
+    const Task& owner() const { return owner_; }
+    GuidanceMode mode() const { return mode_; }
+    const ExternalMotionData& defaults() const { return defaults_; }
+    bool isActivated() const { return settings_.has_value(); }
+    const GuidanceSettings& settings() const { return *settings_; }
+
+    /// EGMSetup...: a new source of data; `partner` null: one that never sends anything. `timeout`: \CommTimeout.
+    void connect(GuidanceMode mode, std::unique_ptr<Partner> partner, const ExternalMotionData& defaults,
+                 Time timeout);
+    /// EGMReset: the guidance ends where the robot is.
+    void disconnect();
+    /// The power has failed: as disconnect(), and an instruction that waits raises the error of a time-out.
+    void lose();
+    /// EGMAct...: the session begins. `period` of the messages.
+    void activate(const GuidanceSettings& settings, Time period);
+    /// EGMStreamStart: messages without guidance. Returns why none can be sent, or "".
+    std::string startStream(Time period);
+    void stopStream();
+    /// EGMRun...: guidance begins; only when activated, with the arm at rest.
+    void run(const GuidanceOrder& order);
+    /// EGMStop. `rampOut`: s; none: as the order says.
+    void stop(bool rampDown, std::optional<double> rampOut);
+
+    /// No answer came in time, or the power has failed; once.
+    bool takeTimeout() { return std::exchange(timedOut_, false); }
+    /// The guidance is over, or its condition has been met.
+    bool hasFinished() const { return phase_ == Phase::None; }
+    /// Notified when the guidance ends.
+    WaitQueue& changed() { return changed_; }
+    /// EGMWaitCond: the guidance ends when its condition is met, also when the program did not wait for that before.
+    void awaitCondition();
+    /// The source has other data.
+    void wake();
+    /// The program stops or starts again.
+    void pause(bool paused);
+
+  private:
+    enum class Phase : uint8_t { None, Following, Braking, WayBack };
+
+    MotionDriver& motion() const { return controller_.motion(owner_); }
+    void beginSession(Time period);
+    void endSession();
+    void tick();
+    void schedule();
+    void exchange();
+    std::string sendState();
+    void guide(Time now);
+    void followOn(Time now);
+    void finish();
+    bool mustTick() const;
+
+    Controller& controller_;
+    Task& owner_;
+    GuidanceMode mode_ = GuidanceMode::Joint;
+    ExternalMotionData defaults_;
+    Time timeout_ = kSecond;
+    bool isConnected_ = false;
+    std::unique_ptr<Partner> partner_;
+    std::optional<GuidanceSettings> settings_;
+    std::optional<GuidanceOrder> order_;
+    std::unique_ptr<GuidedArm> arm_;
+    SensorData data_;
+    bool hasData_ = false; ///< since EGMAct...: before that nothing has been reached
+    struct Session {
+        bool isOpen = false;
+        bool streams = false; ///< lasts beyond the guidance (EGMStreamStart)
+        Time period = GuidedArm::kPeriod, next = 0;
+        EventToken tick = 0;
+    };
+    struct WayBack {
+        bool isWanted = false;
+        double rampOut = 0, seconds = 0; ///< as asked for, and as it takes
+        Time began = 0;
+    };
+    Phase phase_ = Phase::None;
+    Session session_;
+    WayBack wayBack_;
+    bool timedOut_ = false, isPaused_ = false;
+    bool awaitsCondition_ = true; ///< the guidance ends when its condition is met
+    Time began_ = 0, lastAnswer_ = 0, convergedSince_ = kNever;
+    std::string limit_; ///< reported last
+    WaitQueue changed_;
+};
+
+class EgmProcesses {
+  public:
+    static constexpr std::size_t kMost = 4;
+
+    static EgmProcesses& of(Controller& controller);
+    /// Null when none is free.
+    EgmProcess* reserve(Task& owner, Handle& identity);
+    /// Null when the variable names none.
+    EgmProcess* find(Handle identity);
+    void release(Handle identity) { processes_.erase(identity); }
+    /// The process that guides this robot now; null when there is none.
+    EgmProcess* guiding(const MotionDriver& motion);
+    /// The program of the task begins anew: what it left is released.
+    void releaseAll(const Task& owner);
+
+  private:
+    void open(Controller& controller);
+
+    Controller* controller_ = nullptr;
+    HandleTable<std::unique_ptr<EgmProcess>> processes_;
+    std::set<const MotionDriver*> watched_; ///< whose stops and starts are listened to
+};
+
+/// The program of a task begins anew.
+void endGuidance(Task& task);
+
+} // namespace rt::lib

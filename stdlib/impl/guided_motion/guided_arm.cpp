@@ -1,0 +1,223 @@
+#include "stdlib/impl/guided_motion/guided_arm.h"
+
+#include "stdlib/impl/motion/world_zones.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rt::lib {
+namespace {
+
+constexpr double kSeconds = static_cast<double>(GuidedArm::kPeriod) * 1e-9;
+constexpr double kNear = 1e-6; // deg: an axis that is so near to its goal is put there
+constexpr double kFar = 1e-3;  // deg: a limit that cuts off less is not reported
+
+} // namespace
+
+motion::FrameSetup basedFrames(MotionDriver& motion, motion::FrameSetup frames) {
+    const motion::MotionSystem& arm = motion.system();
+    const motion::JointTarget joints = arm.currentJoints();
+    frames.baseFrame = arm.flangeInWorld(joints) * inverse(arm.kinematics().forward(joints.robax));
+    frames.baseMover = nullptr; // additional axes do not move meanwhile
+    return frames;
+}
+
+motion::Pose guidedTcp(MotionDriver& motion, const motion::FrameSetup& frames,
+                       const motion::JointTarget& joints) {
+    return frames.tcpInWorld(motion.system().kinematics().forward(joints.robax), joints.extax);
+}
+
+motion::Pose guidanceFrame(MotionDriver& motion, const motion::FrameSetup& frames, int type) {
+    const motion::JointTarget joints = motion.system().currentJoints();
+    const motion::Pose tcp = guidedTcp(motion, frames, joints);
+    switch (type) {
+    case 0: return frames.baseFrame;
+    case 1: return tcp;
+    case 2:
+        return tcp *
+               inverse(frames.fromFlange(motion.system().kinematics().forward(joints.robax), joints.extax));
+    default: return {};
+    }
+}
+
+bool GuidanceOrder::hasCondition() const {
+    return std::find(conditions.begin(), conditions.end(), true) != conditions.end();
+}
+
+GuidedArm::GuidedArm(MotionDriver& motion, const GuidanceSettings& settings, const GuidanceOrder& order)
+    : motion_(motion), settings_(settings), order_(order), start_(motion.system().currentJoints()),
+      now_(start_), speed_(motion::Joints::zeros(start_.robax.size())), filtered_(start_.robax),
+      wanted_(start_.robax) {
+    settings_.frames = basedFrames(motion, settings_.frames);
+    sensorInWorld_ = guidanceFrame(motion, settings_.frames, settings.sensorType) * settings.sensorFrame;
+    objectInWorld_ = guidanceFrame(motion, settings_.frames, 2);
+    wantedPose_ = inverse(sensorInWorld_) * guidedTcp(motion, settings_.frames, start_);
+}
+
+/// The axes that the data ask for; those of which they say nothing stay where they began.
+motion::Joints GuidedArm::target(const SensorData& data) {
+    if (settings_.mode == GuidanceMode::Pose) return targetOfPose(data);
+    motion::Joints wanted = start_.robax;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const auto number = static_cast<std::size_t>(motion_.system().kinematics().axisNumber(i));
+        if (data.joints[number - 1]) wanted[i] = *data.joints[number - 1];
+    }
+    return wanted;
+}
+
+motion::Joints GuidedArm::targetOfPose(const SensorData& data) {
+    const motion::Pose from = inverse(sensorInWorld_) * guidedTcp(motion_, settings_.frames, start_);
+    motion::Vec3 pos = from.pos, angles = robot::eulerZyx(from.rot);
+    double* const places[] = {&pos.x, &pos.y, &pos.z, &angles.x, &angles.y, &angles.z};
+    bool turns = false;
+    for (std::size_t i = 0; i < data.pose.size(); ++i) {
+        if (!data.pose[i]) continue;
+        *places[i] = *data.pose[i];
+        turns = turns || i >= 3;
+    }
+    const motion::Quat rot = data.orientation ? *data.orientation
+                             : turns          ? robot::fromEulerZyx(angles.z, angles.y, angles.x)
+                                              : from.rot;
+    wantedPose_ = motion::Pose{pos, rot} * order_.offset;
+    motion::RobTarget robTarget;
+    robTarget.pose = inverse(objectInWorld_) * sensorInWorld_ * wantedPose_;
+    robTarget.extax = now_.extax;
+    const motion::Pose flange = settings_.frames.toFlange(robTarget.pose, now_.extax);
+    const auto joints =
+        motion::solveTarget(motion_.system().kinematics(), flange, robTarget, false, now_.robax);
+    if (joints) return *joints;
+    limit_ = motion::targetError(joints.error(), robTarget.pose.pos).message();
+    return wanted_; // the last one that could be reached
+}
+
+/// Within the range of each axis and the deviation that is allowed.
+motion::Joints GuidedArm::limited(motion::Joints wanted) {
+    const robot::RobotModel& model = motion_.model();
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const double low = std::max(model.lowerDeg[i], start_.robax[i] - settings_.maxDeviation);
+        const double high = std::min(model.upperDeg[i], start_.robax[i] + settings_.maxDeviation);
+        const double inside = std::clamp(wanted[i], std::min(low, high), high);
+        if (std::fabs(inside - wanted[i]) > kFar && limit_.empty())
+            limit_ =
+                fmt::format("axis {} is asked to go to {:.2f} and may go from {:.2f} to {:.2f}. Send other "
+                            "values, or give \\MaxPosDeviation a larger one",
+                            motion_.system().kinematics().axisNumber(i), wanted[i], low, high);
+        wanted[i] = inside;
+    }
+    return wanted;
+}
+
+void GuidedArm::follow(const SensorData& data, double share) {
+    limit_.clear();
+    wanted_ = limited(target(data));
+    const double part =
+        settings_.filterHz > 0 ? 1 - std::exp(-2 * std::numbers::pi * settings_.filterHz * kSeconds) : 1;
+    isSteady_ = share >= 1;
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+        filtered_[i] += part * (wanted_[i] - filtered_[i]);
+        if (std::fabs(wanted_[i] - filtered_[i]) < kNear) filtered_[i] = wanted_[i];
+        const double asked =
+            settings_.mode == GuidanceMode::Joint && i < data.jointSpeed.size() ? data.jointSpeed[i] : 0;
+        moveAxis(i, filtered_[i], order_.gain * share, asked);
+        isSteady_ = isSteady_ && speed_[i] == 0 && (filtered_[i] == wanted_[i]);
+    }
+    place();
+}
+
+void GuidedArm::moveAxis(std::size_t axis, double goal, double gain, double speedAsked) {
+    const robot::RobotModel& model = motion_.model();
+    const double acceleration = model.maxAcceleration[axis];
+    const double most = std::min(settings_.maxSpeed, model.maxSpeed[axis]);
+    const double difference = goal - now_.robax[axis];
+    if (speedAsked == 0 && std::fabs(difference) < kNear && std::fabs(speed_[axis]) * kSeconds < kNear) {
+        if (gain > 0) now_.robax[axis] = goal;
+        speed_[axis] = 0;
+        return;
+    }
+    // From this speed the axis can still stop at its goal.
+    const double stopping = std::sqrt(2 * acceleration * std::fabs(difference));
+    const double wanted =
+        std::clamp(std::clamp(gain * difference, -stopping, stopping) + speedAsked, -most, most);
+    const double change = acceleration * kSeconds;
+    speed_[axis] = std::clamp(wanted, speed_[axis] - change, speed_[axis] + change);
+    const double next = now_.robax[axis] + speed_[axis] * kSeconds;
+    now_.robax[axis] = std::clamp(next, std::min(model.lowerDeg[axis], now_.robax[axis]),
+                                  std::max(model.upperDeg[axis], now_.robax[axis]));
+}
+
+void GuidedArm::brake() {
+    for (std::size_t i = 0; i < speed_.size(); ++i) {
+        const double change = motion_.model().maxAcceleration[i] * kSeconds;
+        speed_[i] -= std::clamp(speed_[i], -change, change);
+        now_.robax[i] += speed_[i] * kSeconds;
+    }
+    filtered_ = now_.robax;
+    place();
+}
+
+bool GuidedArm::isStanding() const {
+    return std::all_of(speed_.begin(), speed_.end(), [](double speed) { return speed == 0; });
+}
+
+/// The way is passed evenly at its middle with 1.5 times the mean speed.
+double GuidedArm::beginWayBack() {
+    wayBackFrom_ = now_.robax;
+    double seconds = 0;
+    for (std::size_t i = 0; i < wayBackFrom_.size(); ++i) {
+        const double way = std::fabs(wayBackFrom_[i] - start_.robax[i]);
+        seconds = std::max({seconds, 1.5 * way / motion_.model().maxSpeed[i],
+                            std::sqrt(6 * way / motion_.model().maxAcceleration[i])});
+    }
+    return seconds;
+}
+
+void GuidedArm::placeOnWayBack(double share) {
+    const double s = std::clamp(share, 0.0, 1.0), done = s * s * (3 - 2 * s);
+    for (std::size_t i = 0; i < wayBackFrom_.size(); ++i)
+        now_.robax[i] = wayBackFrom_[i] + (start_.robax[i] - wayBackFrom_[i]) * done;
+    place();
+}
+
+void GuidedArm::place() {
+    if (lost_) return;
+    if (!motion_.system().isIdle() || !motion_.system().placeAt(now_)) {
+        lost_ = true;
+        return;
+    }
+    motion_.refresh();
+    motion_.service<WorldZones>().noteMotion();
+}
+
+bool GuidedArm::isConverged() const {
+    if (!order_.hasCondition()) return false;
+    std::array<double, 7> difference{};
+    if (settings_.mode == GuidanceMode::Pose) {
+        const motion::Pose is = inverse(sensorInWorld_) * guidedTcp(motion_, settings_.frames, now_);
+        const motion::Vec3 way = wantedPose_.pos - is.pos;
+        const motion::Vec3 turn = robot::eulerZyx(conjugate(is.rot) * wantedPose_.rot);
+        difference = {way.x, way.y, way.z, turn.x, turn.y, turn.z, 0};
+    } else {
+        for (std::size_t i = 0; i < wanted_.size(); ++i) {
+            const auto number = static_cast<std::size_t>(motion_.system().kinematics().axisNumber(i));
+            difference[number - 1] = wanted_[i] - now_.robax[i];
+        }
+    }
+    for (std::size_t i = 0; i < difference.size(); ++i) {
+        const Window& window = settings_.windows[i];
+        if (order_.conditions[i] && !(difference[i] >= window.low && difference[i] <= window.high))
+            return false;
+    }
+    return true;
+}
+
+double GuidedArm::utilization() const {
+    double most = 0;
+    for (std::size_t i = 0; i < speed_.size(); ++i)
+        most = std::max(most, std::fabs(speed_[i]) / motion_.model().maxSpeed[i] * 100);
+    return most;
+}
+
+} // namespace rt::lib

@@ -1,0 +1,60 @@
+#pragma once
+// Partner: where the data come from that guide the robot (EGM), and where those about the robot go. The place at which a
+// sensor, a signal or a program outside the controller is connected.
+
+#include "runtime/motion/targets.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rt::lib {
+
+enum class GuidanceMode : uint8_t { Joint, Pose, PathCorrection };
+
+/// What a partner asks for. Parts that are absent keep their last value.
+struct SensorData {
+    /// Each axis that is asked for, by its number from 1 (index 0: axis 1, index 6: axis 7 of a seven-axis arm), deg.
+    std::array<std::optional<double>, 7> joints{};
+    /// Place and orientation in the frame of the sensor: mm, and deg about x, y, z (RAPID's EulerZYX).
+    std::array<std::optional<double>, 6> pose{};
+    /// Orientation as a quaternion, instead of the angles.
+    std::optional<motion::Quat> orientation;
+    /// deg/s for axes 1 to 6: the speed to which the correction of the position is added.
+    std::array<double, 6> jointSpeed{};
+};
+
+/// What a partner hears of the robot.
+struct RobotData {
+    motion::JointTarget feedback, planned;  ///< deg, mm
+    motion::Pose feedbackPose, plannedPose; ///< in the correction frame
+    int64_t nanoseconds = 0;                ///< virtual time
+    int64_t calendar = 0;                   ///< whole seconds since 1970 of the controller
+    bool motorsOn = true, isGuided = false, isConverged = false, programRuns = true;
+    double utilization = 0; ///< fastest axis in percent of its highest speed
+    uint32_t moveIndex = 0; ///< movement instructions ordered so far
+};
+
+class Partner {
+  public:
+    Partner() = default;
+    virtual ~Partner() = default;
+    Partner(const Partner&) = delete;
+    Partner& operator=(const Partner&) = delete;
+
+    /// For events.
+    virtual std::string name() const = 0;
+    /// A session begins or ends: nothing is exchanged outside sessions.
+    virtual void begin() {}
+    virtual void end() {}
+    /// The newest data. False when none have come since the last call; refused ones do not count.
+    virtual bool receive(SensorData& data) = 0;
+    /// Once in each period of the exchange. Returns why it failed, or "".
+    virtual std::string send(const RobotData& /*data*/) { return {}; }
+    /// Data must come again and again (\CommTimeout); a signal always has a value.
+    virtual bool answers() const { return false; }
+};
+
+} // namespace rt::lib

@@ -1,0 +1,39 @@
+#pragma once
+// A program that guides the robot by UDP (EGMSetupUC): the controller sends to the address that SIO.cfg gives the device,
+// and takes the answers that come from there.
+
+#include "stdlib/impl/guided_motion/partner.h"
+
+#include "runtime/net/socket.h"
+
+#include <memory>
+
+namespace rt::lib {
+
+class UdpPartner final : public Partner {
+  public:
+    UdpPartner(net::Network& network, const Task& owner, std::string device, const net::Address& address,
+               uint16_t localPort, GuidanceMode mode);
+    std::string name() const override { return device_; }
+    const net::Address& address() const { return address_; }
+    void begin() override;
+    void end() override { socket_.reset(); }
+    bool receive(SensorData& data) override;
+    std::string send(const RobotData& data) override;
+    bool answers() const override { return true; }
+
+  private:
+    void refuse(const std::string& why);
+
+    net::Network& network_;
+    const Task& owner_;
+    std::string device_;
+    net::Address address_;
+    uint16_t localPort_;
+    GuidanceMode mode_;
+    std::unique_ptr<net::Socket> socket_; ///< during a session
+    uint32_t sequence_ = 0;
+    bool refused_ = false; ///< since the last data that could be used
+};
+
+} // namespace rt::lib
