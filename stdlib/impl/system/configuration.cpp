@@ -88,7 +88,7 @@ void Configuration::load(Controller& controller) {
 /// MOC parameters that the files leave out because they are those of the model.
 void Configuration::addRobot(Controller& controller) {
     const robot::RobotModel& model = robotOf(controller);
-    const std::string unit = controller.mechanicalUnits().front();
+    const std::string unit = controller.motions().front()->unitName();
     bool hasRobot = false, hasArms = false, hasCalibration = false;
     for (CfgFile& file : files_) {
         if (file.domain != "MOC") continue;

@@ -2,6 +2,7 @@
 
 #include "runtime/host/controller.h"
 #include "runtime/net/address.h"
+#include "stdlib/impl/motion/units.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib_constants.h"
@@ -96,9 +97,8 @@ Status rt_GetUASUserName(TaskCore*, String* result) {
 
 /// Hours since the start, in virtual time: the motors have been on since.
 Status rt_GetServiceInfo(TaskCore* task, String* result, Handle* MechUnit, bool) {
-    const std::vector<std::string> units = taskOf(task).controller().mechanicalUnits();
-    if (*MechUnit < 1 || *MechUnit > static_cast<Handle>(units.size()))
-        return lib::fail(task, err::ERR_REFUNKDAT, "the configuration does not define this mechanical unit");
+    Status status = kOk;
+    if (lib::unitOf(task, *MechUnit, status) == nullptr) return status;
     result->assign(std::to_string(taskOf(task).now() / (3600 * kSecond)));
     return kOk;
 }
