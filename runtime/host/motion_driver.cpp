@@ -47,6 +47,7 @@ motion::MoveCommand reversed(const motion::MoveCommand& target, const motion::Mo
     result.duration = as.duration;
     result.settings = as.settings;
     result.zone = {};
+    result.stop = {};
     result.concurrent = false;
     return result;
 }
@@ -67,7 +68,8 @@ motion::MotionSystem& MotionDriver::system() {
 void MotionDriver::refresh() {
     refreshAlone();
     if (synchronised_ == nullptr) return;
-    for (const SynchronisedGroup::Member& member : synchronised_->members()) // what one does changes the others' times
+    for (const SynchronisedGroup::Member& member :
+         synchronised_->members()) // what one does changes the others' times
         if (member.driver != this) member.driver->refreshAlone();
 }
 

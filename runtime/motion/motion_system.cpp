@@ -86,6 +86,7 @@ MoveId MotionSystem::Impl::registerMove(const MoveCommand& command, const Trajec
     move->leg = appended.at;
     move->isPoint = appended.isPoint;
     move->isConcurrent = command.concurrent;
+    move->isAwaited = command.stop.isAwaited;
     move->isFlyBy = !command.zone.finep;
     for (const PathTrigger& trigger : command.triggers)
         move->triggers.push_back({trigger, false});

@@ -25,8 +25,9 @@ struct MoveLimits {
         0; ///< deg/s, of the arm angle along lines and circles: RAPID's v_reax, as eax_a is its place
     double pathSpeed = 1e300; ///< of the path parameter; used for moves with a given duration
     Joints jointSpeed{};
-    double accelerationShare = 1; ///< AccSet, of the robot's accelerations
-    double rampShare = 1;         ///< AccSet, of the rate at which acceleration changes
+    /// Of the robot's accelerations: AccSet and the load.
+    std::array<double, robot::kMostJoints> accelerationShare{1, 1, 1, 1, 1, 1, 1};
+    double rampShare = 1; ///< AccSet, of the rate at which acceleration changes
     ExternalAxes externalSpeed{};
     ExternalAxes externalAcceleration{};
     double pathAcceleration = 1e300, pathDeceleration = 1e300; ///< mm/s^2

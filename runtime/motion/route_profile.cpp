@@ -155,8 +155,8 @@ ProfileCell measuredCell(const Route& route, const RouteStretch& stretch, const 
         // Just inside: what counts beyond the border belongs to the neighbour.
         const double inside = k == 0 ? 1e-9 : k + 1 == kSamples ? -1e-9 : 0;
         sampled.points[k] = route.at(stretch.begin + sampled.step * (static_cast<double>(k) + inside));
-        sampled.tcp[k] =
-            leg.path->frames().fromFlange(leg.path->kinematics().forward(sampled.points[k].joints), sampled.points[k].extax);
+        sampled.tcp[k] = leg.path->frames().fromFlange(
+            leg.path->kinematics().forward(sampled.points[k].joints), sampled.points[k].extax);
     }
     limitSpeed(cell, sampled, most);
     std::array<Joints, 2> accelerations{sampled.points[0].joints, sampled.points[0].joints};
@@ -168,7 +168,8 @@ ProfileCell measuredCell(const Route& route, const RouteStretch& stretch, const 
         if (rate < 1e-10) continue;
         cell.mostSquare = std::min(cell.mostSquare, squareOf(most.jointSpeed[i], rate));
         addRow(cell, f, sampled.step,
-               {most.accelerationShare * accelerations[0][i], most.accelerationShare * accelerations[1][i]},
+               {most.accelerationShare[i] * accelerations[0][i],
+                most.accelerationShare[i] * accelerations[1][i]},
                most.rampShare * limits.jerk[i]);
     }
     for (std::size_t i = 0; i < stretch.externalFirst.size(); ++i) {

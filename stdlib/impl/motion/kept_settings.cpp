@@ -45,6 +45,7 @@ Json save(const MotionState& s) {
             {"toolHeld", s.tool.robhold},
             {"tool", numbersOf(s.tool.tframe)},
             {"load", numbersOf(s.tool.tload)},
+            {"gripLoad", numbersOf(s.gripLoad)},
             {"objectHeld", s.workObject.robhold},
             {"userFixed", s.workObject.ufprog},
             {"unit", std::string(s.workObject.ufmec.view())},
@@ -67,6 +68,7 @@ MotionState load(const Json& json) {
     json.at("toolHeld").get_to(s.tool.robhold);
     readNumbers(json.at("tool"), s.tool.tframe);
     readNumbers(json.at("load"), s.tool.tload);
+    readNumbers(json.at("gripLoad"), s.gripLoad);
     json.at("objectHeld").get_to(s.workObject.robhold);
     json.at("userFixed").get_to(s.workObject.ufprog);
     s.workObject.ufmec.assign(json.at("unit").get<std::string>());

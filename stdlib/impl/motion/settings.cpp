@@ -176,7 +176,10 @@ Status rt_CornerPathWarning(TaskCore* task, bool Active) {
     lib::motionOf(task).setCornerWarning(Active);
     return kOk;
 }
-Status rt_GripLoad(TaskCore*, data::Loaddata*) {
+Status rt_GripLoad(TaskCore* task, data::Loaddata* Load) {
+    if (!(Load->mass >= 0))
+        return lib::fail(task, err::ERR_ARGVALERR, "GripLoad: the mass must not be negative");
+    lib::motionState(task).gripLoad = *Load;
     return kOk;
 }
 
