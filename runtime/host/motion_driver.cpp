@@ -300,6 +300,17 @@ const std::shared_ptr<SynchronisedGroup>& MotionDriver::synchronised() const {
     return isSuspended_ ? kNone : synchronised_;
 }
 
+void MotionDriver::setSpeedLimits(const motion::SpeedLimits& most) {
+    speedLimits_ = most;
+    limitSpeed(isSpeedLimited_);
+}
+
+void MotionDriver::limitSpeed(bool on) {
+    isSpeedLimited_ = on;
+    system().setSpeedLimits(on ? speedLimits_ : motion::SpeedLimits{});
+    refresh();
+}
+
 /// Until the program may go on; in steps every movement is finished before the next instruction.
 Status MotionDriver::waitReleased(Task& task, motion::MoveId id) {
     const auto mayGoOn = [&] {

@@ -274,6 +274,16 @@ void MotionSystem::setOverride(double percent) {
     s.noteMotion();
 }
 
+void MotionSystem::setSpeedLimits(const SpeedLimits& most) {
+    Impl& s = *impl_;
+    if (most == std::exchange(s.speedLimits, most)) return;
+    s.path().setSpeedLimits(s.seconds(), most);
+    if (s.detour != nullptr) s.detour->setSpeedLimits(s.seconds(), most);
+    for (Level& level : s.stored)
+        level.path->setSpeedLimits(s.seconds(), most);
+    s.noteMotion();
+}
+
 double MotionSystem::speedOverride() const {
     return impl_->override;
 }

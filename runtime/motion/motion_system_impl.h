@@ -63,6 +63,7 @@ struct MotionSystem::Impl {
 
     TimeNs now = 0;
     double override = 100;
+    SpeedLimits speedLimits;
     bool isStopRequested = false;
     bool isStopAnnounced = true;
     bool isRestAnnounced = true;

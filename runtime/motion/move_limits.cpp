@@ -66,4 +66,13 @@ MoveLimits limitsOf(const MoveCommand& command, const robot::RobotModel& model,
     return limits;
 }
 
+MoveLimits limitedTo(MoveLimits limits, const SpeedLimits& most) {
+    limits.tcpSpeed = std::min(limits.tcpSpeed, most.tcp);
+    for (std::size_t i = 0; i < limits.jointSpeed.size(); ++i)
+        limits.jointSpeed[i] = std::min(limits.jointSpeed[i], most.joints[i]);
+    for (std::size_t i = 0; i < limits.externalSpeed.size(); ++i)
+        limits.externalSpeed[i] = std::min(limits.externalSpeed[i], most.external[i]);
+    return limits;
+}
+
 } // namespace motion

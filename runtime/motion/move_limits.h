@@ -34,6 +34,17 @@ struct MoveLimits {
     double worldAcceleration = 1e300;                          ///< mm/s^2
 };
 
+/// Speed limits that hold for every move while a system input asks for it (SpeedLimAxis, SpeedLimCheckPoint).
+struct SpeedLimits {
+    static constexpr double kNone = 1e300;
+    double tcp = kNone;                                                                             ///< mm/s
+    std::array<double, robot::kMostJoints> joints{kNone, kNone, kNone, kNone, kNone, kNone, kNone}; ///< deg/s
+    ExternalAxes external{kNone, kNone, kNone, kNone, kNone, kNone}; ///< deg/s or mm/s
+    friend bool operator==(const SpeedLimits&, const SpeedLimits&) = default;
+};
+/// The limits of a move, no higher than these.
+MoveLimits limitedTo(MoveLimits limits, const SpeedLimits& most);
+
 /// Limits of a move with these arguments and settings.
 MoveLimits limitsOf(const MoveCommand& command, const robot::RobotModel& model,
                     const ExternalAxisModels& external);

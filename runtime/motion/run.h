@@ -2,8 +2,8 @@
 // Run: a route with its timing, from one standstill to the next. The measured plan takes the highest speed along the route
 // that keeps all limits, with full acceleration before and after; the course averages it in time. The optimal plan is exact.
 
-#include "runtime/motion/course.h"
 #include "runtime/motion/companions.h"
+#include "runtime/motion/course.h"
 #include "runtime/motion/optimal_plan.h"
 #include "runtime/motion/planner.h"
 #include "runtime/motion/route.h"
@@ -40,6 +40,8 @@ class Run {
 
     /// Replans from `now` on: to the end of the route at this share of the programmed speed (above 0, to 1).
     void plan(double now, double speedShare);
+    /// From `now` on no faster than this.
+    void limitSpeeds(double now, const SpeedLimits& most);
     /// Replans from `now` on: brakes as fast as the limits allow and rests there.
     void brake(double now);
     /// Where brake() would let the arm come to rest.

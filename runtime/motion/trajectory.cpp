@@ -36,7 +36,8 @@ Leg Trajectory::legOf(const std::shared_ptr<const MotionPath>& path, const MoveC
     Leg leg;
     leg.path = path;
     leg.zone = command.zone;
-    leg.limits = limitsOf(command, model_, external_);
+    leg.programmed = limitsOf(command, model_, external_);
+    leg.limits = limitedTo(leg.programmed, speedLimits_);
     leg.duration = command.duration;
     const double external = path->externalTravel() + std::abs(path->armTravel());
     double mm = path->length();
@@ -118,7 +119,7 @@ std::vector<Leg> Trajectory::legsTogether(const std::vector<Ordered>& moves) con
         legs[i].lengths = LengthMap::even(longest);
         legs[i].perMm = 1;
         legs[i].isTurning = false;
-        legs[i].limits.tcpSpeed = 1e300;
+        legs[i].limits.tcpSpeed = legs[i].programmed.tcpSpeed = 1e300;
     }
     return legs;
 }
@@ -253,6 +254,19 @@ void Trajectory::setSpeedShare(double now, double share) {
             e.run->plan(std::max(now, e.run->start()), share);
     }
     schedule(active + (hasBegun(entry(active), now) ? 1 : 0), now, now);
+}
+
+void Trajectory::setSpeedLimits(double now, const SpeedLimits& most) {
+    planChanged();
+    speedLimits_ = most;
+    if (entries_.empty()) return;
+    const std::size_t active = activeAt(now);
+    for (std::size_t i = active; i < count(); ++i) {
+        Entry& e = entry(i);
+        if (e.pause == 0 && (now < e.run->course().plannedEnd() || !e.isScheduled))
+            e.run->limitSpeeds(std::max(now, e.run->start()), most);
+    }
+    if (!isHeld_) schedule(active + (hasBegun(entry(active), now) ? 1 : 0), now, now);
 }
 
 void Trajectory::hold(double now) {

@@ -71,6 +71,8 @@ class Trajectory {
 
     // ---- time ----
     virtual void setSpeedShare(double now, double share);
+    /// From `now` on no faster than this. Robots that follow this one obey from the next movement on.
+    virtual void setSpeedLimits(double now, const SpeedLimits& most);
     /// Brakes on the path and stays there until release().
     virtual void hold(double now);
     virtual void release(double now);
@@ -181,6 +183,7 @@ class Trajectory {
 
     double earliest_ = 0;
     std::vector<std::weak_ptr<Trajectory>> followers_;
+    SpeedLimits speedLimits_;
     double share_ = 1;
     bool isHeld_ = false;
     std::optional<Back> back_;
