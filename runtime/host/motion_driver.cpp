@@ -47,6 +47,7 @@ motion::MoveCommand reversed(const motion::MoveCommand& target, const motion::Mo
     result.duration = as.duration;
     result.settings = as.settings;
     result.zone = {};
+    result.stop = {};
     result.concurrent = false;
     return result;
 }
@@ -297,6 +298,17 @@ void MotionDriver::leaveGroup() {
 const std::shared_ptr<SynchronisedGroup>& MotionDriver::synchronised() const {
     static const std::shared_ptr<SynchronisedGroup> kNone;
     return isSuspended_ ? kNone : synchronised_;
+}
+
+void MotionDriver::setSpeedLimits(const motion::SpeedLimits& most) {
+    speedLimits_ = most;
+    limitSpeed(isSpeedLimited_);
+}
+
+void MotionDriver::limitSpeed(bool on) {
+    isSpeedLimited_ = on;
+    system().setSpeedLimits(on ? speedLimits_ : motion::SpeedLimits{});
+    refresh();
 }
 
 /// Until the program may go on; in steps every movement is finished before the next instruction.

@@ -185,6 +185,10 @@ class MotionDriver final : public SteppedArm {
 
     /// Gets every sample from now on; must outlive the driver.
     void addTrace(TraceSink& trace) { traces_.push_back(&trace); }
+    /// SpeedLimAxis, SpeedLimCheckPoint: hold while the system input LimitSpeed is set.
+    void setSpeedLimits(const motion::SpeedLimits& most);
+    void limitSpeed(bool on);
+    bool isSpeedLimited() const { return isSpeedLimited_; }
     /// Nothing left to do: idle, or held by a stop and standing still.
     bool isSettled() const;
     bool isMoving() const { return system_.isMoving(); }
@@ -274,6 +278,8 @@ class MotionDriver final : public SteppedArm {
     bool backward_ = false;
     bool brokenOff_ = false; // the movement of the latest order was
     bool cornerWarning_ = true;
+    bool isSpeedLimited_ = false;
+    motion::SpeedLimits speedLimits_;
     const Task* ordering_ = nullptr;
     std::function<Status(Task&)> circlePointStop_;
     std::vector<std::function<void(ArmNews)>> listeners_;

@@ -99,6 +99,10 @@ Json jsonOf(const motion::MoveCommand& c) {
             {"zone",
              {c.zone.pzoneTcp, c.zone.pzoneOri, c.zone.pzoneEax, c.zone.zoneOri, c.zone.zoneLeax,
               c.zone.zoneReax}},
+            {"stop",
+             {c.stop.positionPercent, c.stop.speedPercent, c.stop.minTime, c.stop.maxTime, c.stop.standTime}},
+            {"stopAwaited", c.stop.isAwaited},
+            {"load", {c.load.mass, c.load.inertia}},
             {"confJ", c.confJ},
             {"confL", c.confL},
             {"circleOrientation", static_cast<int>(c.circleOrientation)},
@@ -132,6 +136,10 @@ motion::MoveCommand moveFrom(const Json& json, const robot::UnitLookup& units) {
     json.at("duration").get_to(c.duration);
     const auto zone = numbersFrom<6>(json.at("zone"));
     c.zone = {json.at("fine").get<bool>(), zone[0], zone[1], zone[2], zone[3], zone[4], zone[5]};
+    const auto stop = numbersFrom<5>(json.at("stop"));
+    c.stop = {stop[0], stop[1], stop[2], stop[3], stop[4], json.at("stopAwaited").get<bool>()};
+    const auto load = numbersFrom<2>(json.at("load"));
+    c.load = {load[0], load[1]};
     json.at("confJ").get_to(c.confJ);
     json.at("confL").get_to(c.confL);
     c.circleOrientation = circleOrientationFrom(json.at("circleOrientation").get<int>());

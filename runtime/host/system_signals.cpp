@@ -24,9 +24,9 @@ T lookUp(const std::pair<const char*, T> (&table)[N], std::string_view word) {
 
 void SystemSignals::configure(const CfgFile& file, std::vector<CfgProblem>& problems) {
     static constexpr std::pair<const char*, Order> kOrders[] = {
-        {"Start", Order::Start},         {"StartMain", Order::StartMain}, {"Stop", Order::Stop},
-        {"QuickStop", Order::QuickStop}, {"SoftStop", Order::Stop},       {"StopInstr", Order::Stop},
-        {"PPtoMain", Order::PpToMain},
+        {"Start", Order::Start},         {"StartMain", Order::StartMain},   {"Stop", Order::Stop},
+        {"QuickStop", Order::QuickStop}, {"SoftStop", Order::Stop},         {"StopInstr", Order::Stop},
+        {"PPtoMain", Order::PpToMain},   {"LimitSpeed", Order::LimitSpeed},
     };
     static constexpr std::pair<const char*, State> kStates[] = {
         {"CycleOn", State::CycleOn},
@@ -40,6 +40,7 @@ void SystemSignals::configure(const CfgFile& file, std::vector<CfgProblem>& prob
         {"MotorOff", State::MotorsOff},
         {"MotOffState", State::MotorsOff},
         {"RunchOk", State::On},
+        {"LimitSpeed", State::SpeedLimited},
     };
     const auto signalOf = [&](const CfgInstance& instance) {
         const std::string name = instance.text("Signal");
@@ -53,19 +54,23 @@ void SystemSignals::configure(const CfgFile& file, std::vector<CfgProblem>& prob
     };
     for (const CfgSection* section : file.find("SYSSIG_IN")) {
         for (const CfgInstance& instance : section->instances) {
-            const Input input{signalOf(instance), lookUp(kOrders, instance.text("Action"))};
+            const Input input{signalOf(instance), lookUp(kOrders, instance.text("Action")),
+                              instance.text("Arg6")};
             if (input.signal < 0 || input.order == Order::None) continue;
             inputs_.push_back(input);
             controller_.io().addListener(input.signal, [this, input](SignalId, double, double value) {
                 // From the scheduler, since a task may have caused the change by a cross connection.
-                if (value != 0) controller_.scheduler().after(0, [this, input] { carryOut(input.order); });
+                if (input.order == Order::LimitSpeed)
+                    controller_.scheduler().after(0, [=, this] { limitSpeed(input.unit, value != 0); });
+                else if (value != 0)
+                    controller_.scheduler().after(0, [this, input] { carryOut(input.order); });
             });
         }
     }
     for (const CfgSection* section : file.find("SYSSIG_OUT")) {
         for (const CfgInstance& instance : section->instances) {
-            Output output{signalOf(instance), lookUp(kStates, instance.text("Status")),
-                          instance.text("Arg2")};
+            Output output{signalOf(instance), lookUp(kStates, instance.text("Status")), instance.text("Arg2"),
+                          instance.text("Arg1")};
             if (output.signal >= 0 && output.state != State::None) outputs_.push_back(std::move(output));
         }
     }
@@ -79,7 +84,8 @@ bool SystemSignals::isStart(SignalId signal) const {
 
 void SystemSignals::carryOut(Order order) {
     switch (order) {
-    case Order::None: return;
+    case Order::None:
+    case Order::LimitSpeed: return;
     case Order::Stop: controller_.actionStop(); return;
     case Order::QuickStop: controller_.actionStop(SystemEvent::QuickStop); return;
     case Order::Start: controller_.actionStart(); return;
@@ -89,6 +95,12 @@ void SystemSignals::carryOut(Order order) {
         controller_.actionStart();
         return;
     }
+}
+
+void SystemSignals::limitSpeed(const std::string& unit, bool on) {
+    for (const auto& motion : controller_.motions())
+        if (unit.empty() || sameName(unit, motion->unitName())) motion->limitSpeed(on);
+    update();
 }
 
 double SystemSignals::stateValue(const Output& output) const {
@@ -107,6 +119,14 @@ double SystemSignals::stateValue(const Output& output) const {
                            [](const auto& motion) { return motion->isMoving(); })
                    ? 0
                    : 1;
+    case State::SpeedLimited:
+        return std::all_of(controller_.motions().begin(), controller_.motions().end(),
+                           [&](const auto& motion) {
+                               return motion->isSpeedLimited() ||
+                                      !(output.unit.empty() || sameName(output.unit, motion->unitName()));
+                           })
+                   ? 1
+                   : 0;
     case State::Error: return controller_.stoppedByError() ? 1 : 0;
     case State::MotorsOn: return controller_.motorsOn() ? 1 : 0;
     case State::MotorsOff: return controller_.motorsOn() ? 0 : 1;

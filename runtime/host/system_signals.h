@@ -26,18 +26,31 @@ class SystemSignals {
     void update();
 
   private:
-    enum class Order : uint8_t { None, Start, StartMain, Stop, QuickStop, PpToMain };
-    enum class State : uint8_t { None, CycleOn, TaskExecuting, NotMoving, Error, MotorsOn, MotorsOff, On };
+    enum class Order : uint8_t { None, Start, StartMain, Stop, QuickStop, PpToMain, LimitSpeed };
+    enum class State : uint8_t {
+        None,
+        CycleOn,
+        TaskExecuting,
+        NotMoving,
+        Error,
+        MotorsOn,
+        MotorsOff,
+        On,
+        SpeedLimited
+    };
     struct Input {
         SignalId signal = -1;
         Order order = Order::None;
+        std::string unit; ///< of LimitSpeed: the robot; "" for all
     };
     struct Output {
         SignalId signal = -1;
         State state = State::None;
         std::string task;
+        std::string unit;
     };
     void carryOut(Order order);
+    void limitSpeed(const std::string& unit, bool on);
     double stateValue(const Output& output) const;
 
     Controller& controller_;

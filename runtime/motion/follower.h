@@ -29,6 +29,8 @@ class Follower final : public Trajectory {
     std::optional<double> inPositionTime(std::size_t run) const override {
         return leader_->inPositionTime(run);
     }
+    std::optional<double> stopTime(std::size_t run) const override { return leader_->stopTime(run); }
+    std::optional<double> brakingTime(std::size_t run) const override { return leader_->brakingTime(run); }
     std::optional<double> decisionTime() const override { return leader_->decisionTime(); }
     const Route& route(std::size_t run) const override;
     PathPlace legStart(const LegRef& leg) const override;

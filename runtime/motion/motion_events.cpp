@@ -54,18 +54,25 @@ std::optional<double> MotionSystem::Impl::startTime(const Move& move) const {
     return path().timeAt(startOf(move));
 }
 
-std::optional<double> MotionSystem::Impl::reachTime(const Move& move) const {
+bool MotionSystem::Impl::isPassed(const Move& move) const {
     const Route& route = path().route(move.leg.run);
-    const bool isPassed = route.legCount() > 0 && route.isRounded(move.leg.leg);
-    return isPassed ? path().timeAt(endOf(move)) : path().inPositionTime(move.leg.run);
+    return route.legCount() > 0 && route.isRounded(move.leg.leg);
+}
+
+std::optional<double> MotionSystem::Impl::arrivalTime(const Move& move) const {
+    return isPassed(move) ? path().timeAt(endOf(move)) : path().inPositionTime(move.leg.run);
+}
+
+std::optional<double> MotionSystem::Impl::reachTime(const Move& move) const {
+    return isPassed(move) ? path().timeAt(endOf(move)) : path().stopTime(move.leg.run);
 }
 
 std::optional<double> MotionSystem::Impl::releaseTime(const Move& move) const {
     // After a fly-by point the order itself came the lead before its zone (manual 2.3).
     if (move.isConcurrent) return move.leg.leg > 0 ? std::optional(seconds()) : startTime(move);
-    if (!move.isFlyBy) return reachTime(move);
+    if (!move.isFlyBy && move.isAwaited) return reachTime(move);
     if (level.queue.back().get() != &move) return seconds(); // a move that follows is known already
-    const auto decision = path().decisionTime();
+    const auto decision = move.isFlyBy ? path().decisionTime() : path().brakingTime(move.leg.run);
     return decision ? std::optional(*decision - toSeconds(options.programLead)) : reachTime(move);
 }
 
@@ -73,7 +80,7 @@ std::optional<double> MotionSystem::Impl::triggerTime(const Move& move, const Pa
     if (wanted.nextMove) return {};
     std::optional<double> time;
     if (wanted.inTime) {
-        time = wanted.fromStart ? startTime(move) : reachTime(move);
+        time = wanted.fromStart ? startTime(move) : arrivalTime(move);
         if (time) *time += wanted.fromStart ? wanted.amount : -wanted.amount;
         // What is timed from the end cannot happen before the move begins.
         if (const auto start = startTime(move); time && start) time = std::max(*time, *start);

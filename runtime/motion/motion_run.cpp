@@ -40,6 +40,7 @@ std::shared_ptr<Trajectory> MotionSystem::Impl::newPath(const JointTarget& start
     wanted.planner = options.planner;
     auto path = std::make_shared<Trajectory>(model, options.external, wanted, start, earliest);
     path->setSpeedShare(seconds(), speedShare());
+    path->setSpeedLimits(seconds(), speedLimits);
     return path;
 }
 

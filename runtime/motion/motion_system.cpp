@@ -87,6 +87,7 @@ MoveId MotionSystem::Impl::registerMove(const MoveCommand& command, const Trajec
     move->leg = appended.at;
     move->isPoint = appended.isPoint;
     move->isConcurrent = command.concurrent;
+    move->isAwaited = command.stop.isAwaited;
     move->isFlyBy = !command.zone.finep;
     for (const PathTrigger& trigger : command.triggers)
         move->triggers.push_back({trigger, false});
@@ -271,6 +272,16 @@ void MotionSystem::setOverride(double percent) {
         if (s.detour != nullptr) s.detour->setSpeedShare(s.seconds(), s.speedShare());
     }
     if (!s.isCoasting) s.holdOrRelease();
+    s.noteMotion();
+}
+
+void MotionSystem::setSpeedLimits(const SpeedLimits& most) {
+    Impl& s = *impl_;
+    if (most == std::exchange(s.speedLimits, most)) return;
+    s.path().setSpeedLimits(s.seconds(), most);
+    if (s.detour != nullptr) s.detour->setSpeedLimits(s.seconds(), most);
+    for (Level& level : s.stored)
+        level.path->setSpeedLimits(s.seconds(), most);
     s.noteMotion();
 }
 

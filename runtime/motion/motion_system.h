@@ -145,6 +145,8 @@ class MotionSystem {
     /// stops.
     void setOverride(double percent);
     double speedOverride() const;
+    /// From now on no movement of any path level is faster; the one in progress slows down, or speeds up, on its path.
+    void setSpeedLimits(const SpeedLimits& most);
 
     // ---- independent axes ----
     /// From now on this axis (from 0) of the robot moves for itself: what is asked of the arm shows it where the course has

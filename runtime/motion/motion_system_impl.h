@@ -33,6 +33,7 @@ struct Move {
     bool isPoint = false; // no way of its own: the end of the leg
     bool isFlyBy = false;
     bool isConcurrent = false;
+    bool isAwaited = true; // the program waits for its stop point
     std::vector<Trigger> triggers;
     bool isStarted = false;
     bool isReleased = false;
@@ -62,6 +63,7 @@ struct MotionSystem::Impl {
 
     TimeNs now = 0;
     double override = 100;
+    SpeedLimits speedLimits;
     bool isStopRequested = false;
     bool isStopAnnounced = true;
     bool isRestAnnounced = true;
@@ -127,6 +129,9 @@ struct MotionSystem::Impl {
     // Events
     void report(MotionEventKind kind, const Move* move, uint32_t trigger = 0);
     std::optional<double> startTime(const Move& move) const;
+    bool isPassed(const Move& move) const; // on a curve
+    /// When the arm is there, and when the movement ends: later at a stop point that asks for more.
+    std::optional<double> arrivalTime(const Move& move) const;
     std::optional<double> reachTime(const Move& move) const;
     std::optional<double> releaseTime(const Move& move) const;
     std::optional<double> triggerTime(const Move& move, const PathTrigger& wanted) const;

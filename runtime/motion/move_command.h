@@ -54,6 +54,25 @@ struct ZoneData {
     double zoneLeax = 0, zoneReax = 0;               ///< mm, deg
 };
 
+/// How a movement ends at its stop point (RAPID's stoppointdata, manual 1.8). The default is that of fine.
+struct StopPoint {
+    double positionPercent = 100; ///< in position: nearer than this share of the distance that fine allows,
+    double speedPercent = 100;    ///< ... and slower than this share of the speed that a fine point has there
+    double minTime = 0,
+           maxTime = 1e9; ///< s after a fine point would be in position: not before, and at the latest
+    double standTime = 0; ///< s at standstill before anything else moves
+    bool isAwaited =
+        true; ///< the program continues after it; else as at a fly-by point, before the arm brakes
+};
+/// The stop point that meets the conditions of both: of robots that move together.
+StopPoint strictest(const StopPoint& a, const StopPoint& b);
+
+/// What the robot carries: tool and payload together.
+struct CarriedLoad {
+    double mass = 0;    ///< kg
+    double inertia = 0; ///< kg m^2, the greatest about an axis through the flange
+};
+
 /// AccSet, VelSet, PathAccLim, WorldAccLim in force for the move.
 struct MotionSettings {
     double velocityPercent = 100;     ///< VelSet Override
@@ -90,13 +109,15 @@ struct MoveCommand {
     SpeedData speed;
     double duration = 0; ///< s, RAPID's \T; 0 = not given. Limits still hold: the move may take longer
     ZoneData zone;
+    StopPoint stop; ///< of a move whose zone is finep
+    CarriedLoad load;
     bool confJ = true;       ///< ConfJ\On: Joint moves take the programmed configuration
     bool confL = true;       ///< ConfL\On: lines and circles must arrive in the programmed configuration
     bool concurrent = false; ///< \Conc: the program goes on when the move starts
     MotionSettings settings;
     std::vector<PathTrigger> triggers;
     int64_t ident = kNoIdent; ///< RAPID's \ID, the same for all robots of a synchronised movement
-    uint64_t tag = 0;  ///< the caller's, given back in samples and events (number of the move instruction)
+    uint64_t tag = 0; ///< the caller's, given back in samples and events (number of the move instruction)
 };
 
 } // namespace motion

@@ -25,13 +25,25 @@ struct MoveLimits {
         0; ///< deg/s, of the arm angle along lines and circles: RAPID's v_reax, as eax_a is its place
     double pathSpeed = 1e300; ///< of the path parameter; used for moves with a given duration
     Joints jointSpeed{};
-    double accelerationShare = 1; ///< AccSet, of the robot's accelerations
-    double rampShare = 1;         ///< AccSet, of the rate at which acceleration changes
+    /// Of the robot's accelerations: AccSet and the load.
+    std::array<double, robot::kMostJoints> accelerationShare{1, 1, 1, 1, 1, 1, 1};
+    double rampShare = 1; ///< AccSet, of the rate at which acceleration changes
     ExternalAxes externalSpeed{};
     ExternalAxes externalAcceleration{};
     double pathAcceleration = 1e300, pathDeceleration = 1e300; ///< mm/s^2
     double worldAcceleration = 1e300;                          ///< mm/s^2
 };
+
+/// Speed limits that hold for every move while a system input asks for it (SpeedLimAxis, SpeedLimCheckPoint).
+struct SpeedLimits {
+    static constexpr double kNone = 1e300;
+    double tcp = kNone;                                                                             ///< mm/s
+    std::array<double, robot::kMostJoints> joints{kNone, kNone, kNone, kNone, kNone, kNone, kNone}; ///< deg/s
+    ExternalAxes external{kNone, kNone, kNone, kNone, kNone, kNone}; ///< deg/s or mm/s
+    friend bool operator==(const SpeedLimits&, const SpeedLimits&) = default;
+};
+/// The limits of a move, no higher than these.
+MoveLimits limitedTo(MoveLimits limits, const SpeedLimits& most);
 
 /// Limits of a move with these arguments and settings.
 MoveLimits limitsOf(const MoveCommand& command, const robot::RobotModel& model,

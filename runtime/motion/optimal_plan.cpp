@@ -165,11 +165,11 @@ bool OptimalPlan::solveFrom(Course& course, const Route& route, double time, con
 double OptimalPlan::useAt(const Route& route, const std::array<Joints, 3>& axes, double place) const {
     Joints most = axes[1];
     limits_.accelerations->limitsAt(axes[1], most);
-    const double share = route.leg(route.legAt(place)).limits.accelerationShare;
+    const auto& shares = route.leg(route.legAt(place)).limits.accelerationShare;
     double use = 0;
     for (std::size_t i = 0; i < most.size(); ++i) {
         const double change = axes[2][i] - 2 * axes[1][i] + axes[0][i];
-        use = std::max(use, std::abs(change) / (kTick * kTick * share * most[i]));
+        use = std::max(use, std::abs(change) / (kTick * kTick * shares[i] * most[i]));
     }
     return use;
 }

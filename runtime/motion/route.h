@@ -19,6 +19,7 @@ struct Leg {
     std::shared_ptr<const MotionPath> path;
     ZoneData zone; ///< of its end point
     MoveLimits limits;
+    MoveLimits programmed;           ///< before the speed limits that a system input puts into force
     double duration = 0;             ///< s, RAPID's \T; 0 = not given
     LengthMap lengths;               ///< mm of path to the path's own parameter
     double perMm = 1;                ///< mm of route for a mm of TCP path
@@ -63,6 +64,7 @@ class Route {
     /// Takes back the last append(); its end is a stop point again.
     void undoAppend();
 
+    std::size_t firstLeg() const { return firstLeg_; } ///< the oldest one that is kept
     std::size_t legCount() const { return firstLeg_ + legs_.size(); }
     const Leg& leg(std::size_t number) const { return legs_[number - firstLeg_]; }
     Leg& leg(std::size_t number) { return legs_[number - firstLeg_]; }

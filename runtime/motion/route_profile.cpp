@@ -168,7 +168,8 @@ ProfileCell measuredCell(const Route& route, const RouteStretch& stretch, const 
         if (rate < 1e-10) continue;
         cell.mostSquare = std::min(cell.mostSquare, squareOf(most.jointSpeed[i], rate));
         addRow(cell, f, sampled.step,
-               {most.accelerationShare * accelerations[0][i], most.accelerationShare * accelerations[1][i]},
+               {most.accelerationShare[i] * accelerations[0][i],
+                most.accelerationShare[i] * accelerations[1][i]},
                most.rampShare * limits.jerk[i]);
     }
     for (std::size_t i = 0; i < stretch.externalFirst.size(); ++i) {

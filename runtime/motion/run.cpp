@@ -93,6 +93,7 @@ bool Run::append(Leg leg, bool isOpen, double now) {
     const bool isFirst = route_.legCount() == 0;
     if (leg.duration > 0) leg.limits.pathSpeed = leg.length() / leg.duration;
     if (isFirst && !isOpen && optimal_) leg.limits.pathSpeed = kUnlimited; // meetDuration() slows it down
+    leg.programmed.pathSpeed = leg.limits.pathSpeed;
     const auto changed = route_.append(std::move(leg), fixedPlace(now));
     if (!changed) return false;
     if (optimal_ && !appendOptimal(*changed, now)) return false;
@@ -263,6 +264,20 @@ void Run::meetDuration() {
         (durationAt(middle) > wanted ? low : high) = middle;
     }
     durationAt(high);
+    route_.leg(0).limits.pathSpeed = route_.leg(0).programmed.pathSpeed = high;
+}
+
+void Run::limitSpeeds(double now, const SpeedLimits& most) {
+    for (std::size_t i = route_.firstLeg(); i < route_.legCount(); ++i)
+        route_.leg(i).limits = limitedTo(route_.leg(i).programmed, most);
+    if (optimal_) {
+        optimal_->measure(route_, 0);
+    } else {
+        limitStretches(0);
+        planBackward(0);
+        changed_ = 0;
+    }
+    if (!isBraking_) plan(now, share_);
 }
 
 void Run::plan(double now, double speedShare) {

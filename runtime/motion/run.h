@@ -43,6 +43,8 @@ class Run {
 
     /// Replans from `now` on: to the end of the route at this share of the programmed speed (above 0, to 1).
     void plan(double now, double speedShare);
+    /// From `now` on no faster than this.
+    void limitSpeeds(double now, const SpeedLimits& most);
     /// Replans from `now` on: brakes as fast as the limits allow and rests there.
     void brake(double now);
     /// Where brake() would let the arm come to rest.

@@ -36,7 +36,7 @@ StretchLimits limitsOn(const RouteStretch& s, const MoveLimits& most,
         // The rate at the ends of the stretch may be higher than in its middle.
         const double rate = std::abs(s.first[i]) + 0.5 * l.width * std::abs(s.second[i]);
         l.speed = std::min(l.speed, atMost(most.jointSpeed[i], rate));
-        add(s.first[i], s.second[i], most.accelerationShare * accelerations[i]);
+        add(s.first[i], s.second[i], most.accelerationShare[i] * accelerations[i]);
     }
     for (std::size_t i = 0; i < s.externalFirst.size(); ++i) {
         l.speed = std::min(l.speed, atMost(most.externalSpeed[i], s.externalFirst[i]));

@@ -11,6 +11,18 @@ namespace {
 constexpr double kNothing = 1e-9;    // mm or s
 constexpr double kSameMoment = 1e-7; // s; the virtual clock has whole nanoseconds
 
+/// When the course, which comes to rest, has at most this share of its speed at `from`.
+double slowTime(const Course& course, double from, double share) {
+    const double wanted = share * course.at(from).v;
+    double low = from;
+    double high = std::max(from, course.end());
+    while (high - low > kSameMoment) {
+        const double middle = 0.5 * (low + high);
+        (course.at(middle).v > wanted ? low : high) = middle;
+    }
+    return high;
+}
+
 } // namespace
 
 Trajectory::Trajectory(const robot::RobotModel& model, const ExternalAxisModels& external,
@@ -24,7 +36,8 @@ Leg Trajectory::legOf(const std::shared_ptr<const MotionPath>& path, const MoveC
     Leg leg;
     leg.path = path;
     leg.zone = command.zone;
-    leg.limits = limitsOf(command, model_, external_);
+    leg.programmed = limitsOf(command, model_, external_);
+    leg.limits = limitedTo(leg.programmed, speedLimits_);
     leg.duration = command.duration;
     const double external = path->externalTravel() + std::abs(path->armTravel());
     double mm = path->length();
@@ -58,21 +71,25 @@ Trajectory::Appended Trajectory::append(const std::shared_ptr<const MotionPath>&
     const bool canFollow = last != nullptr && last->run->isOpen() && last->isScheduled;
     if (path->isEmpty()) {
         const bool isAtFlyBy = canFollow && now < last->run->course().plannedEnd() && !(command.duration > 0);
-        if (!isAtFlyBy)
-            return appendPause(path, command.duration > 0 ? command.duration : options_.emptyMove, now);
+        if (!isAtFlyBy) {
+            const double pause = command.duration > 0 ? command.duration : options_.emptyMove;
+            return appendPause(path, pause, command.stop, now);
+        }
         if (!isFlyBy) last->run->close(); // the point has been on the path already
+        last->stop = command.stop;
         return {{count() - 1, last->run->route().legCount() - 1}, true, false};
     }
     Leg leg = legOf(path, command);
     if (canFollow && last->run->append(leg, isFlyBy, now)) {
         planChanged();
+        last->stop = command.stop;
         return {{count() - 1, last->run->route().legCount() - 1}, false, false};
     }
     const bool isCornerLost = last != nullptr && last->run->isOpen();
     closeLast();
     auto run = std::make_unique<Run>(settingsOf(leg.limits.rampShare), now);
     run->append(std::move(leg), isFlyBy, now);
-    Appended result = appendRun(std::move(run), path, 0, now);
+    Appended result = appendRun(std::move(run), path, 0, command.stop, now);
     result.isCornerLost = isCornerLost;
     return result;
 }
@@ -111,7 +128,7 @@ std::vector<Leg> Trajectory::legsTogether(const std::vector<Ordered>& moves) con
         legs[i].lengths = LengthMap::even(longest);
         legs[i].perMm = 1;
         legs[i].isTurning = false;
-        legs[i].limits.tcpSpeed = 1e300;
+        legs[i].limits.tcpSpeed = legs[i].programmed.tcpSpeed = 1e300;
     }
     return legs;
 }
@@ -126,11 +143,14 @@ Trajectory::Appended Trajectory::appendTogether(const std::vector<Ordered>& move
     for (std::size_t i = 0; i < followers_.size(); ++i)
         if (const auto follower = followers_[i].lock()) follower->endTarget_ = moves[i + 1].path->end();
     Entry* last = entries_.empty() ? nullptr : &entries_.back();
+    StopPoint stop = moves.front().command.stop;
+    for (const Ordered& move : moves)
+        stop = strictest(stop, move.command.stop);
     if (all(isEmptyMove)) {
         double pause = options_.emptyMove;
         for (const Ordered& move : moves)
             pause = std::max(pause, move.command.duration);
-        return appendPause(moves.front().path, pause, now);
+        return appendPause(moves.front().path, pause, stop, now);
     }
     // One that keeps its place while others move has no corner to begin or to end its movement in.
     const bool isFlyBy = all([](const Ordered& m) { return !m.command.zone.finep && !keepsPlace(m); });
@@ -146,6 +166,7 @@ Trajectory::Appended Trajectory::appendTogether(const std::vector<Ordered>& move
     if (canFollow && last->run->appendTogether(own, legs, isFlyBy, now)) {
         carry(*last->run);
         planChanged();
+        last->stop = stop;
         return {{count() - 1, last->run->route().legCount() - 1}, false, false};
     }
     const bool isCornerLost = last != nullptr && last->run->isOpen();
@@ -158,7 +179,7 @@ Trajectory::Appended Trajectory::appendTogether(const std::vector<Ordered>& move
     auto run = std::make_unique<Run>(settings, now);
     run->appendTogether(std::move(own), std::move(legs), isFlyBy, now);
     carry(*run);
-    Appended result = appendRun(std::move(run), moves.front().path, 0, now);
+    Appended result = appendRun(std::move(run), moves.front().path, 0, stop, now);
     result.isCornerLost = isCornerLost;
     return result;
 }
@@ -173,15 +194,16 @@ RunSettings Trajectory::settings() const {
 }
 
 Trajectory::Appended Trajectory::appendPause(const std::shared_ptr<const MotionPath>& path, double seconds,
-                                             double now) {
+                                             const StopPoint& stop, double now) {
     closeLast();
-    return appendRun(std::make_unique<Run>(settings(), now), path, seconds, now);
+    return appendRun(std::make_unique<Run>(settings(), now), path, seconds, stop, now);
 }
 
 Trajectory::Appended Trajectory::appendRun(std::unique_ptr<Run> run,
                                            const std::shared_ptr<const MotionPath>& path, double pause,
-                                           double now) {
+                                           const StopPoint& stop, double now) {
     Entry entry;
+    entry.stop = stop;
     entry.run = std::move(run);
     entry.ordered = now;
     entry.pause = pause;
@@ -201,12 +223,14 @@ void Trajectory::closeLast() {
 std::optional<double> Trajectory::startAfter(std::size_t run) const {
     const double ordered = entry(run).ordered;
     if (run == first_) return std::max(ordered + options_.startDelay, earliest_);
-    const auto reached = inPositionTime(run - 1);
+    const auto reached = stopTime(run - 1);
     if (!reached) return {};
     if (ordered > *reached + kSameMoment) return ordered + options_.startDelay;
-    if (entry(run).pause > 0 || entry(run - 1).pause > 0) return reached;
+    if (entry(run).pause > 0 || entry(run - 1).pause > 0 || entry(run - 1).stop.standTime > 0) return reached;
     const Course& before = runAt(run - 1).course();
-    return std::max(courseTime(run - 1, before.endPlace() - options_.overlap), before.plannedEnd());
+    const double overlapping =
+        std::max(courseTime(run - 1, before.endPlace() - options_.overlap), before.plannedEnd());
+    return overlapping + (*reached - *inPositionTime(run - 1)); // as much later as the stop point asks for
 }
 
 /// Starts of the runs from this one on that have not begun. `earliest`: the arm has been released then.
@@ -245,6 +269,19 @@ void Trajectory::setSpeedShare(double now, double share) {
             e.run->plan(std::max(now, e.run->start()), share);
     }
     schedule(active + (hasBegun(entry(active), now) ? 1 : 0), now, now);
+}
+
+void Trajectory::setSpeedLimits(double now, const SpeedLimits& most) {
+    planChanged();
+    speedLimits_ = most;
+    if (entries_.empty()) return;
+    const std::size_t active = activeAt(now);
+    for (std::size_t i = active; i < count(); ++i) {
+        Entry& e = entry(i);
+        if (e.pause == 0 && (now < e.run->course().plannedEnd() || !e.isScheduled))
+            e.run->limitSpeeds(std::max(now, e.run->start()), most);
+    }
+    if (!isHeld_) schedule(active + (hasBegun(entry(active), now) ? 1 : 0), now, now);
 }
 
 void Trajectory::hold(double now) {
@@ -370,6 +407,32 @@ std::optional<double> Trajectory::inPositionTime(std::size_t run) const {
     const double length = course.endPlace();
     return std::max(courseTime(run, length - std::min(options_.inPosition, 0.5 * length)),
                     course.plannedEnd());
+}
+
+std::optional<double> Trajectory::stopTime(std::size_t run) const {
+    const auto fine = inPositionTime(run);
+    const Entry& e = entry(run);
+    const StopPoint& stop = e.stop;
+    if (!fine) return {};
+    if (e.pause > 0) return *fine + std::max(stop.minTime, stop.standTime);
+    const Course& course = e.run->course();
+    if (stop.standTime > 0) return course.end() + stop.standTime;
+    double time = *fine;
+    if (stop.positionPercent != 100) {
+        const double length = course.endPlace();
+        const double left = 0.01 * stop.positionPercent * options_.inPosition;
+        time = courseTime(run, length - std::min(left, 0.5 * length));
+    }
+    if (stop.speedPercent < 100) time = std::max(time, slowTime(course, *fine, 0.01 * stop.speedPercent));
+    time = std::min(time, *fine + stop.maxTime);
+    if (stop.minTime > 0) time = std::max(time, *fine + stop.minTime);
+    return std::max(time, course.plannedEnd());
+}
+
+std::optional<double> Trajectory::brakingTime(std::size_t run) const {
+    const Entry& e = entry(run);
+    if (!e.isScheduled || e.run->isBraking()) return {};
+    return e.pause > 0 ? e.run->start() : e.run->course().lastBraking();
 }
 
 std::optional<double> Trajectory::decisionTime() const {

@@ -74,6 +74,8 @@ class Trajectory {
 
     // ---- time ----
     virtual void setSpeedShare(double now, double share);
+    /// From `now` on no faster than this. Robots that follow this one obey from the next movement on.
+    virtual void setSpeedLimits(double now, const SpeedLimits& most);
     /// Brakes on the path and stays there until release().
     virtual void hold(double now);
     virtual void release(double now);
@@ -94,6 +96,10 @@ class Trajectory {
     virtual std::optional<double> timeAt(const PathPlace& place) const;
     /// When the run is in position at its end; nothing if the plan does not lead there.
     virtual std::optional<double> inPositionTime(std::size_t run) const;
+    /// When the stop point at its end has been reached as its StopPoint asks, after inPositionTime() in most cases.
+    virtual std::optional<double> stopTime(std::size_t run) const;
+    /// When the arm begins to brake for the end of the run for the last time, or the pause begins.
+    virtual std::optional<double> brakingTime(std::size_t run) const;
     /// When the planner needs to know what follows an open end of the last run; nothing when it is not open.
     virtual std::optional<double> decisionTime() const;
 
@@ -138,6 +144,7 @@ class Trajectory {
         double ordered = 0;
         double pause = 0;                       // s, of a run without a way; 0 = it has one
         bool isScheduled = false;               // its start is known
+        StopPoint stop;                         // at its end
         std::shared_ptr<const MotionPath> path; // of its first move
     };
     const Entry& entry(std::size_t run) const { return entries_[run - first_]; }
@@ -158,9 +165,10 @@ class Trajectory {
     static bool keepsPlace(const Ordered& move);
     std::vector<Leg> legsTogether(const std::vector<Ordered>& moves) const;
     RunSettings settingsOf(double rampShare) const;
-    Appended appendPause(const std::shared_ptr<const MotionPath>& path, double seconds, double now);
+    Appended appendPause(const std::shared_ptr<const MotionPath>& path, double seconds, const StopPoint& stop,
+                         double now);
     Appended appendRun(std::unique_ptr<Run> run, const std::shared_ptr<const MotionPath>& path, double pause,
-                       double now);
+                       const StopPoint& stop, double now);
 
     robot::RobotModel model_;
     ExternalAxisModels external_;
@@ -179,6 +187,7 @@ class Trajectory {
 
     double earliest_ = 0;
     std::vector<std::weak_ptr<Trajectory>> followers_;
+    SpeedLimits speedLimits_;
     double share_ = 1;
     bool isHeld_ = false;
     std::optional<Back> back_;

@@ -44,6 +44,17 @@ Status checkPercent(TaskCore* task, float value, double least, double most, cons
     return lib::failWith(task, err::ERR_ARGVALERR, text, least, most);
 }
 
+/// Place of a unit's axis among the external axes of the task's motion group; -1 and ERR_AXIS_PAR raised when it has none.
+int externalAxis(TaskCore* task, const MechanicalUnit& unit, float axis, Status& status) {
+    const bool isThere = axis == std::floor(axis) && axis >= 1 && axis <= static_cast<float>(unit.own.size());
+    if (isThere && unit.group == lib::motionOf(task).group())
+        return static_cast<int>(unit.own[static_cast<std::size_t>(axis) - 1].index);
+    status = lib::fail(task, err::ERR_AXIS_PAR,
+                       isThere ? "the mechanical unit belongs to the motion group of another task"
+                               : "the mechanical unit has no such axis");
+    return -1;
+}
+
 } // namespace
 
 extern "C" {
@@ -77,18 +88,37 @@ Status rt_GetMotorTorque(TaskCore* task, float* result, Handle* MecUnit, float A
     return kOk;
 }
 
-// The virtual controller has no system input LimitSpeed, which would put these limits into force: they are checked, and have
-// no effect.
+/// Of the task's robot, or of an external unit of its motion group.
 Status rt_SpeedLimAxis(TaskCore* task, Handle* MechUnit, float AxisNo, float AxisSpeed) {
     Status status = kOk;
-    if (lib::robotAxis(task, MechUnit, AxisNo, status) < 0) return status;
-    if (AxisSpeed > 0) return kOk;
-    return lib::fail(task, err::ERR_SPEEDLIM_VALUE, "SpeedLimAxis: the limit must be above 0");
+    motion::SpeedLimits limits = lib::motionState(task).speedLimits;
+    const MechanicalUnit* unit = lib::unitOf(task, *MechUnit, status);
+    if (unit == nullptr) return status;
+    double* limit = nullptr;
+    if (unit->isRobot) {
+        const int axis = lib::robotAxis(task, MechUnit, AxisNo, status);
+        if (axis < 0) return status;
+        limit = &limits.joints[static_cast<std::size_t>(axis)];
+    } else {
+        const int axis = externalAxis(task, *unit, AxisNo, status);
+        if (axis < 0) return status;
+        limit = &limits.external[static_cast<std::size_t>(axis)];
+    }
+    if (!(AxisSpeed > 0))
+        return lib::fail(task, err::ERR_SPEEDLIM_VALUE, "SpeedLimAxis: the limit must be above 0");
+    *limit = AxisSpeed;
+    lib::motionState(task).speedLimits = limits;
+    lib::motionOf(task).setSpeedLimits(limits);
+    return kOk;
 }
 
 Status rt_SpeedLimCheckPoint(TaskCore* task, float RobSpeed) {
-    if (RobSpeed > 0) return kOk;
-    return lib::fail(task, err::ERR_SPEEDLIM_VALUE, "SpeedLimCheckPoint: the limit must be above 0 mm/s");
+    if (!(RobSpeed > 0))
+        return lib::fail(task, err::ERR_SPEEDLIM_VALUE, "SpeedLimCheckPoint: the limit must be above 0 mm/s");
+    motion::SpeedLimits& limits = lib::motionState(task).speedLimits;
+    limits.tcp = RobSpeed;
+    lib::motionOf(task).setSpeedLimits(limits);
+    return kOk;
 }
 
 // Axes follow their path exactly: softness and servo tuning are checked, and have nothing to act on.

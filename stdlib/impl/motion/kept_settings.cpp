@@ -45,6 +45,10 @@ Json save(const MotionState& s) {
             {"toolHeld", s.tool.robhold},
             {"tool", numbersOf(s.tool.tframe)},
             {"load", numbersOf(s.tool.tload)},
+            {"gripLoad", numbersOf(s.gripLoad)},
+            {"speedLimits", {s.speedLimits.tcp, s.speedLimits.joints, s.speedLimits.external}},
+            {"supervision", {s.motionSupervision, s.supervisionLevel}},
+            {"finePointRamp", s.finePointRamp},
             {"objectHeld", s.workObject.robhold},
             {"userFixed", s.workObject.ufprog},
             {"unit", std::string(s.workObject.ufmec.view())},
@@ -67,6 +71,14 @@ MotionState load(const Json& json) {
     json.at("toolHeld").get_to(s.tool.robhold);
     readNumbers(json.at("tool"), s.tool.tframe);
     readNumbers(json.at("load"), s.tool.tload);
+    readNumbers(json.at("gripLoad"), s.gripLoad);
+    const Json& limits = json.at("speedLimits");
+    limits.at(0).get_to(s.speedLimits.tcp);
+    limits.at(1).get_to(s.speedLimits.joints);
+    limits.at(2).get_to(s.speedLimits.external);
+    json.at("supervision").at(0).get_to(s.motionSupervision);
+    json.at("supervision").at(1).get_to(s.supervisionLevel);
+    json.at("finePointRamp").get_to(s.finePointRamp);
     json.at("objectHeld").get_to(s.workObject.robhold);
     json.at("userFixed").get_to(s.workObject.ufprog);
     s.workObject.ufmec.assign(json.at("unit").get<std::string>());
@@ -97,7 +109,11 @@ StateKeepers::Keeper keptPerGroup(Controller& controller, std::function<Json(Mot
 void keepSettings(Controller& controller, StateKeepers& kept) {
     kept.keepers["motionSettings"] = keptPerGroup(
         controller, [](MotionDriver& motion) { return save(motion.service<MotionState>()); },
-        [](MotionDriver& motion, const Json& json) { motion.service<MotionState>() = load(json); });
+        [](MotionDriver& motion, const Json& json) {
+            auto& state = motion.service<MotionState>();
+            state = load(json);
+            motion.setSpeedLimits(state.speedLimits);
+        });
 }
 
 } // namespace rt::lib

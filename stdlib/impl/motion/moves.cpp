@@ -30,6 +30,59 @@ motion::ZoneData zoneOf(const lib::MoveArguments& args) {
     return zone;
 }
 
+/// The stop point of \Inpos.
+Status stopOf(TaskCore* task, const data::Stoppointdata* inpos, motion::StopPoint& stop) {
+    stop = {};
+    if (inpos == nullptr) return kOk;
+    constexpr float kLongest = 20; // s
+    const data::Stoppointdata& s = *inpos;
+    stop.isAwaited = s.progsynch;
+    if (s.type == k::inpos) {
+        const data::Inposdata& c = s.inpos;
+        if (!(c.position >= 0 && c.speed >= 0 && c.mintime >= 0 && c.maxtime >= c.mintime))
+            return lib::fail(
+                task, err::ERR_ARGVALERR,
+                "\\Inpos: position, speed and mintime must not be negative, and maxtime must not be "
+                "shorter than mintime");
+        stop.positionPercent = c.position;
+        stop.speedPercent = c.speed;
+        stop.minTime = c.mintime;
+        stop.maxTime = c.maxtime;
+        return kOk;
+    }
+    if (s.type != k::stoptime && s.type != k::fllwtime)
+        return lib::fail(task, err::ERR_ARGVALERR, "\\Inpos: the type must be inpos, stoptime or fllwtime");
+    const float seconds = s.type == k::stoptime ? s.stoptime : s.followtime;
+    if (!(seconds >= 0 && seconds <= kLongest))
+        return lib::failWith(task, err::ERR_ARGVALERR,
+                             "\\Inpos: stoptime and followtime must lie between {} and {} s", 0, kLongest);
+    stop.standTime = seconds;
+    return kOk;
+}
+
+/// The inertia that a part adds is the one about the flange; load0, which has 1 g, means none.
+void addLoad(motion::CarriedLoad& sum, const data::Loaddata& part, const motion::Pose& frame) {
+    constexpr float kNone = 0.001F; // kg
+    if (!(part.mass > kNone)) return;
+    const motion::Vec3 centre = frame.pos + robot::rotate(frame.rot, {part.cog.x, part.cog.y, part.cog.z});
+    const double distance = 0.001 * norm(centre);
+    sum.mass += part.mass;
+    sum.inertia += part.mass * distance * distance + std::max({part.ix, part.iy, part.iz, 0.0F});
+}
+
+/// A load that is given with the movement takes the place of the tool's and of GripLoad's.
+motion::CarriedLoad carriedBy(const lib::MotionState& state, const lib::MoveArguments& args) {
+    motion::CarriedLoad sum;
+    if (args.totalLoad != nullptr && args.totalLoad->mass > 0.001F) {
+        addLoad(sum, *args.totalLoad, {});
+        return sum;
+    }
+    const bool isToolHeld = args.tool->robhold;
+    if (isToolHeld) addLoad(sum, args.tool->tload, {});
+    addLoad(sum, state.gripLoad, isToolHeld ? lib::toFrame(args.tool->tframe) : motion::Pose{});
+    return sum;
+}
+
 Status checkConcurrent(TaskCore* task, lib::MotionState& state, bool conc) {
     if (!conc) {
         state.concurrentMoves = 0;
@@ -120,6 +173,8 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
     command.speed = speedOf(args);
     command.duration = args.t ? static_cast<double>(*args.t) : 0.0;
     command.zone = zoneOf(args);
+    if (const Status status = stopOf(task, args.inpos, command.stop)) return status;
+    command.load = carriedBy(state, args);
     command.confJ = state.confJ;
     command.confL = state.confL || args.exactConfiguration;
     command.circleOrientation = state.circleOrientation;
@@ -136,9 +191,6 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
     if (error) return fail(task, motionErrno(*error), error->message());
     state.tool = *args.tool;
     state.workObject = *workObject;
-    // A stop point by time: the program goes on when the robot has stood there that long.
-    if (args.inpos && args.inpos->type == k::stoptime)
-        return owner.sleepFor(fromSeconds(args.inpos->stoptime));
     return kOk;
 }
 
@@ -149,16 +201,16 @@ extern "C" {
 Status rt_MoveAbsJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float* ID,
                    bool NoEOffs, const data::Speeddata* Speed, const float* V, const float* T,
                    const data::Zonedata* Zone, const float* Z, const data::Stoppointdata* Inpos,
-                   data::Tooldata* Tool, data::Wobjdata* WObj, data::Loaddata*) {
+                   data::Tooldata* Tool, data::Wobjdata* WObj, data::Loaddata* TLoad) {
     return lib::orderMove(task, lib::absoluteMove(task, *ToJointPos, NoEOffs, ID),
-                          {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
+                          {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj, false, TLoad});
 }
 
 /// The line to where the tool is at these axis angles, which the robot must reach in just that configuration.
 Status rt_MoveAbsL(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float* ID,
                    bool NoEOffs, const data::Speeddata* Speed, const float* V, const float* T,
                    const data::Zonedata* Zone, const float* Z, const data::Stoppointdata* Inpos,
-                   data::Tooldata* Tool, data::Wobjdata* WObj, data::Loaddata*) {
+                   data::Tooldata* Tool, data::Wobjdata* WObj, data::Loaddata* TLoad) {
     if (const Status status = lib::requireMotionTask(task)) return status;
     const motion::MoveCommand absolute = lib::absoluteMove(task, *ToJointPos, NoEOffs, ID);
     motion::MoveCommand command;
@@ -169,31 +221,31 @@ Status rt_MoveAbsL(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPo
     if (const Status status = lib::frameSetup(task, Tool, WObj != nullptr ? WObj : &world, frames))
         return status;
     command.target = lib::motionOf(task).system().toRobTarget(absolute.joints, frames);
-    return lib::orderMove(task, command, {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj, true});
+    return lib::orderMove(task, command, {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj, true, TLoad});
 }
 
 Status rt_MoveJ(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float* ID,
                 const data::Speeddata* Speed, const float* V, const float* T, const data::Zonedata* Zone,
                 const float* Z, const data::Stoppointdata* Inpos, data::Tooldata* Tool, data::Wobjdata* WObj,
-                data::Loaddata*) {
+                data::Loaddata* TLoad) {
     return lib::orderMove(task, lib::jointMove(task, *ToPoint, ID),
-                          {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
+                          {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj, false, TLoad});
 }
 
 Status rt_MoveL(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float* ID,
                 const data::Speeddata* Speed, const float* V, const float* T, const float*, const float*,
                 const data::Zonedata* Zone, const float* Z, const data::Stoppointdata* Inpos,
-                data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata*) {
+                data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata* TLoad) {
     return lib::orderMove(task, lib::linearMove(task, *ToPoint, ID),
-                          {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
+                          {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj, false, TLoad});
 }
 
 Status rt_MoveC(TaskCore* task, bool Conc, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
                 const float* ID, const data::Speeddata* Speed, const float* V, const float* T,
                 const data::Zonedata* Zone, const float* Z, const data::Stoppointdata* Inpos,
-                data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata*) {
+                data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata* TLoad) {
     return lib::orderMove(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
-                          {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
+                          {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj, false, TLoad});
 }
 
 Status rt_MoveExtJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPos, const float* ID,

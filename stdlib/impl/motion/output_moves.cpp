@@ -37,8 +37,9 @@ Status moveAndSetGroup(TaskCore* task, motion::MoveCommand command, const lib::M
 }
 
 lib::MoveArguments arguments(const data::Speeddata* speed, const float* t, const data::Zonedata* zone,
-                             const data::Tooldata* tool, const data::Wobjdata* workObject) {
-    return {false, speed, nullptr, t, zone, nullptr, nullptr, tool, workObject};
+                             const data::Tooldata* tool, const data::Wobjdata* workObject,
+                             const data::Loaddata* totalLoad) {
+    return {false, speed, nullptr, t, zone, nullptr, nullptr, tool, workObject, false, totalLoad};
 }
 
 } // namespace
@@ -47,67 +48,73 @@ extern "C" {
 
 Status rt_MoveLDO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
                   const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
-                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value, data::Loaddata*) {
-    return moveAndSet(task, lib::linearMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj),
+                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value,
+                  data::Loaddata* TLoad) {
+    return moveAndSet(task, lib::linearMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj, TLoad),
                       *Signal, Value);
 }
 
 Status rt_MoveJDO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
                   const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
-                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value, data::Loaddata*) {
-    return moveAndSet(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj),
+                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value,
+                  data::Loaddata* TLoad) {
+    return moveAndSet(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj, TLoad),
                       *Signal, Value);
 }
 
 Status rt_MoveCDO(TaskCore* task, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
                   const float* ID, const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
-                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value, data::Loaddata*) {
+                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value,
+                  data::Loaddata* TLoad) {
     return moveAndSet(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
-                      arguments(Speed, T, Zone, Tool, WObj), *Signal, Value);
+                      arguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value);
 }
 
 Status rt_MoveLAO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
                   const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
-                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value, data::Loaddata*) {
-    return moveAndSet(task, lib::linearMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj),
+                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value,
+                  data::Loaddata* TLoad) {
+    return moveAndSet(task, lib::linearMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj, TLoad),
                       *Signal, Value);
 }
 
 Status rt_MoveJAO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
                   const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
-                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value, data::Loaddata*) {
-    return moveAndSet(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj),
+                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value,
+                  data::Loaddata* TLoad) {
+    return moveAndSet(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj, TLoad),
                       *Signal, Value);
 }
 
 Status rt_MoveCAO(TaskCore* task, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
                   const float* ID, const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
-                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value, data::Loaddata*) {
+                  data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value,
+                  data::Loaddata* TLoad) {
     return moveAndSet(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
-                      arguments(Speed, T, Zone, Tool, WObj), *Signal, Value);
+                      arguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value);
 }
 
 Status rt_MoveLGO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
                   const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
                   data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, const float* Value,
-                  const double* DValue, data::Loaddata*) {
-    return moveAndSetGroup(task, lib::linearMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj),
-                           *Signal, Value, DValue);
+                  const double* DValue, data::Loaddata* TLoad) {
+    return moveAndSetGroup(task, lib::linearMove(task, *ToPoint, ID),
+                           arguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value, DValue);
 }
 
 Status rt_MoveJGO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
                   const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
                   data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, const float* Value,
-                  const double* DValue, data::Loaddata*) {
-    return moveAndSetGroup(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj),
-                           *Signal, Value, DValue);
+                  const double* DValue, data::Loaddata* TLoad) {
+    return moveAndSetGroup(task, lib::jointMove(task, *ToPoint, ID),
+                           arguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value, DValue);
 }
 
 Status rt_MoveCGO(TaskCore* task, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
                   const float* ID, const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
                   data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, const float* Value,
-                  const double* DValue, data::Loaddata*) {
+                  const double* DValue, data::Loaddata* TLoad) {
     return moveAndSetGroup(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
-                           arguments(Speed, T, Zone, Tool, WObj), *Signal, Value, DValue);
+                           arguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value, DValue);
 }
 }

@@ -71,8 +71,9 @@ Status moveAndCall(TaskCore* core, motion::MoveCommand command, const lib::MoveA
 }
 
 lib::MoveArguments arguments(const data::Speeddata* speed, const float* t, const data::Zonedata* zone,
-                             const data::Tooldata* tool, const data::Wobjdata* workObject) {
-    return {false, speed, nullptr, t, zone, nullptr, nullptr, tool, workObject};
+                             const data::Tooldata* tool, const data::Wobjdata* workObject,
+                             const data::Loaddata* totalLoad) {
+    return {false, speed, nullptr, t, zone, nullptr, nullptr, tool, workObject, false, totalLoad};
 }
 
 } // namespace
@@ -81,22 +82,25 @@ extern "C" {
 
 Status rt_MoveLSync(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
                     const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
-                    data::Tooldata* Tool, data::Wobjdata* WObj, const String* ProcName, data::Loaddata*) {
-    return moveAndCall(task, lib::linearMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj),
-                       ProcName);
+                    data::Tooldata* Tool, data::Wobjdata* WObj, const String* ProcName,
+                    data::Loaddata* TLoad) {
+    return moveAndCall(task, lib::linearMove(task, *ToPoint, ID),
+                       arguments(Speed, T, Zone, Tool, WObj, TLoad), ProcName);
 }
 
 Status rt_MoveJSync(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
                     const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
-                    data::Tooldata* Tool, data::Wobjdata* WObj, const String* ProcName, data::Loaddata*) {
-    return moveAndCall(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj),
+                    data::Tooldata* Tool, data::Wobjdata* WObj, const String* ProcName,
+                    data::Loaddata* TLoad) {
+    return moveAndCall(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj, TLoad),
                        ProcName);
 }
 
 Status rt_MoveCSync(TaskCore* task, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
                     const float* ID, const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
-                    data::Tooldata* Tool, data::Wobjdata* WObj, const String* ProcName, data::Loaddata*) {
+                    data::Tooldata* Tool, data::Wobjdata* WObj, const String* ProcName,
+                    data::Loaddata* TLoad) {
     return moveAndCall(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
-                       arguments(Speed, T, Zone, Tool, WObj), ProcName);
+                       arguments(Speed, T, Zone, Tool, WObj, TLoad), ProcName);
 }
 }

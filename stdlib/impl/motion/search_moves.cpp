@@ -88,8 +88,9 @@ const data::Zonedata& fine() {
 }
 
 lib::MoveArguments moveArguments(const data::Speeddata* speed, const float* v, const float* t,
-                                 const data::Tooldata* tool, const data::Wobjdata* workObject) {
-    return {false, speed, v, t, &fine(), nullptr, nullptr, tool, workObject};
+                                 const data::Tooldata* tool, const data::Wobjdata* workObject,
+                                 const data::Loaddata* totalLoad = nullptr) {
+    return {false, speed, v, t, &fine(), nullptr, nullptr, tool, workObject, false, totalLoad};
 }
 
 /// The TCP as the instruction would program it: in its work object, with displacement and axis offsets in force.
@@ -133,11 +134,11 @@ Status rt_SearchL(TaskCore* task, bool Stop, bool PStop, bool SStop, bool Sup, H
                   bool Flanks, bool PosFlank, bool NegFlank, bool HighLevel, bool LowLevel,
                   data::Robtarget* SearchPoint, const data::Robtarget* ToPoint, const float* ID,
                   const data::Speeddata* Speed, const float* V, const float* T, data::Tooldata* Tool,
-                  data::Wobjdata* WObj, bool, data::Loaddata*) {
+                  data::Wobjdata* WObj, bool, data::Loaddata* TLoad) {
     return searchTarget(
         task, lib::linearMove(task, *ToPoint, ID),
         {{Stop, PStop, SStop, Sup, Flanks, PosFlank, NegFlank, HighLevel, LowLevel}, Signal, PersBool},
-        moveArguments(Speed, V, T, Tool, WObj), SearchPoint);
+        moveArguments(Speed, V, T, Tool, WObj, TLoad), SearchPoint);
 }
 
 Status rt_SearchC(TaskCore* task, bool Stop, bool PStop, bool SStop, bool Sup, Handle* Signal, bool* PersBool,
@@ -145,11 +146,11 @@ Status rt_SearchC(TaskCore* task, bool Stop, bool PStop, bool SStop, bool Sup, H
                   data::Robtarget* SearchPoint, const data::Robtarget* CirPoint,
                   const data::Robtarget* ToPoint, const float* ID, const data::Speeddata* Speed,
                   const float* V, const float* T, data::Tooldata* Tool, data::Wobjdata* WObj, bool,
-                  data::Loaddata*) {
+                  data::Loaddata* TLoad) {
     return searchTarget(
         task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
         {{Stop, PStop, SStop, Sup, Flanks, PosFlank, NegFlank, HighLevel, LowLevel}, Signal, PersBool},
-        moveArguments(Speed, V, T, Tool, WObj), SearchPoint);
+        moveArguments(Speed, V, T, Tool, WObj, TLoad), SearchPoint);
 }
 
 Status rt_SearchJ(TaskCore* task, bool Stop, bool PStop, bool SStop, bool Sup, Handle* Signal, bool* PersBool,
@@ -157,10 +158,10 @@ Status rt_SearchJ(TaskCore* task, bool Stop, bool PStop, bool SStop, bool Sup, H
                   data::Jointtarget* SearchJointPos, data::Robtarget* SearchPoint,
                   const data::Robtarget* ToPoint, const data::Jointtarget* ToJointPos, const float* ID,
                   const data::Speeddata* Speed, const float* V, const float* T, data::Tooldata* Tool,
-                  data::Wobjdata* WObj, data::Loaddata*) {
+                  data::Wobjdata* WObj, data::Loaddata* TLoad) {
     const SearchArguments args{
         {Stop, PStop, SStop, Sup, Flanks, PosFlank, NegFlank, HighLevel, LowLevel}, Signal, PersBool};
-    const lib::MoveArguments move = moveArguments(Speed, V, T, Tool, WObj);
+    const lib::MoveArguments move = moveArguments(Speed, V, T, Tool, WObj, TLoad);
     motion::MoveCommand command = ToPoint != nullptr ? lib::jointMove(task, *ToPoint, ID)
                                                      : lib::absoluteMove(task, *ToJointPos, false, ID);
     if (SearchPoint != nullptr) return searchTarget(task, std::move(command), args, move, SearchPoint);

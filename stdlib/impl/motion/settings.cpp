@@ -44,8 +44,10 @@ Status rt_VelSet(TaskCore* task, float Override, float Max) {
     return kOk;
 }
 
-/// \FinePointRamp (the ramp at stop points) is not modelled apart.
-Status rt_AccSet(TaskCore* task, float Acc, float Ramp, const float*) {
+/// \FinePointRamp (the ramp at stop points) is not modelled apart, and kept for C_MOTSET.
+Status rt_AccSet(TaskCore* task, float Acc, float Ramp, const float* FinePointRamp) {
+    lib::motionState(task).finePointRamp =
+        FinePointRamp != nullptr ? std::clamp(static_cast<double>(*FinePointRamp), 10.0, 100.0) : 100.0;
     motion::MotionSettings& settings = lib::motionState(task).settings;
     settings.accelerationPercent = std::clamp(static_cast<double>(Acc), 20.0, 100.0);
     settings.rampPercent = std::clamp(static_cast<double>(Ramp), 10.0, 100.0);
@@ -169,14 +171,26 @@ Status rt_TuneReset(TaskCore*) {
 Status rt_PathResol(TaskCore*, float) {
     return kOk;
 }
-Status rt_MotionSup(TaskCore*, bool, bool, const float*, bool) {
+Status rt_MotionSup(TaskCore* task, bool, bool Off, const float* TuneValue, bool) {
+    if (Off && TuneValue != nullptr)
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "MotionSup: \\TuneValue has no meaning together with \\Off");
+    if (TuneValue != nullptr && !(*TuneValue >= 1 && *TuneValue <= 300))
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "MotionSup: \\TuneValue must lie between 1 and 300 percent");
+    lib::MotionState& state = lib::motionState(task);
+    state.motionSupervision = !Off;
+    state.supervisionLevel = TuneValue != nullptr ? static_cast<double>(*TuneValue) : 100.0;
     return kOk;
 }
 Status rt_CornerPathWarning(TaskCore* task, bool Active) {
     lib::motionOf(task).setCornerWarning(Active);
     return kOk;
 }
-Status rt_GripLoad(TaskCore*, data::Loaddata*) {
+Status rt_GripLoad(TaskCore* task, data::Loaddata* Load) {
+    if (!(Load->mass >= 0))
+        return lib::fail(task, err::ERR_ARGVALERR, "GripLoad: the mass must not be negative");
+    lib::motionState(task).gripLoad = *Load;
     return kOk;
 }
 

@@ -28,6 +28,7 @@ void resetSettings(Task& task) {
     state = defaults;
     MotionDriver& motion = task.controller().motion(task);
     motion.setCornerWarning(true);
+    motion.setSpeedLimits({});
     endSpeedOutputs(task);
     endStopSupervision(task);
     endTemporaryZones(task);

@@ -33,7 +33,12 @@ struct MotionState {
     motion::ExternalAxes axisOffsets{};            ///< EOffs..., deg or mm
     data::Tooldata tool{true, {{0, 0, 0}, {1, 0, 0, 0}}, {0.001F, {0, 0, 0.001F}, {1, 0, 0, 0}, 0, 0, 0}};
     data::Wobjdata workObject{false, true, {}, {{0, 0, 0}, {1, 0, 0, 0}}, {{0, 0, 0}, {1, 0, 0, 0}}};
-    int concurrentMoves = 0; ///< \Conc moves in succession
+    data::Loaddata gripLoad{0.001F, {0, 0, 0.001F}, {1, 0, 0, 0}, 0, 0, 0}; ///< GripLoad
+    motion::SpeedLimits speedLimits; ///< SpeedLimAxis, SpeedLimCheckPoint
+    bool motionSupervision = true;   ///< MotionSup, kept for C_MOTSET
+    double supervisionLevel = 100;   ///< percent
+    double finePointRamp = 100;      ///< AccSet \FinePointRamp, percent
+    int concurrentMoves = 0;         ///< \Conc moves in succession
 };
 MotionState& motionState(TaskCore* task);
 /// What SYS_RESET does when the program of a motion task begins anew (manual 1.7): defaults; tool and work object stay.

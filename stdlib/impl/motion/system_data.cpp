@@ -25,14 +25,15 @@ data::Motsetdata motionSettings(const lib::MotionState& state, double maxRobotSp
     data::Motsetdata out{};
     out.vel = {static_cast<float>(s.velocityPercent),
                static_cast<float>(std::min(s.maxTcpSpeed, maxRobotSpeed))};
-    out.acc = {static_cast<float>(s.accelerationPercent), static_cast<float>(s.rampPercent), 100};
+    out.acc = {static_cast<float>(s.accelerationPercent), static_cast<float>(s.rampPercent),
+               static_cast<float>(state.finePointRamp)};
     const bool deviates = state.singWrist || state.singLockAxis4;
     out.sing = {state.singWrist, state.singLockAxis4, false, !deviates};
     out.conf.jsup = state.confJ;
     out.conf.lsup = state.confL;
     out.pathresol = 100;
-    out.motionsup = true;
-    out.tunevalue = 100;
+    out.motionsup = state.motionSupervision;
+    out.tunevalue = static_cast<float>(state.supervisionLevel);
     out.acclim = s.pathAcceleration > 0;
     out.accmax = limitOr(s.pathAcceleration);
     out.decellim = s.pathDeceleration > 0;

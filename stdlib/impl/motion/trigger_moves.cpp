@@ -177,8 +177,9 @@ Status moveWithOutputs(TaskCore* task, motion::MoveCommand command, const lib::M
 
 lib::MoveArguments arguments(bool conc, const data::Speeddata* speed, const float* t,
                              const data::Zonedata* zone, const data::Stoppointdata* inpos,
-                             const data::Tooldata* tool, const data::Wobjdata* workObject) {
-    return {conc, speed, nullptr, t, zone, nullptr, inpos, tool, workObject};
+                             const data::Tooldata* tool, const data::Wobjdata* workObject,
+                             const data::Loaddata* totalLoad) {
+    return {conc, speed, nullptr, t, zone, nullptr, inpos, tool, workObject, false, totalLoad};
 }
 
 } // namespace
@@ -189,9 +190,9 @@ Status rt_TriggL(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, cons
                  const data::Speeddata* Speed, const float* T, Handle* Trigg_1, Handle* TriggArray,
                  int32_t TriggArrayDim1, Handle* T2, Handle* T3, Handle* T4, Handle* T5, Handle* T6,
                  Handle* T7, Handle* T8, const data::Zonedata* Zone, const data::Stoppointdata* Inpos,
-                 data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata*) {
+                 data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata* TLoad) {
     return moveWithTriggers(task, lib::linearMove(task, *ToPoint, ID),
-                            arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj),
+                            arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj, TLoad),
                             {Trigg_1, TriggArray, TriggArrayDim1, {T2, T3, T4, T5, T6, T7, T8}});
 }
 
@@ -199,9 +200,9 @@ Status rt_TriggJ(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, cons
                  const data::Speeddata* Speed, const float* T, Handle* Trigg_1, Handle* TriggArray,
                  int32_t TriggArrayDim1, Handle* T2, Handle* T3, Handle* T4, Handle* T5, Handle* T6,
                  Handle* T7, Handle* T8, const data::Zonedata* Zone, const data::Stoppointdata* Inpos,
-                 data::Tooldata* Tool, data::Wobjdata* WObj, data::Loaddata*) {
+                 data::Tooldata* Tool, data::Wobjdata* WObj, data::Loaddata* TLoad) {
     return moveWithTriggers(task, lib::jointMove(task, *ToPoint, ID),
-                            arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj),
+                            arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj, TLoad),
                             {Trigg_1, TriggArray, TriggArrayDim1, {T2, T3, T4, T5, T6, T7, T8}});
 }
 
@@ -210,9 +211,9 @@ Status rt_TriggC(TaskCore* task, bool Conc, const data::Robtarget* CirPoint, con
                  Handle* TriggArray, int32_t TriggArrayDim1, Handle* T2, Handle* T3, Handle* T4, Handle* T5,
                  Handle* T6, Handle* T7, Handle* T8, const data::Zonedata* Zone,
                  const data::Stoppointdata* Inpos, data::Tooldata* Tool, data::Wobjdata* WObj, bool,
-                 data::Loaddata*) {
+                 data::Loaddata* TLoad) {
     return moveWithTriggers(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
-                            arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj),
+                            arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj, TLoad),
                             {Trigg_1, TriggArray, TriggArrayDim1, {T2, T3, T4, T5, T6, T7, T8}});
 }
 
@@ -221,9 +222,9 @@ Status rt_TriggAbsJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointP
                     Handle* TriggArray, int32_t TriggArrayDim1, Handle* T2, Handle* T3, Handle* T4,
                     Handle* T5, Handle* T6, Handle* T7, Handle* T8, const data::Zonedata* Zone,
                     const data::Stoppointdata* Inpos, data::Tooldata* Tool, data::Wobjdata* WObj,
-                    data::Loaddata*) {
+                    data::Loaddata* TLoad) {
     return moveWithTriggers(task, lib::absoluteMove(task, *ToJointPos, NoEOffs, ID),
-                            arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj),
+                            arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj, TLoad),
                             {Trigg_1, TriggArray, TriggArrayDim1, {T2, T3, T4, T5, T6, T7, T8}});
 }
 
@@ -232,9 +233,9 @@ Status rt_TriggLIOs(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, c
                     int32_t TriggData1Dim1, const data::Triggstrgo* TriggData2, int32_t TriggData2Dim1,
                     const data::Triggiosdnum* TriggData3, int32_t TriggData3Dim1, const data::Zonedata* Zone,
                     const data::Stoppointdata* Inpos, data::Tooldata* Tool, data::Wobjdata* WObj, bool,
-                    data::Loaddata*) {
+                    data::Loaddata* TLoad) {
     return moveWithOutputs(
-        task, lib::linearMove(task, *ToPoint, ID), arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj),
+        task, lib::linearMove(task, *ToPoint, ID), arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj, TLoad),
         {TriggData1, TriggData1Dim1, TriggData2, TriggData2Dim1, TriggData3, TriggData3Dim1});
 }
 
@@ -243,9 +244,9 @@ Status rt_TriggJIOs(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, c
                     int32_t TriggData1Dim1, const data::Triggstrgo* TriggData2, int32_t TriggData2Dim1,
                     const data::Triggiosdnum* TriggData3, int32_t TriggData3Dim1, const data::Zonedata* Zone,
                     const data::Stoppointdata* Inpos, data::Tooldata* Tool, data::Wobjdata* WObj,
-                    data::Loaddata*) {
+                    data::Loaddata* TLoad) {
     return moveWithOutputs(
-        task, lib::jointMove(task, *ToPoint, ID), arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj),
+        task, lib::jointMove(task, *ToPoint, ID), arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj, TLoad),
         {TriggData1, TriggData1Dim1, TriggData2, TriggData2Dim1, TriggData3, TriggData3Dim1});
 }
 }
