@@ -19,7 +19,7 @@ constexpr auto kExplanations = std::to_array<Explanation>({
 main.mod:
   MODULE MainModule
     PROC main()
-      ArcRefresh;
+      SpyStop;
     ENDPROC
   ENDMODULE)ex",
      R"ex($ rapidc check main.mod

@@ -254,7 +254,7 @@ TEST_CASE("data types, constants and errors of options are told from mistakes", 
                              "    PmGetGoal goal;\n"
                              "    CyclicBrakeCheck;\n"
                              "  ERROR\n"
-                             "    IF ERRNO = AW_WELD_ERR OR ERRNO = CAP_TRACK_ERR RETRY;\n"
+                             "    IF ERRNO = AW_TRACK_ERR OR ERRNO = CAP_TRACK_ERR RETRY;\n"
                              "    IF ERRNO = ERR_MT_HOME TRYNEXT;\n"
                              "    IF ERRNO = SPOTWELD_ERR OR ERRNO = PAINT_ERR TRYNEXT;\n"
                              "  ENDPROC\n"
@@ -268,8 +268,8 @@ TEST_CASE("data types, constants and errors of options are told from mistakes", 
           Messages{addIn("2:7", "pm_targetdata", palletizing), addIn("4:5", "CSSAct", "SoftMove"),
                    addIn("4:12", "CSS_Z", "SoftMove"), addIn("5:5", "PmGetGoal", palletizing),
                    addIn("6:5", "CyclicBrakeCheck", "Brake Check and SafeMove (service routines)"),
-                   addIn("8:16", "AW_WELD_ERR", "RobotWare Arc"),
-                   addIn("8:39", "CAP_TRACK_ERR", "Continuous Application Platform"),
+                   addIn("8:16", "AW_TRACK_ERR", "RobotWare Arc"),
+                   addIn("8:40", "CAP_TRACK_ERR", "Continuous Application Platform"),
                    addIn("9:16", "ERR_MT_HOME", "RobotWare Machine Tending"),
                    addIn("10:16", "SPOTWELD_ERR", "RobotWare Spot"),
                    addIn("10:40", "PAINT_ERR", "RobotWare Paint")});
