@@ -66,7 +66,7 @@ struct Sampled {
     }
 };
 
-/// What is below the rounding of axis angles is no change.
+/// Less than the rounding of axis angles does not count as a change.
 void dropNoise(Derivatives& d, double width) {
     if (std::abs(d.second) * width * width < 2e-10) d.second = 0;
     if (std::abs(d.third) * width * width * width < 5e-9) d.third = 0;

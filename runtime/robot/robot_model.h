@@ -91,7 +91,7 @@ struct RobotModel {
     double maxTcpSpeed = 5000;      ///< mm/s; what MaxRobSpeed gives and vmax means
     double wristOffset = 0;         ///< mm between axes 5 and 6; not 0 only for OffsetWrist
     Pose baseFrame;                 ///< base in world; identity unless configured
-    Joints home = Joints::zeros(0); ///< where the arm stands at the start; no axes: the usual posture
+    Joints home = Joints::zeros(0); ///< where the arm is at the start; no axes: the usual posture
     int externalAxes = 0;           ///< external axes that come with the arm
     std::vector<std::string>
         provisional; ///< names of fields of the data file that are assumed, not published

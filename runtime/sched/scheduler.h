@@ -24,7 +24,7 @@ inline constexpr int64_t kUnlimitedRate = 1'000'000;
 struct SchedulerOptions {
     int64_t rate = kDefaultRate;       ///< instructions per ms of virtual time; > 0
     Time maxTime = kNever;             ///< the run ends here
-    bool realtime = false;             ///< virtual time does not run ahead of the wall
+    bool realtime = false;             ///< virtual time keeps step with the wall
     std::size_t stackBytes = 8u << 20; ///< per task; pages are used as needed
 };
 

@@ -261,7 +261,7 @@ Status OperatorPanel::readAnswer(Asking& asking, std::optional<DialogEnd>& end) 
     return kOk;
 }
 
-/// False at the end of input: nobody can answer there any more.
+/// False at the end of input: no answer can come any more.
 bool OperatorPanel::readTerminal() {
     char buffer[512];
     const ssize_t got = read(STDIN_FILENO, buffer, sizeof buffer);

@@ -49,7 +49,7 @@ enum class DialogEnd : uint8_t {
               ///< written
 };
 
-/// A text that stays on the display while the program goes on (UIMsgWrite).
+/// A text that stays on the display while the program continues (UIMsgWrite).
 struct PanelMessage {
     std::string header, icon, image;
     std::vector<std::string> lines;

@@ -222,7 +222,7 @@ void ArcProcess::putOut() {
     if (!inhibited_) equipment_.set(ArcOutput::AwError, true);
 }
 
-/// The robot stops on its path, and the weld instruction in progress raises the error. RETRY ignites and goes on there.
+/// The robot stops on its path, and the weld instruction in progress raises the error. RETRY ignites and continues there.
 void ArcProcess::interrupt(Status error) {
     putOut();
     motion_->raiseProcessError(error);
@@ -246,7 +246,7 @@ void ArcProcess::inputChanged(SignalId id) {
             return interrupt(err::AW_EQIP_ERR);
 }
 
-/// A stop of the program puts the arc out; when the robot goes on the arc is ignited again on the way.
+/// A stop of the program puts the arc out; when the robot continues the arc is ignited again on the way.
 void ArcProcess::take(ArmNews news) {
     if (phase_ != Phase::Welding || inhibited_) return;
     if (news == ArmNews::StopOnPath || news == ArmNews::MotorsOff) {

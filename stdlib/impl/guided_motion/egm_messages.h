@@ -13,7 +13,7 @@ namespace rt::lib {
 std::string encodeRobotMessage(const RobotData& data, uint32_t sequence);
 
 /// An EgmSensor message. Returns why it cannot be used ("" when it can): not a message, another type than `expected`, numbers
-/// that are not finite, too few joints, an orientation that is no unit quaternion.
+/// that are not finite, too few joints, an orientation that is not a unit quaternion.
 std::string decodeSensorMessage(std::string_view bytes, GuidanceMode expected, SensorData& data);
 
 } // namespace rt::lib

@@ -121,7 +121,7 @@ void EgmProcess::schedule() {
     });
 }
 
-/// With signals alone there is nothing to do while the robot stands where it is asked to be.
+/// With signals alone there is nothing to do while the robot is where it is asked to be.
 bool EgmProcess::mustTick() const {
     if (partner_ && partner_->answers()) return true;
     if (phase_ == Phase::None) return false;

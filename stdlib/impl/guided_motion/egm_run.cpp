@@ -144,7 +144,7 @@ Status rt_EGMWaitCond(TaskCore* task, Handle* EGMid) {
     return waitFinished(task, *EGMid);
 }
 
-/// Waits until the robot stands. No effect when the process does not guide it.
+/// Waits until the robot is at rest. No effect when the process does not guide it.
 Status rt_EGMStop(TaskCore* task, Handle* EGMid, float Mode, const float* RampOutTime) {
     Status status = kOk;
     EgmProcess* process = lib::egmProcess(task, *EGMid, status);

@@ -14,7 +14,7 @@ using namespace rt;
 namespace {
 
 constexpr Time kPeriod = 4 * kMillisecond;
-constexpr double kStill = 1e-6; // deg or mm in a period: less is no movement
+constexpr double kStill = 1e-6; // deg or mm in a period: less does not count as movement
 
 struct AxisCount {
     double distance = 0; // deg or mm

@@ -48,7 +48,7 @@ Status moveUserFrame(TaskCore* task, std::string_view name, motion::FrameSetup& 
         return fail(
             task, err::ERR_WOBJ_MOVING,
             "mechanical unit " + quoted +
-                " of the work object moves: wait until it stands, or synchronise the tasks (SyncMoveOn)");
+                " of the work object moves: wait until it is at rest, or synchronise the tasks (SyncMoveOn)");
     return kOk;
 }
 

@@ -1,5 +1,6 @@
 // Manual 1.7: motion settings. They hold for all movements ordered afterwards.
 
+#include "runtime/base/text_util.h"
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/fail.h"
@@ -34,6 +35,34 @@ extern "C" {
 
 Status rt_MaxRobSpeed(TaskCore* task, float* result) {
     *result = static_cast<float>(lib::motionOf(task).system().model().maxTcpSpeed);
+    return kOk;
+}
+
+/// What vmax has for these speeds.
+Status rt_MaxRobReorientSpeed(TaskCore*, float* result) {
+    *result = 500;
+    return kOk;
+}
+Status rt_MaxExtLinearSpeed(TaskCore*, float* result) {
+    *result = 5000;
+    return kOk;
+}
+Status rt_MaxExtReorientSpeed(TaskCore*, float* result) {
+    *result = 1000;
+    return kOk;
+}
+
+/// SYS_MISC ModalPayLoadMode of SYS.cfg; 1 when it is not given.
+Status rt_GetModalPayLoadMode(TaskCore* task, float* result) {
+    double mode = 1;
+    for (const CfgInstance* instance : taskOf(task).controller().instances("SYS", "SYS_MISC"))
+        if (sameName(instance->text("Name"), "ModalPayLoadMode")) instance->number("Value", mode);
+    *result = static_cast<float>(mode);
+    return kOk;
+}
+
+Status rt_SYS_RESET(TaskCore* task) {
+    lib::restoreDefaults(taskOf(task));
     return kOk;
 }
 

@@ -19,16 +19,22 @@ MotionState& motionState(TaskCore* task) {
     return motionOf(task).service<MotionState>();
 }
 
-void resetSettings(Task& task) {
+void restoreDefaults(Task& task) {
     if (!task.isMotionTask()) return;
-    auto& state = task.controller().motion(task).service<MotionState>();
+    MotionDriver& motion = task.controller().motion(task);
+    auto& state = motion.service<MotionState>();
     MotionState defaults;
     defaults.tool = state.tool;
     defaults.workObject = state.workObject;
     state = defaults;
-    MotionDriver& motion = task.controller().motion(task);
     motion.setCornerWarning(true);
     motion.setSpeedLimits({});
+}
+
+void resetSettings(Task& task) {
+    if (!task.isMotionTask()) return;
+    restoreDefaults(task);
+    MotionDriver& motion = task.controller().motion(task);
     endSpeedOutputs(task);
     endStopSupervision(task);
     endTemporaryZones(task);

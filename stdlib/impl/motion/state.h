@@ -41,7 +41,9 @@ struct MotionState {
     int concurrentMoves = 0;         ///< \Conc moves in succession
 };
 MotionState& motionState(TaskCore* task);
-/// What SYS_RESET does when the program of a motion task begins anew (manual 1.7): defaults; tool and work object stay.
+/// SYS_RESET: the default settings; tool and work object stay.
+void restoreDefaults(Task& task);
+/// What the controller does when the program of a motion task begins anew (manual 1.7): defaults; tool and work object stay.
 void resetSettings(Task& task);
 /// The program begins anew: TriggStopProc supervises no more.
 void endStopSupervision(Task& task);

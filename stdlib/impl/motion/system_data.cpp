@@ -14,7 +14,16 @@ using namespace rt;
 namespace {
 
 constexpr float kNoLimit = -1; // what a limit is that is switched off
-constexpr Handle kRobot = 1;   // the only mechanical unit
+
+/// Handle of the robot that the task controls; 0 for none.
+Handle robotOf(const Task& task) {
+    if (!lib::movesRobot(task)) return 0;
+    const auto& units = task.controller().units().all();
+    const auto found = std::find_if(units.begin(), units.end(), [&](const auto& unit) {
+        return unit->isRobot && static_cast<int>(unit->group) == task.motionGroup();
+    });
+    return found == units.end() ? 0 : static_cast<Handle>(found - units.begin()) + 1;
+}
 
 float limitOr(double limit) {
     return limit > 0 ? static_cast<float>(limit) : kNoLimit;
@@ -72,7 +81,7 @@ extern "C" Status rt_systemData(TaskCore* task, void* data, const String* name) 
         return kOk;
     }
     if (sameName(name->view(), "ROB_ID")) {
-        const Handle unit = owner.isMotionTask() ? kRobot : 0;
+        const Handle unit = robotOf(owner);
         std::memcpy(data, &unit, sizeof unit);
         return kOk;
     }

@@ -73,7 +73,7 @@ Status report(TaskCore* task, const Breaks& breaks, DialogEnd end, Status reason
     case DialogEnd::Timeout: return ended(task, breaks, err::ERR_TP_MAXTIME, "no answer within \\MaxTime");
     case DialogEnd::NoClient:
         return ended(task, breaks, err::ERR_TP_NO_CLIENT,
-                     "nobody can answer the dialog: run the program at a terminal, or give answers with "
+                     "the dialog cannot be answered: run the program at a terminal, or give answers with "
                      "--stimulus");
     default: break;
     }

@@ -23,7 +23,7 @@ class Configuration {
     /// "/DOMAIN/TYPE/name" or "/DOMAIN/TYPE/attribute/value".
     struct Path {
         std::string domain, type, attribute, value;
-        /// False when the text is no such path.
+        /// False when the text is not such a path.
         bool read(std::string_view text);
     };
     /// All instances that the path names, in order.

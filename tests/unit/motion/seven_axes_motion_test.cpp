@@ -106,7 +106,7 @@ TEST_CASE("a free arm angle stays as it is on a line", "[motion][seven]") {
         CHECK(sample.armAngle == Approx(before).margin(1e-6));
 }
 
-TEST_CASE("the arm angle can turn while the TCP stands", "[motion][seven]") {
+TEST_CASE("the arm angle can turn while the TCP is at rest", "[motion][seven]") {
     MotionSystem system = yumi();
     const RobTarget from = here(system);
     MoveCommand command = lineBy(system, 0, 0, 0, 20);

@@ -47,7 +47,7 @@ template <class Each> void runFrom(MotionSystem& system, const FrameSetup& frame
     while (!system.isIdle() || system.isMoving()) {
         system.advanceTo(system.now() + 4'000'000);
         each(system.toRobTarget({system.current().joints, kNoExternalAxes}, frames).pose);
-        CHECK(norm(system.current().tcp.pos - frames.tool.tframe.pos) < 1e-9); // the tool stands
+        CHECK(norm(system.current().tcp.pos - frames.tool.tframe.pos) < 1e-9); // the tool does not move
         ++samples;
     }
     CHECK(samples > 20);
