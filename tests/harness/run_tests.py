@@ -90,6 +90,9 @@ def main():
     parser.add_argument("--within", metavar="SECONDS", type=float,
                         help="begin no further test after this time; exit status 124 when that leaves some out")
     options = parser.parse_args()
+    modes = options.modes.split()
+    if unknown := [mode for mode in modes if mode not in cases.MODES]:
+        parser.error(f"unknown modes {' '.join(unknown)}; the modes are {' '.join(cases.MODES)}, separated by blanks")
 
     source = os.path.abspath(options.source)
     build = os.path.abspath(options.build or os.path.join(source, "build"))
@@ -98,7 +101,7 @@ def main():
         return 0
     context = cases.Context(source=source, build=build,
                             rapidc=os.path.abspath(options.rapidc or os.path.join(build, "rapidc")),
-                            update=options.update, modes=options.modes.split())
+                            update=options.update, modes=modes)
     found = cases.discover(source)
     if options.list:
         print("\n".join(sorted(found)))
