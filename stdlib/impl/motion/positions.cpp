@@ -143,7 +143,7 @@ Status rt_ORobT(TaskCore* task, data::Robtarget* result, const data::Robtarget* 
 Status rt_RobName(TaskCore* task, String* result) {
     Task& owner = taskOf(task);
     result->assign(lib::movesRobot(owner) ? std::string_view(lib::motionOf(task).unitName())
-                                          : std::string_view());
+                                          : std::string_view(""));
     return kOk;
 }
 }
