@@ -1,6 +1,7 @@
 // Distance and time that axes have moved: GetAxisDistance, GetAxisMoveTime and their resets. Counted in the period of the trace while
 // the arm moves, from the first of these instructions on: programs that use none of them pay nothing.
 
+#include "stdlib/impl/motion/motion_ticker.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/motion/units.h"
 
@@ -13,7 +14,6 @@ using namespace rt;
 
 namespace {
 
-constexpr Time kPeriod = 4 * kMillisecond;
 constexpr double kStill = 1e-6; // deg or mm in a period: less does not count as movement
 
 struct AxisCount {
@@ -24,17 +24,16 @@ struct AxisCount {
 class AxisCounters {
   public:
     AxisCount& of(Controller& controller, MotionDriver& motion, std::size_t axis) {
-        if (motion_ == nullptr) {
-            motion_ = &motion;
-            motion.addListener([this, &controller](ArmNews) { count(controller); });
-        }
-        count(controller);
+        ticker_.start(controller, motion, [this, &motion] {
+            count(motion.system());
+            return true;
+        });
+        ticker_.look();
         return counts_[axis];
     }
 
   private:
-    void count(Controller& controller) {
-        const motion::MotionSystem& arm = motion_->system();
+    void count(const motion::MotionSystem& arm) {
         const Time now = arm.now();
         const motion::Joints joints = arm.current().joints;
         if (last_) {
@@ -46,19 +45,12 @@ class AxisCounters {
         }
         last_ = joints;
         when_ = now;
-        if (tick_ != 0 || !arm.isMoving()) return;
-        tick_ = controller.scheduler().at((controller.scheduler().now() / kPeriod + 1) * kPeriod,
-                                          [this, &controller] {
-                                              tick_ = 0;
-                                              count(controller);
-                                          });
     }
 
     std::array<AxisCount, robot::kMostJoints> counts_{};
     std::optional<motion::Joints> last_;
     Time when_ = 0;
-    EventToken tick_ = 0;
-    MotionDriver* motion_ = nullptr; // known from the first use on
+    lib::MotionTicker ticker_;
 };
 
 /// The counter of an axis of the task's robot; null, with the error raised in `status`, when it has none.

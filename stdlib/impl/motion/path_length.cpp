@@ -1,6 +1,7 @@
 // PathLengthStart and its like: how far the TCP has moved. Counted in the period of the trace while the arm moves, so a bend
 // counts as its chords.
 
+#include "stdlib/impl/motion/motion_ticker.h"
 #include "stdlib/impl/motion/state.h"
 
 #include "stdlib_natives.h"
@@ -9,52 +10,43 @@ using namespace rt;
 
 namespace {
 
-constexpr Time kPeriod = 4 * kMillisecond;
-
 class PathLength {
   public:
     void start(Controller& controller, MotionDriver& motion) {
-        if (motion_ == nullptr) {
-            motion_ = &motion;
-            motion.addListener([this, &controller](ArmNews) { count(controller); });
-        }
+        motion_ = &motion;
+        ticker_.start(controller, motion, [this] { return count(); });
         isOn_ = true;
         last_ = tcp();
     }
-    void stop(Controller& controller) {
-        count(controller);
+    void stop() {
+        count();
         isOn_ = false;
     }
     void reset() {
         length_ = 0;
         if (isOn_) last_ = tcp();
     }
-    double length(Controller& controller) {
-        count(controller);
+    double length() {
+        count();
         return length_;
     }
 
   private:
     motion::Vec3 tcp() const { return motion_->system().current().tcp.pos; }
 
-    void count(Controller& controller) {
-        if (!isOn_) return;
+    bool count() {
+        if (!isOn_) return false;
         const motion::Vec3 here = tcp();
         length_ += norm(here - last_);
         last_ = here;
-        if (tick_ != 0 || !motion_->system().isMoving()) return;
-        const Time next = (controller.scheduler().now() / kPeriod + 1) * kPeriod;
-        tick_ = controller.scheduler().at(next, [this, &controller] {
-            tick_ = 0;
-            count(controller);
-        });
+        return true;
     }
 
+    lib::MotionTicker ticker_;
     MotionDriver* motion_ = nullptr; // known from the first start on
     motion::Vec3 last_;
     double length_ = 0; // mm
     bool isOn_ = false;
-    EventToken tick_ = 0;
 };
 
 PathLength& pathLengthOf(TaskCore* task) {
@@ -72,7 +64,7 @@ Status rt_PathLengthStart(TaskCore* task) {
 }
 
 Status rt_PathLengthStop(TaskCore* task) {
-    pathLengthOf(task).stop(taskOf(task).controller());
+    pathLengthOf(task).stop();
     return kOk;
 }
 
@@ -82,7 +74,7 @@ Status rt_PathLengthReset(TaskCore* task) {
 }
 
 Status rt_PathLengthGet(TaskCore* task, float* result) {
-    *result = static_cast<float>(pathLengthOf(task).length(taskOf(task).controller()));
+    *result = static_cast<float>(pathLengthOf(task).length());
     return kOk;
 }
 }

@@ -1,15 +1,13 @@
 #include "stdlib/impl/motion/speed_outputs.h"
 
+#include "stdlib/impl/motion/motion_ticker.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
 
 namespace rt::lib {
 namespace {
-
-/// How often an output is set while the arm moves: the period of the trace.
-constexpr Time kPeriod = 4 * kMillisecond;
 
 /// The speed of a movement is exact to some millionths: a part of the range of an output that is no excess.
 constexpr double kNoise = 1e-5;
@@ -27,10 +25,14 @@ double speedIn(const motion::MotionSystem& arm, Time lag) {
 class SpeedOutputs {
   public:
     void follow(Controller& controller, MotionDriver& motion, Handle output, const SpeedScale& scale) {
-        if (std::exchange(motion_, &motion) == nullptr)
-            motion.addListener([this, &controller](ArmNews) { update(controller); });
+        motion_ = &motion;
+        ticker_.start(controller, motion, [this, &controller] {
+            for (const auto& [followed, factor] : outputs_)
+                set(controller, followed, factor);
+            return !outputs_.empty();
+        });
         outputs_[output] = scale;
-        update(controller);
+        ticker_.look();
         if (scale.scale == 0) outputs_.erase(output);
     }
 
@@ -41,17 +43,6 @@ class SpeedOutputs {
     }
 
   private:
-    void update(Controller& controller) {
-        for (const auto& [output, scale] : outputs_)
-            set(controller, output, scale);
-        if (outputs_.empty() || tick_ != 0 || !motion_->system().isMoving()) return;
-        const Time now = controller.scheduler().now();
-        tick_ = controller.scheduler().at((now / kPeriod + 1) * kPeriod, [this, &controller] {
-            tick_ = 0;
-            update(controller);
-        });
-    }
-
     void set(Controller& controller, Handle output, const SpeedScale& scale) const {
         IoSystem& io = controller.io();
         const SignalConfig& limits = io.config(io.idOf(output));
@@ -63,7 +54,7 @@ class SpeedOutputs {
     }
 
     std::map<Handle, SpeedScale> outputs_;
-    EventToken tick_ = 0;
+    MotionTicker ticker_;
     MotionDriver* motion_ = nullptr; // known when the first output follows it
 };
 
