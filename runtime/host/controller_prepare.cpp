@@ -155,9 +155,8 @@ ExitStatus Controller::openRobots(const ProgramDesc& program) {
         print(problem);
         return isUsage && !options_.robots.empty() ? ExitStatus::BadUsage : ExitStatus::BadProgram;
     }
-    for (const std::string& robot : units_.unknown())
-        fmt::print(stderr, "warning: the robot {} of MOC.cfg is not in the catalogue: it does not move\n",
-                   robot);
+    for (const std::string& warning : units_.warnings())
+        fmt::print(stderr, "warning: {}\n", warning);
     for (const MotionGroup& group : units_.groups()) {
         motion::MotionOptions how = group.options;
         if (options_.planner == "optimal") how.planner = motion::Planner::Optimal;

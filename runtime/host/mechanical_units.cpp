@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 
@@ -17,7 +16,8 @@ namespace {
 constexpr double kDegreesPerRadian = 57.295779513082320876798154814105;
 constexpr double kMmPerMetre = 1000;
 constexpr const char* kFirstRobot = "ROB_1";
-constexpr int kFirstLogicalAxis = 7; // of the external axes
+constexpr int kFirstLogicalAxis = 7;    // of the external axes
+constexpr std::size_t kUnnumbered = 99; // an axis whose place among the external axes is not known yet
 
 const CfgInstance* named(const std::vector<const CfgInstance*>& instances, std::string_view name) {
     const auto found = std::find_if(instances.begin(), instances.end(), [&](const CfgInstance* instance) {
@@ -66,7 +66,7 @@ class SingleReader {
 
     bool isRotating() const {
         const CfgInstance* type = find("SINGLE_TYPE", text(single_, "use_single_type"), {});
-        const std::string mechanics = upper(text(type, "mechanics"));
+        const std::string mechanics = upperCase(text(type, "mechanics"));
         if (mechanics.find("ROT") != std::string::npos) return true;
         if (mechanics == "TRACK" || mechanics.find("LIN") != std::string::npos) return false;
         return transmission_ == nullptr || transmission_->flag("rotating_move");
@@ -107,11 +107,6 @@ class SingleReader {
     std::string jointName() const {
         return joint_ != nullptr ? joint_->text("name") : text(single_, "use_joint");
     }
-    static std::string upper(std::string text) {
-        std::transform(text.begin(), text.end(), text.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-        return text;
-    }
     const CfgInstance* find(std::string_view type, std::string_view name, std::string_view fallback) const {
         const std::string_view wanted = name.empty() ? fallback : name;
         return wanted.empty() ? nullptr : named(lookup_("MOC", type), wanted);
@@ -151,8 +146,8 @@ std::string MechanicalUnits::read(const CfgLookup& configuration, const std::vec
     if (std::string problem = addRobots(configuration, plans, isUsage); !problem.empty()) return problem;
     addExternalUnits(configuration);
     addGroups(configuration);
-    connectAxes(configuration);
-    carryBases(configuration);
+    connectAxes();
+    carryBases();
     return {};
 }
 
@@ -202,7 +197,9 @@ std::string MechanicalUnits::addRobots(const CfgLookup& configuration, const std
             return model.error().message;
         }
         if (!model) { // a positioner, say
-            unknown_.push_back(fmt::format("{} ({})", plan.name, plan.model));
+            warnings_.push_back(
+                fmt::format("the robot {} ({}) of MOC.cfg is not in the catalogue: it does not move",
+                            plan.name, plan.model));
             unit->geometry.name = plan.name;
             units_.push_back(std::move(unit));
             continue;
@@ -215,6 +212,7 @@ std::string MechanicalUnits::addRobots(const CfgLookup& configuration, const std
         unit->isRobot = unit->isActive = unit->staysActive = true;
         unit->axes = static_cast<int>(group.model.lowerDeg.size());
         unit->group = groups_.size();
+        if (plan.instance != nullptr) unit->carrier = plan.instance->text("base_frame_coordinated");
         groups_.push_back(std::move(group));
         units_.push_back(std::move(unit));
     }
@@ -231,10 +229,10 @@ void MechanicalUnits::addExternalUnits(const CfgLookup& configuration) {
         unit->staysActive = instance->flag("deactivation_forbidden");
         for (const std::string& single : singlesOf(*instance)) {
             const SingleReader reader(configuration, single);
-            MechanicalUnit::Axis axis;
-            axis.limits = reader.limits();
-            unit->own.push_back(axis);
-            unit->geometry.joints.push_back({0, axis.limits.rotating, reader.base(), 0});
+            const std::size_t index = reader.axisIndex().value_or(kUnnumbered);
+            unit->own.push_back({single, index, reader.limits()});
+            unit->geometry.joints.push_back({index, reader.isRotating(), reader.base(), 0});
+            if (unit->carrier.empty()) unit->carrier = reader.carrier(); // of the first one
         }
         unit->axes = static_cast<int>(unit->own.size());
         units_.push_back(std::move(unit));
@@ -262,57 +260,60 @@ void MechanicalUnits::addGroups(const CfgLookup& configuration) {
 }
 
 /// Logical axes 7 to 12 are eax_a to eax_f of the group; an axis without a number takes the first that is free.
-void MechanicalUnits::connectAxes(const CfgLookup& configuration) {
+void MechanicalUnits::connectAxes() {
     std::vector<std::array<bool, robot::kExternalCount>> taken(groups_.size());
     for (std::size_t i = 0; i < groups_.size(); ++i)
         taken[i][0] = groups_[i].model.lowerDeg.size() > 6; // the seventh axis of the arm is eax_a
-    for (const bool numbered : {true, false}) {
-        for (const CfgInstance* instance : configuration("MOC", "MECHANICAL_UNIT")) {
-            MechanicalUnit* unit = find(instance->text("name"));
-            if (unit == nullptr || unit->isRobot) continue;
-            const std::vector<std::string> singles = singlesOf(*instance);
-            auto& used = taken[unit->group];
-            for (std::size_t i = 0; i < singles.size() && i < unit->own.size(); ++i) {
-                auto index = SingleReader(configuration, singles[i]).axisIndex();
-                if (index.has_value() != numbered) continue;
-                if (!index)
-                    index =
-                        static_cast<std::size_t>(std::find(used.begin(), used.end(), false) - used.begin());
-                if (*index >= used.size()) continue; // more axes than a position has
-                used[*index] = true;
-                unit->own[i].index = unit->geometry.joints[i].axis = *index;
-                motion::ExternalAxisModel& axis = groups_[unit->group].options.external[*index];
-                axis = unit->own[i].limits;
-                axis.present = unit->isActive;
+    for (const auto& unit : units_)
+        for (const MechanicalUnit::Axis& axis : unit->own)
+            if (axis.index != kUnnumbered) taken[unit->group][axis.index] = true;
+    for (const auto& unit : units_) {
+        auto& used = taken[unit->group];
+        for (std::size_t i = 0; i < unit->own.size(); ++i) {
+            MechanicalUnit::Axis& axis = unit->own[i];
+            if (axis.index == kUnnumbered)
+                axis.index =
+                    static_cast<std::size_t>(std::find(used.begin(), used.end(), false) - used.begin());
+            if (axis.index >= used.size()) { // more axes than a position has
+                warnings_.push_back(
+                    fmt::format("axis {} of {} does not move: a motion group has six external axes",
+                                axis.single, unit->name));
+                unit->own.resize(i);
+                unit->geometry.joints.resize(i);
+                unit->axes = static_cast<int>(i);
+                break;
             }
+            used[axis.index] = true;
+            unit->geometry.joints[i].axis = axis.index;
+            motion::ExternalAxisModel& model = groups_[unit->group].options.external[axis.index];
+            model = axis.limits;
+            model.present = unit->isActive;
         }
     }
 }
 
-/// Singles and robots whose base another unit moves.
-void MechanicalUnits::carryBases(const CfgLookup& configuration) {
-    for (const CfgInstance* instance : configuration("MOC", "MECHANICAL_UNIT")) {
-        MechanicalUnit* unit = find(instance->text("name"));
-        const std::vector<std::string> singles = singlesOf(*instance);
-        if (unit == nullptr || unit->isRobot || singles.empty()) continue;
-        const MechanicalUnit* carrier = carrierNamed(SingleReader(configuration, singles.front()).carrier());
-        if (carrier == nullptr || carrier == unit || carrier->group != unit->group) continue;
-        unit->geometry.joints.insert(unit->geometry.joints.begin(), carrier->geometry.joints.begin(),
-                                     carrier->geometry.joints.end());
-    }
-    for (const CfgInstance* instance : configuration("MOC", "ROBOT")) {
-        const MechanicalUnit* unit = find(instance->text("name"));
-        const MechanicalUnit* carrier = carrierNamed(instance->text("base_frame_coordinated"));
-        if (unit == nullptr || !unit->isRobot || carrier == nullptr || carrier->group != unit->group)
-            continue;
-        groups_[unit->group].options.baseMover = &carrier->geometry;
+/// Robots and units whose base another unit of the group moves.
+void MechanicalUnits::carryBases() {
+    for (const auto& unit : units_) {
+        const MechanicalUnit* carrier = carrierNamed(unit->carrier);
+        if (carrier == nullptr || carrier == unit.get() || carrier->group != unit->group) continue;
+        if (unit->isRobot)
+            groups_[unit->group].options.baseMover = &carrier->geometry;
+        else
+            unit->geometry.joints.insert(unit->geometry.joints.begin(), carrier->geometry.joints.begin(),
+                                         carrier->geometry.joints.end());
     }
 }
 
 /// The external unit with that name, or that has a single with that name (they are usually the same).
 MechanicalUnit* MechanicalUnits::carrierNamed(std::string_view name) const {
-    MechanicalUnit* unit = name.empty() ? nullptr : find(name);
-    return unit != nullptr && !unit->isRobot ? unit : nullptr;
+    for (const auto& unit : units_) {
+        const bool hasSingle =
+            std::any_of(unit->own.begin(), unit->own.end(),
+                        [&](const MechanicalUnit::Axis& axis) { return sameName(axis.single, name); });
+        if (!name.empty() && !unit->isRobot && (hasSingle || sameName(unit->name, name))) return unit.get();
+    }
+    return nullptr;
 }
 
 void MechanicalUnits::setActive(MechanicalUnit& unit, bool active, robot::ExternalAxes& axes) {

@@ -24,9 +24,11 @@ struct MechanicalUnit {
     std::size_t group = 0;        ///< number of the group it moves in
     robot::ExternalUnit geometry; ///< of an external unit, with the axes that carry it
     struct Axis {
+        std::string single;    ///< name of its SINGLE
         std::size_t index = 0; ///< in ExternalAxes
         motion::ExternalAxisModel limits;
     };
+    std::string carrier;   ///< name of the unit or single that moves its base; "" for none
     std::vector<Axis> own; ///< axes of an external unit
 };
 
@@ -47,8 +49,8 @@ class MechanicalUnits {
     /// `isUsage`: a value of --robot is to blame. `needed`: how many motion tasks without a group of their own there are.
     std::string read(const CfgLookup& configuration, const std::vector<std::string>& robots,
                      std::string_view defaultModel, std::size_t needed, bool& isUsage);
-    /// Robots of the configuration that the catalogue does not know and that do not move: name and type of each.
-    const std::vector<std::string>& unknown() const { return unknown_; }
+    /// What of the configuration does not move, a sentence each.
+    const std::vector<std::string>& warnings() const { return warnings_; }
 
     /// In the order of the handles of mecunit data: the first one has handle 1. The objects do not move.
     const std::vector<std::unique_ptr<MechanicalUnit>>& all() const { return units_; }
@@ -72,13 +74,13 @@ class MechanicalUnits {
     std::string addRobots(const CfgLookup& configuration, const std::vector<RobotPlan>& plans, bool& isUsage);
     void addExternalUnits(const CfgLookup& configuration);
     void addGroups(const CfgLookup& configuration);
-    void connectAxes(const CfgLookup& configuration);
-    void carryBases(const CfgLookup& configuration);
+    void connectAxes();
+    void carryBases();
     MechanicalUnit* carrierNamed(std::string_view name) const;
 
     std::vector<std::unique_ptr<MechanicalUnit>> units_;
     std::vector<MotionGroup> groups_;
-    std::vector<std::string> unknown_;
+    std::vector<std::string> warnings_;
 };
 
 } // namespace rt
