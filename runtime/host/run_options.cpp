@@ -96,6 +96,20 @@ void addNetwork(const Command& command, net::NetworkOptions& options) {
         .typeName("[=ADDRESS[=OTHER]]");
 }
 
+void addRobots(const Command& command, RunOptions& options) {
+    command
+        .add("--robot", options.robots,
+             fmt::format("robot model, of a further robot UNIT=MODEL; repeatable; default \"{}\"",
+                         kDefaultRobot))
+        .typeName("[UNIT=]MODEL")
+        .oneValueEach();
+    command
+        .add("--planner", options.planner,
+             "what times movements: measured (as real controllers; default) or optimal (shortest time "
+             "within all limits, also of jerk)")
+        .oneOf({"measured", "optimal"});
+}
+
 } // namespace
 
 void addRunOptions(const Command& command, RunOptions& options, bool withTasks) {
@@ -114,18 +128,8 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
              "EIO, SYS, MOC, SIO or PROC parameters in ABB's text format; repeatable")
         .typeName("FILE.cfg")
         .oneValueEach();
-    command
-        .add("--robot", options.robots,
-             fmt::format("robot model, of a further robot UNIT=MODEL; repeatable; default \"{}\"",
-                         kDefaultRobot))
-        .typeName("[UNIT=]MODEL")
-        .oneValueEach();
+    addRobots(command, options);
     addDisks(command, options);
-    command
-        .add("--planner", options.planner,
-             "what times movements: measured (as real controllers; default) or optimal (shortest time "
-             "within all limits, also of jerk)")
-        .oneOf({"measured", "optimal"});
     command
         .add("--stimulus", options.stimulus,
              "what happens from outside: lines time_s,target,value; a file, a pipe, or - for the "
