@@ -88,11 +88,13 @@ void SynchronisedGroup::orderStep() {
 
 void SynchronisedGroup::end() {
     if (std::exchange(isOver_, true)) return;
-    const auto all = systems();
-    (void)motion::MotionSystem::endTogether(
-        all); // robots that still move have their paths cleared by the caller
-    for (const Member& member : members_)
+    for (const Member& member : members_) {
         member.driver->leaveGroup();
+        if (!member.driver->isIdle()) member.driver->clearLevel();
+    }
+    motion::MotionSystem::endTogether(systems());
+    for (const Member& member : members_)
+        member.driver->refresh();
     changed_.notifyAll();
 }
 

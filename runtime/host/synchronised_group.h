@@ -40,7 +40,8 @@ class SynchronisedGroup {
     /// Orders the movement of all; isReady(). When one cannot be made, its order is done, and the others wait on.
     void orderStep();
 
-    /// The synchronised movement is over: SyncMoveOff, SyncMoveUndo, the program pointer of one of them was moved.
+    /// The synchronised movement is over: SyncMoveOff, SyncMoveUndo, the program pointer of one of them was moved. What is left
+    /// of the movement is cleared.
     void end();
     bool isOver() const { return isOver_; }
     /// Some stop of one of the robots holds them all.

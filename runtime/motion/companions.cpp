@@ -101,7 +101,7 @@ Companions::Mapped Companions::placeOf(std::size_t member, const Route& leader, 
     const Route& own = route(member);
     const std::size_t leg = leader.legAt(place);
     const double ratio = ratioOn(leader, own, leg);
-    if (leg > 0 && leader.isRounded(leg - 1)) {
+    if (leg > leader.firstLeg() && leader.isRounded(leg - 1)) {
         const Transition t = transitionAt(leader, own, leg - 1);
         if (t.exists && place < t.end.leader)
             return inTransition(t, ratioOn(leader, own, leg - 1), ratio, std::max(place, t.begin.leader));

@@ -55,6 +55,13 @@ void MotionSystem::Impl::follow(std::shared_ptr<const Trajectory> what, TimeNs f
     spans.push_back(std::move(next));
 }
 
+/// The arm is at rest: what is ordered from now on belongs to this path.
+void MotionSystem::Impl::beginPath(std::shared_ptr<Trajectory> path) {
+    level.finished.clear();
+    level.path = std::move(path);
+    follow(level.path, now);
+}
+
 /// The arm brakes, if it moves, and what is ordered from now on begins where it comes to rest.
 void MotionSystem::Impl::abandonPath() {
     if (!isCoasting && detour == nullptr && !isStepping) path().hold(seconds());

@@ -165,9 +165,7 @@ bool MotionSystem::restorePath() {
     s.level = std::move(level);
     s.follow(s.level.path, s.now);
     if (s.level.path->isEmpty() || s.level.queue.empty()) { // no move is left: the path begins here
-        s.level.finished.clear();
-        s.level.path = s.newPath(here, s.seconds());
-        s.follow(s.level.path, s.now);
+        s.beginPath(s.newPath(here, s.seconds()));
         s.holdOrRelease();
         return true;
     }
@@ -208,10 +206,8 @@ std::optional<MotionSystem::PathGap> MotionSystem::gapToPath() const {
 bool MotionSystem::placeAt(const JointTarget& joints) {
     Impl& s = *impl_;
     if (!s.level.queue.empty() || s.isMoving()) return false;
-    s.level.finished.clear();
     const FrameSetup frames = s.path().isEmpty() ? FrameSetup{} : s.path().framesAt(s.path().end());
-    s.level.path = s.newPath(joints, s.seconds());
-    s.follow(s.level.path, s.now);
+    s.beginPath(s.newPath(joints, s.seconds()));
     s.spans.back().still.tcp = s.based(frames).tcpInWorld(s.kinematics.forward(joints.robax), joints.extax);
     s.holdOrRelease();
     return true;

@@ -82,8 +82,8 @@ class MotionSystem {
     /// From now on these robots move together (MultiMove): every move is ordered for all of them. False, with nothing done,
     /// unless all of them are idle and at rest.
     static bool beginTogether(const std::vector<MotionSystem*>& systems);
-    /// Each robot moves for itself again. Idle and at rest, as above.
-    static bool endTogether(const std::vector<MotionSystem*>& systems);
+    /// Each robot moves for itself again. One that still moves brakes on its path, and what is left of it is cleared.
+    static void endTogether(const std::vector<MotionSystem*>& systems);
     /// Can the robots still order together: none of them has thrown away its path or put it aside.
     static bool areTogether(const std::vector<MotionSystem*>& systems);
     /// A move for each of the systems of beginTogether, in the same order. They begin and end together, and their speeds are in

@@ -107,6 +107,7 @@ struct MotionSystem::Impl {
     bool isResting() const { return level.queue.empty() && !isMoving() && !isHalted && detour == nullptr; }
     std::shared_ptr<Trajectory> newPath(const JointTarget& start, double earliest) const;
     void follow(std::shared_ptr<const Trajectory> what, TimeNs from);
+    void beginPath(std::shared_ptr<Trajectory> path);
     void abandonPath();
     void noteCleared(MoveId first);
     void holdOrRelease();

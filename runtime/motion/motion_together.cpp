@@ -31,11 +31,6 @@ bool MotionSystem::beginTogether(const std::vector<MotionSystem*>& systems) {
         return system->impl_->isResting();
     });
     if (!areResting || systems.empty()) return false;
-    const auto continueOn = [](Impl& s, std::shared_ptr<Trajectory> path) {
-        s.level.finished.clear();
-        s.level.path = std::move(path);
-        s.follow(s.level.path, s.now);
-    };
     Impl& first = *systems.front()->impl_;
     const std::shared_ptr<Trajectory> leader = first.newPath(first.standing(), first.seconds());
     for (std::size_t i = 1; i < systems.size(); ++i) {
@@ -44,28 +39,27 @@ bool MotionSystem::beginTogether(const std::vector<MotionSystem*>& systems) {
         auto path =
             std::make_shared<Follower>(leader, i - 1, s.model, s.options.external, s.standing(), frames);
         leader->addCompanion(path);
-        continueOn(s, std::move(path));
+        s.beginPath(std::move(path));
     }
-    continueOn(first, leader);
+    first.beginPath(leader);
     for (MotionSystem* system : systems)
         system->impl_->holdOrRelease();
     return true;
 }
 
-bool MotionSystem::endTogether(const std::vector<MotionSystem*>& systems) {
-    const bool areResting = std::all_of(systems.begin(), systems.end(), [](const MotionSystem* system) {
-        return system->impl_->isResting();
-    });
-    if (!areResting) return false;
+void MotionSystem::endTogether(const std::vector<MotionSystem*>& systems) {
     for (MotionSystem* system : systems) {
         Impl& s = *system->impl_;
-        const JointTarget here = s.standing();
-        s.level.finished.clear();
-        s.level.path = s.newPath(here, s.seconds());
-        s.follow(s.level.path, s.now);
+        if (!s.isResting()) {
+            if (!s.level.queue.empty()) s.noteCleared(s.level.queue.front()->id);
+            s.level.queue.clear();
+            s.abandonPath();
+            s.noteMotion();
+            continue;
+        }
+        s.beginPath(s.newPath(s.standing(), s.seconds()));
         s.holdOrRelease();
     }
-    return true;
 }
 
 bool MotionSystem::areTogether(const std::vector<MotionSystem*>& systems) {

@@ -224,11 +224,7 @@ Status rt_SyncMoveOff(TaskCore* task, Handle* SyncID, const float* TimeOut) {
 /// Also when the other tasks do not execute it (UNDO handlers).
 Status rt_SyncMoveUndo(TaskCore* task) {
     if (const Status status = lib::requireMotionTask(task)) return status;
-    const auto group = lib::motionOf(task).synchronised();
-    if (group == nullptr) return kOk;
-    for (const SynchronisedGroup::Member& member : group->members())
-        if (!member.driver->system().isIdle()) member.driver->clearLevel();
-    group->end();
+    if (const auto group = lib::motionOf(task).synchronised()) group->end();
     return kOk;
 }
 
@@ -242,7 +238,7 @@ Status rt_SyncMoveSuspend(TaskCore* task) {
                       "\\KeepSync.");
     if (const Status status = waitAtRest(taskOf(task))) return status;
     driver.suspendGroup(true);
-    (void)motion::MotionSystem::endTogether({&driver.system()});
+    motion::MotionSystem::endTogether({&driver.system()});
     driver.refresh();
     return kOk;
 }

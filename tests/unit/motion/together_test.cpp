@@ -93,7 +93,7 @@ TEST_CASE("robots that move together begin and end together, in proportion on th
     CHECK(timeOf(events, MotionEventKind::Reached, 1) > 0);
     // The longer way takes its programmed speed; it is the one that sets the time.
     CHECK(fastest == Approx(500).epsilon(0.01));
-    CHECK(MotionSystem::endTogether(pair.both));
+    MotionSystem::endTogether(pair.both);
     CHECK(pair.second.enqueue(lineTo(pair.second, 0, 50, 0, 500, false)).hasValue());
 }
 
@@ -175,6 +175,63 @@ TEST_CASE("a stop holds synchronised robots on their paths", "[motion][together]
     }
     CHECK(pair.first.current().tcp.pos.y == Approx(150).margin(1e-6));
     CHECK(pair.second.current().tcp.pos.y == Approx(300).margin(1e-6));
+}
+
+TEST_CASE("a long chain of synchronised movements keeps to its points", "[motion][together]") {
+    // Legs that have been passed are forgotten on the way; the places of the others stay where they are.
+    Pair pair;
+    constexpr int kMoves = 40;
+    const Vec3 from = pair.second.current().tcp.pos;
+    std::array<std::vector<TimeNs>, 2> reached;
+    double farthest = 0;
+    int ordered = 0;
+    for (TimeNs time = 0; ordered < kMoves || pair.first.nextEventTime() || pair.second.nextEventTime();
+         time += kMs) {
+        while (ordered < kMoves && pair.first.unfinishedMoves() < 3) {
+            const double side = ordered % 2 == 0 ? 1 : -1;
+            const bool isFlyBy = ++ordered < kMoves;
+            pair.order(lineTo(pair.first, 0, 40 * side, 0, 300, isFlyBy),
+                       lineTo(pair.second, 0, 0, 60 * side, 300, isFlyBy));
+        }
+        for (std::size_t r = 0; r < 2; ++r) {
+            pair.both[r]->advanceTo(time);
+            for (const MotionEvent& event : pair.both[r]->takeEvents())
+                if (event.kind == MotionEventKind::Reached) reached[r].push_back(event.time);
+        }
+        const Vec3 here = pair.second.current().tcp.pos;
+        farthest = std::max({farthest, std::abs(here.x - from.x), std::abs(here.y - from.y)});
+        REQUIRE(here.z > from.z - 1e-3);
+        REQUIRE(here.z < from.z + 60 + 1e-3);
+    }
+    CHECK(farthest < 1e-3);
+    REQUIRE(reached[0].size() == kMoves);
+    REQUIRE(reached[1].size() == kMoves);
+    for (std::size_t i = 0; i < kMoves; ++i)
+        CHECK(std::llabs(reached[0][i] - reached[1][i]) <= 1);
+}
+
+TEST_CASE("robots that still move together can be separated", "[motion][together]") {
+    Pair pair;
+    pair.order(lineTo(pair.first, 0, 150, 0, 200, false), lineTo(pair.second, 0, 300, 0, 400, false));
+    for (MotionSystem* system : pair.both)
+        system->advanceTo(300 * kMs);
+    MotionSystem::endTogether(pair.both);
+    while (pair.step()) {
+    }
+    const double way = pair.second.current().tcp.pos.y;
+    CHECK(way > 10);
+    CHECK(way < 290);
+    CHECK(pair.first.isDone(1)); // cleared
+    // Each one moves for itself from where it is.
+    REQUIRE(pair.second.enqueue(lineTo(pair.second, 0, -20, 0, 400, false)).hasValue());
+    while (pair.step()) {
+    }
+    CHECK(pair.second.current().tcp.pos.y == Approx(way - 20).margin(1e-5));
+    REQUIRE(pair.first.enqueue(lineTo(pair.first, 0, 10, 0, 100, false)).hasValue());
+    const double before = pair.first.current().tcp.pos.y;
+    while (pair.step()) {
+    }
+    CHECK(pair.first.current().tcp.pos.y == Approx(before + 10).margin(1e-5));
 }
 
 TEST_CASE("an unreachable target of one robot orders nothing for the others", "[motion][together]") {
