@@ -358,6 +358,7 @@ ExternalAxes MotionPath::externalAt(double s) const {
 }
 
 Pose MotionPath::flangeFor(const Pose& target, double s) const {
+    if (!frames_.isMoved()) return frames_.toFlange(target, start_.extax);
     if (frames_.userCourse == nullptr) return frames_.toFlange(target, externalAt(s));
     const Pose user = (*frames_.userCourse)(s);
     return frames_.toFlange(target, externalAt(s), &user);
@@ -365,6 +366,7 @@ Pose MotionPath::flangeFor(const Pose& target, double s) const {
 
 /// Beyond the ends of the path as well.
 Pose MotionPath::tcpOf(const Joints& joints, double s) const {
+    if (!frames_.isMoved()) return frames_.fromFlange(kinematics_.forward(joints), start_.extax);
     const ExternalAxes axes = externalNear(s);
     if (frames_.userCourse == nullptr) return frames_.fromFlange(kinematics_.forward(joints), axes);
     const Pose user = (*frames_.userCourse)(s);

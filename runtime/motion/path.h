@@ -62,7 +62,7 @@ struct PathNode {
 /// One move with its start state, resolved to a path in joint space.
 /// A circular move in two: start to circle point, circle point to target, on the same circle (stepwise execution stops
 /// at the circle point, manual 1.21). `begin`: TCP in the object frame, arm angle and external axes there: these have come
-/// as far at the circle point as the TCP. Empty when there is no such circle.
+/// as far at the circle point as the TCP. Empty when such a circle does not exist.
 std::vector<MoveCommand> splitAtCirclePoint(const MoveCommand& command, const RobTarget& begin);
 /// A circle that began at `start` and has come to `here`: the rest of it, as a command that begins there. Unchanged when
 /// `here` does not lie on it.

@@ -298,12 +298,14 @@ std::optional<Pose> Route::userFrameAt(double place) const {
 
 Pose Route::tcpOf(const FrameSetup& frames, const RoutePoint& point, double place) const {
     const Pose flange = legs_.front().path->kinematics().forward(point.joints);
+    if (frames.userCourse == nullptr) return frames.fromFlange(flange, point.extax);
     const auto user = userFrameAt(place);
     return frames.fromFlange(flange, point.extax, user ? &*user : nullptr);
 }
 
 Pose Route::flangeFor(const FrameSetup& frames, const Pose& target, const ExternalAxes& axes,
                       double place) const {
+    if (frames.userCourse == nullptr) return frames.toFlange(target, axes);
     const auto user = userFrameAt(place);
     return frames.toFlange(target, axes, user ? &*user : nullptr);
 }

@@ -89,6 +89,8 @@ struct FrameSetup {
     /// The user frame after a share of the carrier's movement, 0 to 1; set with the order of a movement.
     std::shared_ptr<const std::function<Pose(double)>> userCourse;
     bool dependsOnAxes() const { return baseMover != nullptr || userMover != nullptr; }
+    /// External axes or another robot move a frame.
+    bool isMoved() const { return dependsOnAxes() || userCourse != nullptr; }
 
   private:
     /// The displaced object frame, in world or in the wrist frame.

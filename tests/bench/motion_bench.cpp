@@ -125,13 +125,18 @@ void solveProfile(benchmark::State& state) {
 }
 BENCHMARK(solveProfile)->Arg(20)->Arg(200)->Arg(2000);
 
+std::array<AxisLimits, 6> sixLimits() {
+    std::array<AxisLimits, 6> limits{};
+    for (std::size_t i = 0; i < limits.size(); ++i)
+        limits[i] = {1.0 + 0.3 * static_cast<double>(i), 4, 30};
+    return limits;
+}
+
 /// Six axes from rest to rest, arriving together. Aim: 0.8 us.
 void sixAxesRestToRest(benchmark::State& state) {
     std::array<double, 6> from{};
     std::array<double, 6> to{};
-    std::array<AxisLimits, 6> limits{};
-    for (std::size_t i = 0; i < 6; ++i)
-        limits[i] = {1.0 + 0.3 * static_cast<double>(i), 4, 30};
+    const std::array<AxisLimits, 6> limits = sixLimits();
     std::array<AxisProfile, 6> profiles;
     double change = 0;
     for (auto _ : state) {
@@ -148,9 +153,7 @@ BENCHMARK(sixAxesRestToRest);
 void sixAxesBetweenStates(benchmark::State& state) {
     std::array<AxisState, 6> from{};
     std::array<AxisState, 6> to{};
-    std::array<AxisLimits, 6> limits{};
-    for (std::size_t i = 0; i < 6; ++i)
-        limits[i] = {1.0 + 0.3 * static_cast<double>(i), 4, 30};
+    const std::array<AxisLimits, 6> limits = sixLimits();
     std::array<AxisProfile, 6> profiles;
     double change = 0;
     for (auto _ : state) {
