@@ -14,7 +14,7 @@
 namespace rt::lib {
 namespace {
 
-/// The inputs that are 1 while the equipment is in order, and what they stand for.
+/// The inputs that are 1 while the equipment is in order, and what each of them means.
 constexpr std::pair<ArcInput, const char*> kSupervised[] = {
     {ArcInput::GasOk, "gas"},   {ArcInput::WaterOk, "cooling water"}, {ArcInput::WireOk, "wire"},
     {ArcInput::GunOk, "torch"}, {ArcInput::VoltOk, "voltage"},        {ArcInput::CurrentOk, "current"}};
