@@ -205,6 +205,7 @@ bool Controller::closeOutputs() {
 void Controller::shutDown() {
     for (const auto& action : shutDownActions_)
         action();
+    io_.devices().restart();
 }
 
 bool Controller::cyclesLeft(const Task& task) const {
@@ -417,6 +418,21 @@ void Controller::perform(const StimulusItem& item) {
     case StimulusKind::PpToMain: actionPpToMain(); return;
     case StimulusKind::StepForward: actionStep(true); return;
     case StimulusKind::StepBackward: actionStep(false); return;
+    case StimulusKind::DeviceLost:
+    case StimulusKind::DeviceFound:
+        io_.devices().setContact(item.text, item.kind == StimulusKind::DeviceFound);
+        if (io_.devices().isMuted(item.text)) return;
+        log_.write(item.kind == StimulusKind::DeviceLost ? EventId::DeviceLost : EventId::DeviceFound,
+                   nullptr, {item.text});
+        return;
+    case StimulusKind::NetworkError:
+    case StimulusKind::NetworkOk:
+        io_.devices().setNetworkError(item.text, item.kind == StimulusKind::NetworkError);
+        log_.write(item.kind == StimulusKind::NetworkError ? EventId::NetworkInError : EventId::NetworkWorks,
+                   nullptr, {item.text});
+        return;
+    case StimulusKind::SignalInvalid: io_.setValid(io_.find(item.text), false); return;
+    case StimulusKind::SignalValid: io_.setValid(io_.find(item.text), true); return;
     }
 }
 

@@ -268,17 +268,38 @@ ExitStatus Controller::openState() {
     return ExitStatus::BadUsage;
 }
 
+/// A name in the stimulus that the configuration lacks; empty when all is well.
+static std::string problemOf(const StimulusItem& item, const IoSystem& io) {
+    switch (item.kind) {
+    case StimulusKind::Signal:
+        if (io.find(item.target) >= 0) return {};
+        return fmt::format("'{}' is neither a signal nor a controller action; define the signal "
+                           "in an EIO configuration file (--config)",
+                           item.target);
+    case StimulusKind::SignalInvalid:
+    case StimulusKind::SignalValid:
+        if (io.find(item.text) >= 0) return {};
+        return fmt::format("'{}' is not a signal of the configuration", item.text);
+    case StimulusKind::DeviceLost:
+    case StimulusKind::DeviceFound:
+        if (io.devices().isDevice(item.text)) return {};
+        return fmt::format("'{}' is not an I/O device of the configuration", item.text);
+    case StimulusKind::NetworkError:
+    case StimulusKind::NetworkOk:
+        if (io.devices().isNetwork(item.text)) return {};
+        return fmt::format("'{}' is not an I/O network of the configuration", item.text);
+    default: return {};
+    }
+}
+
 ExitStatus Controller::readStimulusFile() {
     if (options_.stimulus.empty()) return ExitStatus::Ended;
     std::vector<StimulusProblem> problems;
     stimulus_ = options_.stimulusText ? parseStimulus(*options_.stimulusText, problems)
                                       : readStimulus(options_.stimulus, problems);
     for (const StimulusItem& item : stimulus_) {
-        if (item.kind != StimulusKind::Signal || io_.find(item.target) >= 0) continue;
-        problems.push_back(
-            {item.line, fmt::format("'{}' is neither a signal nor a controller action; define the signal "
-                                    "in an EIO configuration file (--config)",
-                                    item.target)});
+        if (std::string problem = problemOf(item, io_); !problem.empty())
+            problems.push_back({item.line, std::move(problem)});
     }
     for (const StimulusProblem& problem : problems) {
         if (problem.line == 0)

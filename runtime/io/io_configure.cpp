@@ -75,6 +75,7 @@ void IoSystem::configure(const CfgFile& file, std::vector<CfgProblem>& problems)
             accessLevels_[upperCase(instance.text("Name"))] = write;
         }
     }
+    devices_.configure(file);
     for (const CfgSection* section : file.find("EIO_SIGNAL")) {
         for (const CfgInstance& instance : section->instances)
             configureSignal(instance, file.name, problems);

@@ -32,6 +32,7 @@ IoSystem::~IoSystem() = default;
 SignalId IoSystem::addSignal(SignalConfig config) {
     const auto id = static_cast<SignalId>(signals_.size());
     if (!names_.emplace(upperCase(config.name), id).second) return -1;
+    devices_.addDevice(config.device);
     auto signal = std::make_unique<Signal>();
     signal->value = config.defaultValue;
     signal->config = std::move(config);
@@ -75,16 +76,29 @@ double IoSystem::value(SignalId id) const {
 }
 
 double IoSystem::read(Handle handle, IoResult& result) const {
-    const SignalId id = idOf(handle);
-    result = id < 0 ? IoResult::NoSignal : IoResult::Ok;
-    if (id < 0) return 0;
-    if (signals_[static_cast<std::size_t>(id)]->deviceOff) result = IoResult::DeviceOff;
-    return value(id);
+    result = access(handle);
+    return result == IoResult::NoSignal ? 0 : value(idOf(handle));
 }
 
-void IoSystem::setDeviceOff(std::string_view device, bool off) {
-    for (const auto& signal : signals_)
-        if (sameName(signal->config.device, device)) signal->deviceOff = off;
+IoResult IoSystem::access(Handle handle) const {
+    const SignalId id = idOf(handle);
+    if (id < 0) return IoResult::NoSignal;
+    const Signal& signal = *signals_[static_cast<std::size_t>(id)];
+    return signal.deviceOff ? IoResult::DeviceOff : signal.invalid ? IoResult::NotValid : IoResult::Ok;
+}
+
+void IoSystem::setReachable(std::string_view device, bool reachable) {
+    for (const auto& signal : signals_) {
+        if (!sameName(signal->config.device, device)) continue;
+        signal->deviceOff = !reachable;
+        signal->changed.notifyAll();
+    }
+}
+
+void IoSystem::setValid(SignalId id, bool valid) {
+    Signal& signal = *signals_[static_cast<std::size_t>(id)];
+    signal.invalid = !valid;
+    signal.changed.notifyAll();
 }
 
 IoResult IoSystem::normalise(const SignalConfig& config, double& value) {
@@ -111,7 +125,7 @@ IoResult IoSystem::checkWrite(Handle handle, double& value, Signal*& signal) {
     signal = byHandle(handle);
     const IoResult result = check(handle, value, true);
     if (result != IoResult::Ok) return result;
-    if (signal->deviceOff) return IoResult::DeviceOff;
+    if (const IoResult access = this->access(handle); access != IoResult::Ok) return access;
     normalise(signal->config, value);
     return IoResult::Ok;
 }

@@ -5,6 +5,7 @@
 #include "runtime/abi/rt_abi.h"
 #include "runtime/base/time.h"
 #include "runtime/io/cfg_parser.h"
+#include "runtime/io/io_devices.h"
 #include "runtime/sched/wait_queue.h"
 
 #include <cstdint>
@@ -59,7 +60,8 @@ enum class IoResult : uint8_t {
     NotWritable,   ///< an input, or Access does not let RAPID write
     BadTime,       ///< delay or pulse length outside what is allowed (ERR_ARGVALERR)
     TooManyDelays, ///< 20 signals are delayed already
-    DeviceOff,     ///< its I/O device is deactivated (ERR_NORUNUNIT)
+    DeviceOff,     ///< its I/O device is deactivated or without contact (ERR_NORUNUNIT)
+    NotValid,      ///< the network does not vouch for its value (ERR_SIG_NOT_VALID)
 };
 
 enum class CrossOperator : uint8_t { And, Or };
@@ -134,12 +136,17 @@ class IoSystem {
     /// does.
     IoResult force(SignalId id, double value);
 
-    /// Signals of a device that is off can be neither read nor set by programs; their values stay. A device is known by
-    /// its signals alone.
-    void setDeviceOff(std::string_view device, bool off);
+    /// The devices that the signals belong to. Programs can neither read nor set signals of a device that is deactivated or has
+    /// lost contact; their values stay.
+    IoDevices& devices() { return devices_; }
+    const IoDevices& devices() const { return devices_; }
+    /// Programs can neither read nor set a signal that is not valid; its value stays.
+    void setValid(SignalId id, bool valid);
+    /// Ok when a program may read the signal now.
+    IoResult access(Handle handle) const;
 
     // ---- Changes ------------------------------------------------------------------------------------------
-    /// Notified after each change of the signal's value.
+    /// Notified after each change of the signal's value, and of whether programs may read it.
     WaitQueue& changed(SignalId id);
     using Listener = std::function<void(SignalId, double oldValue, double newValue)>;
     /// Called at each change of this signal (all signals: id -1), at the virtual time of the change. Returns
@@ -164,6 +171,7 @@ class IoSystem {
     static IoResult normalise(const SignalConfig& config, double& value);
     IoResult checkWrite(Handle handle, double& value, Signal*& signal);
     void cancelPending(Signal& signal);
+    void setReachable(std::string_view device, bool reachable);
     void change(SignalId id, double value, bool propagate);
     void propagateFrom(SignalId id);
     double evaluate(const CrossConnection& connection) const;
@@ -175,6 +183,7 @@ class IoSystem {
                          std::vector<CfgProblem>& problems) const;
 
     Scheduler& scheduler_;
+    IoDevices devices_{[this](std::string_view device, bool reachable) { setReachable(device, reachable); }};
     std::vector<std::unique_ptr<Signal>> signals_;
     std::unordered_map<std::string, SignalId> names_; // upper case
     std::vector<std::string> undefined_;              // of handle -1, -2, ...

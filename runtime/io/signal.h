@@ -12,7 +12,8 @@ enum class Pending : uint8_t { None, Delay, Pulse };
 struct IoSystem::Signal {
     SignalConfig config;
     double value = 0;
-    bool deviceOff = false;
+    bool deviceOff = false; ///< or without contact
+    bool invalid = false;
     bool driven = false; ///< result of a cross connection
     Pending pending = Pending::None;
     EventToken event = 0;

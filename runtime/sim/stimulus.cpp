@@ -73,6 +73,12 @@ bool actionKind(std::string_view target, StimulusKind& kind) {
         {"pp_to_main", StimulusKind::PpToMain},
         {"step_forward", StimulusKind::StepForward},
         {"step_backward", StimulusKind::StepBackward},
+        {"device_lost", StimulusKind::DeviceLost},
+        {"device_found", StimulusKind::DeviceFound},
+        {"network_error", StimulusKind::NetworkError},
+        {"network_ok", StimulusKind::NetworkOk},
+        {"signal_invalid", StimulusKind::SignalInvalid},
+        {"signal_valid", StimulusKind::SignalValid},
     };
     for (const auto& [name, value] : kActions) {
         if (target != name) continue;
@@ -115,6 +121,9 @@ bool readItem(const std::vector<std::string>& fields, StimulusItem& item, std::s
         }
     } else if (item.kind == StimulusKind::Answer) {
         item.text = value;
+    } else if (item.kind >= StimulusKind::DeviceLost) {
+        item.text = value;
+        if (value.empty()) error = fmt::format("the action {} needs a name as its value", item.target);
     } else if (!value.empty()) {
         error = fmt::format("the controller action {} takes no value, but '{}' is given", item.target, value);
     }

@@ -22,7 +22,13 @@ enum class StimulusKind : uint8_t {
     Start,
     PpToMain,
     StepForward,
-    StepBackward
+    StepBackward,
+    DeviceLost,   ///< I/O device `text` loses contact
+    DeviceFound,  ///< ... and has it again
+    NetworkError, ///< I/O network `text` is in error, and so are its devices
+    NetworkOk,
+    SignalInvalid, ///< signal `text` is not valid
+    SignalValid
 };
 
 struct StimulusItem {
@@ -30,7 +36,7 @@ struct StimulusItem {
     StimulusKind kind = StimulusKind::Signal;
     std::string target; ///< name of the signal, as written
     double value = 0;   ///< Signal
-    std::string text;   ///< Answer
+    std::string text;   ///< Answer, or the name of what is disturbed
     uint32_t line = 0;
 };
 

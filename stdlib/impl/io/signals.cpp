@@ -50,7 +50,10 @@ Status ioStatus(TaskCore* task, IoResult result, Handle handle) {
     case IoResult::DeviceOff:
         return fail(task, err::ERR_NORUNUNIT,
                     "I/O device " + io.config(id).device + " of signal " + name +
-                        " is deactivated; activate it with IOActivate (IOEnable)");
+                        (io.devices().isActive(io.config(id).device)
+                             ? " has lost contact"
+                             : " is deactivated; activate it with IOActivate (IOEnable)"));
+    case IoResult::NotValid: return fail(task, err::ERR_SIG_NOT_VALID, "signal " + name + " is not valid");
     case IoResult::BadTime:
         return fail(task, err::ERR_ARGVALERR, "delay and pulse length must lie between 0.001 and 2000 s");
     case IoResult::TooManyDelays:
@@ -63,6 +66,12 @@ SignalId signalOf(TaskCore* task, Handle handle, Status& status) {
     const SignalId id = taskOf(task).controller().io().idOf(handle);
     status = id < 0 ? ioStatus(task, IoResult::NoSignal, handle) : kOk;
     return id;
+}
+
+SignalId usableSignal(TaskCore* task, Handle handle, Status& status) {
+    const IoSystem& io = taskOf(task).controller().io();
+    status = ioStatus(task, io.access(handle), handle);
+    return status == kOk ? io.idOf(handle) : -1;
 }
 
 Status readSignal(TaskCore* task, Handle handle, double& value) {

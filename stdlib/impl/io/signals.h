@@ -13,6 +13,8 @@ namespace rt::lib {
 Status ioStatus(TaskCore* task, IoResult result, Handle handle);
 /// The signal behind a variable; -1 and ERR_NO_ALIASIO_DEF raised (in `status`) when there is none.
 SignalId signalOf(TaskCore* task, Handle handle, Status& status);
+/// The same, and the signal can be used now; else ERR_NORUNUNIT or ERR_SIG_NOT_VALID raised as well.
+SignalId usableSignal(TaskCore* task, Handle handle, Status& status);
 /// Value of a signal.
 Status readSignal(TaskCore* task, Handle handle, double& value);
 

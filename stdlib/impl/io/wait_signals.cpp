@@ -28,12 +28,14 @@ Status waitSignal(TaskCore* core, const SignalWait& wait, double& last) {
     if (status != kOk) return status;
     WaitSpec spec;
     spec.queues = {&io.changed(id)};
-    spec.condition = [&] { return wait.condition(io.value(id)); };
+    const auto isReadable = [&] { return io.access(wait.signal) == IoResult::Ok; };
+    spec.condition = [&] { return !isReadable() || wait.condition(io.value(id)); };
     if (wait.maxTime) spec.deadline = addTime(task.now(), fromSeconds(*wait.maxTime));
     WaitResult result = WaitResult::Done;
     status = task.waitFor(spec, result);
     last = io.value(id);
     if (status != kOk) return status;
+    if (!isReadable()) return lib::ioStatus(core, io.access(wait.signal), wait.signal);
     if (wait.timeFlag) *wait.timeFlag = result == WaitResult::Timeout;
     if (result == WaitResult::Done || wait.timeFlag != nullptr) return kOk;
     return lib::fail(core, err::ERR_WAIT_MAXTIME,
