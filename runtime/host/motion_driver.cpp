@@ -368,13 +368,14 @@ void MotionDriver::holdOrRelease() {
     if (!held && system_.isStopRequested()) system_.start();
 }
 
-void MotionDriver::stopMove() {
-    stopMove_ = true;
+void MotionDriver::stopMove(StopOrigin origin) {
+    stopMove_.of(origin) = true;
     applyStops();
 }
 
-void MotionDriver::startMove() {
-    stopMove_ = levelHold_ = false;
+void MotionDriver::startMove(StopOrigin origin) {
+    stopMove_.of(origin) = false;
+    levelHold_ = false;
     applyStops();
 }
 
@@ -440,7 +441,7 @@ void MotionDriver::breakOff(bool stiff) {
 void MotionDriver::clearPath() {
     if (const auto group = synchronised_) group->end();
     levels_.clear();
-    stopMove_ = false; // nothing is left that it could hold
+    stopMove_ = {}; // nothing is left that it could hold
     system().clearStored();
     clearLevel();
 }

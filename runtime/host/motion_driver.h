@@ -4,6 +4,7 @@
 
 #include "runtime/debug/stepped_arm.h"
 #include "runtime/host/service_table.h"
+#include "runtime/host/stop_flags.h"
 #include "runtime/motion/motion_system.h"
 #include "runtime/sched/scheduler.h"
 #include "runtime/sched/wait_queue.h"
@@ -108,11 +109,14 @@ class MotionDriver final : public SteppedArm {
     void addListener(std::function<void(ArmNews)> listener) { listeners_.push_back(std::move(listener)); }
 
     /// StopMove / StartMove, and the controller's stop / start. The arm moves when neither holds it.
-    void stopMove();
-    void startMove();
-    bool isStopMoveActive() const { return stopMove_; }
+    /// Motion tasks and other tasks have a stop of their own (IsStopMoveAct); each ends with the start of the same kind.
+    void stopMove(StopOrigin origin = StopOrigin::MotionTask);
+    void startMove(StopOrigin origin = StopOrigin::MotionTask);
+    bool isStopMoveActive() const { return stopMove_.isSet(); }
+    bool isStopMoveActive(StopOrigin origin) const { return stopMove_.of(origin); }
+    bool isProgramStopped() const { return programStop_; }
     /// By StopMove, a stop of the program or a path level; not because of another robot.
-    bool isHeldItself() const { return stopMove_ || programStop_ || levelHold_; }
+    bool isHeldItself() const { return stopMove_.isSet() || programStop_ || levelHold_; }
     /// 1 on the base level, one more for each path that is put aside.
     int pathLevel() const { return 1 + static_cast<int>(levels_.size()); }
     /// StorePath: stops the arm on its path, waits until it is at rest, and puts the unfinished movements aside, with StopMove.
@@ -154,7 +158,7 @@ class MotionDriver final : public SteppedArm {
         std::vector<motion::MoveCommand> moves;
         std::optional<motion::Pose> begun; ///< where the first of them began; it is under way
         motion::JointTarget left;          ///< where the arm stood then
-        bool stopMove = false;
+        StopFlags stopMove;
     };
     /// What an earlier process left of its path.
     struct EarlierPath {
@@ -163,7 +167,7 @@ class MotionDriver final : public SteppedArm {
         std::optional<motion::MoveCommand>
             awaited;                       ///< then the one whose instruction the program executes again
         std::optional<motion::Pose> begun; ///< where the first of all these began; it is under way
-        bool stopMove = false;             ///< StopMove holds the arm
+        StopFlags stopMove;                ///< StopMove holds the arm
         bool levelHold = false;            ///< RestoPath does
     };
     EarlierPath remainingPath();
@@ -258,12 +262,13 @@ class MotionDriver final : public SteppedArm {
     Time nextSample_ = 0;
     std::shared_ptr<SynchronisedGroup> synchronised_;
     bool isSuspended_ = false;
-    bool stopMove_ = false, programStop_ = false;
+    StopFlags stopMove_;
+    bool programStop_ = false;
     bool levelHold_ = false; // from StorePath until the arm is at rest; from RestoPath until it may move
     Status processError_ = kOk;
     Interrupted interrupted_;
     struct StoredLevel { // what belongs to a path that is put aside
-        bool stopMove = false;
+        StopFlags stopMove;
         Interrupted interrupted;
         motion::JointTarget left;
         bool wasSuspended = false;

@@ -16,15 +16,15 @@ Status MotionDriver::storePath(Task& task, bool keepSync) {
         applyStops();
         return status;
     }
-    levels_.push_back({std::exchange(stopMove_, false), std::exchange(interrupted_, {}),
-                       system_.currentJoints(), isSuspended_});
+    levels_.push_back({std::exchange(stopMove_, {}), std::exchange(interrupted_, {}), system_.currentJoints(),
+                       isSuspended_});
     if (synchronised_ != nullptr && !keepSync) isSuspended_ = true;
     applyStops();
     return kOk;
 }
 
 Status MotionDriver::restorePath(Task& task) {
-    const auto isOver = [this] { return !system().isMoving() && (stopMove_ || system().isIdle()); };
+    const auto isOver = [this] { return !system().isMoving() && (stopMove_.isSet() || system().isIdle()); };
     WaitResult result{};
     if (const Status status = task.waitFor({{&changed_}, isOver}, result); status != kOk) return status;
     clearLevel();

@@ -167,16 +167,24 @@ std::vector<motion::MoveCommand> movesFrom(const Json& json, const robot::UnitLo
     return moves;
 }
 
+StopFlags stopFlagsFrom(const Json& json) {
+    return {json.at("stopMove").get<bool>(), json.value("otherStopMove", false)};
+}
+
 } // namespace
 
 Json jsonOf(const MotionDriver::EarlierPath& path) {
-    Json json = {{"path", movesJson(path.moves)}, {"stopMove", path.stopMove}, {"levelHold", path.levelHold}};
+    Json json = {{"path", movesJson(path.moves)},
+                 {"stopMove", path.stopMove.byMotionTask},
+                 {"otherStopMove", path.stopMove.byOtherTask},
+                 {"levelHold", path.levelHold}};
     if (path.awaited) json["awaited"] = jsonOf(*path.awaited);
     if (path.begun) json["begun"] = jsonOf(*path.begun);
     Json stored = Json::array();
     for (const MotionDriver::EarlierLevel& level : path.stored) {
         Json one = {{"path", movesJson(level.moves)},
-                    {"stopMove", level.stopMove},
+                    {"stopMove", level.stopMove.byMotionTask},
+                    {"otherStopMove", level.stopMove.byOtherTask},
                     {"left", level.left.robax},
                     {"leftAxes", level.left.extax}};
         if (level.begun) one["begun"] = jsonOf(*level.begun);
@@ -189,7 +197,7 @@ Json jsonOf(const MotionDriver::EarlierPath& path) {
 MotionDriver::EarlierPath earlierPathFrom(const Json& json, const robot::UnitLookup& units) {
     MotionDriver::EarlierPath path;
     path.moves = movesFrom(json.at("path"), units);
-    json.at("stopMove").get_to(path.stopMove);
+    path.stopMove = stopFlagsFrom(json);
     if (json.contains("awaited")) path.awaited = moveFrom(json.at("awaited"), units);
     if (json.contains("begun")) path.begun = poseFrom(json.at("begun"));
     if (!json.contains("stored")) return path; // written by an earlier version
@@ -197,7 +205,7 @@ MotionDriver::EarlierPath earlierPathFrom(const Json& json, const robot::UnitLoo
     for (const Json& one : json.at("stored")) {
         MotionDriver::EarlierLevel level;
         level.moves = movesFrom(one.at("path"), units);
-        one.at("stopMove").get_to(level.stopMove);
+        level.stopMove = stopFlagsFrom(one);
         level.left = {jointsFrom(one.at("left")), numbersFrom<6>(one.at("leftAxes"))};
         if (one.contains("begun")) level.begun = poseFrom(one.at("begun"));
         path.stored.push_back(std::move(level));

@@ -21,29 +21,53 @@ Status misused(TaskCore* task, std::string why) {
     return taskOf(task).fatal(static_cast<int>(EventId::LevelMisused), std::move(why));
 }
 
-} // namespace
-
-// \AllMotionTasks changes nothing: there is one robot.
-extern "C" {
-
-/// The arm always brakes on its path as fast as its limits allow, with and without \Quick.
-Status rt_StopMove(TaskCore* task, bool, bool) {
-    driverOf(task).stopMove();
-    return kOk;
+StopOrigin originOf(TaskCore* task) {
+    return taskOf(task).isMotionTask() ? StopOrigin::MotionTask : StopOrigin::OtherTask;
 }
 
-Status rt_StartMove(TaskCore* task, bool) {
+/// The robot of the task, or with \AllMotionTasks every one.
+template <class Action> void forRobots(TaskCore* task, bool allMotionTasks, Action action) {
+    if (!allMotionTasks) return action(driverOf(task));
+    for (const auto& driver : taskOf(task).controller().motions())
+        action(*driver);
+}
+
+/// Raises an error when the robot cannot start now.
+Status checkStart(TaskCore* task, MotionDriver& driver) {
     constexpr double kFarthest = 10, kMostTurned = 20; // mm, deg
-    MotionDriver& driver = driverOf(task);
     if (!driver.isStopMoveActive() && driver.system().isMoving())
         return lib::fail(task, err::ERR_ALRDY_MOVING, "the robot moves already");
+    if (!taskOf(task).controller().motorsOn())
+        return lib::fail(task, err::ERR_STARTMOVE, "the robot cannot start: its motors are off");
+    if (driver.isProgramStopped())
+        return lib::fail(task, err::ERR_PROGSTOP,
+                         "the robot cannot start: the program of its task is stopped");
     if (const auto gap = driver.gapToPath(); gap && (gap->mm > kFarthest || gap->degrees > kMostTurned))
         return lib::failWith(
             task, err::ERR_PATHDIST,
             "the robot is {} mm and {} degrees from its path; at most 10 mm and 20 degrees are "
             "allowed: move it back to where the path was interrupted before RestoPath",
             gap->mm, gap->degrees);
-    driver.startMove();
+    return kOk;
+}
+
+} // namespace
+
+extern "C" {
+
+/// The arm always brakes on its path as fast as its limits allow, with and without \Quick.
+Status rt_StopMove(TaskCore* task, bool, bool AllMotionTasks) {
+    forRobots(task, AllMotionTasks, [task](MotionDriver& driver) { driver.stopMove(originOf(task)); });
+    return kOk;
+}
+
+Status rt_StartMove(TaskCore* task, bool AllMotionTasks) {
+    Status status = kOk;
+    forRobots(task, AllMotionTasks, [&](MotionDriver& driver) {
+        if (status == kOk) status = checkStart(task, driver);
+    });
+    if (status != kOk) return status;
+    forRobots(task, AllMotionTasks, [task](MotionDriver& driver) { driver.startMove(originOf(task)); });
     return kOk;
 }
 
@@ -68,11 +92,12 @@ Status rt_ProcerrRecovery(TaskCore* task, bool SyncOrgMoveInst, bool SyncLastMov
 }
 
 /// The stop is forgotten: the next movement ordered starts at once.
-Status rt_StopMoveReset(TaskCore* task, bool) {
-    MotionDriver& driver = driverOf(task);
-    if (!driver.isStopMoveActive()) return kOk;
-    driver.clearLevel();
-    driver.startMove();
+Status rt_StopMoveReset(TaskCore* task, bool AllMotionTasks) {
+    forRobots(task, AllMotionTasks, [task](MotionDriver& driver) {
+        if (!driver.isStopMoveActive(originOf(task))) return;
+        driver.clearLevel();
+        driver.startMove(originOf(task));
+    });
     return kOk;
 }
 
@@ -81,8 +106,11 @@ Status rt_ClearPath(TaskCore* task) {
     return kOk;
 }
 
-Status rt_IsStopMoveAct(TaskCore* task, bool* result, bool, bool) {
-    *result = driverOf(task).isStopMoveActive();
+Status rt_IsStopMoveAct(TaskCore* task, bool* result, bool FromMoveTask, bool FromNonMoveTask) {
+    const MotionDriver& driver = driverOf(task);
+    *result = FromMoveTask      ? driver.isStopMoveActive(StopOrigin::MotionTask)
+              : FromNonMoveTask ? driver.isStopMoveActive(StopOrigin::OtherTask)
+                                : driver.isStopMoveActive();
     return kOk;
 }
 

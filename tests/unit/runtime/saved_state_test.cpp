@@ -63,7 +63,7 @@ StateImage sample() {
     image.groups.resize(1);
     image.groups[0].path.moves.push_back(move);
     image.groups[0].path.begun = motion::Pose{{4, 5, 6}, {1, 0, 0, 0}};
-    image.groups[0].path.stopMove = true;
+    image.groups[0].path.stopMove.byMotionTask = true;
     image.kept["settings"] = "[1,2]";
     image.persistents["COUNT"] = {"num", "0", "17"};
     image.persistents["T_ROB1/MAIN/NAME"] = {"string", "\"\"", "\"gr\xC3\xBCn \\0A\""};
@@ -101,7 +101,8 @@ TEST_CASE("a state reads back as it was written", "[state]") {
     CHECK_FALSE(again.groups[0].path.moves[0].zone.finep);
     CHECK_FALSE(again.groups[0].path.awaited);
     CHECK(again.groups[0].path.begun == sample().groups[0].path.begun);
-    CHECK(again.groups[0].path.stopMove);
+    CHECK(again.groups[0].path.stopMove.byMotionTask);
+    CHECK_FALSE(again.groups[0].path.stopMove.byOtherTask);
     CHECK(again.kept.at("settings") == "[1,2]");
     CHECK(again.persistents.at("COUNT").value == "17");
     CHECK(again.persistents.at("T_ROB1/MAIN/NAME").value == "\"gr\xC3\xBCn \\0A\"");
