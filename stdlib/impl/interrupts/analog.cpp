@@ -75,7 +75,7 @@ Status orderAnalog(TaskCore* core, const AnalogOrder& order) {
     Task& task = taskOf(core);
     IoSystem& io = task.controller().io();
     Status status = kOk;
-    const SignalId id = lib::signalOf(core, order.signal, status);
+    const SignalId id = lib::usableSignal(core, order.signal, status);
     if (status != kOk) return status;
     status = checkArguments(core, order, io.config(id));
     if (status != kOk) return status;

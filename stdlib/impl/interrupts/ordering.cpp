@@ -43,7 +43,7 @@ Status orderSignal(TaskCore* core, SignalOrder what) {
     Task& task = taskOf(core);
     IoSystem& io = task.controller().io();
     Status status = kOk;
-    const SignalId id = lib::signalOf(core, what.signal, status);
+    const SignalId id = lib::usableSignal(core, what.signal, status);
     if (status != kOk) return status;
     const int number = lib::numberToOrder(core, what.interrupt, status);
     if (status != kOk) return status;

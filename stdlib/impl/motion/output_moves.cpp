@@ -17,7 +17,7 @@ namespace {
 /// The value is checked before the movement is ordered: an error leaves robot and output as they are.
 Status moveAndSet(TaskCore* task, motion::MoveCommand command, const lib::MoveArguments& arguments,
                   Handle signal, double value) {
-    if (const Status status = lib::checkOutput(task, signal, value)) return status;
+    if (const Status status = lib::checkOutputNow(task, signal, value)) return status;
     lib::TriggerDefinition atPoint; // 0 mm before the end of the movement
     atPoint.signal = signal;
     atPoint.value = value;

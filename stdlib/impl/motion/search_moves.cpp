@@ -55,7 +55,7 @@ Status search(TaskCore* task, motion::MoveCommand command, const SearchArguments
     MotionDriver& driver = owner.controller().motion(owner);
     lib::SearchSource source{-1, args.persistent};
     Status status = kOk;
-    if (args.persistent == nullptr) source.signal = lib::signalOf(task, *args.signal, status);
+    if (args.persistent == nullptr) source.signal = lib::usableSignal(task, *args.signal, status);
     if (status != kOk) return status;
     if (driver.isBackward()) return lib::orderMove(task, std::move(command), move);
     const auto watch = std::make_shared<lib::Search>(owner, conditionsOf(args.switches), source);

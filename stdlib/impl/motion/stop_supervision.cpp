@@ -3,6 +3,7 @@
 
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/motion/state.h"
+#include "stdlib/impl/motion/triggers.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib_constants.h"
@@ -132,10 +133,9 @@ extern "C" {
 Status rt_TriggStopProc(TaskCore* task, data::Restartdata* RestartRef, Handle* DO1, Handle* GO1, Handle* GO2,
                         Handle* GO3, Handle* GO4, Handle* ShadowDO) {
     Controller& controller = taskOf(task).controller();
-    const IoSystem& io = controller.io();
     Supervised supervised{RestartRef, {}, *ShadowDO};
     Status status = kOk;
-    (void)lib::signalOf(task, *ShadowDO, status);
+    (void)lib::usableSignal(task, *ShadowDO, status);
     if (status != kOk) return status;
     const std::array<const Handle*, kSignals> signals{DO1, GO1, GO2, GO3, GO4};
     bool any = false;
@@ -143,8 +143,7 @@ Status rt_TriggStopProc(TaskCore* task, data::Restartdata* RestartRef, Handle* D
         if (signals[i] == nullptr) continue;
         any = true;
         supervised.signals[i] = *signals[i];
-        if (const IoResult result = io.check(*signals[i], 0, true); result != IoResult::Ok)
-            return lib::ioStatus(task, result, *signals[i]);
+        if (const Status refused = lib::checkOutputNow(task, *signals[i], 0)) return refused;
     }
     if (!any)
         return lib::fail(task, err::ERR_ARGVALERR,

@@ -30,9 +30,11 @@ struct TriggerArguments {
     std::array<const Handle*, 7> others;
 };
 
-/// The output of a TriggSpeed must be able to follow the programmed speed.
-Status checkScale(TaskCore* task, const lib::TriggerDefinition& trigger, const data::Speeddata& speed) {
-    if (trigger.kind != lib::TriggerDefinition::Kind::Speed) return kOk;
+/// Its signal can be used, and the output of a TriggSpeed can follow the programmed speed.
+Status checkSignal(TaskCore* task, const lib::TriggerDefinition& trigger, const data::Speeddata& speed) {
+    Status status = kOk;
+    if (trigger.signal != 0) (void)lib::usableSignal(task, trigger.signal, status);
+    if (status != kOk || trigger.kind != lib::TriggerDefinition::Kind::Speed) return status;
     // As a num: 0.1 times 100 is 10.
     return lib::checkOutput(task, trigger.signal, static_cast<float>(trigger.value) * speed.v_tcp);
 }
@@ -46,7 +48,7 @@ Status addTrigger(TaskCore* task, Handle variable, const char* name, const data:
             fmt::format("the trigger of argument {} has no contents; define it with TriggIO, TriggEquip, "
                         "TriggSpeed, TriggRampAO, TriggInt or TriggCheckIO first",
                         name));
-    if (const Status status = checkScale(task, *definition, speed)) return status;
+    if (const Status status = checkSignal(task, *definition, speed)) return status;
     lib::addActions(task, *definition, actions);
     return kOk;
 }
@@ -62,7 +64,7 @@ Status addArray(TaskCore* task, const TriggerArguments& args, const data::Speedd
     for (int32_t i = 0; i < args.arraySize; ++i) {
         const lib::TriggerDefinition* definition = lib::triggerStore(task).find(args.array[i]);
         if (definition == nullptr) continue;
-        if (const Status status = checkScale(task, *definition, speed)) return status;
+        if (const Status status = checkSignal(task, *definition, speed)) return status;
         lib::addActions(task, *definition, actions);
         ++count;
     }
@@ -115,7 +117,7 @@ Status addOutput(TaskCore* task, const NamedOutput& output, Actions& actions) {
     trigger.place.amount = output.distance;
     trigger.place.fromStart = output.start;
     trigger.place.lag = output.lag;
-    if (const Status status = lib::checkOutput(task, trigger.signal, trigger.value)) return status;
+    if (const Status status = lib::checkOutputNow(task, trigger.signal, trigger.value)) return status;
     lib::addActions(task, trigger, actions);
     return kOk;
 }

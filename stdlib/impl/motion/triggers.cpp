@@ -48,8 +48,15 @@ double valueAtPlace(const TriggerDefinition& trigger, double wanted) {
 void setOutput(Task& task, const TriggerDefinition& trigger, double wanted) {
     IoSystem& io = task.controller().io();
     const double value = valueAtPlace(trigger, wanted);
-    if (io.set(trigger.signal, value) == IoResult::Ok) return;
-    task.report(EventId::TriggerValue, {io.config(io.idOf(trigger.signal)).name, formatDnum(value)});
+    const IoResult result = io.set(trigger.signal, value);
+    if (result == IoResult::Ok) return;
+    const std::string& name = io.config(io.idOf(trigger.signal)).name;
+    if (result == IoResult::OutOfRange)
+        task.report(EventId::TriggerValue, {name, formatDnum(value)});
+    else
+        task.report(EventId::TriggerAccess,
+                    {name, formatDnum(value),
+                     result == IoResult::DeviceOff ? "its device has no contact" : "it is not valid"});
 }
 
 void checkSignal(Task& task, const TriggerDefinition& trigger) {
@@ -206,6 +213,11 @@ Status checkOutput(TaskCore* task, Handle signal, double value) {
         if (const Status status = checkWhole(task, value)) return status;
     }
     return ioStatus(task, io.check(signal, value, true), signal);
+}
+
+Status checkOutputNow(TaskCore* task, Handle signal, double value) {
+    if (const Status status = checkOutput(task, signal, value)) return status;
+    return ioStatus(task, taskOf(task).controller().io().access(signal), signal);
 }
 
 Status checkDistance(TaskCore* task, float distance) {

@@ -66,6 +66,8 @@ void keepTriggers(Controller& controller, StateKeepers& kept);
 
 /// An output can be set to this value by a program (ERR_AO_LIM, ERR_GO_LIM ...).
 Status checkOutput(TaskCore* task, Handle signal, double value);
+/// ... and that it can be set now (ERR_NORUNUNIT, ERR_SIG_NOT_VALID).
+Status checkOutputNow(TaskCore* task, Handle signal, double value);
 /// The place of a trigger: mm or s, as the program says it. ERR_ARGVALERR when that is not a number or negative.
 Status checkDistance(TaskCore* task, float distance);
 
