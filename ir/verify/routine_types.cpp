@@ -158,7 +158,7 @@ void RoutineVerifier::ret(const Inst& inst) {
     if (!reached_[block_]) return; // nothing tells whether it belongs to the undo handler
     bool value = routine_.result != kVoid && module_.isScalar(routine_.result) && !inUndo_[block_];
     if (inst.operands.size() != (value ? 1 : 0))
-        add(value ? "returns no value" : "returns a value that nobody takes");
+        add(value ? "returns no value" : "returns a value that is not used");
     else if (value)
         want(inst, 0, routine_.result);
 }

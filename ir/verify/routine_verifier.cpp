@@ -90,7 +90,7 @@ bool RoutineVerifier::structure() {
                 continue;
             }
             if (blockOf_[insts[place]] != kNone)
-                add(fmt::format("instruction id {} stands twice", insts[place]));
+                add(fmt::format("instruction id {} occurs twice", insts[place]));
             inst_ = insts[place];
             blockOf_[inst_] = block_;
             placeOf_[inst_] = place;
@@ -152,7 +152,7 @@ void RoutineVerifier::handlers() {
         if (leaves && routine_.isDetachedHandler) continue;
         bool handlerOnly = op == Op::Retry || op == Op::TryNext || leaves;
         bool reached = inBody[block_] || inUndo_[block_];
-        if (handlerOnly && reached) add("stands outside the error handler");
+        if (handlerOnly && reached) add("is outside the error handler");
         if (handlerOnly && routine_.errorHandler == kNone) add("there is no error handler");
         inst_ = kNone;
     }

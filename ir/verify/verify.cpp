@@ -226,7 +226,7 @@ void checkNamed(const Module& module, Findings& out) {
             out.push_back(fmt::format("source {}: file does not exist", entry.name));
         if (entry.gone != kNone &&
             (entry.gone >= module.globals.size() || module.globals[entry.gone].type != kI32))
-            out.push_back(fmt::format("source {}: gone is no i32", entry.name));
+            out.push_back(fmt::format("source {}: gone is not an i32", entry.name));
     }
 }
 

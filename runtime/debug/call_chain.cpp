@@ -172,7 +172,7 @@ std::string refusalAt(const StmtDesc& statement, Standing standing) {
     case Standing::AtError: break;
     }
     if (statement.canStart == kStartsEarlier && !repeatable)
-        return fmt::format("the conditions ahead of line {} call a routine", statement.line);
+        return fmt::format("the conditions before line {} call a routine", statement.line);
     return {};
 }
 

@@ -78,7 +78,7 @@ DebugVariable elementOf(const DebugVariable& variable, std::string_view& path, s
     if (!readIndices(path, indices)) {
         error = "indices are whole numbers in braces: {1} or {2,3}";
     } else if (rank == 0) {
-        error = fmt::format("'{}' is no array", variable.name);
+        error = fmt::format("'{}' is not an array", variable.name);
     } else if (indices.size() != rank) {
         error =
             fmt::format("'{}' has {} dimensions, {} indices are given", variable.name, rank, indices.size());
@@ -189,7 +189,7 @@ std::string assignText(const DebugVariable& variable, std::string_view text) {
     if (hasNoText(*variable.type))
         return fmt::format("data of type {} cannot be assigned", typeName(variable));
     if (!textToValue(text, variable.data, *variable.type))
-        return fmt::format("'{}' is no value of type {}", text, typeName(variable));
+        return fmt::format("'{}' is not a value of type {}", text, typeName(variable));
     return "";
 }
 

@@ -244,7 +244,7 @@ std::string Debugger::refusal(const Task& task) const {
     if (!available()) return "the program was not compiled for stepping";
     if (!task.canResume())
         return fmt::format(
-            "task {} was stopped by an error and cannot go on from there: move its program pointer",
+            "task {} was stopped by an error and cannot continue from there: move its program pointer",
             task.name());
     return "";
 }
@@ -335,7 +335,7 @@ std::string Debugger::runToLine(Task& task, std::string_view where, uint32_t lin
 std::string Debugger::pointerToLine(Task& task, uint32_t line) {
     if (std::string problem = refusal(task); !problem.empty()) return problem;
     State& state = stateOf(task);
-    if (state.standing == nullptr) return "the task does not stand ahead of an instruction: step it first";
+    if (state.standing == nullptr) return "the task is not stopped before an instruction: step it first";
     const RoutineDesc& routine = *state.standing->routine;
     for (uint32_t s = 0; s < routine.statementCount; ++s) {
         const StmtDesc& statement = routine.statements[s];
@@ -361,7 +361,7 @@ std::string Debugger::pointerToRoutine(Task& task, std::string_view name) {
         host_.findRoutine(colon == std::string_view::npos ? name : name.substr(colon + 1), module, task);
     if (routine == nullptr) return fmt::format("there is no routine '{}' in task {}", name, task.name());
     if (routine->desc->callable == 0)
-        return fmt::format("'{}' is no procedure without parameters", routine->name);
+        return fmt::format("'{}' is not a procedure without parameters", routine->name);
     host_.arm(task).clearPath();
     task.moveToRoutine(reinterpret_cast<EntryFunction>(routine->address));
     forget(task);

@@ -107,7 +107,7 @@ std::string Reentry::restoreLocal(const SteppingFrame& frame, uint32_t index, co
     case SavedLocal::Kind::Fresh: return {};
     case SavedLocal::Kind::Object:
         if (now.object == saved.object && now.offset == saved.offset) return {};
-        return differs("stands for other data");
+        return differs("refers to other data");
     case SavedLocal::Kind::Copy:
     case SavedLocal::Kind::Value: break;
     }

@@ -49,7 +49,7 @@ class MechanicalUnits {
     /// `isUsage`: a value of --robot is to blame. `needed`: how many motion tasks without a group of their own there are.
     std::string read(const CfgLookup& configuration, const std::vector<std::string>& robots,
                      std::string_view defaultModel, std::size_t needed, bool& isUsage);
-    /// What of the configuration does not move, a sentence each.
+    /// Parts of the configuration that do not move, a sentence each.
     const std::vector<std::string>& warnings() const { return warnings_; }
 
     /// In the order of the handles of mecunit data: the first one has handle 1. The objects do not move.

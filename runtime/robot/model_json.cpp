@@ -328,7 +328,7 @@ void readProvisional(Reader& in, RobotModel& model) {
     for (const Json& entry : *list) {
         if (!entry.is_string() || !in.root().contains(entry.get_ref<const std::string&>())) {
             return in.fail(
-                fmt::format("field 'provisional' names {}, which is no field of this file", entry.dump()));
+                fmt::format("field 'provisional' names {}, which is not a field of this file", entry.dump()));
         }
         model.provisional.push_back(entry.get<std::string>());
     }

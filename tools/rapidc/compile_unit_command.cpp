@@ -22,7 +22,7 @@ int compileUnit() {
     const std::string bytes(std::istreambuf_iterator<char>(std::cin), {});
     const auto request = rt::readUnitRequest(bytes);
     if (!request)
-        return fail("compile-unit serves executables made by `rapidc build`; this is no request of one");
+        return fail("compile-unit serves executables made by `rapidc build`; this is not a request of one");
     std::string problem;
     const auto sources = unpack(request->sources, problem);
     if (!sources) return fail(problem);

@@ -86,7 +86,7 @@ int renameName(const EditSettings& settings) {
     if (!compilation) return status;
     if (compilation->sink.hasErrors()) {
         printDiagnostics(*compilation);
-        return fail("rename", "the program has mistakes: mend them before renaming");
+        return fail("rename", "the program has errors: correct them before renaming");
     }
     const auto set = edit::rename(std::move(compilation->program), compilation->tasks, compilation->options,
                                   settings.oldName, settings.newName);
@@ -218,7 +218,7 @@ rt::Option addInputs(const rt::Command& command, EditSettings& settings) {
 void addRenameCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<EditSettings>();
     const rt::Command command =
-        line.addCommand("rename", "Rename data, a routine, a type or a label wherever it stands",
+        line.addCommand("rename", "Rename data, a routine, a type or a label everywhere",
                         [settings] { return renameName(*settings); });
     command.add("old", settings->oldName, "NAME, MODULE.NAME or MODULE.ROUTINE.NAME").required();
     command.add("new", settings->newName, "The new name").required();

@@ -37,11 +37,11 @@ struct EventNote {
 };
 constexpr EventNote kNotes[] = {
     {40229,
-     "An execution error reached the system error handler: no error handler took it. The text names the "
+     "An execution error reached the system error handler: no error handler handled it. The text names the "
      "error "
      "constant and the cause; the program stops at the instruction that failed. Handle it in the ERROR part "
      "of that routine, and explain the constant with `rapidc explain ERR_...`."},
-    {40901, "The program goes on: its error handler dealt with the error. The event is written so that it "
+    {40901, "The program continues: its error handler dealt with the error. The event is written so that it "
             "can be found "
             "later."},
     {40914,

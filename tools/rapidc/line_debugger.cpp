@@ -62,7 +62,7 @@ const std::vector<LineDebugger::Command>& LineDebugger::commands() {
         {"continue c run", "", "execute until something stops the program", &D::run},
         {"cursor", "[MODULE:]LINE", "execute until this line", &D::cursor},
         {"pp", "LINE | ROUTINE | main", "move the program pointer", &D::pointer},
-        {"break", "[MODULE:]LINE", "stop ahead of this line", &D::breakAt},
+        {"break", "[MODULE:]LINE", "stop before this line", &D::breakAt},
         {"breaks", "", "list the breakpoints", &D::breakpoints},
         {"delete", "NUMBER", "remove a breakpoint", &D::deleteBreakpoint},
         {"where w bt", "", "show the call chain", &D::where},

@@ -55,7 +55,7 @@ ModuleFiles findModuleFiles(const std::vector<std::string>& inputs) {
             out.problems.push_back(fmt::format("'{}' does not exist", input));
         else if (!isModule(input))
             out.problems.push_back(fmt::format(
-                "'{}' is no module: expected a folder, or a file of type .mod, .modx, .sys, .sysx or .prg",
+                "'{}' is not a module: expected a folder, or a file of type .mod, .modx, .sys, .sysx or .prg",
                 input));
         else
             out.paths.push_back(input);

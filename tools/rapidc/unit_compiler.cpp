@@ -114,7 +114,7 @@ rt::CompiledUnit SourceCompiler::compile(const rt::LoadRequest& request, const r
         return result;
     }
     if (file->isBinary()) {
-        result.problems = request.shown + ": this is no text";
+        result.problems = request.shown + ": this is not text";
         return result;
     }
     std::erase_if(input->files, [&](const File& other) { return other->path() == file->path(); });

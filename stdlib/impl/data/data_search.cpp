@@ -54,7 +54,7 @@ Status checkType(TaskCore* task, const String& type, const String* module) {
 Status readPattern(TaskCore* task, const String* text, lib::NamePattern& pattern) {
     if (text == nullptr || pattern.parse(text->view())) return kOk;
     return lib::fail(task, err::ERR_ARGVALERR,
-                     fmt::format("\"{}\" is no pattern of names; \".*\" stands for any text", text->view()));
+                     fmt::format("\"{}\" is not a pattern of names; \".*\" matches any text", text->view()));
 }
 
 bool wanted(const Criteria& criteria, const char* name, const TypeDesc& type, uint8_t kind, bool isLocal) {

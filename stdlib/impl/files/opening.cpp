@@ -123,7 +123,7 @@ Status rt_Open(TaskCore* task, const String* Object, const String* File, Handle*
     const std::string path = Volumes::joined(Object->view(), File != nullptr ? File->view() : "");
     if (open.files().size() >= OpenFiles::kMostOpen)
         return lib::fail(task, err::ERR_FILEOPEN,
-                         fmt::format("{}: {} files are open already, which is the most; close some",
+                         fmt::format("{}: {} files are open already, the maximum; close some",
                                      lib::shown(path), OpenFiles::kMostOpen));
     open.flushAll(controller); // the same file may be open already
     Refusal refusal;

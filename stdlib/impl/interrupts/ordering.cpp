@@ -27,7 +27,7 @@ constexpr const char* kGroup = "ISignalGI";
 constexpr const char* kTimer = "ITimer";
 
 Status tooMany(TaskCore* task) {
-    return lib::fail(task, err::ERR_INOMAX, "100 interrupts are defined in this task, which is the most");
+    return lib::fail(task, err::ERR_INOMAX, "100 interrupts are defined in this task, the maximum");
 }
 
 struct SignalOrder {

@@ -57,7 +57,7 @@ Status ioStatus(TaskCore* task, IoResult result, Handle handle) {
     case IoResult::BadTime:
         return fail(task, err::ERR_ARGVALERR, "delay and pulse length must lie between 0.001 and 2000 s");
     case IoResult::TooManyDelays:
-        return fail(task, err::ERR_ARGVALERR, "20 delayed changes are pending already, which is the most");
+        return fail(task, err::ERR_ARGVALERR, "20 delayed changes are pending already, the maximum");
     }
     return kOk;
 }

@@ -216,7 +216,7 @@ Status rt_IndReset(TaskCore* task, Handle* MecUnit, float Axis, const data::Robt
     if (RefNum != nullptr && !Old) position = sameAngle(position, *RefNum, Fwd, Bwd);
     arm.setIndependent(kAxis, motion::AxisCourse(static_cast<double>(arm.now()) * 1e-9, {position, 0}));
     if (!arm.endIndependent(position))
-        return lib::fail(task, err::ERR_AXIS_MOVING, "the robot moves: wait until it stands at a stop point");
+        return lib::fail(task, err::ERR_AXIS_MOVING, "the robot moves: wait until it has reached a stop point");
     driver.refresh();
     return kOk;
 }

@@ -45,7 +45,7 @@ Status checkMovable(TaskCore* task, const char* instruction) {
     return misused(task,
                    std::string(instruction) +
                        ": movements are unfinished. Put them aside with StorePath, or wait until the robot "
-                       "stands at a stop point.");
+                       "is at a stop point.");
 }
 
 } // namespace

@@ -286,7 +286,7 @@ Status rt_TriggSpeed(TaskCore* task, Handle* TriggData, float Distance, bool Sta
         return status;
     if (ScaleLag < kLongestExtension)
         return lib::fail(task, err::ERR_ARGVALERR,
-                         "a negative ScaleLag keeps the output for at most 0.1 s behind the place");
+                         "a negative ScaleLag keeps the output for at most 0.1 s after the place");
     if (!std::isfinite(ScaleValue))
         return lib::fail(task, err::ERR_ARGVALERR, "the scale of an output must be a number");
     if (DipLag != nullptr && (!(*DipLag >= 0) || !std::isfinite(*DipLag)))

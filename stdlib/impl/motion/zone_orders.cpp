@@ -103,7 +103,7 @@ Status prepare(TaskCore* task, const char* instruction, bool temp, bool stat, fl
 Status add(TaskCore* task, const WorldZone& zone, float& number) {
     const int made = zonesOf(task).add(zone);
     if (made == 0)
-        return misused(task, "There are 20 world zones already, which is the most. Erase one with WZFree.");
+        return misused(task, "There are 20 world zones already, the maximum. Erase one with WZFree.");
     number = static_cast<float>(made);
     return kOk;
 }

@@ -69,7 +69,7 @@ Status send(TaskCore* task, Handle slot, const void* data, const TypeDesc* type,
     case MessageQueues::Sent::Full: break;
     }
     return lib::fail(task, err::ERR_RMQ_FULL,
-                     fmt::format("{} holds {} messages already, which is the most (RmqMaxNoOfMsg)",
+                     fmt::format("{} holds {} messages already, the maximum (RmqMaxNoOfMsg)",
                                  target->name, target->maxMessages));
 }
 

@@ -198,7 +198,7 @@ Status rt_SocketCreate(TaskCore* task, Handle* Socket, bool UDP) {
     if (sockets.isFull())
         return lib::fail(
             task, err::ERR_SOCK_UNSPEC,
-            fmt::format("{} sockets are in use, which is the most; close those that are not needed",
+            fmt::format("{} sockets are in use, the maximum; close those that are not needed",
                         Sockets::kMost));
     *Socket = sockets.add(std::make_shared<net::Socket>(sockets.network(), taskOf(task), UDP));
     return kOk;
@@ -233,7 +233,7 @@ Status rt_SocketAccept(TaskCore* task, Handle* Socket, Handle* ClientSocket, Str
     const auto step = [&]() -> Outcome {
         if (!sockets.find(*ClientSocket) && sockets.isFull())
             return {Fault::Unspecified,
-                    fmt::format("{} sockets are in use, which is the most; close those that are "
+                    fmt::format("{} sockets are in use, the maximum; close those that are "
                                 "not needed",
                                 Sockets::kMost)};
         return socket->accept(taskOf(task), connection);

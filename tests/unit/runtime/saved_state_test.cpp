@@ -187,8 +187,8 @@ TEST_CASE("damaged state files are read or refused", "[state]") {
     }
     CHECK(refused > 10000);
     StateImage image;
-    CHECK(readImage("", image) == "it is no JSON text, or a part of one");
-    CHECK(readImage("[1,2]", image) == "it is no state of a controller");
-    CHECK(readImage("{}", image) == "it is no state of a controller");
-    CHECK(readImage(std::string(1000000, '['), image) == "it is no JSON text, or a part of one");
+    CHECK(readImage("", image) == "it is not JSON text, or only a part of it");
+    CHECK(readImage("[1,2]", image) == "it is not the state of a controller");
+    CHECK(readImage("{}", image) == "it is not the state of a controller");
+    CHECK(readImage(std::string(1000000, '['), image) == "it is not JSON text, or only a part of it");
 }
