@@ -104,14 +104,7 @@ MotionState MotionSystem::Impl::pathStateNow() const {
 Pose MotionSystem::Impl::shiftNow() const {
     if (!isModified(span())) return {};
     const Trajectory::Moment at = path().at(seconds());
-    const RoutePoint point = path().pointAt(at.place);
-    const FrameSetup& frames = path().framesAt(at.place);
-    MotionState planned = span().still;
-    planned.joints = point.joints;
-    planned.extax = point.extax;
-    planned.tcp = frames.tcpInWorld(kinematics.forward(point.joints), point.extax);
-    planned.toolHeld = frames.tool.robotHeld;
-    planned.moving = path().isMoving(seconds());
+    const MotionState planned = plannedAt(path(), span(), at, now);
     return modifiers.displaced(momentOf(planned, at, now)) * inverse(planned.tcp);
 }
 
@@ -133,19 +126,11 @@ void MotionSystem::Impl::advanceModifiers(TimeNs time) {
         const Span& at = *spanAt(next);
         if (!isModified(at)) continue;
         const Trajectory::Moment place = path().at(toSeconds(next));
-        const RoutePoint point = path().pointAt(place.place);
-        const FrameSetup& frames = path().framesAt(place.place);
-        MotionState state = at.still;
-        state.joints = point.joints;
-        state.extax = point.extax;
-        state.tcp = frames.tcpInWorld(kinematics.forward(point.joints), point.extax);
-        state.toolHeld = frames.tool.robotHeld;
-        state.moving = path().isMoving(toSeconds(next));
-        if (const Move* move = moveAt(place.place)) state.tag = move->tag;
+        MotionState state = plannedAt(path(), at, place, next);
         const PlannedMoment planned = momentOf(state, place, next);
         if (!state.moving && !modifiers.moveAtRest()) continue;
         modifiers.advance(planned);
-        const auto error = shiftArm(state, frames, modifiers.displaced(planned));
+        const auto error = shiftArm(state, *planned.frames, modifiers.displaced(planned));
         if (error && !modifiers.isOutOfReach) modifiers.unreported = modifiers.latestError = error;
         modifiers.isOutOfReach = error.has_value();
         modifiers.note({next, state.joints, (inverse(planned.object) * state.tcp).pos, state.tag});

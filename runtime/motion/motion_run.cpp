@@ -201,18 +201,28 @@ MotionState MotionSystem::Impl::stillAt(const JointTarget& joints) const {
     return state;
 }
 
-MotionState MotionSystem::Impl::stateOn(const Trajectory& trajectory, const Span& span, TimeNs at) const {
-    const double time = toSeconds(at);
-    if (trajectory.isEmpty()) return span.still;
-    const Trajectory::Moment moment = trajectory.at(time);
-    const RoutePoint point = trajectory.pointAt(moment.place);
+/// As planned, without speeds.
+MotionState MotionSystem::Impl::plannedAt(const Trajectory& trajectory, const Span& span,
+                                          const Trajectory::Moment& at, TimeNs time) const {
+    const RoutePoint point = trajectory.pointAt(at.place);
     MotionState state = span.still;
     state.joints = point.joints;
     state.extax = point.extax;
-    const FrameSetup& frames = trajectory.framesAt(moment.place);
+    const FrameSetup& frames = trajectory.framesAt(at.place);
     state.tcp = frames.tcpInWorld(kinematics.forward(point.joints), point.extax);
     state.toolHeld = frames.tool.robotHeld;
-    state.moving = trajectory.isMoving(time);
+    state.moving = trajectory.isMoving(toSeconds(time));
+    if (const Move* move = &trajectory == level.path.get() ? moveAt(at.place) : nullptr) {
+        state.move = move->id;
+        state.tag = move->tag;
+    }
+    return state;
+}
+
+MotionState MotionSystem::Impl::stateOn(const Trajectory& trajectory, const Span& span, TimeNs time) const {
+    if (trajectory.isEmpty()) return span.still;
+    const Trajectory::Moment moment = trajectory.at(toSeconds(time));
+    MotionState state = plannedAt(trajectory, span, moment, time);
     if (state.moving && moment.speed != 0) {
         double rate = 0;
         trajectory.ratesAt(moment.place, state.jointSpeed, rate);
@@ -220,14 +230,10 @@ MotionState MotionSystem::Impl::stateOn(const Trajectory& trajectory, const Span
             speed *= moment.speed;
         state.tcpSpeed = rate * std::abs(moment.speed);
     }
-    if (const Move* move = &trajectory == level.path.get() ? moveAt(moment.place) : nullptr) {
-        state.move = move->id;
-        state.tag = move->tag;
-    }
     if (span.shift)
-        (void)shiftArm(state, frames, *span.shift * state.tcp);
+        (void)shiftArm(state, trajectory.framesAt(moment.place), *span.shift * state.tcp);
     else if (isModified(span))
-        displace(state, moment, at);
+        displace(state, moment, time);
     return state;
 }
 
@@ -268,14 +274,12 @@ MotionState MotionSystem::Impl::stateIfStopped(TimeNs time) const {
 /// At rest at a place of the path.
 MotionState MotionSystem::Impl::stateAtPlace(const Trajectory& trajectory, const Span& span,
                                              const PathPlace& place) const {
-    const RoutePoint point = trajectory.pointAt(place);
-    MotionState state = span.still;
-    state.joints = point.joints;
-    state.extax = point.extax;
-    const FrameSetup& frames = trajectory.framesAt(place);
-    state.tcp = frames.tcpInWorld(kinematics.forward(point.joints), point.extax);
+    MotionState state = plannedAt(trajectory, span, {place, 0}, now);
+    state.moving = false;
+    state.move = span.still.move;
+    state.tag = span.still.tag;
     if (span.shift)
-        (void)shiftArm(state, frames, *span.shift * state.tcp);
+        (void)shiftArm(state, trajectory.framesAt(place), *span.shift * state.tcp);
     else if (isModified(span))
         displace(state, {place, 0}, now);
     return state;

@@ -151,7 +151,9 @@ struct MotionSystem::Impl {
 
     // States
     MotionState stateAt(TimeNs time) const;
-    MotionState stateOn(const Trajectory& trajectory, const Span& span, TimeNs at) const;
+    MotionState stateOn(const Trajectory& trajectory, const Span& span, TimeNs time) const;
+    MotionState plannedAt(const Trajectory& trajectory, const Span& span, const Trajectory::Moment& at,
+                          TimeNs time) const;
     MotionState stateAtPlace(const Trajectory& trajectory, const Span& span, const PathPlace& place) const;
     MotionState pathStateNow() const;
 

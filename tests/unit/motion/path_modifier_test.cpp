@@ -2,11 +2,14 @@
 
 #include "runtime/motion/motion_system.h"
 #include "runtime/motion/path_corrections.h"
+#include "runtime/motion/weaving.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 using namespace motion;
 
@@ -255,4 +258,46 @@ TEST_CASE("an arm led from outside moves", "[motion][modifier]") {
         rests += event.kind == MotionEventKind::AtRest ? 1 : 0;
     CHECK(rests >= 1);
     CHECK(system.currentJoints().robax[0] == Approx(0.4));
+}
+
+TEST_CASE("weaving is the same on the path whatever stops and slows the arm", "[motion][modifier]") {
+    const auto weavedPath = [](bool isDisturbed) {
+        MotionSystem system = makeSystem();
+        const auto weaving = std::make_shared<Weaving>();
+        system.addModifier(weaving);
+        weaving->setOn(true);
+        const auto weave = std::make_shared<Weave>();
+        weave->pattern.shape = WeaveShape::Zigzag;
+        weave->pattern.length = 20;
+        weave->pattern.width = 8;
+        weave->isLast = true;
+        MoveCommand command = lineBy(system, {0, 150, 0}, 50);
+        command.modifications.push_back(weave);
+        REQUIRE(system.enqueue(command).hasValue());
+        std::vector<Vec3> path;
+        const auto record = [&](const MotionState& state, TimeNs) { path.push_back(state.tcp.pos); };
+        if (isDisturbed) {
+            run(system, 1000 * kMs, record);
+            system.setOverride(40);
+            run(system, 1500 * kMs, record);
+            system.stop();
+            run(system, 2000 * kMs, record);
+            REQUIRE(system.stepBack(10, 20));
+            run(system, 3500 * kMs, record);
+            system.start();
+        }
+        run(system, 12000 * kMs, record);
+        REQUIRE(system.isIdle());
+        return path;
+    };
+    const std::vector<Vec3> smooth = weavedPath(false);
+    for (const Vec3& place : weavedPath(true)) {
+        const auto after = std::lower_bound(smooth.begin(), smooth.end(), place.y,
+                                            [](const Vec3& at, double y) { return at.y < y; });
+        if (after == smooth.begin() || after == smooth.end()) continue;
+        const Vec3 before = *(after - 1);
+        const double way = after->y - before.y;
+        const double share = way > 0 ? (place.y - before.y) / way : 0;
+        CHECK(isNear(place, before + (*after - before) * share, 0.1)); // a corner between two samples
+    }
 }
