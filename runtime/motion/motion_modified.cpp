@@ -130,7 +130,8 @@ void MotionSystem::Impl::advanceModifiers(TimeNs time) {
         const PlannedMoment planned = momentOf(state, place, next);
         if (!state.moving && !modifiers.moveAtRest()) continue;
         modifiers.advance(planned);
-        const auto error = shiftArm(state, *planned.frames, modifiers.displaced(planned));
+        const Pose wanted = modifiers.displaced(planned);
+        const auto error = wanted == planned.tcp ? std::nullopt : shiftArm(state, *planned.frames, wanted);
         if (error && !modifiers.isOutOfReach) modifiers.unreported = modifiers.latestError = error;
         modifiers.isOutOfReach = error.has_value();
         modifiers.note({next, state.joints, (inverse(planned.object) * state.tcp).pos, state.tag});
@@ -160,25 +161,30 @@ const std::optional<MotionError>& MotionSystem::outOfReachError() const {
     return impl_->modifiers.latestError;
 }
 
-bool MotionSystem::leadTo(const JointTarget& joints, const Joints& speed, TimeNs period) {
+bool MotionSystem::leadTo(const JointTarget& joints, const JointTarget& speed, TimeNs period) {
     Impl& s = *impl_;
     if (!s.level.queue.empty() || (s.isMoving() && !isLed()) || s.isHalted || s.detour != nullptr)
         return false;
     s.spans.back().ledUntil = 0;
     if (!placeAt(joints)) return false;
-    const bool isMoved = std::any_of(speed.begin(), speed.end(), [](double v) { return v != 0; });
+    const double step = toSeconds(period);
+    JointTarget next = joints;
+    bool isMoved = false;
+    for (std::size_t i = 0; i < next.robax.size(); ++i) {
+        next.robax[i] += speed.robax[i] * step;
+        isMoved = isMoved || speed.robax[i] != 0;
+    }
+    for (std::size_t i = 0; i < next.extax.size(); ++i) {
+        if (!isConnected(next.extax[i]) || !isConnected(speed.extax[i])) continue;
+        next.extax[i] += speed.extax[i] * step;
+        isMoved = isMoved || speed.extax[i] != 0;
+    }
     if (!isMoved) return true;
     Span& span = s.spans.back();
     span.ledUntil = s.now + period;
     span.still.moving = true;
-    span.still.jointSpeed = speed;
-    const double step = toSeconds(period);
-    Joints next = joints.robax;
-    for (std::size_t i = 0; i < next.size(); ++i)
-        next[i] += speed[i] * step;
-    const Pose base = s.based({}).base(joints.extax);
-    const Pose there = base * s.kinematics.forward(next) *
-                       inverse(base * s.kinematics.forward(joints.robax)) * span.still.tcp;
+    span.still.jointSpeed = speed.robax;
+    const Pose there = flangeInWorld(next) * inverse(flangeInWorld(joints)) * span.still.tcp;
     if (span.still.toolHeld) span.still.tcpSpeed = norm(there.pos - span.still.tcp.pos) / step;
     s.isRestAnnounced = false;
     return true;

@@ -46,6 +46,9 @@ const robot::RobotModel& MotionSystem::model() const {
 Planner MotionSystem::planner() const {
     return impl_->options.planner;
 }
+const ExternalAxisModels& MotionSystem::externalAxes() const {
+    return impl_->options.external;
+}
 const robot::Kinematics& MotionSystem::kinematics() const {
     return impl_->kinematics;
 }

@@ -73,6 +73,7 @@ class MotionSystem {
     const robot::RobotModel& model() const;
     const robot::Kinematics& kinematics() const;
     Planner planner() const;
+    const ExternalAxisModels& externalAxes() const;
 
     // ---- ordering moves ----
     /// Orders a move from where the last ordered one ends. Returns at once; the move starts now if the arm
@@ -102,9 +103,9 @@ class MotionSystem {
     /// Brings the arm to these angles without motion (start of a simulation). Only when idle; false
     /// otherwise.
     bool placeAt(const JointTarget& joints);
-    /// Leads the arm from outside, without a path: it is at these angles now and moves with these speeds (deg/s) until the next
+    /// Leads the arm from outside, without a path: its axes are there now and move with these speeds (deg/s, mm/s) until the next
     /// call, at most for `period`. Only when idle and on no path; false otherwise.
-    bool leadTo(const JointTarget& joints, const Joints& speed, TimeNs period);
+    bool leadTo(const JointTarget& joints, const JointTarget& speed, TimeNs period);
     /// leadTo() moves it.
     bool isLed() const;
 

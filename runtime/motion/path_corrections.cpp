@@ -30,8 +30,22 @@ void PathCorrections::setOffset(const Vec3& offset) {
     hasJumped_ = true;
 }
 
+void PathCorrections::setOffsetAhead(const Vec3& offset, double mm) {
+    hasPlace_ = hasPlace_ && isActive(); // what was passed before does not count
+    constexpr std::size_t kMost = 4096; // newer ones take the place of the last
+    if (ahead_.size() >= kMost) ahead_.pop_back();
+    ahead_.push_back({way_ + mm, offset});
+}
+
+/// What lies ahead of the TCP no more is in force.
+void PathCorrections::takeAhead(const PlannedMoment& planned) {
+    if (hasPlace_) way_ += planned.distanceFrom(run_, s_);
+    for (; !ahead_.empty() && ahead_.front().at <= way_; ahead_.pop_front())
+        setOffset(ahead_.front().offset);
+}
+
 bool PathCorrections::isActive() const {
-    return !(offset_ == Vec3{}) || !shown_.isNone();
+    return !ahead_.empty() || !(offset_ == Vec3{}) || !shown_.isNone();
 }
 
 bool PathCorrections::concerns(const PlannedMoment& planned) const {
@@ -41,9 +55,12 @@ bool PathCorrections::concerns(const PlannedMoment& planned) const {
 }
 
 void PathCorrections::advance(const PlannedMoment& planned) {
+    takeAhead(planned);
     const bool isCorrected = concerns(planned);
     if (std::exchange(wasCorrected_, isCorrected) != isCorrected) hasJumped_ = true;
     if (std::exchange(run_, planned.run) != planned.run) hasJumped_ = true; // perhaps another direction
+    s_ = planned.s;
+    hasPlace_ = true;
     const Vec3 target = isCorrected ? rotate(planned.pathFrame(), offset_) : Vec3{};
     if (std::exchange(hasJumped_, false))
         return shown_.jumpTo(planned.time, target, blendTime(shown_.now() - target, shown_.rate()));
@@ -57,16 +74,20 @@ Pose PathCorrections::displaced(const PlannedMoment& planned, const Pose& tcp) c
 
 void PathCorrections::pathReplaced() {
     shown_.reset();
+    ahead_.clear();
+    hasPlace_ = false;
     hasJumped_ = true;
 }
 
 void PathCorrections::pathStored() {
     shown_.store();
+    hasPlace_ = false;
     hasJumped_ = true;
 }
 
 void PathCorrections::pathRestored() {
     shown_.restore();
+    hasPlace_ = false;
     hasJumped_ = true;
 }
 

@@ -12,6 +12,8 @@ class PathCorrections final : public PathModifier {
     /// with at most 100 mm/s and 2000 mm/s^2 across it; slower where it is slower than 10 mm/s along its path.
     void setOffset(const Vec3& offset);
     const Vec3& offset() const { return offset_; }
+    /// The same after so many mm of path: what a sensor sees that looks ahead of the TCP.
+    void setOffsetAhead(const Vec3& offset, double mm);
     /// For MoveCommand::modifications.
     const std::shared_ptr<const Modification>& modification() const { return modification_; }
 
@@ -32,10 +34,20 @@ class PathCorrections final : public PathModifier {
     bool concerns(const PlannedMoment& planned) const;
 
     std::shared_ptr<const Modification> modification_;
+    struct Ahead {
+        double at = 0; ///< mm of path since the beginning
+        Vec3 offset;
+    };
+    void takeAhead(const PlannedMoment& planned);
+
     Vec3 offset_;
-    BlendedOffset shown_; ///< in world
+    std::deque<Ahead> ahead_; ///< the next one first
+    double way_ = 0;          ///< mm of path
+    BlendedOffset shown_;     ///< in world
     bool hasJumped_ = false, wasCorrected_ = false;
+    bool hasPlace_ = false;
     std::size_t run_ = 0;
+    double s_ = 0;
 };
 
 } // namespace motion

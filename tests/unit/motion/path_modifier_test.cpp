@@ -241,8 +241,8 @@ TEST_CASE("a displacement out of reach stops the arm on its path", "[motion][mod
 TEST_CASE("an arm led from outside moves", "[motion][modifier]") {
     MotionSystem system = makeSystem();
     JointTarget joints = system.currentJoints();
-    const Joints fast{10, 0, 0, 0, 0, 0};
-    const Joints still{0, 0, 0, 0, 0, 0};
+    const JointTarget fast{{10, 0, 0, 0, 0, 0}, kNoExternalAxes};
+    const JointTarget still{{0, 0, 0, 0, 0, 0}, kNoExternalAxes};
     for (int i = 0; i < 10; ++i) {
         joints.robax[0] += 0.04;
         REQUIRE(system.leadTo(joints, fast, 4 * kMs));
