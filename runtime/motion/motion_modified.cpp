@@ -8,9 +8,19 @@ namespace motion {
 
 namespace {
 
+constexpr int kHalvings = 12; // of a displacement that is out of reach
+
 /// A share of the way from one pose to another.
 Pose between(const Pose& from, const Pose& to, double share) {
     return {from.pos + (to.pos - from.pos) * share, robot::slerp(from.rot, to.rot, share)};
+}
+
+/// How much of its movement has been executed, 0 to 1.
+double shareOfMove(const PlannedMoment& at) {
+    if (at.path->isPause(at.run)) return 1;
+    const Route& route = at.path->route(at.run);
+    const double length = route.leg(route.legAt(at.s)).length();
+    return length > 0 ? std::clamp(1 - at.toEnd / length, 0.0, 1.0) : 1;
 }
 
 } // namespace
@@ -51,23 +61,32 @@ std::optional<MotionError> MotionSystem::Impl::shiftArm(MotionState& state, cons
     const Pose base = frames.base(state.extax);
     const Pose flange = base * kinematics.forward(state.joints);
     const Pose planned = state.tcp;
-    std::optional<MotionError> error;
-    for (const double share : {1.0, 0.75, 0.5, 0.25}) {
+    const Joints seed = state.joints;
+    robot::IkError problem;
+    const auto bring = [&](double share) {
         const Pose shift = between(planned, wanted, share) * inverse(planned);
         const Pose goal = inverse(base) * ((state.toolHeld ? shift : inverse(shift)) * flange);
-        Joints joints = state.joints;
-        const bool isSolved = kinematics.inverseContinue(goal, state.joints, joints);
-        const int joint = isSolved ? kinematics.jointOutsideLimits(joints) : 0;
-        if (isSolved && joint == 0) {
-            state.joints = joints;
-            state.tcp = frames.tcpInWorld(kinematics.forward(joints), state.extax);
-            return error;
+        Joints joints = seed;
+        problem = {};
+        if (!kinematics.inverseContinue(goal, seed, joints)) return false;
+        if (const int joint = kinematics.jointOutsideLimits(joints); joint != 0) {
+            problem = kinematics.limitError(joints, joint);
+            return false;
         }
-        if (error) continue;
-        robot::IkError problem;
-        if (isSolved) problem = kinematics.limitError(joints, joint);
+        state.joints = joints;
+        return true;
+    };
+    std::optional<MotionError> error;
+    if (!bring(1)) {
         error = targetError(problem, wanted.pos);
+        double low = 0;
+        double high = 1;
+        for (int i = 0; i < kHalvings; ++i) {
+            const double middle = 0.5 * (low + high);
+            (bring(middle) ? low : high) = middle;
+        }
     }
+    state.tcp = frames.tcpInWorld(kinematics.forward(state.joints), state.extax);
     return error;
 }
 
@@ -131,8 +150,11 @@ void MotionSystem::Impl::advanceModifiers(TimeNs time) {
         if (!state.moving && !modifiers.moveAtRest()) continue;
         modifiers.advance(planned);
         const Pose wanted = modifiers.displaced(planned);
-        const auto error = wanted == planned.tcp ? std::nullopt : shiftArm(state, *planned.frames, wanted);
-        if (error && !modifiers.isOutOfReach) modifiers.unreported = modifiers.latestError = error;
+        auto error = wanted == planned.tcp ? std::nullopt : shiftArm(state, *planned.frames, wanted);
+        if (error && !modifiers.isOutOfReach) {
+            error->pathFraction = shareOfMove(planned);
+            modifiers.unreported = modifiers.latestError = error;
+        }
         modifiers.isOutOfReach = error.has_value();
         modifiers.note({next, state.joints, (inverse(planned.object) * state.tcp).pos, state.tag});
     }
