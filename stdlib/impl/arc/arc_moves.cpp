@@ -1,5 +1,6 @@
 // Movements between welds (ArcMove...): as the Move instructions without Arc in their names.
 
+#include "stdlib/impl/motion/corrections.h"
 #include "stdlib/impl/motion/move_order.h"
 
 #include "stdlib_natives.h"
@@ -19,16 +20,16 @@ Status rt_ArcMoveJ(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, co
 Status rt_ArcMoveL(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float* ID,
                    const data::Speeddata* Speed, const float* V, const float* T, const data::Zonedata* Zone,
                    const float* Z, const data::Stoppointdata* Inpos, data::Tooldata* Tool,
-                   data::Wobjdata* WObj, bool, data::Loaddata*) {
-    return lib::orderMove(task, lib::linearMove(task, *ToPoint, ID),
+                   data::Wobjdata* WObj, bool Corr, data::Loaddata*) {
+    return lib::orderMove(task, lib::corrected(task, lib::linearMove(task, *ToPoint, ID), Corr),
                           {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
 }
 
 Status rt_ArcMoveC(TaskCore* task, bool Conc, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
                    const float* ID, const data::Speeddata* Speed, const float* V, const float* T,
                    const data::Zonedata* Zone, const float* Z, const data::Stoppointdata* Inpos,
-                   data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata*) {
-    return lib::orderMove(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
+                   data::Tooldata* Tool, data::Wobjdata* WObj, bool Corr, data::Loaddata*) {
+    return lib::orderMove(task, lib::corrected(task, lib::circularMove(task, *CirPoint, *ToPoint, ID), Corr),
                           {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj});
 }
 

@@ -1,4 +1,5 @@
 #include "stdlib/impl/arc/arc_process.h"
+#include "stdlib/impl/arc/weave_pattern.h"
 
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/fail.h"
@@ -45,6 +46,8 @@ ArcProcess& ArcProcess::of(TaskCore* task) {
 void ArcProcess::open(TaskCore* task) {
     controller_ = &taskOf(task).controller();
     motion_ = &motionOf(task);
+    weaving_ = std::make_shared<motion::Weaving>();
+    motion_->system().addModifier(weaving_);
     motion_->addListener([this](ArmNews news) { take(news); });
     controller_->io().addListener(-1, [this](SignalId id, double, double) { inputChanged(id); });
 }
@@ -59,9 +62,12 @@ Status ArcProcess::prepare(TaskCore* task, int system, const data::Seamdata& sea
     if (const std::string problem = equipment_.read(*controller_, system); !problem.empty())
         return taskOf(task).fatal(static_cast<int>(EventId::ArcMisused), problem);
     system_ = system;
+    weaving_->restart();
+    weaves_.clear();
     seam_ = seam;
     weld_ = weld;
     refreshedSpeed_ = 0;
+    refreshedWidth_.reset();
     inhibited_ = equipment_.input(ArcInput::WeldInhib).value_or(false);
     phase_ = Phase::Preparing;
     return kOk;
@@ -118,6 +124,7 @@ Status ArcProcess::ignite(TaskCore* task, Status notReady) {
         return status;
     }
     phase_ = Phase::Welding;
+    weaving_->setOn(true);
     established_ = equipment_.input(ArcInput::ArcEst).value_or(false);
     weldWith(weld_);
     return kOk;
@@ -179,6 +186,8 @@ Status ArcProcess::close(TaskCore* task, const data::Seamdata& seam) {
 void ArcProcess::kill() {
     if (std::exchange(phase_, Phase::Off) == Phase::Off) return;
     controller_->scheduler().cancel(std::exchange(ignition_, 0));
+    motion_->refresh();
+    weaving_->setOn(false);
     arcOff();
     equipment_.set(ArcOutput::FeedOnBwd, false);
     equipment_.set(ArcOutput::GasOn, false);
@@ -186,9 +195,39 @@ void ArcProcess::kill() {
     established_ = stopped_ = false;
 }
 
-void ArcProcess::refresh(double speed) {
+/// A width that ArcRefresh gave takes the place of the one in the data.
+Status ArcProcess::patternOf(TaskCore* task, const data::Weavedata& data, double speed,
+                             motion::WeavePattern& pattern) const {
+    data::Weavedata refreshed = data;
+    if (refreshedWidth_) refreshed.weave_width = static_cast<float>(*refreshedWidth_);
+    return weavePattern(task, refreshed, speed, pattern);
+}
+
+Status ArcProcess::weave(TaskCore* task, const data::Weavedata* data, double speed, bool isLast,
+                         std::shared_ptr<const motion::Modification>& modification) {
+    if (data == nullptr) return kOk;
+    const auto weave = std::make_shared<motion::Weave>();
+    weave->isLast = isLast;
+    if (const Status status = patternOf(task, *data, speed, weave->pattern)) return status;
+    std::erase_if(weaves_, [](const Ordered& ordered) { return ordered.weave.expired(); });
+    weaves_.push_back({data, speed, weave});
+    modification = weave;
+    return kOk;
+}
+
+Status ArcProcess::refresh(TaskCore* task, double speed, std::optional<double> weaveWidth) {
+    motion_->refresh();
+    if (weaveWidth) refreshedWidth_ = weaveWidth;
+    for (const Ordered& ordered : weaves_) {
+        const auto weave = ordered.weave.lock();
+        if (weave == nullptr) continue;
+        motion::WeavePattern pattern;
+        if (const Status status = patternOf(task, *ordered.data, ordered.speed, pattern)) return status;
+        weave->pattern = pattern;
+    }
     if (speed > 0) refreshedSpeed_ = speed;
     if (phase_ == Phase::Welding && weld_ != nullptr) weldWith(weld_);
+    return kOk;
 }
 
 void ArcProcess::apply(const data::Arcdata& arc) const {

@@ -1,9 +1,14 @@
 #pragma once
 // ArcProcess: the weld of one robot, from ArcLStart to ArcLEnd: its phases in time, its signals, its supervision.
 
+#include "runtime/motion/weaving.h"
 #include "stdlib/impl/arc/arc_equipment.h"
 
 #include "stdlib_types.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
 
 namespace rt::lib {
 
@@ -38,8 +43,12 @@ class ArcProcess {
     Status close(TaskCore* task, const data::Seamdata& seam);
     /// At once: all signals off.
     void kill();
-    /// ArcRefresh; `speed` 0: as the data say.
-    void refresh(double speed);
+    /// ArcRefresh: the data as they are now, weaving of movements that have been ordered included. `speed` 0 and no width (mm):
+    /// as the data say. ERR_ARGVALERR for weave data that make no pattern.
+    Status refresh(TaskCore* task, double speed, std::optional<double> weaveWidth);
+    /// For a movement of the seam at this speed (mm/s). ERR_ARGVALERR; null for a movement without weaving.
+    Status weave(TaskCore* task, const data::Weavedata* data, double speed, bool isLast,
+                 std::shared_ptr<const motion::Modification>& modification);
 
   private:
     enum class Phase : uint8_t { Off, Preparing, Welding, Closing, Interrupted };
@@ -53,6 +62,8 @@ class ArcProcess {
     void arcOff();
     Status checkEquipment(TaskCore* task, Status error) const;
     void superviseIgnition();
+    Status patternOf(TaskCore* task, const data::Weavedata& data, double speed,
+                     motion::WeavePattern& pattern) const;
 
     Controller* controller_ = nullptr;
     MotionDriver* motion_ = nullptr;
@@ -65,6 +76,14 @@ class ArcProcess {
     bool inhibited_ = false, established_ = false, stopped_ = false;
     Time gasSince_ = kNever;
     EventToken ignition_ = 0;
+    struct Ordered {
+        const data::Weavedata* data; ///< persistent of the program, during the weld
+        double speed;
+        std::weak_ptr<motion::Weave> weave;
+    };
+    std::optional<double> refreshedWidth_;
+    std::vector<Ordered> weaves_; ///< of movements that have been ordered
+    std::shared_ptr<motion::Weaving> weaving_;
 };
 
 /// The program of a task begins anew: its weld ends.

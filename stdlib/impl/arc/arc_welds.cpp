@@ -1,7 +1,8 @@
 // Welds (ArcL, ArcC and their like): movements as MoveL and MoveC, with the speed of welddata and the process of ArcProcess.
-// Weaving, tracking and \Corr do not change the path.
+// Weaving and \Corr displace the path of the seam; tracking does not.
 
 #include "stdlib/impl/arc/arc_process.h"
+#include "stdlib/impl/motion/corrections.h"
 #include "stdlib/impl/motion/move_order.h"
 #include "stdlib/impl/motion/triggers.h"
 #include "stdlib/impl/support/fail.h"
@@ -31,6 +32,7 @@ struct WeldArguments {
     const float* z;
     const data::Tooldata* tool;
     const data::Wobjdata* workObject;
+    const data::Weavedata* weave;
 };
 using Triggers = std::array<const Handle*, 7>;
 
@@ -94,6 +96,10 @@ Status weldOn(TaskCore* task, motion::MoveCommand command, const WeldArguments& 
     const double speed = process.speed(*args.weld);
     if (!process.isInhibited() && !(speed > 0 && std::isfinite(speed)))
         return lib::fail(task, err::ERR_ARGVALERR, "weld_speed of welddata must be a speed above 0 mm/s");
+    std::shared_ptr<const motion::Modification> weave;
+    if (!process.isInhibited())
+        if (const Status status = process.weave(task, args.weave, speed, isEnd, weave)) return status;
+    if (weave != nullptr) command.modifications.push_back(weave);
     std::vector<PathAction> actions;
     if (const Status status = addTriggers(task, triggers, actions)) return status;
     if (const Status status = process.resume(task)) return status;
@@ -121,35 +127,35 @@ Status weldOn(TaskCore* task, motion::MoveCommand command, const WeldArguments& 
 // The instructions for power source 1 (ArcL and ArcL1) and 2 (ArcL2), which differ in name and number only.
 #define ARC_COMMON                                                                                           \
     const float *ID, const data::Speeddata *Speed, const float *V, data::Seamdata *Seam,                     \
-        data::Welddata *Weld, data::Weavedata *, const data::Zonedata *Zone, const float *Z,                 \
-        data::Tooldata *Tool, data::Wobjdata *WObj, data::Trackdata *, bool
+        data::Welddata *Weld, data::Weavedata *Weave, const data::Zonedata *Zone, const float *Z,            \
+        data::Tooldata *Tool, data::Wobjdata *WObj, data::Trackdata *, bool Corr
 #define ARC_TRIGGERS Handle *T1, Handle *T2, Handle *T3, Handle *T4, Handle *T5, Handle *T6, Handle *T7
 #define ARC_INSTRUCTIONS(SUFFIX, SYSTEM)                                                                     \
     Status rt_ArcL##SUFFIX##Start(TaskCore* task, const data::Robtarget* ToPoint, ARC_COMMON, bool,          \
                                   const String*, data::Loaddata*) {                                          \
-        return startWeld(task, lib::linearMove(task, *ToPoint, ID),                                          \
-                         {SYSTEM, Speed, V, Seam, Weld, Zone, Z, Tool, WObj});                               \
+        return startWeld(task, lib::corrected(task, lib::linearMove(task, *ToPoint, ID), Corr),              \
+                         {SYSTEM, Speed, V, Seam, Weld, Zone, Z, Tool, WObj, Weave});                        \
     }                                                                                                        \
     Status rt_ArcC##SUFFIX##Start(TaskCore* task, const data::Robtarget* CirPoint,                           \
                                   const data::Robtarget* ToPoint, ARC_COMMON, bool, const String*,           \
                                   data::Loaddata*) {                                                         \
-        return startWeld(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),                             \
-                         {SYSTEM, Speed, V, Seam, Weld, Zone, Z, Tool, WObj});                               \
+        return startWeld(task, lib::corrected(task, lib::circularMove(task, *CirPoint, *ToPoint, ID), Corr), \
+                         {SYSTEM, Speed, V, Seam, Weld, Zone, Z, Tool, WObj, Weave});                        \
     }                                                                                                        \
     ARC_SEAM(SUFFIX, SYSTEM, , false)                                                                        \
     ARC_SEAM(SUFFIX, SYSTEM, End, true)
 #define ARC_SEAM(SUFFIX, SYSTEM, END, IS_END)                                                                \
     Status rt_ArcL##SUFFIX##END(TaskCore* task, const data::Robtarget* ToPoint, ARC_COMMON, ARC_TRIGGERS,    \
                                 data::Loaddata*) {                                                           \
-        return weldOn(task, lib::linearMove(task, *ToPoint, ID),                                             \
-                      {SYSTEM, Speed, V, Seam, Weld, Zone, Z, Tool, WObj}, {T1, T2, T3, T4, T5, T6, T7},     \
-                      IS_END);                                                                               \
+        return weldOn(task, lib::corrected(task, lib::linearMove(task, *ToPoint, ID), Corr),                 \
+                      {SYSTEM, Speed, V, Seam, Weld, Zone, Z, Tool, WObj, Weave},                            \
+                      {T1, T2, T3, T4, T5, T6, T7}, IS_END);                                                 \
     }                                                                                                        \
     Status rt_ArcC##SUFFIX##END(TaskCore* task, const data::Robtarget* CirPoint,                             \
                                 const data::Robtarget* ToPoint, ARC_COMMON, ARC_TRIGGERS, data::Loaddata*) { \
-        return weldOn(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),                                \
-                      {SYSTEM, Speed, V, Seam, Weld, Zone, Z, Tool, WObj}, {T1, T2, T3, T4, T5, T6, T7},     \
-                      IS_END);                                                                               \
+        return weldOn(task, lib::corrected(task, lib::circularMove(task, *CirPoint, *ToPoint, ID), Corr),    \
+                      {SYSTEM, Speed, V, Seam, Weld, Zone, Z, Tool, WObj, Weave},                            \
+                      {T1, T2, T3, T4, T5, T6, T7}, IS_END);                                                 \
     }
 
 extern "C" {
@@ -159,12 +165,15 @@ ARC_INSTRUCTIONS(1, 1)
 ARC_INSTRUCTIONS(2, 2)
 
 /// The speed holds for the movements ordered from now on; settings of the arc change at once.
-Status rt_ArcRefresh(TaskCore* task, const float* WeldSpeed, const float*) {
+Status rt_ArcRefresh(TaskCore* task, const float* WeldSpeed, const float* WeaveWidth) {
     if (const Status status = lib::requireMotionTask(task)) return status;
     if (WeldSpeed != nullptr && !(*WeldSpeed > 0 && std::isfinite(*WeldSpeed)))
         return lib::fail(task, err::ERR_ARGVALERR, "\\WeldSpeed must be a speed above 0 mm/s");
-    ArcProcess::of(task).refresh(WeldSpeed != nullptr ? *WeldSpeed : 0);
-    return kOk;
+    if (WeaveWidth != nullptr && !(*WeaveWidth >= 0 && std::isfinite(*WeaveWidth)))
+        return lib::fail(task, err::ERR_ARGVALERR, "\\WeaveWidth must be a width in mm from 0 on");
+    return ArcProcess::of(task).refresh(task, WeldSpeed != nullptr ? *WeldSpeed : 0,
+                                        WeaveWidth != nullptr ? std::optional<double>(*WeaveWidth)
+                                                              : std::nullopt);
 }
 
 Status rt_ArcKill(TaskCore* task) {

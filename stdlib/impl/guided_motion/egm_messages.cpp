@@ -248,6 +248,20 @@ bool readSpeed(std::string_view bytes, SensorData& data) {
     return !reader.isBroken();
 }
 
+/// EgmPathCorr: a position and its age, which does not count.
+bool readCorrection(std::string_view bytes, SensorData& data) {
+    Reader reader(bytes);
+    Field field;
+    while (reader.next(field)) {
+        std::array<double, 4> v{};
+        if (field.type != kBytes || field.number != 1) continue;
+        if (!readRecord(field.bytes, 3, v)) return false;
+        for (std::size_t i = 0; i < 3; ++i)
+            data.pose[i] = v[i];
+    }
+    return !reader.isBroken();
+}
+
 uint64_t typeOf(std::string_view headerBytes) {
     Reader reader(headerBytes);
     Field field;
@@ -260,6 +274,8 @@ uint64_t typeOf(std::string_view headerBytes) {
 bool isFinite(const SensorData& data) {
     const auto finite = [](const std::optional<double>& v) { return !v || std::isfinite(*v); };
     for (const auto& v : data.joints)
+        if (!finite(v)) return false;
+    for (const auto& v : data.additional)
         if (!finite(v)) return false;
     for (const auto& v : data.pose)
         if (!finite(v)) return false;
@@ -274,6 +290,10 @@ std::string checkContents(const Planned& planned, GuidanceMode expected, SensorD
     for (std::size_t i = 0; i < std::min(planned.joints.size(), kRobotAxes); ++i)
         data.joints[i] = planned.joints[i];
     if (!planned.external.empty()) data.joints[kRobotAxes] = planned.external.front();
+    for (std::size_t i = 0; i < std::min(planned.external.size(), data.additional.size()); ++i)
+        data.additional[i] = planned.external[i];
+    if (expected == GuidanceMode::PathCorrection && !data.pose[0])
+        return "a message of path correction needs a position";
     if (expected == GuidanceMode::Pose && (!data.pose[0] || (!data.orientation && !data.pose[3])))
         return "a message of pose guidance needs a position and an orientation";
     if (!isFinite(data)) return "a message holds a number that is not finite";
@@ -313,6 +333,7 @@ std::string decodeSensorMessage(std::string_view bytes, GuidanceMode expected, S
     while (isWhole && reader.next(field)) {
         if (field.type != kBytes) continue;
         if (field.number == 1) type = typeOf(field.bytes);
+        if (isCorrection && field.number == 2) isWhole = readCorrection(field.bytes, data);
         if (isCorrection) continue;
         if (field.number == 2) isWhole = readPlanned(field.bytes, planned, data);
         if (field.number == 3) isWhole = readSpeed(field.bytes, data);
@@ -321,7 +342,7 @@ std::string decodeSensorMessage(std::string_view bytes, GuidanceMode expected, S
     if (type != (isCorrection ? kPathCorrection : kCorrection))
         return isCorrection ? "a message is not of the type PATH_CORRECTION"
                             : "a message is not of the type CORRECTION";
-    return isCorrection ? std::string{} : checkContents(planned, expected, data);
+    return checkContents(planned, expected, data);
 }
 
 } // namespace rt::lib

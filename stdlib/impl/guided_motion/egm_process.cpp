@@ -9,7 +9,7 @@ namespace rt::lib {
 
 EgmProcess::State EgmProcess::state() const {
     if (!isConnected_) return State::Disconnected;
-    return phase_ == Phase::None ? State::Connected : State::Running;
+    return phase_ == Phase::None && !isCorrecting() ? State::Connected : State::Running;
 }
 
 void EgmProcess::connect(GuidanceMode mode, std::unique_ptr<Partner> partner,
@@ -42,6 +42,9 @@ void EgmProcess::activate(const GuidanceSettings& settings, Time period) {
     settings_ = settings;
     data_ = {};
     hasData_ = false;
+    correction_ = {};
+    hasNews_ = true; // signals have a value already
+    if (mode_ == GuidanceMode::PathCorrection) corrections().setOffset({});
     beginSession(period);
 }
 
@@ -86,7 +89,8 @@ void EgmProcess::awaitCondition() {
 }
 
 void EgmProcess::wake() {
-    if (phase_ != Phase::None) schedule();
+    hasNews_ = true;
+    if (phase_ != Phase::None || mode_ == GuidanceMode::PathCorrection) schedule();
 }
 
 void EgmProcess::pause(bool paused) {
@@ -124,7 +128,9 @@ void EgmProcess::schedule() {
 /// With signals alone there is nothing to do while the robot is where it is asked to be.
 bool EgmProcess::mustTick() const {
     if (partner_ && partner_->answers()) return true;
+    if (mode_ == GuidanceMode::PathCorrection) return hasNews_ && isActivated();
     if (phase_ == Phase::None) return false;
+    if (hasNews_) return true;
     if (isPaused_) return !arm_->isStanding();
     const bool isCounting = awaitsCondition_ && convergedSince_ != kNever;
     return phase_ != Phase::Following || !arm_->isSteady() || isCounting;
@@ -139,8 +145,10 @@ void EgmProcess::tick() {
     }
     if (partner_ && partner_->receive(data_)) {
         lastAnswer_ = now;
-        hasData_ = true;
+        hasData_ = hasNews_ = true;
     }
+    const bool isNew = std::exchange(hasNews_, false);
+    if (mode_ == GuidanceMode::PathCorrection && isActivated()) correct(now, isNew);
     if (phase_ != Phase::None) guide(now);
     if (session_.isOpen && now >= session_.next) exchange();
     schedule();
@@ -164,13 +172,78 @@ std::string EgmProcess::sendState() {
     data.nanoseconds = controller_.scheduler().now();
     data.calendar = controller_.calendarSeconds();
     data.motorsOn = controller_.motorsOn();
-    data.isGuided = phase_ != Phase::None;
-    data.isConverged = phase_ != Phase::None && hasData_ && arm_->isConverged();
+    data.isGuided = phase_ != Phase::None || isCorrecting();
+    data.isConverged = arm_ && phase_ != Phase::None && hasData_ && arm_->isConverged();
     data.programRuns = owner_.isExecuting();
     data.utilization = arm_ ? arm_->utilization() : 0;
     data.moveIndex = static_cast<uint32_t>(arm.lastOrdered());
     return partner_->send(data);
 }
+
+// ---- Path corrections --------------------------------------------------------------------------------------------
+
+namespace {
+
+/// The corrections of EGM on the path of a robot, whichever process gives them.
+struct EgmCorrections {
+    std::shared_ptr<motion::PathCorrections> path;
+};
+
+} // namespace
+
+motion::PathCorrections& EgmProcess::corrections() const {
+    auto& service = motion().service<EgmCorrections>();
+    if (service.path == nullptr) {
+        service.path = std::make_shared<motion::PathCorrections>();
+        motion().system().addModifier(service.path);
+    }
+    return *service.path;
+}
+
+void EgmProcess::beginMove(const motion::Pose& tool) {
+    correction_.ahead = looksAhead_ ? norm(settings_->sensorFrame.pos - tool.pos) : 0;
+    if (!isCorrecting()) lastAnswer_ = controller_.scheduler().now();
+    ++correction_.ordering;
+    schedule();
+}
+
+void EgmProcess::endMove() {
+    --correction_.ordering;
+    correction_.latest = motion().system().lastOrdered();
+}
+
+motion::MoveCommand EgmProcess::corrected(motion::MoveCommand command) {
+    command.modifications.push_back(corrections().modification());
+    return command;
+}
+
+bool EgmProcess::isCorrecting() const {
+    if (mode_ != GuidanceMode::PathCorrection || !isActivated()) return false;
+    return correction_.ordering > 0 ||
+           (correction_.latest != 0 && !motion().system().isDone(correction_.latest));
+}
+
+/// One period: y and z of the newest data displace the path; the place along the path is the program's.
+void EgmProcess::correct(Time now, bool isNew) {
+    if (partner_ && partner_->answers() && isCorrecting() && !isPaused_) {
+        const bool isSilent = now - lastAnswer_ >= timeout_;
+        if (isSilent && !std::exchange(correction_.isSilent, true))
+            controller_.log().write(
+                EventId::EgmNoData, &owner_,
+                {partner_->name(), "EGMSetupUC", fmt::format("{:g}", toSeconds(timeout_))});
+        if (!isSilent) correction_.isSilent = false;
+    }
+    if (!isNew || !hasData_) return;
+    const motion::Vec3 offset{0, data_.pose[1].value_or(0), data_.pose[2].value_or(0)};
+    motion().refresh();
+    if (correction_.ahead > 0)
+        corrections().setOffsetAhead(offset, correction_.ahead);
+    else
+        corrections().setOffset(offset);
+    motion().refresh();
+}
+
+// ---- Guidance ----------------------------------------------------------------------------------------------------
 
 void EgmProcess::guide(Time now) {
     if (isPaused_) {

@@ -4,6 +4,8 @@
 
 #include "stdlib/impl/guided_motion/guided_arm.h"
 
+#include "runtime/motion/path_corrections.h"
+
 #include "runtime/host/controller.h"
 
 #include <memory>
@@ -40,6 +42,8 @@ class EgmProcess {
     /// EGMSetup...: a new source of data; `partner` null: one that never sends anything. `timeout`: \CommTimeout.
     void connect(GuidanceMode mode, std::unique_ptr<Partner> partner, const ExternalMotionData& defaults,
                  Time timeout);
+    /// \LATR: the sensor of path corrections looks ahead of the TCP.
+    void setLookAhead(bool looksAhead) { looksAhead_ = looksAhead; }
     /// EGMReset: the guidance ends where the robot is.
     void disconnect();
     /// The power has failed: as disconnect(), and an instruction that waits raises the error of a time-out.
@@ -51,6 +55,10 @@ class EgmProcess {
     void stopStream();
     /// EGMRun...: guidance begins; only when activated, with the arm at rest.
     void run(const GuidanceOrder& order);
+    /// EGMMoveL, EGMMoveC: around the order of a movement, `corrected` by what the sensor sends. `tool`: of the movement.
+    void beginMove(const motion::Pose& tool);
+    void endMove();
+    motion::MoveCommand corrected(motion::MoveCommand command);
     /// EGMStop. `rampOut`: s; none: as the order says.
     void stop(bool rampDown, std::optional<double> rampOut);
 
@@ -73,6 +81,9 @@ class EgmProcess {
     MotionDriver& motion() const { return controller_.motion(owner_); }
     void beginSession(Time period);
     void endSession();
+    motion::PathCorrections& corrections() const;
+    void correct(Time now, bool isNew);
+    bool isCorrecting() const;
     void tick();
     void schedule();
     void exchange();
@@ -105,10 +116,19 @@ class EgmProcess {
         double rampOut = 0, seconds = 0; ///< as asked for, and as it takes
         Time began = 0;
     };
+    struct Correction {            ///< of the path
+        int ordering = 0;          ///< movement instructions that wait
+        motion::MoveId latest = 0; ///< movement that has been ordered last
+        double ahead = 0;          ///< mm from the TCP to where the sensor measures
+        bool isSilent = false;     ///< reported
+    };
+    Correction correction_;
+    bool looksAhead_ = false;
     Phase phase_ = Phase::None;
     Session session_;
     WayBack wayBack_;
     bool timedOut_ = false, isPaused_ = false;
+    bool hasNews_ = false;        ///< the source may have other data than at the latest period
     bool awaitsCondition_ = true; ///< the guidance ends when its condition is met
     Time began_ = 0, lastAnswer_ = 0, convergedSince_ = kNever;
     std::string limit_; ///< reported last

@@ -105,11 +105,19 @@ Status run(TaskCore* task, Handle identity, GuidanceMode mode, const RunArgument
     return args.noWait ? kOk : waitFinished(task, identity);
 }
 
+/// The movement, corrected by what the sensor of the process sends.
 Status moveCorrected(TaskCore* task, Handle identity, motion::MoveCommand command,
-                     const lib::MoveArguments& arguments) {
+                     const lib::MoveArguments& arguments, bool isCorrected) {
     Status status = kOk;
-    if (processFor(task, identity, GuidanceMode::PathCorrection, status) == nullptr) return status;
-    return lib::orderMove(task, std::move(command), arguments);
+    EgmProcess* process = processFor(task, identity, GuidanceMode::PathCorrection, status);
+    if (process == nullptr) return status;
+    if (isCorrected) command = process->corrected(std::move(command));
+    process->beginMove(lib::toFrame(arguments.tool->tframe));
+    status = lib::orderMove(task, std::move(command), arguments);
+    // A trap routine may have released the process while the task waited.
+    process = EgmProcesses::of(taskOf(task).controller()).find(identity);
+    if (process != nullptr) process->endMove();
+    return status;
 }
 
 } // namespace
@@ -157,18 +165,19 @@ Status rt_EGMStop(TaskCore* task, Handle* EGMid, float Mode, const float* RampOu
     return waitFinished(task, *EGMid);
 }
 
-/// As MoveL: the corrections that come are not applied to the path.
 Status rt_EGMMoveL(TaskCore* task, Handle* EGMid, const data::Robtarget* ToPoint,
                    const data::Speeddata* Speed, const data::Zonedata* Zone, data::Tooldata* Tool,
-                   data::Wobjdata* WObj, data::Loaddata*, bool) {
+                   data::Wobjdata* WObj, data::Loaddata* TLoad, bool NoCorr) {
     return moveCorrected(task, *EGMid, lib::linearMove(task, *ToPoint, nullptr),
-                         {false, Speed, nullptr, nullptr, Zone, nullptr, nullptr, Tool, WObj});
+                         {false, Speed, nullptr, nullptr, Zone, nullptr, nullptr, Tool, WObj, false, TLoad},
+                         !NoCorr);
 }
 
 Status rt_EGMMoveC(TaskCore* task, Handle* EGMid, const data::Robtarget* CirPoint,
                    const data::Robtarget* ToPoint, const data::Speeddata* Speed, const data::Zonedata* Zone,
-                   data::Tooldata* Tool, data::Wobjdata* WObj, data::Loaddata*, bool) {
+                   data::Tooldata* Tool, data::Wobjdata* WObj, data::Loaddata* TLoad, bool NoCorr) {
     return moveCorrected(task, *EGMid, lib::circularMove(task, *CirPoint, *ToPoint, nullptr),
-                         {false, Speed, nullptr, nullptr, Zone, nullptr, nullptr, Tool, WObj});
+                         {false, Speed, nullptr, nullptr, Zone, nullptr, nullptr, Tool, WObj, false, TLoad},
+                         !NoCorr);
 }
 }

@@ -39,11 +39,12 @@ struct SetupArguments {
     Handle identity;
     std::string_view configuration;
     bool joint, pose, pathCorrection;
+    bool looksAhead = false; ///< \LATR
 };
 
 SetupArguments common(const Handle* unit, const Handle* identity, const String* configuration, bool joint,
-                      bool pose, bool pathCorrection) {
-    return {*unit, *identity, configuration->view(), joint, pose, pathCorrection};
+                      bool pose, bool pathCorrection, bool looksAhead) {
+    return {*unit, *identity, configuration->view(), joint, pose, pathCorrection, looksAhead};
 }
 
 bool isNamed(const CfgInstance& instance, std::string_view name) {
@@ -95,6 +96,7 @@ Status setUp(TaskCore* task, const SetupArguments& args, const float* timeout, M
                                           : GuidanceMode::PathCorrection;
     std::unique_ptr<lib::Partner> partner;
     if ((status = makePartner(mode, *process, partner)) != kOk) return status;
+    process->setLookAhead(args.looksAhead);
     process->connect(mode, std::move(partner), data, timeout != nullptr ? fromSeconds(*timeout) : kSecond);
     return kOk;
 }
@@ -179,10 +181,10 @@ Status rt_EGMGetState(TaskCore* task, float* result, Handle* EGMid) {
 }
 
 Status rt_EGMSetupUC(TaskCore* task, Handle* MecUnit, Handle* EGMid, const String* ExtConfigName,
-                     const String* UCDevice, bool Joint, bool Pose, bool PathCorr, bool, bool,
+                     const String* UCDevice, bool Joint, bool Pose, bool PathCorr, bool, bool LATR,
                      const float* CommTimeout) {
     return setUp(
-        task, common(MecUnit, EGMid, ExtConfigName, Joint, Pose, PathCorr), CommTimeout,
+        task, common(MecUnit, EGMid, ExtConfigName, Joint, Pose, PathCorr, LATR), CommTimeout,
         [&](GuidanceMode mode, EgmProcess&, std::unique_ptr<lib::Partner>& partner) -> Status {
             Task& owner = taskOf(task);
             const CfgInstance* device = findDevice(owner.controller(), UCDevice->view());
@@ -200,33 +202,33 @@ Status rt_EGMSetupUC(TaskCore* task, Handle* MecUnit, Handle* EGMid, const Strin
 }
 
 Status rt_EGMSetupAI(TaskCore* task, Handle* MecUnit, Handle* EGMid, const String* ExtConfigName, bool Joint,
-                     bool Pose, bool PathCorr, bool, bool, Handle* aiR1x, Handle* aiR2y, Handle* aiR3z,
+                     bool Pose, bool PathCorr, bool, bool LATR, Handle* aiR1x, Handle* aiR2y, Handle* aiR3z,
                      Handle* aiR4rx, Handle* aiR5ry, Handle* aiR6rz, Handle* aiE1, Handle* aiE2, Handle* aiE3,
                      Handle* aiE4, Handle* aiE5, Handle* aiE6) {
-    return setUpSignals(task, common(MecUnit, EGMid, ExtConfigName, Joint, Pose, PathCorr),
+    return setUpSignals(task, common(MecUnit, EGMid, ExtConfigName, Joint, Pose, PathCorr, LATR),
                         {aiR1x, aiR2y, aiR3z, aiR4rx, aiR5ry, aiR6rz, aiE1, aiE2, aiE3, aiE4, aiE5, aiE6});
 }
 
 Status rt_EGMSetupAO(TaskCore* task, Handle* MecUnit, Handle* EGMid, const String* ExtConfigName, bool Joint,
-                     bool Pose, bool PathCorr, bool, bool, Handle* aoR1x, Handle* aoR2y, Handle* aoR3z,
+                     bool Pose, bool PathCorr, bool, bool LATR, Handle* aoR1x, Handle* aoR2y, Handle* aoR3z,
                      Handle* aoR4rx, Handle* aoR5ry, Handle* aoR6rz, Handle* aoE1, Handle* aoE2, Handle* aoE3,
                      Handle* aoE4, Handle* aoE5, Handle* aoE6) {
-    return setUpSignals(task, common(MecUnit, EGMid, ExtConfigName, Joint, Pose, PathCorr),
+    return setUpSignals(task, common(MecUnit, EGMid, ExtConfigName, Joint, Pose, PathCorr, LATR),
                         {aoR1x, aoR2y, aoR3z, aoR4rx, aoR5ry, aoR6rz, aoE1, aoE2, aoE3, aoE4, aoE5, aoE6});
 }
 
 Status rt_EGMSetupGI(TaskCore* task, Handle* MecUnit, Handle* EGMid, const String* ExtConfigName, bool Joint,
-                     bool Pose, bool PathCorr, bool, bool, Handle* giR1x, Handle* giR2y, Handle* giR3z,
+                     bool Pose, bool PathCorr, bool, bool LATR, Handle* giR1x, Handle* giR2y, Handle* giR3z,
                      Handle* giR4rx, Handle* giR5ry, Handle* giR6rz, Handle* giE1, Handle* giE2, Handle* giE3,
                      Handle* giE4, Handle* giE5, Handle* giE6) {
-    return setUpSignals(task, common(MecUnit, EGMid, ExtConfigName, Joint, Pose, PathCorr),
+    return setUpSignals(task, common(MecUnit, EGMid, ExtConfigName, Joint, Pose, PathCorr, LATR),
                         {giR1x, giR2y, giR3z, giR4rx, giR5ry, giR6rz, giE1, giE2, giE3, giE4, giE5, giE6});
 }
 
 /// No sensor with this protocol can be connected: the path is not corrected.
 Status rt_EGMSetupLTAPP(TaskCore* task, Handle* MecUnit, Handle* EGMid, const String* ExtConfigName,
                         const String*, float, bool, bool) {
-    return setUp(task, common(MecUnit, EGMid, ExtConfigName, false, false, true), nullptr,
+    return setUp(task, common(MecUnit, EGMid, ExtConfigName, false, false, true, false), nullptr,
                  [](GuidanceMode, EgmProcess&, std::unique_ptr<lib::Partner>&) { return kOk; });
 }
 }

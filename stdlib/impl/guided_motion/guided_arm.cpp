@@ -15,6 +15,30 @@ constexpr double kSeconds = static_cast<double>(GuidedArm::kPeriod) * 1e-9;
 constexpr double kNear = 1e-6; // deg: an axis that is so near to its goal is put there
 constexpr double kFar = 1e-3;  // deg: a limit that cuts off less is not reported
 
+/// What one axis may do: deg or mm, s.
+struct AxisLimits {
+    double lower, upper, speed, acceleration;
+};
+
+/// One period of an axis towards its goal, with `gain` times its distance a second and a speed that is asked for besides.
+void follow(double& position, double& speed, double goal, double gain, double speedAsked,
+            const AxisLimits& limits) {
+    const double difference = goal - position;
+    if (speedAsked == 0 && std::fabs(difference) < kNear && std::fabs(speed) * kSeconds < kNear) {
+        if (gain > 0) position = goal;
+        speed = 0;
+        return;
+    }
+    // From this speed the axis can still stop at its goal.
+    const double stopping = std::sqrt(2 * limits.acceleration * std::fabs(difference));
+    const double wanted = std::clamp(std::clamp(gain * difference, -stopping, stopping) + speedAsked,
+                                     -limits.speed, limits.speed);
+    const double change = limits.acceleration * kSeconds;
+    speed = std::clamp(wanted, speed - change, speed + change);
+    position = std::clamp(position + speed * kSeconds, std::min(limits.lower, position),
+                          std::max(limits.upper, position));
+}
+
 } // namespace
 
 motion::FrameSetup basedFrames(MotionDriver& motion, motion::FrameSetup frames) {
@@ -112,6 +136,9 @@ motion::Joints GuidedArm::limited(motion::Joints wanted) {
 
 void GuidedArm::follow(const SensorData& data, double share) {
     limit_.clear();
+    const auto moves = [](double speed) { return speed != 0; };
+    if (std::any_of(additionalSpeed_.begin(), additionalSpeed_.end(), moves))
+        settings_.frames = basedFrames(motion_, settings_.frames); // an additional axis may carry the base
     wanted_ = limited(target(data));
     const double part =
         settings_.filterHz > 0 ? 1 - std::exp(-2 * std::numbers::pi * settings_.filterHz * kSeconds) : 1;
@@ -124,28 +151,36 @@ void GuidedArm::follow(const SensorData& data, double share) {
         moveAxis(i, filtered_[i], order_.gain * share, asked);
         isSteady_ = isSteady_ && speed_[i] == 0 && (filtered_[i] == wanted_[i]);
     }
-    place();
+    moveAdditional(data, order_.gain * share);
+    place(speedNow());
 }
 
 void GuidedArm::moveAxis(std::size_t axis, double goal, double gain, double speedAsked) {
     const robot::RobotModel& model = motion_.model();
-    const double acceleration = model.maxAcceleration[axis];
-    const double most = std::min(settings_.maxSpeed, model.maxSpeed[axis]);
-    const double difference = goal - now_.robax[axis];
-    if (speedAsked == 0 && std::fabs(difference) < kNear && std::fabs(speed_[axis]) * kSeconds < kNear) {
-        if (gain > 0) now_.robax[axis] = goal;
-        speed_[axis] = 0;
-        return;
+    const AxisLimits limits{model.lowerDeg[axis], model.upperDeg[axis],
+                            std::min(settings_.maxSpeed, model.maxSpeed[axis]), model.maxAcceleration[axis]};
+    ::rt::lib::follow(now_.robax[axis], speed_[axis], goal, gain, speedAsked, limits);
+}
+
+/// Additional axes, within their ranges.
+void GuidedArm::moveAdditional(const SensorData& data, double gain) {
+    const motion::ExternalAxisModels& axes = motion_.system().externalAxes();
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        if (!axes[i].present || !motion::isConnected(now_.extax[i]) || !data.additional[i]) continue;
+        const double low = std::max(axes[i].lower, start_.extax[i] - settings_.maxDeviation);
+        const double high = std::min(axes[i].upper, start_.extax[i] + settings_.maxDeviation);
+        const double wanted = *data.additional[i];
+        const double goal = std::clamp(wanted, std::min(low, high), high);
+        if (std::fabs(goal - wanted) > kFar && limit_.empty())
+            limit_ =
+                fmt::format("additional axis {} is asked to go to {:.2f} and may go from {:.2f} to {:.2f}. "
+                            "Send other values, or give \\MaxPosDeviation a larger one",
+                            static_cast<char>('a' + i), wanted, low, high);
+        ::rt::lib::follow(
+            now_.extax[i], additionalSpeed_[i], goal, gain, 0,
+            {low, high, std::min(settings_.maxSpeed, axes[i].maxSpeed), axes[i].maxAcceleration});
+        isSteady_ = isSteady_ && additionalSpeed_[i] == 0;
     }
-    // From this speed the axis can still stop at its goal.
-    const double stopping = std::sqrt(2 * acceleration * std::fabs(difference));
-    const double wanted =
-        std::clamp(std::clamp(gain * difference, -stopping, stopping) + speedAsked, -most, most);
-    const double change = acceleration * kSeconds;
-    speed_[axis] = std::clamp(wanted, speed_[axis] - change, speed_[axis] + change);
-    const double next = now_.robax[axis] + speed_[axis] * kSeconds;
-    now_.robax[axis] = std::clamp(next, std::min(model.lowerDeg[axis], now_.robax[axis]),
-                                  std::max(model.upperDeg[axis], now_.robax[axis]));
 }
 
 void GuidedArm::brake() {
@@ -154,20 +189,35 @@ void GuidedArm::brake() {
         speed_[i] -= std::clamp(speed_[i], -change, change);
         now_.robax[i] += speed_[i] * kSeconds;
     }
+    const motion::ExternalAxisModels& axes = motion_.system().externalAxes();
+    for (std::size_t i = 0; i < additionalSpeed_.size(); ++i) {
+        const double change = axes[i].maxAcceleration * kSeconds;
+        additionalSpeed_[i] -= std::clamp(additionalSpeed_[i], -change, change);
+        if (additionalSpeed_[i] != 0) now_.extax[i] += additionalSpeed_[i] * kSeconds;
+    }
     filtered_ = now_.robax;
-    place();
+    place(speedNow());
 }
 
 bool GuidedArm::isStanding() const {
-    return std::all_of(speed_.begin(), speed_.end(), [](double speed) { return speed == 0; });
+    const auto stands = [](double speed) { return speed == 0; };
+    return std::all_of(speed_.begin(), speed_.end(), stands) &&
+           std::all_of(additionalSpeed_.begin(), additionalSpeed_.end(), stands);
 }
 
 /// The way is passed evenly at its middle with 1.5 times the mean speed.
 double GuidedArm::beginWayBack() {
-    wayBackFrom_ = now_.robax;
+    wayBackFrom_ = now_;
     double seconds = 0;
-    for (std::size_t i = 0; i < wayBackFrom_.size(); ++i) {
-        const double way = std::fabs(wayBackFrom_[i] - start_.robax[i]);
+    const motion::ExternalAxisModels& axes = motion_.system().externalAxes();
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        if (!motion::isConnected(now_.extax[i])) continue;
+        const double way = std::fabs(now_.extax[i] - start_.extax[i]);
+        seconds =
+            std::max({seconds, 1.5 * way / axes[i].maxSpeed, std::sqrt(6 * way / axes[i].maxAcceleration)});
+    }
+    for (std::size_t i = 0; i < start_.robax.size(); ++i) {
+        const double way = std::fabs(wayBackFrom_.robax[i] - start_.robax[i]);
         seconds = std::max({seconds, 1.5 * way / motion_.model().maxSpeed[i],
                             std::sqrt(6 * way / motion_.model().maxAcceleration[i])});
     }
@@ -176,14 +226,25 @@ double GuidedArm::beginWayBack() {
 
 void GuidedArm::placeOnWayBack(double share) {
     const double s = std::clamp(share, 0.0, 1.0), done = s * s * (3 - 2 * s);
-    for (std::size_t i = 0; i < wayBackFrom_.size(); ++i)
-        now_.robax[i] = wayBackFrom_[i] + (start_.robax[i] - wayBackFrom_[i]) * done;
-    place();
+    const motion::JointTarget before = now_;
+    motion::JointTarget speed;
+    speed.robax = motion::Joints::zeros(now_.robax.size());
+    const auto pass = [&](double from, double to, double was, double& now, double& rate) {
+        now = from + (to - from) * done;
+        rate = s < 1 ? (now - was) / kSeconds : 0;
+    };
+    for (std::size_t i = 0; i < start_.robax.size(); ++i)
+        pass(wayBackFrom_.robax[i], start_.robax[i], before.robax[i], now_.robax[i], speed.robax[i]);
+    for (std::size_t i = 0; i < start_.extax.size(); ++i)
+        if (motion::isConnected(now_.extax[i]))
+            pass(wayBackFrom_.extax[i], start_.extax[i], before.extax[i], now_.extax[i], speed.extax[i]);
+    place(speed);
 }
 
-void GuidedArm::place() {
+/// The speeds last a little longer than a period, so that the arm does not come to rest between two of them.
+void GuidedArm::place(const motion::JointTarget& speed) {
     if (lost_) return;
-    if (!motion_.system().isIdle() || !motion_.system().placeAt(now_)) {
+    if (!motion_.system().isIdle() || !motion_.system().leadTo(now_, speed, kPeriod + kPeriod / 2)) {
         lost_ = true;
         return;
     }

@@ -21,7 +21,7 @@ struct GuidanceSettings {
     int correctionType = 2, sensorType = 2; ///< egmframetype: 2 is the work object
     std::array<Window, 7> windows{};        ///< of axes 1 to 7, or of x, y, z, rx, ry, rz
     double filterHz = 20;                   ///< bandwidth of the low-pass filter; 0 = none
-    double maxSpeed = 1;                    ///< deg/s
+    double maxSpeed = 1;                    ///< deg/s; of linear additional axes mm/s
     double maxDeviation = 1000;             ///< deg from where the guidance began
 };
 
@@ -67,13 +67,17 @@ class GuidedArm {
     motion::Joints targetOfPose(const SensorData& data);
     motion::Joints limited(motion::Joints wanted);
     void moveAxis(std::size_t axis, double goal, double gain, double speedAsked);
-    void place();
+    void moveAdditional(const SensorData& data, double gain);
+    void place(const motion::JointTarget& speed);
+    motion::JointTarget speedNow() const { return {speed_, additionalSpeed_}; }
 
     MotionDriver& motion_;
     GuidanceSettings settings_;
     GuidanceOrder order_;
     motion::JointTarget start_, now_;
-    motion::Joints speed_, filtered_, wanted_, wayBackFrom_;
+    motion::JointTarget wayBackFrom_;
+    motion::Joints speed_, filtered_, wanted_;
+    motion::ExternalAxes additionalSpeed_{}; ///< deg/s, mm/s
     motion::Pose sensorInWorld_, objectInWorld_;
     motion::Pose wantedPose_; ///< in the frame of the sensor
     bool isSteady_ = false, lost_ = false;

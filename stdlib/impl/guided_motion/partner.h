@@ -18,7 +18,10 @@ enum class GuidanceMode : uint8_t { Joint, Pose, PathCorrection };
 struct SensorData {
     /// Each axis that is asked for, by its number from 1 (index 0: axis 1, index 6: axis 7 of a seven-axis arm), deg.
     std::array<std::optional<double>, 7> joints{};
-    /// Place and orientation in the frame of the sensor: mm, and deg about x, y, z (RAPID's EulerZYX).
+    /// Additional axes eax_a to eax_f that are asked for: deg or mm. eax_a of a seven-axis arm is among the joints.
+    std::array<std::optional<double>, 6> additional{};
+    /// Place and orientation in the frame of the sensor: mm, and deg about x, y, z (RAPID's EulerZYX). Of a path correction: x, y, z
+    /// in path coordinates.
     std::array<std::optional<double>, 6> pose{};
     /// Orientation as a quaternion, instead of the angles.
     std::optional<motion::Quat> orientation;

@@ -23,7 +23,8 @@ bool SignalPartner::receive(SensorData& data) {
         if (signals_[i] == 0) continue;
         IoResult result{};
         const double value = io_.read(signals_[i], result);
-        if (mode_ == GuidanceMode::Pose && i < data.pose.size()) data.pose[i] = value;
+        if (mode_ != GuidanceMode::Joint && i < data.pose.size()) data.pose[i] = value;
+        if (i >= data.pose.size()) data.additional[i - data.pose.size()] = value;
         if (mode_ == GuidanceMode::Joint && i < data.joints.size()) data.joints[i] = value; // E1: axis 7
     }
     return true;

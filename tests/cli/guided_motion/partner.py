@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 LIMIT = 30  # s; whatever takes longer hangs
-CORRECTION = 3
+CORRECTION, PATH_CORRECTION = 3, 4
 
 
 def real(field, value):
@@ -28,6 +28,12 @@ def sensor(joints):
     """An EgmSensor message for these axes, in degrees."""
     planned = message(1, b"".join(real(1, joint) for joint in joints))
     return message(1, bytes([0x18, CORRECTION])) + message(2, planned)
+
+
+def path_correction(offset):
+    """An EgmSensorPathCorr message: mm in path coordinates."""
+    position = message(1, b"".join(real(axis + 1, offset[axis]) for axis in range(3)))
+    return message(1, bytes([0x18, PATH_CORRECTION])) + message(2, position + bytes([0x10, 1]))
 
 
 def fields(data):
@@ -90,6 +96,28 @@ def sine(partner):
     print("all fields", parts == set(range(1, 14)))
     print("swings to", round(max(reached[: 400])), round(min(reached[: 400])) + 0)
     print("ends at", round(reached[-1], 1))
+
+
+def wave(partner):
+    """Corrects the path across by 5 mm, then by 3 mm the other way when the robot is beyond y = 0, and upwards by 2 mm."""
+    seen, times = [], []
+    while True:
+        try:
+            data, robot = partner.recvfrom(2000)
+        except TimeoutError:
+            break
+        partner.settimeout(2)
+        times.append(part(data, 1, 2))
+        place = dict(fields(part(data, 2, 2, 1)))
+        seen.append((place[1], place[2], place[3]))
+        across = 5 if place[2] < 0 else -3
+        partner.sendto(path_correction((100, across, -2)), robot)
+    print("each 24 ms", {b - a for a, b in zip(times, times[1:])} == {24})
+    first = [x for x, y, z in seen if -25 < y < -5]
+    second = [x for x, y, z in seen if 30 < y < 49]
+    print("first", round(min(first), 2), round(max(first), 2))
+    print("then", round(min(second), 2), round(max(second), 2))
+    print("height", round(seen[-1][2], 2))
 
 
 def main():

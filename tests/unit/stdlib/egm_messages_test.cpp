@@ -102,8 +102,33 @@ TEST_CASE("messages that cannot be used are refused with the reason", "[egm]") {
     for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
         CHECK(decode(header(3) + part(2, part(1, list({bad, 0, 0, 0, 0, 0}))), GuidanceMode::Joint, data)
                   .find("finite") != std::string::npos);
-    CHECK(decode(header(4), GuidanceMode::PathCorrection, data).empty());
+    CHECK(decode(header(4), GuidanceMode::PathCorrection, data).find("position") != std::string::npos);
     CHECK_FALSE(decode(header(3) + good, GuidanceMode::PathCorrection, data).empty());
+}
+
+TEST_CASE("a path correction is a position in path coordinates", "[egm]") {
+    SensorData data;
+    const std::string place = part(1, record({0, 2, -3}));
+    const std::string age = std::string{'\x10', '\x01'};
+    REQUIRE(decode(header(4) + part(2, place + age), GuidanceMode::PathCorrection, data).empty());
+    CHECK(data.pose[1] == 2);
+    CHECK(data.pose[2] == -3);
+    CHECK_FALSE(decode(header(4) + part(2, age), GuidanceMode::PathCorrection, data).empty());
+    CHECK_FALSE(
+        decode(header(4) + part(2, part(1, record({0, 2}))), GuidanceMode::PathCorrection, data).empty());
+    const std::string bad = part(1, record({0, std::nan(""), 0}));
+    CHECK(decode(header(4) + part(2, bad), GuidanceMode::PathCorrection, data).find("finite") !=
+          std::string::npos);
+}
+
+TEST_CASE("external joints are additional axes from eax_a on", "[egm]") {
+    SensorData data;
+    const std::string external = part(3, list({7, -8}));
+    REQUIRE(
+        decode(header(3) + part(2, part(1, list(kJoints)) + external), GuidanceMode::Joint, data).empty());
+    CHECK(data.additional[0] == 7);
+    CHECK(data.additional[1] == -8);
+    CHECK_FALSE(data.additional[2]);
 }
 
 TEST_CASE("a message that is cut anywhere is refused or lacks what came after", "[egm]") {
