@@ -16,6 +16,20 @@
 namespace rt {
 namespace {
 
+/// Path modifiers have led the robot where it cannot be: the task that moves it stops with an error.
+void stopOutOfReach(Controller& controller, MotionDriver& motion) {
+    Task* mover = nullptr;
+    for (const auto& task : controller.tasks())
+        if (task->motionGroup() == static_cast<int>(motion.group()) && task->isExecuting())
+            mover = task.get();
+    const auto& error = motion.system().outOfReachError();
+    controller.log().write(EventId::DisplacedOutOfReach, mover,
+                           {motion.unitName(), error ? error->message() : ""});
+    if (mover == nullptr) return motion.programStop();
+    mover->stop(StopCause::Error);
+    controller.taskFailed(*mover);
+}
+
 void print(const std::string& message) {
     fmt::print(stderr, "error: {}\n", message);
 }
@@ -163,8 +177,9 @@ ExitStatus Controller::openRobots(const ProgramDesc& program) {
         motions_.push_back(
             std::make_unique<MotionDriver>(scheduler_, group.model, how, group.robot, motions_.size()));
         motions_.back()->addListener([this, &motion = *motions_.back()](ArmNews news) {
-            if (news != ArmNews::CornerLost) return;
-            log_.write(EventId::CornerPathFailure, motion.orderingTask(), {motion.unitName()});
+            if (news == ArmNews::CornerLost)
+                log_.write(EventId::CornerPathFailure, motion.orderingTask(), {motion.unitName()});
+            if (news == ArmNews::OutOfReach) stopOutOfReach(*this, motion);
         });
     }
     return ExitStatus::Ended;

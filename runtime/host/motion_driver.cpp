@@ -86,6 +86,7 @@ void MotionDriver::advance(Time time) {
         Time step = time;
         if (const auto next = system_.nextEventTime())
             step = std::min(time, std::max<Time>(*next, system_.now()));
+        system_.advanceModifiers(step);
         while (!traces_.empty() && nextSample_ <= step) {
             const motion::MotionState state = system_.sample(nextSample_);
             for (TraceSink* trace : traces_)
@@ -115,6 +116,7 @@ void MotionDriver::handle(const motion::MotionEvent& event) {
         dropActions(
             [&event](const PendingAction& pending) { return pending.fired && pending.move == event.move; });
     if (event.kind == motion::MotionEventKind::CornerLost && cornerWarning_) tell(ArmNews::CornerLost);
+    if (event.kind == motion::MotionEventKind::OutOfReach) tell(ArmNews::OutOfReach);
     if (event.kind != motion::MotionEventKind::Trigger) return;
     const auto found = actions_.find(event.trigger);
     if (found == actions_.end()) return;
@@ -344,7 +346,7 @@ Status MotionDriver::waitDone(Task& task, motion::MoveId id) {
 
 Status MotionDriver::waitIdle(Task& task) {
     WaitResult result{};
-    return task.waitFor({{&changed_}, [this] { return system().isIdle(); }}, result);
+    return task.waitFor({{&changed_}, [this] { return system().isIdle() && !system_.isLed(); }}, result);
 }
 
 Status MotionDriver::waitZeroSpeed(Task& task) {

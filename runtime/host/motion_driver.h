@@ -37,7 +37,8 @@ enum class ArmNews : uint8_t {
     MotorsOff,   ///< the arm is about to brake beside its path
     PowerFailed, ///< follows MotorsOff when the power has failed
     Start,       ///< the program starts again
-    CornerLost   ///< a fly-by point has become a stop point, and warnings of that are on (CornerPathWarning)
+    CornerLost,  ///< a fly-by point has become a stop point, and warnings of that are on (CornerPathWarning)
+    OutOfReach   ///< a path modifier asked for a place that the arm cannot reach; it brakes on its path
 };
 
 class MotionDriver final : public SteppedArm {

@@ -110,6 +110,8 @@ std::optional<TimeNs> MotionSystem::Impl::nextEvent() const {
         return {};
     }
     if ((isStopRequested && !isStopAnnounced) || !isRestAnnounced) considerAt(restTime());
+    if (const auto advance = nextAdvance()) considerAt(*advance);
+    if (modifiers.unreported) considerAt(now);
     if (level.queue.empty() || isHalted) return next;
     const Move& front = *level.queue.front();
     consider(front.isStarted ? reachTime(front) : startTime(front));
@@ -184,6 +186,7 @@ bool MotionSystem::Impl::handleMoves() {
 }
 
 void MotionSystem::Impl::handleEventsNow() {
+    reportOutOfReach();
     if (isCoasting) {
         isCoasting = false;
         if (!isHalted) follow(level.path, now); // its moves have been cleared meanwhile

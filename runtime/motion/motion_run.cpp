@@ -22,6 +22,7 @@ bool MotionSystem::Impl::isMoving() const {
     const Span& at = span();
     const double time = seconds();
     if (at.coast != nullptr) return now < at.start + toNs(at.coast->duration());
+    if (now < at.ledUntil || (isModified(at) && modifiers.moveAtRest())) return true;
     return at.path != nullptr && at.path->isMoving(time);
 }
 
@@ -31,7 +32,9 @@ TimeNs MotionSystem::Impl::restTime() const {
     for (auto at = spanAt(now); at != spans.end(); ++at) {
         if (at->coast != nullptr) rest = std::max(rest, at->start + toNs(at->coast->duration()));
         if (at->path != nullptr && !at->path->isEmpty()) rest = std::max(rest, toNs(at->path->restTime()));
+        rest = std::max(rest, at->ledUntil);
     }
+    if (isModified(span()) && modifiers.moveAtRest()) rest = std::max(rest, now + kModifierPeriod);
     return rest;
 }
 
@@ -59,6 +62,7 @@ void MotionSystem::Impl::follow(std::shared_ptr<const Trajectory> what, TimeNs f
 void MotionSystem::Impl::beginPath(std::shared_ptr<Trajectory> path) {
     level.finished.clear();
     level.path = std::move(path);
+    modifiers.pathReplaced();
     follow(level.path, now);
 }
 
@@ -67,7 +71,9 @@ void MotionSystem::Impl::abandonPath() {
     if (!isCoasting && detour == nullptr && !isStepping) path().hold(seconds());
     if (detour != nullptr) detour->hold(seconds());
     const TimeNs rest = restTime();
+    if (const Pose shift = shiftNow(); !(shift == Pose{})) spans.back().shift = shift;
     const MotionState state = stateAt(rest);
+    modifiers.pathReplaced();
     level.path = newPath({state.joints, state.extax}, toSeconds(rest));
     detour = nullptr;
     isStepping = isHalted = false;
@@ -124,7 +130,7 @@ void MotionSystem::Impl::resume() {
 bool MotionSystem::Impl::startDetour() {
     isHalted = false;
     if (!level.queue.empty() && !path().isEmpty()) {
-        const RoutePoint goal = path().pointAt(path().at(seconds()).place);
+        const MotionState goal = pathStateNow();
         MoveCommand back;
         back.joints = {goal.joints, goal.extax};
         back.frames = path().framesAt(path().at(seconds()).place);
@@ -195,7 +201,8 @@ MotionState MotionSystem::Impl::stillAt(const JointTarget& joints) const {
     return state;
 }
 
-MotionState MotionSystem::Impl::stateOn(const Trajectory& trajectory, const Span& span, double time) const {
+MotionState MotionSystem::Impl::stateOn(const Trajectory& trajectory, const Span& span, TimeNs at) const {
+    const double time = toSeconds(at);
     if (trajectory.isEmpty()) return span.still;
     const Trajectory::Moment moment = trajectory.at(time);
     const RoutePoint point = trajectory.pointAt(moment.place);
@@ -217,13 +224,24 @@ MotionState MotionSystem::Impl::stateOn(const Trajectory& trajectory, const Span
         state.move = move->id;
         state.tag = move->tag;
     }
+    if (span.shift)
+        (void)shiftArm(state, frames, *span.shift * state.tcp);
+    else if (isModified(span))
+        displace(state, moment, at);
     return state;
 }
 
 MotionState MotionSystem::Impl::stateAt(TimeNs time) const {
     const Span& at = *spanAt(time);
     if (at.coast != nullptr) return at.coast->at(toSeconds(time - at.start), kinematics);
-    return at.path == nullptr ? at.still : stateOn(*at.path, at, toSeconds(time));
+    if (at.path != nullptr && !at.path->isEmpty()) return stateOn(*at.path, at, time);
+    MotionState still = at.still;
+    if (still.moving && time >= at.ledUntil) {
+        still.moving = false;
+        std::fill(still.jointSpeed.begin(), still.jointSpeed.end(), 0.0);
+        still.tcpSpeed = 0;
+    }
+    return still;
 }
 
 /// With the axis that moves for itself; its share in the speed of the TCP is left out.
@@ -244,12 +262,22 @@ MotionState MotionSystem::Impl::stateIfStopped(TimeNs time) const {
     const Span& at = *spanAt(time);
     if (at.coast != nullptr) return at.coast->at(at.coast->duration(), kinematics);
     if (at.path == nullptr || at.path->isEmpty()) return at.still;
-    const PathPlace place = at.path->restPlaceIfHeld(toSeconds(time));
-    const RoutePoint point = at.path->pointAt(place);
-    MotionState state = at.still;
+    return stateAtPlace(*at.path, at, at.path->restPlaceIfHeld(toSeconds(time)));
+}
+
+/// At rest at a place of the path.
+MotionState MotionSystem::Impl::stateAtPlace(const Trajectory& trajectory, const Span& span,
+                                             const PathPlace& place) const {
+    const RoutePoint point = trajectory.pointAt(place);
+    MotionState state = span.still;
     state.joints = point.joints;
     state.extax = point.extax;
-    state.tcp = at.path->framesAt(place).tcpInWorld(kinematics.forward(point.joints), point.extax);
+    const FrameSetup& frames = trajectory.framesAt(place);
+    state.tcp = frames.tcpInWorld(kinematics.forward(point.joints), point.extax);
+    if (span.shift)
+        (void)shiftArm(state, frames, *span.shift * state.tcp);
+    else if (isModified(span))
+        displace(state, {place, 0}, now);
     return state;
 }
 
@@ -257,14 +285,15 @@ MotionState MotionSystem::Impl::stateIfStopped(TimeNs time) const {
 /// being covered.
 JointTarget MotionSystem::Impl::standing() const {
     const bool isArriving = level.queue.empty() && span().path == level.path && path().leadsToEnd();
-    if (isArriving) return path().endTarget();
-    const MotionState state = stateAt(now);
+    if (isArriving && !isModified(span())) return path().endTarget();
+    const MotionState state = isArriving ? stateAtPlace(path(), span(), path().end()) : stateAt(now);
     return {state.joints, state.extax};
 }
 
 void MotionSystem::Impl::forgetBefore(TimeNs time) {
     while (spans.size() > 1 && spans[1].start <= time)
         spans.pop_front();
+    if (modifiers.areActive()) modifiers.forgetBefore(time);
     if (path().isEmpty() || spans.front().path != level.path) return;
     const Move* oldest = level.finished.empty() ? front() : level.finished.front().get();
     if (oldest == nullptr) return;

@@ -89,6 +89,7 @@ MoveId MotionSystem::Impl::registerMove(const MoveCommand& command, const Trajec
     move->isConcurrent = command.concurrent;
     move->isAwaited = command.stop.isAwaited;
     move->isFlyBy = !command.zone.finep;
+    move->modifications = command.modifications;
     for (const PathTrigger& trigger : command.triggers)
         move->triggers.push_back({trigger, false});
     level.queue.push_back(move);
@@ -147,6 +148,7 @@ bool MotionSystem::storePath() {
     s.path().hold(s.seconds());
     const JointTarget here = s.standing();
     s.stored.push_back(std::exchange(s.level, {}));
+    s.modifiers.pathStored();
     s.isStopRequested = false;
     s.isStopAnnounced = true;
     s.level.path = s.newPath(here, s.seconds());
@@ -163,6 +165,7 @@ bool MotionSystem::restorePath() {
     const JointTarget here = s.standing();
     s.isStopRequested = level.isStopRequested;
     s.level = std::move(level);
+    s.modifiers.pathRestored();
     s.follow(s.level.path, s.now);
     if (s.level.path->isEmpty() || s.level.queue.empty()) { // no move is left: the path begins here
         s.beginPath(s.newPath(here, s.seconds()));
@@ -186,6 +189,7 @@ void MotionSystem::clearStored() {
     for (const Level& level : s.stored)
         if (!level.queue.empty()) s.noteCleared(level.queue.front()->id);
     s.stored.clear();
+    s.modifiers.storedPathsCleared();
 }
 
 std::optional<MotionSystem::PathGap> MotionSystem::gapToPath() const {
@@ -196,7 +200,7 @@ std::optional<MotionSystem::PathGap> MotionSystem::gapToPath() const {
     const auto tcp = [&](const auto& at) {
         return frames.tcpInWorld(s.kinematics.forward(at.joints), at.extax);
     };
-    const Pose goal = tcp(s.path().pointAt(place));
+    const Pose goal = tcp(s.pathStateNow());
     const Pose here = tcp(s.stateAt(s.now));
     constexpr double kDegreesPerRadian = 57.295779513082323;
     const double turn = 2 * std::acos(std::min(1.0, std::fabs(dot(goal.rot, here.rot))));
@@ -292,9 +296,11 @@ void MotionSystem::advanceTo(TimeNs time) {
     for (;;) {
         const auto next = s.nextEvent();
         if (!next || *next > time) break;
+        s.advanceModifiers(*next);
         s.now = std::max(s.now, *next);
         s.handleEventsNow();
     }
+    s.advanceModifiers(time);
     s.now = time;
 }
 

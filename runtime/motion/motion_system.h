@@ -8,6 +8,7 @@
 #include "runtime/motion/motion_state.h"
 #include "runtime/motion/move_command.h"
 #include "runtime/motion/move_limits.h"
+#include "runtime/motion/path_modifier.h"
 #include "runtime/motion/planner.h"
 #include "runtime/motion/targets.h"
 #include "runtime/robot/kinematics.h"
@@ -21,7 +22,6 @@
 
 namespace motion {
 
-using TimeNs = int64_t;
 /// Number of a move, from 1 in the order of enqueue.
 using MoveId = int64_t;
 
@@ -41,6 +41,7 @@ enum class MotionEventKind : uint8_t {
     Stopped,  ///< standing still after stop()
     AtRest,   ///< no axis moves any more and nothing that is ordered makes one move
     CornerLost, ///< the fly-by point of the move has become a stop point: the next move came too late, or no corner fits
+    OutOfReach, ///< a path modifier asked for a place that the arm cannot reach; it brakes on its path as after stop()
 };
 
 struct MotionEvent {
@@ -101,6 +102,19 @@ class MotionSystem {
     /// Brings the arm to these angles without motion (start of a simulation). Only when idle; false
     /// otherwise.
     bool placeAt(const JointTarget& joints);
+    /// Leads the arm from outside, without a path: it is at these angles now and moves with these speeds (deg/s) until the next
+    /// call, at most for `period`. Only when idle and on no path; false otherwise.
+    bool leadTo(const JointTarget& joints, const Joints& speed, TimeNs period);
+    /// leadTo() moves it.
+    bool isLed() const;
+
+    // ---- away from the planned path ----
+    /// The modifier acts from now on, after those that were added before.
+    void addModifier(std::shared_ptr<PathModifier> modifier);
+    /// Modifiers follow the plan up to this time, before which nothing changes, so that sample() has an answer there.
+    void advanceModifiers(TimeNs time);
+    /// Why the latest OutOfReach event happened.
+    const std::optional<MotionError>& outOfReachError() const;
 
     // ---- path levels ----
     /// Puts the unfinished moves aside (StorePath): what is ordered next runs from where the arm stands, also

@@ -3,6 +3,7 @@
 
 #include "runtime/motion/coast.h"
 #include "runtime/motion/motion_system.h"
+#include "runtime/motion/path_modifiers.h"
 #include "runtime/motion/trajectory.h"
 
 #include <algorithm>
@@ -35,6 +36,7 @@ struct Move {
     bool isConcurrent = false;
     bool isAwaited = true; // the program waits for its stop point
     std::vector<Trigger> triggers;
+    Modifications modifications;
     bool isStarted = false;
     bool isReleased = false;
 };
@@ -54,6 +56,8 @@ struct Span {
     std::shared_ptr<const Trajectory> path; // follows it ...
     std::shared_ptr<const Coast> coast;     // ... or brakes off its path, and rests there
     MotionState still;                      // ... or rests; also the state before the first move of a path
+    std::optional<Pose> shift;              // in world: the path was abandoned while displaced by this
+    TimeNs ledUntil = 0;                    // led from outside with the speeds of `still` until then
 };
 
 struct MotionSystem::Impl {
@@ -74,6 +78,8 @@ struct MotionSystem::Impl {
 
     std::optional<AxisCourse> independent; // of an axis that moves for itself
     std::size_t independentAxis = 0;
+
+    PathModifiers modifiers;
 
     Level level; // the one in use
     std::vector<Level> stored;
@@ -145,7 +151,24 @@ struct MotionSystem::Impl {
 
     // States
     MotionState stateAt(TimeNs time) const;
-    MotionState stateOn(const Trajectory& trajectory, const Span& span, double time) const;
+    MotionState stateOn(const Trajectory& trajectory, const Span& span, TimeNs at) const;
+    MotionState stateAtPlace(const Trajectory& trajectory, const Span& span, const PathPlace& place) const;
+    MotionState pathStateNow() const;
+
+    // Displacement from the path
+    bool isModified(const Span& span) const {
+        return span.path != nullptr && span.path == level.path && !span.path->isEmpty() &&
+               modifiers.areActive();
+    }
+    PlannedMoment momentOf(const MotionState& planned, const Trajectory::Moment& at, TimeNs time) const;
+    void displace(MotionState& state, const Trajectory::Moment& at, TimeNs time) const;
+    void measureSpeeds(MotionState& state, const PlannedMoment& planned, TimeNs time) const;
+    std::optional<MotionError> shiftArm(MotionState& state, const FrameSetup& frames,
+                                        const Pose& wanted) const;
+    std::optional<TimeNs> nextAdvance() const;
+    void advanceModifiers(TimeNs time);
+    void reportOutOfReach();
+    Pose shiftNow() const;
     MotionState shown(MotionState state, TimeNs time) const;
     MotionState stateIfStopped(TimeNs time) const;
     MotionState stillAt(const JointTarget& joints) const;

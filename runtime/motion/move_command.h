@@ -6,9 +6,14 @@
 
 #include <compare>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace motion {
+
+/// Something that displaces the TCP from the path of a movement on purpose (path_modifier.h).
+struct Modification;
+using Modifications = std::vector<std::shared_ptr<const Modification>>;
 
 enum class MoveKind : uint8_t {
     AbsJoint, ///< to axis angles, axis by axis
@@ -116,7 +121,8 @@ struct MoveCommand {
     bool concurrent = false; ///< \Conc: the program goes on when the move starts
     MotionSettings settings;
     std::vector<PathTrigger> triggers;
-    int64_t ident = kNoIdent; ///< RAPID's \ID, the same for all robots of a synchronised movement
+    Modifications modifications; ///< what displaces the TCP from this path
+    int64_t ident = kNoIdent;    ///< RAPID's \ID, the same for all robots of a synchronised movement
     uint64_t tag = 0; ///< the caller's, given back in samples and events (number of the move instruction)
 };
 

@@ -1,7 +1,7 @@
-// Manual 1.8: generators of path corrections. Values are kept and added up for CorrRead; movements with \Corr are not
-// displaced by them.
+// Manual 1.8: generators of path corrections. Their sum displaces the movements with \Corr (motion::PathCorrections).
 
 #include "stdlib/impl/motion/corrections.h"
+#include "runtime/motion/path_corrections.h"
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/fail.h"
@@ -25,6 +25,7 @@ struct Generator {
 struct Corrections {
     std::array<Generator, kMost> generators{};
     Handle lastId = 0;
+    std::shared_ptr<motion::PathCorrections> path; ///< null until a generator or \Corr is used
 
     /// Null when the descriptor is not connected.
     Generator* find(Handle id) {
@@ -34,8 +35,31 @@ struct Corrections {
     }
 };
 
+motion::Vec3 sumOf(const Corrections& corrections) {
+    motion::Vec3 sum;
+    for (const Generator& generator : corrections.generators)
+        sum = sum + generator.offset;
+    return sum;
+}
+
 Corrections& correctionsOf(TaskCore* task) {
     return lib::motionOf(task).service<Corrections>();
+}
+
+motion::PathCorrections& onPathOf(MotionDriver& motion) {
+    Corrections& corrections = motion.service<Corrections>();
+    if (corrections.path == nullptr) {
+        corrections.path = std::make_shared<motion::PathCorrections>();
+        motion.system().addModifier(corrections.path);
+    }
+    return *corrections.path;
+}
+
+/// The sum has changed; what has been executed keeps the one before.
+void apply(MotionDriver& motion) {
+    motion.refresh();
+    onPathOf(motion).setOffset(sumOf(motion.service<Corrections>()));
+    motion.refresh();
 }
 
 Status notConnected(TaskCore* task) {
@@ -48,7 +72,14 @@ Status notConnected(TaskCore* task) {
 namespace rt::lib {
 
 void endCorrections(MotionDriver& motion) {
-    motion.service<Corrections>().generators = {};
+    Corrections& corrections = motion.service<Corrections>();
+    corrections.generators = {};
+    if (corrections.path != nullptr) apply(motion);
+}
+
+motion::MoveCommand corrected(TaskCore* task, motion::MoveCommand command, bool isCorrected) {
+    if (isCorrected) command.modifications.push_back(onPathOf(motionOf(task)).modification());
+    return command;
 }
 
 } // namespace rt::lib
@@ -60,6 +91,7 @@ Status rt_CorrCon(TaskCore* task, Handle* Descr) {
     Corrections& corrections = correctionsOf(task);
     if (Generator* known = corrections.find(*Descr)) {
         known->offset = {};
+        apply(lib::motionOf(task));
         return kOk;
     }
     for (Generator& generator : corrections.generators) {
@@ -76,14 +108,12 @@ Status rt_CorrWrite(TaskCore* task, Handle* Descr, const data::Pos* Data) {
     Generator* generator = correctionsOf(task).find(*Descr);
     if (generator == nullptr) return notConnected(task);
     generator->offset = {Data->x, Data->y, Data->z};
+    apply(lib::motionOf(task));
     return kOk;
 }
 
 Status rt_CorrRead(TaskCore* task, data::Pos* result) {
-    motion::Vec3 sum;
-    for (const Generator& generator : correctionsOf(task).generators)
-        sum = sum + generator.offset;
-    *result = lib::toPos(sum);
+    *result = lib::toPos(sumOf(correctionsOf(task)));
     return kOk;
 }
 
@@ -91,6 +121,7 @@ Status rt_CorrDiscon(TaskCore* task, Handle* Descr) {
     Generator* generator = correctionsOf(task).find(*Descr);
     if (generator == nullptr) return notConnected(task);
     *generator = {};
+    apply(lib::motionOf(task));
     *Descr = 0;
     return kOk;
 }

@@ -8,4 +8,7 @@ namespace rt::lib {
 /// The program begins anew, or CorrClear: no generator is connected.
 void endCorrections(MotionDriver& motion);
 
+/// The movement, displaced by the corrections when `isCorrected` (\Corr).
+motion::MoveCommand corrected(TaskCore* task, motion::MoveCommand command, bool isCorrected);
+
 } // namespace rt::lib

@@ -1,6 +1,7 @@
 // Manual 1.8: positioning instructions.
 
 #include "stdlib/impl/math/convert.h"
+#include "stdlib/impl/motion/corrections.h"
 #include "stdlib/impl/motion/move_order.h"
 #include "stdlib/impl/support/fail.h"
 
@@ -235,16 +236,16 @@ Status rt_MoveJ(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const
 Status rt_MoveL(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, const float* ID,
                 const data::Speeddata* Speed, const float* V, const float* T, const float*, const float*,
                 const data::Zonedata* Zone, const float* Z, const data::Stoppointdata* Inpos,
-                data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata* TLoad) {
-    return lib::orderMove(task, lib::linearMove(task, *ToPoint, ID),
+                data::Tooldata* Tool, data::Wobjdata* WObj, bool Corr, data::Loaddata* TLoad) {
+    return lib::orderMove(task, lib::corrected(task, lib::linearMove(task, *ToPoint, ID), Corr),
                           {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj, false, TLoad});
 }
 
 Status rt_MoveC(TaskCore* task, bool Conc, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
                 const float* ID, const data::Speeddata* Speed, const float* V, const float* T,
                 const data::Zonedata* Zone, const float* Z, const data::Stoppointdata* Inpos,
-                data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata* TLoad) {
-    return lib::orderMove(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
+                data::Tooldata* Tool, data::Wobjdata* WObj, bool Corr, data::Loaddata* TLoad) {
+    return lib::orderMove(task, lib::corrected(task, lib::circularMove(task, *CirPoint, *ToPoint, ID), Corr),
                           {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj, false, TLoad});
 }
 

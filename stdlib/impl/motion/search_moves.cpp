@@ -2,6 +2,7 @@
 
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/math/convert.h"
+#include "stdlib/impl/motion/corrections.h"
 #include "stdlib/impl/motion/move_order.h"
 #include "stdlib/impl/motion/search.h"
 #include "stdlib/impl/support/fail.h"
@@ -134,9 +135,9 @@ Status rt_SearchL(TaskCore* task, bool Stop, bool PStop, bool SStop, bool Sup, H
                   bool Flanks, bool PosFlank, bool NegFlank, bool HighLevel, bool LowLevel,
                   data::Robtarget* SearchPoint, const data::Robtarget* ToPoint, const float* ID,
                   const data::Speeddata* Speed, const float* V, const float* T, data::Tooldata* Tool,
-                  data::Wobjdata* WObj, bool, data::Loaddata* TLoad) {
+                  data::Wobjdata* WObj, bool Corr, data::Loaddata* TLoad) {
     return searchTarget(
-        task, lib::linearMove(task, *ToPoint, ID),
+        task, lib::corrected(task, lib::linearMove(task, *ToPoint, ID), Corr),
         {{Stop, PStop, SStop, Sup, Flanks, PosFlank, NegFlank, HighLevel, LowLevel}, Signal, PersBool},
         moveArguments(Speed, V, T, Tool, WObj, TLoad), SearchPoint);
 }
@@ -145,10 +146,10 @@ Status rt_SearchC(TaskCore* task, bool Stop, bool PStop, bool SStop, bool Sup, H
                   bool Flanks, bool PosFlank, bool NegFlank, bool HighLevel, bool LowLevel,
                   data::Robtarget* SearchPoint, const data::Robtarget* CirPoint,
                   const data::Robtarget* ToPoint, const float* ID, const data::Speeddata* Speed,
-                  const float* V, const float* T, data::Tooldata* Tool, data::Wobjdata* WObj, bool,
+                  const float* V, const float* T, data::Tooldata* Tool, data::Wobjdata* WObj, bool Corr,
                   data::Loaddata* TLoad) {
     return searchTarget(
-        task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
+        task, lib::corrected(task, lib::circularMove(task, *CirPoint, *ToPoint, ID), Corr),
         {{Stop, PStop, SStop, Sup, Flanks, PosFlank, NegFlank, HighLevel, LowLevel}, Signal, PersBool},
         moveArguments(Speed, V, T, Tool, WObj, TLoad), SearchPoint);
 }

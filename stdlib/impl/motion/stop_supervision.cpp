@@ -70,6 +70,7 @@ class StopSupervision {
             [[fallthrough]];
         case ArmNews::PowerFailed:
         case ArmNews::CornerLost:
+        case ArmNews::OutOfReach:
         case ArmNews::Event:
             if (braking_ && !motion_->system().isMoving()) end(controller);
             return;

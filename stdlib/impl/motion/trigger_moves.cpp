@@ -1,6 +1,7 @@
 // Manual 1.8: movements with triggers.
 
 #include "stdlib/impl/io/signals.h"
+#include "stdlib/impl/motion/corrections.h"
 #include "stdlib/impl/motion/move_order.h"
 #include "stdlib/impl/motion/triggers.h"
 #include "stdlib/impl/strings/digits.h"
@@ -190,8 +191,8 @@ Status rt_TriggL(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, cons
                  const data::Speeddata* Speed, const float* T, Handle* Trigg_1, Handle* TriggArray,
                  int32_t TriggArrayDim1, Handle* T2, Handle* T3, Handle* T4, Handle* T5, Handle* T6,
                  Handle* T7, Handle* T8, const data::Zonedata* Zone, const data::Stoppointdata* Inpos,
-                 data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata* TLoad) {
-    return moveWithTriggers(task, lib::linearMove(task, *ToPoint, ID),
+                 data::Tooldata* Tool, data::Wobjdata* WObj, bool Corr, data::Loaddata* TLoad) {
+    return moveWithTriggers(task, lib::corrected(task, lib::linearMove(task, *ToPoint, ID), Corr),
                             arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj, TLoad),
                             {Trigg_1, TriggArray, TriggArrayDim1, {T2, T3, T4, T5, T6, T7, T8}});
 }
@@ -210,9 +211,10 @@ Status rt_TriggC(TaskCore* task, bool Conc, const data::Robtarget* CirPoint, con
                  const float* ID, const data::Speeddata* Speed, const float* T, Handle* Trigg_1,
                  Handle* TriggArray, int32_t TriggArrayDim1, Handle* T2, Handle* T3, Handle* T4, Handle* T5,
                  Handle* T6, Handle* T7, Handle* T8, const data::Zonedata* Zone,
-                 const data::Stoppointdata* Inpos, data::Tooldata* Tool, data::Wobjdata* WObj, bool,
+                 const data::Stoppointdata* Inpos, data::Tooldata* Tool, data::Wobjdata* WObj, bool Corr,
                  data::Loaddata* TLoad) {
-    return moveWithTriggers(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
+    return moveWithTriggers(task,
+                            lib::corrected(task, lib::circularMove(task, *CirPoint, *ToPoint, ID), Corr),
                             arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj, TLoad),
                             {Trigg_1, TriggArray, TriggArrayDim1, {T2, T3, T4, T5, T6, T7, T8}});
 }
@@ -232,10 +234,11 @@ Status rt_TriggLIOs(TaskCore* task, bool Conc, const data::Robtarget* ToPoint, c
                     const data::Speeddata* Speed, const float* T, const data::Triggios* TriggData1,
                     int32_t TriggData1Dim1, const data::Triggstrgo* TriggData2, int32_t TriggData2Dim1,
                     const data::Triggiosdnum* TriggData3, int32_t TriggData3Dim1, const data::Zonedata* Zone,
-                    const data::Stoppointdata* Inpos, data::Tooldata* Tool, data::Wobjdata* WObj, bool,
+                    const data::Stoppointdata* Inpos, data::Tooldata* Tool, data::Wobjdata* WObj, bool Corr,
                     data::Loaddata* TLoad) {
     return moveWithOutputs(
-        task, lib::linearMove(task, *ToPoint, ID), arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj, TLoad),
+        task, lib::corrected(task, lib::linearMove(task, *ToPoint, ID), Corr),
+        arguments(Conc, Speed, T, Zone, Inpos, Tool, WObj, TLoad),
         {TriggData1, TriggData1Dim1, TriggData2, TriggData2Dim1, TriggData3, TriggData3Dim1});
 }
 

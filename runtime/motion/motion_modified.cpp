@@ -1,0 +1,206 @@
+// MotionSystem: the arm displaced from its planned path by path modifiers, and led from outside.
+
+#include "runtime/motion/motion_system_impl.h"
+
+#include <algorithm>
+
+namespace motion {
+
+namespace {
+
+/// A share of the way from one pose to another.
+Pose between(const Pose& from, const Pose& to, double share) {
+    return {from.pos + (to.pos - from.pos) * share, robot::slerp(from.rot, to.rot, share)};
+}
+
+} // namespace
+
+// ---- States ----
+
+PlannedMoment MotionSystem::Impl::momentOf(const MotionState& planned, const Trajectory::Moment& at,
+                                           TimeNs time) const {
+    PlannedMoment moment;
+    moment.time = time;
+    moment.path = level.path.get();
+    moment.run = at.place.run;
+    moment.s = at.place.s;
+    moment.speed = planned.moving ? at.speed : 0;
+    moment.isMoving = planned.moving;
+    moment.isHeld = isHeld();
+    moment.tag = planned.tag;
+    moment.frames = &path().framesAt(at.place);
+    moment.joints = {planned.joints, planned.extax};
+    moment.tcp = planned.tcp;
+    const RoutePoint point{planned.joints, planned.extax, true};
+    const Pose inObject = path().isPause(at.place.run)
+                              ? moment.frames->fromFlange(kinematics.forward(planned.joints), planned.extax)
+                              : path().route(at.place.run).tcpOf(*moment.frames, point, at.place.s);
+    moment.object = planned.tcp * inverse(inObject);
+    if (const Move* move = moveAt(at.place)) {
+        moment.modifications = &move->modifications;
+        const PathPlace end = endOf(*move);
+        moment.toEnd = end.run == at.place.run ? std::max(0.0, end.s - at.place.s) : 0;
+    }
+    return moment;
+}
+
+/// Brings the TCP of a planned state to a pose in world, or, when the robot holds the work object, the object so that the
+/// stationary tool is there relative to it. As near as the arm comes; the error when that is not there.
+std::optional<MotionError> MotionSystem::Impl::shiftArm(MotionState& state, const FrameSetup& frames,
+                                                        const Pose& wanted) const {
+    const Pose base = frames.base(state.extax);
+    const Pose flange = base * kinematics.forward(state.joints);
+    const Pose planned = state.tcp;
+    std::optional<MotionError> error;
+    for (const double share : {1.0, 0.75, 0.5, 0.25}) {
+        const Pose shift = between(planned, wanted, share) * inverse(planned);
+        const Pose goal = inverse(base) * ((state.toolHeld ? shift : inverse(shift)) * flange);
+        Joints joints = state.joints;
+        const bool isSolved = kinematics.inverseContinue(goal, state.joints, joints);
+        const int joint = isSolved ? kinematics.jointOutsideLimits(joints) : 0;
+        if (isSolved && joint == 0) {
+            state.joints = joints;
+            state.tcp = frames.tcpInWorld(kinematics.forward(joints), state.extax);
+            return error;
+        }
+        if (error) continue;
+        robot::IkError problem;
+        if (isSolved) problem = kinematics.limitError(joints, joint);
+        error = targetError(problem, wanted.pos);
+    }
+    return error;
+}
+
+void MotionSystem::Impl::displace(MotionState& state, const Trajectory::Moment& at, TimeNs time) const {
+    const PlannedMoment planned = momentOf(state, at, time);
+    const Pose wanted = modifiers.displaced(planned);
+    if (wanted == planned.tcp && !modifiers.moveAtRest()) return;
+    (void)shiftArm(state, *planned.frames, wanted);
+    state.moving = state.moving || modifiers.moveAtRest();
+    if (state.moving) measureSpeeds(state, planned, time);
+}
+
+/// From the latest place that has been noted before.
+void MotionSystem::Impl::measureSpeeds(MotionState& state, const PlannedMoment& planned, TimeNs time) const {
+    const ShownArm* before = modifiers.shownBefore(time);
+    if (before == nullptr || before->joints.size() != state.joints.size()) return;
+    const double seconds = toSeconds(time - before->time);
+    for (std::size_t i = 0; i < state.joints.size(); ++i)
+        state.jointSpeed[i] = (state.joints[i] - before->joints[i]) / seconds;
+    // Another movement may have another object frame.
+    if (before->tag != state.tag) return;
+    state.tcpSpeed = norm((inverse(planned.object) * state.tcp).pos - before->tcpInObject) / seconds;
+}
+
+/// Where the arm is on its path now, or would be if it were there.
+MotionState MotionSystem::Impl::pathStateNow() const {
+    Span span;
+    span.start = now;
+    span.path = level.path;
+    return stateOn(path(), span, now);
+}
+
+/// From the planned pose of the TCP to where it is shown, in world.
+Pose MotionSystem::Impl::shiftNow() const {
+    if (!isModified(span())) return {};
+    const Trajectory::Moment at = path().at(seconds());
+    const RoutePoint point = path().pointAt(at.place);
+    const FrameSetup& frames = path().framesAt(at.place);
+    MotionState planned = span().still;
+    planned.joints = point.joints;
+    planned.extax = point.extax;
+    planned.tcp = frames.tcpInWorld(kinematics.forward(point.joints), point.extax);
+    planned.toolHeld = frames.tool.robotHeld;
+    planned.moving = path().isMoving(seconds());
+    return modifiers.displaced(momentOf(planned, at, now)) * inverse(planned.tcp);
+}
+
+// ---- Time ----
+
+/// When modifiers advance next; nothing when there is nothing to do for them.
+std::optional<TimeNs> MotionSystem::Impl::nextAdvance() const {
+    if (!isModified(span()) || !(path().isMoving(seconds()) || modifiers.moveAtRest())) return {};
+    return (now / kModifierPeriod + 1) * kModifierPeriod;
+}
+
+void MotionSystem::Impl::advanceModifiers(TimeNs time) {
+    const TimeNs last = time / kModifierPeriod * kModifierPeriod;
+    TimeNs next = modifiers.advancedTo() + kModifierPeriod;
+    if (next > last) return;
+    if (!modifiers.areActive()) return modifiers.setAdvancedTo(last);
+    for (next = std::max(next, (now + kModifierPeriod - 1) / kModifierPeriod * kModifierPeriod); next <= last;
+         next += kModifierPeriod) {
+        const Span& at = *spanAt(next);
+        if (!isModified(at)) continue;
+        const Trajectory::Moment place = path().at(toSeconds(next));
+        const RoutePoint point = path().pointAt(place.place);
+        const FrameSetup& frames = path().framesAt(place.place);
+        MotionState state = at.still;
+        state.joints = point.joints;
+        state.extax = point.extax;
+        state.tcp = frames.tcpInWorld(kinematics.forward(point.joints), point.extax);
+        state.toolHeld = frames.tool.robotHeld;
+        state.moving = path().isMoving(toSeconds(next));
+        if (const Move* move = moveAt(place.place)) state.tag = move->tag;
+        const PlannedMoment planned = momentOf(state, place, next);
+        if (!state.moving && !modifiers.moveAtRest()) continue;
+        modifiers.advance(planned);
+        const auto error = shiftArm(state, frames, modifiers.displaced(planned));
+        if (error && !modifiers.isOutOfReach) modifiers.unreported = modifiers.latestError = error;
+        modifiers.isOutOfReach = error.has_value();
+        modifiers.note({next, state.joints, (inverse(planned.object) * state.tcp).pos, state.tag});
+    }
+    modifiers.setAdvancedTo(last);
+}
+
+void MotionSystem::Impl::reportOutOfReach() {
+    if (!std::exchange(modifiers.unreported, std::nullopt)) return;
+    report(MotionEventKind::OutOfReach, front());
+    if (std::exchange(isStopRequested, true)) return;
+    isStopAnnounced = false;
+    holdOrRelease();
+}
+
+// ---- Orders ----
+
+void MotionSystem::addModifier(std::shared_ptr<PathModifier> modifier) {
+    impl_->modifiers.add(std::move(modifier));
+}
+
+void MotionSystem::advanceModifiers(TimeNs time) {
+    impl_->advanceModifiers(time);
+}
+
+const std::optional<MotionError>& MotionSystem::outOfReachError() const {
+    return impl_->modifiers.latestError;
+}
+
+bool MotionSystem::leadTo(const JointTarget& joints, const Joints& speed, TimeNs period) {
+    Impl& s = *impl_;
+    if (!s.level.queue.empty() || (s.isMoving() && !isLed()) || s.isHalted || s.detour != nullptr)
+        return false;
+    s.spans.back().ledUntil = 0;
+    if (!placeAt(joints)) return false;
+    const bool isMoved = std::any_of(speed.begin(), speed.end(), [](double v) { return v != 0; });
+    if (!isMoved) return true;
+    Span& span = s.spans.back();
+    span.ledUntil = s.now + period;
+    span.still.moving = true;
+    span.still.jointSpeed = speed;
+    const double step = toSeconds(period);
+    Joints next = joints.robax;
+    for (std::size_t i = 0; i < next.size(); ++i)
+        next[i] += speed[i] * step;
+    const Pose base = s.based({}).base(joints.extax);
+    const Pose there = base * s.kinematics.forward(next) *
+                       inverse(base * s.kinematics.forward(joints.robax)) * span.still.tcp;
+    if (span.still.toolHeld) span.still.tcpSpeed = norm(there.pos - span.still.tcp.pos) / step;
+    s.isRestAnnounced = false;
+    return true;
+}
+
+bool MotionSystem::isLed() const {
+    return impl_->now < impl_->span().ledUntil;
+}
+
+} // namespace motion

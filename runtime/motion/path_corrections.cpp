@@ -1,0 +1,73 @@
+#include "runtime/motion/path_corrections.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace motion {
+
+namespace {
+
+constexpr double kMostSpeed = 100;         // mm/s across the path
+constexpr double kMostAcceleration = 2000; // mm/s^2
+constexpr double kFullPace = 10; // mm/s along the path; slower ones slow down what happens across it
+constexpr double kPeriod = static_cast<double>(kModifierPeriod) * 1e-9;
+
+/// How long a change by this vector may take, s; one that has a speed of its own needs time to lose it.
+double blendTime(const Vec3& change, const Vec3& rate) {
+    const double mm = norm(change);
+    // Peaks of a fifth-degree polynomial from rest to rest: 1.875 of the mean speed, 5.78 of way by time squared.
+    return std::max({1.875 * mm / kMostSpeed, std::sqrt(5.78 * mm / kMostAcceleration),
+                     2 * norm(rate) / kMostAcceleration});
+}
+
+} // namespace
+
+PathCorrections::PathCorrections() : modification_(std::make_shared<const Corrected>(this)) {}
+
+void PathCorrections::setOffset(const Vec3& offset) {
+    if (offset == offset_) return;
+    offset_ = offset;
+    hasJumped_ = true;
+}
+
+bool PathCorrections::isActive() const {
+    return !(offset_ == Vec3{}) || !shown_.isNone();
+}
+
+bool PathCorrections::concerns(const PlannedMoment& planned) const {
+    if (planned.modifications == nullptr) return false;
+    return std::find(planned.modifications->begin(), planned.modifications->end(), modification_) !=
+           planned.modifications->end();
+}
+
+void PathCorrections::advance(const PlannedMoment& planned) {
+    const bool isCorrected = concerns(planned);
+    if (std::exchange(wasCorrected_, isCorrected) != isCorrected) hasJumped_ = true;
+    if (std::exchange(run_, planned.run) != planned.run) hasJumped_ = true; // perhaps another direction
+    const Vec3 target = isCorrected ? rotate(planned.pathFrame(), offset_) : Vec3{};
+    if (std::exchange(hasJumped_, false))
+        return shown_.jumpTo(planned.time, target, blendTime(shown_.now() - target, shown_.rate()));
+    const double pace = planned.isMoving ? std::min(1.0, std::fabs(planned.speed) / kFullPace) : 0;
+    shown_.advance(planned.time, target, kPeriod * pace);
+}
+
+Pose PathCorrections::displaced(const PlannedMoment& planned, const Pose& tcp) const {
+    return {tcp.pos + shown_.at(planned.time), tcp.rot};
+}
+
+void PathCorrections::pathReplaced() {
+    shown_.reset();
+    hasJumped_ = true;
+}
+
+void PathCorrections::pathStored() {
+    shown_.store();
+    hasJumped_ = true;
+}
+
+void PathCorrections::pathRestored() {
+    shown_.restore();
+    hasJumped_ = true;
+}
+
+} // namespace motion

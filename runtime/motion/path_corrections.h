@@ -1,0 +1,41 @@
+#pragma once
+// PathCorrections: an offset in path coordinates that the program or a sensor sets, for the movements that carry modification().
+
+#include "runtime/motion/blended_offset.h"
+
+namespace motion {
+
+class PathCorrections final : public PathModifier {
+  public:
+    PathCorrections();
+    /// mm in the path coordinate system (PlannedMoment::pathFrame), from now on. The arm follows while it moves on its path,
+    /// with at most 100 mm/s and 2000 mm/s^2 across it; slower where it is slower than 10 mm/s along its path.
+    void setOffset(const Vec3& offset);
+    const Vec3& offset() const { return offset_; }
+    /// For MoveCommand::modifications.
+    const std::shared_ptr<const Modification>& modification() const { return modification_; }
+
+    bool isActive() const override;
+    void advance(const PlannedMoment& planned) override;
+    Pose displaced(const PlannedMoment& planned, const Pose& tcp) const override;
+    void pathReplaced() override;
+    void pathStored() override;
+    void pathRestored() override;
+    void storedPathsCleared() override { shown_.clearStored(); }
+    void forgetBefore(TimeNs time) override { shown_.forgetBefore(time); }
+
+  private:
+    struct Corrected final : Modification {
+        explicit Corrected(const PathCorrections* corrections) : by(corrections) {}
+        const PathCorrections* by;
+    };
+    bool concerns(const PlannedMoment& planned) const;
+
+    std::shared_ptr<const Modification> modification_;
+    Vec3 offset_;
+    BlendedOffset shown_; ///< in world
+    bool hasJumped_ = false, wasCorrected_ = false;
+    std::size_t run_ = 0;
+};
+
+} // namespace motion

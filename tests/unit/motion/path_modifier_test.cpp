@@ -1,0 +1,258 @@
+// Path modifiers: the arm beside its planned path; corrections in path coordinates.
+
+#include "runtime/motion/motion_system.h"
+#include "runtime/motion/path_corrections.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <memory>
+
+using namespace motion;
+
+namespace {
+
+constexpr TimeNs kMs = 1'000'000;
+
+MotionSystem makeSystem() {
+    auto model = robot::loadRobotModel("IRB 120-3/0.58");
+    REQUIRE(model.hasValue());
+    return MotionSystem(*model);
+}
+
+/// Relative to where the last movement ends, in world (the robot stands at its origin).
+MoveCommand lineBy(const MotionSystem& system, const Vec3& way, double speed = 100) {
+    MoveCommand command;
+    command.kind = MoveKind::Linear;
+    command.target = calcRobTarget(system.kinematics(), system.plannedEnd(), command.frames);
+    command.target.pose.pos = command.target.pose.pos + way;
+    command.speed.vTcp = speed;
+    command.confL = false;
+    return command;
+}
+
+/// Lets time pass in steps of 4 ms, as the driver does, and calls `look` before each.
+template <class Look> void run(MotionSystem& system, TimeNs until, Look look) {
+    while (system.now() < until) {
+        const TimeNs next = (system.now() / kModifierPeriod + 1) * kModifierPeriod;
+        system.advanceModifiers(next);
+        look(system.sample(next), next);
+        system.advanceTo(next);
+    }
+}
+void run(MotionSystem& system, TimeNs until) {
+    run(system, until, [](const MotionState&, TimeNs) {});
+}
+
+bool isNear(const Vec3& a, const Vec3& b, double mm) {
+    return norm(a - b) < mm;
+}
+
+/// Moves the work object along x in time, whatever the path does.
+class Belt final : public PathModifier {
+  public:
+    explicit Belt(double speed) : speed_(speed) {}
+    bool isActive() const override { return true; }
+    bool movesAtRest() const override { return speed_ != 0; }
+    Pose displaced(const PlannedMoment& planned, const Pose& tcp) const override {
+        return {tcp.pos + Vec3{speed_ * static_cast<double>(planned.time) * 1e-9, 0, 0}, tcp.rot};
+    }
+
+  private:
+    double speed_;
+};
+
+} // namespace
+
+TEST_CASE("corrections displace marked movements in path coordinates", "[motion][modifier]") {
+    MotionSystem system = makeSystem();
+    const auto corrections = std::make_shared<PathCorrections>();
+    system.addModifier(corrections);
+    const Vec3 start = system.current().tcp.pos;
+    MoveCommand command = lineBy(system, {0, 150, 0});
+    command.modifications.push_back(corrections->modification());
+    REQUIRE(system.enqueue(command).hasValue());
+    run(system, 300 * kMs);
+    // The tool of the arm at its start points along world x and down; x of the path is world y.
+    const Vec3 z = rotate(system.current().tcp.rot, Vec3{0, 0, 1});
+    const Vec3 x{0, 1, 0};
+    const Vec3 y = cross(z, x);
+    corrections->setOffset({1, 3, -2});
+    const Vec3 wanted = x * 1 + y * 3 + cross(x, y) * -2;
+    bool wasReached = false;
+    double fastest = 0;
+    Vec3 last = system.current().tcp.pos;
+    run(system, 1200 * kMs, [&](const MotionState& state, TimeNs) {
+        const Vec3 offset = state.tcp.pos - start;
+        const Vec3 across{offset.x, 0, offset.z};
+        fastest = std::max(fastest, norm(state.tcp.pos - last) / 0.004);
+        last = state.tcp.pos;
+        wasReached = wasReached || isNear(across, {wanted.x, 0, wanted.z}, 1e-6);
+        if (wasReached) CHECK(isNear(across, {wanted.x, 0, wanted.z}, 1e-6));
+    });
+    CHECK(wasReached);
+    // 100 mm/s along the path and at most 100 mm/s for the correction.
+    CHECK(fastest < 201);
+    run(system, 3000 * kMs);
+    REQUIRE(system.isIdle());
+    // The destination is displaced too, and stays so.
+    CHECK(isNear(system.current().tcp.pos, start + Vec3{0, 150, 0} + wanted, 1e-3));
+    CHECK(isNear(system.currentTarget({}).pose.pos, start + Vec3{0, 150, 0} + wanted, 1e-3));
+}
+
+TEST_CASE("a movement without the mark leads back to its own path", "[motion][modifier]") {
+    MotionSystem system = makeSystem();
+    const auto corrections = std::make_shared<PathCorrections>();
+    system.addModifier(corrections);
+    corrections->setOffset({0, 5, 0});
+    const Vec3 start = system.current().tcp.pos;
+    MoveCommand first = lineBy(system, {0, 100, 0});
+    first.modifications.push_back(corrections->modification());
+    REQUIRE(system.enqueue(first).hasValue());
+    REQUIRE(system.enqueue(lineBy(system, {0, 0, -100})).hasValue());
+    double jump = 0;
+    Vec3 last = start;
+    run(system, 4000 * kMs, [&](const MotionState& state, TimeNs) {
+        jump = std::max(jump, norm(state.tcp.pos - last));
+        last = state.tcp.pos;
+    });
+    REQUIRE(system.isIdle());
+    CHECK(jump < 0.8);
+    CHECK(isNear(last, start + Vec3{0, 100, -100}, 1e-6));
+}
+
+TEST_CASE("corrections keep to circles", "[motion][modifier]") {
+    MotionSystem system = makeSystem();
+    const auto corrections = std::make_shared<PathCorrections>();
+    system.addModifier(corrections);
+    const Vec3 start = system.current().tcp.pos;
+    MoveCommand circle = lineBy(system, {0, 80, 0}, 50);
+    circle.kind = MoveKind::Circular;
+    circle.circlePoint = circle.target.pose;
+    circle.circlePoint.pos = start + Vec3{0, 40, 40};
+    circle.modifications.push_back(corrections->modification());
+    corrections->setOffset({0, 0, 2}); // x cross y: across the circle for a tool that points along world x
+    REQUIRE(system.enqueue(circle).hasValue());
+    const Vec3 centre = start + Vec3{0, 40, 0};
+    int looked = 0;
+    run(system, 4000 * kMs, [&](const MotionState& state, TimeNs time) {
+        if (time < 600 * kMs) return;
+        // Radius and height together: the offset is perpendicular to the tangent, so both add up exactly.
+        const Vec3 from = state.tcp.pos - centre;
+        const double radius = std::hypot(from.y, from.z);
+        CHECK(std::hypot(radius - 40, from.x) == Approx(2).margin(2e-3));
+        ++looked;
+    });
+    CHECK(looked > 100);
+}
+
+TEST_CASE("stopping on the path keeps the displacement, clearing the path begins anew",
+          "[motion][modifier]") {
+    MotionSystem system = makeSystem();
+    const auto corrections = std::make_shared<PathCorrections>();
+    system.addModifier(corrections);
+    corrections->setOffset({0, 4, 0});
+    MoveCommand command = lineBy(system, {0, 150, 0}, 50);
+    command.modifications.push_back(corrections->modification());
+    REQUIRE(system.enqueue(command).hasValue());
+    run(system, 900 * kMs);
+    system.stop();
+    run(system, 1500 * kMs);
+    REQUIRE_FALSE(system.isMoving());
+    const Vec3 stopped = system.current().tcp.pos;
+    corrections->setOffset({0, -4, 0}); // while the arm stands nothing happens
+    run(system, 2000 * kMs);
+    CHECK(isNear(system.current().tcp.pos, stopped, 1e-9));
+    SECTION("cleared") {
+        system.clear();
+        run(system, 2100 * kMs);
+        CHECK(isNear(system.current().tcp.pos, stopped, 1e-6));
+        system.start();
+        MoveCommand back = lineBy(system, {0, 0, -50});
+        REQUIRE(system.enqueue(back).hasValue());
+        run(system, 4000 * kMs);
+        CHECK(isNear(system.current().tcp.pos, stopped + Vec3{0, 0, -50}, 1e-6));
+    }
+    SECTION("put aside and taken back") {
+        REQUIRE(system.storePath());
+        REQUIRE(system.enqueue(lineBy(system, {0, 0, -20})).hasValue());
+        run(system, 3000 * kMs);
+        CHECK(isNear(system.current().tcp.pos, stopped + Vec3{0, 0, -20}, 1e-6));
+        REQUIRE(system.restorePath());
+        double jump = 0;
+        Vec3 last = system.current().tcp.pos;
+        system.start();
+        run(system, 9000 * kMs, [&](const MotionState& state, TimeNs) {
+            jump = std::max(jump, norm(state.tcp.pos - last));
+            last = state.tcp.pos;
+        });
+        CHECK(system.isIdle());
+        CHECK(jump < 1.1); // 250 mm/s on the way back to the path
+    }
+    SECTION("motors off") {
+        system.start();
+        run(system, 2400 * kMs);
+        system.halt();
+        run(system, 3000 * kMs);
+        Vec3 last = system.current().tcp.pos;
+        double jump = 0;
+        system.start();
+        run(system, 9000 * kMs, [&](const MotionState& state, TimeNs) {
+            jump = std::max(jump, norm(state.tcp.pos - last));
+            last = state.tcp.pos;
+        });
+        CHECK(system.isIdle());
+        CHECK(jump < 1.1);
+    }
+}
+
+TEST_CASE("a modifier of time moves an arm whose path is at rest", "[motion][modifier]") {
+    MotionSystem system = makeSystem();
+    system.addModifier(std::make_shared<Belt>(20));
+    REQUIRE(system.enqueue(lineBy(system, {0, 50, 0})).hasValue());
+    run(system, 2000 * kMs);
+    CHECK(system.isIdle());
+    CHECK(system.isMoving());
+    const MotionState state = system.current();
+    CHECK(state.moving);
+    CHECK(state.tcp.pos.x - system.sample(system.now() - 100).tcp.pos.x < 1e-3);
+}
+
+TEST_CASE("a displacement out of reach stops the arm on its path", "[motion][modifier]") {
+    MotionSystem system = makeSystem();
+    system.addModifier(std::make_shared<Belt>(400));
+    REQUIRE(system.enqueue(lineBy(system, {0, 150, 0}, 20)).hasValue());
+    bool happened = false;
+    for (int i = 0; i < 1000; ++i) {
+        run(system, system.now() + 4 * kMs);
+        for (const MotionEvent& event : system.takeEvents())
+            happened = happened || event.kind == MotionEventKind::OutOfReach;
+    }
+    CHECK(happened);
+    REQUIRE(system.outOfReachError());
+    CHECK_FALSE(system.outOfReachError()->message().empty());
+    CHECK(system.isStopRequested());
+    CHECK_FALSE(system.isIdle());
+}
+
+TEST_CASE("an arm led from outside moves", "[motion][modifier]") {
+    MotionSystem system = makeSystem();
+    JointTarget joints = system.currentJoints();
+    const Joints fast{10, 0, 0, 0, 0, 0};
+    const Joints still{0, 0, 0, 0, 0, 0};
+    for (int i = 0; i < 10; ++i) {
+        joints.robax[0] += 0.04;
+        REQUIRE(system.leadTo(joints, fast, 4 * kMs));
+        CHECK(system.isMoving());
+        CHECK(system.current().jointSpeed[0] == Approx(10));
+        system.advanceTo(system.now() + 4 * kMs);
+    }
+    REQUIRE(system.leadTo(joints, still, 4 * kMs));
+    CHECK_FALSE(system.isMoving());
+    system.advanceTo(system.now() + 10 * kMs);
+    int rests = 0;
+    for (const MotionEvent& event : system.takeEvents())
+        rests += event.kind == MotionEventKind::AtRest ? 1 : 0;
+    CHECK(rests >= 1);
+    CHECK(system.currentJoints().robax[0] == Approx(0.4));
+}
