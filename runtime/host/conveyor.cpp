@@ -15,23 +15,24 @@ constexpr Time kPulse = 20 * kMillisecond;       // of signals that report somet
 constexpr Time kShowPeriod = 100 * kMillisecond; // of position signals while an object is connected
 constexpr double kCounterRange = 4294967296.0;   // 32 bits
 
-struct SignalKind {
-    const char* name;
-    SignalType type;
-    uint32_t bits;
-};
-
-constexpr SignalKind kSignals[] = {
-    {"ObjectsInQ", SignalType::GI, 16}, {"CntFromEnc", SignalType::GI, 32}, {"CntToEnc", SignalType::GO, 32},
-    {"Counts", SignalType::GI, 32},     {"Position", SignalType::AI, 1},    {"Speed", SignalType::AI, 1},
-    {"NewObjStrobe", SignalType::DI, 1}, {"PassStw", SignalType::DI, 1},     {"Connected", SignalType::DI, 1},
-    {"NullSpeed", SignalType::DI, 1},   {"DirOfTravel", SignalType::DI, 1}, {"Simulating", SignalType::DI, 1},
-    {"CntToEncStr", SignalType::DO, 1}, {"PosInJobQ", SignalType::DO, 1},   {"Rem1PObj", SignalType::DO, 1},
-    {"RemAllPObj", SignalType::DO, 1},  {"DropWObj", SignalType::DO, 1},    {"SoftSyncSig", SignalType::DO, 1},
+constexpr ConveyorSignal kSignals[] = {
+    {"ObjectsInQ", SignalType::GI, 16},  {"CntFromEnc", SignalType::GI, 32},
+    {"CntToEnc", SignalType::GO, 32},    {"Counts", SignalType::GI, 32},
+    {"Position", SignalType::AI, 1},     {"Speed", SignalType::AI, 1},
+    {"NewObjStrobe", SignalType::DI, 1}, {"PassStw", SignalType::DI, 1},
+    {"Connected", SignalType::DI, 1},    {"NullSpeed", SignalType::DI, 1},
+    {"DirOfTravel", SignalType::DI, 1},  {"Simulating", SignalType::DI, 1},
+    {"CntToEncStr", SignalType::DO, 1},  {"PosInJobQ", SignalType::DO, 1},
+    {"Rem1PObj", SignalType::DO, 1},     {"RemAllPObj", SignalType::DO, 1},
+    {"DropWObj", SignalType::DO, 1},     {"SoftSyncSig", SignalType::DO, 1},
     {"SimMode", SignalType::DO, 1},
 };
 
 } // namespace
+
+std::span<const ConveyorSignal> allConveyorSignals() {
+    return kSignals;
+}
 
 /// The connected object. It outlives the connection as long as movements refer to it.
 class Conveyor::Link final : public motion::TrackedObject {
@@ -77,7 +78,7 @@ Conveyor::~Conveyor() {
 // ---- Signals ---------------------------------------------------------------------------------------------------------
 
 void Conveyor::addSignals() {
-    for (const SignalKind& kind : kSignals)
+    for (const ConveyorSignal& kind : kSignals)
         addSignal(kind.name, kind.type, kind.bits);
 }
 
@@ -159,6 +160,7 @@ void Conveyor::setSpeed(double speed) {
     schedule();
     for (const auto& action : speedActions_)
         action();
+    changed_.notifyAll();
 }
 
 double Conveyor::speed() const {
@@ -319,7 +321,8 @@ void Conveyor::checkLimits() {
     log_.write(EventId::ConveyorObjectLost, nullptr,
                {settings_.name, fmt::format("{:.0f} {}", limit, settings_.rotating ? "degrees" : "mm"),
                 isBeyond ? "maximum" : "minimum"});
-    lose(fmt::format("it has passed the {} distance of {}", isBeyond ? "maximum" : "minimum", settings_.name));
+    lose(
+        fmt::format("it has passed the {} distance of {}", isBeyond ? "maximum" : "minimum", settings_.name));
 }
 
 } // namespace rt

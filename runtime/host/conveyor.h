@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,16 +25,28 @@ struct ConveyorSettings {
     std::string prefix = "c1"; ///< of its signals
     robot::Pose base;          ///< origin in world; x is the direction of travel, z the axis of a turning one
     bool rotating = false;
-    bool isIndexing = false;   ///< moves in steps that the controller orders (IndCnvInit)
+    double index = 100; ///< of an indexing conveyor: one step, at `indexSpeed`
+    double indexSpeed = 200;
+    std::string trigger; ///< digital input that orders a step; "": none
+    int axis = -1; ///< of the sensor's position in a robtarget, 0 for eax_a; -1: the first one that is given
     double speed = 0, acceleration = 1000;
-    double every = 0;          ///< an object passes the sync switch each time the belt has moved by this; 0: none by itself
-    double sync = 0;           ///< from the sync switch to the origin (queue tracking distance)
-    double window = 500;       ///< width of the start window
+    double every =
+        0; ///< an object passes the sync switch each time the belt has moved by this; 0: none by itself
+    double sync = 0;                        ///< from the sync switch to the origin (queue tracking distance)
+    double window = 500;                    ///< width of the start window
     double minimum = -1000, maximum = 5000; ///< a connected object is dropped outside
-    double separation = 0;     ///< objects that follow more closely are not noticed
+    double separation = 0;                  ///< objects that follow more closely are not noticed
     double adjustmentSpeed = 1000, adjustmentAcceleration = 4000; ///< of the robot when it joins an object
     double countsPerMetre = 10'000;
 };
+
+/// A signal of conveyor tracking; its name follows the prefix of the conveyor.
+struct ConveyorSignal {
+    const char* name;
+    SignalType type;
+    uint32_t bits;
+};
+std::span<const ConveyorSignal> allConveyorSignals();
 
 class Conveyor {
   public:
@@ -56,7 +69,8 @@ class Conveyor {
     // ---- the belt ----
     void setSpeed(double speed);
     double speed() const;
-    double position() const; ///< of the belt since the start
+    double orderedSpeed() const { return belt_->target(); } ///< that it has, or is about to have
+    double position() const;                                ///< of the belt since the start
     /// Called after the speed has changed.
     void onSpeed(std::function<void()> action) { speedActions_.push_back(std::move(action)); }
 
@@ -76,8 +90,12 @@ class Conveyor {
     double connectedPosition() const; ///< 0 without an object
     /// Ends the connection; the object is not known any more. `why` for those who follow it.
     void drop();
+    /// The same, as something that those who follow the object did not expect.
+    void lose(const std::string& why);
     /// Called when the connected object is lost: outside the limits, or dropped by a signal.
-    void onLost(std::function<void(const std::string& why)> action) { lostActions_.push_back(std::move(action)); }
+    void onLost(std::function<void(const std::string& why)> action) {
+        lostActions_.push_back(std::move(action));
+    }
 
     /// Notified when something changes that a task may wait for.
     WaitQueue& changed() { return changed_; }
@@ -95,7 +113,6 @@ class Conveyor {
     void act();
     void passWindow();
     void checkLimits();
-    void lose(const std::string& why);
     void showSignals();
     void show(const char* name, double value);
     void pulse(const char* name);

@@ -10,8 +10,8 @@ namespace motion {
 namespace {
 
 constexpr double kPeriod = 1e-9 * static_cast<double>(kModifierPeriod);
-constexpr double kCaught = 0.005;       // mm or deg: from here on the arm keeps to the object exactly
-constexpr double kBrakingShare = 0.8;   // of the acceleration, to have some left for the discrete steps
+constexpr double kCaught = 0.005;     // mm or deg: from here on the arm keeps to the object exactly
+constexpr double kBrakingShare = 0.8; // of the acceleration, to have some left for the discrete steps
 constexpr double kStill = 1e-9;
 
 double seconds(TimeNs span) {
@@ -22,6 +22,7 @@ double seconds(TimeNs span) {
 
 void ConveyorTracking::setOrdered(std::shared_ptr<const OnConveyor> ordered) {
     ordered_ = std::move(ordered);
+    isBeginning_ = false;
 }
 
 const ConveyorTracking::Sample* ConveyorTracking::sampleAt(TimeNs time) const {
@@ -48,12 +49,13 @@ bool ConveyorTracking::isDisplaced() const {
 }
 
 void ConveyorTracking::beginFromHere() {
+    isBeginning_ = true;
     if (samples_.empty()) return;
     Sample next = samples_.back();
     next.time = now_();
     next.v = speedAt(samples_.back(), next.time);
     next.d = next.a = 0;
-    next.isCaught = false;
+    next.isCaught = next.follows = false;
     ordered_ = nullptr;
     samples_.push_back(std::move(next));
 }
@@ -71,7 +73,9 @@ void ConveyorTracking::advance(const PlannedMoment& planned) {
         next.v = speedAt(last, planned.time);
     }
     next.time = planned.time;
-    if (on != nullptr && (next.on == nullptr || next.on->object != on->object || next.on->planned != on->planned))
+    next.follows = on != nullptr;
+    if (on != nullptr &&
+        (next.on == nullptr || next.on->object != on->object || next.on->planned != on->planned))
         next.on = std::make_shared<const OnConveyor>(*on);
     if (on == nullptr)
         returnToPath(next);
@@ -87,8 +91,8 @@ void ConveyorTracking::advance(const PlannedMoment& planned) {
 /// One period towards a place that is `error` away and moves with `reference`.
 void ConveyorTracking::approach(Sample& next, double error, double reference, double mostSpeed) {
     const double acceleration = next.on->object->adjustmentAcceleration();
-    const double fastest =
-        std::min(std::sqrt(2 * kBrakingShare * acceleration * std::fabs(error)), 0.5 * std::fabs(error) / kPeriod);
+    const double fastest = std::min(std::sqrt(2 * kBrakingShare * acceleration * std::fabs(error)),
+                                    0.5 * std::fabs(error) / kPeriod);
     const double wanted = std::clamp(reference + std::copysign(fastest, error), -mostSpeed, mostSpeed);
     next.a = std::clamp((wanted - next.v) / kPeriod, -acceleration, acceleration);
 }
@@ -135,12 +139,12 @@ Pose ConveyorTracking::displaced(const PlannedMoment& planned, const Pose& tcp) 
 }
 
 bool ConveyorTracking::movesAtRest() const {
-    if (samples_.empty()) return ordered_ != nullptr && ordered_->object->isConnected() && !isHeld_();
+    if (samples_.empty() || isBeginning_) return false;
     const Sample& last = samples_.back();
-    const TimeNs now = now_();
-    if (std::fabs(speedAt(last, now)) > kStill || last.a != 0) return true;
-    if (last.isCaught) return isHeld_() || !last.on->object->isConnected();
-    return ordered_ != nullptr && ordered_->object->isConnected() && !isHeld_();
+    if (std::fabs(speedAt(last, now_())) > kStill || last.a != 0) return true;
+    const bool mayFollow = last.on->object->isConnected() && !isHeld_();
+    if (last.isCaught) return !mayFollow; // the next sample is no longer caught
+    return last.follows ? mayFollow : std::fabs(last.d) > kStill;
 }
 
 void ConveyorTracking::pathReplaced() {
@@ -163,6 +167,7 @@ void ConveyorTracking::pathRestored() {
     kept.sample.d = displacementAt(kept.sample, kept.sample.time);
     kept.sample.v = kept.sample.a = 0;
     kept.sample.isCaught = false;
+    kept.sample.follows = true;
     kept.sample.time = now_();
     samples_.push_back(std::move(kept.sample));
 }

@@ -26,7 +26,7 @@ class TrackedObject {
     /// The user frame in world with the object at this position.
     virtual Pose frame(double position) const = 0;
     virtual bool isConnected() const = 0;
-    virtual double adjustmentSpeed() const = 0;        ///< the fastest movement of the robot along the conveyor
+    virtual double adjustmentSpeed() const = 0; ///< the fastest movement of the robot along the conveyor
     virtual double adjustmentAcceleration() const = 0; ///< per s^2
 };
 
@@ -69,6 +69,7 @@ class ConveyorTracking : public PathModifier {
         TimeNs time = 0;
         double d = 0, v = 0, a = 0;
         bool isCaught = false;
+        bool follows = false;                 ///< the movement in progress belongs to the object
         std::shared_ptr<const OnConveyor> on; ///< direction of the displacement
     };
     const Sample* sampleAt(TimeNs time) const;
@@ -89,6 +90,7 @@ class ConveyorTracking : public PathModifier {
     };
     std::vector<Stored> stored_;
     bool isPathMoving_ = false;
+    bool isBeginning_ = false; // between beginFromHere() and the order of the next movement
 };
 
 } // namespace motion
