@@ -148,6 +148,7 @@ bool ConveyorTracking::movesAtRest() const {
 }
 
 void ConveyorTracking::pathReplaced() {
+    if (isBeginning_) return; // by the path that begins where the arm is
     samples_.clear();
     ordered_ = nullptr;
 }

@@ -129,6 +129,7 @@ TEST_CASE("a path that begins on the conveyor loses its speed and is then as pla
     Rig rig(0, 200);
     rig.run(true, 250);
     rig.tracking.beginFromHere();
+    rig.tracking.pathReplaced();
     rig.tracking.setOrdered(nullptr);
     CHECK(rig.shown(rig.now) == Approx(0).margin(1e-9));
     double farthest = 0;
