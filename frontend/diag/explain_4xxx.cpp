@@ -320,6 +320,21 @@ EIO.cfg:
   EIO_SIGNAL:
 
         -Name "doLamp" -SignalType "DO")ex"},
+    {4028, Kind::Module,
+     "SetupCyclicBool has its condition evaluated again and again, also after the routine has ended. So the condition "
+     "can refer only to what stays: values, signals, and persistents and variables of a module. It calls no function.",
+     "PERS bool hot := FALSE;\n"
+     "PERS num heat := 0;\n"
+     "PROC go()\n"
+     "  VAR num limit := 80;\n"
+     "  SetupCyclicBool hot, heat > limit;\n"
+     "ENDPROC",
+     "PERS bool hot := FALSE;\n"
+     "PERS num heat := 0;\n"
+     "CONST num limit := 80;\n"
+     "PROC go()\n"
+     "  SetupCyclicBool hot, heat > limit;\n"
+     "ENDPROC"},
 });
 // clang-format on
 

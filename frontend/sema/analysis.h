@@ -495,6 +495,10 @@ class Analyzer {
     bool assignable(const Place& place, const syntax::Expr& target);
     bool predefinedCall(const RoutineSymbol& routine, syntax::TokenIndex name);
     void raiseToUser(const syntax::CallStmt& s);
+    // cyclic_condition.cpp
+    void cyclicCondition(const syntax::CallStmt& s);
+    std::string notCyclic(const syntax::Expr& e, const syntax::Expr*& culprit);
+    std::string notCyclicData(const syntax::Expr& e);
     bool callStmt(const syntax::CallStmt& s);
     bool namesProcedure(std::span<syntax::Argument* const> args);
     bool isParenthesised(const syntax::CallStmt& s) const;

@@ -412,6 +412,7 @@ bool Analyzer::callStmt(const CallStmt& s) {
     if (movesRobot(*routine) && task_->type != "NORMAL")
         report(Code::MotionInBackgroundTask, range(s.name), {text(s.name), task_->name, task_->type});
     if (routine->role == Role::RaiseToUser) raiseToUser(s);
+    if (routine->role == Role::CyclicBool) cyclicCondition(s);
     return !routine->predefined || predefinedCall(*routine, s.name);
 }
 

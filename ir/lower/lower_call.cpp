@@ -238,6 +238,9 @@ ir::ValueId RoutineLowering::lowerSpecial(const BoundCall& call, bool& done) {
         lowerRaiseToUser(call);
         return ir::kNone;
     case sema::Role::WaitUntil: lowerWaitUntil(call); return ir::kNone;
+    case sema::Role::CyclicBool: // then the native with the present value
+        lowerCyclicCondition(call);
+        break;
     case sema::Role::None:
     case sema::Role::ArgName:        // needs the place of the result
     case sema::Role::StartMoveRetry: // the native first

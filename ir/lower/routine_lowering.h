@@ -232,6 +232,10 @@ class RoutineLowering {
     ValueId lowerPresent(const sema::BoundCall& call);
     ValueId lowerDim(const sema::BoundCall& call);
     void lowerWaitUntil(const sema::BoundCall& call);
+    // lower_condition.cpp
+    void lowerCyclicCondition(const sema::BoundCall& call);
+    void lowerOperand(const Expr& outer, bool asDnum);
+    void lowerCondition(const syntax::BinaryExpr& expr);
     void pushArgument(const sema::BoundArg& arg, std::vector<ValueId>& args);
     void pushValue(const sema::BoundArg& arg, std::vector<ValueId>& args);
     void pushPointerArgument(const sema::BoundArg& arg, std::vector<ValueId>& args);

@@ -3,6 +3,7 @@
 #include "runtime/host/controller.h"
 
 #include "runtime/base/text_util.h"
+#include "runtime/host/conveyors.h"
 #include "runtime/host/module_saver.h"
 #include "runtime/host/run_files.h"
 #include "runtime/host/run_reports.h"
@@ -403,6 +404,7 @@ void Controller::perform(const StimulusItem& item) {
     if (isStart(item)) --startsToCome_;
     switch (item.kind) {
     case StimulusKind::Signal:
+        if (performConveyorStimulus(*this, item)) return;
         if (io_.force(io_.find(item.target), item.value) != IoResult::Ok) {
             log_.write(EventId::StimulusRefused, nullptr,
                        {std::to_string(item.line), item.target, shortestNumber(item.value)});

@@ -3,6 +3,7 @@
 #include "runtime/host/controller.h"
 
 #include "runtime/base/text_util.h"
+#include "runtime/host/conveyors.h"
 #include "runtime/host/module_saver.h"
 #include "runtime/host/module_units.h"
 #include "runtime/host/run_reports.h"
@@ -171,6 +172,10 @@ ExitStatus Controller::openRobots(const ProgramDesc& program) {
     }
     for (const std::string& warning : units_.warnings())
         fmt::print(stderr, "warning: {}\n", warning);
+    if (const std::string wrong = openConveyors(*this, options_.conveyors); !wrong.empty()) {
+        print(wrong);
+        return ExitStatus::BadUsage;
+    }
     for (const MotionGroup& group : units_.groups()) {
         motion::MotionOptions how = group.options;
         if (options_.planner == "optimal") how.planner = motion::Planner::Optimal;
@@ -313,6 +318,7 @@ ExitStatus Controller::readStimulusFile() {
     stimulus_ = options_.stimulusText ? parseStimulus(*options_.stimulusText, problems)
                                       : readStimulus(options_.stimulus, problems);
     for (const StimulusItem& item : stimulus_) {
+        if (item.kind == StimulusKind::Signal && isConveyorStimulus(*this, item.target)) continue;
         if (std::string problem = problemOf(item, io_); !problem.empty())
             problems.push_back({item.line, std::move(problem)});
     }

@@ -140,6 +140,15 @@ std::vector<std::string> singlesOf(const CfgInstance& unit) {
 
 } // namespace
 
+bool isIndexingName(std::string_view name) {
+    return upperCase(std::string(name)).starts_with("INDCNV");
+}
+
+bool isConveyorName(std::string_view name) {
+    const std::string upper = upperCase(std::string(name));
+    return upper.starts_with("CNV") || upper.starts_with("SSYNC") || isIndexingName(name);
+}
+
 std::string MechanicalUnits::read(const CfgLookup& configuration, const std::vector<std::string>& robots,
                                   std::string_view defaultModel, std::size_t needed, bool& isUsage) {
     const std::vector<RobotPlan> plans = planRobots(configuration, robots, defaultModel, needed);
@@ -233,6 +242,18 @@ void MechanicalUnits::addExternalUnits(const CfgLookup& configuration) {
             unit->own.push_back({single, index, reader.limits()});
             unit->geometry.joints.push_back({index, reader.isRotating(), reader.base(), 0});
             if (unit->carrier.empty()) unit->carrier = reader.carrier(); // of the first one
+        }
+        const auto processes = configuration("PROC", "CONVEYOR");
+        unit->isConveyor = isConveyorName(name) ||
+                           std::any_of(processes.begin(), processes.end(), [&](const CfgInstance* process) {
+                               return sameName(process->text("Name"), name);
+                           });
+        if (unit->isConveyor) { // not an axis that a planner moves
+            unit->axes = 1;
+            unit->own.clear();
+            unit->carrier.clear();
+            units_.push_back(std::move(unit));
+            continue;
         }
         unit->axes = static_cast<int>(unit->own.size());
         units_.push_back(std::move(unit));
@@ -330,6 +351,16 @@ void MechanicalUnits::setActive(MechanicalUnit& unit, bool active, robot::Extern
         const std::size_t joint = unit.geometry.joints.size() - unit.own.size() + i;
         axes[unit.own[i].index] = active ? unit.geometry.joints[joint].parked : robot::kNotConnected;
     }
+}
+
+bool MechanicalUnits::addConveyor(const std::string& name) {
+    if (const MechanicalUnit* unit = find(name)) return unit->isConveyor;
+    auto unit = std::make_unique<MechanicalUnit>();
+    unit->name = unit->geometry.name = name;
+    unit->isConveyor = true;
+    unit->axes = 1;
+    units_.push_back(std::move(unit));
+    return true;
 }
 
 MechanicalUnit* MechanicalUnits::find(std::string_view name) const {

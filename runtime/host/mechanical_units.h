@@ -20,6 +20,7 @@ struct MechanicalUnit {
     bool isRobot = false;     ///< has a TCP; always active
     bool isActive = false;    ///< ActUnit, DeactUnit
     bool staysActive = false; ///< deactivation_forbidden
+    bool isConveyor = false;  ///< moves by itself; robots follow its objects (runtime/host/conveyors.h)
     int axes = 0;
     std::size_t group = 0;        ///< number of the group it moves in
     robot::ExternalUnit geometry; ///< of an external unit, with the axes that carry it
@@ -31,6 +32,11 @@ struct MechanicalUnit {
     std::string carrier;   ///< name of the unit or single that moves its base; "" for none
     std::vector<Axis> own; ///< axes of an external unit
 };
+
+/// Mechanical units of controllers with conveyor tracking or sensor synchronisation are recognised by their names (CNV1,
+/// INDCNV1, SSYNC1), as the options of RobotWare give them.
+bool isConveyorName(std::string_view name);
+bool isIndexingName(std::string_view name);
 
 /// Units that one motion task moves together, by one motion planner.
 struct MotionGroup {
@@ -60,6 +66,8 @@ class MechanicalUnits {
     /// Activates or deactivates an external unit: its axes in `axes` (those of the group) get their last position, or leave it
     /// and become kNotConnected.
     void setActive(MechanicalUnit& unit, bool active, robot::ExternalAxes& axes);
+    /// A conveyor that the configuration does not define. False when a unit of another kind has the name.
+    bool addConveyor(const std::string& name);
     /// Number of the group with this name in the configuration; -1 when there is none.
     int groupNamed(std::string_view name) const;
 

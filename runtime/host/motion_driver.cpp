@@ -326,7 +326,9 @@ Status MotionDriver::waitReleased(Task& task, motion::MoveId id) {
     return status == kOk ? takeProcessError(task) : status;
 }
 
-void MotionDriver::raiseProcessError(Status errorNumber) {
+void MotionDriver::raiseProcessError(Status errorNumber, std::string why) {
+    processErrorText_ =
+        why.empty() ? "the movement was stopped by a process error (ProcerrRecovery)" : std::move(why);
     processError_ = errorNumber;
     stopMove();
     changed_.notifyAll();
@@ -334,9 +336,7 @@ void MotionDriver::raiseProcessError(Status errorNumber) {
 
 Status MotionDriver::takeProcessError(Task& task) {
     const Status number = std::exchange(processError_, kOk);
-    return number == kOk
-               ? kOk
-               : task.raise(number, "the movement was stopped by a process error (ProcerrRecovery)");
+    return number == kOk ? kOk : task.raise(number, processErrorText_);
 }
 
 Status MotionDriver::waitDone(Task& task, motion::MoveId id) {

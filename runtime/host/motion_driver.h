@@ -176,7 +176,10 @@ class MotionDriver final : public SteppedArm {
     void continuePath(const EarlierPath& path);
     /// ProcerrRecovery: the arm stops on its path, and the movement instruction that waits, else the next one, raises
     /// `errorNumber`. Executed again (RETRY) such an instruction goes on with the movement it has ordered.
-    void raiseProcessError(Status errorNumber);
+    /// `why`: a sentence for the event; "": that of ProcerrRecovery.
+    void raiseProcessError(Status errorNumber, std::string why = {});
+    /// One is raised by the next movement instruction.
+    bool hasProcessError() const { return processError_ != kOk; }
 
     /// The task whose movement is being ordered, which may be too late for the corner before it; null otherwise.
     const Task* orderingTask() const { return ordering_; }
@@ -267,6 +270,7 @@ class MotionDriver final : public SteppedArm {
     bool programStop_ = false;
     bool levelHold_ = false; // from StorePath until the arm is at rest; from RestoPath until it may move
     Status processError_ = kOk;
+    std::string processErrorText_;
     Interrupted interrupted_;
     struct StoredLevel { // what belongs to a path that is put aside
         StopFlags stopMove;

@@ -104,6 +104,15 @@ void addRobots(const Command& command, RunOptions& options) {
         .typeName("[UNIT=]MODEL")
         .oneValueEach();
     command
+        .add("--conveyor", options.conveyors,
+             "a simulated conveyor, such as CNV1=speed:200,every:400: mm/s, and an object each 400 mm; keys: "
+             "speed, "
+             "acceleration, every, sync, window, min, max, separation, adjustment, adjustment_acceleration, "
+             "at, turn, "
+             "rotating, index, index_speed, trigger, axis, counts, signals; repeatable")
+        .typeName("UNIT=KEY:VALUE,...")
+        .oneValueEach();
+    command
         .add("--planner", options.planner,
              "what times movements: measured (as real controllers; default) or optimal (shortest time "
              "within all limits, also of jerk)")

@@ -72,13 +72,14 @@ std::string outputProblem(const std::string& output) {
     return fmt::format("cannot write {}: {}", output, std::strerror(errno));
 }
 
-/// --robot becomes the model of the executable; its own option --robot comes first.
-void keepRobots(Compilation& compilation, const std::vector<std::string>& robots) {
-    if (robots.empty()) return;
+/// --robot and --conveyor become those of the executable; its own options come first.
+void keepOptions(Compilation& compilation, const std::string& option,
+                 const std::vector<std::string>& values) {
+    if (values.empty()) return;
     std::string text = "RAPIDC:CFG_1.0:7:0::\n#\nOPTIONS:\n";
-    for (const std::string& robot : robots)
-        text += fmt::format("\n      -robot \"{}\"\n", robot);
-    compilation.configNames.emplace_back("--robot");
+    for (const std::string& value : values)
+        text += fmt::format("\n      -{} \"{}\"\n", option, value);
+    compilation.configNames.push_back("--" + option);
     compilation.configTexts.push_back(std::move(text));
 }
 
@@ -137,7 +138,8 @@ int build(BuildSettings& settings) {
         fmt::print(stderr, "rapidc build: {}\n", conflict);
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
-    keepRobots(*compilation, settings.inputs.robots);
+    keepOptions(*compilation, "robot", settings.inputs.robots);
+    keepOptions(*compilation, "conveyor", settings.inputs.conveyors);
     std::error_code ignored;
     compilation->folder = fs::current_path(ignored).string();
     compilation->overflowChecks = !settings.withoutOverflowChecks;

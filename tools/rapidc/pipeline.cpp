@@ -7,6 +7,7 @@
 #include "ir/lower/lower.h"
 #include "ir/verify/verify.h"
 #include "runtime/host/command_line.h"
+#include "runtime/host/conveyors.h"
 #include "runtime/io/cfg_parser.h"
 #include "runtime/robot/robot_model.h"
 #include "stdlib/native_table.h"
@@ -94,6 +95,29 @@ void readConfiguration(Compilation& compilation, const std::vector<std::string>&
     for (size_t i = 0; i < compilation.configNames.size() && !problems.empty(); ++i)
         reportConfigurationProblems(compilation.sink, compilation.configNames[i], compilation.configTexts[i],
                                     problems);
+}
+
+/// Units and signals of simulated conveyors exist without a configuration of their own.
+void addConveyors(Compilation& compilation, const std::vector<std::string>& conveyors) {
+    std::vector<sema::SignalInfo>& known = compilation.options.signals;
+    std::vector<std::string> units;
+    for (const sema::SignalInfo& unit : known)
+        if (unit.type == "mecunit" && rt::isConveyorName(unit.name)) units.push_back(unit.name);
+    units.insert(units.end(), conveyors.begin(), conveyors.end());
+    for (const std::string& unit : units) {
+        rt::ConveyorSettings settings;
+        if (const std::string problem = rt::readConveyorOption(unit, settings); !problem.empty()) {
+            compilation.usageErrors.push_back(fmt::format("--conveyor={}: {}", unit, problem));
+            continue;
+        }
+        const auto add = [&known](const std::string& name, const std::string& type) {
+            const auto same = [&](const sema::SignalInfo& other) { return lower(other.name) == lower(name); };
+            if (std::none_of(known.begin(), known.end(), same)) known.push_back({name, type});
+        };
+        add(settings.name, "mecunit");
+        for (const auto& [name, type] : rt::conveyorSignals(settings))
+            add(name, type);
+    }
 }
 
 /// Event routines and shared modules of SYS.cfg.
@@ -324,6 +348,11 @@ void addRobotOption(const rt::Command& command, Inputs& inputs) {
              "Robot model, of a further robot UNIT=MODEL; repeatable; rapidc robots lists the models")
         .typeName("[UNIT=]MODEL")
         .oneValueEach();
+    command
+        .add("--conveyor", inputs.conveyors,
+             "Simulated conveyor with its signals, as for rapidc run; repeatable")
+        .typeName("UNIT=KEY:VALUE,...")
+        .oneValueEach();
 }
 
 std::string outputConflict(const Compilation& compilation,
@@ -362,6 +391,7 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     options.assumeSignals = inputs.assumeSignals;
     readConfiguration(*compilation, configFiles, inputs.configFiles.size(),
                       inputs.onlyDiagnostics); // else the controller judges signals
+    addConveyors(*compilation, inputs.conveyors);
     if (project.isBackup) checkRobot(*compilation, project.robot);
     for (const rapid::stdlib::StdlibSource& source : rapid::stdlib::sources())
         compilation->library.push_back({source.name, source.text});

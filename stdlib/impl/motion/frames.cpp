@@ -1,6 +1,7 @@
 // Frames of a movement: tool, work object, program displacement, and the mechanical unit that moves the work object
 // (manual 2.1; wobjdata ufprog and ufmec).
 
+#include "stdlib/impl/conveyor/tracking.h"
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/fail.h"
@@ -29,6 +30,7 @@ Status moveUserFrame(TaskCore* task, std::string_view name, motion::FrameSetup& 
         return fail(task, err::ERR_ARGVALERR,
                     "the work object is moved by mechanical unit " + quoted +
                         ", which the configuration does not define (MOC.cfg)");
+    if (unit->isConveyor) return placeOnConveyor(task, name, frames);
     MotionDriver& own = motionOf(task);
     if (unit->group == own.group()) {
         if (unit->isRobot)

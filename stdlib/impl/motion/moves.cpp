@@ -1,5 +1,7 @@
 // Manual 1.8: positioning instructions.
 
+#include "stdlib/impl/conveyor/sensor_sync.h"
+#include "stdlib/impl/conveyor/tracking.h"
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/motion/corrections.h"
 #include "stdlib/impl/motion/move_order.h"
@@ -186,6 +188,8 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
     command.settings = state.settings;
     motion::MoveId id = 0;
     std::optional<motion::MotionError> error;
+    if (const Status status = trackConveyor(task, *workObject, command)) return status;
+    if (const Status status = followSensor(task, command)) return status;
     const Status status =
         owner.controller().motion(owner).order(owner, std::move(command), id, error, std::move(actions));
     if (status != kOk) return status;

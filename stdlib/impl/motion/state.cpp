@@ -1,5 +1,7 @@
 #include "stdlib/impl/motion/state.h"
 
+#include "stdlib/impl/conveyor/indexing.h"
+#include "stdlib/impl/conveyor/sensor_sync.h"
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/motion/corrections.h"
 #include "stdlib/impl/motion/independent_axes.h"
@@ -41,6 +43,8 @@ void resetSettings(Task& task) {
     endPathRecording(motion);
     endCorrections(motion);
     endIndependentMode(motion);
+    endSensorSync(task);
+    resetIndexing(task.controller());
 }
 
 Status requireMotionTask(TaskCore* task) {

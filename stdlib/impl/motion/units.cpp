@@ -3,6 +3,7 @@
 
 #include "stdlib/impl/motion/units.h"
 
+#include "stdlib/impl/conveyor/tracking.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/fail.h"
 
@@ -28,6 +29,7 @@ Status setActive(TaskCore* task, Handle handle, bool active) {
     if (!active && unit->staysActive)
         return lib::fail(task, err::ERR_ARGVALERR,
                          unit->name + " must not be deactivated (MOC.cfg, deactivation_forbidden)");
+    if (unit->isConveyor) return lib::activateConveyor(task, *unit, active);
     MotionDriver& driver = lib::motionOf(task);
     if (unit->group != driver.group())
         return lib::fail(task, err::ERR_ARGVALERR,

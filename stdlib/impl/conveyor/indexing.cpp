@@ -1,0 +1,145 @@
+// Manual 1.8: servo tracking for indexing conveyors.
+
+#include "stdlib/impl/conveyor/indexing.h"
+
+#include "stdlib/impl/conveyor/tracking.h"
+#include "stdlib/impl/support/fail.h"
+
+#include "stdlib_constants.h"
+#include "stdlib_natives.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+using namespace rt;
+
+namespace {
+
+/// A conveyor in indexing mode: after IndCnvInit, until IndCnvReset.
+struct Indexing {
+    uint64_t listener = 0; ///< of the input; 0: disabled
+    EventToken braking = 0;
+    Time busyUntil = 0;
+};
+
+struct IndexingConveyors {
+    std::map<Conveyor*, Indexing> all;
+};
+
+IndexingConveyors& indexing(Controller& controller) {
+    return controller.service<IndexingConveyors>();
+}
+
+/// The belt moves on by one step. The time between the two orders is that of the step at full speed: what the first ramp lacks
+/// is made up by the second one.
+void step(Controller& controller, Conveyor& conveyor) {
+    Indexing& state = indexing(controller).all[&conveyor];
+    Scheduler& scheduler = controller.scheduler();
+    if (scheduler.now() < state.busyUntil) return; // the last step goes on
+    const ConveyorSettings& settings = conveyor.settings();
+    const double speed = std::min(settings.indexSpeed, std::sqrt(settings.index * settings.acceleration));
+    const Time travel = fromSeconds(settings.index / speed);
+    state.busyUntil = addTime(scheduler.now(), addTime(travel, fromSeconds(speed / settings.acceleration)));
+    conveyor.objectAtSync();
+    conveyor.setSpeed(speed);
+    state.braking = scheduler.after(travel, [&conveyor] { conveyor.setSpeed(0); });
+}
+
+void disable(Controller& controller, Indexing& state) {
+    if (state.listener != 0) controller.io().removeListener(std::exchange(state.listener, 0));
+}
+
+Status wrongOrder(TaskCore* task, const Conveyor& conveyor, const char* instruction, const char* first) {
+    return lib::fail(task, err::ERR_INDCNV_ORDER,
+                     std::string(instruction) + ": " + conveyor.name() + " is not ready for it; use " +
+                         first + " first");
+}
+
+/// The conveyor when it is in indexing mode; else null with ERR_INDCNV_ORDER.
+Conveyor* initialised(TaskCore* task, Handle unit, const char* instruction, Status& status) {
+    Conveyor* conveyor = lib::conveyorUnit(task, unit, status);
+    if (conveyor == nullptr) return nullptr;
+    if (indexing(taskOf(task).controller()).all.contains(conveyor)) return conveyor;
+    status = wrongOrder(task, *conveyor, instruction, "IndCnvInit");
+    return nullptr;
+}
+
+} // namespace
+
+namespace rt::lib {
+
+void resetIndexing(Controller& controller) {
+    for (auto& [conveyor, state] : indexing(controller).all)
+        disable(controller, state);
+    indexing(controller).all.clear();
+}
+
+} // namespace rt::lib
+
+extern "C" {
+
+/// What the data say is not known: step, speed and input are settings of the simulated conveyor.
+Status rt_IndCnvInit(TaskCore* task, Handle* MechUnit, Handle*) {
+    Status status = kOk;
+    Conveyor* conveyor = lib::conveyorUnit(task, *MechUnit, status);
+    if (conveyor == nullptr) return status;
+    if (!conveyor->isActive())
+        return lib::fail(task, err::ERR_CNV_NOT_ACT,
+                         conveyor->name() + " is not activated; use ActUnit first");
+    auto& all = indexing(taskOf(task).controller()).all;
+    if (all.contains(conveyor)) return wrongOrder(task, *conveyor, "IndCnvInit", "IndCnvReset");
+    all[conveyor] = {};
+    conveyor->setSpeed(0);
+    return kOk;
+}
+
+Status rt_IndCnvEnable(TaskCore* task, Handle* MechUnit) {
+    Status status = kOk;
+    Conveyor* conveyor = initialised(task, *MechUnit, "IndCnvEnable", status);
+    if (conveyor == nullptr) return status;
+    Controller& controller = taskOf(task).controller();
+    Indexing& state = indexing(controller).all[conveyor];
+    if (state.listener != 0) return wrongOrder(task, *conveyor, "IndCnvEnable", "IndCnvDisable");
+    const std::string& input = conveyor->settings().trigger;
+    const SignalId id = controller.io().find(input);
+    if (id < 0)
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "no digital input orders the steps of " + conveyor->name() +
+                             "; name one with --conveyor=" + conveyor->name() + "=trigger:SIGNAL");
+    state.listener = controller.io().addListener(id, [&controller, conveyor](SignalId, double, double value) {
+        if (value != 0) step(controller, *conveyor);
+    });
+    return kOk;
+}
+
+Status rt_IndCnvDisable(TaskCore* task, Handle* MechUnit) {
+    Status status = kOk;
+    Conveyor* conveyor = initialised(task, *MechUnit, "IndCnvDisable", status);
+    if (conveyor == nullptr) return status;
+    Controller& controller = taskOf(task).controller();
+    Indexing& state = indexing(controller).all[conveyor];
+    if (state.listener == 0) return wrongOrder(task, *conveyor, "IndCnvDisable", "IndCnvEnable");
+    disable(controller, state);
+    return kOk;
+}
+
+Status rt_IndCnvAddObject(TaskCore* task, Handle* MechUnit) {
+    Status status = kOk;
+    Conveyor* conveyor = initialised(task, *MechUnit, "IndCnvAddObject", status);
+    if (conveyor == nullptr) return status;
+    conveyor->objectAtSync();
+    return kOk;
+}
+
+Status rt_IndCnvReset(TaskCore* task, Handle* MechUnit) {
+    Status status = kOk;
+    Conveyor* conveyor = initialised(task, *MechUnit, "IndCnvReset", status);
+    if (conveyor == nullptr) return status;
+    Controller& controller = taskOf(task).controller();
+    auto& all = indexing(controller).all;
+    disable(controller, all[conveyor]);
+    all.erase(conveyor);
+    return kOk;
+}
+}

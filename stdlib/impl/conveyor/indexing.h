@@ -1,0 +1,11 @@
+#pragma once
+// Indexing conveyors: they stand, and make a step when a digital input says so.
+
+#include "runtime/host/controller.h"
+
+namespace rt::lib {
+
+/// Ends the indexing mode of all conveyors (the program begins anew).
+void resetIndexing(Controller& controller);
+
+} // namespace rt::lib
