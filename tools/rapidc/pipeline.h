@@ -26,6 +26,7 @@ struct Inputs {
     std::vector<std::string> tasks;       ///< NAME[:TYPE]=INPUT[,INPUT]
     std::vector<std::string> configFiles; ///< --config
     std::vector<std::string> robots;      ///< --robot, [UNIT=]MODEL; an unknown one is wrong usage
+    std::vector<std::string> cameras;     ///< --camera, NAME=FILE
     bool requireMain = false;
     std::vector<std::string> warnings; ///< -W
     bool lint = false;                 ///< with the warnings of 8xxx, also where -W does not name them

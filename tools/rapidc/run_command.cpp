@@ -123,6 +123,7 @@ int run(RunSettings& settings) {
     inputs.tasks = settings.options.tasks;
     inputs.configFiles = settings.options.configFiles;
     inputs.robots = settings.options.robots;
+    inputs.cameras = settings.options.cameras;
     inputs.requireMain = true;
     const auto compilation = checkInputs(inputs);
     if (!compilation->usageErrors.empty()) {
