@@ -40,8 +40,7 @@ constexpr AddInNames kAddIns[] = {
     {"the add-in Tool Changing",
      "tcclosecover tcdropofftool tclocktool tcopencover tcpickuptool tcunlocktool tc_err_*",
      "standno toolinfo toolno"},
-    {"the add-in RobotWare Dispense",
-     "settmsignal syncwwobj getsignal getsignaldnum equipdata err_glueflow"},
+    {"the add-in RobotWare Dispense", "settmsignal syncwwobj getsignal getsignaldnum equipdata err_glueflow"},
     {"the add-in Continuous Application Platform",
      "capaptrsetup capaptrsetupai capaptrsetupao capaptrsetuppers capcondsetdo capequidist "
      "capnoprocess caprefresh capsetstopmode capweavesync icap initsuperv ipathpos removesuperv "

@@ -33,7 +33,8 @@ class CameraNames {
     static Handle handleOf(int camera) { return static_cast<Handle>(camera) + 1; }
     /// -1: the variable names no camera.
     int cameraOf(Handle handle) const {
-        return handle >= 1 && handle <= static_cast<Handle>(names_.size()) ? static_cast<int>(handle) - 1 : -1;
+        return handle >= 1 && handle <= static_cast<Handle>(names_.size()) ? static_cast<int>(handle) - 1
+                                                                           : -1;
     }
 
   private:

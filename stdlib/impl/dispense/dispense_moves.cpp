@@ -44,7 +44,8 @@ Status dispense(TaskCore* task, motion::MoveCommand command, const DispenseArgum
     if (const Status status = lib::requireMotionTask(task)) return status;
     DispenseProcess& process = DispenseProcess::of(task);
     if (!args.on && !process.isOrdered())
-        return lib::fail(task, err::ERR_ARGVALERR, "no bead has been begun: begin it with DispL \\On or DispC \\On");
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "no bead has been begun: begin it with DispL \\On or DispC \\On");
     if (args.distance != nullptr && !std::isfinite(*args.distance))
         return lib::fail(task, err::ERR_ARGVALERR, "\\D must be a distance in mm");
     if (const Status status = process.prepare(task, *args.bead)) return status;
@@ -70,7 +71,7 @@ Status dispense(TaskCore* task, motion::MoveCommand command, const DispenseArgum
     process.setOrdered(!args.off);
     const Status status = lib::orderMove(task, std::move(command), move, std::move(actions));
     if (status != kOk) {
-        process.interrupt(); // the robot stands still
+        process.interrupt();          // the robot stands still
         process.setOrdered(!args.on); // executed again it is the same instruction
     }
     return status;
@@ -81,14 +82,17 @@ Status dispense(TaskCore* task, motion::MoveCommand command, const DispenseArgum
 extern "C" {
 
 Status rt_DispL(TaskCore* task, bool On, bool Off, const data::Robtarget* ToPoint, const float* ID,
-                const data::Speeddata* Speed, data::Beaddata* Bead, const float* D, const data::Zonedata* Zone,
-                data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata* TLoad) {
-    return dispense(task, lib::linearMove(task, *ToPoint, ID), {On, Off, Speed, Bead, D, Zone, Tool, WObj, TLoad});
+                const data::Speeddata* Speed, data::Beaddata* Bead, const float* D,
+                const data::Zonedata* Zone, data::Tooldata* Tool, data::Wobjdata* WObj, bool,
+                data::Loaddata* TLoad) {
+    return dispense(task, lib::linearMove(task, *ToPoint, ID),
+                    {On, Off, Speed, Bead, D, Zone, Tool, WObj, TLoad});
 }
 
-Status rt_DispC(TaskCore* task, bool On, bool Off, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
-                const float* ID, const data::Speeddata* Speed, data::Beaddata* Bead, const float* D,
-                const data::Zonedata* Zone, data::Tooldata* Tool, data::Wobjdata* WObj, bool, data::Loaddata* TLoad) {
+Status rt_DispC(TaskCore* task, bool On, bool Off, const data::Robtarget* CirPoint,
+                const data::Robtarget* ToPoint, const float* ID, const data::Speeddata* Speed,
+                data::Beaddata* Bead, const float* D, const data::Zonedata* Zone, data::Tooldata* Tool,
+                data::Wobjdata* WObj, bool, data::Loaddata* TLoad) {
     return dispense(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
                     {On, Off, Speed, Bead, D, Zone, Tool, WObj, TLoad});
 }

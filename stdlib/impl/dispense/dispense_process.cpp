@@ -18,8 +18,8 @@ using Kind = ProcessSignal::Kind;
 
 enum Signal : std::size_t { On, Active, ErrorOut, Flow1, Flow2, ErrorIn };
 constexpr ProcessSignal kSignals[] = {
-    {"On", "doEqu{}On", Kind::Output},   {"Active", "doEqu{}Active", Kind::Output},
-    {"Error", "doEqu{}Err", Kind::Output}, {"Flow1", "aoEqu{}F1", Kind::Reference},
+    {"On", "doEqu{}On", Kind::Output},       {"Active", "doEqu{}Active", Kind::Output},
+    {"Error", "doEqu{}Err", Kind::Output},   {"Flow1", "aoEqu{}F1", Kind::Reference},
     {"Flow2", "aoEqu{}F2", Kind::Reference}, {"EquipError", "diEqu{}Err", Kind::Input}};
 constexpr int kMostEquipments = 4;
 constexpr float kProportional = 2; // flow1_type
@@ -46,14 +46,15 @@ void DispenseProcess::open(TaskCore* task) {
 Status DispenseProcess::prepare(TaskCore* task, const data::Beaddata& bead) {
     const float equipment = bead.equip_no;
     if (!(equipment >= 1 && equipment <= kMostEquipments && std::trunc(equipment) == equipment))
-        return failWith(task, err::ERR_ARGVALERR, "equip_no of beaddata is {}, but must be from 1 to {}", equipment,
-                        kMostEquipments);
+        return failWith(task, err::ERR_ARGVALERR, "equip_no of beaddata is {}, but must be from 1 to {}",
+                        equipment, kMostEquipments);
     if (!isFlowType(bead.flow1_type) || !isFlowType(bead.flow2_type))
         return fail(task, err::ERR_ARGVALERR, "flow1_type and flow2_type of beaddata must be 0, 1 or 2");
     if (!std::isfinite(bead.flow1) || !std::isfinite(bead.flow2))
         return fail(task, err::ERR_ARGVALERR, "flow1 and flow2 of beaddata must be numbers");
     if (phase_ == Phase::On && equipment != bead_.equip_no)
-        return fail(task, err::ERR_ARGVALERR, "a bead cannot change its equipment (equip_no); end it with \\Off first");
+        return fail(task, err::ERR_ARGVALERR,
+                    "a bead cannot change its equipment (equip_no); end it with \\Off first");
     const std::string problem =
         signals_.read(taskOf(task).controller(), "DISP", static_cast<int>(equipment), kSignals);
     return problem.empty() ? kOk : fail(task, err::DISP_EQUIP_ERR, problem);
@@ -62,7 +63,8 @@ Status DispenseProcess::prepare(TaskCore* task, const data::Beaddata& bead) {
 Status DispenseProcess::resume(TaskCore* task) {
     if (phase_ != Phase::Interrupted) return kOk;
     if (signals_.input(ErrorIn).value_or(false))
-        return fail(task, err::DISP_EQUIP_ERR, "the dispensing equipment still reports an error (input EquipError)");
+        return fail(task, err::DISP_EQUIP_ERR,
+                    "the dispensing equipment still reports an error (input EquipError)");
     signals_.set(ErrorOut, 0);
     phase_ = Phase::On;
     flowOn();
@@ -96,7 +98,8 @@ void DispenseProcess::flow(std::size_t signal, double value, double type) {
     const bool follows = type == kProportional && speed_ > 0;
     bool& followed = follows_[signal - Flow1];
     // The scale 0 ends what followed the speed before.
-    if (follows || followed) followSpeed(*task_, IoSystem::handleOf(id), {follows ? value / speed_ : 0, 0, 0});
+    if (follows || followed)
+        followSpeed(*task_, IoSystem::handleOf(id), {follows ? value / speed_ : 0, 0, 0});
     followed = follows;
     if (!follows) signals_.set(signal, type == 0 ? 0 : value);
 }

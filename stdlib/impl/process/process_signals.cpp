@@ -27,11 +27,13 @@ bool fits(SignalType type, Kind kind) {
     return false;
 }
 
-template <class Action> void forEachInstance(const Controller& controller, std::string_view types, Action action) {
+template <class Action>
+void forEachInstance(const Controller& controller, std::string_view types, Action action) {
     for (const CfgFile& file : controller.configuration()) {
         if (!rapid::config::sameName(file.domain, "PROC")) continue;
         for (const auto& section : file.sections) {
-            if (!rapid::config::sameName(std::string_view(section.type).substr(0, types.size()), types)) continue;
+            if (!rapid::config::sameName(std::string_view(section.type).substr(0, types.size()), types))
+                continue;
             for (std::size_t i = 0; i < section.instances.size(); ++i)
                 action(static_cast<int>(i) + 1, section.instances[i]);
         }
@@ -66,9 +68,10 @@ std::string ProcessSignals::read(Controller& controller, std::string_view types,
             ids_[i] = attribute->text().empty() ? -1 : io_->find(attribute->text());
             const bool isWrong = ids_[i] >= 0 && !fits(io_->config(ids_[i]).type, signals[i].kind);
             if (!attribute->text().empty() && (ids_[i] < 0 || isWrong))
-                return fmt::format("PROC.cfg, line {}: {} names signal \"{}\", which {}. Define it in EIO.cfg",
-                                   attribute->line, attribute->name, attribute->text(),
-                                   isWrong ? "has another type" : "no configuration defines");
+                return fmt::format(
+                    "PROC.cfg, line {}: {} names signal \"{}\", which {}. Define it in EIO.cfg",
+                    attribute->line, attribute->name, attribute->text(),
+                    isWrong ? "has another type" : "no configuration defines");
         }
     }
     return {};
@@ -91,7 +94,8 @@ std::optional<bool> ProcessSignals::input(std::size_t signal) const {
 double ProcessSignals::number(std::string_view attribute, double otherwise) const {
     for (const CfgAttribute* each : attributes_) {
         double value = 0;
-        if (isAttribute(each->name, attribute) && rapid::config::parseNumber(each->text(), value) && value >= 0)
+        if (isAttribute(each->name, attribute) && rapid::config::parseNumber(each->text(), value) &&
+            value >= 0)
             return value;
     }
     return otherwise;

@@ -66,13 +66,14 @@ Status rt_SetForce(TaskCore* task, const float* Gun, data::Gundata* GunData, dat
     lib::SpotGun* gun = lib::spotGunOf(task, Gun, GunData, status);
     if (gun == nullptr) return status;
     if (!(Force->tip_force >= 0) || !(Force->force_time >= 0) || !std::isfinite(Force->force_time))
-        return lib::fail(task, err::ERR_ARGVALERR, "tip_force and force_time of forcedata must not be negative");
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "tip_force and force_time of forcedata must not be negative");
     gun->select(0, Force->tip_force);
     return lib::pressGun(task, *gun, Force->force_time);
 }
 
-Status rt_Calibrate(TaskCore* task, const float* Gun, data::Gundata* GunData, bool TipChg, bool TipWear, bool FirstCal,
-                    float* RetTipWear) {
+Status rt_Calibrate(TaskCore* task, const float* Gun, data::Gundata* GunData, bool TipChg, bool TipWear,
+                    bool FirstCal, float* RetTipWear) {
     Status status = kOk;
     lib::SpotGun* gun = lib::spotGunOf(task, Gun, GunData, status);
     if (gun == nullptr) return status;

@@ -122,10 +122,12 @@ Status SpotGun::waitFor(TaskCore* task, std::size_t input, Time since, double se
     WaitResult result{};
     if (const Status status = owner.waitFor(spec, result)) return status;
     if (isFault())
-        return fail(task, err::SPOTWELD_ERR, fmt::format("the timer of gun {} reports a fault (input WeldFault)", number_));
+        return fail(task, err::SPOTWELD_ERR,
+                    fmt::format("the timer of gun {} reports a fault (input WeldFault)", number_));
     if (result == WaitResult::Timeout)
-        return fail(task, err::SPOTWELD_ERR, fmt::format("gun {} {} within {:g} s (input {})", number_, what, timeout,
-                                                         kSignals[input].attribute));
+        return fail(task, err::SPOTWELD_ERR,
+                    fmt::format("gun {} {} within {:g} s (input {})", number_, what, timeout,
+                                kSignals[input].attribute));
     return kOk;
 }
 
@@ -185,10 +187,12 @@ SpotGun* spotGunOf(TaskCore* task, const float* number, const data::Gundata* gun
     if (number != nullptr && *number == std::floor(*number) && *number >= 1 && *number <= kMostGuns)
         wanted = static_cast<int>(*number);
     else if (number != nullptr) {
-        status = failWith(task, err::ERR_ARGVALERR, "{} is not the number of a gun, from 1 to {}", *number, kMostGuns);
+        status = failWith(task, err::ERR_ARGVALERR, "{} is not the number of a gun, from 1 to {}", *number,
+                          kMostGuns);
         return nullptr;
     } else if (gun != nullptr) {
-        if (const int named = processInstance(controller, kTypes, gun->gun_name.view()); named > 0) wanted = named;
+        if (const int named = processInstance(controller, kTypes, gun->gun_name.view()); named > 0)
+            wanted = named;
     }
     auto& slot = controller.service<SpotGuns>().byNumber[wanted];
     if (!slot) slot = std::make_unique<SpotGun>();

@@ -38,7 +38,8 @@ struct SpotSwitches {
 
 constexpr data::Zonedata kStopPoint{true, 0, 0, 0, 0, 0, 0};
 
-Status moveTo(TaskCore* task, motion::MoveCommand command, const SpotMove& move, std::vector<PathAction> actions) {
+Status moveTo(TaskCore* task, motion::MoveCommand command, const SpotMove& move,
+              std::vector<PathAction> actions) {
     lib::MoveArguments arguments;
     arguments.speed = move.speed;
     arguments.zone = &kStopPoint;
@@ -69,12 +70,14 @@ Status checkWeld(TaskCore* task, const Weld& weld) {
     if (weld.data == nullptr) return kOk;
     for (const float time : {weld.data->pre_close_time, weld.data->pre_equ_time, weld.data->weld_timeout})
         if (!(time >= 0 && std::isfinite(time)))
-            return lib::fail(task, err::ERR_ARGVALERR, "the times of gundata must be numbers of seconds from 0 on");
+            return lib::fail(task, err::ERR_ARGVALERR,
+                             "the times of gundata must be numbers of seconds from 0 on");
     return kOk;
 }
 
 /// The guns on the way: program, high lift, and closing early.
-std::vector<PathAction> onTheWay(Controller& controller, const std::vector<Weld>& welds, const SpotSwitches& how) {
+std::vector<PathAction> onTheWay(Controller& controller, const std::vector<Weld>& welds,
+                                 const SpotSwitches& how) {
     std::vector<PathAction> actions;
     for (const Weld& weld : welds) {
         SpotGun* gun = weld.gun;
@@ -181,30 +184,32 @@ Status calibrateAt(TaskCore* task, motion::MoveCommand command, const SpotMove& 
 } // namespace
 
 // The instructions come in pairs that differ in the path alone.
-#define SPOT_PATH(SUFFIX, MOVE)                                                                                     \
-    Status rt_Spot##SUFFIX(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,                         \
-                           const data::Speeddata* Speed, const float* Gun, data::Gundata* GunData,                  \
-                           data::Spotdata* Spot, bool InPos, bool OpenHLift, bool CloseHLift, bool QuickRelease,    \
-                           data::Tooldata* Tool, data::Wobjdata* WObj, data::Loaddata* TLoad) {                     \
-        if (const Status status = lib::requireMotionTask(task)) return status;                                      \
-        return spotOne(task, lib::MOVE(task, *ToPoint, ID), {Speed, Tool, WObj, TLoad}, Gun, GunData, Spot,         \
-                       {InPos, OpenHLift, CloseHLift, QuickRelease});                                               \
-    }                                                                                                               \
-    Status rt_SpotM##SUFFIX(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,                        \
-                            const data::Speeddata* Speed, data::Spotdata* G1, data::Spotdata* G2,                   \
-                            data::Spotdata* G3, data::Spotdata* G4, bool InPos, bool OpenHLift, bool CloseHLift,    \
-                            bool QuickRelease, data::Tooldata* Tool, data::Wobjdata* WObj, data::Loaddata* TLoad) { \
-        if (const Status status = lib::requireMotionTask(task)) return status;                                      \
-        return spotSeveral(task, lib::MOVE(task, *ToPoint, ID), {Speed, Tool, WObj, TLoad}, {G1, G2, G3, G4},       \
-                           {InPos, OpenHLift, CloseHLift, QuickRelease});                                           \
-    }                                                                                                               \
-    Status rt_Calib##SUFFIX(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,                        \
-                            const data::Speeddata* Speed, const float* Gun, data::Gundata* GunData, bool TipChg,    \
-                            bool TipWear, bool FirstCal, data::Tooldata* Tool, data::Wobjdata* WObj,                \
-                            data::Loaddata* TLoad) {                                                                \
-        if (const Status status = lib::requireMotionTask(task)) return status;                                      \
-        return calibrateAt(task, lib::MOVE(task, *ToPoint, ID), {Speed, Tool, WObj, TLoad}, Gun, GunData,           \
-                           lib::calibrationOf(TipChg, TipWear, FirstCal));                                          \
+#define SPOT_PATH(SUFFIX, MOVE)                                                                              \
+    Status rt_Spot##SUFFIX(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,                  \
+                           const data::Speeddata* Speed, const float* Gun, data::Gundata* GunData,           \
+                           data::Spotdata* Spot, bool InPos, bool OpenHLift, bool CloseHLift,                \
+                           bool QuickRelease, data::Tooldata* Tool, data::Wobjdata* WObj,                    \
+                           data::Loaddata* TLoad) {                                                          \
+        if (const Status status = lib::requireMotionTask(task)) return status;                               \
+        return spotOne(task, lib::MOVE(task, *ToPoint, ID), {Speed, Tool, WObj, TLoad}, Gun, GunData, Spot,  \
+                       {InPos, OpenHLift, CloseHLift, QuickRelease});                                        \
+    }                                                                                                        \
+    Status rt_SpotM##SUFFIX(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,                 \
+                            const data::Speeddata* Speed, data::Spotdata* G1, data::Spotdata* G2,            \
+                            data::Spotdata* G3, data::Spotdata* G4, bool InPos, bool OpenHLift,              \
+                            bool CloseHLift, bool QuickRelease, data::Tooldata* Tool, data::Wobjdata* WObj,  \
+                            data::Loaddata* TLoad) {                                                         \
+        if (const Status status = lib::requireMotionTask(task)) return status;                               \
+        return spotSeveral(task, lib::MOVE(task, *ToPoint, ID), {Speed, Tool, WObj, TLoad},                  \
+                           {G1, G2, G3, G4}, {InPos, OpenHLift, CloseHLift, QuickRelease});                  \
+    }                                                                                                        \
+    Status rt_Calib##SUFFIX(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,                 \
+                            const data::Speeddata* Speed, const float* Gun, data::Gundata* GunData,          \
+                            bool TipChg, bool TipWear, bool FirstCal, data::Tooldata* Tool,                  \
+                            data::Wobjdata* WObj, data::Loaddata* TLoad) {                                   \
+        if (const Status status = lib::requireMotionTask(task)) return status;                               \
+        return calibrateAt(task, lib::MOVE(task, *ToPoint, ID), {Speed, Tool, WObj, TLoad}, Gun, GunData,    \
+                           lib::calibrationOf(TipChg, TipWear, FirstCal));                                   \
     }
 
 extern "C" {

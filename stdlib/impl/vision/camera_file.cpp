@@ -110,8 +110,7 @@ robot::Pose frameOf(const json& part, const std::string& where) {
 }
 
 CameraPart partOf(const json& object, const std::string& where) {
-    checkKeys(object, where,
-              {"name", "position", "rotation", "orient", "values", "strings", "type"});
+    checkKeys(object, where, {"name", "position", "rotation", "orient", "values", "strings", "type"});
     CameraPart part;
     if (object.contains("name")) part.name = textOf(object["name"], where + ".name");
     part.frame = frameOf(object, where);
@@ -182,8 +181,7 @@ void readRoot(const json& root, CameraFile& file) {
                "image_seconds", "silent", "busy"});
     if (root.contains("mode")) {
         const std::string mode = textOf(root["mode"], "mode");
-        if (mode != "run" && mode != "program")
-            throw Mistake{"mode is neither \"run\" nor \"program\""};
+        if (mode != "run" && mode != "program") throw Mistake{"mode is neither \"run\" nor \"program\""};
         file.runMode = mode == "run";
     }
     readNumber(root, where, "exposure_time", file.exposureTime);

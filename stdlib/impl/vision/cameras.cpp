@@ -33,8 +33,7 @@ bool isWithin(const std::vector<CameraSpan>& spans, Time now) {
 /// A name that a program can use: letters, digits and underscores.
 bool isName(std::string_view text) {
     return !text.empty() && text.size() <= 32 && std::isalpha(static_cast<unsigned char>(text[0])) &&
-           std::all_of(text.begin(), text.end(),
-                       [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+           std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
 }
 
 std::string openCamera(Controller& controller, const std::string& option) {
@@ -52,8 +51,7 @@ std::string openCamera(Controller& controller, const std::string& option) {
     CameraFile file;
     if (const std::string problem = readCameraFile(bytes, file); !problem.empty())
         return fmt::format("'{}' does not describe a camera: {}", path, problem);
-    controller.service<Cameras>().byNumber[names.add(name)] =
-        std::make_unique<Camera>(name, std::move(file));
+    controller.service<Cameras>().byNumber[names.add(name)] = std::make_unique<Camera>(name, std::move(file));
     return {};
 }
 
@@ -142,10 +140,9 @@ std::size_t Camera::count(const std::optional<double>& scene) const {
 }
 
 std::optional<CameraResult> Camera::fetch(const std::optional<double>& scene) {
-    const auto found =
-        std::find_if(results_.begin(), results_.end(), [&scene](const CameraResult& result) {
-            return !scene || result.scene == *scene;
-        });
+    const auto found = std::find_if(results_.begin(), results_.end(), [&scene](const CameraResult& result) {
+        return !scene || result.scene == *scene;
+    });
     if (found == results_.end()) return std::nullopt;
     CameraResult result = std::move(*found);
     results_.erase(found);

@@ -44,7 +44,8 @@ Camera* answering(TaskCore* task, Handle handle, Status& status) {
         status = lib::fail(
             task, err::ERR_CAM_COM_TIMEOUT,
             camera == nullptr
-                ? fmt::format("camera {0} is not there; --camera={0}=FILE.json says what it sees", names.name(number))
+                ? fmt::format("camera {0} is not there; --camera={0}=FILE.json says what it sees",
+                              names.name(number))
                 : fmt::format("camera {} does not answer (\"silent\" in its file)", names.name(number)));
         return nullptr;
     }
@@ -124,7 +125,8 @@ std::optional<double> sceneOf(const float* scene) {
     return scene != nullptr ? std::optional<double>(*scene) : std::nullopt;
 }
 
-template <class Value> Status mismatch(TaskCore* task, Status number, const Camera& camera, const String& name, Value* found) {
+template <class Value>
+Status mismatch(TaskCore* task, Status number, const Camera& camera, const String& name, Value* found) {
     return lib::fail(task, number,
                      fmt::format("parameter {} of camera {} {}", name.view(), camera.name(),
                                  found == nullptr ? "does not exist" : "has another type"));
@@ -292,7 +294,8 @@ Status rt_CamSetExposure(TaskCore* task, Handle* Camera, const float* ExposureTi
     return kOk;
 }
 
-Status rt_CamGetExposure(TaskCore* task, float* result, Handle* Camera, bool, bool Brightness, bool Contrast) {
+Status rt_CamGetExposure(TaskCore* task, float* result, Handle* Camera, bool, bool Brightness,
+                         bool Contrast) {
     *result = 0;
     Status status = kOk;
     const lib::Camera* camera = ready(task, *Camera, status);
@@ -331,8 +334,7 @@ Status rt_CamNumberOfResults(TaskCore* task, float* result, Handle* Camera, cons
 
 Status rt_AliasCamera(TaskCore* task, const String* CameraName, Handle* FromCamera, Handle* ToCamera) {
     auto& names = taskOf(task).controller().service<CameraNames>();
-    const int number =
-        CameraName != nullptr ? names.find(CameraName->view()) : names.cameraOf(*FromCamera);
+    const int number = CameraName != nullptr ? names.find(CameraName->view()) : names.cameraOf(*FromCamera);
     if (number < 0)
         return lib::fail(
             task, err::ERR_CAM_COM_TIMEOUT,
