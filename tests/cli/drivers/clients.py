@@ -86,7 +86,7 @@ def main():
             try:
                 globals()[name](port)
                 out, err = process.communicate(timeout=LIMIT)
-            except (OSError, subprocess.TimeoutExpired) as problem:
+            except (OSError, struct.error, subprocess.TimeoutExpired) as problem:
                 process.kill()
                 out, err = process.communicate()
                 print("given up:", problem)

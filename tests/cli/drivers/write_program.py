@@ -9,7 +9,7 @@ def numbers(*values):
     return struct.pack("<%df" % len(values), *values)
 
 
-data = numbers(10) + numbers(7) + b"a title"
+data = numbers(10) + numbers(7) + b"a_title"
 for command, place, fine in ((5, (400, 0, 500), 0), (6, (400, 100, 500), 0), (8, (400, 100, 550), 1)):
     data += numbers(1, command, *place, fine)
 data += numbers(2, 0.25)
