@@ -335,6 +335,12 @@ EIO.cfg:
      "PROC go()\n"
      "  SetupCyclicBool hot, heat > limit;\n"
      "ENDPROC"},
+    {4030, Kind::Body,
+     "Cameras of Integrated Vision are configured on the controller; the name is taken for one. A run gets it with "
+     "--camera=NAME=FILE.json, which says what the camera sees; otherwise the camera does not answer "
+     "(ERR_CAM_COM_TIMEOUT).",
+     "CamSetRunMode feederCamera;",
+     "TPWrite \"no camera\";"},
 });
 // clang-format on
 

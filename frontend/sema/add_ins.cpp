@@ -32,16 +32,15 @@ constexpr AddInNames kAddIns[] = {
      "indexlookup ipscommand ipsgetparam paintcommand pntqueueextraget pntqueueextraset pntqueuepeek "
      "brushdata err_ips* pw_equip_err paint_err"},
     {"the add-in RobotWare Spot",
-     "setforce calibrate recalctcp indgunmove indgunmovereset openhighlift closehighlift "
+     "recalctcp "
      "swsetintspotdata swsetintforcedata swsetintgundata swsetintsimdata swgetcalibdata "
-     "swgetfixtipdata spotl spotj spotml spotmj calibl calibj measurewearl swgetcurrtargetname "
-     "swgetcurrspotname nutl nutj gundata spotdata forcedata simdata smeqdata spotweld_err",
-     "gunnum smeqtype"},
+     "swgetfixtipdata measurewearl swgetcurrtargetname "
+     "swgetcurrspotname nutl nutj smeqdata",
+     "smeqtype"},
     {"the add-in Tool Changing",
      "tcclosecover tcdropofftool tclocktool tcopencover tcpickuptool tcunlocktool tc_err_*",
      "standno toolinfo toolno"},
-    {"the add-in RobotWare Dispense",
-     "settmsignal syncwwobj displ dispc getsignal getsignaldnum beaddata equipdata err_glueflow"},
+    {"the add-in RobotWare Dispense", "settmsignal syncwwobj getsignal getsignaldnum equipdata err_glueflow"},
     {"the add-in Continuous Application Platform",
      "capaptrsetup capaptrsetupai capaptrsetupao capaptrsetuppers capcondsetdo capequidist "
      "capnoprocess caprefresh capsetstopmode capweavesync icap initsuperv ipathpos removesuperv "

@@ -10,8 +10,9 @@ using namespace syntax;
 // The type an undeclared name gets when it stands for this parameter.
 const Type* Analyzer::handleHint(const DataSymbol& param) const {
     const Type& type = *param.type.type;
-    const bool configured =
-        type.kind == TypeKind::SemiValue || (param.predefined && type.base()->name == "mecunit");
+    const std::string& name = type.base()->name;
+    const bool configured = type.kind == TypeKind::SemiValue || (param.predefined && name == "mecunit") ||
+                            (name == "cameradev" && type.kind == TypeKind::NonValue);
     return configured && param.type.rank == 0 ? param.type.type : nullptr;
 }
 

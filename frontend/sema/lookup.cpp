@@ -72,16 +72,17 @@ void Analyzer::declareConfiguration() {
 // An unknown name as data: a signal where one is expected or where it is used as one elsewhere, otherwise an error.
 Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* handle) {
     facts().open = true;
-    const bool mecunit = handle && handle->base()->name == "mecunit";
+    const bool camera = handle && handle->base()->name == "cameradev";
+    const bool object = camera || (handle && handle->base()->name == "mecunit");
     const Type* type = handle && handle->kind == TypeKind::SemiValue ? handle : nullptr;
-    if (!type && !mecunit && context_.routine) type = signalTypeByUse(name);
-    const bool open = !type && !mecunit && context_.routine;
+    if (!type && !object && context_.routine) type = signalTypeByUse(name);
+    const bool open = !type && !object && context_.routine;
     if (open && (!incomplete_ || options_.assumeSignals)) type = signalTypeByName(text(token));
     const bool perhaps = open && !type && comparisonsTell();
     if (perhaps) type = signalTypeByComparison(text(token), name);
     // A signal that cannot come: the name is left to the modules that are missing, which may declare it.
     if (incomplete_ && options_.configurationKnown && !options_.assumeSignals) type = nullptr;
-    if (!type && !mecunit) {
+    if (!type && !object) {
         if (moduleNames_.find(name)) {
             report(Code::NotData, range(token), {text(token), "a module"});
         } else if (!context_.routine || !context_.routine->incomplete) { // else it may be a parameter
@@ -100,12 +101,12 @@ Symbol* Analyzer::reportUnknownData(TokenIndex token, NameId name, const Type* h
     if (reportedNames_.insert(name).second && mayReportUnknown(name)) {
         if (incomplete_ && !perhaps && !options_.assumeSignals)
             reportMayBeDeclared(token, {});
-        else if (mecunit)
-            report(Code::MechanicalUnitUnknown, range(token), {text(token)});
+        else if (object)
+            report(camera ? Code::CameraUnknown : Code::MechanicalUnitUnknown, range(token), {text(token)});
         else
             reportSignal(token, name, *type, perhaps);
     }
-    return configuredObject(name, text(token), mecunit ? handle : type, true);
+    return configuredObject(name, text(token), object ? handle : type, true);
 }
 
 // Whether a comparison with a number is enough to take a name for a signal: without a configuration, and where no module

@@ -1,5 +1,6 @@
 // Controller: everything before the first instruction: configuration, robot, files, tasks, what the program names.
 
+#include "runtime/host/camera_names.h"
 #include "runtime/host/controller.h"
 
 #include "runtime/base/text_util.h"
@@ -230,6 +231,10 @@ ExitStatus Controller::openFiles() {
         print("--device: " + error);
         return ExitStatus::BadUsage;
     }
+    if (const std::string& problem = service<CameraNames>().problem; !problem.empty()) {
+        print("--camera: " + problem);
+        return ExitStatus::BadUsage;
+    }
     if (!options_.trace.empty()) {
         trace_ = std::make_unique<TraceWriter>();
         if (!trace_->open(options_.trace, error)) {
@@ -389,6 +394,10 @@ bool connectExternal(Controller& controller, const ExternalDesc& external) {
         const auto found = std::find_if(units.begin(), units.end(),
                                         [&name](const auto& unit) { return sameName(unit->name, name); });
         *external.slot = found == units.end() ? 0 : found - units.begin() + 1;
+        return true;
+    }
+    if (sameName(kind, "cameradev")) { // one without --camera does not answer
+        *external.slot = CameraNames::handleOf(controller.service<CameraNames>().add(name));
         return true;
     }
     if (sameName(kind, "taskid")) { // predefined for each task as <name>Id

@@ -77,6 +77,11 @@ void addDisks(const Command& command, RunOptions& options) {
              "FIFO) of a volume and written to the second, or both the same; repeatable")
         .typeName("NAME=FILE[,FILE]")
         .oneValueEach();
+    command
+        .add("--camera", options.cameras,
+             "a camera of Integrated Vision, and the JSON file that says what it sees; repeatable")
+        .typeName("NAME=FILE.json")
+        .oneValueEach();
 }
 
 void addNetwork(const Command& command, net::NetworkOptions& options) {

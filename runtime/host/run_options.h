@@ -24,6 +24,7 @@ struct RunOptions {
     std::string home;                             ///< "" = an empty folder that is removed at the end
     std::vector<std::string> volumes;             ///< NAME=DIR: further disks
     std::vector<std::string> devices;             ///< NAME=FILE[,FILE]: serial channels and printers
+    std::vector<std::string> cameras;             ///< NAME=FILE: cameras and what they see
     std::string stimulus, trace, signals, events; ///< paths; "" = not asked for
     std::string picture, report, compare;         ///< the same
     bool summary = false;                         ///< what the movements were slowed by, at the end

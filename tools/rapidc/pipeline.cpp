@@ -392,6 +392,8 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
     readConfiguration(*compilation, configFiles, inputs.configFiles.size(),
                       inputs.onlyDiagnostics); // else the controller judges signals
     addConveyors(*compilation, inputs.conveyors);
+    for (const std::string& camera : inputs.cameras)
+        options.signals.push_back({camera.substr(0, camera.find('=')), "cameradev"});
     if (project.isBackup) checkRobot(*compilation, project.robot);
     for (const rapid::stdlib::StdlibSource& source : rapid::stdlib::sources())
         compilation->library.push_back({source.name, source.text});

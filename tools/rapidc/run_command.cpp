@@ -124,6 +124,7 @@ int run(RunSettings& settings) {
     inputs.configFiles = settings.options.configFiles;
     inputs.robots = settings.options.robots;
     inputs.conveyors = settings.options.conveyors;
+    inputs.cameras = settings.options.cameras;
     inputs.requireMain = true;
     const auto compilation = checkInputs(inputs);
     if (!compilation->usageErrors.empty()) {

@@ -142,7 +142,7 @@ Status sendBytes(TaskCore* task, Socket& socket, std::string_view bytes) {
     return finish(task, outcome);
 }
 
-/// \ReadNoOfBytes as a number of bytes, 1 when it is left out.
+/// \ReadNoOfBytes as a number of bytes, 1 when it is left out or names all of a container.
 Status bytesToAwait(TaskCore* task, const float* wanted, const Incoming& into, std::size_t& bytes) {
     bytes = 1;
     if (wanted == nullptr) return kOk;
@@ -153,7 +153,7 @@ Status bytesToAwait(TaskCore* task, const float* wanted, const Incoming& into, s
             fmt::format("\\ReadNoOfBytes is {}, but must be a whole number from 1 to {}, the bytes that the "
                         "variable takes",
                         *wanted, most));
-    bytes = static_cast<std::size_t>(*wanted);
+    if (!into.isWhole(*wanted)) bytes = static_cast<std::size_t>(*wanted);
     return kOk;
 }
 
@@ -165,7 +165,8 @@ Status receiveStream(TaskCore* task, Socket& socket, const Incoming& into, const
     const auto step = [&] { return socket.await(least); };
     if (const Status status = repeat(task, socket, false, deadline, outcome, step)) return status;
     if (!outcome.ok()) return finish(task, outcome);
-    const std::size_t count = wanted != nullptr ? least : into.fitting(socket.received());
+    const bool isExact = wanted != nullptr && !into.isWhole(*wanted);
+    const std::size_t count = isExact ? least : into.fitting(socket.received());
     into.put(socket.received().substr(0, count));
     socket.take(count);
     return kOk;

@@ -67,6 +67,10 @@ std::size_t Incoming::capacity() const {
     return std::min(static_cast<std::size_t>(count), net::kLargestMessage);
 }
 
+bool Incoming::isWhole(float bytesWanted) const {
+    return raw != nullptr && bytesWanted == static_cast<float>(capacity());
+}
+
 std::size_t Incoming::fitting(std::string_view view) const {
     const std::size_t most = capacity();
     if (view.size() <= most) return view.size();

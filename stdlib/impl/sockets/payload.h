@@ -33,6 +33,9 @@ struct Incoming {
 
     /// Bytes that the variable takes.
     std::size_t capacity() const;
+    /// Whether so many bytes are all that a container of bytes takes. A program that asks for them takes what has come:
+    /// published drivers ask for 1024 bytes, and their clients send messages that are shorter.
+    bool isWhole(float bytesWanted) const;
     /// How many of these bytes go into the variable: characters that do not fit in full stay for the next instruction.
     std::size_t fitting(std::string_view view) const;
     /// At most the capacity.

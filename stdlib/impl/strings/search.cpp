@@ -59,6 +59,9 @@ Status givePosition(float* result, size_t position) {
     return kOk;
 }
 
+// A search may begin one after the last character, where it finds nothing: it is the place that a search in vain gives, and
+// programs that take a text apart begin the next search there.
+
 /// StrFind with characters above 0x7F, or with a position that is wrong.
 [[gnu::cold, gnu::noinline]] Status findInMixed(TaskCore* task, size_t& position, const String& string,
                                                 float from, const String& ofSet, bool notInSet) {
@@ -66,9 +69,7 @@ Status givePosition(float* result, size_t position) {
     const String copyOfSet = ofSet;
     const lib::Characters text(copy.view());
     const lib::Characters set(copyOfSet.view());
-    // Nothing can be found in an empty string, but looking there is not a mistake.
-    if (!readPosition(from, 1, std::max<size_t>(text.size(), 1), position))
-        return badPosition(task, from, text.size());
+    if (!readPosition(from, 1, text.size() + 1, position)) return badPosition(task, from, text.size());
     while (position <= text.size() && set.contains(text[position - 1]) == notInSet)
         ++position;
     return kOk;
@@ -81,8 +82,7 @@ Status givePosition(float* result, size_t position) {
     const String copyOfPattern = pattern;
     const std::string_view bytes = copy.view();
     const lib::Characters text(bytes);
-    if (!readPosition(from, 1, std::max<size_t>(text.size(), 1), position))
-        return badPosition(task, from, text.size());
+    if (!readPosition(from, 1, text.size() + 1, position)) return badPosition(task, from, text.size());
     for (; position <= text.size(); ++position) {
         const size_t offset = static_cast<size_t>(text[position - 1].data() - bytes.data());
         if (lib::rest(bytes, offset).starts_with(copyOfPattern.view())) break;
@@ -238,7 +238,7 @@ RAPIDC_INLINED Status rt_StrFind(TaskCore* task, float* result, const String* St
                                  const String* Set, bool NotInSet) {
     const size_t length = Str->size();
     size_t position = 0;
-    if (!readPosition(ChPos, 1, std::max<size_t>(length, 1), position) || !lib::isAscii(*Str)) [[unlikely]] {
+    if (!readPosition(ChPos, 1, length + 1, position) || !lib::isAscii(*Str)) [[unlikely]] {
         size_t found = 0;
         if (const Status status = findInMixed(task, found, *Str, ChPos, *Set, NotInSet)) return status;
         return givePosition(result, found);
@@ -255,8 +255,7 @@ Status rt_StrMatch(TaskCore* task, float* result, const String* Str, float ChPos
         if (const Status status = matchInMixed(task, found, *Str, ChPos, *Pattern)) return status;
         return givePosition(result, found);
     }
-    if (!readPosition(ChPos, 1, std::max<size_t>(length, 1), position))
-        return badPosition(task, ChPos, length);
+    if (!readPosition(ChPos, 1, length + 1, position)) return badPosition(task, ChPos, length);
     return givePosition(result, findText(*Str, position - 1, *Pattern) + 1);
 }
 

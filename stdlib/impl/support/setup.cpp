@@ -1,4 +1,5 @@
 #include "stdlib/impl/arc/arc_process.h"
+#include "stdlib/impl/dispense/dispense_process.h"
 #include "stdlib/impl/files/open_files.h"
 #include "stdlib/impl/flow/booked_numbers.h"
 #include "stdlib/impl/guided_motion/egm_process.h"
@@ -9,7 +10,9 @@
 #include "stdlib/impl/motion/world_zones.h"
 #include "stdlib/impl/queues/message_queue.h"
 #include "stdlib/impl/sockets/sockets.h"
+#include "stdlib/impl/spot/spot_gun.h"
 #include "stdlib/impl/time/clocks.h"
+#include "stdlib/impl/vision/cameras.h"
 #include "stdlib/native_table.h"
 #include "stdlib/standard_library.h"
 
@@ -22,9 +25,12 @@ void setUpStandardLibrary(Controller& controller) {
         controller.log().addErrorName(entry.number, entry.name, entry.summary);
     controller.onProgramReset(lib::resetSettings);
     controller.onProgramReset(lib::endWeld);
+    controller.onProgramReset(lib::openGuns);
+    controller.onProgramReset(lib::endBead);
     controller.onProgramReset(lib::endGuidance);
     controller.onProgramReset([](Task& task) { lib::closeSockets(task, "its program begins anew"); });
     controller.onConnectionsLost(lib::closeSockets);
+    lib::openCameras(controller);
     auto& kept = controller.service<StateKeepers>();
     kept.orderAgain = lib::orderAgain;
     lib::keepSettings(controller, kept);

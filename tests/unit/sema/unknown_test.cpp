@@ -256,7 +256,7 @@ TEST_CASE("data types, constants and errors of options are told from mistakes", 
                              "  ERROR\n"
                              "    IF ERRNO = AW_TRACK_ERR OR ERRNO = CAP_TRACK_ERR RETRY;\n"
                              "    IF ERRNO = ERR_MT_HOME TRYNEXT;\n"
-                             "    IF ERRNO = SPOTWELD_ERR OR ERRNO = PAINT_ERR TRYNEXT;\n"
+                             "    IF ERRNO = SMEQDATA OR ERRNO = PAINT_ERR TRYNEXT;\n"
                              "  ENDPROC\n"
                              "ENDMODULE\n";
     const auto addIn = [](const char* place, const char* name, const char* declaredIn) {
@@ -271,7 +271,7 @@ TEST_CASE("data types, constants and errors of options are told from mistakes", 
                    addIn("8:16", "AW_TRACK_ERR", "RobotWare Arc"),
                    addIn("8:40", "CAP_TRACK_ERR", "Continuous Application Platform"),
                    addIn("9:16", "ERR_MT_HOME", "RobotWare Machine Tending"),
-                   addIn("10:16", "SPOTWELD_ERR", "RobotWare Spot"),
+                   addIn("10:16", "SMEQDATA", "RobotWare Spot"),
                    addIn("10:40", "PAINT_ERR", "RobotWare Paint")});
 }
 

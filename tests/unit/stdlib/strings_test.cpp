@@ -109,12 +109,27 @@ TEST_CASE("StrFind and StrMatch give length plus 1 when nothing is found", "[std
     CHECK(find("aaa", 1, "a", true) == 4);
     CHECK(find("Robotics", 1, "xyz") == 9);
     CHECK(find("", 1, "a") == 1);
-    CHECK(find("Robotics", 9, "s") == -static_cast<float>(err::ERR_ARGVALERR));
+    CHECK(find("Robotics", 10, "s") == -static_cast<float>(err::ERR_ARGVALERR));
+    CHECK(find("Robotics", 0, "s") == -static_cast<float>(err::ERR_ARGVALERR));
     CHECK(match("Robotics", 1, "bo") == 3);
     CHECK(match("Robotics", 4, "bo") == 9);
     CHECK(match("abcabc", 2, "abc") == 4);
     CHECK(match("čaj čaj", 2, "čaj") == 5);
     CHECK(match("ab", 1, "abc") == 3);
+}
+
+TEST_CASE("A search that begins one after the last character finds nothing", "[stdlib][strings]") {
+    CHECK(find("Robotics", 9, "s") == 9);
+    CHECK(find("Robotics", 9, "s", true) == 9);
+    CHECK(find("čaj", 4, "j") == 4);
+    CHECK(find(std::string(80, 'a'), 81, "a") == 81);
+    CHECK(match("Robotics", 9, "s") == 9);
+    CHECK(match("Robotics", 9, "") == 9);
+    CHECK(match("čaj", 4, "j") == 4);
+    CHECK(match("", 1, "a") == 1);
+    CHECK(match(std::string(80, 'a'), 81, "a") == 81);
+    CHECK(match("Robotics", 10, "s") == -static_cast<float>(err::ERR_ARGVALERR));
+    CHECK(match("čaj", 5, "j") == -static_cast<float>(err::ERR_ARGVALERR));
 }
 
 TEST_CASE("StrOrder follows the ordering, then the character codes", "[stdlib][strings]") {
