@@ -9,6 +9,7 @@
 #include "runtime/host/saved_state.h"
 #include "runtime/host/stop_signals.h"
 #include "runtime/sim/csv_writers.h"
+#include "runtime/sim/surroundings.h"
 #include "runtime/sim/trace_merger.h"
 
 #include <fmt/format.h>
@@ -406,6 +407,9 @@ void Controller::perform(const StimulusItem& item) {
             log_.write(EventId::StimulusRefused, nullptr,
                        {std::to_string(item.line), item.target, shortestNumber(item.value)});
         }
+        return;
+    case StimulusKind::Quantity:
+        service<Surroundings>().set(*Surroundings::split(item.target), item.value);
         return;
     case StimulusKind::Answer: panel_.answerCame(item.text); return;
     case StimulusKind::Stop: actionStop(); return;

@@ -9,9 +9,12 @@
 #include "runtime/host/saved_state.h"
 #include "runtime/robot/robot_model.h"
 #include "runtime/sim/csv_writers.h"
+#include "runtime/sim/surroundings.h"
 #include "runtime/sim/trace_merger.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace rt {
 namespace {
@@ -30,6 +33,16 @@ ExitStatus printProblems(const std::vector<CfgProblem>& problems) {
         status = problem.line == 0 ? ExitStatus::BadUsage : ExitStatus::BadProgram;
     }
     return status;
+}
+
+/// A mechanical unit, or a device of SIO.cfg: what a stimulus may give quantities to. A colon after the name does not count.
+bool hasDevice(Controller& controller, std::string_view name) {
+    const auto plain = [](std::string_view text) { return text.substr(0, text.find(':')); };
+    if (controller.units().find(name) != nullptr) return true;
+    const auto devices = controller.instances("SIO", "COM_TRP");
+    return std::any_of(devices.begin(), devices.end(), [&](const CfgInstance* device) {
+        return sameName(plain(device->text("name")), plain(name));
+    });
 }
 
 std::string textOf(const char* text) {
@@ -274,6 +287,10 @@ ExitStatus Controller::readStimulusFile() {
     stimulus_ = options_.stimulusText ? parseStimulus(*options_.stimulusText, problems)
                                       : readStimulus(options_.stimulus, problems);
     for (const StimulusItem& item : stimulus_) {
+        if (item.kind == StimulusKind::Quantity && !hasDevice(*this, Surroundings::split(item.target)->unit))
+            problems.push_back(
+                {item.line,
+                 fmt::format("'{}' does not name a mechanical unit, nor a device of SIO.cfg", item.target)});
         if (item.kind != StimulusKind::Signal || io_.find(item.target) >= 0) continue;
         problems.push_back(
             {item.line, fmt::format("'{}' is neither a signal nor a controller action; define the signal "

@@ -4,10 +4,12 @@
 #include "stdlib/impl/guided_motion/egm_process.h"
 #include "stdlib/impl/interrupts/ordering.h"
 #include "stdlib/impl/io/signals.h"
+#include "stdlib/impl/motion/collisions.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/motion/triggers.h"
 #include "stdlib/impl/motion/world_zones.h"
 #include "stdlib/impl/queues/message_queue.h"
+#include "stdlib/impl/servo_guns/servo_gun.h"
 #include "stdlib/impl/sockets/sockets.h"
 #include "stdlib/impl/time/clocks.h"
 #include "stdlib/native_table.h"
@@ -20,8 +22,10 @@ namespace rt {
 void setUpStandardLibrary(Controller& controller) {
     for (const ErrorEntry& entry : errorTable())
         controller.log().addErrorName(entry.number, entry.name, entry.summary);
+    lib::superviseCollisions(controller);
     controller.onProgramReset(lib::resetSettings);
     controller.onProgramReset(lib::endWeld);
+    controller.onProgramReset([](Task& task) { task.controller().service<lib::ServoGuns>().reset(); });
     controller.onProgramReset(lib::endGuidance);
     controller.onProgramReset([](Task& task) { lib::closeSockets(task, "its program begins anew"); });
     controller.onConnectionsLost(lib::closeSockets);
