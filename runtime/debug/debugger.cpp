@@ -55,7 +55,7 @@ void Debugger::setClient(DebugClient* client) {
 
 void Debugger::watch() {
     for (const auto& task : host_.tasks())
-        task->askSteps = 1;
+        task->askSteps |= 1; // others may ask, too
 }
 
 void Debugger::stopAtEntry() {

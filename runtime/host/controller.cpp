@@ -3,13 +3,13 @@
 #include "runtime/host/controller.h"
 
 #include "runtime/base/text_util.h"
-#include "runtime/host/conveyors.h"
 #include "runtime/host/module_saver.h"
 #include "runtime/host/run_files.h"
 #include "runtime/host/run_reports.h"
 #include "runtime/host/saved_state.h"
 #include "runtime/host/stop_signals.h"
 #include "runtime/sim/csv_writers.h"
+#include "runtime/sim/surroundings.h"
 #include "runtime/sim/trace_merger.h"
 
 #include <fmt/format.h>
@@ -404,11 +404,13 @@ void Controller::perform(const StimulusItem& item) {
     if (isStart(item)) --startsToCome_;
     switch (item.kind) {
     case StimulusKind::Signal:
-        if (performConveyorStimulus(*this, item)) return;
         if (io_.force(io_.find(item.target), item.value) != IoResult::Ok) {
             log_.write(EventId::StimulusRefused, nullptr,
                        {std::to_string(item.line), item.target, shortestNumber(item.value)});
         }
+        return;
+    case StimulusKind::Quantity:
+        service<Surroundings>().set(*Surroundings::split(item.target), item.value);
         return;
     case StimulusKind::Answer: panel_.answerCame(item.text); return;
     case StimulusKind::Stop: actionStop(); return;

@@ -11,9 +11,12 @@
 #include "runtime/host/saved_state.h"
 #include "runtime/robot/robot_model.h"
 #include "runtime/sim/csv_writers.h"
+#include "runtime/sim/surroundings.h"
 #include "runtime/sim/trace_merger.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace rt {
 namespace {
@@ -46,6 +49,16 @@ ExitStatus printProblems(const std::vector<CfgProblem>& problems) {
         status = problem.line == 0 ? ExitStatus::BadUsage : ExitStatus::BadProgram;
     }
     return status;
+}
+
+/// A mechanical unit, or a device of SIO.cfg: what a stimulus may give quantities to. A colon after the name does not count.
+bool hasDevice(Controller& controller, std::string_view name) {
+    const auto plain = [](std::string_view text) { return text.substr(0, text.find(':')); };
+    if (controller.units().find(name) != nullptr) return true;
+    const auto devices = controller.instances("SIO", "COM_TRP");
+    return std::any_of(devices.begin(), devices.end(), [&](const CfgInstance* device) {
+        return sameName(plain(device->text("name")), plain(name));
+    });
 }
 
 std::string textOf(const char* text) {
@@ -294,13 +307,17 @@ ExitStatus Controller::openState() {
 }
 
 /// A name in the stimulus that the configuration lacks; empty when all is well.
-static std::string problemOf(const StimulusItem& item, const IoSystem& io) {
+static std::string problemOf(Controller& controller, const StimulusItem& item) {
+    const IoSystem& io = controller.io();
     switch (item.kind) {
     case StimulusKind::Signal:
         if (io.find(item.target) >= 0) return {};
         return fmt::format("'{}' is neither a signal nor a controller action; define the signal "
                            "in an EIO configuration file (--config)",
                            item.target);
+    case StimulusKind::Quantity:
+        if (hasDevice(controller, Surroundings::split(item.target)->unit)) return {};
+        return fmt::format("'{}' does not name a mechanical unit, nor a device of SIO.cfg", item.target);
     case StimulusKind::SignalInvalid:
     case StimulusKind::SignalValid:
         if (io.find(item.text) >= 0) return {};
@@ -323,8 +340,7 @@ ExitStatus Controller::readStimulusFile() {
     stimulus_ = options_.stimulusText ? parseStimulus(*options_.stimulusText, problems)
                                       : readStimulus(options_.stimulus, problems);
     for (const StimulusItem& item : stimulus_) {
-        if (item.kind == StimulusKind::Signal && isConveyorStimulus(*this, item.target)) continue;
-        if (std::string problem = problemOf(item, io_); !problem.empty())
+        if (std::string problem = problemOf(*this, item); !problem.empty())
             problems.push_back({item.line, std::move(problem)});
     }
     for (const StimulusProblem& problem : problems) {

@@ -2,6 +2,7 @@
 
 #include "runtime/base/text_util.h"
 #include "runtime/host/controller.h"
+#include "runtime/sim/surroundings.h"
 
 #include <fmt/format.h>
 
@@ -155,15 +156,6 @@ void readConfiguration(Controller& controller, ConveyorSettings& settings) {
     }
 }
 
-/// "CNV1.speed" of a conveyor that is there; the part after the full stop.
-Conveyor* conveyorOf(Controller& controller, const std::string& target, std::string& what) {
-    const std::size_t dot = target.find('.');
-    if (dot == std::string::npos) return nullptr;
-    what = folded(std::string_view(target).substr(dot + 1));
-    return what == "speed" || what == "object" ? controller.service<Conveyors>().find(target.substr(0, dot))
-                                               : nullptr;
-}
-
 } // namespace
 
 Conveyor* Conveyors::find(std::string_view name) const {
@@ -251,24 +243,13 @@ std::string openConveyors(Controller& controller, const std::vector<std::string>
                 motion->refresh();
         });
     }
+    controller.service<Surroundings>().addListener([&conveyors](const Surroundings::Name& name, double value) {
+        Conveyor* conveyor = conveyors.find(name.unit);
+        if (conveyor == nullptr) return;
+        if (sameName(name.quantity, Surroundings::kSpeed)) conveyor->setSpeed(value);
+        if (sameName(name.quantity, Surroundings::kObject)) conveyor->objectAtSync(value);
+    });
     return {};
-}
-
-bool isConveyorStimulus(Controller& controller, const std::string& target) {
-    std::string what;
-    return conveyorOf(controller, target, what) != nullptr;
-}
-
-bool performConveyorStimulus(Controller& controller, const StimulusItem& item) {
-    if (item.kind != StimulusKind::Signal) return false;
-    std::string what;
-    Conveyor* conveyor = conveyorOf(controller, item.target, what);
-    if (conveyor == nullptr) return false;
-    if (what == "speed")
-        conveyor->setSpeed(item.value);
-    else
-        conveyor->objectAtSync(item.value);
-    return true;
 }
 
 } // namespace rt

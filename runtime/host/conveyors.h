@@ -14,7 +14,6 @@
 namespace rt {
 
 class Controller;
-struct StimulusItem;
 
 class Conveyors {
   public:
@@ -34,9 +33,5 @@ std::vector<std::pair<std::string, std::string>> conveyorSignals(const ConveyorS
 /// Makes the conveyors of the controller, their units and signals: what --conveyor says counts more than the configuration.
 /// Before signals and units are connected with the program. Returns what is wrong with the options, or "".
 std::string openConveyors(Controller& controller, const std::vector<std::string>& options);
-/// Whether a line of the stimulus is about a conveyor ("CNV1.speed", "CNV1.object").
-bool isConveyorStimulus(Controller& controller, const std::string& target);
-/// Carries it out; false when it is about something else.
-bool performConveyorStimulus(Controller& controller, const StimulusItem& item);
 
 } // namespace rt

@@ -1,6 +1,7 @@
 #include "runtime/sim/stimulus.h"
 
 #include "runtime/base/text_util.h"
+#include "runtime/sim/surroundings.h"
 
 #include <fmt/format.h>
 
@@ -115,10 +116,11 @@ bool readItem(const std::vector<std::string>& fields, StimulusItem& item, std::s
     item.time = fromSeconds(seconds);
     item.target = fields[1];
     if (!actionKind(item.target, item.kind)) {
-        item.kind = StimulusKind::Signal;
-        if (!signalValue(value, item.value)) {
-            error = fmt::format("'{}' is not a value for signal {}", value, item.target);
-        }
+        const auto name = Surroundings::split(item.target);
+        item.kind = name ? StimulusKind::Quantity : StimulusKind::Signal;
+        if (name) error = Surroundings::problemOf(name->quantity);
+        if (error.empty() && !signalValue(value, item.value))
+            error = fmt::format("'{}' is not a value for {}{}", value, name ? "" : "signal ", item.target);
     } else if (item.kind == StimulusKind::Answer) {
         item.text = value;
     } else if (item.kind >= StimulusKind::DeviceLost) {

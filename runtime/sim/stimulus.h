@@ -13,6 +13,7 @@ namespace rt {
 
 enum class StimulusKind : uint8_t {
     Signal,
+    Quantity, ///< of a simulated device: "ROB_1.external_torque_2"
     Answer,
     Stop,
     QuickStop,
@@ -34,8 +35,8 @@ enum class StimulusKind : uint8_t {
 struct StimulusItem {
     Time time = 0;
     StimulusKind kind = StimulusKind::Signal;
-    std::string target; ///< name of the signal, as written
-    double value = 0;   ///< Signal
+    std::string target; ///< name of the signal or quantity, as written
+    double value = 0;   ///< Signal, Quantity
     std::string text;   ///< Answer, or the name of what is disturbed
     uint32_t line = 0;
 };

@@ -148,6 +148,7 @@ int build(BuildSettings& settings) {
     options.debugInfo = !settings.strip;
     options.cacheFolder = settings.noCache ? "" : cacheFolder();
     if (settings.inParts) options.partsAbove = 0;
+    settings.stepping = settings.stepping || timesStatements(*compilation);
     const bool lowered = !compilation->sink.hasErrors() &&
                          lowerToIr(*compilation, fs::path(settings.output).filename().string(),
                                    settings.stepping, module, options.partsAbove + 1);

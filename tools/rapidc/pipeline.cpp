@@ -437,6 +437,10 @@ bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping,
     return reportFindings(ir::verifyTables(out), compilation.sink);
 }
 
+bool timesStatements(const Compilation& compilation) {
+    return compilation.program && compilation.program->uses(sema::Trait::TimesStatements);
+}
+
 ir::PassOptions irPasses(const Compilation& compilation, bool stepping) {
     return {.profile = stepping ? ir::Profile::Stepping : ir::Profile::Release,
             .overflowChecks = compilation.overflowChecks};

@@ -73,6 +73,9 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs);
 bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping, ir::Module& out,
                size_t passesBelow = SIZE_MAX);
 
+/// The program looks at every statement (SpyStart): it has to be compiled for the stepping profile.
+bool timesStatements(const Compilation& compilation);
+
 /// The passes of the profile.
 ir::PassOptions irPasses(const Compilation& compilation, bool stepping);
 

@@ -141,6 +141,7 @@ int run(RunSettings& settings) {
     rapid::config::removeLeftoversBeside(compilation->filesRead);
     // A later process can go on in the middle of a program of the stepping profile only.
     settings.stepping = settings.stepping || settings.interactive || stimulusSteps(settings.options) ||
+                        timesStatements(*compilation) ||
                         (!settings.options.state.empty() && !settings.noStepping);
     ir::Module module;
     codegen::CodegenOptions options = codegenOptions(!settings.noOptimise);

@@ -1,6 +1,7 @@
 // Manual 1.7, 1.8: what is read and set of single axes.
 
 #include "stdlib/impl/motion/state.h"
+#include "stdlib/impl/motion/torques.h"
 #include "stdlib/impl/motion/units.h"
 #include "stdlib/impl/support/fail.h"
 
@@ -15,29 +16,6 @@ using namespace rt;
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
-
-struct ArmReach {
-    double ofWrist = 0;   ///< m, horizontally from axis 2 to the centre of the wrist
-    double ofForearm = 0; ///< m, horizontally from axis 3 to there
-};
-
-ArmReach reachAt(const robot::OpwParameters& g, double axis2, double axis3) {
-    const double q23 = (axis2 + axis3) * kRadians;
-    const double forearm = 0.001 * (g.c3 * std::cos(q23) - g.a2 * std::sin(q23));
-    return {forearm + 0.001 * g.c2 * std::sin(axis2 * kRadians), forearm};
-}
-
-/// Share of the torque of an axis that holds the arm against gravity, for an arm on the floor. The moved mass is the one
-/// whose inertia the model's limits of acceleration contain, thought in the centre of the wrist.
-double holdingShare(const robot::RobotModel& model, const motion::Joints& joints, std::size_t axis) {
-    constexpr double kGravity = 9.81; // m/s^2
-    const ArmReach reach = reachAt(model.geometry, joints[1], joints[2]);
-    const robot::AccelerationLimit& limit = model.dynamics.axes[axis];
-    if (axis == 1) return -kGravity * limit.reach / limit.scale * reach.ofWrist;
-    if (axis != 2 || !(limit.cap > 0)) return 0;
-    const double length = 0.001 * std::hypot(model.geometry.a2, model.geometry.c3);
-    return length > 0 ? -kGravity * reach.ofForearm / (length * length * limit.cap * limit.scale) : 0;
-}
 
 Status checkPercent(TaskCore* task, float value, double least, double most, const char* text) {
     if (value >= least && value <= most) return kOk;
@@ -69,22 +47,13 @@ Status rt_ReadMotor(TaskCore* task, float* result, Handle* MecUnit, float Axis) 
     return kOk;
 }
 
-/// An estimate, as a share of the greatest torque of the axis: what its acceleration needs of the greatest one it is capable
-/// of in this posture, and what holds axes 2 and 3 against gravity. Loads, friction and the other axes do not count.
+/// An estimate, as a share of the greatest torque of the axis.
 Status rt_GetMotorTorque(TaskCore* task, float* result, Handle* MecUnit, float AxisNo) {
     Status status = kOk;
     const int number = lib::robotAxis(task, MecUnit, AxisNo, status);
     if (number < 0) return status;
-    const auto axis = static_cast<std::size_t>(number);
-    const motion::MotionSystem& arm = lib::motionOf(task).system();
-    const Time now = arm.now();
-    const motion::MotionState state = arm.sample(now);
-    constexpr Time kApart = kMillisecond;
-    const double gained = arm.sample(now + kApart).jointSpeed[axis] - state.jointSpeed[axis];
-    motion::Joints most = state.joints;
-    robot::AccelerationMap(arm.model()).limitsAt(state.joints, most);
-    const double share = gained / (static_cast<double>(kApart) * 1e-9) / most[axis];
-    *result = static_cast<float>(share + holdingShare(arm.model(), state.joints, axis));
+    *result =
+        static_cast<float>(lib::torqueShare(lib::motionOf(task).system(), static_cast<std::size_t>(number)));
     return kOk;
 }
 

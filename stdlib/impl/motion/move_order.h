@@ -20,6 +20,7 @@ struct MoveArguments {
     const data::Wobjdata* workObject = nullptr;
     bool exactConfiguration = false; ///< a line ends in the configuration of its target, also with ConfL \Off
     const data::Loaddata* totalLoad = nullptr; ///< \TLoad
+    bool movesGun = false;                     ///< also external axes that are independent of the robot
 };
 
 /// The movement to a target; the rest of the command is completed by orderMove. `id`: \ID, null when it is not given.

@@ -178,6 +178,9 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
     command.zone = zoneOf(args);
     if (const Status status = stopOf(task, args.inpos, command.stop)) return status;
     command.load = carriedBy(state, args);
+    for (std::size_t i = 0; i < state.independentExternal.size() && !args.movesGun; ++i)
+        if (state.independentExternal[i])
+            command.joints.extax[i] = command.target.extax[i] = motion::kNotConnected;
     command.confJ = state.confJ;
     command.confL = state.confL || args.exactConfiguration;
     command.circleOrientation = state.circleOrientation;

@@ -9,6 +9,7 @@
 #include "stdlib_natives.h"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace rt;
 
@@ -189,8 +190,40 @@ Status rt_SingArea(TaskCore* task, bool Wrist, bool LockAxis4, bool Off) {
     return kOk;
 }
 
-// Settings of what the virtual arm does not have - soft servos, servo tuning, collisions, loads, a path resolution -
-// are accepted: they have nothing to act on.
+/// The event buffer lets outputs of triggers come at the right time in spite of servo delays; here they always do.
+Status rt_ActEventBuffer(TaskCore* task) {
+    lib::motionState(task).eventBuffer = true;
+    return kOk;
+}
+Status rt_DeactEventBuffer(TaskCore* task) {
+    lib::motionState(task).eventBuffer = false;
+    return kOk;
+}
+
+/// The modes differ in servo behaviour, which the simulated arm does not have.
+Status rt_MotionProcessModeSet(TaskCore* task, float Mode) {
+    if (!(Mode >= k::OPTIMAL_CYCLE_TIME_MODE && Mode <= k::MPM_USER_MODE_4 && Mode == std::floor(Mode)))
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "MotionProcessModeSet: the mode must be one of OPTIMAL_CYCLE_TIME_MODE to "
+                         "MPM_USER_MODE_4 (1 to 8)");
+    if (const Status status = lib::requireMotionTask(task)) return status;
+    lib::motionState(task).processMode = Mode;
+    return kOk;
+}
+
+/// Near singular points the wrist is computed exactly: there is nothing to optimise.
+Status rt_WristOpt(TaskCore* task, bool On, bool Off) {
+    if (On == Off) return lib::fail(task, err::ERR_ARGVALERR, "WristOpt needs one of \\On and \\Off");
+    return kOk;
+}
+
+/// None of the simulated robots has such a wrist.
+Status rt_HollowWristReset(TaskCore*) {
+    return kOk;
+}
+
+// Settings of what the virtual arm does not have - soft servos, servo tuning, a path resolution - are accepted: they have
+// nothing to act on.
 Status rt_SoftDeact(TaskCore*, const float*) {
     return kOk;
 }
@@ -200,7 +233,7 @@ Status rt_TuneReset(TaskCore*) {
 Status rt_PathResol(TaskCore*, float) {
     return kOk;
 }
-Status rt_MotionSup(TaskCore* task, bool, bool Off, const float* TuneValue, bool) {
+Status rt_MotionSup(TaskCore* task, bool, bool Off, const float* TuneValue, bool NoBackoff) {
     if (Off && TuneValue != nullptr)
         return lib::fail(task, err::ERR_ARGVALERR,
                          "MotionSup: \\TuneValue has no meaning together with \\Off");
@@ -209,6 +242,7 @@ Status rt_MotionSup(TaskCore* task, bool, bool Off, const float* TuneValue, bool
                          "MotionSup: \\TuneValue must lie between 1 and 300 percent");
     lib::MotionState& state = lib::motionState(task);
     state.motionSupervision = !Off;
+    state.backsOff = !NoBackoff;
     state.supervisionLevel = TuneValue != nullptr ? static_cast<double>(*TuneValue) : 100.0;
     return kOk;
 }

@@ -5,6 +5,8 @@
 
 #include "stdlib_types.h"
 
+#include <bitset>
+
 namespace rt {
 struct StateKeepers;
 }
@@ -37,8 +39,13 @@ struct MotionState {
     motion::SpeedLimits speedLimits; ///< SpeedLimAxis, SpeedLimCheckPoint
     bool motionSupervision = true;   ///< MotionSup, kept for C_MOTSET
     double supervisionLevel = 100;   ///< percent
-    double finePointRamp = 100;      ///< AccSet \FinePointRamp, percent
-    int concurrentMoves = 0;         ///< \Conc moves in succession
+    bool backsOff = true;            ///< after a collision; MotionSup \NoBackoff
+    bool eventBuffer = true;         ///< ActEventBuffer, DeactEventBuffer; kept for C_MOTSET
+    float processMode = 1;           ///< MotionProcessModeSet
+    std::bitset<robot::kExternalCount>
+        independentExternal;    ///< robot movements leave these axes where they are (STIndGun)
+    double finePointRamp = 100; ///< AccSet \FinePointRamp, percent
+    int concurrentMoves = 0;    ///< \Conc moves in succession
 };
 MotionState& motionState(TaskCore* task);
 /// SYS_RESET: the default settings; tool and work object stay.

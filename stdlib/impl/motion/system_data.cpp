@@ -50,7 +50,7 @@ data::Motsetdata motionSettings(const lib::MotionState& state, double maxRobotSp
     out.cirpathreori = static_cast<float>(state.circleOrientation); // numbered in the order of the switches
     out.worldacclim = s.worldAcceleration > 0;
     out.worldaccmax = limitOr(s.worldAcceleration);
-    out.evtbufferact = true;
+    out.evtbufferact = state.eventBuffer;
     return out;
 }
 

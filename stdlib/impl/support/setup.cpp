@@ -5,10 +5,12 @@
 #include "stdlib/impl/guided_motion/egm_process.h"
 #include "stdlib/impl/interrupts/ordering.h"
 #include "stdlib/impl/io/signals.h"
+#include "stdlib/impl/motion/collisions.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/motion/triggers.h"
 #include "stdlib/impl/motion/world_zones.h"
 #include "stdlib/impl/queues/message_queue.h"
+#include "stdlib/impl/servo_guns/servo_gun.h"
 #include "stdlib/impl/sockets/sockets.h"
 #include "stdlib/impl/spot/spot_gun.h"
 #include "stdlib/impl/time/clocks.h"
@@ -23,10 +25,12 @@ namespace rt {
 void setUpStandardLibrary(Controller& controller) {
     for (const ErrorEntry& entry : errorTable())
         controller.log().addErrorName(entry.number, entry.name, entry.summary);
+    lib::superviseCollisions(controller);
     controller.onProgramReset(lib::resetSettings);
     controller.onProgramReset(lib::endWeld);
     controller.onProgramReset(lib::openGuns);
     controller.onProgramReset(lib::endBead);
+    controller.onProgramReset([](Task& task) { task.controller().service<lib::ServoGuns>().reset(); });
     controller.onProgramReset(lib::endGuidance);
     controller.onProgramReset([](Task& task) { lib::closeSockets(task, "its program begins anew"); });
     controller.onConnectionsLost(lib::closeSockets);
