@@ -61,6 +61,7 @@ void MotionSystem::Impl::follow(std::shared_ptr<const Trajectory> what, TimeNs f
 /// The arm is at rest: what is ordered from now on belongs to this path.
 void MotionSystem::Impl::beginPath(std::shared_ptr<Trajectory> path) {
     level.finished.clear();
+    lastFrames = framesNow();
     level.path = std::move(path);
     modifiers.pathReplaced();
     follow(level.path, now);
@@ -73,6 +74,7 @@ void MotionSystem::Impl::abandonPath() {
     const TimeNs rest = restTime();
     if (const Pose shift = shiftNow(); !(shift == Pose{})) spans.back().shift = shift;
     const MotionState state = stateAt(rest);
+    lastFrames = framesNow();
     modifiers.pathReplaced();
     level.path = newPath({state.joints, state.extax}, toSeconds(rest));
     detour = nullptr;
@@ -192,9 +194,8 @@ MotionState MotionSystem::Impl::stillAt(const JointTarget& joints) const {
     state.extax = joints.extax;
     for (std::size_t i = 0; i < state.joints.size(); ++i)
         state.axisNumbers[i] = static_cast<uint8_t>(model.axisNumbers[i]);
-    FrameSetup frames;
-    if (level.path != nullptr && !path().isEmpty()) frames = path().framesAt(path().end());
-    state.tcp = based(frames).tcpInWorld(kinematics.forward(joints.robax), joints.extax);
+    const FrameSetup frames = framesNow();
+    state.tcp = frames.tcpInWorld(kinematics.forward(joints.robax), joints.extax);
     state.toolHeld = frames.tool.robotHeld;
     state.move = lastDone;
     if (!level.finished.empty()) state.tag = level.finished.back()->tag;
@@ -267,6 +268,10 @@ MotionState MotionSystem::Impl::shown(MotionState state, TimeNs time) const {
 MotionState MotionSystem::Impl::stateIfStopped(TimeNs time) const {
     const Span& at = *spanAt(time);
     if (at.coast != nullptr) return at.coast->at(at.coast->duration(), kinematics);
+    if (time < at.ledUntil) { // each axis brakes for itself
+        const Coast braking(at.still, model, framesNow());
+        return braking.at(braking.duration(), kinematics);
+    }
     if (at.path == nullptr || at.path->isEmpty()) return at.still;
     return stateAtPlace(*at.path, at, at.path->restPlaceIfHeld(toSeconds(time)));
 }

@@ -150,6 +150,7 @@ bool MotionSystem::storePath() {
     s.level.isStopRequested = s.isStopRequested;
     s.path().hold(s.seconds());
     const JointTarget here = s.standing();
+    s.lastFrames = s.framesNow();
     s.stored.push_back(std::exchange(s.level, {}));
     s.modifiers.pathStored();
     s.isStopRequested = false;
@@ -213,9 +214,7 @@ std::optional<MotionSystem::PathGap> MotionSystem::gapToPath() const {
 bool MotionSystem::placeAt(const JointTarget& joints) {
     Impl& s = *impl_;
     if (!s.level.queue.empty() || s.isMoving()) return false;
-    const FrameSetup frames = s.path().isEmpty() ? FrameSetup{} : s.path().framesAt(s.path().end());
     s.beginPath(s.newPath(joints, s.seconds()));
-    s.spans.back().still.tcp = s.based(frames).tcpInWorld(s.kinematics.forward(joints.robax), joints.extax);
     s.holdOrRelease();
     return true;
 }

@@ -81,7 +81,8 @@ struct MotionSystem::Impl {
 
     PathModifiers modifiers;
 
-    Level level; // the one in use
+    FrameSetup lastFrames; // of the latest movement of a path that is no more
+    Level level;           // the one in use
     std::vector<Level> stored;
     std::deque<Span> spans;
     std::vector<MotionEvent> events;
@@ -115,6 +116,10 @@ struct MotionSystem::Impl {
     void follow(std::shared_ptr<const Trajectory> what, TimeNs from);
     void beginPath(std::shared_ptr<Trajectory> path);
     void abandonPath();
+    /// Tool and work object of the latest movement.
+    FrameSetup framesNow() const {
+        return level.path == nullptr || path().isEmpty() ? based(lastFrames) : path().framesAt(path().end());
+    }
     void noteCleared(MoveId first);
     void holdOrRelease();
     void coastNow();

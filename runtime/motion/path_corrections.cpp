@@ -32,7 +32,7 @@ void PathCorrections::setOffset(const Vec3& offset) {
 
 void PathCorrections::setOffsetAhead(const Vec3& offset, double mm) {
     hasPlace_ = hasPlace_ && isActive(); // what was passed before does not count
-    constexpr std::size_t kMost = 4096; // newer ones take the place of the last
+    constexpr std::size_t kMost = 4096;  // newer ones take the place of the last
     if (ahead_.size() >= kMost) ahead_.pop_back();
     ahead_.push_back({way_ + mm, offset});
 }

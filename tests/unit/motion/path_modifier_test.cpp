@@ -260,6 +260,24 @@ TEST_CASE("an arm led from outside moves", "[motion][modifier]") {
     CHECK(system.currentJoints().robax[0] == Approx(0.4));
 }
 
+TEST_CASE("the TCP that is shown is that of the latest tool, also without a path", "[motion][modifier]") {
+    MotionSystem system = makeSystem();
+    MoveCommand command = lineBy(system, {0, 20, 0});
+    command.frames.tool.tframe.pos = {0, 0, 100};
+    command.target = system.currentTarget(command.frames);
+    command.target.pose.pos.y += 20;
+    REQUIRE(system.enqueue(command).hasValue());
+    run(system, 2000 * kMs);
+    REQUIRE(system.isIdle());
+    const Vec3 tip = system.current().tcp.pos;
+    const JointTarget still{{0, 0, 0, 0, 0, 0}, kNoExternalAxes};
+    for (int i = 0; i < 3; ++i)
+        REQUIRE(system.leadTo(system.currentJoints(), still, 4 * kMs));
+    CHECK(isNear(system.current().tcp.pos, tip, 1e-6));
+    system.clear();
+    CHECK(isNear(system.current().tcp.pos, tip, 1e-6));
+}
+
 TEST_CASE("weaving is the same on the path whatever stops and slows the arm", "[motion][modifier]") {
     const auto weavedPath = [](bool isDisturbed) {
         MotionSystem system = makeSystem();
@@ -300,4 +318,54 @@ TEST_CASE("weaving is the same on the path whatever stops and slows the arm", "[
         const double share = way > 0 ? (place.y - before.y) / way : 0;
         CHECK(isNear(place, before + (*after - before) * share, 0.1)); // a corner between two samples
     }
+}
+
+TEST_CASE("a stationary tool: the work object moves so that the TCP is displaced in it",
+          "[motion][modifier]") {
+    MotionSystem system = makeSystem();
+    const auto corrections = std::make_shared<PathCorrections>();
+    system.addModifier(corrections);
+    corrections->setOffset({0, 3, 0});
+    FrameSetup frames;
+    frames.tool = {false, {{350, 0, 600}, {1, 0, 0, 0}}}; // in world, its z axis up
+    frames.workObject.robotHeld = true;
+    MoveCommand command;
+    command.kind = MoveKind::Linear;
+    command.frames = frames;
+    command.target = system.currentTarget(frames);
+    const Pose begin = command.target.pose;
+    const Vec3 way{0, 60, 0};
+    command.target.pose.pos = begin.pos + way;
+    command.speed.vTcp = 50;
+    command.confL = false;
+    command.modifications.push_back(corrections->modification());
+    REQUIRE(system.enqueue(command).hasValue());
+    run(system, 3000 * kMs);
+    REQUIRE(system.isIdle());
+    const Vec3 x{0, 1, 0};
+    const Vec3 y = cross(rotate(begin.rot, Vec3{0, 0, 1}), x);
+    const Vec3 wanted = begin.pos + way + y * (3 / norm(y));
+    CHECK(isNear(system.currentTarget(frames).pose.pos, wanted, 1e-3));
+    CHECK(isNear(system.current().tcp.pos, {350, 0, 600}, 1e-9));
+}
+
+TEST_CASE("a robot that moves together with another one is displaced alone", "[motion][modifier]") {
+    MotionSystem first = makeSystem();
+    MotionSystem second = makeSystem();
+    const std::vector<MotionSystem*> both{&first, &second};
+    REQUIRE(MotionSystem::beginTogether(both));
+    const auto corrections = std::make_shared<PathCorrections>();
+    second.addModifier(corrections);
+    corrections->setOffset({0, 0, 4});
+    const Vec3 start = first.current().tcp.pos;
+    MoveCommand a = lineBy(first, {0, 100, 0});
+    MoveCommand b = lineBy(second, {0, 100, 0});
+    b.modifications.push_back(corrections->modification());
+    REQUIRE(MotionSystem::enqueueTogether(both, {a, b}).hasValue());
+    for (TimeNs time = kModifierPeriod; time < 3000 * kMs; time += kModifierPeriod)
+        for (MotionSystem* system : both)
+            system->advanceTo(time);
+    REQUIRE(second.isIdle());
+    CHECK(isNear(first.current().tcp.pos, start + Vec3{0, 100, 0}, 1e-3));
+    CHECK(norm(second.current().tcp.pos - start - Vec3{0, 100, 0}) == Approx(4).margin(1e-3));
 }
