@@ -72,8 +72,7 @@ struct MotionSystem::Impl {
     bool isStepping = false;            // going back along the path
     std::shared_ptr<Trajectory> detour; // back to the path, axis by axis
 
-    std::optional<AxisCourse> independent; // of an axis that moves for itself
-    std::size_t independentAxis = 0;
+    std::vector<std::pair<GroupAxis, AxisCourse>> independents; // axes that move for themselves
 
     Level level; // the one in use
     std::vector<Level> stored;
@@ -147,6 +146,7 @@ struct MotionSystem::Impl {
     MotionState stateAt(TimeNs time) const;
     MotionState stateOn(const Trajectory& trajectory, const Span& span, double time) const;
     MotionState shown(MotionState state, TimeNs time) const;
+    JointTarget shown(JointTarget joints) const;
     MotionState stateIfStopped(TimeNs time) const;
     MotionState stillAt(const JointTarget& joints) const;
     JointTarget standing() const;
