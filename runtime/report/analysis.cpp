@@ -127,7 +127,7 @@ class MoveAnalysis {
         if (const Loss path = pathLimit(step); path.cause != Cause::Other) return path;
         if (k < upFrom_) return {startsAtRest_ ? Cause::StopPoint : Cause::Zone, 0, 0};
         if (k >= upTo_) return {endsAtRest_ ? Cause::StopPoint : Cause::Zone, 0, 0};
-        return {};
+        return {move_.isTogether ? Cause::OtherRobots : Cause::Other, 0, 0};
     }
 
     /// The axis that is nearest to its limit: of speed, else of acceleration.
@@ -298,6 +298,7 @@ std::string causeText(const Loss& loss) {
     case Cause::PathAcceleration: return "PathAccLim";
     case Cause::StopPoint: return "stop point";
     case Cause::Zone: return "zone";
+    case Cause::OtherRobots: return "other robots";
     case Cause::Other: return "other";
     }
     return {};

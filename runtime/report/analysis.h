@@ -21,6 +21,7 @@ enum class Cause : uint8_t {
     PathAcceleration, ///< the limit of PathAccLim
     StopPoint,        ///< starting or braking at a point where the robot comes to rest
     Zone,             ///< slower round a fly-by point
+    OtherRobots,      ///< none of these, and another robot of the synchronised movement sets the time
     Other,            ///< none of these: jerk, the shape of the path, an order from outside
 };
 

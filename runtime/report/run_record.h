@@ -41,6 +41,7 @@ struct Move {
     double externalTurnSpeed = 0;                      ///< of rotating external axes, deg/s, with VelSet
     double externalSpeed = 0;                          ///< of linear ones, mm/s, with VelSet
     double duration = 0;                               ///< \T in s; 0 = not given
+    bool isTogether = false;                           ///< \ID: other robots move with this one
     bool stopPoint = true;                             ///< fine, or Inpos
     double zone = 0;                                   ///< radius of a fly-by point, mm
     double acceleration = 1;                           ///< share of the robot's, AccSet

@@ -67,6 +67,7 @@ void RunRecorder::ordered(RobotRecord& robot, const MoveOrder& order) {
     move.externalTurnSpeed = command.speed.vReax * share;
     move.externalSpeed = command.speed.vLeax * share;
     move.duration = command.duration;
+    move.isTogether = command.ident != motion::kNoIdent;
     move.stopPoint = command.zone.finep;
     move.zone = command.zone.pzoneTcp;
     move.acceleration = std::clamp(settings.accelerationPercent, 20.0, 100.0) / 100;

@@ -138,7 +138,7 @@ Status rt_StepBwdPath(TaskCore* task, float StepLength, float StepTime) {
         "further than the beginning of the movement before the one that was stopped");
 }
 
-/// There is no synchronized movement that \KeepSync could keep. Without Path Recovery one path can be put aside.
+/// One movement path can be stored at a time (PathLevel is 1 or 2).
 Status rt_StorePath(TaskCore* task, bool KeepSync) {
     if (const Status status = lib::requireMotionTask(task)) return status;
     if (KeepSync && driverOf(task).synchronised() == nullptr)
