@@ -11,7 +11,7 @@ MotionDriver::EarlierPath MotionDriver::remainingPath() {
     const motion::MotionSystem& arm = system();
     EarlierPath path;
     for (const StoredLevel& level : levels_)
-        path.stored.push_back({{}, {}, level.left, level.stopMove});
+        path.stored.push_back({{}, {}, level.left, level.stopMove, level.wasSuspended});
     bool first = true;
     for (const UnfinishedMove& move : ordered_) {
         if (arm.isDone(move.id)) continue;
@@ -31,6 +31,7 @@ MotionDriver::EarlierPath MotionDriver::remainingPath() {
     if (first) path.begun = earlier_.begun;
     path.stopMove = stopMove_;
     path.levelHold = levelHold_;
+    path.isSuspended = isSuspended_;
     return path;
 }
 
@@ -53,7 +54,7 @@ void MotionDriver::storeEarlier(const EarlierLevel& level) {
     orderEarlier(level.moves);
     system_.storePath();
     system_.placeAt(here);
-    levels_.push_back({level.stopMove, {}, level.left});
+    levels_.push_back({level.stopMove, {}, level.left, level.isSuspended});
 }
 
 void MotionDriver::continuePath(const EarlierPath& path) {
@@ -62,9 +63,14 @@ void MotionDriver::continuePath(const EarlierPath& path) {
     earlier_ = path;
     earlier_.awaited.reset();
     orderEarlier(path.moves);
+    holdEarlier(path);
+}
+
+void MotionDriver::holdEarlier(const EarlierPath& path) {
     earlier_.awaited = path.awaited;
     stopMove_ = path.stopMove;
     levelHold_ = path.levelHold;
+    isSuspended_ = path.isSuspended && synchronised_ != nullptr;
     applyStops();
 }
 

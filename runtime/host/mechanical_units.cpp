@@ -1,6 +1,7 @@
 #include "runtime/host/mechanical_units.h"
 
 #include "runtime/base/text_util.h"
+#include "runtime/host/axis_reader.h"
 #include "runtime/robot/robot_model.h"
 
 #include <fmt/format.h>
@@ -14,33 +15,8 @@ namespace rt {
 namespace {
 
 constexpr double kDegreesPerRadian = 57.295779513082320876798154814105;
-constexpr double kMmPerMetre = 1000;
 constexpr const char* kFirstRobot = "ROB_1";
-constexpr int kFirstLogicalAxis = 7;    // of the external axes
 constexpr std::size_t kUnnumbered = 99; // an axis whose place among the external axes is not known yet
-
-const CfgInstance* named(const std::vector<const CfgInstance*>& instances, std::string_view name) {
-    const auto found = std::find_if(instances.begin(), instances.end(), [&](const CfgInstance* instance) {
-        return sameName(instance->text("name"), name);
-    });
-    return found == instances.end() ? nullptr : *found;
-}
-
-/// base_frame_pos_* (m) and base_frame_orient_u* of a ROBOT or SINGLE; what is not given is 0 and the identity.
-robot::Pose baseFrameOf(const CfgInstance& instance) {
-    robot::Pose base;
-    double* const position[] = {&base.pos.x, &base.pos.y, &base.pos.z};
-    for (int i = 0; i < 3; ++i) {
-        double metres = 0;
-        if (instance.number(fmt::format("base_frame_pos_{}", "xyz"[i]), metres))
-            *position[i] = metres * kMmPerMetre;
-    }
-    double* const q[] = {&base.rot.w, &base.rot.x, &base.rot.y, &base.rot.z};
-    for (int i = 0; i < 4; ++i)
-        instance.number(fmt::format("base_frame_orient_u{}", i), *q[i]);
-    base.rot = robot::normalized(base.rot);
-    return base;
-}
 
 /// Bounds of the robot's axes: ARM "rob1_1" to "rob1_6", the second robot's "rob2_1" and so on.
 void applyBounds(const std::vector<const CfgInstance*>& arms, std::size_t robot, robot::RobotModel& model) {
@@ -54,80 +30,47 @@ void applyBounds(const std::vector<const CfgInstance*>& arms, std::size_t robot,
     }
 }
 
-/// What the configuration says about the axis of a SINGLE. Types refer to each other by name; what is missing keeps the
-/// value of a usual positioner or track.
-class SingleReader {
-  public:
-    SingleReader(const CfgLookup& configuration, std::string_view single)
-        : lookup_(configuration), single_(named(lookup_("MOC", "SINGLE"), single)),
-          joint_(find("JOINT", text(single_, "use_joint"), single)),
-          arm_(find("ARM", text(joint_, "use_arm"), jointName())),
-          transmission_(find("TRANSMISSION", text(joint_, "use_transmission"), jointName())) {}
+/// Turns z to y: the axis about which a positioner of two axes tilts its plate, as far as nothing else is given.
+robot::Quat tiltAxis() {
+    return robot::fromAxisAngle({1, 0, 0}, -90);
+}
 
-    bool isRotating() const {
-        const CfgInstance* type = find("SINGLE_TYPE", text(single_, "use_single_type"), {});
-        const std::string mechanics = upperCase(text(type, "mechanics"));
-        if (mechanics.find("ROT") != std::string::npos) return true;
-        if (mechanics == "TRACK" || mechanics.find("LIN") != std::string::npos) return false;
-        return transmission_ == nullptr || transmission_->flag("rotating_move");
-    }
+/// The MECHANICAL_UNIT of a ROBOT; null when there is none.
+const CfgInstance* unitWithRobot(const CfgLookup& configuration, std::string_view robot) {
+    for (const CfgInstance* unit : configuration("MOC", "MECHANICAL_UNIT"))
+        if (sameName(unit->text("use_robot"), robot)) return unit;
+    return instanceNamed(configuration("MOC", "MECHANICAL_UNIT"), robot);
+}
 
-    motion::ExternalAxisModel limits() const {
-        motion::ExternalAxisModel axis;
-        axis.rotating = isRotating();
-        const double unit = axis.rotating ? kDegreesPerRadian : kMmPerMetre;
-        axis.maxSpeed = axis.rotating ? 180 : 1500;
-        axis.maxAcceleration = axis.rotating ? 360 : 2500;
-        double value = 0;
-        if (arm_ != nullptr && arm_->number("lower_joint_bound", value)) axis.lower = value * unit;
-        if (arm_ != nullptr && arm_->number("upper_joint_bound", value)) axis.upper = value * unit;
-        const CfgInstance* acceleration = find("ACC_DATA", text(joint_, "name"), {});
-        if (acceleration != nullptr && acceleration->number("wc_acc", value) && value > 0)
-            axis.maxAcceleration = value * unit;
-        if (const double speed = fastest(); speed > 0) axis.maxSpeed = speed * unit;
-        return axis;
-    }
+/// Joints of a ROBOT: use_joint_0 and so on; else "STN1_1", "STN1_2"; else the usual names of a station, "ARM1" (tilting) and
+/// "PLATE1" with the number of the unit.
+std::vector<std::string> jointsOf(const CfgLookup& configuration, const CfgInstance& robot) {
+    std::vector<std::string> names;
+    for (int i = 0; i < robot::kExternalCount; ++i)
+        if (std::string name = robot.text(fmt::format("use_joint_{}", i)); !name.empty())
+            names.push_back(std::move(name));
+    if (!names.empty()) return names;
+    const auto add = [&](const std::string& name) {
+        if (instanceNamed(configuration("MOC", "JOINT"), name) != nullptr ||
+            instanceNamed(configuration("MOC", "ARM"), name) != nullptr)
+            names.push_back(name);
+    };
+    const std::string unit = robot.text("name");
+    for (int i = 1; i <= robot::kExternalCount; ++i)
+        add(fmt::format("{}_{}", unit, i));
+    if (!names.empty()) return names;
+    const std::string number = unit.substr(std::min(unit.size(), unit.find_last_not_of("0123456789") + 1));
+    add("ARM" + number);
+    add("PLATE" + number);
+    return names;
+}
 
-    /// 0 for eax_a; nothing when the configuration does not tell.
-    std::optional<std::size_t> axisIndex() const {
-        double logical = 0;
-        if (joint_ == nullptr || !joint_->number("logical_axis", logical)) return {};
-        const int index = static_cast<int>(logical) - kFirstLogicalAxis;
-        if (index < 0 || index >= robot::kExternalCount) return {};
-        return static_cast<std::size_t>(index);
-    }
-
-    robot::Pose base() const { return single_ != nullptr ? baseFrameOf(*single_) : robot::Pose{}; }
-    std::string carrier() const { return text(single_, "base_frame_coordinated"); }
-
-  private:
-    static std::string text(const CfgInstance* instance, std::string_view attribute) {
-        return instance != nullptr ? instance->text(attribute) : std::string();
-    }
-    std::string jointName() const {
-        return joint_ != nullptr ? joint_->text("name") : text(single_, "use_joint");
-    }
-    const CfgInstance* find(std::string_view type, std::string_view name, std::string_view fallback) const {
-        const std::string_view wanted = name.empty() ? fallback : name;
-        return wanted.empty() ? nullptr : named(lookup_("MOC", type), wanted);
-    }
-    /// Speed of the arm, rad/s or m/s, from that of the motor; 0 = not given.
-    double fastest() const {
-        const CfgInstance* drive = find("DRIVE_SYSTEM", text(joint_, "use_drive_system"), {});
-        const CfgInstance* duty = find("STRESS_DUTY_CYCLE", text(drive, "use_stress_duty_cycle"), {});
-        double motor = 0;
-        double gear = 0;
-        if (duty == nullptr || !duty->number("speed_absolute_max", motor)) return 0;
-        if (transmission_ == nullptr || !transmission_->number("trans_joint", gear) || gear == 0) return 0;
-        return std::fabs(motor / gear);
-    }
-
-    const CfgLookup& lookup_;
-    const CfgInstance* single_;
-    const CfgInstance* joint_;
-    const CfgInstance* arm_;
-    const CfgInstance* transmission_;
-};
+/// A ROBOT that is a positioner (IRBP), or of an unknown model while its joints are described.
+bool isPositioner(const CfgLookup& configuration, const CfgInstance& robot, bool isUnknown) {
+    if (jointsOf(configuration, robot).empty()) return false;
+    return upperCase(robot.text("use_robot_type")).find("IRBP") != std::string::npos ||
+           (isUnknown && !upperCase(robot.text("use_robot_type")).starts_with("ROB"));
+}
 
 /// Names of the singles of a MECHANICAL_UNIT, in order.
 std::vector<std::string> singlesOf(const CfgInstance& unit) {
@@ -182,30 +125,45 @@ std::vector<MechanicalUnits::RobotPlan> MechanicalUnits::planRobots(const CfgLoo
         if (const std::string name = group->text("Robot"); !name.empty()) planned(name);
     for (const std::string& asked : robots) {
         const std::size_t equals = asked.find('=');
-        RobotPlan& plan = equals == std::string::npos ? plans.front() : planned(asked.substr(0, equals));
+        RobotPlan& plan =
+            equals == std::string::npos ? firstRobot(configuration, plans) : planned(asked.substr(0, equals));
         plan.model = equals == std::string::npos ? asked : asked.substr(equals + 1);
         plan.isAsked = true;
     }
     if (configuration("MOC", "ROBOT").empty()) // nothing names the robots of several motion tasks
         while (plans.size() < needed)
             planned(fmt::format("ROB_{}", plans.size() + 1));
-    if (plans.front().model.empty()) plans.front().model = defaultModel;
+    RobotPlan& first = firstRobot(configuration, plans);
+    if (first.model.empty()) first.model = defaultModel;
     for (RobotPlan& plan : plans)
-        if (plan.model.empty()) plan.model = plans.front().model;
+        if (plan.model.empty()) plan.model = first.model;
     return plans;
+}
+
+/// The first one that has a TCP.
+MechanicalUnits::RobotPlan& MechanicalUnits::firstRobot(const CfgLookup& configuration,
+                                                        std::vector<RobotPlan>& plans) {
+    for (RobotPlan& plan : plans)
+        if (plan.instance == nullptr || !isPositioner(configuration, *plan.instance, false)) return plan;
+    return plans.front();
 }
 
 std::string MechanicalUnits::addRobots(const CfgLookup& configuration, const std::vector<RobotPlan>& plans,
                                        bool& isUsage) {
+    std::vector<const RobotPlan*> positioners;
     for (const RobotPlan& plan : plans) {
         auto unit = std::make_unique<MechanicalUnit>();
         unit->name = plan.name;
         const auto model = robot::loadRobotModel(plan.model);
+        if (!plan.isAsked && plan.instance != nullptr && isPositioner(configuration, *plan.instance, !model)) {
+            positioners.push_back(&plan);
+            continue;
+        }
         if (!model && (groups_.empty() || plan.isAsked)) {
             isUsage = plan.isAsked;
             return model.error().message;
         }
-        if (!model) { // a positioner, say
+        if (!model) {
             warnings_.push_back(
                 fmt::format("the robot {} ({}) of MOC.cfg is not in the catalogue: it does not move",
                             plan.name, plan.model));
@@ -225,7 +183,37 @@ std::string MechanicalUnits::addRobots(const CfgLookup& configuration, const std
         groups_.push_back(std::move(group));
         units_.push_back(std::move(unit));
     }
+    for (const RobotPlan* plan : positioners)
+        addPositioner(configuration, *plan->instance);
     return {};
+}
+
+/// An instance of ROBOT without TCP: the axes of a positioner.
+void MechanicalUnits::addPositioner(const CfgLookup& configuration, const CfgInstance& instance) {
+    auto unit = std::make_unique<MechanicalUnit>();
+    unit->name = unit->geometry.name = instance.text("name");
+    unit->carrier = instance.text("base_frame_coordinated");
+    const CfgInstance* of = unitWithRobot(configuration, unit->name);
+    unit->isActive = of == nullptr || of->flag("activate_at_start_up");
+    unit->staysActive = of != nullptr && of->flag("deactivation_forbidden");
+    const robot::Pose base = baseFrameOf(instance);
+    robot::Pose frame = base;
+    bool isDescribed = false; // by ARM_TYPE
+    const std::vector<std::string> joints = jointsOf(configuration, instance);
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        const AxisReader reader = AxisReader::ofJoint(configuration, joints[i]);
+        const std::size_t index = reader.axisIndex().value_or(kUnnumbered);
+        if (const auto step = reader.step()) {
+            frame = frame * *step;
+            isDescribed = true;
+        }
+        robot::Pose axis = isDescribed ? frame : base;
+        if (!isDescribed && i + 1 < joints.size()) axis.rot = base.rot * tiltAxis();
+        unit->own.push_back({joints[i], index, reader.limits(), reader.mayBeIndependent()});
+        unit->geometry.joints.push_back({index, true, axis, 0});
+    }
+    unit->axes = static_cast<int>(unit->own.size());
+    units_.push_back(std::move(unit));
 }
 
 void MechanicalUnits::addExternalUnits(const CfgLookup& configuration) {
@@ -237,9 +225,9 @@ void MechanicalUnits::addExternalUnits(const CfgLookup& configuration) {
         unit->isActive = instance->flag("activate_at_start_up");
         unit->staysActive = instance->flag("deactivation_forbidden");
         for (const std::string& single : singlesOf(*instance)) {
-            const SingleReader reader(configuration, single);
+            const AxisReader reader = AxisReader::ofSingle(configuration, single);
             const std::size_t index = reader.axisIndex().value_or(kUnnumbered);
-            unit->own.push_back({single, index, reader.limits()});
+            unit->own.push_back({single, index, reader.limits(), reader.mayBeIndependent()});
             unit->geometry.joints.push_back({index, reader.isRotating(), reader.base(), 0});
             if (unit->carrier.empty()) unit->carrier = reader.carrier(); // of the first one
         }
@@ -306,11 +294,40 @@ void MechanicalUnits::connectAxes() {
             }
             used[axis.index] = true;
             unit->geometry.joints[i].axis = axis.index;
-            motion::ExternalAxisModel& model = groups_[unit->group].options.external[axis.index];
-            model = axis.limits;
-            model.present = unit->isActive;
+            unit->geometry.joints[i].isParked = !unit->isActive;
         }
     }
+    for (const auto& unit : units_)
+        startUnit(*unit);
+}
+
+/// Stations that are never active together may share logical axes; the first active one has them.
+void MechanicalUnits::startUnit(MechanicalUnit& unit) {
+    if (unit.own.empty()) return;
+    if (const MechanicalUnit* other = unit.isActive ? sharesAxes(unit) : nullptr) {
+        warnings_.push_back(fmt::format("{} is not active at the start: it shares a logical axis with {}, which is. "
+                                        "Remove activate_at_start_up of one of them",
+                                        unit.name, other->name));
+        unit.isActive = false;
+        for (robot::ExternalJoint& joint : unit.geometry.joints)
+            joint.isParked = true;
+    }
+    for (const MechanicalUnit::Axis& axis : unit.own) {
+        motion::ExternalAxisModel& model = groups_[unit.group].options.external[axis.index];
+        if (model.present) continue;
+        model = axis.limits;
+        model.present = unit.isActive;
+    }
+}
+
+const MechanicalUnit* MechanicalUnits::sharesAxes(const MechanicalUnit& unit) const {
+    for (const auto& other : units_) {
+        if (other.get() == &unit || other->group != unit.group || !other->isActive) continue;
+        for (const MechanicalUnit::Axis& a : unit.own)
+            for (const MechanicalUnit::Axis& b : other->own)
+                if (a.index == b.index) return other.get();
+    }
+    return nullptr;
 }
 
 /// Robots and units whose base another unit of the group moves.
@@ -339,18 +356,21 @@ MechanicalUnit* MechanicalUnits::carrierNamed(std::string_view name) const {
 
 void MechanicalUnits::setActive(MechanicalUnit& unit, bool active, robot::ExternalAxes& axes) {
     unit.isActive = active;
-    for (const MechanicalUnit::Axis& axis : unit.own) {
-        for (const auto& carried : units_) { // also those that it carries
-            if (carried->group != unit.group) continue;
-            for (robot::ExternalJoint& joint : carried->geometry.joints)
-                if (joint.axis == axis.index && !active) joint.parked = axes[axis.index];
-        }
-    }
-    for (std::size_t i = 0; i < unit.own.size(); ++i) {
-        // The unit's own axes are the last ones of its chain.
-        const std::size_t joint = unit.geometry.joints.size() - unit.own.size() + i;
-        axes[unit.own[i].index] = active ? unit.geometry.joints[joint].parked : robot::kNotConnected;
-    }
+    const auto park = [&](robot::ExternalJoint& joint) {
+        if (!active) joint.parked = axes[joint.axis];
+        joint.isParked = !active;
+    };
+    // The unit's own axes are the last ones of its chain, and the first ones of the chains of units that it carries.
+    const std::size_t first = unit.geometry.joints.size() - unit.own.size();
+    for (const auto& carried : units_)
+        if (carried.get() != &unit && carried->group == unit.group && !carried->isRobot &&
+            carrierNamed(carried->carrier) == &unit)
+            for (std::size_t i = 0; i < unit.own.size(); ++i)
+                park(carried->geometry.joints[first + i]);
+    for (std::size_t i = 0; i < unit.own.size(); ++i)
+        park(unit.geometry.joints[first + i]);
+    for (std::size_t i = 0; i < unit.own.size(); ++i)
+        axes[unit.own[i].index] = active ? unit.geometry.joints[first + i].parked : robot::kNotConnected;
 }
 
 bool MechanicalUnits::addConveyor(const std::string& name) {

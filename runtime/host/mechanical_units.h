@@ -28,6 +28,7 @@ struct MechanicalUnit {
         std::string single;    ///< name of its SINGLE
         std::size_t index = 0; ///< in ExternalAxes
         motion::ExternalAxisModel limits;
+        bool mayBeIndependent = false; ///< IndAMove and its like (ARM independent_joint_on)
     };
     std::string carrier;   ///< name of the unit or single that moves its base; "" for none
     std::vector<Axis> own; ///< axes of an external unit
@@ -68,6 +69,9 @@ class MechanicalUnits {
     void setActive(MechanicalUnit& unit, bool active, robot::ExternalAxes& axes);
     /// A conveyor that the configuration does not define. False when a unit of another kind has the name.
     bool addConveyor(const std::string& name);
+    /// The active unit that uses a logical axis of this one, too: stations of a positioner that are never active together. Null
+    /// when there is none.
+    const MechanicalUnit* sharesAxes(const MechanicalUnit& unit) const;
     /// Number of the group with this name in the configuration; -1 when there is none.
     int groupNamed(std::string_view name) const;
 
@@ -79,10 +83,13 @@ class MechanicalUnits {
     };
     std::vector<RobotPlan> planRobots(const CfgLookup& configuration, const std::vector<std::string>& robots,
                                       std::string_view defaultModel, std::size_t needed) const;
+    static RobotPlan& firstRobot(const CfgLookup& configuration, std::vector<RobotPlan>& plans);
     std::string addRobots(const CfgLookup& configuration, const std::vector<RobotPlan>& plans, bool& isUsage);
+    void addPositioner(const CfgLookup& configuration, const CfgInstance& instance);
     void addExternalUnits(const CfgLookup& configuration);
     void addGroups(const CfgLookup& configuration);
     void connectAxes();
+    void startUnit(MechanicalUnit& unit);
     void carryBases();
     MechanicalUnit* carrierNamed(std::string_view name) const;
 

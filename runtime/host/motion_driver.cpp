@@ -199,12 +199,13 @@ Status MotionDriver::orderParts(Task& task, motion::MoveCommand command, const M
         parts = motion::splitAtCirclePoint(command, system().currentTarget(command.frames));
     if (parts.empty()) parts.push_back(std::move(command));
     brokenOff_ = false;
+    id = 0;
     for (std::size_t i = 0; i < parts.size() && !brokenOff_; ++i) {
         if (i > 0) {
             if (const Status status = circlePointStop_(task); status < 0) return status;
         }
         const Status status = submit(task, std::move(parts[i]), id, error);
-        if (status > 0) interrupted_ = {pointer.frame, pointer.statement, id, task.latestRetry()};
+        if (status > 0 && id != 0) interrupted_ = {pointer.frame, pointer.statement, id, task.latestRetry()};
         if (status != kOk || error) return status;
     }
     return kOk;
@@ -220,11 +221,11 @@ Status MotionDriver::submit(Task& task, motion::MoveCommand command, motion::Mov
     WaitResult result{};
     for (;;) {
         refresh();
-        const Beginning beginning = beginOrder(task, command);
+        const Beginning beginning = beginOrder(&task, command);
         const auto ordered = system_.enqueue(command);
         if (ordered) {
             id = *ordered;
-            noteOrdered(task, command, id, beginning);
+            noteOrdered(&task, command, id, beginning);
             break;
         }
         if (ordered.error().kind != motion::MotionErrorKind::QueueFull) {
@@ -240,15 +241,15 @@ Status MotionDriver::submit(Task& task, motion::MoveCommand command, motion::Mov
     return waitReleased(task, id);
 }
 
-MotionDriver::Beginning MotionDriver::beginOrder(const Task& task, motion::MoveCommand& command) {
-    ordering_ = &task;
+MotionDriver::Beginning MotionDriver::beginOrder(const Task* task, motion::MoveCommand& command) {
+    ordering_ = task;
     command.tag = instructions_ + 1;
     return {startOf(command), system_.plannedEnd()};
 }
 
-void MotionDriver::noteOrdered(const Task& task, const motion::MoveCommand& command, motion::MoveId id,
+void MotionDriver::noteOrdered(const Task* task, const motion::MoveCommand& command, motion::MoveId id,
                                const Beginning& beginning) {
-    enqueued(id, command, beginning.pose, &task);
+    enqueued(id, command, beginning.pose, task);
     for (const auto& listener : orderListeners_)
         listener({id, command, beginning.joints, system_.plannedEnd()});
     ++instructions_;
@@ -269,12 +270,14 @@ Status MotionDriver::submitTogether(Task& task, motion::MoveCommand command, mot
     const auto isOver = [&] { return order.isDone || group->isOver(); };
     Status status = kOk;
     WaitResult result{};
-    while (status == kOk && !isOver()) {
+    const auto mayGoOn = [&] { return isOver() || group->isReady() || processError_ != kOk; };
+    while (status == kOk && !isOver() && processError_ == kOk) {
         if (group->isReady())
             group->orderStep();
         else
-            status = task.waitFor({group->queues(), [&] { return isOver() || group->isReady(); }}, result);
+            status = task.waitFor({group->queues(), mayGoOn}, result);
     }
+    if (status == kOk && !order.isDone) status = takeProcessError(task); // of another robot
     if (!order.isDone) group->withdraw(*this);
     if (status != kOk) return status;
     if (!order.isDone)
@@ -403,6 +406,7 @@ void MotionDriver::emergencyStop(bool powerFailure) {
     }
     system_.halt();
     if (powerFailure) system_.rearmTriggers();
+    if (powerFailure && !system_.independentAxes().empty()) lostIndependentAxis_ = true;
     refresh();
 }
 
@@ -443,6 +447,7 @@ void MotionDriver::breakOff(bool stiff) {
 void MotionDriver::clearPath() {
     if (const auto group = synchronised_) group->end();
     levels_.clear();
+    lostIndependentAxis_ = false;
     stopMove_ = {}; // nothing is left that it could hold
     system().clearStored();
     clearLevel();

@@ -75,6 +75,8 @@ class MotionDriver final : public SteppedArm {
     void leaveGroup();
     /// Null when this robot moves for itself, also while SyncMoveSuspend or a path level of its own lets it.
     const std::shared_ptr<SynchronisedGroup>& synchronised() const;
+    /// The group of SyncMoveOn, also while this robot moves for itself.
+    const std::shared_ptr<SynchronisedGroup>& joinedGroup() const { return synchronised_; }
     /// SyncMoveSuspend, SyncMoveResume.
     void suspendGroup(bool suspended) { isSuspended_ = suspended; }
     bool isSuspended() const { return isSuspended_; }
@@ -84,8 +86,9 @@ class MotionDriver final : public SteppedArm {
         motion::JointTarget joints;
     };
     /// Around each order of a movement: what is known before, and what has to be noted after it.
-    Beginning beginOrder(const Task& task, motion::MoveCommand& command);
-    void noteOrdered(const Task& task, const motion::MoveCommand& command, motion::MoveId id,
+    Beginning beginOrder(const Task* task, motion::MoveCommand& command);
+    /// `task` null: an earlier process ordered it.
+    void noteOrdered(const Task* task, const motion::MoveCommand& command, motion::MoveId id,
                      const Beginning& beginning);
     /// Called between the two parts of a circle that is stepped forward: stops the task there.
     void setCirclePointStop(std::function<Status(Task&)> stop) { circlePointStop_ = std::move(stop); }
@@ -160,6 +163,7 @@ class MotionDriver final : public SteppedArm {
         std::optional<motion::Pose> begun; ///< where the first of them began; it is under way
         motion::JointTarget left;          ///< where the arm stood then
         StopFlags stopMove;
+        bool isSuspended = false; ///< the robot moved for itself there, not with those of SyncMoveOn
     };
     /// What an earlier process left of its path.
     struct EarlierPath {
@@ -170,10 +174,16 @@ class MotionDriver final : public SteppedArm {
         std::optional<motion::Pose> begun; ///< where the first of all these began; it is under way
         StopFlags stopMove;                ///< StopMove holds the arm
         bool levelHold = false;            ///< RestoPath does
+        bool isSuspended = false;          ///< as in EarlierLevel
     };
     EarlierPath remainingPath();
     /// From where the arm stands. The next movement the program orders is `awaited`, whatever its arguments are now.
     void continuePath(const EarlierPath& path);
+    /// The same for the robots of a SynchronisedGroup (joinGroup), in its order: what they had ordered together they go on with
+    /// together.
+    static void continueTogether(SynchronisedGroup& group, std::vector<EarlierPath> paths);
+    /// An axis was in independent mode at a power failure, so that the program cannot go on where it was (manual 2.2.4).
+    bool hasLostIndependentAxis() const { return lostIndependentAxis_; }
     /// ProcerrRecovery: the arm stops on its path, and the movement instruction that waits, else the next one, raises
     /// `errorNumber`. Executed again (RETRY) such an instruction goes on with the movement it has ordered.
     /// `why`: a sentence for the event; "": that of ProcerrRecovery.
@@ -243,6 +253,11 @@ class MotionDriver final : public SteppedArm {
     void continueEarlier(motion::MoveCommand& command);
     void orderEarlier(const std::vector<motion::MoveCommand>& moves);
     void storeEarlier(const EarlierLevel& level);
+    void holdEarlier(const EarlierPath& path);
+    struct EarlierOrders;
+    static void orderEarlierTogether(SynchronisedGroup& group, const std::vector<EarlierOrders>& orders);
+    void finishEarlierLevel(const EarlierPath& path, std::size_t number, bool isOrdered,
+                            const motion::JointTarget& here);
     Status takeProcessError(Task& task);
     static bool isSame(const Interrupted& interrupted, const Task& task, const MotionPointer& pointer);
     void advance(Time time);
@@ -286,6 +301,7 @@ class MotionDriver final : public SteppedArm {
     motion::MoveId awaited_ = 0; // by the instruction that ordered it
     EarlierPath earlier_;        // what is left to be taken over
     bool backward_ = false;
+    bool lostIndependentAxis_ = false;
     bool brokenOff_ = false; // the movement of the latest order was
     bool cornerWarning_ = true;
     bool isSpeedLimited_ = false;

@@ -37,21 +37,9 @@ Json frameJson(const motion::FrameSetup& frames) {
                  {"displacement", jsonOf(frames.displacement)},
                  {"base", jsonOf(frames.baseFrame)}};
     if (frames.userMover != nullptr) json["unit"] = frames.userMover->name;
+    if (frames.carrier != nullptr) json["carrierGroup"] = frames.carrierGroup;
+    if (frames.carrierUnit != nullptr) json["carrierUnit"] = frames.carrierUnit->name;
     return json;
-}
-
-motion::FrameSetup framesFrom(const Json& json, const robot::UnitLookup& units) {
-    motion::FrameSetup frames;
-    frames.tool = {json.at("toolHeld").get<bool>(), poseFrom(json.at("tool"))};
-    frames.workObject = {json.at("objectHeld").get<bool>(), poseFrom(json.at("user")),
-                         poseFrom(json.at("object"))};
-    frames.displacement = poseFrom(json.at("displacement"));
-    frames.baseFrame = poseFrom(json.at("base"));
-    if (json.contains("unit")) {
-        frames.userMover = units ? units(json.at("unit").get<std::string>()) : nullptr;
-        if (frames.userMover == nullptr) throw std::invalid_argument("no such mechanical unit");
-    }
-    return frames;
 }
 
 int wholeFrom(const Json& json, int most) {
@@ -59,6 +47,26 @@ int wholeFrom(const Json& json, int most) {
     const auto number = json.get<int64_t>();
     if (number < -most || number > most) throw std::invalid_argument("out of range");
     return static_cast<int>(number);
+}
+
+const robot::ExternalUnit* unitFrom(const Json& name, const robot::UnitLookup& units) {
+    const robot::ExternalUnit* unit = units ? units(name.get<std::string>()) : nullptr;
+    if (unit == nullptr) throw std::invalid_argument("no such mechanical unit");
+    return unit;
+}
+
+motion::FrameSetup framesFrom(const Json& json, const robot::UnitLookup& units) {
+    constexpr int kMostGroups = 1000;
+    motion::FrameSetup frames;
+    frames.tool = {json.at("toolHeld").get<bool>(), poseFrom(json.at("tool"))};
+    frames.workObject = {json.at("objectHeld").get<bool>(), poseFrom(json.at("user")),
+                         poseFrom(json.at("object"))};
+    frames.displacement = poseFrom(json.at("displacement"));
+    frames.baseFrame = poseFrom(json.at("base"));
+    if (json.contains("unit")) frames.userMover = unitFrom(json.at("unit"), units);
+    if (json.contains("carrierGroup")) frames.carrierGroup = wholeFrom(json.at("carrierGroup"), kMostGroups);
+    if (json.contains("carrierUnit")) frames.carrierUnit = unitFrom(json.at("carrierUnit"), units);
+    return frames;
 }
 
 } // namespace
@@ -108,6 +116,7 @@ Json jsonOf(const motion::MoveCommand& c) {
             {"circleOrientation", static_cast<int>(c.circleOrientation)},
             {"singularity", static_cast<int>(c.singularity)},
             {"concurrent", c.concurrent},
+            {"ident", c.ident},
             {"settings", jsonOf(c.settings)}};
 }
 
@@ -147,6 +156,7 @@ motion::MoveCommand moveFrom(const Json& json, const robot::UnitLookup& units) {
     c.singularity =
         static_cast<motion::SingularityMode>(std::abs(wholeFrom(json.at("singularity"), kLastMode)));
     json.at("concurrent").get_to(c.concurrent);
+    if (json.contains("ident")) json.at("ident").get_to(c.ident);
     c.settings = settingsFrom(json.at("settings"));
     return c;
 }
@@ -177,7 +187,8 @@ Json jsonOf(const MotionDriver::EarlierPath& path) {
     Json json = {{"path", movesJson(path.moves)},
                  {"stopMove", path.stopMove.byMotionTask},
                  {"otherStopMove", path.stopMove.byOtherTask},
-                 {"levelHold", path.levelHold}};
+                 {"levelHold", path.levelHold},
+                 {"suspended", path.isSuspended}};
     if (path.awaited) json["awaited"] = jsonOf(*path.awaited);
     if (path.begun) json["begun"] = jsonOf(*path.begun);
     Json stored = Json::array();
@@ -185,6 +196,7 @@ Json jsonOf(const MotionDriver::EarlierPath& path) {
         Json one = {{"path", movesJson(level.moves)},
                     {"stopMove", level.stopMove.byMotionTask},
                     {"otherStopMove", level.stopMove.byOtherTask},
+                    {"suspended", level.isSuspended},
                     {"left", level.left.robax},
                     {"leftAxes", level.left.extax}};
         if (level.begun) one["begun"] = jsonOf(*level.begun);
@@ -202,10 +214,12 @@ MotionDriver::EarlierPath earlierPathFrom(const Json& json, const robot::UnitLoo
     if (json.contains("begun")) path.begun = poseFrom(json.at("begun"));
     if (!json.contains("stored")) return path; // written by an earlier version
     json.at("levelHold").get_to(path.levelHold);
+    path.isSuspended = json.value("suspended", false);
     for (const Json& one : json.at("stored")) {
         MotionDriver::EarlierLevel level;
         level.moves = movesFrom(one.at("path"), units);
         level.stopMove = stopFlagsFrom(one);
+        level.isSuspended = one.value("suspended", false);
         level.left = {jointsFrom(one.at("left")), numbersFrom<6>(one.at("leftAxes"))};
         if (one.contains("begun")) level.begun = poseFrom(one.at("begun"));
         path.stored.push_back(std::move(level));

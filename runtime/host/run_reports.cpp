@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -15,6 +16,17 @@ namespace rt {
 namespace {
 
 constexpr std::size_t kMostMarkers = 20'000; // on the page
+
+/// Stations that are never active together share axes, which have one curve then.
+void addAxis(report::RobotRecord& robot, const MechanicalUnit::Axis& axis) {
+    for (report::ExternalAxis& known : robot.external) {
+        if (known.index != axis.index) continue;
+        known.name += " / " + axis.single;
+        return;
+    }
+    robot.external.push_back({axis.single, axis.index, axis.limits.rotating, axis.limits.maxSpeed,
+                              axis.limits.maxAcceleration});
+}
 
 } // namespace
 
@@ -24,18 +36,36 @@ bool RunReports::areWanted(const RunOptions& options) {
 
 std::string RunReports::prepare(Controller& controller, const ProgramDesc& program) {
     if (!options_.compare.empty()) {
-        if (const std::string problem = report::readRecording(options_.compare, recording_); !problem.empty())
+        if (const std::string problem = report::readRecording(options_.compare, recordings_); !problem.empty())
             return "--compare: " + problem;
     }
-    recorder_ = std::make_unique<report::RunRecorder>(program.name, controller.motions().front()->model());
+    recorder_ = std::make_unique<report::RunRecorder>(program.name);
     recorder_->setFolder(program.folder != nullptr ? program.folder : "");
-    if (const std::string problem = writeFiles({}, nullptr); !problem.empty()) return problem;
+    addRobots(controller);
+    if (const std::string problem = writeFiles(report::robotReports(recorder_->record(), {})); !problem.empty())
+        return problem;
     listen(controller);
     return {};
 }
 
+/// Every motion group with its external axes.
+void RunReports::addRobots(Controller& controller) {
+    for (const auto& motion : controller.motions()) {
+        report::RobotRecord robot;
+        robot.unit = motion->unitName();
+        robot.robot = motion->model();
+        robot.hasArm = !robot.unit.empty();
+        for (const auto& unit : controller.units().all()) {
+            if (unit->group != motion->group() || unit->own.empty()) continue;
+            if (robot.unit.empty()) robot.unit = unit->name;
+            for (const MechanicalUnit::Axis& axis : unit->own)
+                addAxis(robot, axis);
+        }
+        motion->addTrace(recorder_->addRobot(std::move(robot)));
+    }
+}
+
 void RunReports::listen(Controller& controller) {
-    controller.motions().front()->addTrace(*recorder_);
     IoSystem& io = controller.io();
     for (std::size_t i = 0; i < io.size(); ++i) {
         const auto id = static_cast<SignalId>(i);
@@ -60,28 +90,28 @@ void RunReports::listen(Controller& controller) {
 }
 
 /// Returns the problem, with the option; empty: success.
-std::string RunReports::writeFiles(const report::Analysis& analysis,
-                                   const report::Comparison* comparison) const {
+std::string RunReports::writeFiles(const std::vector<report::RobotReport>& robots) const {
     const report::RunRecord& record = recorder_->record();
     if (!options_.picture.empty()) {
         const std::string problem = writeWhole(options_.picture, report::pathPicture(record));
         if (!problem.empty()) return "--picture: " + problem;
     }
     if (options_.report.empty()) return {};
-    const report::ReportContent content{record, analysis, &recording_, comparison};
-    const std::string problem = writeWhole(options_.report, report::reportPage(content));
+    const std::string problem = writeWhole(options_.report, report::reportPage({record, robots}));
     return problem.empty() ? problem : "--report: " + problem;
 }
 
-void RunReports::printSummary(const report::Analysis& analysis) const {
+void RunReports::printSummary(const std::vector<report::RobotReport>& robots) const {
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;
-    fmt::print(stderr, "\ncycle time  {:.3f} s (virtual), simulated in {:.3f} s\n{}", analysis.cycle,
-               wall.count(), report::summaryText(recorder_->record(), analysis));
+    fmt::print(stderr, "\ncycle time  {:.3f} s (virtual), simulated in {:.3f} s\n{}", 
+               recorder_->record().end(), wall.count(), report::summaryText(recorder_->record(), robots));
     const std::pair<const char*, const std::string&> files[] = {
         {"trace", options_.trace},     {"signals", options_.signals}, {"events", options_.events},
         {"picture", options_.picture}, {"report", options_.report},
     };
-    const char* lineBefore = analysis.moves.empty() ? "" : "\n";
+    const bool hasTable = std::any_of(robots.begin(), robots.end(),
+                                      [](const auto& robot) { return !robot.analysis.moves.empty(); });
+    const char* lineBefore = hasTable ? "\n" : "";
     for (const auto& [what, file] : files) {
         if (file.empty()) continue;
         fmt::print(stderr, "{}{:<12}{}\n", std::exchange(lineBefore, ""), what, file);
@@ -90,13 +120,11 @@ void RunReports::printSummary(const report::Analysis& analysis) const {
 
 bool RunReports::finish(Time end) {
     recorder_->finish(end);
-    const report::Analysis analysis = report::analyse(recorder_->record());
-    report::Comparison comparison;
-    const bool compares = !options_.compare.empty();
-    if (compares) comparison = report::compare(recorder_->record(), analysis, recording_);
-    const std::string problem = writeFiles(analysis, compares ? &comparison : nullptr);
-    if (options_.summary) printSummary(analysis);
-    if (compares) fmt::print(stderr, "\n{}", report::comparisonText(comparison, recording_));
+    const std::vector<report::RobotReport> robots = report::robotReports(recorder_->record(), recordings_);
+    const std::string problem = writeFiles(robots);
+    if (options_.summary) printSummary(robots);
+    if (!options_.compare.empty())
+        fmt::print(stderr, "\n{}", report::comparisonText(recorder_->record(), robots, recordings_));
     if (!problem.empty()) fmt::print(stderr, "error: {}\n", problem);
     return problem.empty();
 }

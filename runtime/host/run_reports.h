@@ -2,11 +2,13 @@
 // RunReports: what a run is followed by for people: report, picture of the path, comparison, summary.
 
 #include "runtime/host/run_options.h"
-#include "runtime/report/comparison.h"
+#include "runtime/report/page_data.h"
 #include "runtime/report/run_recorder.h"
 
 #include <chrono>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace rt {
 
@@ -27,12 +29,13 @@ class RunReports {
 
   private:
     void listen(Controller& controller);
-    std::string writeFiles(const report::Analysis& analysis, const report::Comparison* comparison) const;
-    void printSummary(const report::Analysis& analysis) const;
+    void addRobots(Controller& controller);
+    std::string writeFiles(const std::vector<report::RobotReport>& robots) const;
+    void printSummary(const std::vector<report::RobotReport>& robots) const;
 
     const RunOptions& options_;
     std::unique_ptr<report::RunRecorder> recorder_;
-    report::Recording recording_;
+    std::vector<report::Recording> recordings_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

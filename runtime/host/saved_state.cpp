@@ -8,12 +8,14 @@
 #include "runtime/debug/state_keepers.h"
 #include "runtime/host/controller.h"
 #include "runtime/host/run_files.h"
+#include "runtime/host/synchronised_group.h"
 #include "runtime/value/value_text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
@@ -28,6 +30,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostNamed = 5; // names in one event
 constexpr std::size_t kKeptEvents = 100;
+constexpr double kTurn = 360;
 constexpr std::chrono::seconds kPeriod{1};
 constexpr std::chrono::milliseconds kRetryPeriod{5};
 
@@ -132,6 +135,14 @@ std::string SavedState::keyOf(const GlobalDesc& data) const {
 
 // ---- Writing -------------------------------------------------------------------------------------------------------
 
+namespace {
+
+bool hasIndependentAxis(MotionDriver& motion) {
+    return motion.hasLostIndependentAxis() || !motion.system().independentAxes().empty();
+}
+
+} // namespace
+
 StateImage::TaskImage SavedState::presentTask(Task& task) const {
     StateImage::TaskImage state;
     if (const auto found = earlier_.find(&task); task.isReentering() && found != earlier_.end())
@@ -145,6 +156,10 @@ StateImage::TaskImage SavedState::presentTask(Task& task) const {
     } else if (!place.module.empty()) {
         state.pointer = StateImage::Pointer::Inside;
         state.place = fmt::format("{}:{}", place.module, place.line);
+        if (task.isMotionTask() && hasIndependentAxis(controller_.motion(task))) {
+            state.refusal = "an axis was in independent mode (IndAMove)"; // manual 2.2.4
+            return state;
+        }
         CallChain chain;
         state.refusal = takeChain({task, data_, controller_.stateKeepers()}, chain);
         if (!state.refusal.empty()) return state;
@@ -191,8 +206,17 @@ StateImage SavedState::present() const {
         StateImage::Group& group = image.groups.emplace_back();
         group.robot = motion->model().name;
         group.axes.assign(joints.robax.begin(), joints.robax.end());
+        for (const motion::GroupAxis& axis : motion->system().independentAxes())
+            if (!axis.isExternal) group.axes[axis.index] -= kTurn * std::round(group.axes[axis.index] / kTurn);
         group.axes.insert(group.axes.end(), joints.extax.begin(), joints.extax.end());
         group.path = motion->remainingPath();
+    }
+    for (const auto& motion : controller_.motions()) {
+        const auto& together = motion->joinedGroup();
+        if (together == nullptr || together->members().front().driver != motion.get()) continue;
+        auto& names = image.synchronised.emplace_back();
+        for (const SynchronisedGroup::Member& member : together->members())
+            names.push_back(upperCase(member.task->name()));
     }
     const auto& events = controller_.log().events();
     const std::size_t first = events.size() > kKeptEvents ? events.size() - kKeptEvents : 0;
@@ -258,19 +282,77 @@ bool SavedState::restore(std::string& error) {
     return true;
 }
 
-void SavedState::restore(const StateImage& image) {
+void SavedState::restore(StateImage& image) {
     controller_.log().restore(image.events);
     restoreData(persistents_, image.persistents);
     restoreTasks(image);
     restoreSurroundings(image);
     if (!earlier_.empty()) restoreKept(image);
     for (const auto& task : controller_.tasks()) {
-        if (!task->isReentering()) continue;
-        restoreInterrupts(*task, earlier_.at(task.get()));
-        const auto group = static_cast<std::size_t>(std::max(task->motionGroup(), 0));
-        if (task->isMotionTask() && group < image.groups.size())
-            controller_.motion(*task).continuePath(image.groups[group].path);
+        if (task->isReentering()) restoreInterrupts(*task, earlier_.at(task.get()));
     }
+    restorePaths(image);
+}
+
+namespace {
+
+/// A work object that another robot carries knows it by its number only.
+void findCarriers(const std::vector<std::unique_ptr<MotionDriver>>& motions,
+                  std::vector<motion::MoveCommand>& moves) {
+    for (motion::MoveCommand& move : moves) {
+        const int group = move.frames.carrierGroup;
+        if (group >= 0 && static_cast<std::size_t>(group) < motions.size())
+            move.frames.carrier = &motions[static_cast<std::size_t>(group)]->system();
+    }
+}
+
+bool isMoved(const Task& task, const StateImage& image) {
+    return task.isReentering() && task.isMotionTask() &&
+           static_cast<std::size_t>(task.motionGroup()) < image.groups.size();
+}
+
+} // namespace
+
+/// Of tasks that go on where they were.
+void SavedState::restorePaths(StateImage& image) {
+    for (StateImage::Group& group : image.groups) {
+        MotionDriver::EarlierPath& path = group.path;
+        findCarriers(controller_.motions(), path.moves);
+        for (MotionDriver::EarlierLevel& level : path.stored)
+            findCarriers(controller_.motions(), level.moves);
+        if (!path.awaited) continue;
+        std::vector<motion::MoveCommand> awaited{*path.awaited};
+        findCarriers(controller_.motions(), awaited);
+        path.awaited = awaited.front();
+    }
+    for (const std::vector<std::string>& names : image.synchronised)
+        restoreTogether(image, names);
+    for (const auto& task : controller_.tasks()) {
+        const auto isNamed = [&](const auto& names) {
+            return std::find(names.begin(), names.end(), upperCase(task->name())) != names.end();
+        };
+        if (!isMoved(*task, image) ||
+            std::any_of(image.synchronised.begin(), image.synchronised.end(), isNamed))
+            continue;
+        controller_.motion(*task).continuePath(
+            image.groups[static_cast<std::size_t>(task->motionGroup())].path);
+    }
+}
+
+/// All of them, or none: a task that begins anew ends the synchronised movement, as when its program pointer is moved.
+void SavedState::restoreTogether(const StateImage& image, const std::vector<std::string>& names) {
+    std::vector<SynchronisedGroup::Member> members;
+    std::vector<MotionDriver::EarlierPath> paths;
+    for (const std::string& name : names) {
+        Task* task = controller_.findTask(name);
+        if (task == nullptr || !isMoved(*task, image)) return;
+        members.push_back({&controller_.motion(*task), task});
+        paths.push_back(image.groups[static_cast<std::size_t>(task->motionGroup())].path);
+    }
+    const auto group = std::make_shared<SynchronisedGroup>(members);
+    for (const SynchronisedGroup::Member& member : members)
+        member.driver->joinGroup(group);
+    MotionDriver::continueTogether(*group, std::move(paths));
 }
 
 void SavedState::restoreInterrupts(Task& task, const StateImage::TaskImage& image) {

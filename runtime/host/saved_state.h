@@ -62,6 +62,8 @@ struct StateImage {
         MotionDriver::EarlierPath path;
     };
     std::vector<Group> groups;
+    /// Tasks between SyncMoveOn and SyncMoveOff, those that move together in one list; the first one leads.
+    std::vector<std::vector<std::string>> synchronised;
     std::map<std::string, std::string> kept; ///< of StateKeepers, JSON
     std::map<std::string, double> signals;   ///< those that keep their value over a power failure (Store)
     std::vector<Event> events;
@@ -99,8 +101,10 @@ class SavedState {
     StateImage present() const;
     StateImage::TaskImage presentTask(Task& task) const;
     void write(const StateImage& image);
-    void restore(const StateImage& image);
+    void restore(StateImage& image);
     void restoreTasks(const StateImage& image);
+    void restorePaths(StateImage& image);
+    void restoreTogether(const StateImage& image, const std::vector<std::string>& names);
     const RoutineEntry* trapAt(EntryFunction function) const;
     void restoreKept(const StateImage& image);
     void restoreInterrupts(Task& task, const StateImage::TaskImage& image);

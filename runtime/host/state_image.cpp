@@ -139,6 +139,7 @@ StateImage imageFrom(const Json& json, const robot::UnitLookup& units) {
         image.groups.push_back({group.at("robot").get<std::string>(),
                                 group.at("axes").get<std::vector<double>>(),
                                 earlierPathFrom(group.at("motion"), units)});
+    if (json.contains("synchronised")) json.at("synchronised").get_to(image.synchronised);
     for (const Json& event : json.at("events"))
         image.events.push_back(eventFrom(event));
     return image;
@@ -167,6 +168,7 @@ std::string writeImage(const StateImage& image) {
                        {"kept", kept},
                        {"signals", image.signals},
                        {"groups", groups},
+                       {"synchronised", image.synchronised},
                        {"events", events}};
     return rapid::config::textOf(json, 1) + "\n";
 }

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace rt {
 
@@ -14,20 +16,38 @@ std::string SynchronisedGroup::give(MotionDriver& driver, Order& order) {
         return "A movement instruction between SyncMoveOn and SyncMoveOff has no \\ID. Give it the number "
                "that the "
                "other tasks use.";
-    for (const auto& [other, given] : given_) {
-        if (given->command.ident == order.command.ident) continue;
+    for (const Member& member : members_) {
+        const Order* given = firstOf(member.driver);
+        if (given == nullptr || firstOf(&driver) != nullptr || given->command.ident == order.command.ident)
+            continue;
         return fmt::format(
             "Task {} executes the movement with \\ID {} while task {} is at \\ID {}. The movements "
             "of all tasks must have the same numbers in the same order.",
-            order.task->name(), order.command.ident, given->task->name(), given->command.ident);
+            order.task->name(), order.command.ident, member.task->name(), given->command.ident);
     }
     given_.emplace_back(&driver, &order);
     changed_.notifyAll();
     return "";
 }
 
+/// The order that counts now; null when there is none.
+SynchronisedGroup::Order* SynchronisedGroup::firstOf(const MotionDriver* driver) const {
+    const auto found =
+        std::find_if(given_.begin(), given_.end(), [&](const auto& given) { return given.first == driver; });
+    return found == given_.end() ? nullptr : found->second;
+}
+
+void SynchronisedGroup::expect(MotionDriver& driver, motion::MoveCommand command) {
+    earlier_.push_back(std::make_unique<Order>());
+    earlier_.back()->command = std::move(command);
+    given_.emplace_back(&driver, earlier_.back().get());
+}
+
 void SynchronisedGroup::withdraw(MotionDriver& driver) {
-    std::erase_if(given_, [&](const auto& given) { return given.first == &driver; });
+    // The latest one: what an earlier process ordered stays.
+    const auto found = std::find_if(given_.rbegin(), given_.rend(),
+                                    [&](const auto& given) { return given.first == &driver; });
+    if (found != given_.rend()) given_.erase(std::next(found).base());
 }
 
 std::vector<motion::MotionSystem*> SynchronisedGroup::systems() const {
@@ -45,7 +65,8 @@ std::vector<WaitQueue*> SynchronisedGroup::queues() {
 }
 
 bool SynchronisedGroup::isReady() const {
-    if (isOver_ || given_.size() < members_.size()) return false;
+    const auto hasGiven = [this](const Member& member) { return firstOf(member.driver) != nullptr; };
+    if (isOver_ || !std::all_of(members_.begin(), members_.end(), hasGiven)) return false;
     const auto all = systems();
     if (!motion::MotionSystem::areTogether(all)) // after ClearPath, or on a new path level
         return std::all_of(all.begin(), all.end(),
@@ -60,10 +81,8 @@ void SynchronisedGroup::orderStep() {
     std::vector<motion::MoveCommand> commands;
     std::vector<MotionDriver::Beginning> beginnings;
     for (const Member& member : members_) {
-        const auto given = std::find_if(given_.begin(), given_.end(),
-                                        [&](const auto& entry) { return entry.first == member.driver; });
-        orders.push_back(given->second);
-        beginnings.push_back(member.driver->beginOrder(*orders.back()->task, orders.back()->command));
+        orders.push_back(firstOf(member.driver));
+        beginnings.push_back(member.driver->beginOrder(orders.back()->task, orders.back()->command));
         commands.push_back(orders.back()->command);
     }
     const auto ordered = motion::MotionSystem::enqueueTogether(all, commands);
@@ -71,15 +90,17 @@ void SynchronisedGroup::orderStep() {
         Order& refused = *orders[ordered.error().command];
         refused.error = ordered.error().error;
         refused.isDone = true;
-        withdraw(*members_[ordered.error().command].driver);
+        std::erase_if(given_, [&](const auto& given) { return given.second == &refused; });
         changed_.notifyAll();
         return;
     }
-    given_.clear();
+    std::erase_if(given_, [&](const auto& given) {
+        return std::find(orders.begin(), orders.end(), given.second) != orders.end();
+    });
     for (std::size_t i = 0; i < members_.size(); ++i) {
         orders[i]->id = (*ordered)[i];
         orders[i]->isDone = true;
-        members_[i].driver->noteOrdered(*orders[i]->task, orders[i]->command, orders[i]->id, beginnings[i]);
+        members_[i].driver->noteOrdered(orders[i]->task, orders[i]->command, orders[i]->id, beginnings[i]);
     }
     for (const Member& member : members_)
         member.driver->refresh();

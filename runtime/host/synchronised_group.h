@@ -5,6 +5,8 @@
 #include "runtime/motion/motion_system.h"
 #include "runtime/sched/wait_queue.h"
 
+#include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +37,8 @@ class SynchronisedGroup {
     /// The order counts until it is done or withdrawn. Returns what is wrong with its \ID; "" when nothing is.
     std::string give(MotionDriver& driver, Order& order);
     void withdraw(MotionDriver& driver);
+    /// An order of an earlier process that was complete for this robot but not for all: it counts before the next one of its task.
+    void expect(MotionDriver& driver, motion::MoveCommand command);
     /// Every task has given its order, and the robots can take it.
     bool isReady() const;
     /// Orders the movement of all; isReady(). When one cannot be made, its order is done, and the others wait on.
@@ -50,12 +54,14 @@ class SynchronisedGroup {
     WaitQueue& changed() { return changed_; }
     /// Those that a task has to watch to learn that isReady() has changed.
     std::vector<WaitQueue*> queues();
-
-  private:
     std::vector<motion::MotionSystem*> systems() const;
 
+  private:
+    Order* firstOf(const MotionDriver* driver) const;
+
     std::vector<Member> members_;
-    std::vector<std::pair<MotionDriver*, Order*>> given_;
+    std::vector<std::pair<MotionDriver*, Order*>> given_; ///< in order; one robot may have two (expect)
+    std::deque<std::unique_ptr<Order>> earlier_;
     WaitQueue changed_;
     bool isOver_ = false;
 };

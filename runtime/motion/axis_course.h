@@ -4,11 +4,19 @@
 
 #include "runtime/motion/velocity_ramp.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace motion {
 
-/// Position (deg) and speed (deg/s) of an axis.
+/// An axis of a motion group: of the robot (0 is axis 1), or an external one (0 is eax_a).
+struct GroupAxis {
+    bool isExternal = false;
+    std::size_t index = 0;
+    bool operator==(const GroupAxis&) const = default;
+};
+
+/// Position (deg, or mm of a linear external axis) and speed of an axis.
 struct AxisMoment {
     double position = 0;
     double speed = 0;

@@ -251,17 +251,31 @@ MotionState MotionSystem::Impl::stateAt(TimeNs time) const {
     return still;
 }
 
-/// With the axis that moves for itself; its share in the speed of the TCP is left out.
+/// With the axes that move for themselves; their share in the speed of the TCP is left out.
 MotionState MotionSystem::Impl::shown(MotionState state, TimeNs time) const {
-    if (!independent) return state;
-    const AxisMoment moment = independent->at(toSeconds(time));
-    const Pose base = based({}).base(state.extax);
-    const Pose before = base * kinematics.forward(state.joints);
-    state.joints[independentAxis] = moment.position;
-    state.jointSpeed[independentAxis] = moment.speed;
+    if (independents.empty()) return state;
+    const Pose before = based({}).base(state.extax) * kinematics.forward(state.joints);
+    for (const auto& [axis, course] : independents) {
+        const AxisMoment moment = course.at(toSeconds(time));
+        if (axis.isExternal) {
+            state.extax[axis.index] = moment.position;
+        } else {
+            state.joints[axis.index] = moment.position;
+            state.jointSpeed[axis.index] = moment.speed;
+        }
+    }
     if (state.toolHeld)
-        state.tcp = base * kinematics.forward(state.joints) * robot::inverse(before) * state.tcp;
+        state.tcp = based({}).base(state.extax) * kinematics.forward(state.joints) * robot::inverse(before) *
+                    state.tcp;
     return state;
+}
+
+/// At this moment.
+JointTarget MotionSystem::Impl::shown(JointTarget joints) const {
+    for (const auto& [axis, course] : independents)
+        (axis.isExternal ? joints.extax[axis.index] : joints.robax[axis.index]) =
+            course.at(seconds()).position;
+    return joints;
 }
 
 /// A stop off the path leaves nothing to decide: the arm brakes already.

@@ -211,6 +211,10 @@ std::optional<MotionSystem::PathGap> MotionSystem::gapToPath() const {
     return PathGap{norm(goal.pos - here.pos), turn * kDegreesPerRadian};
 }
 
+void MotionSystem::setExternalAxis(std::size_t axis, const ExternalAxisModel& model) {
+    impl_->options.external[axis] = model;
+}
+
 bool MotionSystem::placeAt(const JointTarget& joints) {
     Impl& s = *impl_;
     if (!s.level.queue.empty() || s.isMoving()) return false;
@@ -244,21 +248,34 @@ void MotionSystem::start() {
     impl_->noteMotion();
 }
 
-void MotionSystem::setIndependent(std::size_t axis, AxisCourse course) {
-    impl_->independent = std::move(course);
-    impl_->independentAxis = axis;
+void MotionSystem::setIndependent(GroupAxis axis, AxisCourse course) {
+    for (auto& [known, present] : impl_->independents) {
+        if (known != axis) continue;
+        present = std::move(course);
+        return;
+    }
+    impl_->independents.emplace_back(axis, std::move(course));
 }
 
-bool MotionSystem::endIndependent(double position) {
+bool MotionSystem::endIndependent(GroupAxis axis, double position) {
     JointTarget joints = impl_->standing();
-    joints.robax[impl_->independentAxis] = position;
+    (axis.isExternal ? joints.extax[axis.index] : joints.robax[axis.index]) = position;
     if (!placeAt(joints)) return false;
-    impl_->independent.reset();
+    std::erase_if(impl_->independents, [&](const auto& entry) { return entry.first == axis; });
     return true;
 }
 
-const AxisCourse* MotionSystem::independent() const {
-    return impl_->independent ? &*impl_->independent : nullptr;
+const AxisCourse* MotionSystem::independent(GroupAxis axis) const {
+    for (const auto& [known, course] : impl_->independents)
+        if (known == axis) return &course;
+    return nullptr;
+}
+
+std::vector<GroupAxis> MotionSystem::independentAxes() const {
+    std::vector<GroupAxis> axes;
+    for (const auto& [axis, course] : impl_->independents)
+        axes.push_back(axis);
+    return axes;
 }
 
 bool MotionSystem::isStopRequested() const {
@@ -387,10 +404,7 @@ MotionState MotionSystem::sampleStopped(TimeNs time) const {
     return impl_->shown(impl_->stateIfStopped(time), time);
 }
 JointTarget MotionSystem::currentJoints() const {
-    JointTarget joints = impl_->standing();
-    if (impl_->independent)
-        joints.robax[impl_->independentAxis] = impl_->independent->at(impl_->seconds()).position;
-    return joints;
+    return impl_->shown(impl_->standing());
 }
 JointTarget MotionSystem::plannedEnd() const {
     return impl_->path().endTarget();

@@ -117,6 +117,9 @@ class MotionSystem {
     /// Why the latest OutOfReach event happened.
     const std::optional<MotionError>& outOfReachError() const;
 
+    /// The external axis (0 is eax_a) is that of another unit from now on, with limits of its own. Only when idle.
+    void setExternalAxis(std::size_t axis, const ExternalAxisModel& model);
+
     // ---- path levels ----
     /// Puts the unfinished moves aside (StorePath): what is ordered next runs from where the arm stands, also
     /// after a stop(). False while the arm moves. Levels nest.
@@ -164,13 +167,15 @@ class MotionSystem {
     void setSpeedLimits(const SpeedLimits& most);
 
     // ---- independent axes ----
-    /// From now on this axis (from 0) of the robot moves for itself: what is asked of the arm shows it where the course has
-    /// it, while the path is planned and executed as if it were not so. Another course replaces the one before.
-    void setIndependent(std::size_t axis, AxisCourse course);
-    /// Back on the path, at this position of the axis (deg). Only while the arm is idle and stands; false otherwise.
-    bool endIndependent(double position);
-    /// Null when no axis moves for itself.
-    const AxisCourse* independent() const;
+    /// From now on this axis moves for itself: all questions about the arm show it where the course has it, while the path is
+    /// planned and executed as if it were not so. Another course replaces the one before.
+    void setIndependent(GroupAxis axis, AxisCourse course);
+    /// Back on the path, at this position of the axis (deg, mm). Only while the arm is idle and stands; false otherwise.
+    bool endIndependent(GroupAxis axis, double position);
+    /// Null when the axis does not move for itself.
+    const AxisCourse* independent(GroupAxis axis) const;
+    /// The axes that move for themselves.
+    std::vector<GroupAxis> independentAxes() const;
 
     // ---- time ----
     /// Lets motion go on until `time`; events up to and including it are collected.

@@ -76,8 +76,7 @@ struct MotionSystem::Impl {
     bool isStepping = false;            // going back along the path
     std::shared_ptr<Trajectory> detour; // back to the path, axis by axis
 
-    std::optional<AxisCourse> independent; // of an axis that moves for itself
-    std::size_t independentAxis = 0;
+    std::vector<std::pair<GroupAxis, AxisCourse>> independents; // axes that move for themselves
 
     PathModifiers modifiers;
 
@@ -177,6 +176,7 @@ struct MotionSystem::Impl {
     void reportOutOfReach();
     Pose shiftNow() const;
     MotionState shown(MotionState state, TimeNs time) const;
+    JointTarget shown(JointTarget joints) const;
     MotionState stateIfStopped(TimeNs time) const;
     MotionState stillAt(const JointTarget& joints) const;
     JointTarget standing() const;

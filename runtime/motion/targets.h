@@ -85,6 +85,7 @@ struct FrameSetup {
     /// A robot, or a unit of a robot's group, that carries the work object while both move together (MultiMove); the pose of
     /// the user frame is the present one.
     const MotionSystem* carrier = nullptr;
+    int carrierGroup = -1; ///< number of the motion group of `carrier`, by which a state file knows it
     const robot::ExternalUnit* carrierUnit = nullptr; ///< null: the robot itself
     /// The user frame after a share of the carrier's movement, 0 to 1; set with the order of a movement.
     std::shared_ptr<const std::function<Pose(double)>> userCourse;

@@ -18,6 +18,7 @@ struct Step {
     double seconds = 0;
     double speed = 0;     ///< mm/s
     double turnSpeed = 0; ///< deg/s
+    double external = 0;  ///< fastest external axis, of its programmed speed
     double ratio = 0;     ///< of the programmed speed
     Loss limit;           ///< what held it there
 };
@@ -28,6 +29,18 @@ motion::Joints jointSpeeds(const Sample& a, const Sample& b) {
     for (std::size_t axis = 0; axis < result.size(); ++axis)
         result[axis] = seconds > 0 ? (b.joints[axis] - a.joints[axis]) / seconds : 0;
     return result;
+}
+
+/// Position of an external axis; 0 while it is not connected.
+double placeOf(const Sample& sample, const ExternalAxis& axis) {
+    const double place = sample.external[axis.index];
+    return motion::isConnected(place) ? place : 0;
+}
+
+/// Speed of an external axis between two samples, deg/s or mm/s.
+double externalSpeed(const Sample& a, const Sample& b, const ExternalAxis& axis) {
+    const double seconds = b.time - a.time;
+    return seconds > 0 ? (placeOf(b, axis) - placeOf(a, axis)) / seconds : 0;
 }
 
 /// Of the change of speed at `i`; zero where the samples around it are missing.
@@ -43,8 +56,9 @@ motion::Joints jointAccelerations(const std::vector<Sample>& samples, std::size_
 
 class MoveAnalysis {
   public:
-    MoveAnalysis(const RunRecord& record, MoveResult& result)
-        : record_(record), accelerations_(record.robot), samples_(record.samples), result_(result),
+    MoveAnalysis(const RobotRecord& record, MoveResult& result)
+        : record_(record), accelerations_(record.hasArm ? robot::AccelerationMap(record.robot) : robot::AccelerationMap()),
+          samples_(record.samples), result_(result),
           move_(*result.move) {}
 
     void run() {
@@ -73,6 +87,11 @@ class MoveAnalysis {
         step.seconds = b.time - a.time;
         step.speed = toolChanged(a, b) ? b.speed : std::max(a.speed, b.speed);
         step.turnSpeed = toolChanged(a, b) ? 0 : turnBetween(a.rotation, b.rotation) / step.seconds;
+        for (const ExternalAxis& axis : record_.external) {
+            const double programmed = axis.rotating ? move_.externalTurnSpeed : move_.externalSpeed;
+            if (programmed > 0)
+                step.external = std::max(step.external, std::fabs(externalSpeed(a, b, axis)) / programmed);
+        }
         result_.moving += step.seconds;
         if (!toolChanged(a, b)) result_.length += norm(b.position - a.position);
         result_.reached = std::max(result_.reached, step.speed);
@@ -85,7 +104,7 @@ class MoveAnalysis {
         double largest = 0;
         for (Step& step : steps_) {
             const double turn = move_.turnSpeed > 0 ? step.turnSpeed / move_.turnSpeed : 0;
-            step.ratio = std::max(step.speed / programmedSpeed(), turn);
+            step.ratio = std::max({step.speed / programmedSpeed(), turn, step.external});
             largest = std::max(largest, step.ratio);
         }
         const auto isUp = [largest](const Step& step) { return step.ratio >= kPeak * largest; };
@@ -108,7 +127,7 @@ class MoveAnalysis {
         if (const Loss path = pathLimit(step); path.cause != Cause::Other) return path;
         if (k < upFrom_) return {startsAtRest_ ? Cause::StopPoint : Cause::Zone, 0, 0};
         if (k >= upTo_) return {endsAtRest_ ? Cause::StopPoint : Cause::Zone, 0, 0};
-        return {};
+        return {move_.isTogether ? Cause::OtherRobots : Cause::Other, 0, 0};
     }
 
     /// The axis that is nearest to its limit: of speed, else of acceleration.
@@ -116,7 +135,7 @@ class MoveAnalysis {
         const motion::Joints speeds = jointSpeeds(samples_[step.to - 1], samples_[step.to]);
         const motion::Joints accelerations = jointAccelerations(samples_, step.to);
         motion::Joints limits = speeds;
-        accelerations_.limitsAt(samples_[step.to].joints, limits);
+        if (record_.hasArm) accelerations_.limitsAt(samples_[step.to].joints, limits);
         Loss speed{Cause::JointSpeed, 0, 0}, acceleration{Cause::Acceleration, 0, 0};
         double nearestSpeed = kSpeedReached, nearestAcceleration = kAccelerationReached;
         for (std::size_t axis = 0; axis < speeds.size(); ++axis) {
@@ -132,7 +151,22 @@ class MoveAnalysis {
                 acceleration.axis = static_cast<int>(axis) + 1;
             }
         }
+        if (speed.axis == 0 && acceleration.axis == 0) return externalLimit(step);
         return speed.axis != 0 ? speed : acceleration;
+    }
+
+    Loss externalLimit(const Step& step) const {
+        for (const ExternalAxis& axis : record_.external) {
+            const int number = kFirstExternal + static_cast<int>(axis.index);
+            const Sample &a = samples_[step.to - 1], &b = samples_[step.to];
+            const double now = externalSpeed(a, b, axis);
+            if (std::fabs(now) >= kSpeedReached * axis.maxSpeed) return {Cause::JointSpeed, number, 0};
+            if (step.to + 1 >= samples_.size()) continue;
+            const double next = externalSpeed(b, samples_[step.to + 1], axis);
+            const double change = std::fabs(next - now) / ((samples_[step.to + 1].time - a.time) / 2);
+            if (change >= kAccelerationReached * axis.maxAcceleration) return {Cause::Acceleration, number, 0};
+        }
+        return {};
     }
 
     Loss pathLimit(const Step& step) const {
@@ -164,7 +198,7 @@ class MoveAnalysis {
     }
 
   private:
-    const RunRecord& record_;
+    const RobotRecord& record_;
     robot::AccelerationMap accelerations_;
     const std::vector<Sample>& samples_;
     MoveResult& result_;
@@ -212,7 +246,7 @@ double turnBetween(const motion::Quat& a, const motion::Quat& b) {
 }
 
 bool hasMoved(const Sample& before, const Sample& after) {
-    return before.joints != after.joints;
+    return before.joints != after.joints || before.external != after.external;
 }
 
 bool toolChanged(const Sample& before, const Sample& after) {
@@ -220,7 +254,7 @@ bool toolChanged(const Sample& before, const Sample& after) {
     return way > 1 && way > 2 * std::max(before.speed, after.speed) * (after.time - before.time);
 }
 
-Analysis analyse(const RunRecord& record) {
+Analysis analyse(const RobotRecord& record) {
     Analysis analysis;
     const std::vector<Sample>& samples = record.samples;
     for (std::size_t from = 0; from < samples.size();) {
@@ -244,16 +278,27 @@ Analysis analyse(const RunRecord& record) {
     return analysis;
 }
 
+namespace {
+
+/// "axis 3", "axis eax_b".
+std::string axisText(int axis) {
+    if (axis < kFirstExternal) return fmt::format("axis {}", axis);
+    return fmt::format("axis eax_{}", static_cast<char>('a' + (axis - kFirstExternal)));
+}
+
+} // namespace
+
 std::string causeText(const Loss& loss) {
     switch (loss.cause) {
     case Cause::Programmed: return "programmed speed";
     case Cause::Duration: return "programmed time";
-    case Cause::JointSpeed: return fmt::format("speed limit of axis {}", loss.axis);
+    case Cause::JointSpeed: return "speed limit of " + axisText(loss.axis);
     case Cause::RobotSpeed: return "largest TCP speed of the robot";
-    case Cause::Acceleration: return fmt::format("acceleration of axis {}", loss.axis);
+    case Cause::Acceleration: return "acceleration of " + axisText(loss.axis);
     case Cause::PathAcceleration: return "PathAccLim";
     case Cause::StopPoint: return "stop point";
     case Cause::Zone: return "zone";
+    case Cause::OtherRobots: return "other robots";
     case Cause::Other: return "other";
     }
     return {};

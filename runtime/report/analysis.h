@@ -21,16 +21,20 @@ enum class Cause : uint8_t {
     PathAcceleration, ///< the limit of PathAccLim
     StopPoint,        ///< starting or braking at a point where the robot comes to rest
     Zone,             ///< slower round a fly-by point
+    OtherRobots,      ///< none of these, and another robot of the synchronised movement sets the time
     Other,            ///< none of these: jerk, the shape of the path, an order from outside
 };
 
 /// Shares of a limit from which on it counts as reached. Differences of samples round the peaks of accelerations off.
 inline constexpr double kSpeedReached = 0.98, kAccelerationReached = 0.95;
 
+/// Loss::axis of external axis eax_a; the other ones follow.
+inline constexpr int kFirstExternal = 11;
+
 /// Time that a movement took longer than at its programmed speed.
 struct Loss {
     Cause cause = Cause::Other;
-    int axis = 0; ///< 1..6 of JointSpeed and Acceleration, else 0
+    int axis = 0; ///< of JointSpeed and Acceleration: from 1, or from kFirstExternal; else 0
     double seconds = 0;
 };
 
@@ -54,7 +58,7 @@ struct Analysis {
     std::vector<Loss> losses;                  ///< of all movements, largest first
 };
 
-Analysis analyse(const RunRecord& record);
+Analysis analyse(const RobotRecord& record);
 
 /// Adds to the loss of the same cause; the largest stays first.
 void addLoss(std::vector<Loss>& losses, const Loss& loss);

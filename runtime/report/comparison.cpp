@@ -210,8 +210,12 @@ std::vector<TimeDifference> Comparison::largest(std::size_t number) const {
     return result;
 }
 
-Comparison compare(const RunRecord& record, const Analysis& analysis, const Recording& recording) {
+Comparison compare(const RobotRecord& record, const Analysis& analysis, const Recording& recording) {
     Comparison result;
+    if (!record.hasArm) {
+        result.problem = "external axes alone have no TCP that could be compared";
+        return result;
+    }
     result.atFlange = !recording.hasPositions;
     if (result.atFlange && record.robot.kinematics != robot::KinematicsKind::SphericalWrist) {
         result.problem =

@@ -44,6 +44,6 @@ struct Comparison {
 };
 
 /// `analysis` must outlive the result.
-Comparison compare(const RunRecord& record, const Analysis& analysis, const Recording& recording);
+Comparison compare(const RobotRecord& record, const Analysis& analysis, const Recording& recording);
 
 } // namespace rt::report

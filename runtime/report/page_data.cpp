@@ -32,13 +32,19 @@ void appendSeries(std::string& text, const char* name, double unit, std::size_t 
     text += "]}";
 }
 
-void appendSamples(std::string& text, const std::vector<Sample>& samples) {
+void appendSamples(std::string& text, const RobotRecord& robot) {
+    const std::vector<Sample>& samples = robot.samples;
     const std::size_t count = samples.size();
     appendSeries(text, "time", kTimeUnit, count, [&](std::size_t i) { return samples[i].time; });
     const std::size_t axes = samples.empty() ? 0 : samples.front().joints.size();
     for (std::size_t axis = 0; axis < axes; ++axis)
         appendSeries(text, fmt::format("j{}", axis + 1).c_str(), kAngleUnit, count,
                      [&](std::size_t i) { return samples[i].joints[axis]; });
+    for (const ExternalAxis& axis : robot.external)
+        appendSeries(text, fmt::format("e{}", axis.index + 1).c_str(), kAngleUnit, count, [&](std::size_t i) {
+            const double place = samples[i].external[axis.index];
+            return motion::isConnected(place) ? place : 0;
+        });
     appendSeries(text, "x", kLengthUnit, count, [&](std::size_t i) { return samples[i].position.x; });
     appendSeries(text, "y", kLengthUnit, count, [&](std::size_t i) { return samples[i].position.y; });
     appendSeries(text, "z", kLengthUnit, count, [&](std::size_t i) { return samples[i].position.z; });
@@ -90,7 +96,7 @@ Json moveOf(const Move& move, const MoveResult* result) {
     return json;
 }
 
-Json movesOf(const RunRecord& record, const Analysis& analysis) {
+Json movesOf(const RobotRecord& record, const Analysis& analysis) {
     Json list = Json::array();
     auto result = analysis.moves.begin(); // in order of their numbers, unless the robot went back
     for (const Move& move : record.moves) {
@@ -181,29 +187,65 @@ Json dynamicsOf(const robot::RobotModel& robot) {
             {"c3", 0.001 * g.c3}};
 }
 
-} // namespace
+Json externalOf(const RobotRecord& record) {
+    Json list = Json::array();
+    for (const ExternalAxis& axis : record.external)
+        list.push_back({{"name", axis.name},
+                        {"number", axis.index + 1},
+                        {"rotating", axis.rotating},
+                        {"speed", rounded(axis.maxSpeed)}});
+    return list;
+}
 
-std::string pageData(const ReportContent& content) {
-    const RunRecord& record = content.record;
-    Json json = {{"program", record.program},
+std::string robotData(const RobotRecord& record, const RobotReport& report) {
+    Json json = {{"unit", record.unit},
                  {"robot", record.robot.name},
-                 {"end", rounded(record.end)},
+                 {"hasArm", record.hasArm},
                  {"limits",
                   {{"speed", record.robot.maxSpeed},
                    {"dynamics", dynamicsOf(record.robot)},
                    {"tcp", record.robot.maxTcpSpeed},
                    {"assumed", record.robot.provisional}}},
-                 {"totals", totalsOf(content.analysis)},
-                 {"moves", movesOf(record, content.analysis)},
-                 {"signals", signalsOf(record)},
-                 {"markers", markersOf(record)}};
-    if (content.comparison != nullptr)
-        json["comparison"] = comparisonOf(*content.comparison, *content.recording);
+                 {"external", externalOf(record)},
+                 {"totals", totalsOf(report.analysis)},
+                 {"moves", movesOf(record, report.analysis)}};
+    if (report.recording != nullptr) json["comparison"] = comparisonOf(report.comparison, *report.recording);
     std::string text = rapid::config::textOf(json);
     text.pop_back(); // the brace, after the series
-    appendSamples(text, record.samples);
-    if (content.comparison != nullptr) appendComparison(text, *content.comparison);
-    text += "}";
+    appendSamples(text, record);
+    if (report.recording != nullptr) appendComparison(text, report.comparison);
+    return text + "}";
+}
+
+} // namespace
+
+std::vector<RobotReport> robotReports(const RunRecord& record, const std::vector<Recording>& recordings) {
+    const std::vector<const Recording*> theirs = recordingsFor(record.robots, recordings);
+    std::vector<RobotReport> reports(record.robots.size());
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+        reports[i].analysis = analyse(record.robots[i]);
+        reports[i].recording = theirs[i];
+    }
+    for (std::size_t i = 0; i < reports.size(); ++i) // the comparisons name movements of the analyses
+        if (theirs[i] != nullptr)
+            reports[i].comparison = compare(record.robots[i], reports[i].analysis, *theirs[i]);
+    return reports;
+}
+
+std::string pageData(const ReportContent& content) {
+    const RunRecord& record = content.record;
+    const Json json = {{"program", record.program},
+                       {"end", rounded(record.end())},
+                       {"signals", signalsOf(record)},
+                       {"markers", markersOf(record)}};
+    std::string text = rapid::config::textOf(json);
+    text.pop_back(); // the brace, after the robots
+    text += ",\"robots\":[";
+    for (std::size_t i = 0; i < record.robots.size(); ++i) {
+        if (i > 0) text += ",";
+        text += robotData(record.robots[i], content.robots[i]);
+    }
+    text += "]}";
     std::string safe;
     for (const char c : text) {
         if (c == '<')

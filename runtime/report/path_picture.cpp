@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <set>
 
 namespace rt::report {
@@ -42,10 +43,13 @@ Bounds boundsOf(const RunRecord& record, const View& view) {
         minU = std::min(minU, place.*view.u - radius), maxU = std::max(maxU, place.*view.u + radius);
         minV = std::min(minV, place.*view.v - radius), maxV = std::max(maxV, place.*view.v + radius);
     };
-    for (const Sample& sample : record.samples)
-        take(sample.position, 0);
-    for (const Move& move : record.moves)
-        if (!move.stopPoint) take(move.end, move.zone);
+    for (const RobotRecord& robot : record.robots) {
+        if (!robot.hasArm) continue;
+        for (const Sample& sample : robot.samples)
+            take(sample.position, 0);
+        for (const Move& move : robot.moves)
+            if (!move.stopPoint) take(move.end, move.zone);
+    }
     if (minU > maxU) minU = maxU = minV = maxV = 0; // the program took no time
     const double span = std::max({maxU - minU, maxV - minV, 10.0}) * 1.08;
     return {(maxU + minU - span) / 2, (maxV + minV - span) / 2, span};
@@ -91,6 +95,32 @@ void drawGrid(std::string& svg, const View& view, const Bounds& bounds) {
     svg += fmt::format("<text x='{}' y='{}'>{} (mm)</text>\n", view.left + 4, view.top + 12, view.vertical);
 }
 
+/// Colours of robots, also those of the page of --report.
+const char* robotColour(std::size_t robot) {
+    constexpr const char* kColours[] = {"#1456b8", "#c24e00", "#007a58", "#a8367f", "#7d6a00", "#4a4f9e"};
+    return kColours[robot % std::size(kColours)];
+}
+
+/// Which path is whose: a broad line below the one that shows the speed.
+void drawHalo(std::string& svg, const Projection& to, const std::vector<Sample>& samples, const char* colour) {
+    std::string points, last;
+    const auto flush = [&] {
+        if (points.find(' ') != std::string::npos)
+            svg += fmt::format("<polyline points='{}' fill='none' stroke='{}' stroke-opacity='.25' "
+                               "stroke-width='7'/>\n",
+                               points, colour);
+        points.clear();
+    };
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (i > 0 && toolChanged(samples[i - 1], samples[i])) flush();
+        std::string next = fmt::format("{:.1f},{:.1f}", to.x(samples[i].position), to.y(samples[i].position));
+        if (!points.empty() && next == last) continue;
+        points += (points.empty() ? "" : " ") + next;
+        last = std::move(next);
+    }
+    flush();
+}
+
 void drawPath(std::string& svg, const Projection& to, const std::vector<Sample>& samples, double top) {
     const auto point = [&](const Sample& s) {
         return fmt::format("{:.1f},{:.1f}", to.x(s.position), to.y(s.position));
@@ -122,7 +152,7 @@ std::string keyOf(const motion::Vec3& place, const std::string& text) {
     return fmt::format("{:.0f},{:.0f},{:.0f} {}", place.x, place.y, place.z, text);
 }
 
-void drawZones(std::string& svg, const Projection& to, const RunRecord& record) {
+void drawZones(std::string& svg, const Projection& to, const RobotRecord& record) {
     std::set<std::string> drawn;
     for (const Move& move : record.moves) {
         if (move.stopPoint || move.zone <= 0) continue;
@@ -146,7 +176,7 @@ void drawLabels(std::string& svg, LabelPlacer& labels, const LabelGroups& groups
     }
 }
 
-void drawPoints(std::string& svg, const Projection& to, const RunRecord& record, LabelPlacer& labels) {
+void drawPoints(std::string& svg, const Projection& to, const RobotRecord& record, LabelPlacer& labels) {
     std::set<std::string> drawn;
     LabelGroups names;
     for (const Move& move : record.moves) // names say more than lines
@@ -167,13 +197,33 @@ motion::Vec3 placeAt(const std::vector<Sample>& samples, double time) {
     return after == samples.begin() ? samples.front().position : (after - 1)->position;
 }
 
+const RobotRecord* firstArm(const RunRecord& record) {
+    for (const RobotRecord& robot : record.robots)
+        if (robot.hasArm) return &robot;
+    return nullptr;
+}
+
+/// Which colour is which robot.
+void drawLegend(std::string& svg, const RunRecord& record) {
+    double x = 3 * kMargin + 2 * kSize;
+    for (std::size_t i = record.robots.size(); i-- > 0;) {
+        const RobotRecord& robot = record.robots[i];
+        if (!robot.hasArm) continue;
+        x -= PlacedLabel::widthOf(robot.unit) + 24;
+        svg += fmt::format("<line x1='{0:.1f}' y1='20' x2='{1:.1f}' y2='20' stroke='{2}' stroke-opacity='.5' "
+                           "stroke-width='7'/><text x='{3:.1f}' y='24'>{4}</text>\n",
+                           x, x + 12, robotColour(i), x + 16, escaped(robot.unit));
+    }
+}
+
 void drawSignals(std::string& svg, const Projection& to, const RunRecord& record, LabelPlacer& labels) {
-    if (record.samples.empty()) return;
+    const RobotRecord* robot = firstArm(record); // signals belong to no robot
+    if (robot == nullptr || robot->samples.empty()) return;
     std::set<std::string> drawn;
     LabelGroups changes;
     for (const SignalTrack& signal : record.signals) {
         for (const SignalTrack::Change& change : signal.changes) {
-            const motion::Vec3 place = placeAt(record.samples, change.time);
+            const motion::Vec3 place = placeAt(robot->samples, change.time);
             const std::string text = fmt::format("{}={:g}", signal.name, change.value);
             if (!drawn.insert(keyOf(place, text)).second) continue;
             const double x = to.x(place), y = to.y(place);
@@ -189,13 +239,19 @@ void drawSignals(std::string& svg, const Projection& to, const RunRecord& record
 
 std::string pathPicture(const RunRecord& record) {
     double top = 1;
-    for (const Sample& sample : record.samples)
-        top = std::max(top, sample.speed);
+    for (const RobotRecord& robot : record.robots)
+        for (const Sample& sample : robot.samples)
+            top = std::max(top, sample.speed);
+    const auto arms = std::count_if(record.robots.begin(), record.robots.end(),
+                                    [](const RobotRecord& robot) { return robot.hasArm; });
     using motion::Vec3;
     const View views[] = {
         {"Top view", "x", "y", &Vec3::x, &Vec3::y, kMargin, kMargin},
         {"Side view", "x", "z", &Vec3::x, &Vec3::z, 2 * kMargin + kSize + 10, kMargin},
     };
+    double lastTime = 0;
+    for (const RobotRecord& robot : record.robots)
+        if (!robot.samples.empty()) lastTime = std::max(lastTime, robot.samples.back().time);
     std::string svg = fmt::format("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {} {}' width='{}'>\n",
                                   3 * kMargin + 2 * kSize, 2 * kMargin + kSize + 30, 3 * kMargin + 2 * kSize);
     svg += kStyle;
@@ -204,15 +260,22 @@ std::string pathPicture(const RunRecord& record) {
         const Projection to{view, bounds};
         LabelPlacer labels(view.left, view.top + 16, kSize, kSize - 16);
         drawGrid(svg, view, bounds);
-        drawZones(svg, to, record);
-        drawPath(svg, to, record.samples, top);
-        drawPoints(svg, to, record, labels);
+        for (std::size_t i = 0; i < record.robots.size(); ++i) {
+            const RobotRecord& robot = record.robots[i];
+            if (!robot.hasArm) continue;
+            if (arms > 1) drawHalo(svg, to, robot.samples, robotColour(i));
+            drawZones(svg, to, robot);
+            drawPath(svg, to, robot.samples, top);
+        }
+        for (const RobotRecord& robot : record.robots)
+            if (robot.hasArm) drawPoints(svg, to, robot, labels);
         drawSignals(svg, to, record, labels);
     }
+    if (arms > 1) drawLegend(svg, record);
     svg += fmt::format(
         "<text x='{}' y='{}'>TCP path, {:.3f} s; blue = at rest, red = {:.0f} mm/s; dots: end of a "
         "move; circles: zones; diamonds: a signal changes</text>\n",
-        kMargin, 2 * kMargin + kSize + 20, record.samples.empty() ? 0 : record.samples.back().time, top);
+        kMargin, 2 * kMargin + kSize + 20, lastTime, top);
     svg += "</svg>\n";
     return svg;
 }

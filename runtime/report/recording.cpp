@@ -14,7 +14,7 @@ namespace {
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 
 /// The meaning of a column: its place in the list below, and what makes s, deg, mm of its numbers.
-enum ColumnKind { kTime, kJoint1, kX = kJoint1 + 6, kColumnKinds = kX + 3 };
+enum ColumnKind { kTime, kJoint1, kX = kJoint1 + 6, kUnit = kX + 3, kColumnKinds };
 
 struct Column {
     int kind = -1;
@@ -52,6 +52,7 @@ Column columnOf(std::string_view text) {
     const Header header(text);
     if (isOneOf(header.name, {"time", "t", "timestamp", "seconds", "sec"}))
         return {kTime, header.unit == "ms" ? 0.001 : 1};
+    if (isOneOf(header.name, {"unit", "robot", "mechunit", "mechanicalunit"})) return {kUnit, 1};
     if (header.name.empty()) return {};
     const char last = header.name.back();
     const std::string_view stem = std::string_view(header.name).substr(0, header.name.size() - 1);
@@ -78,7 +79,8 @@ std::vector<std::string_view> split(std::string_view line, char separator) {
 
 class Reader {
   public:
-    Reader(const std::string& file, Recording& recording) : file_(file), recording_(recording) {}
+    Reader(const std::string& file, std::vector<Recording>& recordings)
+        : file_(file), recordings_(recordings) {}
 
     /// Returns the mistake in the text; empty: none.
     std::string read(std::string_view text) {
@@ -93,9 +95,13 @@ class Reader {
             if (!problem.empty()) return fmt::format("{}:{}: {}", file_, line_, problem);
         }
         if (columns_.empty()) return fmt::format("{}: the file is empty; {}", file_, kRemedy);
-        if (recording_.samples.size() < 2)
-            return fmt::format("{}: a recording needs two samples at least, this one has {}", file_,
-                               recording_.samples.size());
+        if (recordings_.empty()) ofUnit({});
+        for (const Recording& recording : recordings_) {
+            if (recording.samples.size() >= 2) continue;
+            const std::string of = recording.unit.empty() ? "" : " of " + recording.unit;
+            return fmt::format("{}: a recording{} needs two samples at least, this one has {}", file_, of,
+                               recording.samples.size());
+        }
         return {};
     }
 
@@ -122,9 +128,9 @@ class Reader {
         const auto all = [&count](int from, int to) {
             return std::all_of(count.begin() + from, count.begin() + to, [](int n) { return n == 1; });
         };
-        recording_.hasJoints = all(kJoint1, kX);
-        recording_.hasPositions = all(kX, kColumnKinds);
-        if (!recording_.hasJoints && !recording_.hasPositions)
+        hasJoints_ = all(kJoint1, kX);
+        hasPositions_ = all(kX, kUnit);
+        if (!hasJoints_ && !hasPositions_)
             return fmt::format("neither j1 to j6 nor x, y, z are there in full; {}", kRemedy);
         return {};
     }
@@ -135,8 +141,10 @@ class Reader {
             return fmt::format("{} fields instead of {}; is the line cut off?", fields.size(),
                                columns_.size());
         std::array<double, kColumnKinds> values{};
+        std::string_view unit;
         for (std::size_t i = 0; i < columns_.size(); ++i) {
-            if (columns_[i].kind < 0) continue;
+            if (columns_[i].kind == kUnit) unit = fields[i];
+            if (columns_[i].kind < 0 || columns_[i].kind == kUnit) continue;
             double value = 0;
             if (!number(fields[i], value))
                 return fmt::format("'{}' in column '{}' is not a number; correct it or remove the line",
@@ -147,12 +155,20 @@ class Reader {
         sample.time = values[kTime];
         std::copy_n(values.begin() + kJoint1, 6, sample.joints.begin());
         sample.position = {values[kX], values[kX + 1], values[kX + 2]};
-        if (!recording_.samples.empty() && sample.time < recording_.samples.back().time)
+        std::vector<RecordedSample>& samples = ofUnit(unit).samples;
+        if (!samples.empty() && sample.time < samples.back().time)
             return fmt::format(
                 "the time {} s is before that of the line above it ({} s); sort the lines by time",
-                sample.time, recording_.samples.back().time);
-        recording_.samples.push_back(sample);
+                sample.time, samples.back().time);
+        samples.push_back(sample);
         return {};
+    }
+
+    Recording& ofUnit(std::string_view unit) {
+        for (Recording& recording : recordings_)
+            if (sameName(recording.unit, unit)) return recording;
+        recordings_.push_back({file_, std::string(unit), hasPositions_, hasJoints_, {}});
+        return recordings_.back();
     }
 
     bool number(std::string_view field, double& value) const {
@@ -163,7 +179,8 @@ class Reader {
     }
 
     const std::string& file_;
-    Recording& recording_;
+    std::vector<Recording>& recordings_;
+    bool hasJoints_ = false, hasPositions_ = false;
     std::size_t line_ = 0;
     char separator_ = ',';
     std::vector<Column> columns_;
@@ -172,17 +189,32 @@ class Reader {
 
 } // namespace
 
-std::string parseRecording(std::string_view text, const std::string& file, Recording& recording) {
-    recording = {};
-    recording.file = file;
-    return Reader(file, recording).read(text);
+std::string parseRecording(std::string_view text, const std::string& file,
+                           std::vector<Recording>& recordings) {
+    recordings.clear();
+    return Reader(file, recordings).read(text);
 }
 
-std::string readRecording(const std::string& file, Recording& recording) {
+std::string readRecording(const std::string& file, std::vector<Recording>& recordings) {
     std::string text;
     const std::string problem = readStream(file, text);
     if (!problem.empty()) return fmt::format("'{}' cannot be read: {}", file, problem);
-    return parseRecording(text, file, recording);
+    return parseRecording(text, file, recordings);
+}
+
+std::vector<const Recording*> recordingsFor(const std::vector<RobotRecord>& robots,
+                                            const std::vector<Recording>& recordings) {
+    std::vector<const Recording*> result;
+    for (const RobotRecord& robot : robots) {
+        const auto found = std::find_if(recordings.begin(), recordings.end(), [&](const Recording& recording) {
+            return sameName(recording.unit, robot.unit);
+        });
+        result.push_back(found == recordings.end() ? nullptr : &*found);
+    }
+    if (recordings.size() == 1 && !robots.empty() &&
+        (recordings.front().unit.empty() || robots.size() == 1))
+        result.front() = &recordings.front();
+    return result;
 }
 
 } // namespace rt::report

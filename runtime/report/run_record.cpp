@@ -5,7 +5,7 @@
 
 namespace rt::report {
 
-const Move* RunRecord::find(uint64_t number) const {
+const Move* RobotRecord::find(uint64_t number) const {
     const auto found = std::lower_bound(moves.begin(), moves.end(), number,
                                         [](const Move& move, uint64_t n) { return move.number < n; });
     return found != moves.end() && found->number == number ? &*found : nullptr;

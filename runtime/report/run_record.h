@@ -15,6 +15,7 @@ namespace rt::report {
 struct Sample {
     double time = 0;         ///< s
     motion::Joints joints{}; ///< deg
+    motion::ExternalAxes external = motion::kNoExternalAxes; ///< deg, mm
     motion::Vec3 position;   ///< TCP in world, mm
     motion::Quat rotation;
     double speed = 0;  ///< TCP, mm/s
@@ -37,7 +38,10 @@ struct Move {
     motion::Vec3 end;                                  ///< programmed TCP in world, mm
     double speed = 0;                                  ///< mm/s, with VelSet
     double turnSpeed = 0;                              ///< deg/s, with VelSet
+    double externalTurnSpeed = 0;                      ///< of rotating external axes, deg/s, with VelSet
+    double externalSpeed = 0;                          ///< of linear ones, mm/s, with VelSet
     double duration = 0;                               ///< \T in s; 0 = not given
+    bool isTogether = false;                           ///< \ID: other robots move with this one
     bool stopPoint = true;                             ///< fine, or Inpos
     double zone = 0;                                   ///< radius of a fly-by point, mm
     double acceleration = 1;                           ///< share of the robot's, AccSet
@@ -62,16 +66,35 @@ struct Marker {
     std::string title, text;
 };
 
-struct RunRecord {
-    std::string program;
-    robot::RobotModel robot;
+/// An external axis of a motion group.
+struct ExternalAxis {
+    std::string name;      ///< of its SINGLE or JOINT
+    std::size_t index = 0; ///< 0 is eax_a
+    bool rotating = true;  ///< degrees, else mm
+    double maxSpeed = 0, maxAcceleration = 0;
+};
+
+/// A robot with the external axes of its motion group, or external axes alone.
+struct RobotRecord {
+    std::string unit;        ///< "ROB_1"; of external axes alone the first unit
+    robot::RobotModel robot;  ///< without axes for external axes alone
+    bool hasArm = true;       ///< there is a TCP
+    std::vector<ExternalAxis> external;
     std::vector<Sample> samples;
-    std::vector<Move> moves;          ///< in order of their numbers
-    std::vector<SignalTrack> signals; ///< as configured
-    std::vector<Marker> markers;
-    double end = 0; ///< virtual time at the end of the run, s
+    std::vector<Move> moves; ///< in order of their numbers
+    double end = 0;          ///< virtual time at the end of the run, s
 
     const Move* find(uint64_t number) const;
+};
+
+struct RunRecord {
+    std::string program;
+    std::vector<RobotRecord> robots;  ///< one a motion group, one at least
+    std::vector<SignalTrack> signals; ///< as configured
+    std::vector<Marker> markers;
+
+    /// Virtual time at the end of the run, s.
+    double end() const { return robots.empty() ? 0 : robots.front().end; }
 };
 
 /// "Module:17"; "movement 3" when the place is not known.

@@ -5,25 +5,45 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 namespace rt::report {
 namespace {
 
 bool looksTheSame(const Sample& a, const Sample& b) {
-    return a.move == b.move && a.speed == b.speed && a.position == b.position && a.joints == b.joints;
+    return a.move == b.move && a.speed == b.speed && a.position == b.position && a.joints == b.joints &&
+           a.external == b.external;
 }
 
 } // namespace
 
-RunRecorder::RunRecorder(std::string program, robot::RobotModel robot) {
-    record_.program = std::move(program);
-    record_.robot = std::move(robot);
+/// What one motion group does.
+class RunRecorder::RobotSink final : public TraceSink {
+  public:
+    RobotSink(RunRecorder& recorder, std::size_t index) : recorder_(recorder), index_(index) {}
+    void sample(Time time, std::string_view /*unit*/, const motion::MotionState& state) override {
+        recorder_.sample(recorder_.record_.robots[index_], time, state);
+    }
+    void ordered(const MoveOrder& order) override {
+        recorder_.ordered(recorder_.record_.robots[index_], order);
+    }
+
+  private:
+    RunRecorder& recorder_;
+    std::size_t index_;
+};
+
+TraceSink& RunRecorder::addRobot(RobotRecord robot) {
+    record_.robots.push_back(std::move(robot));
+    sinks_.push_back(std::make_unique<RobotSink>(*this, record_.robots.size() - 1));
+    return *sinks_.back();
 }
 
-void RunRecorder::sample(Time time, std::string_view /*unit*/, const motion::MotionState& state) {
-    const Sample next{toSeconds(time), state.joints, state.tcp.pos, state.tcp.rot, state.tcpSpeed, state.tag};
-    std::vector<Sample>& samples = record_.samples;
+void RunRecorder::sample(RobotRecord& robot, Time time, const motion::MotionState& state) {
+    const Sample next{toSeconds(time), state.joints,   state.extax, state.tcp.pos,
+                      state.tcp.rot,   state.tcpSpeed, state.tag};
+    std::vector<Sample>& samples = robot.samples;
     const std::size_t count = samples.size();
     if (count >= 2 && looksTheSame(samples[count - 1], next) && looksTheSame(samples[count - 2], next))
         samples.back() = next;
@@ -31,7 +51,7 @@ void RunRecorder::sample(Time time, std::string_view /*unit*/, const motion::Mot
         samples.push_back(next);
 }
 
-void RunRecorder::ordered(const MoveOrder& order) {
+void RunRecorder::ordered(RobotRecord& robot, const MoveOrder& order) {
     const motion::MoveCommand& command = order.command;
     const motion::MotionSettings& settings = command.settings;
     constexpr double kMillimetres = 1000;
@@ -44,16 +64,19 @@ void RunRecorder::ordered(const MoveOrder& order) {
     const double share = settings.velocityPercent / 100;
     move.speed = std::min(command.speed.vTcp * share, settings.maxTcpSpeed);
     move.turnSpeed = command.speed.vOri * share;
+    move.externalTurnSpeed = command.speed.vReax * share;
+    move.externalSpeed = command.speed.vLeax * share;
     move.duration = command.duration;
+    move.isTogether = command.ident != motion::kNoIdent;
     move.stopPoint = command.zone.finep;
     move.zone = command.zone.pzoneTcp;
     move.acceleration = std::clamp(settings.accelerationPercent, 20.0, 100.0) / 100;
     move.pathAcceleration = settings.pathAcceleration * kMillimetres;
     move.pathDeceleration = settings.pathDeceleration * kMillimetres;
-    if (!record_.moves.empty() && record_.moves.back().number == move.number)
-        record_.moves.back() = std::move(move);
+    if (!robot.moves.empty() && robot.moves.back().number == move.number)
+        robot.moves.back() = std::move(move);
     else
-        record_.moves.push_back(std::move(move));
+        robot.moves.push_back(std::move(move));
 }
 
 /// A source that was read once stays: loops order the same movement often.
@@ -81,7 +104,8 @@ void RunRecorder::signalChanged(std::size_t signal, Time time, double value) {
 }
 
 void RunRecorder::finish(Time end) {
-    record_.end = toSeconds(end);
+    for (RobotRecord& robot : record_.robots)
+        robot.end = toSeconds(end);
 }
 
 } // namespace rt::report

@@ -5,19 +5,20 @@
 #include "runtime/sim/trace_sink.h"
 
 #include <map>
+#include <memory>
 #include <string>
-#include <string_view>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace rt::report {
 
-class RunRecorder final : public TraceSink {
+class RunRecorder {
   public:
-    RunRecorder(std::string program, robot::RobotModel robot);
+    explicit RunRecorder(std::string program) { record_.program = std::move(program); }
 
-    void sample(Time time, std::string_view unit, const motion::MotionState& state) override;
-    void ordered(const MoveOrder& order) override;
-
+    /// A motion group as it is when the run begins (unit, robot, external axes); what takes its samples lives as long as this.
+    TraceSink& addRobot(RobotRecord robot);
     /// A signal as it is when the run begins. Returns its index for signalChanged.
     std::size_t addSignal(std::string name, std::string type, double value);
     void signalChanged(std::size_t signal, Time time, double value);
@@ -29,9 +30,13 @@ class RunRecorder final : public TraceSink {
     const RunRecord& record() const { return record_; }
 
   private:
+    class RobotSink;
+    void sample(RobotRecord& robot, Time time, const motion::MotionState& state);
+    void ordered(RobotRecord& robot, const MoveOrder& order);
     MoveText textOf(const SourcePlace& place);
 
     RunRecord record_;
+    std::vector<std::unique_ptr<TraceSink>> sinks_;
     std::string folder_;
     std::map<std::string, std::string> sources_; // by file; "" when it cannot be read
     std::map<std::tuple<std::string, uint32_t, uint32_t>, MoveText> texts_;

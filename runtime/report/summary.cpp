@@ -109,9 +109,7 @@ void appendTable(std::string& text, const std::vector<Row>& rows) {
         text += fmt::format("and {} more; --report shows all of them\n", rows.size() - kMostLines);
 }
 
-} // namespace
-
-std::string summaryText(const RunRecord& /*record*/, const Analysis& analysis) {
+std::string robotSummary(const Analysis& analysis) {
     const double whole = std::max(analysis.cycle, 1e-9);
     std::string text =
         fmt::format("moving      {:.3f} s ({:.0f} %), {} movements, {:.0f} mm\n", analysis.moving,
@@ -130,7 +128,7 @@ std::string summaryText(const RunRecord& /*record*/, const Analysis& analysis) {
     return text;
 }
 
-std::string comparisonText(const Comparison& comparison, const Recording& recording) {
+std::string robotComparison(const Comparison& comparison, const Recording& recording) {
     std::string text =
         fmt::format("compared    with {} ({} samples{})\n", recording.file, recording.samples.size(),
                     comparison.atFlange ? ", axis angles: positions are those of the flange" : "");
@@ -158,6 +156,39 @@ std::string comparisonText(const Comparison& comparison, const Recording& record
                             part.waiting ? ", waiting at its end" : "");
     }
     return text;
+}
+
+} // namespace
+
+std::string summaryText(const RunRecord& record, const std::vector<RobotReport>& robots) {
+    if (robots.size() == 1) return robotSummary(robots.front().analysis);
+    std::string text;
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+        const RobotRecord& robot = record.robots[i];
+        text += fmt::format("{}robot       {}{}\n{}", i == 0 ? "" : "\n", robot.unit,
+                            robot.hasArm ? fmt::format(" ({})", robot.robot.name) : "",
+                            robotSummary(robots[i].analysis));
+    }
+    return text;
+}
+
+std::string comparisonText(const RunRecord& record, const std::vector<RobotReport>& robots,
+                           const std::vector<Recording>& recordings) {
+    std::string text;
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+        if (robots[i].recording == nullptr) continue;
+        if (robots.size() > 1)
+            text += fmt::format("{}robot       {}\n", text.empty() ? "" : "\n", record.robots[i].unit);
+        text += robotComparison(robots[i].comparison, *robots[i].recording);
+    }
+    if (!text.empty() || recordings.empty()) return text;
+    std::string here, there;
+    for (const RobotRecord& robot : record.robots)
+        here += (here.empty() ? "" : ", ") + robot.unit;
+    for (const Recording& recording : recordings)
+        there += (there.empty() ? "" : ", ") + recording.unit;
+    return fmt::format("compared    with {}: nothing; its column of robots names {}, the run has {}\n",
+                       recordings.front().file, there, here);
 }
 
 } // namespace rt::report

@@ -29,6 +29,7 @@ struct ExternalJoint {
     bool rotating = true; ///< degrees, else mm
     Pose base;            ///< base frame with every axis of the unit at 0, in world
     double parked = 0;    ///< position while the axis is not connected: the unit has been deactivated
+    bool isParked = false; ///< the unit is not active; another one may use the axis meanwhile
 };
 
 /// A unit as geometry. The objects belong to the controller and outlive all moves that name them.

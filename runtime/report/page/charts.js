@@ -138,8 +138,8 @@ function drawSeries(axis, { context, width, y }, times, values, colour, options 
 
 /** Lines of several series over one vertical axis, perhaps with a limit. */
 class LineChart extends Chart {
-  constructor(name, unit, height, series, range) {
-    super(name, unit, height, series.map((s) => [s.name, s.colour]));
+  constructor(name, unit, height, series, range, legend) {
+    super(name, unit, height, legend || series.map((s) => [s.name, s.colour]));
     this.series = series;
     this.range = range;
   }
@@ -158,7 +158,7 @@ class LineChart extends Chart {
       context.stroke();
       context.setLineDash([]);
     }
-    for (const s of this.series) {
+    for (const s of this.series.filter((one) => !one.robot || one.robot.shown)) {
       drawSeries(axis, drawing, s.time, s.values, colours[s.colour], { dash: s.dash, steps: s.steps, width: s.width });
     }
     drawing.context.restore();
@@ -294,31 +294,70 @@ function stepChart(signal) {
     [{ name: "", colour: "signal", time: times, values, steps: true }], { low, high: high + (high - low) * 0.1 });
 }
 
-function moveRow() {
-  const spans = run.moves.filter((move) => move.from !== undefined).map((move, k) => (
-    { from: move.from, to: move.to, colour: "accent", faint: k % 2 === 1, text: move.point, move }));
-  return [{ name: "", spans }];
+/** A row for each robot. */
+function moveRows() {
+  return robots.map((robot) => {
+    const moves = robot.moves.filter((move) => move.from !== undefined);
+    const colour = several ? robot.colour : "accent";
+    return { name: several ? robot.unit : "", spans: moves.map((move, k) => (
+      { from: move.from, to: move.to, colour, faint: k % 2 === 1, text: move.point, move })) };
+  });
 }
 
-/** All charts, in the order in which they are shown. */
+function highest(values, least) {
+  return values.reduce((most, series) => largest(series, most), least) * 1.08;
+}
+
+/** "ROB_2: axis speed". */
+function titleOf(robot, title) {
+  return several ? robot.unit + ": " + title[0].toLowerCase() + title.slice(1) : title;
+}
+
+function speedChart() {
+  const series = [];
+  for (const robot of arms) {
+    const { time, tcpSpeed, programmedSpeed, other, otherSpeed } = robot;
+    series.push({ name: several ? robot.unit : "TCP", colour: several ? robot.colour : "accent", time, values: tcpSpeed, width: 1.8, robot });
+    if (other.time.length)
+      series.push({ name: several ? "" : "recording", colour: "other", time: other.time, values: otherSpeed, dash: [4, 3], robot });
+    series.push({ name: several ? "" : "programmed", colour: several ? robot.colour : "limit", time, values: programmedSpeed,
+      dash: [5, 4], steps: true, robot });
+  }
+  const moves = arms.flatMap((robot) => robot.moves);
+  const top = largest(moves.map((move) => move.speed).filter((v) => v <= 3 * topSpeed), topSpeed);
+  const legend = several ? arms.map((robot) => [robot.unit, robot.colour]).concat([["dashed: programmed", "quiet"]]) : undefined;
+  return new LineChart("TCP speed", "mm/s", 150, series, { low: 0, high: top * 1.08 }, legend);
+}
+
+/** Speeds and accelerations of the axes of one robot. */
+function jointCharts(robot) {
+  const joint = (values) => values.map((series, axis) => (
+    { name: "axis " + (axis + 1), colour: "j" + (axis % 6 + 1), time: robot.time, values: series }));
+  return [["Axis speed", robot.speedShare], ["Axis acceleration", robot.accelerationShare]].map(([title, values]) =>
+    new LineChart(titleOf(robot, title), "% of the limit", 130, joint(values), { low: 0, high: highest(values, 100), limit: 100 }));
+}
+
+/** Positions of external axes: those that turn, and those that are linear. */
+function externalCharts(robot) {
+  return [[true, "°"], [false, "mm"]].map(([rotating, unit]) => {
+    const axes = robot.external.filter((axis) => axis.rotating === rotating);
+    if (!axes.length) return null;
+    const low = -highest(axes.map((axis) => axis.values.map((v) => -v)), 0) / 1.08;
+    const high = highest(axes.map((axis) => axis.values), 0) / 1.08, room = Math.max(1, high - low) * 0.06;
+    const series = axes.map((axis, k) => ({ name: axis.label, colour: "j" + (k % 6 + 1), time: robot.time, values: axis.values }));
+    return new LineChart(titleOf(robot, "External axes"), unit, 100, series, { low: low - room, high: high + room });
+  }).filter(Boolean);
+}
+
+/** All charts, in the order in which they are shown. Those of one robot name it in `robot`. */
 function makeCharts() {
-  const axes = [0, 1, 2, 3, 4, 5];
-  const speeds = [{ name: "TCP", colour: "accent", time, values: tcpSpeed, width: 1.8 },
-    { name: "programmed", colour: "limit", time, values: programmedSpeed, dash: [5, 4], steps: true }];
-  if (other.time.length)
-    speeds.splice(1, 0, { name: "recording", colour: "other", time: other.time, values: otherSpeed, dash: [4, 3] });
-  const programmedTop = run.moves.some((move) => move.speed <= 3 * topSpeed)
-    ? largest(run.moves.map((move) => move.speed).filter((v) => v <= 3 * topSpeed), topSpeed) : topSpeed;
-  const joint = (values) => axes.map((axis) => ({ name: "axis " + (axis + 1), colour: "j" + (axis + 1), time, values: values[axis] }));
-  const top = (values) => values.reduce((most, series) => largest(series, most), 100) * 1.08;
-  const charts = [
-    new BarChart("Movements", moveRow(), 24),
-    new LineChart("TCP speed", "mm/s", 150, speeds, { low: 0, high: programmedTop * 1.08 }),
-    new LineChart("Axis speed", "% of the limit", 130, joint(speedShare), { low: 0, high: top(speedShare), limit: 100 }),
-    new LineChart("Axis acceleration", "% of the limit", 130, joint(accelerationShare),
-      { low: 0, high: top(accelerationShare), limit: 100 }),
-  ];
-  if (run.pathTime && run.pathTime.d.length) charts.push(...comparisonCharts());
+  const charts = [new BarChart("Movements", moveRows(), 24)];
+  if (arms.length) charts.push(speedChart());
+  for (const robot of robots) {
+    const own = [...robot.hasArm ? jointCharts(robot) : [], ...externalCharts(robot), ...comparisonCharts(robot)];
+    for (const chart of own) chart.robot = robot;
+    charts.push(...own);
+  }
   charts.push(new MarkerChart(run.markers));
   const digital = run.signals.filter((s) => s.type === "DI" || s.type === "DO");
   if (digital.length) charts.push(new BarChart("Digital signals", digital.map((s) => ({ name: s.name, spans: highSpans(s) })), 20));
@@ -327,13 +366,15 @@ function makeCharts() {
   return charts;
 }
 
-function comparisonCharts() {
-  const times = decode(run.pathTime), distance = decode(run.pathDistance), delay = decode(run.pathDelay);
+function comparisonCharts(robot) {
+  const { time, distance, delay } = robot.compared;
+  if (!time.length) return [];
   const low = -largest(delay.map((v) => -v), 0), high = largest(delay, 0), room = Math.max(0.01, high - low) * 0.1;
   return [
-    new LineChart("Distance from the recording", "mm", 90, [{ name: "", colour: "other", time: times, values: distance }],
+    new LineChart(titleOf(robot, "Distance from the recording"), "mm", 90, [{ name: "", colour: "other", time, values: distance }],
       { low: 0, high: largest(distance, 0.1) * 1.1 }),
-    new LineChart("Later than the recording", "s", 90, [{ name: "rising: slower here; falling: faster here", colour: "other", time: times, values: delay }],
+    new LineChart(titleOf(robot, "Later than the recording"), "s", 90,
+      [{ name: "rising: slower here; falling: faster here", colour: "other", time, values: delay }],
       { low: low - room, high: high + room }),
   ];
 }

@@ -15,85 +15,114 @@ function decode(series) {
   return result;
 }
 
-const time = decode(run.time);
-const joints = [1, 2, 3, 4, 5, 6].map((axis) => decode(run["j" + axis]));
-const position = { x: decode(run.x), y: decode(run.y), z: decode(run.z) };
-const tcpSpeed = decode(run.speed);
-const moveNumber = decode(run.move);
-const count = time.length;
-const lastTime = Math.max(run.end, count ? time[count - 1] : 0, 0.004);
-const other = { time: decode(run.otherTime), x: decode(run.otherX), y: decode(run.otherY), z: decode(run.otherZ) };
-const moveByNumber = new Map(run.moves.map((move) => [move.n, move]));
-
-/** Another tool: the TCP is elsewhere without having moved there. */
-function toolChanged(i) {
-  const way = Math.hypot(position.x[i] - position.x[i - 1], position.y[i] - position.y[i - 1],
-    position.z[i] - position.z[i - 1]);
-  return way > 1 && way > 2 * Math.max(tcpSpeed[i], tcpSpeed[i - 1]) * (time[i] - time[i - 1]);
-}
-
-/** A run begins with tool0; the first movement brings its own tool. */
-const firstShown = count > 1 && toolChanged(1) ? 1 : 0;
-
-/** Speed of an axis up to each sample, deg/s. */
-function speedsOf(angles) {
-  const result = new Float64Array(count);
-  for (let i = 1; i < count; i++) {
-    const step = time[i] - time[i - 1];
-    result[i] = step > 0 ? (angles[i] - angles[i - 1]) / step : 0;
+/** What one robot did, or external axes alone: samples, movements, and what follows from them. */
+class RobotRun {
+  constructor(data, index) {
+    Object.assign(this, { unit: data.unit, model: data.robot, hasArm: data.hasArm, limits: data.limits, totals: data.totals,
+      moves: data.moves, comparison: data.comparison, index, shown: true, colour: "r" + (index % 6 + 1) });
+    this.time = decode(data.time);
+    this.count = this.time.length;
+    this.joints = [];
+    for (let axis = 1; data["j" + axis]; axis++) this.joints.push(decode(data["j" + axis]));
+    this.external = data.external.map((axis) => ({ ...axis, label: axis.name + " (eax_" + "abcdef"[axis.number - 1] + ")",
+      values: decode(data["e" + axis.number]) }));
+    this.position = { x: decode(data.x), y: decode(data.y), z: decode(data.z) };
+    this.tcpSpeed = decode(data.speed);
+    this.moveNumber = decode(data.move);
+    this.other = { time: decode(data.otherTime), x: decode(data.otherX), y: decode(data.otherY), z: decode(data.otherZ) };
+    this.compared = { time: decode(data.pathTime), distance: decode(data.pathDistance), delay: decode(data.pathDelay) };
+    for (const move of this.moves) move.robot = this;
+    this.moveByNumber = new Map(this.moves.map((move) => [move.n, move]));
+    // A run begins with tool0; the first movement brings its own tool.
+    this.firstShown = this.count > 1 && this.toolChanged(1) ? 1 : 0;
+    this.jointSpeed = this.joints.map((angles) => this.speedsOf(angles));
+    this.speedShare = this.jointSpeed.map((speeds, axis) => shares(speeds, this.limits.speed[axis]));
+    this.accelerationShare = this.jointSpeed.map((speeds, axis) =>
+      this.accelerationsOf(speeds).map((value, i) => Math.abs(value) / this.accelerationLimit(axis, i) * 100));
+    this.programmedSpeed = this.programmed();
+    this.otherSpeed = speedOfOther(this.other);
   }
-  return result;
-}
 
-/** Acceleration at each sample: the change of speed from the time before it to the time after it, deg/s^2. */
-function accelerationsOf(speeds) {
-  const result = new Float64Array(count);
-  for (let i = 1; i + 1 < count; i++) {
-    const step = (time[i + 1] - time[i - 1]) / 2;
-    result[i] = step > 0 ? (speeds[i + 1] - speeds[i]) / step : 0;
+  /** Another tool: the TCP is elsewhere without having moved there. */
+  toolChanged(i) {
+    const { x, y, z } = this.position;
+    const way = Math.hypot(x[i] - x[i - 1], y[i] - y[i - 1], z[i] - z[i - 1]);
+    return way > 1 && way > 2 * Math.max(this.tcpSpeed[i], this.tcpSpeed[i - 1]) * (this.time[i] - this.time[i - 1]);
   }
-  return result;
+
+  /** Speed of an axis up to each sample, deg/s. */
+  speedsOf(angles) {
+    const result = new Float64Array(this.count);
+    for (let i = 1; i < this.count; i++) {
+      const step = this.time[i] - this.time[i - 1];
+      result[i] = step > 0 ? (angles[i] - angles[i - 1]) / step : 0;
+    }
+    return result;
+  }
+
+  /** Acceleration at each sample: the change of speed from the time before it to the time after it, deg/s^2. */
+  accelerationsOf(speeds) {
+    const result = new Float64Array(this.count);
+    for (let i = 1; i + 1 < this.count; i++) {
+      const step = (this.time[i + 1] - this.time[i - 1]) / 2;
+      result[i] = step > 0 ? (speeds[i + 1] - speeds[i]) / step : 0;
+    }
+    return result;
+  }
+
+  /** The largest acceleration the controller plans for an axis in the posture of a sample, deg/s^2. */
+  accelerationLimit(axis, i) {
+    const { axes, a1, a2, c2, c3 } = this.limits.dynamics;
+    const limit = axes[axis];
+    const q2 = this.joints[1][i] * Math.PI / 180;
+    const q23 = q2 + (this.joints.length > 2 ? this.joints[2][i] : 0) * Math.PI / 180;
+    const elbow = a1 + c2 * Math.sin(q2);
+    const wrist = elbow - a2 * Math.sin(q23) + c3 * Math.cos(q23);
+    const height = c2 * Math.cos(q2) - a2 * Math.cos(q23) - c3 * Math.sin(q23);
+    const inertia = limit.base + limit.elbow * elbow ** 2 + limit.wrist * wrist ** 2 +
+      limit.reach * ((wrist - a1) ** 2 + height ** 2);
+    const most = inertia > 0 ? Math.min(1 / inertia, limit.most) : limit.most;
+    return limit.scale * most * 180 / Math.PI;
+  }
+
+  /** The programmed speed of the movement in progress; not a number where there is none. */
+  programmed() {
+    const result = new Float64Array(this.count), time = this.time;
+    for (let i = 0; i < this.count; i++) {
+      const move = this.moveByNumber.get(this.moveNumber[i]);
+      const during = move && move.from !== undefined && move.duration === undefined && time[i] >= move.from && time[i] <= move.to;
+      result[i] = during ? move.speed : NaN;
+    }
+    return result;
+  }
+
+  placeAt(t) {
+    const i = indexAt(this.time, t), { x, y, z } = this.position, time = this.time;
+    if (i + 1 >= this.count) return this.count ? [x[i], y[i], z[i]] : [0, 0, 0];
+    const share = time[i + 1] > time[i] ? Math.min(1, Math.max(0, (t - time[i]) / (time[i + 1] - time[i]))) : 0;
+    return [x, y, z].map((p) => p[i] + (p[i + 1] - p[i]) * share);
+  }
+
+  moveAt(t) {
+    const move = this.moveByNumber.get(this.moveNumber[indexAt(this.time, t)]);
+    return move && move.from !== undefined ? move : undefined;
+  }
 }
 
 function shares(values, limit) {
   return values.map((value) => (limit > 0 ? Math.abs(value) / limit * 100 : 0));
 }
 
-const jointSpeed = joints.map(speedsOf);
-const speedShare = jointSpeed.map((speeds, axis) => shares(speeds, run.limits.speed[axis]));
-/** The largest acceleration the controller plans for an axis in the posture of a sample, deg/s^2. */
-function accelerationLimit(axis, i) {
-  const { axes, a1, a2, c2, c3 } = run.limits.dynamics;
-  const limit = axes[axis];
-  const q2 = joints[1][i] * Math.PI / 180;
-  const q23 = q2 + (joints.length > 2 ? joints[2][i] : 0) * Math.PI / 180;
-  const elbow = a1 + c2 * Math.sin(q2);
-  const wrist = elbow - a2 * Math.sin(q23) + c3 * Math.cos(q23);
-  const height = c2 * Math.cos(q2) - a2 * Math.cos(q23) - c3 * Math.sin(q23);
-  const inertia = limit.base + limit.elbow * elbow ** 2 + limit.wrist * wrist ** 2 +
-    limit.reach * ((wrist - a1) ** 2 + height ** 2);
-  const most = inertia > 0 ? Math.min(1 / inertia, limit.most) : limit.most;
-  return limit.scale * most * 180 / Math.PI;
-}
-
-const accelerationShare = jointSpeed.map((speeds, axis) =>
-  accelerationsOf(speeds).map((value, i) => Math.abs(value) / accelerationLimit(axis, i) * 100));
-
-/** The programmed speed of the movement in progress; not a number where there is none. */
-const programmedSpeed = new Float64Array(count);
-for (let i = 0; i < count; i++) {
-  const move = moveByNumber.get(moveNumber[i]);
-  const during = move && move.from !== undefined && move.duration === undefined && time[i] >= move.from && time[i] <= move.to;
-  programmedSpeed[i] = during ? move.speed : NaN;
-}
-
-/** Speed of the recording, over 20 ms so that trembling does not show. */
-const otherSpeed = new Float64Array(other.time.length);
-for (let i = 0, from = 0; i < other.time.length; i++) {
-  while (from + 1 < i && other.time[i] - other.time[from] > 0.02) from++;
-  const step = other.time[i] - other.time[from];
-  otherSpeed[i] = step > 0
-    ? Math.hypot(other.x[i] - other.x[from], other.y[i] - other.y[from], other.z[i] - other.z[from]) / step : 0;
+/** Speed of a recording, over 20 ms so that trembling does not show. */
+function speedOfOther(other) {
+  const result = new Float64Array(other.time.length);
+  for (let i = 0, from = 0; i < other.time.length; i++) {
+    while (from + 1 < i && other.time[i] - other.time[from] > 0.02) from++;
+    const step = other.time[i] - other.time[from];
+    result[i] = step > 0
+      ? Math.hypot(other.x[i] - other.x[from], other.y[i] - other.y[from], other.z[i] - other.z[from]) / step : 0;
+  }
+  return result;
 }
 
 /** Index of the last value that is not above `value`; 0 when all are. */
@@ -105,18 +134,6 @@ function indexAt(values, value) {
     else high = middle;
   }
   return Math.max(0, low - 1);
-}
-
-function placeAt(t) {
-  const i = indexAt(time, t);
-  if (i + 1 >= count) return count ? [position.x[i], position.y[i], position.z[i]] : [0, 0, 0];
-  const share = time[i + 1] > time[i] ? Math.min(1, Math.max(0, (t - time[i]) / (time[i + 1] - time[i]))) : 0;
-  return [position.x, position.y, position.z].map((p) => p[i] + (p[i + 1] - p[i]) * share);
-}
-
-function moveAt(t) {
-  const move = moveByNumber.get(moveNumber[indexAt(time, t)]);
-  return move && move.from !== undefined ? move : undefined;
 }
 
 function signalValueAt(signal, t) {
@@ -134,7 +151,22 @@ function largest(values, least) {
   for (const value of values) if (value > result) result = value;
   return result;
 }
-const topSpeed = largest(tcpSpeed, 1);
+
+const robots = run.robots.map((data, index) => new RobotRun(data, index));
+const several = robots.length > 1;
+const arms = robots.filter((robot) => robot.hasArm);
+const lastTime = Math.max(run.end, ...robots.map((robot) => (robot.count ? robot.time[robot.count - 1] : 0)), 0.004);
+const topSpeed = robots.reduce((most, robot) => largest(robot.tcpSpeed, most), 1);
+
+/** The robots that are shown, of these with a path. */
+function shownArms() {
+  return arms.filter((robot) => robot.shown);
+}
+
+/** The robot whose samples arrow keys step through. */
+function leadingRobot() {
+  return robots.find((robot) => robot.shown && robot.count) || robots[0];
+}
 
 function fixed(value, digits) {
   return Number.isFinite(value) ? value.toFixed(digits).replace(/^-(0(?:\.0*)?)$/, "$1") : "";
@@ -152,7 +184,8 @@ const colours = {};
 function readColours() {
   const style = getComputedStyle(document.documentElement);
   for (const name of ["back", "panel", "text", "quiet", "line", "grid", "accent", "zone", "signal", "error", "warning",
-    "other", "j1", "j2", "j3", "j4", "j5", "j6", "limit"]) {
+    "other", "j1", "j2", "j3", "j4", "j5", "j6", "limit",
+    "r1", "r2", "r3", "r4", "r5", "r6"]) {
     colours[name] = style.getPropertyValue("--" + name).trim();
   }
 }

@@ -12,7 +12,7 @@ stack.append(...charts.map((chart) => chart.node), cursorLine, rangeBox);
 const view = new PathView(document.getElementById("view"), (t) => holdCursor(t));
 
 function drawCharts() {
-  for (const chart of charts) chart.draw(axis);
+  for (const chart of charts) if (!chart.node.hidden) chart.draw(axis);
   placeCursor();
 }
 
@@ -64,7 +64,7 @@ function chooseMove(move) {
 }
 
 function zoomToMove() {
-  const move = state.selected || moveAt(state.cursor);
+  const move = state.selected || leadingRobot().moveAt(state.cursor);
   if (!move) return;
   const room = 0.1 * (move.to - move.from) + 0.02;
   axis.set(move.from - room, move.to + room);
@@ -142,7 +142,7 @@ stack.addEventListener("wheel", (event) => {
   drawChartsSoon();
 }, { passive: false });
 stack.addEventListener("keydown", (event) => {
-  const i = indexAt(time, state.cursor), step = event.shiftKey ? 25 : 1;
+  const { time, count } = leadingRobot(), i = indexAt(time, state.cursor), step = event.shiftKey ? 25 : 1;
   if (event.key === "ArrowRight") holdCursor(time[Math.min(count - 1, i + step)] || 0);
   else if (event.key === "ArrowLeft") holdCursor(time[Math.max(0, i - step)] || 0);
   else if (event.key === "Home") holdCursor(0);
@@ -169,6 +169,33 @@ for (const name of ["zones", "names", "signals", "other"])
     view.drawSoon();
   });
 
+document.getElementById("colour").addEventListener("change", (event) => {
+  view.byRobot = event.target.value === "robot";
+  document.getElementById("scale").hidden = view.byRobot;
+  view.drawSoon();
+});
+
+/** Boxes that show and hide robots. */
+function addRobotBoxes() {
+  const bar = document.getElementById("robot-boxes");
+  bar.hidden = false;
+  document.getElementById("colour-label").hidden = arms.length < 2;
+  for (const robot of robots) {
+    const box = element("input", { type: "checkbox", checked: "" });
+    box.addEventListener("change", () => showRobot(robot, box.checked));
+    bar.append(element("label", {}, box, " ", swatch(robot), robot.unit));
+  }
+}
+
+function showRobot(robot, shown) {
+  robot.shown = shown;
+  for (const chart of charts) if (chart.robot === robot) chart.node.hidden = !shown;
+  view.collect();
+  view.drawSoon();
+  drawChartsSoon();
+  setCursor(state.cursor);
+}
+
 // ---- The page as a whole
 
 function drawAll() {
@@ -192,9 +219,10 @@ showEvents((t) => {
   holdCursor(t);
 });
 showComparison(chooseMove);
-document.getElementById("other-label").hidden = other.time.length === 0;
+if (several) addRobotBoxes();
+document.getElementById("other-label").hidden = robots.every((robot) => robot.other.time.length === 0);
 drawAll();
-setCursor(time[firstShown] || 0);
+setCursor(leadingRobot().time[leadingRobot().firstShown] || 0);
 new ResizeObserver(() => { view.drawSoon(); drawChartsSoon(); }).observe(document.querySelector("main"));
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawAll);
 window.addEventListener("beforeprint", () => print(true));

@@ -7,6 +7,7 @@ class PathView {
     this.canvas = canvas;
     this.choose = choose; // called with the time of the place that was clicked
     this.shown = { zones: true, names: true, signals: false, other: true };
+    this.byRobot = false; // the colour of the path; else by speed
     this.cursor = 0;
     this.selected = null;
     this.collect();
@@ -23,14 +24,17 @@ class PathView {
         high[k] = Math.max(high[k], p[k] + radius);
       }
     };
-    for (let i = firstShown; i < count; i++) take([position.x[i], position.y[i], position.z[i]], 0);
-    for (let i = 0; i < other.time.length; i++) take([other.x[i], other.y[i], other.z[i]], 0);
     const points = new Map(), zones = new Map();
-    for (const move of run.moves) {
-      const key = move.end.map((v) => v.toFixed(0)).join(" ");
-      if (!points.has(key + move.point)) points.set(key + move.point, { place: move.end, text: move.point });
-      if (!move.stop && move.zone > 0) zones.set(key + " " + move.zone, { place: move.end, radius: move.zone });
-      take(move.end, move.stop ? 0 : move.zone);
+    for (const robot of shownArms()) {
+      const { position, other } = robot;
+      for (let i = robot.firstShown; i < robot.count; i++) take([position.x[i], position.y[i], position.z[i]], 0);
+      for (let i = 0; i < other.time.length; i++) take([other.x[i], other.y[i], other.z[i]], 0);
+      for (const move of robot.moves) {
+        const key = move.end.map((v) => v.toFixed(0)).join(" ");
+        if (!points.has(key + move.point)) points.set(key + move.point, { place: move.end, text: move.point });
+        if (!move.stop && move.zone > 0) zones.set(key + " " + move.zone, { place: move.end, radius: move.zone });
+        take(move.end, move.stop ? 0 : move.zone);
+      }
     }
     if (!(low[0] <= high[0])) take([0, 0, 0], 50);
     this.points = [...points.values()];
@@ -39,10 +43,10 @@ class PathView {
     this.middle = low.map((v, k) => (v + high[k]) / 2);
     this.size = Math.max(20, Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]));
     this.high = high;
-    const changes = new Map();
-    for (const signal of run.signals)
+    const changes = new Map(), at = shownArms()[0]; // a signal belongs to no robot
+    for (const signal of at ? run.signals : [])
       for (const [t, value] of signal.changes) {
-        const place = placeAt(t), text = signal.name + " = " + value;
+        const place = at.placeAt(t), text = signal.name + " = " + value;
         changes.set(place.map((v) => v.toFixed(0)).join(" ") + text, { place, text });
       }
     this.changes = [...changes.values()];
@@ -83,8 +87,10 @@ class PathView {
         high[k] = Math.max(high[k], at + radius);
       });
     };
-    for (let i = firstShown; i < count; i++) take(position.x[i], position.y[i], position.z[i], 0);
-    for (let i = 0; i < other.time.length; i++) take(other.x[i], other.y[i], other.z[i], 0);
+    for (const { position, other, firstShown, count } of shownArms()) {
+      for (let i = firstShown; i < count; i++) take(position.x[i], position.y[i], position.z[i], 0);
+      for (let i = 0; i < other.time.length; i++) take(other.x[i], other.y[i], other.z[i], 0);
+    }
     for (const zone of this.zones) take(...zone.place, zone.radius);
     if (!(low[0] <= high[0])) take(0, 0, 0, 50);
     const spans = [0, 1].map((k) => Math.max(high[k] - low[k], this.size * 0.1));
@@ -101,8 +107,13 @@ class PathView {
     context.lineJoin = "round";
     this.drawGrid(context);
     if (this.shown.zones) this.drawZones(context);
-    if (this.shown.other) this.drawOther(context);
-    this.drawPath(context);
+    for (const robot of shownArms()) {
+      if (this.shown.other) this.drawOther(context, robot.other);
+      if (arms.length > 1 && !this.byRobot) this.drawLine(context, robot, 8, 0.22);
+      if (this.byRobot) this.drawLine(context, robot, 2, 1);
+      else this.drawPath(context, robot);
+    }
+    if (this.selected && this.selected.robot.shown) this.drawSelected(context, this.selected.robot);
     const labels = new Labels(width, height);
     this.drawPoints(context, labels);
     if (this.shown.signals) this.drawSignals(context, labels);
@@ -148,8 +159,31 @@ class PathView {
     }
   }
 
+  /** The whole path in the colour of its robot. */
+  drawLine(context, robot, width, alpha) {
+    const { position, count } = robot, stride = this.stride(count);
+    context.strokeStyle = colours[robot.colour];
+    context.lineWidth = width;
+    context.globalAlpha = alpha;
+    context.lineCap = "round";
+    context.beginPath();
+    let lastX = -1e9, lastY = -1e9;
+    for (let i = robot.firstShown; i < count; i += stride) {
+      const [x, y] = this.project(position.x[i], position.y[i], position.z[i]);
+      if (i === robot.firstShown || (stride === 1 && robot.toolChanged(i))) context.moveTo(x, y);
+      else if (Math.abs(x - lastX) + Math.abs(y - lastY) < 0.7 && i + stride < count) continue;
+      else context.lineTo(x, y);
+      lastX = x;
+      lastY = y;
+    }
+    context.stroke();
+    context.globalAlpha = 1;
+    context.lineCap = "butt";
+  }
+
   /** The pieces of one shade in one stroke; points that fall on the pixel before are left out. */
-  drawPath(context) {
+  drawPath(context, robot) {
+    const { position, tcpSpeed, count } = robot;
     const shades = 24;
     context.lineWidth = 2;
     let shade = -1, lastX = 0, lastY = 0, open = false;
@@ -160,7 +194,7 @@ class PathView {
     const stride = this.stride(count);
     for (let i = 0; i < count; i += stride) {
       const [x, y] = this.project(position.x[i], position.y[i], position.z[i]);
-      if (i > 0 && stride === 1 && toolChanged(i)) {
+      if (i > 0 && stride === 1 && robot.toolChanged(i)) {
         stroke();
         shade = -1;
       } else if (i > 0) {
@@ -181,7 +215,6 @@ class PathView {
       lastY = y;
     }
     stroke();
-    if (this.selected) this.drawSelected(context);
   }
 
   /** While the picture turns, 20,000 samples will do. */
@@ -189,7 +222,7 @@ class PathView {
     return this.turning ? Math.ceil(samples / 20000) : 1;
   }
 
-  drawSelected(context) {
+  drawSelected(context, { time, position }) {
     const from = indexAt(time, this.selected.from), to = indexAt(time, this.selected.to);
     context.strokeStyle = colours.accent;
     context.globalAlpha = 0.35;
@@ -200,7 +233,7 @@ class PathView {
     context.globalAlpha = 1;
   }
 
-  drawOther(context) {
+  drawOther(context, other) {
     context.strokeStyle = colours.other;
     context.lineWidth = 1.4;
     if (other.time.length < 20000) context.setLineDash([5, 4]); // dashes of long lines take long to draw
@@ -264,15 +297,17 @@ class PathView {
   }
 
   drawCursor(context) {
-    if (!count) return;
-    const [x, y] = this.project(...placeAt(this.cursor));
-    context.lineWidth = 2;
-    context.strokeStyle = colours.text;
-    context.fillStyle = colours.back;
-    context.beginPath();
-    context.arc(x, y, 5, 0, 2 * Math.PI);
-    context.fill();
-    context.stroke();
+    for (const robot of shownArms()) {
+      if (!robot.count) continue;
+      const [x, y] = this.project(...robot.placeAt(this.cursor));
+      context.lineWidth = 2;
+      context.strokeStyle = several ? colours[robot.colour] : colours.text;
+      context.fillStyle = colours.back;
+      context.beginPath();
+      context.arc(x, y, 5, 0, 2 * Math.PI);
+      context.fill();
+      context.stroke();
+    }
   }
 
   listen() {
@@ -343,7 +378,7 @@ class PathView {
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
-      this.turning = count + other.time.length > 20000;
+      this.turning = shownArms().reduce((sum, robot) => sum + robot.count + robot.other.time.length, 0) > 20000;
       this.draw();
       clearTimeout(this.rest);
       if (!this.turning) return;
@@ -356,14 +391,15 @@ class PathView {
     const box = this.canvas.getBoundingClientRect();
     const px = event.clientX - box.left, py = event.clientY - box.top;
     let nearest = 20 * 20, at = -1;
-    for (let i = 0; i < count; i++) {
-      const [x, y] = this.project(position.x[i], position.y[i], position.z[i]);
-      const distance = (x - px) ** 2 + (y - py) ** 2;
-      if (distance < nearest) {
-        nearest = distance;
-        at = i;
+    for (const { position, time, count } of shownArms())
+      for (let i = 0; i < count; i++) {
+        const [x, y] = this.project(position.x[i], position.y[i], position.z[i]);
+        const distance = (x - px) ** 2 + (y - py) ** 2;
+        if (distance < nearest) {
+          nearest = distance;
+          at = time[i];
+        }
       }
-    }
-    if (at >= 0) this.choose(time[at]);
+    if (at >= 0) this.choose(at);
   }
 }

@@ -43,6 +43,7 @@ Status moveUserFrame(TaskCore* task, std::string_view name, motion::FrameSetup& 
     frames.workObject.uframe = frameOfOther(controller, *unit);
     if (own.synchronised() != nullptr && own.synchronised() == other.synchronised()) {
         frames.carrier = &other.system();
+        frames.carrierGroup = static_cast<int>(other.group());
         frames.carrierUnit = unit->isRobot ? nullptr : &unit->geometry;
         return kOk;
     }

@@ -1,7 +1,8 @@
-// Manual 1.8, 2.2.4: independent axes. Axis 6 of the robot is the one that may be independent. Where the manual is silent:
+// Manual 1.8, 2.2.4: independent axes: axis 6 of the robot, and external axes that MOC.cfg marks (ARM independent_joint_on).
+// IndReset is also for axis 4 of IRB 1600, 2600 and 4600. Where the manual is silent:
 // IndRMove without a direction takes the short way; IndReset without a reference keeps the position; it waits until the robot
 // stands at a stop point. VelSet and the speed override count as they are when a movement is ordered or the program started.
-// WaitRob looks at the path of the arm only; WZLimSup stops a turning axis in the zone, not before. Independent mode ends with the process.
+// WaitRob looks at the path of the arm only; WZLimSup stops a turning axis in the zone, not before.
 
 #include "stdlib/impl/motion/independent_axes.h"
 
@@ -15,73 +16,102 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 using namespace rt;
 
 namespace {
 
-constexpr std::size_t kAxis = 5; // axis 6, from 0
+constexpr std::size_t kAxis4 = 3, kAxis6 = 5; // from 0
 constexpr double kTurn = 360;
 
 /// What the axis is to do; kept while the program is stopped.
 struct IndependentOrder {
     bool endless = false;
-    double goal = 0;  ///< deg
-    double speed = 0; ///< deg/s as programmed; endless: with its direction
+    double goal = 0;  ///< deg, mm
+    double speed = 0; ///< deg/s, mm/s as programmed; endless: with its direction
     double ramp = 1;  ///< share of the acceleration
 };
 
-class IndependentAxis {
+/// An axis that the program names, and what it can do.
+struct NamedAxis {
+    motion::GroupAxis axis;
+    double fastest = 0;      ///< deg/s, mm/s
+    double acceleration = 0; ///< deg/s^2, mm/s^2
+    double jerk = 0;         ///< deg/s^3; 0 = not limited
+    bool rotating = true;
+};
+
+double secondsNow(const motion::MotionSystem& arm) {
+    return static_cast<double>(arm.now()) * 1e-9;
+}
+
+/// The axes of a motion group that move for themselves.
+class IndependentAxes {
   public:
-    void order(MotionDriver& motion, const IndependentOrder& order) {
+    void order(MotionDriver& motion, const NamedAxis& axis, const IndependentOrder& order) {
         if (!std::exchange(listening_, true))
             motion.addListener([this, &motion](ArmNews news) { take(motion, news); });
-        order_ = order;
-        carryOut(motion);
+        const auto known = std::find_if(orders_.begin(), orders_.end(),
+                                        [&](const Ordered& entry) { return entry.axis.axis == axis.axis; });
+        Ordered& entry = known == orders_.end() ? orders_.emplace_back() : *known;
+        entry = {axis, order};
+        carryOut(motion, entry);
     }
-    const IndependentOrder& order() const { return order_; }
-    /// The speed in force.
-    static double speedOf(MotionDriver& motion, const IndependentOrder& order) {
-        const double share = motion.service<lib::MotionState>().settings.velocityPercent *
-                             motion.system().speedOverride() * 1e-4;
-        return order.speed * std::clamp(share, 1e-3, 1.0);
+    /// The latest one of the axis, which moves for itself.
+    const IndependentOrder& order(const motion::GroupAxis& axis) const {
+        return std::find_if(orders_.begin(), orders_.end(),
+                            [&](const Ordered& entry) { return entry.axis.axis == axis; })
+            ->order;
     }
 
   private:
-    void carryOut(MotionDriver& motion) {
+    struct Ordered {
+        NamedAxis axis;
+        IndependentOrder order;
+    };
+    /// The speed in force, at most what the axis can do.
+    static double speedOf(MotionDriver& motion, const Ordered& entry) {
+        const double share = motion.service<lib::MotionState>().settings.velocityPercent *
+                             motion.system().speedOverride() * 1e-4;
+        const double speed = entry.order.speed * std::clamp(share, 1e-3, 1.0);
+        return std::clamp(speed, -entry.axis.fastest, entry.axis.fastest);
+    }
+    static void carryOut(MotionDriver& motion, const Ordered& entry) {
         motion::MotionSystem& arm = motion.system();
-        const double now = toSeconds(arm.now());
+        const motion::GroupAxis axis = entry.axis.axis;
+        const IndependentOrder& order = entry.order;
+        const double now = secondsNow(arm);
         const motion::MotionState state = arm.current();
+        const motion::AxisMoment here = axis.isExternal
+                                            ? motion::AxisMoment{state.extax[axis.index], 0}
+                                            : motion::AxisMoment{state.joints[axis.index],
+                                                                 state.jointSpeed[axis.index]};
         const motion::AxisCourse course =
-            arm.independent() != nullptr
-                ? *arm.independent()
-                : motion::AxisCourse(now, {state.joints[kAxis], state.jointSpeed[kAxis]});
-        const double acceleration = arm.model().maxAcceleration[kAxis] * order_.ramp;
-        const double speed = speedOf(motion, order_);
-        const double jerk = jerkOf(arm);
-        arm.setIndependent(kAxis, order_.endless
-                                      ? course.turning(now, speed, acceleration, jerk)
-                                      : course.movedTo(now, order_.goal, speed, acceleration, jerk));
+            arm.independent(axis) != nullptr ? *arm.independent(axis) : motion::AxisCourse(now, here);
+        const double acceleration = entry.axis.acceleration * order.ramp;
+        const double speed = speedOf(motion, entry);
+        arm.setIndependent(axis, order.endless ? course.turning(now, speed, acceleration, entry.axis.jerk)
+                                               : course.movedTo(now, order.goal, speed, acceleration,
+                                                                entry.axis.jerk));
         motion.service<lib::WorldZones>().noteMotion();
     }
-    /// A program that is stopped stops the axis, too.
+    /// A program that is stopped stops the axes, too.
     void take(MotionDriver& motion, ArmNews news) {
         motion::MotionSystem& arm = motion.system();
-        if (arm.independent() == nullptr) return;
-        if (news == ArmNews::Start) carryOut(motion);
-        if (news == ArmNews::StopOnPath || news == ArmNews::MotorsOff)
-            arm.setIndependent(kAxis,
-                               arm.independent()->turning(toSeconds(arm.now()), 0,
-                                                          arm.model().maxAcceleration[kAxis], jerkOf(arm)));
+        for (const Ordered& entry : orders_) {
+            const motion::AxisCourse* course = arm.independent(entry.axis.axis);
+            if (course == nullptr) continue;
+            if (news == ArmNews::Start) carryOut(motion, entry);
+            if (news == ArmNews::StopOnPath || news == ArmNews::MotorsOff)
+                arm.setIndependent(entry.axis.axis, course->turning(secondsNow(arm), 0, entry.axis.acceleration,
+                                                                    entry.axis.jerk));
+        }
     }
-    /// deg/s^3; 0 = not limited.
-    static double jerkOf(const motion::MotionSystem& arm) {
-        return arm.planner() == motion::Planner::Optimal ? arm.model().maxJerk[kAxis] : 0;
-    }
-    static double toSeconds(Time time) { return static_cast<double>(time) * 1e-9; }
 
-    IndependentOrder order_;
+    std::vector<Ordered> orders_;
     bool listening_ = false;
 };
 
@@ -89,33 +119,86 @@ motion::MotionSystem& systemOf(TaskCore* task) {
     return lib::motionOf(task).system();
 }
 
-motion::AxisMoment momentOf(const motion::MotionSystem& arm) {
-    const double now = static_cast<double>(arm.now()) * 1e-9;
-    return arm.independent()->at(now);
+motion::AxisMoment momentOf(const motion::MotionSystem& arm, const motion::GroupAxis& axis) {
+    return arm.independent(axis)->at(secondsNow(arm));
+}
+
+double positionOf(const motion::MotionSystem& arm, const motion::GroupAxis& axis) {
+    const motion::JointTarget here = arm.currentJoints();
+    return axis.isExternal ? here.extax[axis.index] : here.robax[axis.index];
 }
 
 /// It stands, and is not about to move.
-bool isResting(const motion::MotionSystem& arm) {
-    return momentOf(arm).speed == 0 &&
-           arm.independent()->settledAt() <= static_cast<double>(arm.now()) * 1e-9;
+bool isResting(const motion::MotionSystem& arm, const motion::GroupAxis& axis) {
+    return momentOf(arm, axis).speed == 0 && arm.independent(axis)->settledAt() <= secondsNow(arm);
 }
 
-Status checkAxis(TaskCore* task, const Handle* unit, float axis) {
+/// Axis 4 of these can be reset, although it cannot be independent.
+bool canResetAxis4(const robot::RobotModel& model) {
+    const auto is = [&](const char* family) { return model.name.starts_with(family); };
+    return is("IRB 1600-") || is("IRB 2600-") || is("IRB 4600-");
+}
+
+enum class Purpose : uint8_t { Move, Reset };
+
+Status robotAxis(TaskCore* task, std::size_t number, Purpose purpose, NamedAxis& axis) {
+    const motion::MotionSystem& arm = systemOf(task);
+    const robot::RobotModel& model = arm.model();
+    const bool isAxis4 = purpose == Purpose::Reset && number == kAxis4 && canResetAxis4(model);
+    if (number != kAxis6 && !isAxis4)
+        return lib::fail(task, err::ERR_AXIS_ACT,
+                         "axis 6 is the only one of the robot that can be independent (IndReset: also axis 4 of IRB "
+                         "1600, 2600 and 4600)");
+    if (isAxis4 && arm.independent({false, kAxis6}) != nullptr)
+        return lib::fail(task, err::ERR_AXIS_ACT,
+                         "axis 6 is in independent mode: reset it before axis 4 (IndReset)");
+    axis.axis = {false, number};
+    axis.fastest = model.maxSpeed[number];
+    axis.acceleration = model.maxAcceleration[number];
+    if (arm.planner() == motion::Planner::Optimal) axis.jerk = model.maxJerk[number];
+    return kOk;
+}
+
+Status externalAxis(TaskCore* task, const MechanicalUnit& unit, std::size_t number, NamedAxis& axis) {
+    const MechanicalUnit::Axis& own = unit.own[number];
+    if (!unit.isActive)
+        return lib::fail(task, err::ERR_AXIS_ACT, unit.name + " is not active: execute ActUnit first");
+    if (!own.mayBeIndependent)
+        return lib::fail(task, err::ERR_AXIS_ACT,
+                         "axis " + own.single + " of " + unit.name +
+                             " cannot be independent: its ARM in MOC.cfg has no independent_joint_on");
+    axis.axis = {true, own.index};
+    axis.fastest = own.limits.maxSpeed;
+    axis.acceleration = own.limits.maxAcceleration;
+    axis.rotating = own.limits.rotating;
+    return kOk;
+}
+
+/// The axis, which belongs to the task's group and can be independent; else ERR_AXIS_PAR, ERR_AXIS_ACT.
+Status findAxis(TaskCore* task, const Handle* handle, float number, Purpose purpose, NamedAxis& axis) {
     if (const Status status = lib::requireMotionTask(task)) return status;
     Status status = kOk;
-    const int number = lib::robotAxis(task, unit, axis, status);
-    if (number < 0 || number == static_cast<int>(kAxis)) return status;
-    return lib::fail(task, err::ERR_AXIS_ACT, "only axis 6 of the robot can be independent");
+    const MechanicalUnit* unit = handle == nullptr ? nullptr : lib::unitOf(task, *handle, status);
+    if (status != kOk) return status;
+    if (unit == nullptr || unit->isRobot || unit->group != lib::motionOf(task).group()) {
+        const int index = lib::robotAxis(task, handle, number, status);
+        return index < 0 ? status : robotAxis(task, static_cast<std::size_t>(index), purpose, axis);
+    }
+    const bool isThere =
+        number == std::floor(number) && number >= 1 && number <= static_cast<float>(unit->own.size());
+    if (!isThere) return lib::fail(task, err::ERR_AXIS_PAR, "the mechanical unit has no such axis");
+    return externalAxis(task, *unit, static_cast<std::size_t>(number) - 1, axis);
 }
 
 /// The axis is in independent mode; else ERR_AXIS_ACT.
-Status checkIndependent(TaskCore* task, const Handle* unit, float axis) {
-    if (const Status status = checkAxis(task, unit, axis)) return status;
-    if (systemOf(task).independent() != nullptr) return kOk;
+Status checkIndependent(TaskCore* task, const Handle* unit, float number, NamedAxis& axis) {
+    if (const Status status = findAxis(task, unit, number, Purpose::Move, axis)) return status;
+    if (systemOf(task).independent(axis.axis) != nullptr) return kOk;
     return lib::fail(task, err::ERR_AXIS_ACT, "the axis is not in independent mode (IndAMove ...)");
 }
 
-Status orderMove(TaskCore* task, bool endless, double goal, double speed, const float* ramp) {
+Status orderMove(TaskCore* task, const NamedAxis& axis, bool endless, double goal, double speed,
+                 const float* ramp) {
     if (!endless && !(speed > 0))
         return lib::fail(task, err::ERR_ARGVALERR, "the speed of an independent axis must be above 0");
     if (!std::isfinite(speed) || !std::isfinite(goal))
@@ -125,17 +208,34 @@ Status orderMove(TaskCore* task, bool endless, double goal, double speed, const 
     const IndependentOrder order{endless, goal, speed,
                                  ramp == nullptr ? 1.0 : 0.01 * static_cast<double>(*ramp)};
     MotionDriver& motion = lib::motionOf(task);
-    motion.service<IndependentAxis>().order(motion, order);
+    motion.service<IndependentAxes>().order(motion, axis, order);
     return kOk;
 }
 
-/// The position given as a number: a robtarget has values for additional axes only.
-Status checkNumber(TaskCore* task, const data::Robtarget* position, const float* number) {
-    if (position == nullptr && number != nullptr) return kOk;
-    return lib::fail(
-        task, err::ERR_ARGVALERR,
-        "a position of axis 6 is given as a number (\\ToAbsNum, \\ToRelNum, \\RefNum): a robtarget "
-        "has those of additional axes");
+/// The position that one of the two arguments gives: of a robtarget the external axis that is meant.
+Status readPosition(TaskCore* task, const NamedAxis& axis, const data::Robtarget* target, const float* number,
+                    double& position) {
+    if ((target == nullptr) == (number == nullptr))
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         "one position must be given: a number (\\ToAbsNum, \\ToRelNum, \\RefNum) or a robtarget");
+    if (number != nullptr) {
+        position = *number;
+        return kOk;
+    }
+    if (!axis.axis.isExternal)
+        return lib::fail(
+            task, err::ERR_ARGVALERR,
+            "a position of axis 6 is given as a number (\\ToAbsNum, \\ToRelNum, \\RefNum): a robtarget "
+            "has those of additional axes");
+    position = lib::toAxes(target->extax)[axis.axis.index];
+    if (motion::isConnected(position)) return kOk;
+    return lib::fail(task, err::ERR_ARGVALERR, "the robtarget has no position of this axis (9E9)");
+}
+
+Status requireRotating(TaskCore* task, const NamedAxis& axis) {
+    if (axis.rotating) return kOk;
+    return lib::fail(task, err::ERR_ARGVALERR,
+                     "a linear axis makes no revolutions: use IndAMove or IndDMove, and IndReset \\Old");
 }
 
 /// The position with the same angle as `angle` that lies nearest to `from`, or beyond it in the direction.
@@ -156,9 +256,11 @@ namespace rt::lib {
 
 void endIndependentMode(MotionDriver& motion) {
     motion::MotionSystem& arm = motion.system();
-    if (arm.independent() == nullptr) return;
-    const double position = momentOf(arm).position;
-    arm.endIndependent(position - kTurn * std::round(position / kTurn));
+    for (const motion::GroupAxis& axis : arm.independentAxes()) {
+        const double position = momentOf(arm, axis).position;
+        const bool turns = !axis.isExternal; // external axes keep their place, which may be a length
+        arm.endIndependent(axis, turns ? position - kTurn * std::round(position / kTurn) : position);
+    }
     motion.refresh();
 }
 
@@ -168,54 +270,62 @@ extern "C" {
 
 Status rt_IndAMove(TaskCore* task, Handle* MecUnit, float Axis, const data::Robtarget* ToAbsPos,
                    const float* ToAbsNum, float Speed, const float* Ramp) {
-    if (const Status status = checkAxis(task, MecUnit, Axis)) return status;
-    if (const Status status = checkNumber(task, ToAbsPos, ToAbsNum)) return status;
-    return orderMove(task, false, *ToAbsNum, Speed, Ramp);
+    NamedAxis axis;
+    double goal = 0;
+    if (const Status status = findAxis(task, MecUnit, Axis, Purpose::Move, axis)) return status;
+    if (const Status status = readPosition(task, axis, ToAbsPos, ToAbsNum, goal)) return status;
+    return orderMove(task, axis, false, goal, Speed, Ramp);
 }
 
 /// The sign of the speed is the direction.
 Status rt_IndCMove(TaskCore* task, Handle* MecUnit, float Axis, float Speed, const float* Ramp) {
-    if (const Status status = checkAxis(task, MecUnit, Axis)) return status;
-    return orderMove(task, true, 0, Speed, Ramp);
+    NamedAxis axis;
+    if (const Status status = findAxis(task, MecUnit, Axis, Purpose::Move, axis)) return status;
+    return orderMove(task, axis, true, 0, Speed, Ramp);
 }
 
 /// From where the axis is; a movement in progress is replaced.
 Status rt_IndDMove(TaskCore* task, Handle* MecUnit, float Axis, float Delta, float Speed, const float* Ramp) {
-    if (const Status status = checkAxis(task, MecUnit, Axis)) return status;
-    const double from = systemOf(task).currentJoints().robax[kAxis];
-    return orderMove(task, false, from + static_cast<double>(Delta), Speed, Ramp);
+    NamedAxis axis;
+    if (const Status status = findAxis(task, MecUnit, Axis, Purpose::Move, axis)) return status;
+    const double from = positionOf(systemOf(task), axis.axis);
+    return orderMove(task, axis, false, from + static_cast<double>(Delta), Speed, Ramp);
 }
 
 Status rt_IndRMove(TaskCore* task, Handle* MecUnit, float Axis, const data::Robtarget* ToRelPos,
                    const float* ToRelNum, bool Short, bool Fwd, bool Bwd, float Speed, const float* Ramp) {
-    if (const Status status = checkAxis(task, MecUnit, Axis)) return status;
-    if (const Status status = checkNumber(task, ToRelPos, ToRelNum)) return status;
+    NamedAxis axis;
+    double angle = 0;
+    if (const Status status = findAxis(task, MecUnit, Axis, Purpose::Move, axis)) return status;
+    if (const Status status = requireRotating(task, axis)) return status;
+    if (const Status status = readPosition(task, axis, ToRelPos, ToRelNum, angle)) return status;
     if (const Status status = checkOneDirection(task, Short + Fwd + Bwd)) return status;
-    const double from = systemOf(task).currentJoints().robax[kAxis];
-    return orderMove(task, false, sameAngle(*ToRelNum, from, Fwd, Bwd), Speed, Ramp);
+    const double from = positionOf(systemOf(task), axis.axis);
+    return orderMove(task, axis, false, sameAngle(angle, from, Fwd, Bwd), Speed, Ramp);
 }
 
 Status rt_IndReset(TaskCore* task, Handle* MecUnit, float Axis, const data::Robtarget* RefPos,
                    const float* RefNum, bool Short, bool Fwd, bool Bwd, bool Old) {
-    if (const Status status = checkAxis(task, MecUnit, Axis)) return status;
-    if (RefPos != nullptr)
-        if (const Status status = checkNumber(task, RefPos, RefNum)) return status;
+    NamedAxis axis;
+    double reference = 0;
+    const bool moves = (RefPos != nullptr || RefNum != nullptr) && !Old; // the logical range
+    if (const Status status = findAxis(task, MecUnit, Axis, Purpose::Reset, axis)) return status;
+    if (RefPos != nullptr || RefNum != nullptr)
+        if (const Status status = readPosition(task, axis, RefPos, RefNum, reference)) return status;
     if (const Status status = checkOneDirection(task, Short + Fwd + Bwd + Old)) return status;
+    if (const Status status = moves ? requireRotating(task, axis) : kOk) return status;
     MotionDriver& driver = lib::motionOf(task);
     if (const Status status = driver.waitIdle(taskOf(task))) return status;
     if (const Status status = driver.waitZeroSpeed(taskOf(task))) return status;
     motion::MotionSystem& arm = driver.system();
-    double position = arm.currentJoints().robax[kAxis];
-    if (arm.independent() != nullptr) {
-        if (!isResting(arm))
-            return lib::fail(task, err::ERR_AXIS_MOVING,
-                             "the axis moves: wait until it is in position (IndInpos)");
-        position = momentOf(arm).position;
-    }
+    if (arm.independent(axis.axis) != nullptr && !isResting(arm, axis.axis))
+        return lib::fail(task, err::ERR_AXIS_MOVING,
+                         "the axis moves: wait until it is in position (IndInpos)");
+    double position = positionOf(arm, axis.axis);
     // Forward: on the positive side of the reference.
-    if (RefNum != nullptr && !Old) position = sameAngle(position, *RefNum, Fwd, Bwd);
-    arm.setIndependent(kAxis, motion::AxisCourse(static_cast<double>(arm.now()) * 1e-9, {position, 0}));
-    if (!arm.endIndependent(position))
+    if (moves) position = sameAngle(position, reference, Fwd, Bwd);
+    arm.setIndependent(axis.axis, motion::AxisCourse(secondsNow(arm), {position, 0}));
+    if (!arm.endIndependent(axis.axis, position))
         return lib::fail(task, err::ERR_AXIS_MOVING, "the robot moves: wait until it has reached a stop point");
     driver.refresh();
     return kOk;
@@ -223,22 +333,25 @@ Status rt_IndReset(TaskCore* task, Handle* MecUnit, float Axis, const data::Robt
 
 /// FALSE for an axis that turns for ever.
 Status rt_IndInpos(TaskCore* task, bool* result, Handle* MecUnit, float Axis) {
-    if (const Status status = checkIndependent(task, MecUnit, Axis)) return status;
-    const IndependentOrder& order = lib::motionOf(task).service<IndependentAxis>().order();
+    NamedAxis axis;
+    if (const Status status = checkIndependent(task, MecUnit, Axis, axis)) return status;
+    const IndependentOrder& order = lib::motionOf(task).service<IndependentAxes>().order(axis.axis);
     const motion::MotionSystem& arm = systemOf(task);
-    *result = !order.endless && isResting(arm) && momentOf(arm).position == order.goal;
+    *result = !order.endless && isResting(arm, axis.axis) && momentOf(arm, axis.axis).position == order.goal;
     return kOk;
 }
 
 Status rt_IndSpeed(TaskCore* task, bool* result, Handle* MecUnit, float Axis, bool InSpeed, bool ZeroSpeed) {
-    if (const Status status = checkIndependent(task, MecUnit, Axis)) return status;
+    NamedAxis axis;
+    if (const Status status = checkIndependent(task, MecUnit, Axis, axis)) return status;
     if (InSpeed == ZeroSpeed)
         return lib::fail(task, err::ERR_ARGVALERR, "IndSpeed needs one of \\InSpeed and \\ZeroSpeed");
-    const IndependentOrder& order = lib::motionOf(task).service<IndependentAxis>().order();
-    const double speed = momentOf(systemOf(task)).speed;
+    const IndependentOrder& order = lib::motionOf(task).service<IndependentAxes>().order(axis.axis);
+    const motion::MotionSystem& arm = systemOf(task);
+    const double speed = momentOf(arm, axis.axis).speed;
     constexpr double kExact = 1e-6; // deg/s
-    *result =
-        ZeroSpeed ? isResting(systemOf(task)) : std::fabs(std::fabs(speed) - std::fabs(order.speed)) < kExact;
+    *result = ZeroSpeed ? isResting(arm, axis.axis)
+                        : std::fabs(std::fabs(speed) - std::fabs(order.speed)) < kExact;
     return kOk;
 }
 }

@@ -1,5 +1,6 @@
 // Manual 1.8: stopping and starting movement, path levels.
 
+#include "runtime/host/synchronised_group.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/fail.h"
 
@@ -87,7 +88,12 @@ Status rt_ProcerrRecovery(TaskCore* task, bool SyncOrgMoveInst, bool SyncLastMov
     if (ProcSignal != nullptr && io.value(io.idOf(*ProcSignal)) == 0)
         return lib::fail(task, err::ERR_PROCSIGNAL_OFF,
                          "the process signal is 0: the process is off already");
-    lib::motionOf(task).raiseProcessError(err::ERR_PATH_STOP);
+    MotionDriver& driver = driverOf(task);
+    const auto group = driver.synchronised(); // an error of one robot concerns all that move with it
+    if (group == nullptr) driver.raiseProcessError(err::ERR_PATH_STOP);
+    if (group != nullptr)
+        for (const SynchronisedGroup::Member& member : group->members())
+            member.driver->raiseProcessError(err::ERR_PATH_STOP);
     return kOk;
 }
 
@@ -132,7 +138,7 @@ Status rt_StepBwdPath(TaskCore* task, float StepLength, float StepTime) {
         "further than the beginning of the movement before the one that was stopped");
 }
 
-/// There is no synchronized movement that \KeepSync could keep. Without Path Recovery one path can be put aside.
+/// One movement path can be stored at a time (PathLevel is 1 or 2).
 Status rt_StorePath(TaskCore* task, bool KeepSync) {
     if (const Status status = lib::requireMotionTask(task)) return status;
     if (KeepSync && driverOf(task).synchronised() == nullptr)

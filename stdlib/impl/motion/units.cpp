@@ -35,11 +35,25 @@ Status setActive(TaskCore* task, Handle handle, bool active) {
         return lib::fail(task, err::ERR_ARGVALERR,
                          unit->name + " belongs to the mechanical unit group of another task");
     if (unit->isActive == active) return kOk;
+    Controller& controller = taskOf(task).controller();
+    if (const MechanicalUnit* other = active ? controller.units().sharesAxes(*unit) : nullptr)
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         unit->name + " shares a logical axis with " + other->name +
+                             ", which is active: deactivate that first (DeactUnit)");
+    for (const MechanicalUnit::Axis& axis : unit->own)
+        if (driver.system().independent({true, axis.index}) != nullptr)
+            return lib::fail(task, err::ERR_ARGVALERR,
+                             unit->name + " has an axis in independent mode: execute IndReset first");
     status = driver.waitIdle(taskOf(task));
     if (status == kOk) status = driver.waitZeroSpeed(taskOf(task));
     if (status != kOk) return status;
     motion::JointTarget here = driver.system().currentJoints();
-    taskOf(task).controller().units().setActive(*unit, active, here.extax);
+    controller.units().setActive(*unit, active, here.extax);
+    for (const MechanicalUnit::Axis& axis : unit->own) {
+        motion::ExternalAxisModel model = axis.limits;
+        model.present = active;
+        driver.system().setExternalAxis(axis.index, model);
+    }
     driver.system().placeAt(here);
     driver.refresh();
     return kOk;

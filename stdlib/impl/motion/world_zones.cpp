@@ -31,9 +31,12 @@ Time lastMoment(const WorldZone& zone, const motion::MotionSystem& arm, Time fro
 /// Some axis moves, or is about to.
 bool isUnderWay(const motion::MotionSystem& arm) {
     if (arm.isMoving()) return true;
-    const motion::AxisCourse* axis = arm.independent();
     const double now = static_cast<double>(arm.now()) * 1e-9;
-    return axis != nullptr && (axis->settledAt() > now || axis->at(now).speed != 0);
+    for (const motion::GroupAxis& axis : arm.independentAxes()) {
+        const motion::AxisCourse* course = arm.independent(axis);
+        if (course->settledAt() > now || course->at(now).speed != 0) return true;
+    }
+    return false;
 }
 
 /// The tasks that move the robot stop with an error, and with them all NORMAL tasks.

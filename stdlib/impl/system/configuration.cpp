@@ -37,9 +37,27 @@ void addBaseFrame(CfgInstance& instance, const robot::Pose& base) {
     }
 }
 
-/// The model of the first robot: the one place where this folder asks for the arm.
-const robot::RobotModel& robotOf(Controller& controller) {
-    return controller.motions().front()->model();
+/// Base frame of the robot with that name; that of world when there is none.
+robot::Pose baseOf(Controller& controller, std::string_view robot) {
+    for (const auto& motion : controller.motions())
+        if (sameName(motion->unitName(), robot)) return motion->model().baseFrame;
+    return {};
+}
+
+/// Axes of the robot with that number, from 1: "rob2_3".
+void addArms(const robot::RobotModel& model, int number, CfgSection& arms, CfgSection& calibration) {
+    for (std::size_t i = 0; i < 6 && i < model.upperDeg.size() && model.upperDeg[i] != model.lowerDeg[i]; ++i) {
+        CfgInstance arm, motor;
+        for (CfgInstance* instance : {&arm, &motor})
+            addText(*instance, "name", fmt::format("rob{}_{}", number, i + 1));
+        addNumber(arm, "upper_joint_bound", model.upperDeg[i] * kRadians);
+        addNumber(arm, "lower_joint_bound", model.lowerDeg[i] * kRadians);
+        addNumber(arm, "cal_position", 0);
+        addNumber(motor, "cal_offset", 0);
+        motor.attributes.push_back({"valid_cal_offset", {}, false, 0});
+        arms.instances.push_back(std::move(arm));
+        calibration.instances.push_back(std::move(motor));
+    }
 }
 
 void writeInstance(std::string& out, const CfgInstance& instance) {
@@ -82,13 +100,11 @@ Configuration& Configuration::of(Controller& controller) {
 void Configuration::load(Controller& controller) {
     loaded_ = true;
     files_ = controller.configuration();
-    addRobot(controller);
+    addRobots(controller);
 }
 
-/// MOC parameters that the files leave out because they are those of the model.
-void Configuration::addRobot(Controller& controller) {
-    const robot::RobotModel& model = robotOf(controller);
-    const std::string unit = controller.motions().front()->unitName();
+/// MOC parameters that the files leave out because they are those of the models.
+void Configuration::addRobots(Controller& controller) {
     bool hasRobot = false, hasArms = false, hasCalibration = false;
     for (CfgFile& file : files_) {
         if (file.domain != "MOC") continue;
@@ -98,31 +114,22 @@ void Configuration::addRobot(Controller& controller) {
             if (!sameName(section.type, "ROBOT")) continue;
             hasRobot = true;
             for (CfgInstance& instance : section.instances)
-                addBaseFrame(instance,
-                             sameName(instance.text("name"), unit) ? model.baseFrame : robot::Pose());
+                addBaseFrame(instance, baseOf(controller, instance.text("name")));
         }
     }
-    CfgFile file{"robot", "MOC", "CFG_1.0:6:0::", {}};
-    if (!hasRobot) {
+    CfgSection robots{"ROBOT", {}, {}, 0}, arms{"ARM", {}, {}, 0}, calibration{"MOTOR_CALIB", {}, {}, 0};
+    int number = 0;
+    for (const auto& motion : controller.motions()) {
+        if (motion->unitName().empty()) continue; // external units alone
         CfgInstance instance;
-        addText(instance, "name", unit);
-        addText(instance, "use_robot_type", model.name);
-        addBaseFrame(instance, model.baseFrame);
-        file.sections.push_back({"ROBOT", {}, {instance}, 0});
+        addText(instance, "name", motion->unitName());
+        addText(instance, "use_robot_type", motion->model().name);
+        addBaseFrame(instance, motion->model().baseFrame);
+        robots.instances.push_back(std::move(instance));
+        addArms(motion->model(), ++number, arms, calibration);
     }
-    CfgSection arms{"ARM", {}, {}, 0}, calibration{"MOTOR_CALIB", {}, {}, 0};
-    for (std::size_t i = 0; i < 6 && model.upperDeg[i] != model.lowerDeg[i]; ++i) {
-        CfgInstance arm, motor;
-        for (CfgInstance* instance : {&arm, &motor})
-            addText(*instance, "name", fmt::format("rob1_{}", i + 1));
-        addNumber(arm, "upper_joint_bound", model.upperDeg[i] * kRadians);
-        addNumber(arm, "lower_joint_bound", model.lowerDeg[i] * kRadians);
-        addNumber(arm, "cal_position", 0);
-        addNumber(motor, "cal_offset", 0);
-        motor.attributes.push_back({"valid_cal_offset", {}, false, 0});
-        arms.instances.push_back(std::move(arm));
-        calibration.instances.push_back(std::move(motor));
-    }
+    CfgFile file{"robot", "MOC", "CFG_1.0:6:0::", {}};
+    if (!hasRobot) file.sections.push_back(std::move(robots));
     if (!hasArms) file.sections.push_back(std::move(arms));
     if (!hasCalibration) file.sections.push_back(std::move(calibration));
     files_.push_back(std::move(file));

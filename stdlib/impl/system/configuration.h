@@ -39,7 +39,7 @@ class Configuration {
 
   private:
     void load(Controller& controller);
-    void addRobot(Controller& controller);
+    void addRobots(Controller& controller);
 
     std::vector<CfgFile> files_;
     bool loaded_ = false, changed_ = false;

@@ -48,11 +48,14 @@ def decode(series):
 
 
 def compare_with_trace(data, path):
-    """Each sample of the page is a row of the trace; rows left out lie between two samples that are alike."""
+    """Each sample of a robot is a row of the trace; rows left out lie between two samples that are alike."""
+    unit = data["unit"] if data["hasArm"] else ""
     with open(path, encoding="utf-8") as file:
-        rows = {round(float(row["time_s"]), 3): row for row in csv.DictReader(file)}
+        rows = {round(float(row["time_s"]), 3): row for row in csv.DictReader(file) if row["unit"] == unit}
     times = decode(data["time"])
-    names = {"x": "x", "y": "y", "z": "z", "speed": "speed_mm_s", "move": "move", **{f"j{i}": f"j{i}" for i in range(1, 7)}}
+    names = {"x": "x", "y": "y", "z": "z", "speed": "speed_mm_s", "move": "move",
+             **{f"j{i}": f"j{i}" for i in range(1, 7) if f"j{i}" in data},
+             **{f"e{axis['number']}": f"e{axis['number']}" for axis in data["external"]}}
     assert times, "the page has no samples"
     assert abs(times[-1] - max(rows)) < 1e-3, f"the last sample is at {times[-1]}, that of the trace at {max(rows)}"
     for name, column in names.items():
@@ -77,10 +80,13 @@ def main():
     for word in ("http://", "https://", "@import", "fetch(", "XMLHttpRequest", "{{"):
         assert word not in text, f"the page has {word}"
     data = json.loads(page.texts[("script", "data")])
-    if len(sys.argv) > 2:
-        compare_with_trace(data, sys.argv[2])
-    losses = [name for move in data["moves"] for name, _ in move.get("losses", [])]
-    print("points", *[move["point"] for move in data["moves"]])
+    for robot in data["robots"]:
+        if len(sys.argv) > 2:
+            compare_with_trace(robot, sys.argv[2])
+        if len(data["robots"]) > 1:
+            print("robot", robot["unit"], *[axis["name"] for axis in robot["external"]])
+        print("points", *[move["point"] for move in robot["moves"]])
+    losses = [name for robot in data["robots"] for move in robot["moves"] for name, _ in move.get("losses", [])]
     print("signals", *[f"{s['name']}:{len(s['changes'])}" for s in data["signals"]])
     print("markers", *[marker["kind"] for marker in data["markers"]])
     print("losses", *sorted(set(losses)), sep=" / ")

@@ -41,7 +41,7 @@ Move moveNumber(uint64_t number, double speed) {
 }
 
 /// Adds `seconds` of motion along x, with the TCP speed and the angle of axis 1 as functions of the time since its start.
-void addMotion(RunRecord& record, uint64_t number, double seconds, const std::function<double(double)>& speed,
+void addMotion(RobotRecord& record, uint64_t number, double seconds, const std::function<double(double)>& speed,
                const std::function<double(double)>& axis1) {
     if (record.samples.empty()) record.samples.emplace_back();
     const Sample before = record.samples.back();
@@ -59,7 +59,7 @@ void addMotion(RunRecord& record, uint64_t number, double seconds, const std::fu
     record.end = sample.time;
 }
 
-void addStanding(RunRecord& record, double seconds) {
+void addStanding(RobotRecord& record, double seconds) {
     Sample sample = record.samples.back();
     sample.speed = 0;
     sample.time += kStep;
@@ -85,8 +85,8 @@ double lostTo(const MoveResult& result, Cause cause, int axis = 0) {
 }
 
 /// A path of three lines (x, y, x) with a stop of 0.5 s after the first, 100 mm/s.
-RunRecord angledRun() {
-    RunRecord record;
+RobotRecord angledRun() {
+    RobotRecord record;
     record.robot = simpleRobot();
     record.samples.emplace_back();
     for (uint64_t number : {1, 2, 3}) {
@@ -107,7 +107,7 @@ RunRecord angledRun() {
 }
 
 /// The run as a recording, each sample changed by `change`.
-Recording recordingOf(const RunRecord& record,
+Recording recordingOf(const RobotRecord& record,
                       const std::function<void(RecordedSample&, const Sample&)>& change) {
     Recording recording;
     recording.file = "rec.csv";
@@ -121,8 +121,14 @@ Recording recordingOf(const RunRecord& record,
 }
 
 std::string problemOf(const std::string& text) {
-    Recording recording;
-    return parseRecording(text, "r.csv", recording);
+    std::vector<Recording> recordings;
+    return parseRecording(text, "r.csv", recordings);
+}
+
+RunRecord runOf(const RobotRecord& robot) {
+    RunRecord run;
+    run.robots.push_back(robot);
+    return run;
 }
 
 } // namespace
@@ -154,7 +160,7 @@ TEST_CASE("where no movement is, none is named", "[report]") {
 // ---- Analysis (rules: docs/reports.md) -------------------------------------------------------------------------------
 
 TEST_CASE("a movement at its programmed speed loses time at its stop points only", "[report]") {
-    RunRecord record;
+    RobotRecord record;
     record.robot = simpleRobot();
     record.moves.push_back(moveNumber(1, 200));
     addMotion(record, 1, 1, ramped(200, 1), slowly());
@@ -170,7 +176,7 @@ TEST_CASE("a movement at its programmed speed loses time at its stop points only
 }
 
 TEST_CASE("an axis at 98 percent of its speed limit is what limits", "[report]") {
-    RunRecord record;
+    RobotRecord record;
     record.robot = simpleRobot();
     record.moves.push_back(moveNumber(1, 1000));
     addMotion(record, 1, 1, [](double) { return 500.0; }, [](double t) { return -98.5 * t; });
@@ -179,11 +185,12 @@ TEST_CASE("an axis at 98 percent of its speed limit is what limits", "[report]")
     CHECK(analysis.moves[0].main.cause == Cause::JointSpeed);
     CHECK(analysis.moves[0].main.axis == 1);
     CHECK(analysis.moves[0].main.seconds == Approx(0.5).margin(0.01)); // half the speed for 1 s
-    CHECK(summaryText(record, analysis).find("speed limit of axis 1") != std::string::npos);
+    const RunRecord run = runOf(record);
+    CHECK(summaryText(run, robotReports(run, {})).find("speed limit of axis 1") != std::string::npos);
 }
 
 TEST_CASE("an axis below 98 percent of its limit does not limit", "[report]") {
-    RunRecord record;
+    RobotRecord record;
     record.robot = simpleRobot();
     record.moves.push_back(moveNumber(1, 1000));
     addMotion(record, 1, 1, [](double) { return 500.0; }, [](double t) { return 97 * t; });
@@ -195,7 +202,7 @@ TEST_CASE("an axis below 98 percent of its limit does not limit", "[report]") {
 TEST_CASE("acceleration at its limit is found from differences of samples, and AccSet lowers the limit",
           "[report]") {
     for (const double share : {1.0, 0.5}) {
-        RunRecord record;
+        RobotRecord record;
         record.robot = simpleRobot();
         record.moves.push_back(moveNumber(1, 1000));
         record.moves.back().acceleration = share;
@@ -213,7 +220,7 @@ TEST_CASE("acceleration at its limit is found from differences of samples, and A
 }
 
 TEST_CASE("moving and waiting add up to the cycle", "[report]") {
-    const RunRecord record = angledRun();
+    const RobotRecord record = angledRun();
     const Analysis analysis = analyse(record);
     REQUIRE(analysis.moves.size() == 3);
     CHECK(analysis.cycle == Approx(3.7));
@@ -224,7 +231,7 @@ TEST_CASE("moving and waiting add up to the cycle", "[report]") {
 }
 
 TEST_CASE("slower round a fly-by point is the zone's doing", "[report]") {
-    RunRecord record;
+    RobotRecord record;
     record.robot = simpleRobot();
     for (uint64_t number : {1, 2}) {
         record.moves.push_back(moveNumber(number, 200));
@@ -247,11 +254,12 @@ TEST_CASE("slower round a fly-by point is the zone's doing", "[report]") {
 // ---- Recordings ------------------------------------------------------------------------------------------------------
 
 TEST_CASE("columns of a recording are found by lenient names, with units", "[report]") {
-    Recording recording;
+    std::vector<Recording> all;
     REQUIRE(
         parseRecording("Time [ms];TCP X [m];tcp_y;Pos Z;note\n\n# by hand\n500;0,1;2;3;a\n600;0,2;2;3;b\n",
-                       "r.csv", recording)
+                       "r.csv", all)
             .empty());
+    Recording recording = all.at(0);
     CHECK(recording.hasPositions);
     CHECK_FALSE(recording.hasJoints);
     REQUIRE(recording.samples.size() == 2);
@@ -259,14 +267,36 @@ TEST_CASE("columns of a recording are found by lenient names, with units", "[rep
     CHECK(recording.samples[1].position == robot::Vec3{200, 2, 3});
     REQUIRE(
         parseRecording("t,J1,joint_2,Axis 3,rax_4,a5,j6_rad\n0,1,2,3,4,5,0\n1,1,2,3,4,5,3.14159265358979\n",
-                       "r.csv", recording)
+                       "r.csv", all)
             .empty());
+    recording = all.at(0);
     CHECK(recording.hasJoints);
     CHECK(recording.samples[1].joints[5] == Approx(180));
     // Quaternions of a trace are no axes.
-    REQUIRE(parseRecording("time_s,x,y,z,q1,q2,q3,q4\n0,1,2,3,1,0,0,0\n1,1,2,3,1,0,0,0\n", "r.csv", recording)
+    REQUIRE(parseRecording("time_s,x,y,z,q1,q2,q3,q4\n0,1,2,3,1,0,0,0\n1,1,2,3,1,0,0,0\n", "r.csv", all)
                 .empty());
-    CHECK_FALSE(recording.hasJoints);
+    CHECK_FALSE(all.at(0).hasJoints);
+}
+
+TEST_CASE("a column names the robot of each line of a recording", "[report]") {
+    std::vector<Recording> all;
+    REQUIRE(parseRecording("time_s,unit,x,y,z\n0,ROB_1,1,2,3\n0,ROB_2,7,8,9\n1,ROB_1,4,5,6\n0.5,ROB_2,7,8,9\n",
+                           "r.csv", all)
+                .empty());
+    REQUIRE(all.size() == 2);
+    CHECK(all[1].unit == "ROB_2");
+    CHECK(all[0].samples.at(1).position == robot::Vec3{4, 5, 6});
+    RunRecord run = runOf(angledRun());
+    run.robots[0].unit = "Rob_2"; // names have no case
+    CHECK(recordingsFor(run.robots, all) == std::vector<const Recording*>{&all[1]});
+    run.robots.push_back(run.robots[0]);
+    run.robots[1].unit = "ROB_3";
+    CHECK(recordingsFor(run.robots, all) == std::vector<const Recording*>{&all[1], nullptr});
+    // A recording without names is of the first robot.
+    REQUIRE(parseRecording("time_s,x,y,z\n0,1,2,3\n1,4,5,6\n", "r.csv", all).empty());
+    CHECK(recordingsFor(run.robots, all) == std::vector<const Recording*>{&all[0], nullptr});
+    CHECK(problemOf("time_s,unit,x,y,z\n0,A,1,2,3\n1,A,1,2,3\n1,B,1,2,3\n") ==
+          "r.csv: a recording of B needs two samples at least, this one has 1");
 }
 
 TEST_CASE("a bad recording is described with line and remedy", "[report]") {
@@ -293,7 +323,7 @@ TEST_CASE("a bad recording is described with line and remedy", "[report]") {
 // ---- Comparison ------------------------------------------------------------------------------------------------------
 
 TEST_CASE("a recording that begins later does not differ", "[report]") {
-    const RunRecord record = angledRun();
+    const RobotRecord record = angledRun();
     const Analysis analysis = analyse(record);
     const Recording later = recordingOf(record, [](RecordedSample& s, const Sample&) { s.time += 5; });
     const Comparison result = compare(record, analysis, later);
@@ -307,7 +337,7 @@ TEST_CASE("a recording that begins later does not differ", "[report]") {
 }
 
 TEST_CASE("a recording beside the path is as far away as it is", "[report]") {
-    const RunRecord record = angledRun();
+    const RobotRecord record = angledRun();
     const Analysis analysis = analyse(record);
     const Recording above = recordingOf(record, [](RecordedSample& s, const Sample&) { s.position.z += 2; });
     const Comparison result = compare(record, analysis, above);
@@ -318,7 +348,7 @@ TEST_CASE("a recording beside the path is as far away as it is", "[report]") {
 }
 
 TEST_CASE("the worst place is found, with its movement", "[report]") {
-    const RunRecord record = angledRun();
+    const RobotRecord record = angledRun();
     const Analysis analysis = analyse(record);
     // A bump of 3 mm in the middle of the second movement, at y = 50.
     const Recording bump = recordingOf(record, [](RecordedSample& s, const Sample& sample) {
@@ -333,7 +363,7 @@ TEST_CASE("the worst place is found, with its movement", "[report]") {
 }
 
 TEST_CASE("a longer stop and a slower movement are found where they are", "[report]") {
-    const RunRecord record = angledRun();
+    const RobotRecord record = angledRun();
     const Analysis analysis = analyse(record);
     const double stopEnds = 1.5, third = 2.5;
     const Recording slower = recordingOf(record, [&](RecordedSample& s, const Sample& sample) {
@@ -351,13 +381,13 @@ TEST_CASE("a longer stop and a slower movement are found where they are", "[repo
     CHECK_FALSE(largest[1].waiting);
     CHECK(largest[1].move->move->number == 3);
     CHECK(largest[1].difference() == Approx(-0.2 * 0.98).margin(0.01));
-    const std::string text = comparisonText(result, slower);
+    const std::string text = comparisonText(runOf(record), {{analysis, &slower, result}}, {slower});
     CHECK(text.find("Cell:11") != std::string::npos);
     CHECK(text.find("waiting at its end") != std::string::npos);
 }
 
 TEST_CASE("a path there and back on one line is not mixed up", "[report]") {
-    RunRecord record;
+    RobotRecord record;
     record.robot = simpleRobot();
     record.samples.emplace_back();
     for (uint64_t number : {1, 2, 3, 4}) {
@@ -387,7 +417,7 @@ TEST_CASE("a path there and back on one line is not mixed up", "[report]") {
 
 TEST_CASE("long paths are paired as finely as short ones", "[report]") {
     // 60 strokes of 100 mm, there and back; the eleventh takes a quarter of a second longer in the recording.
-    RunRecord record;
+    RobotRecord record;
     record.robot = simpleRobot();
     record.samples.emplace_back();
     for (uint64_t number = 1; number <= 60; ++number) {
@@ -416,7 +446,7 @@ TEST_CASE("long paths are paired as finely as short ones", "[report]") {
 }
 
 TEST_CASE("axis angles alone are compared at the flange", "[report]") {
-    const RunRecord record = angledRun(); // axis 1 turns by 30 degrees, a circle of the flange about the base
+    const RobotRecord record = angledRun(); // axis 1 turns by 30 degrees, a circle of the flange about the base
     const Analysis analysis = analyse(record);
     Recording angles = recordingOf(record, [](RecordedSample& s, const Sample&) { s.position = {}; });
     angles.hasPositions = false;
@@ -429,7 +459,7 @@ TEST_CASE("axis angles alone are compared at the flange", "[report]") {
 }
 
 TEST_CASE("a recording without motion is refused in words", "[report]") {
-    const RunRecord record = angledRun();
+    const RobotRecord record = angledRun();
     const Analysis analysis = analyse(record);
     const Recording still = recordingOf(record, [](RecordedSample& s, const Sample&) { s.position = {}; });
     CHECK(compare(record, analysis, still).problem == "the TCP does not move in the recording");
@@ -438,13 +468,13 @@ TEST_CASE("a recording without motion is refused in words", "[report]") {
 // ---- Pages and pictures ----------------------------------------------------------------------------------------------
 
 TEST_CASE("no text of the program can end the data of a page", "[report]") {
-    RunRecord record = angledRun();
+    RunRecord record = runOf(angledRun());
     record.program = "a<b>&\"{{script}}";
     record.markers.push_back({0.5, "line", 0, "", "</script><script>alert(1)</script>"});
-    const Analysis analysis = analyse(record);
-    const std::string data = pageData({record, analysis});
+    const std::vector<RobotReport> robots = robotReports(record, {});
+    const std::string data = pageData({record, robots});
     CHECK(data.find('<') == std::string::npos);
-    const std::string page = reportPage({record, analysis});
+    const std::string page = reportPage({record, robots});
     CHECK(page.find("<title>a&lt;b&gt;&amp;&quot;") != std::string::npos);
     std::size_t ends = 0;
     for (std::size_t at = page.find("</script>"); at != std::string::npos;
@@ -454,14 +484,15 @@ TEST_CASE("no text of the program can end the data of a page", "[report]") {
 }
 
 TEST_CASE("the picture shows zones, names and changes of signals", "[report]") {
-    RunRecord record = angledRun();
+    RobotRecord record = angledRun();
     record.moves[0].text = {"MoveL", "pCorner", true};
     record.moves[0].end = {100, 0, 0};
     record.moves[0].stopPoint = false;
     record.moves[0].zone = 20;
     record.moves[1].end = {100, 100, 0};
-    record.signals.push_back({"doGrip", "DO", 0, {{1.2, 1}}});
-    const std::string svg = pathPicture(record);
+    RunRecord run = runOf(record);
+    run.signals.push_back({"doGrip", "DO", 0, {{1.2, 1}}});
+    const std::string svg = pathPicture(run);
     CHECK(svg.find(">pCorner<") != std::string::npos);
     CHECK(svg.find(">line 12<") != std::string::npos); // without a name: the line
     CHECK(svg.find(">doGrip=1<") != std::string::npos);
@@ -471,10 +502,52 @@ TEST_CASE("the picture shows zones, names and changes of signals", "[report]") {
 }
 
 TEST_CASE("a run without samples has a page and a picture", "[report]") {
-    RunRecord record;
+    RobotRecord record;
     record.robot = simpleRobot();
     const Analysis analysis = analyse(record);
-    CHECK(pathPicture(record).find("</svg>") != std::string::npos);
-    CHECK(reportPage({record, analysis}).find("</html>") != std::string::npos);
+    const RunRecord run = runOf(record);
+    CHECK(pathPicture(run).find("</svg>") != std::string::npos);
+    CHECK(reportPage({run, robotReports(run, {})}).find("</html>") != std::string::npos);
     CHECK(compare(record, analysis, Recording()).problem == "the TCP does not move in this run");
+}
+
+TEST_CASE("several robots have a legend and a summary each", "[report]") {
+    RunRecord run = runOf(angledRun());
+    run.robots.push_back(run.robots[0]);
+    run.robots[0].unit = "ROB_1";
+    run.robots[1].unit = "ROB_<2>";
+    const std::string svg = pathPicture(run);
+    CHECK(svg.find(">ROB_1<") != std::string::npos);
+    CHECK(svg.find(">ROB_&lt;2&gt;<") != std::string::npos);
+    const std::string text = summaryText(run, robotReports(run, {}));
+    CHECK(text.find("robot       ROB_1 (simple)\nmoving") != std::string::npos);
+    CHECK(text.find("\nrobot       ROB_<2> (simple)\nmoving") != std::string::npos);
+    // External axes alone have no path.
+    run.robots[1].hasArm = false;
+    CHECK(pathPicture(run).find("ROB_1") == std::string::npos); // one path needs no legend
+}
+
+// Rule: an external axis at its speed limit is named, and its programmed speed counts (docs/reports.md).
+TEST_CASE("external axes have programmed speeds and limits", "[report]") {
+    RobotRecord record;
+    record.robot = simpleRobot();
+    record.hasArm = false;
+    record.external.push_back({"STN1", 1, true, 50, 1e6});
+    record.moves.push_back(moveNumber(1, 100));
+    record.moves[0].externalTurnSpeed = 100;
+    Sample sample;
+    sample.external[1] = 0;
+    record.samples.push_back(sample);
+    sample.move = 1;
+    for (int i = 1; i <= 250; ++i) { // 1 s at 50 deg/s, half of what is programmed
+        sample.time += kStep;
+        sample.external[1] += 0.2;
+        record.samples.push_back(sample);
+    }
+    const Analysis limited = analyse(record);
+    REQUIRE(limited.moves.size() == 1);
+    CHECK(lostTo(limited.moves[0], Cause::JointSpeed, kFirstExternal + 1) == Approx(0.5).margin(0.01));
+    CHECK(causeText(limited.moves[0].main) == "speed limit of axis eax_b");
+    record.moves[0].externalTurnSpeed = 50;
+    CHECK(analyse(record).moves.at(0).atProgrammed == Approx(1).margin(0.01));
 }

@@ -1,0 +1,127 @@
+// MotionDriver: what remains of a synchronised movement, between two processes (--state).
+
+#include "runtime/host/motion_driver.h"
+#include "runtime/host/synchronised_group.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace rt {
+
+/// What one robot has left of a movement that all make together.
+struct MotionDriver::EarlierOrders {
+    MotionDriver* driver = nullptr;
+    std::vector<motion::MoveCommand> moves;
+    std::optional<motion::MoveCommand> awaited; ///< by the instruction that is executed again
+};
+
+namespace {
+
+using Idents = std::set<int64_t>;
+
+/// Those that every robot has left: one that only some of them have passed is over.
+template <class Orders> Idents commonIdents(const std::vector<Orders>& all) {
+    Idents common;
+    bool isFirst = true;
+    for (const Orders& one : all) {
+        Idents own;
+        for (const motion::MoveCommand& move : one.moves)
+            own.insert(move.ident);
+        if (one.awaited) own.insert(one.awaited->ident);
+        if (std::exchange(isFirst, false))
+            common = own;
+        else
+            std::erase_if(common, [&](int64_t ident) { return own.count(ident) == 0; });
+    }
+    return common;
+}
+
+} // namespace
+
+/// Movements that all robots have ordered begin now. At one that some robot orders again (its instruction waited for it), the
+/// others' orders wait for that.
+void MotionDriver::orderEarlierTogether(SynchronisedGroup& group, const std::vector<EarlierOrders>& orders) {
+    const Idents common = commonIdents(orders);
+    std::vector<std::vector<motion::MoveCommand>> left;
+    std::size_t complete = common.size();
+    for (const EarlierOrders& one : orders) {
+        auto& moves = left.emplace_back();
+        for (const motion::MoveCommand& move : one.moves)
+            if (common.count(move.ident) != 0) moves.push_back(move);
+        complete = std::min(complete, moves.size());
+    }
+    const auto systems = group.systems();
+    const bool areTogether = complete > 0 && motion::MotionSystem::beginTogether(systems);
+    for (std::size_t k = 0; k < complete && areTogether; ++k) {
+        std::vector<motion::MoveCommand> commands;
+        std::vector<Beginning> beginnings;
+        for (std::size_t i = 0; i < orders.size(); ++i) {
+            orders[i].driver->continueEarlier(left[i][k]);
+            beginnings.push_back(orders[i].driver->beginOrder(nullptr, left[i][k]));
+            commands.push_back(left[i][k]);
+        }
+        const auto ids = motion::MotionSystem::enqueueTogether(systems, commands);
+        if (!ids) return; // the arms are elsewhere: the program orders what comes next
+        for (std::size_t i = 0; i < orders.size(); ++i)
+            orders[i].driver->noteOrdered(nullptr, commands[i], (*ids)[i], beginnings[i]);
+    }
+    for (std::size_t i = 0; i < orders.size(); ++i) {
+        for (std::size_t k = complete; k < left[i].size(); ++k) {
+            orders[i].driver->continueEarlier(left[i][k]);
+            group.expect(*orders[i].driver, left[i][k]);
+        }
+    }
+}
+
+void MotionDriver::continueTogether(SynchronisedGroup& group, std::vector<EarlierPath> paths) {
+    const auto& members = group.members();
+    std::size_t levels = 0;
+    for (const EarlierPath& path : paths)
+        levels = std::max(levels, path.stored.size() + 1);
+    for (std::size_t level = 0; level < levels; ++level) {
+        const auto isShared = [level](const EarlierPath& path) {
+            if (level > path.stored.size()) return false;
+            return !(level < path.stored.size() ? path.stored[level].isSuspended : path.isSuspended);
+        };
+        const auto isStored = [level](const EarlierPath& path) { return level < path.stored.size(); };
+        const bool areTogether = std::all_of(paths.begin(), paths.end(), isShared);
+        const bool isAside = std::any_of(paths.begin(), paths.end(), isStored);
+        std::vector<EarlierOrders> orders;
+        std::vector<motion::JointTarget> here;
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            MotionDriver& driver = *members[i].driver;
+            here.push_back(driver.system_.currentJoints());
+            driver.earlier_ = {};
+            if (!areTogether) continue;
+            if (isStored(paths[i])) driver.system_.placeAt(paths[i].stored[level].left);
+            if (isAside) driver.system_.stop();
+            driver.earlier_.begun = isStored(paths[i]) ? paths[i].stored[level].begun : paths[i].begun;
+            orders.push_back({&driver, isStored(paths[i]) ? paths[i].stored[level].moves : paths[i].moves,
+                              isStored(paths[i]) ? std::nullopt : paths[i].awaited});
+        }
+        if (areTogether) orderEarlierTogether(group, orders);
+        for (std::size_t i = 0; i < members.size(); ++i)
+            members[i].driver->finishEarlierLevel(paths[i], level, areTogether, here[i]);
+    }
+}
+
+/// Puts the level aside as it was, or goes on with it when it is the present one.
+void MotionDriver::finishEarlierLevel(const EarlierPath& path, std::size_t number, bool isOrdered,
+                                      const motion::JointTarget& here) {
+    if (number > path.stored.size()) return;
+    if (number == path.stored.size()) {
+        if (!isOrdered) {
+            earlier_.begun = path.begun;
+            orderEarlier(path.moves);
+        }
+        return holdEarlier(path);
+    }
+    const EarlierLevel& level = path.stored[number];
+    if (!isOrdered) return storeEarlier(level);
+    system_.storePath();
+    system_.placeAt(here);
+    levels_.push_back({level.stopMove, {}, level.left, level.isSuspended});
+}
+
+} // namespace rt
