@@ -272,7 +272,7 @@ TEST_CASE("data types, constants and errors of options are told from mistakes", 
                    addIn("8:40", "CAP_TRACK_ERR", "Continuous Application Platform"),
                    addIn("9:16", "ERR_MT_HOME", "RobotWare Machine Tending"),
                    addIn("10:16", "SMEQDATA", "RobotWare Spot"),
-                   addIn("10:40", "PAINT_ERR", "RobotWare Paint")});
+                   addIn("10:36", "PAINT_ERR", "RobotWare Paint")});
 }
 
 TEST_CASE("results of BullsEye, names of other releases, data types only where one is expected", "[sema]") {
