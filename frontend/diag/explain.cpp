@@ -1,22 +1,71 @@
 #include "frontend/diag/explain.h"
 
+#include "frontend/diag/explain_pages.h"
+
 #include <algorithm>
+#include <charconv>
 
 namespace rapid::diag {
 
-const Explanation* findExplanation(uint16_t number) {
-    for (const auto all :
-         {explanations1xxx(), explanations2xxx(), explanations3xxx(), explanations4xxx(), explanations5xxx(),
-          explanations6xxx(), explanationsOfBackups(), explanations7xxx(), explanations8xxx()}) {
-        const auto found =
-            std::find_if(all.begin(), all.end(), [&](const Explanation& e) { return e.number == number; });
-        if (found != all.end()) return &*found;
+namespace {
+
+constexpr std::string_view kKinds[] = {"file", "module", "body", "files"}; // by ExampleKind
+
+/// Takes the example with this title off the end of a page's text; empty when it has none.
+std::string_view takeExample(std::string_view& page, std::string_view title, ExampleKind& kind) {
+    const size_t at = page.rfind(title);
+    if (at == std::string_view::npos) return {};
+    std::string_view example = page.substr(at + title.size());
+    const size_t line = example.find('\n'), end = example.rfind("\n```");
+    if (line == std::string_view::npos || end == std::string_view::npos) return {};
+    const std::string_view name = example.substr(0, line);
+    const auto found = std::ranges::find(kKinds, name.substr(name.rfind(' ') + 1));
+    if (found == std::end(kKinds)) return {};
+    kind = static_cast<ExampleKind>(found - std::begin(kKinds));
+    page = page.substr(0, at);
+    return line < end ? example.substr(line + 1, end - line - 1) : std::string_view();
+}
+
+/// Reads what pageOf() (explain_pages.cpp) writes.
+Explanation readPage(std::string_view page) {
+    constexpr std::string_view kTitle = "# RAP", kEnd = "\n\n[All", kMessage = "\n> ", kName = "\nName: ";
+    Explanation e;
+    std::from_chars(page.data() + kTitle.size(), page.data() + page.size(), e.number);
+    page = page.substr(0, page.rfind(kEnd));
+    for (const std::string_view before : {kMessage, kName}) {
+        const size_t at = page.find(before);
+        if (at != std::string_view::npos) page.remove_prefix(std::min(page.find("\n", at + 1), page.size()));
     }
-    return nullptr;
+    e.right = takeExample(page, "\n\nRight:\n\n```", e.kind);
+    e.wrong = takeExample(page, "\n\nWrong:\n\n```", e.kind);
+    e.meaning = page.substr(std::min(page.find_first_not_of('\n'), page.size()));
+    return e;
+}
+
+} // namespace
+
+std::span<const Explanation> explanations() {
+    static const std::vector<Explanation> kAll = [] {
+        std::vector<Explanation> all;
+        for (const std::string_view page : embeddedPages())
+            if (const Explanation e = readPage(page); !e.meaning.empty()) all.push_back(e);
+        return all;
+    }();
+    return kAll;
+}
+
+const Explanation* findExplanation(uint16_t number) {
+    const auto all = explanations();
+    const auto found = std::ranges::lower_bound(all, number, {}, &Explanation::number);
+    return found != all.end() && found->number == number ? &*found : nullptr;
 }
 
 std::string_view exampleLanguage(ExampleKind kind) {
     return kind == ExampleKind::Files ? "text" : "rapid";
+}
+
+std::string_view exampleKindName(ExampleKind kind) {
+    return kKinds[static_cast<size_t>(kind)];
 }
 
 namespace {

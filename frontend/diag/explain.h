@@ -1,5 +1,6 @@
 #pragma once
-// What diagnostics mean, with a wrong and a right example: `rapidc explain`, and the help of editors.
+// What diagnostics mean, with a wrong and a right example: `rapidc explain`, and the help of editors. The words are in
+// docs/diagnostics, one page for each code; the build embeds them.
 
 #include <cstdint>
 #include <span>
@@ -11,7 +12,7 @@ namespace rapid::diag {
 
 struct CatalogueEntry;
 
-/// Where the examples of an explanation stand.
+/// How the examples of an explanation are to be completed. A page names it after the language of the example: "```rapid body".
 enum class ExampleKind : uint8_t {
     File,   ///< a whole file
     Module, ///< between MODULE and ENDMODULE
@@ -39,6 +40,8 @@ struct Explanation {
 
 /// The language of an example in Markdown: "rapid", or "text" where it is more than a module.
 std::string_view exampleLanguage(ExampleKind kind);
+/// Its name in a page: "module".
+std::string_view exampleKindName(ExampleKind kind);
 
 /// An example as a user would try it.
 struct ExampleProject {
@@ -51,16 +54,8 @@ struct ExampleProject {
 };
 ExampleProject exampleProject(ExampleKind kind, std::string_view example);
 
-/// Explanations of the 1xxx codes, ascending; those of the parser, and so on as in diagnostics.def.
-std::span<const Explanation> explanations1xxx();
-std::span<const Explanation> explanations2xxx();
-std::span<const Explanation> explanations3xxx();
-std::span<const Explanation> explanations4xxx();
-std::span<const Explanation> explanations5xxx();
-std::span<const Explanation> explanations6xxx(); ///< but for backups
-std::span<const Explanation> explanationsOfBackups();
-std::span<const Explanation> explanations7xxx(); ///< and 9xxx
-std::span<const Explanation> explanations8xxx();
+/// The explanations of all codes, ascending, as the pages of docs/diagnostics give them.
+std::span<const Explanation> explanations();
 
 /// Null when there is none for the code.
 const Explanation* findExplanation(uint16_t number);
@@ -74,7 +69,8 @@ std::string switchingOf(const CatalogueEntry& entry);
 /// What a range of numbers is about: "names and types".
 std::string_view areaOf(uint16_t number);
 
-/// A page of docs/diagnostics, Markdown: one a code, and `README.md`, which lists them.
+/// A page of docs/diagnostics, Markdown: one for each code, and `README.md`, which lists them. Title, severity, message and
+/// name come from the catalogue; the rest is what the page says already.
 struct DiagnosticPage {
     std::string fileName;
     std::string text;

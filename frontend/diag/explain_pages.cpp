@@ -42,11 +42,11 @@ std::string pageOf(const CatalogueEntry& entry) {
     const Explanation* explanation = findExplanation(entry.number);
     if (explanation) {
         out += fmt::format("\n{}\n", explanation->meaning);
+        const std::string_view kind = exampleKindName(explanation->kind);
         if (!explanation->wrong.empty())
-            out += fmt::format("\nWrong:\n\n```text\n{}\n```\n", explanation->wrong);
-        if (!explanation->wrong.empty() && !explanation->right.empty())
-            out += fmt::format("\nRight:\n\n```{}\n{}\n```\n", exampleLanguage(explanation->kind),
-                               explanation->right);
+            out += fmt::format("\nWrong:\n\n```text {}\n{}\n```\n", kind, explanation->wrong);
+        out += fmt::format("\nRight:\n\n```{} {}\n{}\n```\n", exampleLanguage(explanation->kind), kind,
+                           explanation->right);
     }
     return out + "\n[All diagnostics](README.md)\n";
 }

@@ -1,6 +1,15 @@
 // Arguments that do not fit where they stand, but would in another order or with one more or less: one mistake, said once.
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/argument_order.h"
+#include "frontend/sema/arguments.h"
+#include "frontend/sema/call.h"
+#include "frontend/sema/parameters.h"
+#include "frontend/sema/parts.h"
+#include "frontend/sema/place.h"
+#include "frontend/sema/remedies.h"
+#include "frontend/sema/scopes.h"
+#include "frontend/sema/type_rules.h"
+#include "frontend/sema/wording.h"
 
 #include <algorithm>
 
@@ -15,7 +24,7 @@ constexpr size_t kMostArguments = 16; // of calls that are looked at
 } // namespace
 
 /// Whether a parameter of this mode takes the data; the type does not count.
-bool Analyzer::mayStandFor(const DataSymbol& root, ParamMode mode) {
+bool mayStandFor(const DataSymbol& root, ParamMode mode) {
     const bool parameter = root.storage == Storage::Parameter;
     if (mode == ParamMode::In || mode == ParamMode::Ref) return true;
     if (root.storage == Storage::Signal) return mode != ParamMode::Pers;
@@ -26,14 +35,18 @@ bool Analyzer::mayStandFor(const DataSymbol& root, ParamMode mode) {
     return mode == ParamMode::Var ? !persistent : mode == ParamMode::Pers ? persistent || either : true;
 }
 
+ArgumentOrder::ArgumentOrder(State& state, const Parts& parts)
+    : CheckerPart(state), arguments_(parts.arguments), calls_(parts.calls), places_(parts.places),
+      remedies_(parts.remedies), scopes_(parts.scopes) {}
+
 /// Would the argument, which has been checked, fit this parameter?
-bool Analyzer::couldBe(const Expr& e, const DataSymbol& param) {
+bool ArgumentOrder::couldBe(const Expr& e, const DataSymbol& param) {
     const DataSymbol* data = e.kind == NodeKind::Name ? asData(info(e).symbol) : nullptr;
     const DataType& found =
         data ? data->type : info(e).type; // signals and handles have been taken for values
     const Type& want = *param.type.type;
     if (!found.type || found.type->kind == TypeKind::Error) // a name that nothing declares may be a signal
-        return e.kind == NodeKind::Name && handleHint(param);
+        return e.kind == NodeKind::Name && arguments_.handleHint(param);
     const Expr* base = &e;
     while (base->kind == NodeKind::Index || base->kind == NodeKind::Component)
         base = base->kind == NodeKind::Index ? as<IndexExpr>(*base).base : as<ComponentExpr>(*base).base;
@@ -48,17 +61,18 @@ bool Analyzer::couldBe(const Expr& e, const DataSymbol& param) {
 }
 
 /// Whether all that was reported of the call is about its required arguments.
-bool Analyzer::errorsLieIn(const std::vector<const Expr*>& given) const {
-    return std::all_of(collect_->all().begin(), collect_->all().end(), [&](const diag::Diagnostic& d) {
-        if (d.severity != diag::Severity::Error) return true;
-        return std::any_of(given.begin(), given.end(), [&](const Expr* e) {
-            return range(*e).begin <= d.range.begin && d.range.end <= range(*e).end;
-        });
-    });
+bool ArgumentOrder::errorsLieIn(const std::vector<const Expr*>& given) const {
+    return std::all_of(state_.reports.collected()->all().begin(), state_.reports.collected()->all().end(),
+                       [&](const diag::Diagnostic& d) {
+                           if (d.severity != diag::Severity::Error) return true;
+                           return std::any_of(given.begin(), given.end(), [&](const Expr* e) {
+                               return range(*e).begin <= d.range.begin && d.range.end <= range(*e).end;
+                           });
+                       });
 }
 
 // "Move p,x;" for "Move p.x;": nothing is named 'x' but a component of what stands before it.
-bool Analyzer::explainComma(std::span<Argument* const> args) {
+bool ArgumentOrder::explainComma(std::span<Argument* const> args) {
     for (size_t i = 0; i + 1 < args.size(); ++i) {
         const Expr *whole = args[i]->value, *part = args[i + 1]->value;
         if (!whole || !part || part->kind != NodeKind::Name || args[i + 1]->argKind != ArgKind::Required)
@@ -66,9 +80,9 @@ bool Analyzer::explainComma(std::span<Argument* const> args) {
         const DataType& type = info(*whole).type;
         if (range(*part).begin != range(*whole).end + 1 || info(*part).type.type->kind != TypeKind::Error ||
             type.rank > 0 || type.type->kind != TypeKind::Record ||
-            findComponent(*type.type, text(*part)) < 0)
+            places_.findComponent(*type.type, text(*part)) < 0)
             continue;
-        collect_->retract([](const diag::Diagnostic&) { return true; });
+        state_.reports.collected()->retract([](const diag::Diagnostic&) { return true; });
         const SourceRange comma{range(*whole).end, range(*part).begin};
         report(Code::UnexpectedToken, comma, {"','", "'.' before a component"}).fix(comma, ".");
         return true;
@@ -77,7 +91,8 @@ bool Analyzer::explainComma(std::span<Argument* const> args) {
 }
 
 /// Looks for the one mistake behind what was found wrong with the arguments; then it alone is reported.
-bool Analyzer::explainArguments(const BoundCall& call, TokenIndex name, std::span<Argument* const> args) {
+bool ArgumentOrder::explainArguments(const BoundCall& call, TokenIndex name,
+                                     std::span<Argument* const> args) {
     const RoutineSymbol& routine = *call.routine;
     std::vector<const DataSymbol*> params;
     std::vector<const Expr*> given;
@@ -92,23 +107,25 @@ bool Analyzer::explainArguments(const BoundCall& call, TokenIndex name, std::spa
         given.push_back(arg->value);
     }
     if (params.empty() || given.size() < params.size() || params.size() > kMostArguments ||
-        given.size() > params.size() + 1 || !endsWell(name, args) || !errorsLieIn(given))
+        given.size() > params.size() + 1 || !calls_.endsWell(name, args) || !errorsLieIn(given))
         return false;
     return params.size() == given.size() ? explainOrder(routine, params, given)
                                          : explainCount(routine, name, params, given);
 }
 
-void Analyzer::reportSwapped(const RoutineSymbol& routine, const DataSymbol& one, const DataSymbol& other,
-                             const Expr& first, const Expr& second, bool certain) {
+void ArgumentOrder::reportSwapped(const RoutineSymbol& routine, const DataSymbol& one,
+                                  const DataSymbol& other, const Expr& first, const Expr& second,
+                                  bool certain) {
     report(Code::ArgumentsSwapped, range(first), {one.name, other.name, routine.name})
-        .fixes.push_back({"let them change places",
-                          {{range(first), written(second)}, {range(second), written(first)}},
-                          certain});
+        .fixes.push_back(
+            {"let them change places",
+             {{range(first), remedies_.written(second)}, {range(second), remedies_.written(first)}},
+             certain});
 }
 
 /// Two that have changed places, or one that stands too early or too late.
-bool Analyzer::explainOrder(const RoutineSymbol& routine, const std::vector<const DataSymbol*>& params,
-                            const std::vector<const Expr*>& given) {
+bool ArgumentOrder::explainOrder(const RoutineSymbol& routine, const std::vector<const DataSymbol*>& params,
+                                 const std::vector<const Expr*>& given) {
     const size_t count = params.size();
     std::vector<size_t> order(count);
     const auto reset = [&] {
@@ -129,7 +146,9 @@ bool Analyzer::explainOrder(const RoutineSymbol& routine, const std::vector<cons
     for (size_t i = 0; i < count; ++i)
         inOrder = inOrder && isInPlace(i);
     if (inOrder) return false; // what is wrong is another thing
-    const auto dropErrors = [&] { collect_->retract([](const diag::Diagnostic&) { return true; }); };
+    const auto dropErrors = [&] {
+        state_.reports.collected()->retract([](const diag::Diagnostic&) { return true; });
+    };
     for (size_t i = 0; i < count; ++i) {
         for (size_t k = i + 1; k < count; ++k) {
             reset();
@@ -161,19 +180,19 @@ bool Analyzer::explainOrder(const RoutineSymbol& routine, const std::vector<cons
 }
 
 /// One too many before others.
-bool Analyzer::explainCount(const RoutineSymbol& routine, TokenIndex name,
-                            const std::vector<const DataSymbol*>& params,
-                            const std::vector<const Expr*>& given) {
+bool ArgumentOrder::explainCount(const RoutineSymbol& routine, TokenIndex name,
+                                 const std::vector<const DataSymbol*>& params,
+                                 const std::vector<const Expr*>& given) {
     size_t odd = 0;
     while (odd < params.size() && couldBe(*given[odd], *params[odd]))
         ++odd;
     if (odd == params.size()) return false;
     for (size_t i = odd; i < params.size(); ++i)
         if (!couldBe(*given[i + 1], *params[i])) return false;
-    collect_->take();
+    state_.reports.collected()->take();
     if (given[odd]->kind == NodeKind::Name) { // "MoveAbsJ jp, NoEOffs, v100, ..."
         const TokenIndex option = as<NameExpr>(*given[odd]).name;
-        if (isName(option) && namedOptional(routine, idOf(option)) < routine.params.size()) {
+        if (isName(option) && calls_.namedOptional(routine, idOf(option)) < routine.params.size()) {
             report(Code::OptionalWithoutBackslash, range(option), {routine.name, text(option)})
                 .fix({range(option).begin, range(option).begin}, "\\", false);
             return true;
@@ -185,21 +204,22 @@ bool Analyzer::explainCount(const RoutineSymbol& routine, TokenIndex name,
 }
 
 /// "SetDO do1 := 1;" and "MoveL p10, v100, fine, tool0WObj:=wobj1;": ',' or '\\' is missing, and no parameter is named so.
-bool Analyzer::reportMisspeltSeparator(const RoutineSymbol& routine, const Argument& arg, size_t slot,
-                                       bool isLast) {
-    const std::string_view written = interner_.folded(idOf(arg.name));
+bool ArgumentOrder::reportMisspeltSeparator(const RoutineSymbol& routine, const Argument& arg, size_t slot,
+                                            bool isLast) {
+    const std::string_view written = state_.names.folded(idOf(arg.name));
     for (const DataSymbol* param : routine.params) {
-        const std::string_view option = interner_.folded(param->nameId);
+        const std::string_view option = state_.names.folded(param->nameId);
         if (!param->optional || written.size() <= option.size() || !written.ends_with(option)) continue;
         const size_t rest = written.size() - option.size();
-        if (!asData(lookup(interner_.intern(written.substr(0, rest))))) continue;
+        if (!asData(scopes_.lookup(state_.names.intern(written.substr(0, rest))))) continue;
         const uint32_t at = range(arg.name).end - static_cast<uint32_t>(option.size());
         report(Code::OptionalWithoutBackslash, {at, range(arg.name).end}, {routine.name, param->name})
             .fix({at, at}, "\\");
         return true;
     }
     const bool another = nextRequired(routine, alternativesEnd(routine, slot)) < routine.params.size();
-    const bool isArgument = asData(lookup(idOf(arg.name))) || handleHint(*routine.params[slot]);
+    const bool isArgument =
+        asData(scopes_.lookup(idOf(arg.name))) || arguments_.handleHint(*routine.params[slot]);
     if (!isLast || !another || !isArgument) return false;
     report(Code::UnexpectedToken, range(arg.name + 1), {"':='", "',' before the next argument"})
         .fix(range(arg.name + 1), ",");

@@ -1,14 +1,28 @@
 // One argument against its parameter: type, access mode, optional and conditional forms (manual 1.1.5, 1.3.4).
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/arguments.h"
+#include "frontend/sema/argument_order.h"
+#include "frontend/sema/call.h"
+#include "frontend/sema/expr.h"
+#include "frontend/sema/parameters.h"
+#include "frontend/sema/parts.h"
+#include "frontend/sema/place.h"
+#include "frontend/sema/remedies.h"
+#include "frontend/sema/scopes.h"
+#include "frontend/sema/type_rules.h"
+#include "frontend/sema/wording.h"
 #include "frontend/syntax/tree_walk.h"
 
 namespace rapid::sema {
 
 using namespace syntax;
 
+Arguments::Arguments(State& state, const Parts& parts)
+    : CheckerPart(state), calls_(parts.calls), expressions_(parts.expressions), places_(parts.places),
+      remedies_(parts.remedies), scopes_(parts.scopes) {}
+
 // The type an undeclared name gets when it stands for this parameter.
-const Type* Analyzer::handleHint(const DataSymbol& param) const {
+const Type* Arguments::handleHint(const DataSymbol& param) const {
     const Type& type = *param.type.type;
     const std::string& name = type.base()->name;
     const bool configured = type.kind == TypeKind::SemiValue || (param.predefined && name == "mecunit") ||
@@ -16,23 +30,7 @@ const Type* Analyzer::handleHint(const DataSymbol& param) const {
     return configured && param.type.rank == 0 ? param.type.type : nullptr;
 }
 
-std::string Analyzer::describeExpr(const Expr& e) {
-    switch (e.kind) {
-    case NodeKind::NumLiteral:
-    case NodeKind::StringLiteral:
-    case NodeKind::BoolLiteral: return "a literal";
-    case NodeKind::Call: return "a function call";
-    case NodeKind::Aggregate: return "an aggregate";
-    case NodeKind::Paren: return "an expression in parentheses";
-    case NodeKind::Binary: {
-        const BinaryOp op = as<BinaryExpr>(e).op;
-        return op >= BinaryOp::Lt && op <= BinaryOp::Ge ? "a comparison" : "an expression";
-    }
-    default: return "an expression";
-    }
-}
-
-void Analyzer::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
+void Arguments::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
     const DataSymbol& param = *bound.param;
     const Argument& arg = *bound.argument;
     if (arg.argKind == ArgKind::Conditional) {
@@ -41,12 +39,13 @@ void Analyzer::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
     }
     if (param.isSwitch) {
         if (!bound.value) return;
-        if (arg.argKind == ArgKind::Required) return visitLoose(*bound.value); // told where '\\' is missing
+        if (arg.argKind == ArgKind::Required)
+            return expressions_.visitLoose(*bound.value); // told where '\\' is missing
         diag::Diagnostic& d = report(Code::SwitchWithValue, range(*bound.value), {param.name});
         const bool isTrue =
             bound.value->kind == NodeKind::BoolLiteral && as<BoolLiteralExpr>(*bound.value).value;
         d.fix({range(arg.name).end, range(arg).end}, "", isTrue);
-        visitLoose(*bound.value);
+        expressions_.visitLoose(*bound.value);
         return;
     }
     if (!bound.value) {
@@ -61,35 +60,35 @@ void Analyzer::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
     const bool byReference = param.mode != ParamMode::In || param.type.type->kind == TypeKind::SemiValue;
     if (byReference) {
         // An argument that is absent is something ArgName may be asked about.
-        const bool asked = presenceOnly_ || routine.role == Role::ArgName;
-        const bool outer = std::exchange(presenceOnly_, asked);
+        const bool asked = state_.presenceOnly || routine.role == Role::ArgName;
+        const bool outer = std::exchange(state_.presenceOnly, asked);
         checkReference(routine, bound);
-        presenceOnly_ = outer;
+        state_.presenceOnly = outer;
     } else {
         const bool any = param.type.type->kind == TypeKind::AnyType;
-        leaveUnread_ = options_.onlyDiagnostics && bound.value->kind == NodeKind::Name;
-        const Typed t = expr(*bound.value, any ? nullptr : &param.type);
-        leaveUnread_ = false;
+        state_.leaveUnread = state_.options.onlyDiagnostics && bound.value->kind == NodeKind::Name;
+        const Typed t = expressions_.expr(*bound.value, any ? nullptr : &param.type);
+        state_.leaveUnread = false;
         judgeValue(routine, bound, t);
     }
 }
 
 // `name = value` as an argument, where `name` is that of the parameter and nothing else.
-bool Analyzer::reportEqualAsAssign(const BoundArg& bound) {
+bool Arguments::reportEqualAsAssign(const BoundArg& bound) {
     if (bound.value->kind != NodeKind::Binary) return false;
     const auto& equal = as<BinaryExpr>(*bound.value);
     if (equal.op != BinaryOp::Eq || equal.left->kind != NodeKind::Name) return false;
     const TokenIndex name = as<NameExpr>(*equal.left).name;
-    if (!isName(name) || idOf(name) != bound.param->nameId || lookup(idOf(name))) return false;
+    if (!isName(name) || idOf(name) != bound.param->nameId || scopes_.lookup(idOf(name))) return false;
     report(Code::EqualInAssignment, range(equal.opToken)).fix(range(equal.opToken), ":=");
-    visitLoose(*equal.right);
+    expressions_.visitLoose(*equal.right);
     return true;
 }
 
 // Whether an argument could stand for one of the parameters, which share a place.
-bool Analyzer::couldStandFor(const Expr& value, std::span<const BoundArg> params) {
+bool Arguments::couldStandFor(const Expr& value, std::span<const BoundArg> params) {
     const DataSymbol* entire =
-        value.kind == NodeKind::Name ? asData(lookup(idOf(as<NameExpr>(value).name))) : nullptr;
+        value.kind == NodeKind::Name ? asData(scopes_.lookup(idOf(as<NameExpr>(value).name))) : nullptr;
     const DataType& found = info(value).type;
     const bool unknown = !found.type || found.type->kind == TypeKind::Error;
     return std::any_of(params.begin(), params.end(), [&](const BoundArg& bound) {
@@ -108,7 +107,7 @@ bool Analyzer::couldStandFor(const Expr& value, std::span<const BoundArg> params
 
 // The place of the required parameter whose argument is missing in the middle: the arguments behind it fit the
 // parameters after it. `moved`: these arguments.
-std::span<const BoundArg> Analyzer::leftOut(const BoundCall& call, std::vector<const Expr*>& moved) {
+std::span<const BoundArg> Arguments::leftOut(const BoundCall& call, std::vector<const Expr*>& moved) {
     std::vector<std::span<const BoundArg>> places;
     std::vector<const Expr*> given;
     const RoutineSymbol& routine = *call.routine;
@@ -130,8 +129,8 @@ std::span<const BoundArg> Analyzer::leftOut(const BoundCall& call, std::vector<c
 }
 
 // What was said about arguments that only stand in the wrong place.
-void Analyzer::takeBack(const std::vector<const Expr*>& moved) {
-    collect_->retract([&](const diag::Diagnostic& d) {
+void Arguments::takeBack(const std::vector<const Expr*>& moved) {
+    state_.reports.collected()->retract([&](const diag::Diagnostic& d) {
         const bool aboutArgument = d.code == Code::ArgumentClass || d.code == Code::ArgumentNotVariable ||
                                    d.code == Code::ArgumentNotWhole || d.code == Code::ArgumentAlternatives ||
                                    d.code == Code::NonValueInExpression;
@@ -141,15 +140,15 @@ void Analyzer::takeBack(const std::vector<const Expr*>& moved) {
 }
 
 // "MoveL p10.v100, fine, tool0;": no component is named so, but data is.
-bool Analyzer::isDotForComma(const Expr& e) {
+bool Arguments::isDotForComma(const Expr& e) {
     if (e.kind != NodeKind::Component) return false;
     const auto& part = as<ComponentExpr>(e);
     return isName(part.name) && info(e).type.type->kind == TypeKind::Error &&
-           info(*part.base).type.type->kind == TypeKind::Record && asData(lookup(idOf(part.name)));
+           info(*part.base).type.type->kind == TypeKind::Record && asData(scopes_.lookup(idOf(part.name)));
 }
 
 // Arguments of the wrong type, and those that are missing. One that is missing in the middle is one mistake.
-void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t firstMismatch, bool missing) {
+void Arguments::reportArguments(const BoundCall& call, TokenIndex name, size_t firstMismatch, bool missing) {
     const std::vector<Mismatch> wrong(mismatches_.begin() + static_cast<std::ptrdiff_t>(firstMismatch),
                                       mismatches_.end());
     mismatches_.resize(firstMismatch);
@@ -173,35 +172,35 @@ void Analyzer::reportArguments(const BoundCall& call, TokenIndex name, size_t fi
             return;
         }
     }
-    if (missing) reportMissing(call, name);
+    if (missing) calls_.reportMissing(call, name);
     for (const Mismatch& one : wrong) {
         const auto names = typeNames(one.found, one.param->type);
-        const Remedy remedy = remedyFor(routine, *one.value, one.found, *one.param);
-        offer(report(Code::ArgumentType, range(*one.value),
-                     {one.param->name, routine.name, names[0], names[1]}),
-              *one.value, remedy);
+        const Remedy remedy = remedies_.remedyFor(routine, *one.value, one.found, *one.param);
+        remedies_.offer(report(Code::ArgumentType, range(*one.value),
+                               {one.param->name, routine.name, names[0], names[1]}),
+                        *one.value, remedy);
     }
 }
 
-void Analyzer::judgeValue(const RoutineSymbol& routine, const BoundArg& bound, Typed t) {
+void Arguments::judgeValue(const RoutineSymbol& routine, const BoundArg& bound, Typed t) {
     const DataSymbol& param = *bound.param;
     if (t.isError()) return;
     if (param.type.type->kind == TypeKind::AnyType) {
         checkClass(routine, bound, t.info->type);
         return;
     }
-    if (fits(*bound.value, t, param.type)) return;
+    if (expressions_.fits(*bound.value, t, param.type)) return;
     mismatches_.push_back({&param, bound.value, t.info->type});
 }
 
-void Analyzer::checkReference(const RoutineSymbol& routine, const BoundArg& bound) {
+void Arguments::checkReference(const RoutineSymbol& routine, const BoundArg& bound) {
     const Expr& e = *bound.value;
     if (isPlaceExpr(e)) {
-        judgeReference(routine, bound, place(e, handleHint(*bound.param)));
+        judgeReference(routine, bound, places_.place(e, handleHint(*bound.param)));
         return;
     }
     if (bound.param->accepts == ParamClass::SignalOrString) {
-        const Typed t = expr(e);
+        const Typed t = expressions_.expr(e);
         if (!t.isError()) checkClass(routine, bound, t.info->type);
         return;
     }
@@ -212,25 +211,25 @@ void Analyzer::checkReference(const RoutineSymbol& routine, const BoundArg& boun
         return;
     }
     if (e.kind == NodeKind::Paren && isPlaceExpr(bare(e))) {
-        place(bare(e), handleHint(*bound.param));
+        places_.place(bare(e), handleHint(*bound.param));
         info(e).type = info(bare(e)).type;
         fixParentheses(reportAccess(routine, bound, nullptr, describeExpr(e)), e);
         return;
     }
-    visitLoose(e);
+    expressions_.visitLoose(e);
     if (e.kind == NodeKind::PlaceholderExpr || e.kind == NodeKind::ErrorExpr) return;
     reportAccess(routine, bound, nullptr, describeExpr(e));
 }
 
 // "ClkStart(clock1);": what is passed on as it is stands without parentheses.
-void Analyzer::fixParentheses(diag::Diagnostic& d, const Expr& e) {
+void Arguments::fixParentheses(diag::Diagnostic& d, const Expr& e) {
     const SourceRange whole = range(e), inner = range(bare(e));
     const bool spaced = whole.begin > range(e.first - 1).end;
     d.fixes.push_back({"remove the parentheses",
                        {{{whole.begin, inner.begin}, spaced ? "" : " "}, {{inner.end, whole.end}, ""}}});
 }
 
-void Analyzer::judgeReference(const RoutineSymbol& routine, const BoundArg& bound, const Place& place) {
+void Arguments::judgeReference(const RoutineSymbol& routine, const BoundArg& bound, const Place& place) {
     if (!place.root) return;
     const DataSymbol& param = *bound.param;
     const DataType& found = info(*bound.value).type;
@@ -244,8 +243,8 @@ void Analyzer::judgeReference(const RoutineSymbol& routine, const BoundArg& boun
     if (param.mode != ParamMode::In && param.mode != ParamMode::Ref) checkAccess(routine, bound, place);
 }
 
-diag::Diagnostic& Analyzer::reportAccess(const RoutineSymbol& routine, const BoundArg& bound,
-                                         const Symbol* symbol, std::string found) {
+diag::Diagnostic& Arguments::reportAccess(const RoutineSymbol& routine, const BoundArg& bound,
+                                          const Symbol* symbol, std::string found) {
     const char* expected = "data";
     switch (bound.param->mode) {
     case ParamMode::Var: expected = "a variable"; break;
@@ -264,7 +263,7 @@ diag::Diagnostic& Analyzer::reportAccess(const RoutineSymbol& routine, const Bou
 
 // What may be passed on for the callee to change. An INOUT parameter may stand for a variable or for a persistent:
 // which one shows at run time (ERR_ARGNOTVAR, ERR_ARGNOTPER).
-void Analyzer::checkAccess(const RoutineSymbol& routine, const BoundArg& bound, const Place& place) {
+void Arguments::checkAccess(const RoutineSymbol& routine, const BoundArg& bound, const Place& place) {
     DataSymbol& root = *place.root;
     const ParamMode mode = bound.param->mode;
     const bool parameter = root.storage == Storage::Parameter;
@@ -293,11 +292,11 @@ void Analyzer::checkAccess(const RoutineSymbol& routine, const BoundArg& bound, 
                {bound.param->name, routine.name, "'" + root.name + "'"});
         return;
     }
-    if (!routine.traits.has(Trait::Inspects)) markAssigned(root); // IsVar and their like only look
+    if (!routine.traits.has(Trait::Inspects)) scopes_.markAssigned(root); // IsVar and their like only look
 }
 
 // What an argument for such a parameter must be, or null when `found` is that.
-const char* Analyzer::missingClass(ParamClass accepts, const DataType& found) {
+const char* missingClass(ParamClass accepts, const DataType& found) {
     const Type& type = *found.type;
     const bool scalar = found.rank == 0;
     const bool string = type.kind == TypeKind::String;
@@ -323,7 +322,7 @@ const char* Analyzer::missingClass(ParamClass accepts, const DataType& found) {
     return nullptr;
 }
 
-bool Analyzer::checkClass(const RoutineSymbol& routine, const BoundArg& bound, const DataType& found) {
+bool Arguments::checkClass(const RoutineSymbol& routine, const BoundArg& bound, const DataType& found) {
     if (found.type->kind == TypeKind::Error || found.type->kind == TypeKind::AnyType) return true;
     const char* expected = missingClass(bound.param->accepts, found);
     if (!expected) return true;
@@ -333,19 +332,19 @@ bool Analyzer::checkClass(const RoutineSymbol& routine, const BoundArg& bound, c
 }
 
 // The optional parameter of the current routine that `e` names, or null.
-DataSymbol* Analyzer::ownParameter(const Expr& e) {
-    if (e.kind != NodeKind::Name || !context_.routine) return nullptr;
-    DataSymbol* data = asData(lookup(idOf(as<NameExpr>(e).name)));
+DataSymbol* Arguments::ownParameter(const Expr& e) {
+    if (e.kind != NodeKind::Name || !state_.context.routine) return nullptr;
+    DataSymbol* data = asData(scopes_.lookup(idOf(as<NameExpr>(e).name)));
     return data && data->storage == Storage::Parameter ? data : nullptr;
 }
 
-DataSymbol* Analyzer::ownOptional(const Expr& e) {
+DataSymbol* Arguments::ownOptional(const Expr& e) {
     DataSymbol* data = ownParameter(e);
     return data && data->optional ? data : nullptr;
 }
 
 // Dim(array, number): which dimensions there are is known (manual 1.1.5).
-void Analyzer::checkDim(const CallExpr& e, const RoutineSymbol& routine) {
+void Arguments::checkDim(const CallExpr& e, const RoutineSymbol& routine) {
     if (routine.role != Role::Dim || e.args.size() != 2) return;
     const Expr *array = e.args[0]->value, *number = e.args[1]->value;
     if (!array || !number || info(*array).type.rank == 0) return;
@@ -356,34 +355,34 @@ void Analyzer::checkDim(const CallExpr& e, const RoutineSymbol& routine) {
                {text(*number), counted(info(*array).type.rank, "dimension")});
 }
 
-void Analyzer::checkPresent(const BoundArg& bound) {
+void Arguments::checkPresent(const BoundArg& bound) {
     const Expr& e = *bound.value;
-    const bool outer = std::exchange(presenceOnly_, true);
-    const bool known = isPlaceExpr(e) ? place(e).root != nullptr : (visitLoose(e), true);
-    presenceOnly_ = outer;
+    const bool outer = std::exchange(state_.presenceOnly, true);
+    const bool known = isPlaceExpr(e) ? places_.place(e).root != nullptr : (expressions_.visitLoose(e), true);
+    state_.presenceOnly = outer;
     if (!known || e.kind == NodeKind::PlaceholderExpr) return;
     if (const DataSymbol* own = ownOptional(e))
-        optionalUses_[own->index].tested = true;
+        state_.routine.optionalUses[own->index].tested = true;
     else
         report(ownParameter(e) ? Code::PresentRequired : Code::PresentNotOptional, range(e), {text(e)});
 }
 
 // `\Arg?Param`: present if the caller's own optional parameter is.
-void Analyzer::checkConditional(const RoutineSymbol& routine, BoundArg& bound) {
+void Arguments::checkConditional(const RoutineSymbol& routine, BoundArg& bound) {
     if (!bound.value || bound.value->kind == NodeKind::PlaceholderExpr) {
         if (bound.value) placeholder(*bound.value);
         return;
     }
     const Expr& e = *bound.value;
-    const bool outer = std::exchange(presenceOnly_, true);
+    const bool outer = std::exchange(state_.presenceOnly, true);
     judgeConditional(routine, bound, e);
-    presenceOnly_ = outer;
+    state_.presenceOnly = outer;
 }
 
-void Analyzer::judgeConditional(const RoutineSymbol& routine, const BoundArg& bound, const Expr& e) {
+void Arguments::judgeConditional(const RoutineSymbol& routine, const BoundArg& bound, const Expr& e) {
     if (!isPlaceExpr(e))
-        visitLoose(e);
-    else if (!place(e).root)
+        expressions_.visitLoose(e);
+    else if (!places_.place(e).root)
         return;
     const DataSymbol* own = ownOptional(e);
     if (!own) {
@@ -400,9 +399,9 @@ void Analyzer::judgeConditional(const RoutineSymbol& routine, const BoundArg& bo
     }
     if (param.isSwitch) return;
     if (param.mode != ParamMode::In || param.type.type->kind == TypeKind::SemiValue)
-        judgeReference(routine, bound, place(e));
+        judgeReference(routine, bound, places_.place(e));
     else
-        judgeValue(routine, bound, placeValue(e));
+        judgeValue(routine, bound, expressions_.placeValue(e));
 }
 
 } // namespace rapid::sema

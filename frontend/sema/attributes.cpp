@@ -1,6 +1,6 @@
 // Attributes of library declarations (builtin_words.def). The generator of the standard library has refused unknown words.
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/attributes.h"
 #include "frontend/syntax/declaration_comment.h"
 
 #include <algorithm>
@@ -82,8 +82,8 @@ TypeClass classOf(const DeclarationComment& comment) {
 
 } // namespace
 
-void Analyzer::applyTypeAttributes(TypeSymbol& symbol) {
-    const DeclarationComment comment = commentOf(*context_.tree, *symbol.decl);
+void applyTypeAttributes(const SyntaxTree& tree, TypeSymbol& symbol) {
+    const DeclarationComment comment = commentOf(tree, *symbol.decl);
     const TypeClass typeClass = classOf(comment);
     TypeKind& kind = symbol.type->kind;
     if (typeClass == TypeClass::NonValue) {
@@ -95,14 +95,14 @@ void Analyzer::applyTypeAttributes(TypeSymbol& symbol) {
     if (typeClass == TypeClass::Pseudo) kind = TypeKind::AnyType;
 }
 
-void Analyzer::applyDataAttributes(DataSymbol& symbol) {
-    const DeclarationComment comment = commentOf(*context_.tree, *symbol.decl);
+void applyDataAttributes(const SyntaxTree& tree, DataSymbol& symbol) {
+    const DeclarationComment comment = commentOf(tree, *symbol.decl);
     if (classOf(comment) == TypeClass::SystemVariable) symbol.storage = Storage::SystemVariable;
     symbol.meaning = meaningOf(comment);
 }
 
-void Analyzer::applyRoutineAttributes(RoutineSymbol& symbol) {
-    const DeclarationComment comment = commentOf(*context_.tree, *symbol.decl);
+void applyRoutineAttributes(const SyntaxTree& tree, RoutineSymbol& symbol) {
+    const DeclarationComment comment = commentOf(tree, *symbol.decl);
     symbol.documentation = comment.text;
     for (const Attribute& attribute : comment.attributes)
         applyAttribute(symbol, attribute.key, attribute.value);

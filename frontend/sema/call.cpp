@@ -1,6 +1,18 @@
 // Calls: which argument goes to which parameter (manual 1.1.5, 1.3.4).
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/call.h"
+#include "frontend/sema/argument_order.h"
+#include "frontend/sema/arguments.h"
+#include "frontend/sema/availability.h"
+#include "frontend/sema/expr.h"
+#include "frontend/sema/parameters.h"
+#include "frontend/sema/parts.h"
+#include "frontend/sema/place.h"
+#include "frontend/sema/remedies.h"
+#include "frontend/sema/scopes.h"
+#include "frontend/sema/suggestions.h"
+#include "frontend/sema/unknown.h"
+#include "frontend/sema/wording.h"
 
 #include <algorithm>
 #include <optional>
@@ -28,22 +40,27 @@ std::optional<SourceRange> decimalComma(const syntax::SyntaxTree& tree, const Ar
 
 } // namespace
 
-Typed Analyzer::functionCall(const CallExpr& e) {
-    Symbol* symbol = isName(e.name) ? lookup(idOf(e.name)) : nullptr;
+CallBinder::CallBinder(State& state, const Parts& parts)
+    : CheckerPart(state), order_(parts.order), arguments_(parts.arguments), availability_(parts.availability),
+      expressions_(parts.expressions), places_(parts.places), remedies_(parts.remedies),
+      scopes_(parts.scopes), suggestions_(parts.suggestions), unknown_(parts.unknown) {}
+
+Typed CallBinder::functionCall(const CallExpr& e) {
+    Symbol* symbol = isName(e.name) ? scopes_.lookup(idOf(e.name)) : nullptr;
     RoutineSymbol* routine = asRoutine(symbol);
     if (!routine || routine->routineKind != RoutineKind::Func) {
         if (symbol) {
             reportNotAFunction(e, *symbol);
         } else if (isName(e.name)) {
-            reportUnknown(Code::UnknownFunction, e.name, idOf(e.name), Wanted::Function);
+            unknown_.reportUnknown(Code::UnknownFunction, e.name, idOf(e.name), Wanted::Function);
         }
         visitArguments(e.args);
-        return errorExpr(e);
+        return expressions_.errorExpr(e);
     }
-    markUsed(*routine);
-    checkOption(*routine, e.name);
+    scopes_.markUsed(*routine);
+    availability_.checkOption(*routine, e.name);
     bindCall(e, *routine, e.name, e.args);
-    checkDim(e, *routine);
+    arguments_.checkDim(e, *routine);
     ExprInfo& out = info(e);
     out.type = routine->returnType;
     out.symbol = routine;
@@ -51,7 +68,7 @@ Typed Analyzer::functionCall(const CallExpr& e) {
 }
 
 // Data with arguments: an array whose index stands in parentheses.
-void Analyzer::reportNotAFunction(const CallExpr& e, const Symbol& symbol) {
+void CallBinder::reportNotAFunction(const CallExpr& e, const Symbol& symbol) {
     diag::Diagnostic& d = report(Code::NotAFunction, range(e.name), {text(e.name), describe(symbol)});
     const auto isIndex = [](const Argument* a) {
         return a->argKind == ArgKind::Required && a->name == kNoToken && a->value;
@@ -67,23 +84,24 @@ void Analyzer::reportNotAFunction(const CallExpr& e, const Symbol& symbol) {
 }
 
 // The value of an argument without a parameter to judge it by. `\Arg?Param` asks only whether Param is there.
-void Analyzer::visitArgument(const Argument& arg) {
+void CallBinder::visitArgument(const Argument& arg) {
     if (!arg.value) return;
-    const bool outer = std::exchange(presenceOnly_, presenceOnly_ || arg.argKind == ArgKind::Conditional);
-    visitLoose(*arg.value);
-    presenceOnly_ = outer;
+    const bool outer =
+        std::exchange(state_.presenceOnly, state_.presenceOnly || arg.argKind == ArgKind::Conditional);
+    expressions_.visitLoose(*arg.value);
+    state_.presenceOnly = outer;
 }
 
-void Analyzer::visitArguments(std::span<Argument* const> args) {
+void CallBinder::visitArguments(std::span<Argument* const> args) {
     for (const Argument* a : args)
         visitArgument(*a);
 }
 
-void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex name,
-                        std::span<Argument* const> args) {
+void CallBinder::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex name,
+                          std::span<Argument* const> args) {
     BoundCall& call = facts().calls[&node];
     call.routine = &routine;
-    call.module = context_.module;
+    call.module = state_.context.module;
     call.args = facts().inner.makeArray<BoundArg>(routine.params.size());
     for (size_t i = 0; i < routine.params.size(); ++i)
         call.args[i].param = routine.params[i];
@@ -93,65 +111,43 @@ void Analyzer::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex nam
     }
     if (callDepth_ == callSinks_.size()) callSinks_.emplace_back();
     diag::Sink& own = callSinks_[callDepth_++];
-    diag::Sink* outer = std::exchange(collect_, &own);
+    diag::Sink* outer = state_.reports.collectIn(&own);
     const size_t judgedBefore = judged_.size();
-    const size_t mismatchesBefore = mismatches_.size();
+    const size_t mismatchesBefore = arguments_.mismatchCount();
     const bool complete = matchArguments(call, name, args);
     const bool mayMiss = complete && endsWell(name, args);
     checkExclusive(call);
     for (BoundArg& bound : call.args) {
         if (!bound.argument) continue;
         const auto begin = judged_.begin() + static_cast<std::ptrdiff_t>(judgedBefore);
-        if (std::find(begin, judged_.end(), bound.argument) == judged_.end()) checkArgument(routine, bound);
+        if (std::find(begin, judged_.end(), bound.argument) == judged_.end())
+            arguments_.checkArgument(routine, bound);
     }
     judged_.resize(judgedBefore);
-    const bool wrong = own.hasErrors() || mismatches_.size() > mismatchesBefore;
-    if (wrong && (explainComma(args) || explainArguments(call, name, args)))
-        mismatches_.resize(mismatchesBefore);
+    const bool wrong = own.hasErrors() || arguments_.mismatchCount() > mismatchesBefore;
+    if (wrong && (order_.explainComma(args) || order_.explainArguments(call, name, args)))
+        arguments_.forgetMismatches(mismatchesBefore);
     else if ((mayMiss && nextLacking(call, 0) < routine.params.size()) ||
-             mismatches_.size() > mismatchesBefore)
-        reportArguments(call, name, mismatchesBefore, mayMiss);
+             arguments_.mismatchCount() > mismatchesBefore)
+        arguments_.reportArguments(call, name, mismatchesBefore, mayMiss);
     else if (mayMiss)
-        shapeReported_ = false; // of this call
-    collect_ = outer;
+        arguments_.forgetShape(); // of this call
+    state_.reports.collectIn(outer);
     --callDepth_;
     if (own.all().empty()) return;
-    (outer ? *outer : sink_).absorb(own);
+    (outer ? *outer : state_.sink).absorb(own);
 }
 
 // Whether the arguments were read to their end: after a syntax error in a call nothing is said to be missing.
-bool Analyzer::endsWell(TokenIndex name, std::span<Argument* const> args) const {
+bool CallBinder::endsWell(TokenIndex name, std::span<Argument* const> args) const {
     const TokenIndex last = args.empty() ? name : args.back()->last;
     const TokenKind next =
-        context_.tree->tokens[std::min<size_t>(last + 1, context_.tree->tokens.size() - 1)].kind;
+        state_.context.tree->tokens[std::min<size_t>(last + 1, state_.context.tree->tokens.size() - 1)].kind;
     return next == TokenKind::Semicolon || next == TokenKind::RightParen ||
            (args.empty() && next == TokenKind::LeftParen);
 }
 
-size_t Analyzer::alternativesEnd(const RoutineSymbol& routine, size_t first) const {
-    size_t end = first + 1;
-    if (first < routine.params.size() && routine.params[first]->requiredAlternative)
-        while (end < routine.params.size() && !routine.params[end]->optional &&
-               routine.params[end]->group == routine.params[first]->group)
-            ++end;
-    return end;
-}
-
-size_t Analyzer::nextRequired(const RoutineSymbol& routine, size_t from) const {
-    while (from < routine.params.size() && routine.params[from]->optional)
-        ++from;
-    return from;
-}
-
-size_t Analyzer::requiredSlots(const RoutineSymbol& routine) const {
-    size_t count = 0;
-    for (size_t i = nextRequired(routine, 0); i < routine.params.size();
-         i = nextRequired(routine, alternativesEnd(routine, i)))
-        ++count;
-    return count;
-}
-
-bool Analyzer::matchArguments(BoundCall& call, TokenIndex name, std::span<Argument* const> args) {
+bool CallBinder::matchArguments(BoundCall& call, TokenIndex name, std::span<Argument* const> args) {
     const RoutineSymbol& routine = *call.routine;
     size_t slot = nextRequired(routine, 0);
     size_t last = 0;
@@ -215,7 +211,7 @@ bool Analyzer::matchArguments(BoundCall& call, TokenIndex name, std::span<Argume
 }
 
 /// An argument behind the last required one that is something else: an optional one, the next instruction.
-bool Analyzer::reportMisread(const RoutineSymbol& routine, const Argument& arg, TokenIndex routineName) {
+bool CallBinder::reportMisread(const RoutineSymbol& routine, const Argument& arg, TokenIndex routineName) {
     if (!namesOptional(routine, arg)) return reportAssignmentBelow(arg);
     const SourceRange at = range(arg);
     const TokenIndex option = as<NameExpr>(*arg.value).name;
@@ -224,8 +220,8 @@ bool Analyzer::reportMisread(const RoutineSymbol& routine, const Argument& arg, 
     return true;
 }
 
-void Analyzer::reportTooMany(const RoutineSymbol& routine, std::span<Argument* const> args,
-                             const Argument& first, TokenIndex routineName) {
+void CallBinder::reportTooMany(const RoutineSymbol& routine, std::span<Argument* const> args,
+                               const Argument& first, TokenIndex routineName) {
     const auto given = std::count_if(args.begin(), args.end(),
                                      [](const Argument* a) { return a->argKind == ArgKind::Required; });
     diag::Diagnostic& d = report(
@@ -233,26 +229,26 @@ void Analyzer::reportTooMany(const RoutineSymbol& routine, std::span<Argument* c
         {text(routineName),
          routine.params.empty() ? "no arguments" : counted(requiredSlots(routine), "required argument"),
          std::to_string(given)});
-    if (const auto comma = decimalComma(*context_.tree, first);
+    if (const auto comma = decimalComma(*state_.context.tree, first);
         comma && requiredSlots(routine) == 1 && given == 2) {
         const std::string number = std::string(text(first.first - 2)) + "." + std::string(text(first.first));
         d.message += didYouMean(number) + " A decimal number has a point";
         d.fix(*comma, ".", false);
         return;
     }
-    const std::string hint = first.value ? optionalFor(routine, *first.value) : std::string();
+    const std::string hint = first.value ? remedies_.optionalFor(routine, *first.value) : std::string();
     if (hint.empty()) return;
     d.message += didYouMean(hint + text(*first.value));
     d.fix({range(first).begin, range(first).begin}, hint, false);
 }
 
 // "routine a, <new line> x := 1;": an assignment below a comma that should have been a semicolon.
-bool Analyzer::reportAssignmentBelow(const Argument& arg) {
-    if (arg.name == kNoToken || arg.name == 0 || !asData(lookup(idOf(arg.name)))) return false;
+bool CallBinder::reportAssignmentBelow(const Argument& arg) {
+    if (arg.name == kNoToken || arg.name == 0 || !asData(scopes_.lookup(idOf(arg.name)))) return false;
     const SourceRange comma = range(arg.name - 1);
     const std::string_view between =
-        context_.tree->source->text().substr(comma.end, range(arg.name).begin - comma.end);
-    if (context_.tree->tokens[arg.name - 1].kind != TokenKind::Comma ||
+        state_.context.tree->source->text().substr(comma.end, range(arg.name).begin - comma.end);
+    if (state_.context.tree->tokens[arg.name - 1].kind != TokenKind::Comma ||
         between.find('\n') == std::string_view::npos)
         return false;
     report(Code::UnexpectedToken, comma, {"','", "';'"}).fix(comma, ";");
@@ -260,7 +256,7 @@ bool Analyzer::reportAssignmentBelow(const Argument& arg) {
 }
 
 // The parameter of a required argument; its name, if written, must be that of the parameter in turn.
-size_t Analyzer::matchRequired(BoundCall& call, const Argument& arg, size_t slot, bool isLast) {
+size_t CallBinder::matchRequired(BoundCall& call, const Argument& arg, size_t slot, bool isLast) {
     const RoutineSymbol& routine = *call.routine;
     const size_t end = alternativesEnd(routine, slot);
     if (arg.name == kNoToken)
@@ -270,48 +266,50 @@ size_t Analyzer::matchRequired(BoundCall& call, const Argument& arg, size_t slot
         if (routine.params[i]->nameId == name) return i;
     if (const size_t i = matchUnmarked(routine, arg, isLast); i != kNoParam) return i;
     const Type* type = routine.params[slot]->type.type;
-    if (type->kind == TypeKind::Bool && asData(lookup(name))) { // "WaitUntil a := 1;"
+    if (type->kind == TypeKind::Bool && asData(scopes_.lookup(name))) { // "WaitUntil a := 1;"
         report(Code::AssignmentInCondition, range(arg.name + 1)).fix(range(arg.name + 1), "=");
         return kNoParam;
     }
-    if (reportAssignmentBelow(arg) || reportMisspeltSeparator(routine, arg, slot, isLast)) return kNoParam;
+    if (reportAssignmentBelow(arg) || order_.reportMisspeltSeparator(routine, arg, slot, isLast))
+        return kNoParam;
     report(Code::ArgumentName, range(arg.name), {routine.name, text(arg.name), routine.params[slot]->name});
     return slot;
 }
 
 // The parameter of a name, or kNoParam.
-size_t Analyzer::namedParameter(const RoutineSymbol& routine, NameId name) {
+size_t CallBinder::namedParameter(const RoutineSymbol& routine, NameId name) {
     constexpr size_t kMany = 64;
     if (routine.params.size() < kMany) {
         for (size_t i = 0; i < routine.params.size(); ++i)
             if (routine.params[i]->nameId == name) return i;
         return kNoParam;
     }
-    if (wideRoutine_ != &routine) {
-        wideRoutine_ = &routine;
-        wideNames_ = {};
+    if (state_.routine.wideRoutine != &routine) {
+        state_.routine.wideRoutine = &routine;
+        state_.routine.wideNames = {};
         for (DataSymbol* param : routine.params)
-            if (!wideNames_.find(param->nameId)) wideNames_.set(param->nameId, param);
+            if (!state_.routine.wideNames.find(param->nameId))
+                state_.routine.wideNames.set(param->nameId, param);
     }
-    const DataSymbol* param = wideNames_.find(name);
+    const DataSymbol* param = state_.routine.wideNames.find(name);
     return param ? param->index : kNoParam;
 }
 
 // An undeclared name that is that of an optional parameter: "routine a, Switch;".
-bool Analyzer::namesOptional(const RoutineSymbol& routine, const Argument& arg) {
+bool CallBinder::namesOptional(const RoutineSymbol& routine, const Argument& arg) {
     if (arg.name != kNoToken || !arg.value || arg.value->kind != NodeKind::Name) return false;
     const TokenIndex name = as<NameExpr>(*arg.value).name;
-    return isName(name) && !lookup(idOf(name)) && namedOptional(routine, idOf(name)) != kNoParam;
+    return isName(name) && !scopes_.lookup(idOf(name)) && namedOptional(routine, idOf(name)) != kNoParam;
 }
 
 // The optional parameter of a name, or kNoParam.
-size_t Analyzer::namedOptional(const RoutineSymbol& routine, NameId name) {
+size_t CallBinder::namedOptional(const RoutineSymbol& routine, NameId name) {
     const size_t i = namedParameter(routine, name);
     return i != kNoParam && routine.params[i]->optional ? i : kNoParam;
 }
 
 // An optional argument without its backslash.
-size_t Analyzer::matchUnmarked(const RoutineSymbol& routine, const Argument& arg, bool isLast) {
+size_t CallBinder::matchUnmarked(const RoutineSymbol& routine, const Argument& arg, bool isLast) {
     const size_t i = namedOptional(routine, idOf(arg.name));
     if (i == kNoParam) return i;
     const DataSymbol& param = *routine.params[i];
@@ -325,7 +323,7 @@ size_t Analyzer::matchUnmarked(const RoutineSymbol& routine, const Argument& arg
     return i;
 }
 
-size_t Analyzer::matchOptional(BoundCall& call, const Argument& arg, TokenIndex) {
+size_t CallBinder::matchOptional(BoundCall& call, const Argument& arg, TokenIndex) {
     const RoutineSymbol& routine = *call.routine;
     if (!isName(arg.name)) return kNoParam;
     const NameId name = idOf(arg.name);
@@ -337,10 +335,10 @@ size_t Analyzer::matchOptional(BoundCall& call, const Argument& arg, TokenIndex)
                    range(arg.name), {routine.name, param.name});
         return !param.optional && call.args[i].argument ? kNoParam : i; // given once more: one report will do
     }
-    const DataSymbol* near = nearOptional(routine, name);
+    const DataSymbol* near = suggestions_.nearOptional(routine, name);
     // "\wobj0" is nearer to "\WObj:=wobj0" than to "\WObj", which lacks its value.
     const bool named = arg.value || (near && near->isSwitch);
-    const std::string hint = named ? std::string() : optionalFor(routine, name);
+    const std::string hint = named ? std::string() : remedies_.optionalFor(routine, name);
     const std::string meant = !hint.empty() ? hint + text(arg.name) : near ? near->name : hint;
     diag::Diagnostic& d = report(Code::UnknownParameter, range(arg.name),
                                  {routine.name, text(arg.name), meant.empty() ? meant : didYouMean(meant)});
@@ -350,22 +348,22 @@ size_t Analyzer::matchOptional(BoundCall& call, const Argument& arg, TokenIndex)
 }
 
 // One of several parameters takes the argument (`num Value | dnum Dvalue`): the first one whose type fits.
-size_t Analyzer::chooseAlternative(BoundCall& call, const Argument& arg, size_t first, size_t end) {
+size_t CallBinder::chooseAlternative(BoundCall& call, const Argument& arg, size_t first, size_t end) {
     const RoutineSymbol& routine = *call.routine;
     const Expr& e = *arg.value;
     const Type* hint = nullptr;
     for (size_t i = first; i < end; ++i)
-        if (const Type* handle = handleHint(*routine.params[i])) hint = handle;
+        if (const Type* handle = arguments_.handleHint(*routine.params[i])) hint = handle;
     Place found;
     Typed t;
     if (isPlaceExpr(e)) {
-        found = place(e, hint);
+        found = places_.place(e, hint);
         t = {&info(e)};
         const bool signal = t.info->type.rank == 0 && t.info->type.type->kind == TypeKind::SemiValue;
-        if (signal && !hint) t = placeValue(e), found = {};
+        if (signal && !hint) t = expressions_.placeValue(e), found = {};
     } else {
         DataType want = routine.params[first]->type;
-        t = expr(e, e.kind == NodeKind::Aggregate ? &want : nullptr);
+        t = expressions_.expr(e, e.kind == NodeKind::Aggregate ? &want : nullptr);
     }
     judged_.push_back(&arg);
     if (t.isError()) return first;
@@ -379,14 +377,14 @@ size_t Analyzer::chooseAlternative(BoundCall& call, const Argument& arg, size_t 
         const DataSymbol& param = *routine.params[i];
         if (param.mode != ParamMode::In && !found.root && isPlaceExpr(e)) continue;
         if (choice && param.type.type->kind != TypeKind::Dnum) continue;
-        if (param.type.type->kind != TypeKind::AnyType && !fits(e, t, param.type)) continue;
+        if (param.type.type->kind != TypeKind::AnyType && !expressions_.fits(e, t, param.type)) continue;
         BoundArg bound{routine.params[i], BoundArg::Kind::Present, &e, &arg};
         if (param.mode == ParamMode::In)
-            judgeValue(routine, bound, t);
+            arguments_.judgeValue(routine, bound, t);
         else if (isPlaceExpr(e))
-            judgeReference(routine, bound, found);
+            arguments_.judgeReference(routine, bound, found);
         else
-            reportAccess(routine, bound, nullptr, describeExpr(e));
+            arguments_.reportAccess(routine, bound, nullptr, describeExpr(e));
         return i;
     }
     std::string expected;
@@ -396,27 +394,7 @@ size_t Analyzer::chooseAlternative(BoundCall& call, const Argument& arg, size_t 
     return first;
 }
 
-/// "'Value' or 'Dvalue'"
-std::string Analyzer::namesOf(std::span<const BoundArg> alternatives) {
-    std::string names;
-    for (const BoundArg& bound : alternatives)
-        names += (names.empty() ? "'" : " or '") + bound.param->name + "'";
-    return names;
-}
-
-size_t Analyzer::nextLacking(const BoundCall& call, size_t from) const {
-    const RoutineSymbol& routine = *call.routine;
-    for (size_t i = nextRequired(routine, from); i < routine.params.size();) {
-        const size_t end = alternativesEnd(routine, i);
-        const std::span<const BoundArg> place = call.args.subspan(i, end - i);
-        if (std::none_of(place.begin(), place.end(), [](const BoundArg& bound) { return bound.argument; }))
-            return i;
-        i = nextRequired(routine, end);
-    }
-    return routine.params.size();
-}
-
-void Analyzer::reportMissing(const BoundCall& call, TokenIndex name) {
+void CallBinder::reportMissing(const BoundCall& call, TokenIndex name) {
     const RoutineSymbol& routine = *call.routine;
     std::string missing;
     size_t count = 0;
@@ -430,7 +408,7 @@ void Analyzer::reportMissing(const BoundCall& call, TokenIndex name) {
     noteDeclared(report(Code::MissingArgument, range(name), {text(name), what}), routine);
 }
 
-void Analyzer::checkExclusive(const BoundCall& call) {
+void CallBinder::checkExclusive(const BoundCall& call) {
     const BoundArg* previous = nullptr;
     for (const BoundArg& bound : call.args) {
         if (!bound.param->optional || bound.kind != BoundArg::Kind::Present) continue;
@@ -444,14 +422,14 @@ void Analyzer::checkExclusive(const BoundCall& call) {
 
 // Late binding: the procedure is known at run time only, so arguments are collected as they are (manual 1.1.5). The same for
 // a procedure that a module may declare that is not here; its arguments get their type from nothing.
-void Analyzer::lateCall(const CallStmt& stmt) {
+void CallBinder::lateCall(const CallStmt& stmt) {
     if (stmt.lateName) {
-        const Typed name = expr(*stmt.lateName);
+        const Typed name = expressions_.expr(*stmt.lateName);
         if (!name.isError() && !name.isScalar(TypeKind::String))
             report(Code::LateBindingName, range(*stmt.lateName), {typeName(*name.info)});
     }
     BoundCall& call = facts().calls[&stmt];
-    call.module = context_.module;
+    call.module = state_.context.module;
     call.args = facts().inner.makeArray<BoundArg>(stmt.args.size());
     size_t count = 0;
     for (const Argument* arg : stmt.args) {
@@ -467,15 +445,15 @@ void Analyzer::lateCall(const CallStmt& stmt) {
         if (!arg->value) continue;
         if (arg->argKind == ArgKind::Conditional) {
             visitArgument(*arg);
-            if (!ownOptional(*arg->value))
+            if (!arguments_.ownOptional(*arg->value))
                 report(Code::ConditionalNotParameter, range(*arg->value), {text(*arg->value)});
         } else if (isPlaceExpr(*arg->value)) {
-            if (DataSymbol* root = place(*arg->value).root)
-                markAssigned(*root); // the callee may take it as VAR
+            if (DataSymbol* root = places_.place(*arg->value).root)
+                scopes_.markAssigned(*root); // the callee may take it as VAR
         } else if (stmt.lateName) {
-            expr(*arg->value);
+            expressions_.expr(*arg->value);
         } else {
-            visitLoose(*arg->value);
+            expressions_.visitLoose(*arg->value);
         }
     }
     call.args = call.args.first(count);

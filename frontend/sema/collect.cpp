@@ -1,67 +1,65 @@
 // Declares the names of modules: modules themselves, types, data, routines (manual 1.1.3, 1.1.5, 1.2.2).
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/collect.h"
 
 namespace rapid::sema {
 
 using namespace syntax;
 
-void Analyzer::enterModule(Module* module) {
-    context_ = {module, module->tree, module->exprs, nullptr, false};
-}
+Collector::Collector(State& state) : CheckerPart(state) {}
 
-Module* Analyzer::addModule(const SyntaxTree& tree, const ModuleDecl& decl, bool predefined,
-                            FileFacts& facts) {
+Module* Collector::addModule(const SyntaxTree& tree, const ModuleDecl& decl, bool predefined,
+                             FileFacts& facts) {
     auto owned = std::make_unique<Module>();
     Module* module = owned.get();
     module->name = std::string(tree.text(decl.name));
-    module->id = static_cast<uint32_t>(program_.moduleStore.size());
+    module->id = static_cast<uint32_t>(state_.program.moduleStore.size());
     module->tree = &tree;
     module->decl = &decl;
     module->predefined = predefined;
     module->facts = &facts;
     module->exprs = &facts.exprs;
-    program_.moduleStore.push_back(std::move(owned));
-    scopes_.push_back(std::make_unique<ModuleScope>());
+    state_.program.moduleStore.push_back(std::move(owned));
+    state_.scopes.push_back(std::make_unique<ModuleScope>());
     return module;
 }
 
-DataSymbol& Analyzer::newData(const DataDecl& decl) {
+DataSymbol& Collector::newData(const DataDecl& decl) {
     DataSymbol& symbol =
-        fill(context_.routine ? facts().locals.emplace_back()
-                              : recycled(facts().symbols->dataSymbols, SymbolKind::Data, decl.name),
+        fill(state_.context.routine ? facts().locals.emplace_back()
+                                    : recycled(facts().symbols->dataSymbols, SymbolKind::Data, decl.name),
              SymbolKind::Data, decl, decl.name, decl.scope == ScopeWord::Local);
     symbol.dataKind = decl.dataKind;
     symbol.scope = decl.scope;
     symbol.init = decl.init;
-    symbol.routine = context_.routine;
-    symbol.storage = context_.routine ? Storage::RoutineData : Storage::ModuleData;
+    symbol.routine = state_.context.routine;
+    symbol.storage = state_.context.routine ? Storage::RoutineData : Storage::ModuleData;
     return symbol;
 }
 
-RoutineSymbol& Analyzer::newRoutine(const RoutineDecl& decl) {
+RoutineSymbol& Collector::newRoutine(const RoutineDecl& decl) {
     RoutineSymbol& symbol = fill(recycled(facts().symbols->routineSymbols, SymbolKind::Routine, decl.name),
                                  SymbolKind::Routine, decl, decl.name, decl.local);
     symbol.routineKind = decl.routineKind;
     symbol.routineDecl = &decl;
     symbol.native = !decl.hasBody;
-    symbol.noStepIn = (context_.module->decl->attributes & (kAttrNostepin | kAttrNoview)) != 0;
+    symbol.noStepIn = (state_.context.module->decl->attributes & (kAttrNostepin | kAttrNoview)) != 0;
     return symbol;
 }
 
-TypeSymbol& Analyzer::newType(const Decl& decl, TokenIndex name, bool local) {
+TypeSymbol& Collector::newType(const Decl& decl, TokenIndex name, bool local) {
     return fill(recycled(facts().symbols->typeSymbols, SymbolKind::Type, name), SymbolKind::Type, decl, name,
                 local);
 }
 
-void Analyzer::collect(Module& module) {
-    enterModule(&module);
-    ModuleScope& scope = *scopes_[module.id];
+void Collector::collect(Module& module) {
+    state_.enterModule(&module);
+    ModuleScope& scope = *state_.scopes[module.id];
     const std::span<Decl* const> decls = module.decl->decls;
     for (size_t i = 0; i < decls.size(); ++i) {
         constexpr size_t kAhead = 8;
         if (i + kAhead < decls.size() && decls[i + kAhead]->kind == NodeKind::Data)
-            interner_.expect(context_.tree->text(as<DataDecl>(*decls[i + kAhead]).name));
+            state_.names.expect(state_.context.tree->text(as<DataDecl>(*decls[i + kAhead]).name));
         const Decl* decl = decls[i];
         switch (decl->kind) {
         case NodeKind::Record:
@@ -100,7 +98,7 @@ void Analyzer::collect(Module& module) {
     }
 }
 
-void Analyzer::declareInModule(Symbol& symbol, ModuleScope& scope) {
+void Collector::declareInModule(Symbol& symbol, ModuleScope& scope) {
     if (const Symbol* other = scope.names.find(symbol.nameId)) {
         noteDeclared(
             report(Code::DuplicateInModule, range(symbol.nameToken), {symbol.name, symbol.module->name}),
@@ -109,7 +107,7 @@ void Analyzer::declareInModule(Symbol& symbol, ModuleScope& scope) {
     }
     scope.names.set(symbol.nameId, &symbol);
     if (symbol.isLocal) return;
-    std::vector<Symbol*>& table = symbol.predefined ? predefined_ : globals_;
+    std::vector<Symbol*>& table = symbol.predefined ? state_.predefined : state_.task.globals;
     if (const Symbol* other = at(table, symbol.nameId)) {
         if (duplicateModule_) return;
         noteDeclared(
@@ -121,11 +119,11 @@ void Analyzer::declareInModule(Symbol& symbol, ModuleScope& scope) {
 }
 
 // A module must not have the name of global data or of a global routine (manual 1.1.3), nor of a global data type.
-void Analyzer::checkModuleNames(std::span<Module* const> modules) {
+void Collector::checkModuleNames(std::span<Module* const> modules) {
     for (Module* module : modules) {
-        enterModule(module);
+        state_.enterModule(module);
         const auto check = [&](const Symbol& symbol, const char* what) {
-            if (symbol.isLocal || !moduleNames_.find(symbol.nameId)) return;
+            if (symbol.isLocal || !state_.task.moduleNames.find(symbol.nameId)) return;
             report(Code::NameOfModule, range(symbol.nameToken), {symbol.name, what});
         };
         for (const TypeSymbol* type : module->types)
@@ -135,6 +133,40 @@ void Analyzer::checkModuleNames(std::span<Module* const> modules) {
         for (const RoutineSymbol* routine : module->routines)
             check(*routine, "routine");
     }
+}
+
+void Collector::declareModules(std::span<Module* const> modules) {
+    for (Module* module : modules) {
+        state_.enterModule(module);
+        const NameId name = state_.names.intern(module->name);
+        Module* other = state_.task.moduleNames.find(name);
+        duplicateModule_ = other != nullptr;
+        if (other) {
+            state_.task.entangled = true;
+            auto& d = report(Code::DuplicateModule, range(module->decl->name), {module->name});
+            d.notes.push_back({other->tree->source, other->tree->range(other->decl->name),
+                               "'" + other->name + "' is declared here"});
+        } else if (!module->name.empty()) {
+            state_.task.moduleNames.set(name, module);
+        }
+        collect(*module);
+    }
+    duplicateModule_ = false;
+}
+
+void Collector::collectAgain(Module& module, const NameMap<Symbol>& earlier) {
+    earlier_ = &earlier;
+    collect(module);
+    earlier_ = nullptr;
+}
+
+// The symbol that other files refer to since an earlier check, emptied, or a new one.
+template <class S> S& Collector::recycled(Store<S>& store, SymbolKind kind, TokenIndex name) {
+    Symbol* old = earlier_ ? earlier_->find(idOf(name)) : nullptr;
+    if (!old || old->kind != kind || old->decl) return store.emplace_back();
+    S& symbol = static_cast<S&>(*old);
+    symbol.reset();
+    return symbol;
 }
 
 } // namespace rapid::sema

@@ -1,13 +1,15 @@
 // SetupCyclicBool: its condition is evaluated when the instruction has been left. It must not refer to what is gone then, and
 // the runtime, not compiled code, evaluates it.
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/cyclic_condition.h"
+
+#include "frontend/sema/wording.h"
 
 namespace rapid::sema {
 
 using namespace syntax;
 
-void Analyzer::cyclicCondition(const CallStmt& s) {
+void CyclicCondition::check(const CallStmt& s) {
     const auto found = facts().calls.find(&s);
     if (found == facts().calls.end()) return;
     for (const BoundArg& arg : found->second.args) {
@@ -19,7 +21,7 @@ void Analyzer::cyclicCondition(const CallStmt& s) {
 }
 
 /// What of the expression cannot be evaluated later, and where it is; "" when it all can.
-std::string Analyzer::notCyclic(const Expr& e, const Expr*& culprit) {
+std::string CyclicCondition::notCyclic(const Expr& e, const Expr*& culprit) {
     const ExprInfo& facts = info(e);
     if (facts.type.type != nullptr && facts.type.type->kind == TypeKind::Error) return ""; // reported
     culprit = &e;
@@ -44,7 +46,7 @@ std::string Analyzer::notCyclic(const Expr& e, const Expr*& culprit) {
                : "a value of type '" + facts.type.type->name + "'";
 }
 
-std::string Analyzer::notCyclicData(const Expr& e) {
+std::string CyclicCondition::notCyclicData(const Expr& e) {
     const Expr* root = &e;
     while (root->kind == NodeKind::Index || root->kind == NodeKind::Component)
         root = root->kind == NodeKind::Index ? as<IndexExpr>(*root).base : as<ComponentExpr>(*root).base;

@@ -1,7 +1,14 @@
 // Expressions: literals, values of data, aggregates, and how a value fits the type its context wants
 // (manual 1.3.1 to 1.3.3).
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/expr.h"
+#include "frontend/sema/call.h"
+#include "frontend/sema/fold.h"
+#include "frontend/sema/parts.h"
+#include "frontend/sema/place.h"
+#include "frontend/sema/remedies.h"
+#include "frontend/sema/type_rules.h"
+#include "frontend/sema/wording.h"
 #include "frontend/syntax/lexer.h"
 
 #include <algorithm>
@@ -12,29 +19,33 @@ namespace rapid::sema {
 
 using namespace syntax;
 
-Typed Analyzer::result(const Expr& e, const Type* type, Flex flex) {
+Expressions::Expressions(State& state, const Parts& parts)
+    : CheckerPart(state), calls_(parts.calls), folding_(parts.folding), places_(parts.places),
+      remedies_(parts.remedies) {}
+
+Typed Expressions::result(const Expr& e, const Type* type, Flex flex) {
     ExprInfo& out = info(e);
     out.type = {type, 0, {}};
     return {&out, flex};
 }
 
-Typed Analyzer::errorExpr(const Expr& e) {
-    return result(e, program_.errorType);
+Typed Expressions::errorExpr(const Expr& e) {
+    return result(e, state_.program.errorType);
 }
 
-Typed Analyzer::expr(const Expr& e, const DataType* want, ConstValue* slot) {
+Typed Expressions::expr(const Expr& e, const DataType* want, ConstValue* slot) {
     switch (e.kind) {
     case NodeKind::NumLiteral: return literal(as<NumLiteralExpr>(e), want, slot);
     case NodeKind::StringLiteral: {
-        const Typed t = result(e, program_.string);
-        ConstValue* value = slot ? slot : newConst();
-        value->setText(decodeStringLiteral(context_.tree->text(e.first)), valueArena());
+        const Typed t = result(e, state_.program.string);
+        ConstValue* value = slot ? slot : folding_.newConst();
+        value->setText(decodeStringLiteral(state_.context.tree->text(e.first)), folding_.valueArena());
         t.info->constant = value;
         return t;
     }
     case NodeKind::BoolLiteral: {
-        const Typed t = result(e, program_.boolean);
-        ConstValue* value = slot ? slot : newConst();
+        const Typed t = result(e, state_.program.boolean);
+        ConstValue* value = slot ? slot : folding_.newConst();
         value->kind = ConstValue::Kind::Bool;
         value->boolean = as<BoolLiteralExpr>(e).value;
         t.info->constant = value;
@@ -43,7 +54,7 @@ Typed Analyzer::expr(const Expr& e, const DataType* want, ConstValue* slot) {
     case NodeKind::Name:
     case NodeKind::Index:
     case NodeKind::Component: return placeValue(e);
-    case NodeKind::Call: return functionCall(as<CallExpr>(e));
+    case NodeKind::Call: return calls_.functionCall(as<CallExpr>(e));
     case NodeKind::Aggregate: return aggregate(as<AggregateExpr>(e), want, slot);
     case NodeKind::Paren: return paren(as<ParenExpr>(e), want, slot);
     case NodeKind::Unary: return unary(as<UnaryExpr>(e), want, slot);
@@ -53,14 +64,14 @@ Typed Analyzer::expr(const Expr& e, const DataType* want, ConstValue* slot) {
     }
 }
 
-Typed Analyzer::literal(const NumLiteralExpr& e, const DataType* want, ConstValue* slot) {
+Typed Expressions::literal(const NumLiteralExpr& e, const DataType* want, ConstValue* slot) {
     const bool known = want && want->rank == 0 && want->type->isNumeric();
     // A whole number that num cannot hold exactly is a dnum where the context leaves the choice.
     const bool dnum = known ? want->type->kind == TypeKind::Dnum
-                            : isWholeLiteral(context_.tree->text(e.first)) &&
+                            : isWholeLiteral(state_.context.tree->text(e.first)) &&
                                   static_cast<double>(static_cast<float>(e.value)) != e.value;
-    const Typed t = result(e, dnum ? program_.dnum : program_.num, Flex::Literal);
-    ConstValue* value = slot ? slot : newConst();
+    const Typed t = result(e, dnum ? state_.program.dnum : state_.program.num, Flex::Literal);
+    ConstValue* value = slot ? slot : folding_.newConst();
     value->kind = ConstValue::Kind::Number;
     value->number = dnum ? e.value : static_cast<double>(static_cast<float>(e.value));
     t.info->constant = value;
@@ -69,15 +80,15 @@ Typed Analyzer::literal(const NumLiteralExpr& e, const DataType* want, ConstValu
 }
 
 // Literals that ended up as num although they do not fit it.
-void Analyzer::checkBigLiterals() {
+void Expressions::checkBigLiterals() {
     for (const Expr* e : bigLiterals_)
         if (info(*e).type.type->kind == TypeKind::Num) report(Code::NumberBeyondNum, range(*e), {text(*e)});
     bigLiterals_.clear();
 }
 
 // Data as a value: signals are read, handles have no value.
-Typed Analyzer::placeValue(const Expr& e) {
-    const Place found = place(e);
+Typed Expressions::placeValue(const Expr& e) {
+    const Place found = places_.place(e);
     ExprInfo& out = info(e);
     if (!found.root) return {&out};
     const Type& type = *out.type.type;
@@ -86,10 +97,10 @@ Typed Analyzer::placeValue(const Expr& e) {
         if (out.type.rank > 0) return {&out};
         const std::string& name = type.base()->name;
         const bool group = name == "signalgi" || name == "signalgo";
-        return result(e, group ? program_.dnum : program_.num, group ? Flex::Group : Flex::None);
+        return result(e, group ? state_.program.dnum : state_.program.num, group ? Flex::Group : Flex::None);
     }
     case TypeKind::Switch:
-        fixCall(report(Code::SwitchAsValue, range(e), {text(e)}), e, "Present", true);
+        remedies_.fixCall(report(Code::SwitchAsValue, range(e), {text(e)}), e, "Present", true);
         return errorExpr(e);
     case TypeKind::AnyType: return errorExpr(e);
     case TypeKind::NonValue: break;
@@ -103,7 +114,7 @@ Typed Analyzer::placeValue(const Expr& e) {
     return errorExpr(e);
 }
 
-Typed Analyzer::paren(const ParenExpr& e, const DataType* want, ConstValue* slot) {
+Typed Expressions::paren(const ParenExpr& e, const DataType* want, ConstValue* slot) {
     const Typed inner = expr(*e.inner, want, slot);
     ExprInfo& out = info(e);
     out = *inner.info;
@@ -113,7 +124,7 @@ Typed Analyzer::paren(const ParenExpr& e, const DataType* want, ConstValue* slot
 }
 
 // Can it be of type `want`? Says why not.
-bool Analyzer::aggregateFits(const AggregateExpr& e, const DataType& want) {
+bool Expressions::aggregateFits(const AggregateExpr& e, const DataType& want) {
     const size_t count = e.elements().size();
     if (want.type->kind == TypeKind::AnyType)
         report(Code::AggregateWithoutType, range(e));
@@ -136,7 +147,7 @@ bool Analyzer::aggregateFits(const AggregateExpr& e, const DataType& want) {
 }
 
 // Members get their constants in the place where the whole value keeps them.
-Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstValue* slot) {
+Typed Expressions::aggregate(const AggregateExpr& e, const DataType* want, ConstValue* slot) {
     if (!want) report(Code::AggregateWithoutType, range(e));
     if (!want || !aggregateFits(e, *want)) {
         for (const Expr* element : e.elements())
@@ -146,8 +157,8 @@ Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstVal
     const bool array = want->rank > 0;
     const std::vector<Type::Component>& components = want->type->base()->components;
     const size_t count = e.elements().size();
-    ConstValue* value = slot ? slot : newConst();
-    const std::span<ConstValue> members = valueArena().makeArray<ConstValue>(count);
+    ConstValue* value = slot ? slot : folding_.newConst();
+    const std::span<ConstValue> members = folding_.valueArena().makeArray<ConstValue>(count);
     bool constant = true;
     bool wrong = false;
     DataType member = {
@@ -161,8 +172,9 @@ Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstVal
         const bool fit = fits(element, t, member);
         if (!fit) {
             const auto names = typeNames(t.info->type, member);
-            const Remedy remedy = remedyFor(element, t.info->type, member);
-            offer(report(Code::AggregateMember, range(element), {names[0], names[1]}), element, remedy);
+            const Remedy remedy = remedies_.remedyFor(element, t.info->type, member);
+            remedies_.offer(report(Code::AggregateMember, range(element), {names[0], names[1]}), element,
+                            remedy);
         }
         if (!array &&
             member.type->kind == TypeKind::Error) { // of a type that is not here: what is said is left out
@@ -176,11 +188,11 @@ Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstVal
         if (!t.info->constant)
             constant = false;
         else if (t.info->constant != &members[i])
-            members[i] = owned(*t.info->constant);
+            members[i] = folding_.owned(*t.info->constant);
     }
     ExprInfo& out = info(e);
     out.type = own;
-    if (wrong) out.type.type = program_.errorType;
+    if (wrong) out.type.type = state_.program.errorType;
     if (constant && !wrong) {
         value->setMembers(members);
         out.constant = value;
@@ -189,15 +201,15 @@ Typed Analyzer::aggregate(const AggregateExpr& e, const DataType* want, ConstVal
 }
 
 // Looks at an expression whose context is wrong already: own mistakes only, no type is asked for.
-void Analyzer::visitLoose(const Expr& e) {
-    const DataType any = {program_.errorType, 0, {}};
+void Expressions::visitLoose(const Expr& e) {
+    const DataType any = {state_.program.errorType, 0, {}};
     if (isPlaceExpr(e))
-        place(e);
+        places_.place(e);
     else
         expr(e, &any);
 }
 
-void Analyzer::settle(const Expr& top, const Type* to) {
+void Expressions::settle(const Expr& top, const Type* to) {
     const Expr* e = &top;
     std::vector<const Expr*> parents; // operators, folded again from the inside out
     for (;;) {
@@ -232,25 +244,13 @@ void Analyzer::settle(const Expr& top, const Type* to) {
         if (parent.kind == NodeKind::Paren)
             info(parent).constant = info(*as<ParenExpr>(parent).inner).constant;
         else if (parent.kind == NodeKind::Unary)
-            foldUnary(as<UnaryExpr>(parent), slot);
+            folding_.foldUnary(as<UnaryExpr>(parent), slot);
         else
-            foldBinary(as<BinaryExpr>(parent));
+            folding_.foldBinary(as<BinaryExpr>(parent));
     }
 }
 
-bool Analyzer::sameShape(const DataType& found, const DataType& want) {
-    if (found.rank != want.rank) return false;
-    for (int i = 0; i < want.rank; ++i) // 0: known at run time only, compared there
-        if (found.dims[i] != want.dims[i] && found.dims[i] != 0 && want.dims[i] != 0) return false;
-    return true;
-}
-
-bool Analyzer::equivalent(const DataType& found, const DataType& want) {
-    if (found.type->kind == TypeKind::Error || want.type->kind == TypeKind::Error) return true;
-    return found.type->base() == want.type->base() && sameShape(found, want);
-}
-
-bool Analyzer::fits(const Expr& e, Typed t, const DataType& want) {
+bool Expressions::fits(const Expr& e, Typed t, const DataType& want) {
     const Type& type = *want.type;
     if (t.flex != Flex::None && want.rank == 0 && type.isNumeric()) {
         settle(e, type.base());
@@ -259,20 +259,13 @@ bool Analyzer::fits(const Expr& e, Typed t, const DataType& want) {
     return equivalent(t.info->type, want);
 }
 
-std::string Analyzer::numDnumRemedy(Typed t, const DataType& want) const {
-    if (t.info->type.rank > 0 || want.rank > 0) return {};
-    if (t.info->type.type->kind == TypeKind::Num && want.type->kind == TypeKind::Dnum) return "NumToDnum";
-    if (t.info->type.type->kind == TypeKind::Dnum && want.type->kind == TypeKind::Num) return "DnumToNum";
-    return {};
-}
-
-bool Analyzer::condition(const Expr& e, const char* what) {
+bool Expressions::condition(const Expr& e, const char* what) {
     const Typed t = expr(e);
     if (t.isError() || t.isScalar(TypeKind::Bool)) return true;
     const DataSymbol* data = e.kind == NodeKind::Name ? asData(info(e).symbol) : nullptr;
     const bool signal = data && data->type.type->kind == TypeKind::SemiValue;
     const Remedy remedy = signal ? Remedy{": compare the signal, " + data->name + " = 1", data->name + " = 1"}
-                                 : remedyFor(e, t.info->type, {program_.boolean, 0, {}});
+                                 : remedies_.remedyFor(e, t.info->type, {state_.program.boolean, 0, {}});
     auto& d = report(Code::ConditionNotBool, range(e), {what, typeName(*t.info), remedy.words});
     if (!remedy.instead.empty()) d.fix(range(e), remedy.instead, false);
     return false;

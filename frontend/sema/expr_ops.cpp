@@ -1,6 +1,10 @@
 // Operators: which operands they take and what they give (manual 1.3.1).
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/expr.h"
+#include "frontend/sema/fold.h"
+#include "frontend/sema/place.h"
+#include "frontend/sema/remedies.h"
+#include "frontend/sema/wording.h"
 #include "frontend/syntax/tree_walk.h"
 
 #include <cmath>
@@ -9,25 +13,25 @@ namespace rapid::sema {
 
 using namespace syntax;
 
-Typed Analyzer::unary(const UnaryExpr& e, const DataType* want, ConstValue* slot) {
+Typed Expressions::unary(const UnaryExpr& e, const DataType* want, ConstValue* slot) {
     const Typed operand = expr(*e.operand, e.op == UnaryOp::Not ? nullptr : want);
     if (operand.isError()) return errorExpr(e);
     const char* name = e.op == UnaryOp::Not ? "NOT" : e.op == UnaryOp::Plus ? "+" : "-";
     const DataType& type = operand.info->type;
     const bool scalar = type.rank == 0;
     if (e.op == UnaryOp::Not && scalar && type.type->kind == TypeKind::Bool) {
-        const Typed t = result(e, program_.boolean);
-        foldUnary(e, slot);
+        const Typed t = result(e, state_.program.boolean);
+        folding_.foldUnary(e, slot);
         return t;
     }
     if (e.op != UnaryOp::Not && scalar && type.type->isNumeric()) {
         const Typed t = result(e, operand.base(), operand.flex);
-        foldUnary(e, slot);
+        folding_.foldUnary(e, slot);
         return t;
     }
-    if (e.op != UnaryOp::Not && scalar && program_.pos && operand.base() == program_.pos) {
-        const Typed t = result(e, program_.pos);
-        foldUnary(e, slot);
+    if (e.op != UnaryOp::Not && scalar && state_.program.pos && operand.base() == state_.program.pos) {
+        const Typed t = result(e, state_.program.pos);
+        folding_.foldUnary(e, slot);
         return t;
     }
     report(Code::UnaryOperatorType, range(e.first), {name, typeName(*operand.info)});
@@ -52,7 +56,7 @@ bool givesType(BinaryOp op, const DataType& partner) {
 } // namespace
 
 // Long chains of operators lean to the left: a loop instead of recursion.
-Typed Analyzer::binaryChain(const BinaryExpr& top, const DataType* want) {
+Typed Expressions::binaryChain(const BinaryExpr& top, const DataType* want) {
     const size_t begin = spine_.size();
     const Expr* leaf = &top;
     for (; leaf->kind == NodeKind::Binary; leaf = as<BinaryExpr>(*leaf).left)
@@ -101,10 +105,10 @@ Typed Analyzer::binaryChain(const BinaryExpr& top, const DataType* want) {
 }
 
 // "p10 + [0,0,50]": a record that no operator takes gives the aggregate no type.
-bool Analyzer::refusesAggregate(const BinaryExpr& e, const DataType& partner) {
+bool Expressions::refusesAggregate(const BinaryExpr& e, const DataType& partner) {
     const Type* type = partner.type->base();
-    if (e.op >= BinaryOp::Lt || partner.rank > 0 || type->kind != TypeKind::Record || type == program_.pos ||
-        type == program_.orient)
+    if (e.op >= BinaryOp::Lt || partner.rank > 0 || type->kind != TypeKind::Record ||
+        type == state_.program.pos || type == state_.program.orient)
         return false;
     const bool left = isAggregate(*e.left);
     report(Code::OperatorTypes, range(e.opToken),
@@ -113,10 +117,10 @@ bool Analyzer::refusesAggregate(const BinaryExpr& e, const DataType& partner) {
     return true;
 }
 
-Typed Analyzer::combine(const BinaryExpr& e, Typed left, Typed right) {
+Typed Expressions::combine(const BinaryExpr& e, Typed left, Typed right) {
     const auto isRelation = [](BinaryOp op) { return op >= BinaryOp::Lt && op <= BinaryOp::Ne; };
     if (isRelation(e.op) && e.left->kind == NodeKind::Binary && isRelation(as<BinaryExpr>(*e.left).op))
-        return result(e, program_.boolean); // a chain of relations is a syntax error
+        return result(e, state_.program.boolean); // a chain of relations is a syntax error
     if (left.isError() || right.isError()) {
         // What a comparison gives is known all the same, and what a logical operator takes.
         const bool gives = e.op >= BinaryOp::Lt;
@@ -124,7 +128,7 @@ Typed Analyzer::combine(const BinaryExpr& e, Typed left, Typed right) {
         const bool takes = e.op < BinaryOp::And || known.isError() || known.isScalar(TypeKind::Bool);
         if (!takes && text(e.opToken)[0] != '&')
             report(Code::UnaryOperatorType, range(e.opToken), {text(e.opToken), typeName(*known.info)});
-        return gives ? result(e, program_.boolean) : errorExpr(e);
+        return gives ? result(e, state_.program.boolean) : errorExpr(e);
     }
     switch (e.op) {
     case BinaryOp::Add:
@@ -146,23 +150,23 @@ Typed Analyzer::combine(const BinaryExpr& e, Typed left, Typed right) {
     return errorExpr(e);
 }
 
-Typed Analyzer::operatorError(const BinaryExpr& e, Typed left, Typed right) {
-    if (context_.tree->text(e.opToken)[0] == '&') return errorExpr(e); // of another language, reported
+Typed Expressions::operatorError(const BinaryExpr& e, Typed left, Typed right) {
+    if (state_.context.tree->text(e.opToken)[0] == '&') return errorExpr(e); // of another language, reported
     report(Code::OperatorTypes, range(e.opToken),
            {text(e.opToken), typeName(*left.info), typeName(*right.info), operatorRemedy(e.op, left, right)});
     return errorExpr(e);
 }
 
 // Brings two numbers to one type; `flex` tells whether it is still open.
-Analyzer::Numeric Analyzer::unify(const BinaryExpr& e, Typed& left, Typed& right, Flex& flex) {
+Expressions::Numeric Expressions::unify(const BinaryExpr& e, Typed& left, Typed& right, Flex& flex) {
     const DataType &a = left.info->type, &b = right.info->type;
     if (a.rank > 0 || b.rank > 0 || !a.type->isNumeric() || !b.type->isNumeric()) return Numeric::NotNumeric;
     flex = Flex::None;
     if (left.flex != Flex::None && right.flex != Flex::None) {
         flex = left.flex == Flex::Group || right.flex == Flex::Group ? Flex::Group : Flex::Literal;
         const bool dnum =
-            flex == Flex::Group || left.base() == program_.dnum || right.base() == program_.dnum;
-        const Type* common = dnum ? program_.dnum : program_.num;
+            flex == Flex::Group || left.base() == state_.program.dnum || right.base() == state_.program.dnum;
+        const Type* common = dnum ? state_.program.dnum : state_.program.num;
         settle(*e.left, common);
         settle(*e.right, common);
     } else if (left.flex != Flex::None)
@@ -174,7 +178,7 @@ Analyzer::Numeric Analyzer::unify(const BinaryExpr& e, Typed& left, Typed& right
     return Numeric::Ok;
 }
 
-Typed Analyzer::arithmetic(const BinaryExpr& e, Typed left, Typed right) {
+Typed Expressions::arithmetic(const BinaryExpr& e, Typed left, Typed right) {
     Flex flex = Flex::None;
     switch (unify(e, left, right, flex)) {
     case Numeric::Mixed: report(Code::NumDnumMixed, range(e.opToken), {text(e.opToken)}); return errorExpr(e);
@@ -182,13 +186,13 @@ Typed Analyzer::arithmetic(const BinaryExpr& e, Typed left, Typed right) {
     case Numeric::Ok: break;
     }
     const Typed t = result(e, left.base(), flex);
-    foldBinary(e);
+    folding_.foldBinary(e);
     if (e.op == BinaryOp::IntDiv || e.op == BinaryOp::Mod) checkIntegerOperands(e);
     return t;
 }
 
 // DIV and MOD of data and a fraction (manual 1.3.1); two constants are judged when they are folded.
-void Analyzer::checkIntegerOperands(const BinaryExpr& e) {
+void Expressions::checkIntegerOperands(const BinaryExpr& e) {
     const ConstValue *a = info(*e.left).constant, *b = info(*e.right).constant;
     if ((a != nullptr) == (b != nullptr)) return;
     const Expr& known = a ? *e.left : *e.right;
@@ -199,24 +203,24 @@ void Analyzer::checkIntegerOperands(const BinaryExpr& e) {
 }
 
 // Strings, vectors and rotations.
-Typed Analyzer::vectorArithmetic(const BinaryExpr& e, Typed left, Typed right) {
-    const Type *pos = program_.pos, *orient = program_.orient;
+Typed Expressions::vectorArithmetic(const BinaryExpr& e, Typed left, Typed right) {
+    const Type *pos = state_.program.pos, *orient = state_.program.orient;
     if (left.info->type.rank > 0 || right.info->type.rank > 0) return operatorError(e, left, right);
     // A group signal in a product with a vector counts as num; so does a literal already.
     const auto asNum = [&](const Expr& side, Typed t) {
-        if (t.flex != Flex::None) settle(side, program_.num);
-        return t.base() == program_.num;
+        if (t.flex != Flex::None) settle(side, state_.program.num);
+        return t.base() == state_.program.num;
     };
     const auto folded = [&](const Type* type) {
         const Typed t = result(e, type);
-        foldBinary(e);
+        folding_.foldBinary(e);
         return t;
     };
     const bool leftPos = pos && left.base() == pos, rightPos = pos && right.base() == pos;
     switch (e.op) {
     case BinaryOp::Add:
         if (left.isScalar(TypeKind::String) && right.isScalar(TypeKind::String))
-            return folded(program_.string);
+            return folded(state_.program.string);
         if (leftPos && rightPos) return folded(pos);
         break;
     case BinaryOp::Sub:
@@ -236,18 +240,18 @@ Typed Analyzer::vectorArithmetic(const BinaryExpr& e, Typed left, Typed right) {
     return operatorError(e, left, right);
 }
 
-Typed Analyzer::comparison(const BinaryExpr& e, Typed left, Typed right) {
+Typed Expressions::comparison(const BinaryExpr& e, Typed left, Typed right) {
     Flex flex = Flex::None;
     switch (unify(e, left, right, flex)) {
     case Numeric::Mixed: report(Code::NumDnumMixed, range(e.opToken), {text(e.opToken)}); break;
     case Numeric::NotNumeric: operatorError(e, left, right); break;
     case Numeric::Ok: {
-        const Typed t = result(e, program_.boolean);
-        foldBinary(e);
+        const Typed t = result(e, state_.program.boolean);
+        folding_.foldBinary(e);
         return t;
     }
     }
-    return result(e, program_.boolean);
+    return result(e, state_.program.boolean);
 }
 
 namespace {
@@ -268,13 +272,13 @@ bool sameDimensions(const DataType& a, const DataType& b, bool& known) {
 } // namespace
 
 // Whole arrays of known, equal size are compared as they are assigned (manual 1.3.2).
-Typed Analyzer::equality(const BinaryExpr& e, Typed left, Typed right) {
+Typed Expressions::equality(const BinaryExpr& e, Typed left, Typed right) {
     Flex flex = Flex::None;
     const Numeric numeric = unify(e, left, right, flex);
-    const Typed t = result(e, program_.boolean);
+    const Typed t = result(e, state_.program.boolean);
     const DataType &a = left.info->type, &b = right.info->type;
     if (numeric == Numeric::Ok)
-        foldBinary(e);
+        folding_.foldBinary(e);
     else if (numeric == Numeric::Mixed)
         report(Code::NumDnumMixed, range(e.opToken), {text(e.opToken)});
     else if (bool known = true; a.type->base() != b.type->base() || !sameDimensions(a, b, known)) {
@@ -283,22 +287,22 @@ Typed Analyzer::equality(const BinaryExpr& e, Typed left, Typed right) {
                                  e.left->kind == NodeKind::StringLiteral ||
                                  e.left->kind == NodeKind::BoolLiteral;
         const Expr& odd = literalLeft ? *e.left : *e.right;
-        const Remedy remedy = literalLeft ? remedyFor(odd, a, b) : remedyFor(odd, b, a);
-        offer(report(Code::CompareTypes, range(e.opToken), {text(e.opToken), names[0], names[1]}), odd,
-              remedy);
+        const Remedy remedy = literalLeft ? remedies_.remedyFor(odd, a, b) : remedies_.remedyFor(odd, b, a);
+        remedies_.offer(report(Code::CompareTypes, range(e.opToken), {text(e.opToken), names[0], names[1]}),
+                        odd, remedy);
     } else if (!known)
         report(Code::CompareArrays, range(e.opToken), {text(e.opToken)});
     else
-        foldBinary(e);
+        folding_.foldBinary(e);
     return t;
 }
 
-Typed Analyzer::logic(const BinaryExpr& e, Typed left, Typed right) {
+Typed Expressions::logic(const BinaryExpr& e, Typed left, Typed right) {
     if (!left.isScalar(TypeKind::Bool) || !right.isScalar(TypeKind::Bool)) {
         return operatorError(e, left, right);
     }
-    const Typed t = result(e, program_.boolean);
-    foldBinary(e);
+    const Typed t = result(e, state_.program.boolean);
+    folding_.foldBinary(e);
     return t;
 }
 

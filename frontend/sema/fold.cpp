@@ -1,6 +1,6 @@
 // Values of constant expressions. num results are rounded to binary32 after each operation, as the controller does.
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/fold.h"
 #include "frontend/syntax/limits.h"
 
 #include <algorithm>
@@ -81,10 +81,12 @@ ConstValue aggregateOf(const Vector& vector, Arena& arena) {
 
 } // namespace
 
+Folding::Folding(State& state) : CheckerPart(state) {}
+
 // A value that stays when the file of `value` is checked again.
-ConstValue Analyzer::owned(const ConstValue& value) {
+ConstValue Folding::owned(const ConstValue& value) {
     ConstValue copy = value;
-    if (!keeps_) return copy;
+    if (!state_.keepsFacts) return copy;
     if (value.kind == ConstValue::Kind::String) copy.setText(value.text(), valueArena());
     if (value.kind == ConstValue::Kind::Aggregate) {
         const std::span<ConstValue> members = valueArena().makeArray<ConstValue>(value.members().size());
@@ -96,21 +98,21 @@ ConstValue Analyzer::owned(const ConstValue& value) {
 }
 
 // An element or component of a constant, which may be that of another file.
-const ConstValue* Analyzer::partOf(const ConstValue& value) {
-    if (!keeps_) return &value;
+const ConstValue* Folding::partOf(const ConstValue& value) {
+    if (!state_.keepsFacts) return &value;
     ConstValue* copy = newConst();
     *copy = owned(value);
     return copy;
 }
 
-void Analyzer::foldBool(ExprInfo& out, bool value) {
+void Folding::foldBool(ExprInfo& out, bool value) {
     ConstValue* constant = newConst();
     constant->kind = ConstValue::Kind::Bool;
     constant->boolean = value;
     out.constant = constant;
 }
 
-void Analyzer::foldUnary(const UnaryExpr& e, ConstValue* slot) {
+void Folding::foldUnary(const UnaryExpr& e, ConstValue* slot) {
     ExprInfo& out = info(e);
     const ConstValue* operand = info(*e.operand).constant;
     out.constant = nullptr;
@@ -134,19 +136,19 @@ void Analyzer::foldUnary(const UnaryExpr& e, ConstValue* slot) {
 }
 
 // A routine with an ERROR handler may well mean it.
-void Analyzer::warnDivision(const BinaryExpr& e) {
+void Folding::warnDivision(const BinaryExpr& e) {
     if (!hasErrorHandler()) report(Code::DivisionByZero, range(e.opToken), {text(e.opToken)});
 }
 
 // False: there is no such value. An error where a constant is demanded; elsewhere it is left to run time.
-bool Analyzer::foldArithmetic(const BinaryExpr& e, double a, double b, bool isDnum, double& out) {
+bool Folding::foldArithmetic(const BinaryExpr& e, double a, double b, bool isDnum, double& out) {
     switch (e.op) {
     case BinaryOp::Add: out = a + b; break;
     case BinaryOp::Sub: out = a - b; break;
     case BinaryOp::Mul: out = a * b; break;
     default: {
         if (b == 0) {
-            if (context_.constant)
+            if (state_.context.constant)
                 report(Code::ConstantDivision, range(e.opToken), {text(e.opToken)});
             else
                 warnDivision(e);
@@ -167,12 +169,12 @@ bool Analyzer::foldArithmetic(const BinaryExpr& e, double a, double b, bool isDn
     out = roundTo(isDnum, out);
     if (std::isfinite(out)) return true;
     const bool literalTooLarge = !std::isfinite(a) || !std::isfinite(b); // reported as a literal
-    if (context_.constant && !literalTooLarge)
+    if (state_.context.constant && !literalTooLarge)
         report(Code::ConstantOverflow, range(e.opToken), {isDnum ? "dnum" : "num"});
     return false;
 }
 
-void Analyzer::foldBinary(const BinaryExpr& e) {
+void Folding::foldBinary(const BinaryExpr& e) {
     ExprInfo& out = info(e);
     const ConstValue *a = info(*e.left).constant, *b = info(*e.right).constant;
     out.constant = nullptr;
@@ -196,7 +198,8 @@ void Analyzer::foldBinary(const BinaryExpr& e) {
     if (a->kind == ConstValue::Kind::String) {
         const size_t size = a->text().size() + b->text().size();
         if (size > kStringCapacity) {
-            if (context_.constant) report(Code::ConstantStringTooLong, range(e), {std::to_string(size)});
+            if (state_.context.constant)
+                report(Code::ConstantStringTooLong, range(e), {std::to_string(size)});
             return;
         }
         ConstValue* value = newConst();
@@ -218,7 +221,7 @@ void Analyzer::foldBinary(const BinaryExpr& e) {
                     return;
         }
         if (!std::all_of(vector.at.begin(), vector.at.end(), [](double v) { return std::isfinite(v); })) {
-            if (context_.constant) report(Code::ConstantOverflow, range(e.opToken), {"num"});
+            if (state_.context.constant) report(Code::ConstantOverflow, range(e.opToken), {"num"});
             return;
         }
         ConstValue* value = newConst();

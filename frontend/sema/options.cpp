@@ -2,7 +2,7 @@
 
 #include "frontend/sema/options.h"
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/availability.h"
 
 #include <algorithm>
 #include <cctype>
@@ -75,10 +75,12 @@ bool isOptionInstalled(const std::vector<std::string>& installed, std::string_vi
     }
 }
 
-void Analyzer::checkOption(const RoutineSymbol& routine, syntax::TokenIndex name) {
-    if (routine.option.empty() || !options_.robotWareOptions) return;
-    if (isOptionInstalled(*options_.robotWareOptions, routine.option)) return;
-    if (!reportedNames_.insert(routine.nameId).second) return; // once a task
+Availability::Availability(State& state) : CheckerPart(state) {}
+
+void Availability::checkOption(const RoutineSymbol& routine, syntax::TokenIndex name) {
+    if (routine.option.empty() || !state_.options.robotWareOptions) return;
+    if (isOptionInstalled(*state_.options.robotWareOptions, routine.option)) return;
+    if (!state_.task.reportedNames.insert(routine.nameId).second) return; // once a task
     report(Code::OptionMissing, range(name), {routine.name, "'" + routine.option + "'"});
 }
 

@@ -1,6 +1,15 @@
 // References to data: entire data, array elements, record components (manual 1.3.2).
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/place.h"
+#include "frontend/sema/expr.h"
+#include "frontend/sema/fold.h"
+#include "frontend/sema/parameters.h"
+#include "frontend/sema/parts.h"
+#include "frontend/sema/resolve_data.h"
+#include "frontend/sema/scopes.h"
+#include "frontend/sema/suggestions.h"
+#include "frontend/sema/unknown.h"
+#include "frontend/sema/wording.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,32 +18,36 @@ namespace rapid::sema {
 
 using namespace syntax;
 
-bool Analyzer::isPlaceExpr(const Expr& e) {
+bool isPlaceExpr(const Expr& e) {
     return e.kind == NodeKind::Name || e.kind == NodeKind::Index || e.kind == NodeKind::Component;
 }
 
+Places::Places(State& state, const Parts& parts)
+    : CheckerPart(state), data_(parts.data), expressions_(parts.expressions), folding_(parts.folding),
+      scopes_(parts.scopes), suggestions_(parts.suggestions), unknown_(parts.unknown) {}
+
 // `handle`: a signal or mechanical unit is expected here, an undeclared name is taken as one.
-Place Analyzer::place(const Expr& e, const Type* handle) {
+Place Places::place(const Expr& e, const Type* handle) {
     if (e.kind == NodeKind::Name) return namePlace(as<NameExpr>(e), handle);
     if (e.kind == NodeKind::Index) return indexPlace(as<IndexExpr>(e), handle);
     return componentPlace(as<ComponentExpr>(e), handle);
 }
 
-Place Analyzer::namePlace(const NameExpr& e, const Type* handle) {
+Place Places::namePlace(const NameExpr& e, const Type* handle) {
     ExprInfo& result = info(e);
-    result.type = {program_.errorType, 0, {}};
+    result.type = {state_.program.errorType, 0, {}};
     Place place;
     place.name = &e;
     if (!isName(e.name)) return place;
     const NameId name = idOf(e.name);
-    Symbol* symbol = lookup(name);
-    if (!symbol) symbol = reportUnknownData(e.name, name, handle);
+    Symbol* symbol = scopes_.lookup(name);
+    if (!symbol) symbol = unknown_.reportUnknownData(e.name, name, handle);
     if (!symbol) return place;
     DataSymbol* data = asData(symbol);
     if (!data) {
         const RoutineSymbol* routine = asRoutine(symbol);
         const bool function = routine && routine->routineKind == RoutineKind::Func;
-        if (function && context_.tree->tokens[e.name + 1].kind == TokenKind::LeftBracket)
+        if (function && state_.context.tree->tokens[e.name + 1].kind == TokenKind::LeftBracket)
             return place; // reported
         auto& d = function ? report(Code::FunctionWithoutParentheses, range(e), {text(e)})
                            : report(Code::NotData, range(e), {text(e), describe(*symbol)});
@@ -46,10 +59,12 @@ Place Analyzer::namePlace(const NameExpr& e, const Type* handle) {
         return place;
     }
     if (data->assumed) facts().open = true;
-    if (markUsed(*data) && data->storage == Storage::Signal) facts().signals.emplace_back(data, e.name);
-    ensureData(*data);
-    if (data->optional && !data->isSwitch && data->routine == context_.routine && !presenceOnly_) {
-        OptionalUse& use = optionalUses_[data->index];
+    if (scopes_.markUsed(*data) && data->storage == Storage::Signal)
+        facts().signals.emplace_back(data, e.name);
+    data_.ensureData(*data);
+    if (data->optional && !data->isSwitch && data->routine == state_.context.routine &&
+        !state_.presenceOnly) {
+        OptionalUse& use = state_.routine.optionalUses[data->index];
         if (!use.first) use.first = &e;
     }
     place.root = data;
@@ -57,8 +72,8 @@ Place Analyzer::namePlace(const NameExpr& e, const Type* handle) {
     result.type = data->type;
     if (data->dataKind == DataKind::Const && data->storage != Storage::Parameter &&
         data->storage != Storage::Signal) {
-        ensureValue(*data);
-        if (leaveUnread_ && data->isLiteralConstant()) return place;
+        data_.ensureValue(*data);
+        if (state_.leaveUnread && data->isLiteralConstant()) return place;
         const ConstValue& value = data->value();
         if (value.kind != ConstValue::Kind::None) result.constant = &value;
     }
@@ -66,11 +81,11 @@ Place Analyzer::namePlace(const NameExpr& e, const Type* handle) {
 }
 
 // The value of a constant index in `value`, 0 if it is not known.
-void Analyzer::checkIndex(const Expr& index, int32_t dimension, int64_t& value) {
-    const Typed t = expr(index);
+void Places::checkIndex(const Expr& index, int32_t dimension, int64_t& value) {
+    const Typed t = expressions_.expr(index);
     value = 0;
     if (t.isError()) return;
-    if (t.flex != Flex::None) settle(index, program_.num);
+    if (t.flex != Flex::None) expressions_.settle(index, state_.program.num);
     if (!t.isScalar(TypeKind::Num)) {
         report(Code::IndexType, range(index), {typeName(*t.info)});
         return;
@@ -87,21 +102,21 @@ void Analyzer::checkIndex(const Expr& index, int32_t dimension, int64_t& value) 
         value = static_cast<int64_t>(number);
 }
 
-Place Analyzer::indexPlace(const IndexExpr& e, const Type* handle) {
+Place Places::indexPlace(const IndexExpr& e, const Type* handle) {
     ExprInfo& result = info(e);
-    result.type = {program_.errorType, 0, {}};
+    result.type = {state_.program.errorType, 0, {}};
     Place place;
     if (!isPlaceExpr(*e.base)) {
-        visitLoose(*e.base);
+        expressions_.visitLoose(*e.base);
         for (const Expr* i : e.indices)
-            visitLoose(*i);
+            expressions_.visitLoose(*i);
         return place;
     }
-    if (context_.tree->tokens[e.base->last + 1].kind == TokenKind::LeftParen &&
+    if (state_.context.tree->tokens[e.base->last + 1].kind == TokenKind::LeftParen &&
         e.base->kind == NodeKind::Name &&
-        asRoutine(lookup(idOf(as<NameExpr>(*e.base).name)))) { // `f(1) := 2`, a syntax error
+        asRoutine(scopes_.lookup(idOf(as<NameExpr>(*e.base).name)))) { // `f(1) := 2`, a syntax error
         for (const Expr* i : e.indices)
-            visitLoose(*i);
+            expressions_.visitLoose(*i);
         return place;
     }
     place = this->place(*e.base, handle);
@@ -130,31 +145,31 @@ Place Analyzer::indexPlace(const IndexExpr& e, const Type* handle) {
     }
     if (!countOk) return {};
     result.type = {type.type, 0, {}};
-    if (constant && constant->kind != ConstValue::Kind::None) result.constant = partOf(*constant);
+    if (constant && constant->kind != ConstValue::Kind::None) result.constant = folding_.partOf(*constant);
     return place;
 }
 
 // The index of a component, or -1. Records with very many of them get a table.
-int Analyzer::findComponent(const Type& record, std::string_view name) {
+int Places::findComponent(const Type& record, std::string_view name) {
     constexpr size_t kMany = 64;
     const std::vector<Type::Component>& all = record.base()->components;
     if (all.size() < kMany) return record.findComponent(name);
-    if (wideRecord_ != record.base()) {
-        wideRecord_ = record.base();
-        wideComponents_.clear();
+    if (state_.routine.wideRecord != record.base()) {
+        state_.routine.wideRecord = record.base();
+        state_.routine.wideComponents.clear();
         for (size_t i = 0; i < all.size(); ++i)
-            wideComponents_.emplace(foldName(all[i].name), static_cast<int>(i));
+            state_.routine.wideComponents.emplace(foldName(all[i].name), static_cast<int>(i));
     }
-    const auto found = wideComponents_.find(foldName(name));
-    return found == wideComponents_.end() ? -1 : found->second;
+    const auto found = state_.routine.wideComponents.find(foldName(name));
+    return found == state_.routine.wideComponents.end() ? -1 : found->second;
 }
 
-Place Analyzer::componentPlace(const ComponentExpr& e, const Type*) {
+Place Places::componentPlace(const ComponentExpr& e, const Type*) {
     ExprInfo& result = info(e);
-    result.type = {program_.errorType, 0, {}};
+    result.type = {state_.program.errorType, 0, {}};
     Place place;
     if (!isPlaceExpr(*e.base)) {
-        visitLoose(*e.base);
+        expressions_.visitLoose(*e.base);
         return place;
     }
     place = this->place(*e.base);
@@ -169,12 +184,13 @@ Place Analyzer::componentPlace(const ComponentExpr& e, const Type*) {
         report(Code::ComponentOfNonRecord, range(e.name), {text(e.name), typeName(base)});
         return {};
     }
-    const std::string_view name = context_.tree->text(e.name);
+    const std::string_view name = state_.context.tree->text(e.name);
     const int component = findComponent(*base.type.type, name);
     if (component < 0 && base.type.type->base()->unclear) return {}; // it may be among what could not be read
     if (component < 0) {
-        std::string meant = deeperComponent(*base.type.type, name);
-        if (const Type::Component* near = nearComponent(*base.type.type, name); near && meant.empty())
+        std::string meant = suggestions_.deeperComponent(*base.type.type, name);
+        if (const Type::Component* near = suggestions_.nearComponent(*base.type.type, name);
+            near && meant.empty())
             meant = near->name;
         diag::Diagnostic& d =
             report(Code::UnknownComponent, range(e.name),
@@ -186,7 +202,7 @@ Place Analyzer::componentPlace(const ComponentExpr& e, const Type*) {
     result.component = component;
     result.type = {base.type.type->base()->components[index].type, 0, {}};
     if (base.constant && index < base.constant->members().size())
-        result.constant = partOf(base.constant->members()[index]);
+        result.constant = folding_.partOf(base.constant->members()[index]);
     return place;
 }
 

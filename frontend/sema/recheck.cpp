@@ -1,6 +1,7 @@
 // Checking again what a changed file concerns, while the facts about other files stay (see session.h).
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/analyzer.h"
+#include "frontend/sema/collect.h"
 #include "frontend/source/same_ends.h"
 
 #include <algorithm>
@@ -97,53 +98,34 @@ bool sameFromOutside(const SyntaxTree& oldTree, const ModuleDecl& oldModule, con
 
 } // namespace
 
-TaskScope Analyzer::leaveTask() {
-    TaskScope scope;
-    scope.task = std::exchange(task_, nullptr);
-    scope.files = std::move(files_);
-    scope.globals = std::move(globals_);
-    scope.configured = std::move(configured_);
-    scope.assumed = std::move(assumed_);
-    scope.moduleNames = std::move(moduleNames_);
-    scope.missingModules = std::move(missingModules_);
-    scope.incomplete = incomplete_;
-    scope.entangled = entangled_;
-    globals_.clear();
-    configured_.clear();
-    return scope;
+TaskContext Analyzer::leaveTask() {
+    return std::exchange(state_.task, {});
 }
 
-void Analyzer::enterTask(TaskScope scope) {
-    task_ = scope.task;
-    files_ = std::move(scope.files);
-    globals_ = std::move(scope.globals);
-    configured_ = std::move(scope.configured);
-    assumed_ = std::move(scope.assumed);
-    moduleNames_ = std::move(scope.moduleNames);
-    missingModules_ = std::move(scope.missingModules);
-    incomplete_ = scope.incomplete;
-    entangled_ = scope.entangled;
-    spareAssumed_.clear();
+void Analyzer::enterTask(TaskContext task) {
+    state_.task = std::move(task);
+    state_.task.spareAssumed.clear();
 }
 
 // What files have in common that are `open`: it begins anew each time, and all of them are checked again.
 void Analyzer::clearLooseEnds() {
-    for (DataSymbol* symbol : assumed_)
-        put<DataSymbol>(configured_, symbol->nameId, nullptr);
-    spareAssumed_.insert(spareAssumed_.end(), assumed_.begin(), assumed_.end());
-    assumed_.clear();
-    signalUses_ = {};
-    reportedNames_.clear();
-    maybeDeclared_.clear();
-    brokenTrees_.clear();
-    for (const TaskFile& file : files_)
-        if (file.broken) brokenTrees_.push_back(program_.trees[file.slot].get());
-    comparisonsLeft_ = kMaxComparisons;
+    for (DataSymbol* symbol : state_.task.assumed)
+        put<DataSymbol>(state_.task.configured, symbol->nameId, nullptr);
+    state_.task.spareAssumed.insert(state_.task.spareAssumed.end(), state_.task.assumed.begin(),
+                                    state_.task.assumed.end());
+    state_.task.assumed.clear();
+    state_.task.signalUses = {};
+    state_.task.reportedNames.clear();
+    state_.task.maybeDeclared.clear();
+    state_.task.brokenTrees.clear();
+    for (const TaskFile& file : state_.task.files)
+        if (file.broken) state_.task.brokenTrees.push_back(state_.program.trees[file.slot].get());
+    state_.task.comparisonsLeft = kMaxComparisons;
 }
 
 bool Analyzer::replaceTree(size_t index, std::unique_ptr<SyntaxTree> tree, bool broken) {
-    TaskFile& file = files_[index];
-    std::unique_ptr<SyntaxTree>& place = program_.trees[file.slot];
+    TaskFile& file = state_.task.files[index];
+    std::unique_ptr<SyntaxTree>& place = state_.program.trees[file.slot];
     bool same = tree->modules.size() == place->modules.size();
     for (size_t i = 0; same && i < tree->modules.size(); ++i)
         same = sameFromOutside(*place, *place->modules[i], *tree, *tree->modules[i]);
@@ -155,9 +137,10 @@ bool Analyzer::replaceTree(size_t index, std::unique_ptr<SyntaxTree> tree, bool 
 
 // Takes back what files say about the symbols of others.
 void Analyzer::dropFacts(std::span<const size_t> files) {
-    if (RoutineSymbol* entry = std::exchange(task_->entryRoutine, nullptr)) entry->used = --entry->users > 0;
+    if (RoutineSymbol* entry = std::exchange(state_.task.task->entryRoutine, nullptr))
+        entry->used = --entry->users > 0;
     for (const size_t index : files) {
-        FileFacts& facts = *program_.facts[files_[index].slot];
+        FileFacts& facts = *state_.program.facts[state_.task.files[index].slot];
         for (Symbol* symbol : std::exchange(facts.used, {}))
             symbol->used = --symbol->users > 0;
         for (DataSymbol* symbol : std::exchange(facts.assigned, {}))
@@ -168,10 +151,10 @@ void Analyzer::dropFacts(std::span<const size_t> files) {
 
 // New facts for a file, and its modules as the tree has them now.
 void Analyzer::renewFacts(const TaskFile& file, std::shared_ptr<FileSymbols> symbols) {
-    const SyntaxTree& tree = *program_.trees[file.slot];
-    program_.facts[file.slot] =
-        std::make_unique<FileFacts>(tree, program_.errorType, std::move(symbols), ++lastStamp_);
-    FileFacts& facts = *program_.facts[file.slot];
+    const SyntaxTree& tree = *state_.program.trees[file.slot];
+    state_.program.facts[file.slot] =
+        std::make_unique<FileFacts>(tree, state_.program.errorType, std::move(symbols), ++state_.lastStamp);
+    FileFacts& facts = *state_.program.facts[file.slot];
     for (size_t i = 0; i < file.modules.size(); ++i) {
         Module& module = *file.modules[i];
         const uint32_t id = module.id;
@@ -190,46 +173,45 @@ void Analyzer::recheckFiles(std::span<const size_t> files) {
     std::vector<Module*> modules;
     std::vector<NameMap<Symbol>> earlier;
     for (const size_t index : files) {
-        for (Module* module : files_[index].modules) {
+        for (Module* module : state_.task.files[index].modules) {
             modules.push_back(module);
-            earlier.push_back(std::exchange(scopes_[module->id]->names, {}));
+            earlier.push_back(std::exchange(state_.scopes[module->id]->names, {}));
             earlier.back().forEach([&](NameId name, Symbol* symbol) {
-                if (at(globals_, name) == symbol) globals_[name] = nullptr;
+                if (at(state_.task.globals, name) == symbol) state_.task.globals[name] = nullptr;
                 symbol->decl = nullptr;
             });
         }
     }
     for (const size_t index : files)
-        renewFacts(files_[index], program_.facts[files_[index].slot]->symbols);
+        renewFacts(state_.task.files[index], state_.program.facts[state_.task.files[index].slot]->symbols);
     clearLooseEnds();
     for (size_t i = 0; i < modules.size(); ++i) {
-        earlier_ = &earlier[i];
-        collect(*modules[i]);
+        collector_.collectAgain(*modules[i], earlier[i]);
     }
-    earlier_ = nullptr;
-    checkModuleNames(modules);
+    collector_.checkModuleNames(modules);
     checkModules(modules);
 }
 
 void Analyzer::recheckTask() {
-    std::vector<size_t> all(files_.size());
+    std::vector<size_t> all(state_.task.files.size());
     for (size_t i = 0; i < all.size(); ++i)
         all[i] = i;
     dropFacts(all);
-    task_->modules.clear();
-    globals_.assign(globals_.size(), nullptr);
-    moduleNames_ = {};
-    entangled_ = false;
-    for (TaskFile& file : files_) {
-        const SyntaxTree& tree = *program_.trees[file.slot];
+    state_.task.task->modules.clear();
+    state_.task.globals.assign(state_.task.globals.size(), nullptr);
+    state_.task.moduleNames = {};
+    state_.task.entangled = false;
+    for (TaskFile& file : state_.task.files) {
+        const SyntaxTree& tree = *state_.program.trees[file.slot];
         file.modules.resize(std::min(file.modules.size(), tree.modules.size()));
         for (Module* module : file.modules)
-            scopes_[module->id]->names = {};
+            state_.scopes[module->id]->names = {};
         renewFacts(file, std::make_shared<FileSymbols>());
         while (file.modules.size() < tree.modules.size())
-            file.modules.push_back(
-                addModule(tree, *tree.modules[file.modules.size()], false, *program_.facts[file.slot]));
-        task_->modules.insert(task_->modules.end(), file.modules.begin(), file.modules.end());
+            file.modules.push_back(collector_.addModule(tree, *tree.modules[file.modules.size()], false,
+                                                        *state_.program.facts[file.slot]));
+        state_.task.task->modules.insert(state_.task.task->modules.end(), file.modules.begin(),
+                                         file.modules.end());
     }
     clearLooseEnds();
     checkFiles();

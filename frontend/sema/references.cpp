@@ -14,9 +14,10 @@ namespace {
 
 using TypeTable = std::unordered_map<std::string, const TypeSymbol*>;
 
-class Collector {
+class ReferenceCollector {
   public:
-    Collector(const CheckedProgram& program, std::vector<Reference>& out) : program_(program), out_(out) {
+    ReferenceCollector(const CheckedProgram& program, std::vector<Reference>& out)
+        : program_(program), out_(out) {
         for (const Module* module : program.predefinedModules)
             for (const TypeSymbol* type : module->types)
                 predefinedTypes_.emplace(foldName(type->name), type);
@@ -132,7 +133,7 @@ class Collector {
 
 std::vector<Reference> collectReferences(const CheckedProgram& program) {
     std::vector<Reference> out;
-    Collector collector(program, out);
+    ReferenceCollector collector(program, out);
     for (const auto& task : program.tasks)
         collector.collect(*task);
     return out;

@@ -1,6 +1,11 @@
 // What would make a value fit where it stands: the end of a message, and something to write instead.
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/remedies.h"
+#include "frontend/sema/parts.h"
+#include "frontend/sema/place.h"
+#include "frontend/sema/scopes.h"
+#include "frontend/sema/type_rules.h"
+#include "frontend/sema/wording.h"
 #include "frontend/syntax/tree_walk.h"
 
 #include <algorithm>
@@ -24,11 +29,14 @@ bool isPredefined(const Type& type, std::string_view name) {
 
 } // namespace
 
+Remedies::Remedies(State& state, const Parts& parts) : CheckerPart(state), scopes_(parts.scopes) {}
+
 // Predefined data that the number stands for: "100" for speeddata is v100.
-std::string Analyzer::namedByNumber(std::string_view number, const Type& want) {
+std::string Remedies::namedByNumber(std::string_view number, const Type& want) {
     for (const char* letter : {"v", "z"}) {
-        const DataSymbol* data = asData(at(predefined_, interner_.intern(letter + std::string(number))));
-        if (data && lookup(data->nameId) == data && data->type.rank == 0 &&
+        const DataSymbol* data =
+            asData(at(state_.predefined, state_.names.intern(letter + std::string(number))));
+        if (data && scopes_.lookup(data->nameId) == data && data->type.rank == 0 &&
             data->type.type->base() == want.base())
             return data->name;
     }
@@ -36,18 +44,18 @@ std::string Analyzer::namedByNumber(std::string_view number, const Type& want) {
 }
 
 /// All of it, for a fix; text() shortens.
-std::string Analyzer::written(const Expr& e) const {
+std::string Remedies::written(const Expr& e) const {
     const SourceRange whole = range(e);
-    return std::string(context_.tree->source->text().substr(whole.begin, whole.end - whole.begin));
+    return std::string(state_.context.tree->source->text().substr(whole.begin, whole.end - whole.begin));
 }
 
 /// For a message, which is one line.
-std::string Analyzer::inWords(const Expr& e) const {
+std::string Remedies::inWords(const Expr& e) const {
     const bool line = written(e).find_first_of("\r\n") == std::string::npos;
     return line ? text(e) : "...";
 }
 
-Analyzer::Remedy Analyzer::numberRemedy(const Expr& e, const DataType& found, const Type& want) {
+Remedy Remedies::numberRemedy(const Expr& e, const DataType& found, const Type& want) {
     const bool literal = e.kind == NodeKind::NumLiteral;
     switch (want.kind) {
     case TypeKind::String:
@@ -71,7 +79,7 @@ Analyzer::Remedy Analyzer::numberRemedy(const Expr& e, const DataType& found, co
 }
 
 // A record of which only a part is wanted, or a target of the other kind.
-Analyzer::Remedy Analyzer::recordRemedy(const Expr& e, const DataType& found, const DataType& want) {
+Remedy Remedies::recordRemedy(const Expr& e, const DataType& found, const DataType& want) {
     if (isPredefined(*found.type, "robtarget") && isPredefined(*want.type, "jointtarget"))
         return {": CalcJointT gives the joint angles of a robtarget", ""};
     if (isPredefined(*found.type, "jointtarget") && isPredefined(*want.type, "robtarget"))
@@ -88,7 +96,7 @@ Analyzer::Remedy Analyzer::recordRemedy(const Expr& e, const DataType& found, co
 }
 
 /// How to make what was found what is wanted, if there is a usual way.
-Analyzer::Remedy Analyzer::remedyFor(const Expr& whole, const DataType& found, const DataType& want) {
+Remedy Remedies::remedyFor(const Expr& whole, const DataType& found, const DataType& want) {
     const Expr& e = bare(whole);
     if (!found.type || !want.type) return {};
     if (want.rank > 0) {
@@ -130,8 +138,8 @@ Analyzer::Remedy Analyzer::remedyFor(const Expr& whole, const DataType& found, c
 }
 
 // For arguments, also another instruction of the same family: WaitDO for WaitDI, MoveAbsJ for MoveL.
-Analyzer::Remedy Analyzer::remedyFor(const RoutineSymbol& routine, const Expr& e, const DataType& found,
-                                     const DataSymbol& param) {
+Remedy Remedies::remedyFor(const RoutineSymbol& routine, const Expr& e, const DataType& found,
+                           const DataSymbol& param) {
     const DataType& want = param.type;
     if (found.type && routine.predefined && found.rank == 0 && want.rank == 0) {
         const bool moves = routine.name.starts_with("Move");
@@ -151,8 +159,7 @@ Analyzer::Remedy Analyzer::remedyFor(const RoutineSymbol& routine, const Expr& e
 }
 
 // "SetDO go1, 5;": what ends in the kind of the signal takes it.
-Analyzer::Remedy Analyzer::signalRemedy(const RoutineSymbol& routine, const DataType& found,
-                                        const DataType& want) {
+Remedy Remedies::signalRemedy(const RoutineSymbol& routine, const DataType& found, const DataType& want) {
     constexpr std::string_view kSignal = "signal";
     const std::string_view have = found.type->base()->name, need = want.type->base()->name;
     if (found.type->kind != TypeKind::SemiValue || want.type->kind != TypeKind::SemiValue) return {};
@@ -163,7 +170,7 @@ Analyzer::Remedy Analyzer::signalRemedy(const RoutineSymbol& routine, const Data
     const size_t where = folded.rfind(other);
     if (where == std::string::npos || other.size() != kind.size()) return {};
     const std::string name = folded.substr(0, where) + kind + folded.substr(where + other.size());
-    const RoutineSymbol* sibling = asRoutine(at(predefined_, interner_.intern(name)));
+    const RoutineSymbol* sibling = asRoutine(at(state_.predefined, state_.names.intern(name)));
     if (sibling && sibling->routineKind == routine.routineKind)
         return {": " + sibling->name + " takes one", ""};
     const bool sets =
@@ -173,14 +180,14 @@ Analyzer::Remedy Analyzer::signalRemedy(const RoutineSymbol& routine, const Data
 }
 
 // What a target is moved by is no operator.
-std::string Analyzer::targetRemedy(BinaryOp op, const DataType& operand) {
+std::string targetRemedy(BinaryOp op, const DataType& operand) {
     const bool moves = op == BinaryOp::Add || op == BinaryOp::Sub;
     return moves && isPredefined(*operand.type, "robtarget")
                ? ": Offs and RelTool give a robtarget that is moved"
                : "";
 }
 
-std::string Analyzer::operatorRemedy(BinaryOp op, Typed left, Typed right) {
+std::string operatorRemedy(BinaryOp op, Typed left, Typed right) {
     const bool texts[] = {left.isScalar(TypeKind::String), right.isScalar(TypeKind::String)};
     if (texts[0] && texts[1])
         return op >= BinaryOp::Lt && op <= BinaryOp::Ge ? ": compare texts by StrOrder" : "";
@@ -192,24 +199,40 @@ std::string Analyzer::operatorRemedy(BinaryOp op, Typed left, Typed right) {
     return ": make a text of the value with ValToStr";
 }
 
-void Analyzer::offer(diag::Diagnostic& diagnostic, const Expr& e, const Remedy& remedy) {
+void Remedies::offer(diag::Diagnostic& diagnostic, const Expr& e, const Remedy& remedy) {
     diagnostic.message += remedy.words;
     if (!remedy.instead.empty()) diagnostic.fix(range(e), remedy.instead, false);
 }
 
 // "TPWrite text, n;" for "TPWrite text, \Num:=n;": the optional parameter that a value without a place was meant for.
-std::string Analyzer::optionalFor(const RoutineSymbol& routine, const Expr& e) {
+std::string Remedies::optionalFor(const RoutineSymbol& routine, const Expr& e) {
     if (e.kind != NodeKind::Name || !isName(as<NameExpr>(e).name)) return {};
     return optionalFor(routine, idOf(as<NameExpr>(e).name));
 }
 
-std::string Analyzer::optionalFor(const RoutineSymbol& routine, NameId name) {
-    const DataSymbol* data = asData(lookup(name));
+std::string Remedies::optionalFor(const RoutineSymbol& routine, NameId name) {
+    const DataSymbol* data = asData(scopes_.lookup(name));
     if (!data || !data->type.type) return {};
     for (const DataSymbol* param : routine.params) {
         if (!param->optional || param->isSwitch || !param->type.type) continue;
         if (equivalent(data->type, param->type)) return "\\" + param->name + ":=";
     }
+    return {};
+}
+
+void Remedies::fixCall(diag::Diagnostic& diagnostic, const Expr& e, const std::string& name, bool certain) {
+    const SourceRange whole = range(e);
+    const Symbol* function = scopes_.lookup(state_.names.intern(name));
+    if (!function || !function->predefined) return; // a name of the program hides it
+    diagnostic.fixes.push_back({"write " + name + "(...)",
+                                {{{whole.begin, whole.begin}, name + "("}, {{whole.end, whole.end}, ")"}},
+                                certain});
+}
+
+std::string numDnumRemedy(Typed t, const DataType& want) {
+    if (t.info->type.rank > 0 || want.rank > 0) return {};
+    if (t.info->type.type->kind == TypeKind::Num && want.type->kind == TypeKind::Dnum) return "NumToDnum";
+    if (t.info->type.type->kind == TypeKind::Dnum && want.type->kind == TypeKind::Num) return "DnumToNum";
     return {};
 }
 

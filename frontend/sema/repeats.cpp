@@ -1,7 +1,9 @@
 // One mistake, one message: what several errors tell of one mistake is told once, with a note for each place.
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/repeats.h"
 #include "frontend/sema/one_mistake.h"
+#include "frontend/sema/parts.h"
+#include "frontend/sema/scopes.h"
 #include "frontend/syntax/token_set.h"
 
 #include <algorithm>
@@ -152,8 +154,10 @@ bool isOfUnfinished(const Diagnostic& d, uint32_t end) {
 
 } // namespace
 
+Repeats::Repeats(State& state, const Parts& parts) : CheckerPart(state), scopes_(parts.scopes) {}
+
 // Names in `where` are explained when there are no more of them than declarations that lost their names.
-bool Analyzer::explainUnknown(const Module& module, SourceRange where, bool routines, size_t lost) {
+bool Repeats::explainUnknown(const Module& module, SourceRange where, bool routines, size_t lost) {
     if (lost == 0) return true;
     const auto concerned = [&](const UnknownName& unknown) {
         const bool data = unknown.code == Code::UnknownName;
@@ -162,31 +166,31 @@ bool Analyzer::explainUnknown(const Module& module, SourceRange where, bool rout
                unknown.where.end <= where.end;
     };
     std::unordered_set<NameId> names;
-    for (const UnknownName& unknown : unknownNames_)
+    for (const UnknownName& unknown : state_.task.unknownNames)
         if (concerned(unknown)) names.insert(unknown.name);
     if (names.size() > lost) return false;
-    for (UnknownName& unknown : unknownNames_)
+    for (UnknownName& unknown : state_.task.unknownNames)
         unknown.explained |= concerned(unknown);
     return true;
 }
 
 // "VAR num := 5;" and "PROC (num n)" are reported: whoever uses what they declare is not to blame.
 // "PROC worknum n)": what calls "work" is right.
-void Analyzer::explainByType(const Module& module, std::string_view declared) {
+void Repeats::explainByType(const Module& module, std::string_view declared) {
     const std::string whole = foldName(declared);
-    for (UnknownName& unknown : unknownNames_) {
-        const std::string_view name = interner_.folded(unknown.name);
+    for (UnknownName& unknown : state_.task.unknownNames) {
+        const std::string_view name = state_.names.folded(unknown.name);
         if (unknown.module != &module || whole.size() <= name.size() || !whole.starts_with(name)) continue;
-        const Symbol* rest = lookup(interner_.intern(whole.substr(name.size())));
+        const Symbol* rest = scopes_.lookup(state_.names.intern(whole.substr(name.size())));
         unknown.explained |= rest && rest->kind == SymbolKind::Type;
     }
 }
 
-void Analyzer::explainUnknown(const Module& module) {
+void Repeats::explainUnknown(const Module& module) {
     const SyntaxTree& tree = *module.tree;
-    for (UnknownName& unknown : unknownNames_)
+    for (UnknownName& unknown : state_.task.unknownNames)
         if (unknown.module == &module && unknown.near && unknown.near->users == 0 && unknown.near->decl &&
-            unknown.near->decl->broken && ranInto(interner_.folded(unknown.name), unknown.near->name))
+            unknown.near->decl->broken && ranInto(state_.names.folded(unknown.name), unknown.near->name))
             unknown.explained = true;
     size_t lostData = 0, lostRoutines = 0;
     std::unordered_set<NameId> names; // of routines without their first words
@@ -196,7 +200,7 @@ void Analyzer::explainUnknown(const Module& module) {
         if (isRestOfRoutine(tree, *decl)) {
             if (tree.tokens[decl->first].kind == TokenKind::Identifier &&
                 tree.tokens[decl->first + 1].kind == TokenKind::LeftParen)
-                names.insert(interner_.intern(tree.text(decl->first)));
+                names.insert(state_.names.intern(tree.text(decl->first)));
             else
                 ++lostRoutines;
         }
@@ -209,7 +213,7 @@ void Analyzer::explainUnknown(const Module& module) {
             own += lostName(tree, *data);
         if (!explainUnknown(module, tree.range(*decl), false, own)) lostData += own;
     }
-    for (UnknownName& unknown : unknownNames_)
+    for (UnknownName& unknown : state_.task.unknownNames)
         unknown.explained |= unknown.module == &module && names.contains(unknown.name);
     const SourceRange whole = tree.range(*module.decl);
     explainUnknown(module, whole, false, lostData);
@@ -218,15 +222,15 @@ void Analyzer::explainUnknown(const Module& module) {
 
 // What a name means that is missing in several routines: a declaration at module level, unless routines declare the
 // name each for itself.
-void Analyzer::gatherUnknown(std::span<Module* const> modules) {
+void Repeats::gatherUnknown(std::span<Module* const> modules) {
     for (const Module* module : modules)
         explainUnknown(*module);
-    for (UnknownName& unknown : unknownNames_) { // what is inside of routines is soon forgotten
+    for (UnknownName& unknown : state_.task.unknownNames) { // what is inside of routines is soon forgotten
         const DataSymbol* data = asData(const_cast<Symbol*>(unknown.near));
         if (data && data->routine) unknown.near = nullptr;
     }
     std::map<std::pair<const Module*, NameId>, size_t> count;
-    for (const UnknownName& unknown : unknownNames_)
+    for (const UnknownName& unknown : state_.task.unknownNames)
         if (unknown.code == Code::UnknownName) ++count[{unknown.module, unknown.name}];
     for (const Module* module : modules)
         for (const RoutineSymbol* routine : module->routines) {
@@ -239,23 +243,23 @@ void Analyzer::gatherUnknown(std::span<Module* const> modules) {
             for (const DataSymbol* data : routine->data)
                 drop(data);
         }
-    std::erase_if(unknownNames_, [&](const UnknownName& unknown) {
+    std::erase_if(state_.task.unknownNames, [&](const UnknownName& unknown) {
         return !unknown.explained && unknown.code == Code::UnknownName &&
                count[{unknown.module, unknown.name}] < 2;
     });
 }
 
 // While the routines of a file are known: what its errors tell more than once.
-void Analyzer::gatherRepeats(std::span<Module* const> modules, size_t first) {
-    if (sink_.all().size() < first + 2) return;
+void Repeats::gatherRepeats(std::span<Module* const> modules, size_t first) {
+    if (state_.sink.all().size() < first + 2) return;
     const SourceFile* file = modules.front()->tree->source.get();
     std::vector<const Diagnostic*> said;
-    for (size_t i = first; i < sink_.all().size(); ++i) {
-        const Diagnostic& d = sink_.all()[i];
+    for (size_t i = first; i < state_.sink.all().size(); ++i) {
+        const Diagnostic& d = state_.sink.all()[i];
         if (d.file.get() == file && d.severity == diag::Severity::Error) said.push_back(&d);
     }
     if (said.size() < 2) return;
-    std::vector<Repeat> found = findRepeats(program_, modules, said);
+    std::vector<Repeat> found = findRepeats(state_.program, modules, said);
     putInOrder(found);
     for (Repeat& repeat : found) {
         if (repeat.guard) modules.front()->facts->open = true; // others may use it some day
@@ -264,13 +268,13 @@ void Analyzer::gatherRepeats(std::span<Module* const> modules, size_t first) {
 }
 
 // When all files are known.
-void Analyzer::tellOnce() {
+void Repeats::tellOnce() {
     std::vector<Repeat> repeats = std::exchange(repeats_, {});
     std::erase_if(repeats, [](const Repeat& r) { return r.guard && r.guard->users > 1; });
     std::map<Key, std::optional<Diagnostic>> fate; // what stands for it, if anything
     std::map<std::tuple<const Module*, NameId, Code>, Repeat> byName;
     std::map<Key, Repeat*> unknown;
-    for (const UnknownName& name : std::exchange(unknownNames_, {})) {
+    for (const UnknownName& name : std::exchange(state_.task.unknownNames, {})) {
         const Key key = {name.module->tree->source.get(), name.where.begin, name.where.end, name.code};
         if (name.explained) fate[key] = std::nullopt;
         // A name that looks misspelt is a mistake each time, unless it is the declaration that is misspelt.
@@ -278,7 +282,7 @@ void Analyzer::tellOnce() {
         unknown[key] = &byName[{name.module, name.name, name.code}];
     }
     if (unknown.size() > 1)
-        for (const Diagnostic& d : sink_.all())
+        for (const Diagnostic& d : state_.sink.all())
             if (const auto found = unknown.find(keyOf(d)); found != unknown.end())
                 found->second->members.push_back(d);
     for (auto& [key, repeat] : byName) {
@@ -293,15 +297,15 @@ void Analyzer::tellOnce() {
             fate[keyOf(d)] = std::nullopt;
         fate[keyOf(repeat.members.front())] = leadOf(repeat);
     }
-    if (fate.empty()) return tellUnfinished(sink_);
-    sink_.revise([&](Diagnostic& d) {
+    if (fate.empty()) return tellUnfinished(state_.sink);
+    state_.sink.revise([&](Diagnostic& d) {
         const auto found = fate.find(keyOf(d));
         if (found == fate.end()) return true;
         if (!found->second) return false;
         d = *std::exchange(found->second, std::nullopt); // once, were it there twice
         return true;
     });
-    tellUnfinished(sink_);
+    tellUnfinished(state_.sink);
 }
 
 void tellUnfinished(diag::Sink& sink) {

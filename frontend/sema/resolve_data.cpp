@@ -1,8 +1,16 @@
 // Data declarations: types, dimensions and initial values, worked out on demand because constants may refer to
 // constants of other modules in any order (manual 1.2.2).
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/resolve_data.h"
+#include "frontend/sema/attributes.h"
+#include "frontend/sema/expr.h"
+#include "frontend/sema/fold.h"
 #include "frontend/sema/literal_value.h"
+#include "frontend/sema/parts.h"
+#include "frontend/sema/remedies.h"
+#include "frontend/sema/resolve_types.h"
+#include "frontend/sema/type_rules.h"
+#include "frontend/sema/wording.h"
 
 #include <cmath>
 
@@ -17,43 +25,47 @@ bool isPlain(const Expr& e) {
 }
 } // namespace
 
-void Analyzer::ensureData(DataSymbol& symbol) {
+DataResolver::DataResolver(State& state, const Parts& parts)
+    : CheckerPart(state), expressions_(parts.expressions), folding_(parts.folding), remedies_(parts.remedies),
+      types_(parts.types) {}
+
+void DataResolver::ensureData(DataSymbol& symbol) {
     if (symbol.progress != Progress::Pending) {
-        if (!symbol.type.type) symbol.type.type = program_.errorType; // its dimensions ask for itself
+        if (!symbol.type.type) symbol.type.type = state_.program.errorType; // its dimensions ask for itself
         return;
     }
     symbol.progress = Progress::Active;
-    const Context saved = context_;
-    if (!symbol.routine) enterModule(symbol.module);
-    if (depth_ > kMaxDepth) { // its dimensions may ask for the dimensions of others
-        entangled_ = true;
+    const Context saved = state_.context;
+    if (!symbol.routine) state_.enterModule(symbol.module);
+    if (state_.depth > kMaxDepth) { // its dimensions may ask for the dimensions of others
+        state_.task.entangled = true;
         report(Code::ConstantTooDeep, range(symbol.nameToken), {symbol.name});
-        symbol.type.type = program_.errorType;
+        symbol.type.type = state_.program.errorType;
         symbol.progress = Progress::Done;
-        context_ = saved;
+        state_.context = saved;
         return;
     }
-    ++depth_;
+    ++state_.depth;
     const auto& decl = as<DataDecl>(*symbol.decl);
-    const bool outerMuted = std::exchange(muted_, decl.broken);
-    const Type* type = resolveType(decl.type, &decl);
+    const bool outerMuted = state_.reports.mute(decl.broken);
+    const Type* type = types_.resolveType(decl.type, &decl);
     const uint64_t elements = resolveDimensions(symbol, decl);
     // Without its dimensions, or when its line ends in the middle, nothing is said about what is done with it.
     const bool unclear = elements == 0 || (decl.broken && !decl.init);
-    symbol.type.type = unclear ? program_.errorType : type;
+    symbol.type.type = unclear ? state_.program.errorType : type;
     if (elements * type->leaves > kMaxLeaves) {
         report(Code::ArrayTooLarge, range(symbol.nameToken), {symbol.name});
-        symbol.type.type = program_.errorType;
+        symbol.type.type = state_.program.errorType;
     }
     symbol.progress = Progress::Done;
-    if (symbol.predefined) applyDataAttributes(symbol);
+    if (symbol.predefined) applyDataAttributes(*state_.context.tree, symbol);
     checkDeclaration(symbol);
-    muted_ = outerMuted;
-    --depth_;
-    context_ = saved;
+    state_.reports.mute(outerMuted);
+    --state_.depth;
+    state_.context = saved;
 }
 
-void Analyzer::checkDeclaration(DataSymbol& symbol) {
+void DataResolver::checkDeclaration(DataSymbol& symbol) {
     const auto& decl = as<DataDecl>(*symbol.decl);
     const Type& type = *symbol.type.type;
     if (symbol.routine && symbol.dataKind == DataKind::Pers)
@@ -70,14 +82,14 @@ void Analyzer::checkDeclaration(DataSymbol& symbol) {
         report(Code::PersNonValue, range(symbol.nameToken), {symbol.name, scope, type.name});
 }
 
-std::string Analyzer::describeDimension(const Expr& e, Typed t) {
+std::string DataResolver::describeDimension(const Expr& e, Typed t) {
     if (!t.isScalar(TypeKind::Num) && !t.isScalar(TypeKind::Dnum)) return "'" + typeName(*t.info) + "'";
     const Symbol* symbol = e.kind == NodeKind::Name ? info(e).symbol : nullptr;
     return symbol ? describe(*symbol) : describeExpr(e);
 }
 
 // Gives the number of elements; it stops counting at kMaxLeaves. 0 when that is not known.
-uint64_t Analyzer::resolveDimensions(DataSymbol& symbol, const DataDecl& decl) {
+uint64_t DataResolver::resolveDimensions(DataSymbol& symbol, const DataDecl& decl) {
     if (decl.dims.empty()) return 1;
     if (decl.dims.size() > 3) {
         report(Code::TooManyDimensions, range(*decl.dims[3]), {std::to_string(decl.dims.size())});
@@ -88,9 +100,9 @@ uint64_t Analyzer::resolveDimensions(DataSymbol& symbol, const DataDecl& decl) {
     bool known = true;
     for (size_t i = 0; i < decl.dims.size(); ++i) {
         const Expr& e = *decl.dims[i];
-        const bool wasConstant = std::exchange(context_.constant, true);
-        const Typed t = expr(e);
-        context_.constant = wasConstant;
+        const bool wasConstant = std::exchange(state_.context.constant, true);
+        const Typed t = expressions_.expr(e);
+        state_.context.constant = wasConstant;
         int32_t size = 0; // after an error: any
         const ConstValue* value = t.info->constant;
         if (!value || value->kind != ConstValue::Kind::Number) {
@@ -113,75 +125,76 @@ uint64_t Analyzer::resolveDimensions(DataSymbol& symbol, const DataDecl& decl) {
     return known ? elements : 0;
 }
 
-void Analyzer::ensureValue(DataSymbol& symbol) {
+void DataResolver::ensureValue(DataSymbol& symbol) {
     if (symbol.valueProgress == Progress::Done) return;
     const auto& decl = as<DataDecl>(*symbol.decl);
     const bool cycle = symbol.valueProgress == Progress::Active;
-    if (cycle || depth_ >= kMaxDepth) {
-        const Context saved = context_;
-        if (!symbol.routine) enterModule(symbol.module);
-        entangled_ = true;
+    if (cycle || state_.depth >= kMaxDepth) {
+        const Context saved = state_.context;
+        if (!symbol.routine) state_.enterModule(symbol.module);
+        state_.task.entangled = true;
         report(cycle ? Code::ConstantCycle : Code::ConstantTooDeep, range(symbol.nameToken), {symbol.name});
-        context_ = saved;
+        state_.context = saved;
         symbol.valueProgress = Progress::Done;
         return;
     }
     symbol.valueProgress = Progress::Active;
-    ++depth_;
+    ++state_.depth;
     ensureData(symbol);
     if (decl.init) {
-        const Context saved = context_;
-        if (!symbol.routine) enterModule(symbol.module);
-        const bool outerMuted = std::exchange(muted_, decl.broken);
+        const Context saved = state_.context;
+        if (!symbol.routine) state_.enterModule(symbol.module);
+        const bool outerMuted = state_.reports.mute(decl.broken);
         initialise(symbol, decl);
-        muted_ = outerMuted;
-        context_ = saved;
+        state_.reports.mute(outerMuted);
+        state_.context = saved;
     }
-    --depth_;
+    --state_.depth;
     symbol.valueProgress = Progress::Done;
 }
 
-void Analyzer::initialise(DataSymbol& symbol, const DataDecl& decl) {
+void DataResolver::initialise(DataSymbol& symbol, const DataDecl& decl) {
     const Expr& init = *decl.init;
     const bool mustFold = !symbol.routine || symbol.dataKind != DataKind::Var;
     const bool usable = isValueType(*symbol.type.type);
-    context_.constant = mustFold;
+    state_.context.constant = mustFold;
     const DataType& want = symbol.type;
     ConstValue* slot = mustFold ? &symbol.valueSlot() : nullptr;
-    if (usable && isPlain(init) && isLiteralOf(want, *context_.tree, as<AggregateExpr>(init))) {
+    if (usable && isPlain(init) && isLiteralOf(want, *state_.context.tree, as<AggregateExpr>(init))) {
         symbol.setLiteral();
-        if (symbol.users > 0 && !options_.onlyDiagnostics)
+        if (symbol.users > 0 && !state_.options.onlyDiagnostics)
             symbol.value(); // files that are not checked again have its address
         return;
     }
     if (symbol.dataKind == DataKind::Pers && usable) {
         if (const Expr* culprit = findNonLiteral(init)) {
-            visitLoose(init);
+            expressions_.visitLoose(init);
             if (info(*culprit).type.type->kind != TypeKind::Error) // not known, which is reported
                 report(Code::NotLiteral, range(*culprit), {symbol.name});
             return;
         }
     }
     if (!usable) {
-        visitLoose(init);
+        expressions_.visitLoose(init);
         return;
     }
-    const Typed t = expr(init, &want, slot);
+    const Typed t = expressions_.expr(init, &want, slot);
     const bool cycle = symbol.valueProgress == Progress::Done;
-    if (!fits(init, t, want)) {
+    if (!expressions_.fits(init, t, want)) {
         const auto names = typeNames(t.info->type, want);
-        const Remedy remedy = remedyFor(init, t.info->type, want);
-        offer(report(Code::InitialValueType, range(init), {names[0], names[1], symbol.name}), init, remedy);
+        const Remedy remedy = remedies_.remedyFor(init, t.info->type, want);
+        remedies_.offer(report(Code::InitialValueType, range(init), {names[0], names[1], symbol.name}), init,
+                        remedy);
     } else if (mustFold && !t.info->constant && !t.isError() && !cycle) {
         reportNonConstant(init);
     }
-    if (mustFold && t.info->constant && t.info->constant != slot) *slot = owned(*t.info->constant);
+    if (mustFold && t.info->constant && t.info->constant != slot) *slot = folding_.owned(*t.info->constant);
     if (mustFold && !t.info->constant) *slot = ConstValue{};
-    if (mustFold) checkBigLiterals();
+    if (mustFold) expressions_.checkBigLiterals();
 }
 
 // Names the first part that keeps `expr` from being constant, if that has not been told at its declaration.
-void Analyzer::reportNonConstant(const Expr& e) {
+void DataResolver::reportNonConstant(const Expr& e) {
     const Expr* culprit = findNonConstant(e);
     if (!culprit) return;
     const bool call = culprit->kind == NodeKind::Call;
@@ -190,7 +203,7 @@ void Analyzer::reportNonConstant(const Expr& e) {
 }
 
 // The first part that keeps `expr` from being constant; null when that is a constant whose value is wrong.
-const Expr* Analyzer::findNonConstant(const Expr& e) {
+const Expr* DataResolver::findNonConstant(const Expr& e) {
     switch (e.kind) {
     case NodeKind::Name:
     case NodeKind::Index:
@@ -225,7 +238,7 @@ const Expr* Analyzer::findNonConstant(const Expr& e) {
     }
 }
 
-const Expr* Analyzer::findNonLiteral(const Expr& e) const {
+const Expr* DataResolver::findNonLiteral(const Expr& e) const {
     switch (e.kind) {
     case NodeKind::NumLiteral:
     case NodeKind::StringLiteral:

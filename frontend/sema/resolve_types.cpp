@@ -1,7 +1,13 @@
 // Types of names: records, aliases (manual 1.2.1) and the parameter lists of routines (manual 1.1.5).
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/resolve_types.h"
+#include "frontend/sema/attributes.h"
 #include "frontend/sema/literal_value.h"
+#include "frontend/sema/parts.h"
+#include "frontend/sema/scopes.h"
+#include "frontend/sema/type_rules.h"
+#include "frontend/sema/unknown.h"
+#include "frontend/sema/wording.h"
 
 #include <algorithm>
 
@@ -9,90 +15,71 @@ namespace rapid::sema {
 
 using namespace syntax;
 
-bool Analyzer::isValueType(const Type& type) {
-    switch (type.kind) {
-    case TypeKind::Error:
-    case TypeKind::Num:
-    case TypeKind::Dnum:
-    case TypeKind::Bool:
-    case TypeKind::String: return true;
-    case TypeKind::Record: return !type.containsNonValue;
-    case TypeKind::NonValue:
-    case TypeKind::SemiValue:
-    case TypeKind::Switch:
-    case TypeKind::AnyType: return false;
-    }
-    return false;
-}
-
-TypeSymbol* Analyzer::findType(NameId name) const {
-    TypeSymbol* found = asType(scopes_[context_.module->id]->names.find(name));
-    if (!found && !context_.module->predefined) found = asType(at(globals_, name));
-    return found ? found : asType(at(predefined_, name));
-}
+TypeResolver::TypeResolver(State& state, const Parts& parts)
+    : CheckerPart(state), scopes_(parts.scopes), unknown_(parts.unknown) {}
 
 // "VAR counter num;": nobody is to blame who uses 'counter'.
-bool Analyzer::reportTypeBehindName(const DataDecl& decl) {
+bool TypeResolver::reportTypeBehindName(const DataDecl& decl) {
     if (!isName(decl.type) || !isName(decl.name)) return false;
     const NameId name = idOf(decl.type);
-    if (!findType(idOf(decl.name)) || lookup(name)) return false;
+    if (!scopes_.findType(idOf(decl.name)) || scopes_.lookup(name)) return false;
     diag::Diagnostic& d =
         report(Code::UnknownType, range(decl.type),
                {text(decl.type), "; '" + text(decl.name) + "' is one: write it before the name"});
     d.fixes.push_back({"write the data type first",
                        {{range(decl.type), text(decl.name)}, {range(decl.name), text(decl.type)}},
                        true});
-    maybeDeclared_.insert(name);
+    state_.task.maybeDeclared.insert(name);
     facts().open = true; // others may use it
     return true;
 }
 
 // A name of data may equal the name of a type (`PROC place(pos pos)`): types are looked for on their own.
-const Type* Analyzer::resolveType(TokenIndex token, const DataDecl* data) {
-    if (token == kNoToken) return program_.errorType;
-    if (context_.tree->tokens[token].kind != TokenKind::Identifier)
-        return program_.errorType; // <ID>, reported
+const Type* TypeResolver::resolveType(TokenIndex token, const DataDecl* data) {
+    if (token == kNoToken) return state_.program.errorType;
+    if (state_.context.tree->tokens[token].kind != TokenKind::Identifier)
+        return state_.program.errorType; // <ID>, reported
     const NameId name = idOf(token);
-    TypeSymbol* found = findType(name);
+    TypeSymbol* found = scopes_.findType(name);
     if (!found) {
-        if (data && reportTypeBehindName(*data)) return program_.errorType;
-        const Symbol* other = scopes_[context_.module->id]->names.find(name);
-        if (!other) other = lookupOutside(name);
+        if (data && reportTypeBehindName(*data)) return state_.program.errorType;
+        const Symbol* other = state_.scopes[state_.context.module->id]->names.find(name);
+        if (!other) other = scopes_.lookupOutside(name);
         if (other)
             noteDeclared(report(Code::NotAType, range(token), {text(token), describe(*other)}), *other);
         else
-            reportUnknown(Code::UnknownType, token, name, Wanted::Type);
-        return program_.errorType;
+            unknown_.reportUnknown(Code::UnknownType, token, name, Wanted::Type);
+        return state_.program.errorType;
     }
-    markUsed(*found);
+    scopes_.markUsed(*found);
     const Type* type = ensureType(*found);
-    if (!isReal(*type) && !context_.module->predefined) {
+    if (!isReal(*type) && !state_.context.module->predefined) {
         report(Code::PseudoType, range(token), {text(token)});
-        return program_.errorType;
+        return state_.program.errorType;
     }
     return type;
 }
 
-const Type* Analyzer::ensureType(TypeSymbol& symbol) {
+const Type* TypeResolver::ensureType(TypeSymbol& symbol) {
     if (symbol.progress == Progress::Done) return symbol.type;
-    const Context saved = context_;
-    enterModule(symbol.module);
+    const Context saved = state_.context;
+    state_.enterModule(symbol.module);
     const bool cycle = symbol.progress == Progress::Active;
     if (!symbol.type) symbol.type = &facts().symbols->types.emplace_back();
-    if (cycle || depth_ >= kMaxDepth) {
-        entangled_ = true;
+    if (cycle || state_.depth >= kMaxDepth) {
+        state_.task.entangled = true;
         TokenIndex at = symbol.nameToken; // the part that leads back to it
         for (const auto& [whole, part] : resolvingParts_)
             if (cycle && whole == symbol.type) at = part;
         noteDeclared(report(cycle ? Code::TypeCycle : Code::TypeTooDeep, range(at), {symbol.name}), symbol);
         symbol.type->kind = TypeKind::Error;
         symbol.progress = Progress::Done;
-        context_ = saved;
+        state_.context = saved;
         return symbol.type;
     }
     symbol.progress = Progress::Active;
-    ++depth_;
-    const bool outerMuted = std::exchange(muted_, false);
+    ++state_.depth;
+    const bool outerMuted = state_.reports.mute(false);
     Type& type = *symbol.type;
     if (type.kind == TypeKind::Error) { // not one of the atomic types, which exist beforehand
         type.kind = TypeKind::Record;
@@ -102,19 +89,19 @@ const Type* Analyzer::ensureType(TypeSymbol& symbol) {
             resolveRecord(type, as<RecordDecl>(*symbol.decl));
         else
             resolveAlias(type, as<AliasDecl>(*symbol.decl));
-        if (symbol.predefined) applyTypeAttributes(symbol);
+        if (symbol.predefined) applyTypeAttributes(*state_.context.tree, symbol);
     }
-    --depth_;
-    muted_ = outerMuted;
+    --state_.depth;
+    state_.reports.mute(outerMuted);
     symbol.progress = Progress::Done;
-    context_ = saved;
+    state_.context = saved;
     return symbol.type;
 }
 
-void Analyzer::resolveRecord(Type& type, const RecordDecl& decl) {
+void TypeResolver::resolveRecord(Type& type, const RecordDecl& decl) {
     NameMap<const RecordComponent> names;
     uint64_t leaves = 0;
-    type.unclear = hasUnclearLine(decl);
+    type.unclear = state_.reports.hasUnclearLine(decl);
     for (const RecordComponent* c : decl.components) {
         if (!isName(c->name)) {
             type.unclear = true;
@@ -134,7 +121,7 @@ void Analyzer::resolveRecord(Type& type, const RecordDecl& decl) {
     type.literalShape = literalShape(type);
 }
 
-void Analyzer::resolveAlias(Type& type, const AliasDecl& decl) {
+void TypeResolver::resolveAlias(Type& type, const AliasDecl& decl) {
     resolvingParts_.emplace_back(&type, decl.type);
     const Type* target = resolveType(decl.type);
     resolvingParts_.pop_back();
@@ -146,10 +133,10 @@ void Analyzer::resolveAlias(Type& type, const AliasDecl& decl) {
     type.leaves = target->leaves;
 }
 
-void Analyzer::resolveSignature(RoutineSymbol& symbol) {
+void TypeResolver::resolveSignature(RoutineSymbol& symbol) {
     if (symbol.progress != Progress::Pending) return;
     symbol.progress = Progress::Done;
-    enterModule(symbol.module);
+    state_.enterModule(symbol.module);
     const RoutineDecl& decl = *symbol.routineDecl;
     symbol.incomplete |= decl.broken;
     if (decl.routineKind == RoutineKind::Func) {
@@ -157,7 +144,7 @@ void Analyzer::resolveSignature(RoutineSymbol& symbol) {
         const Type& type = *symbol.returnType.type;
         if (!isValueType(type) && !symbol.predefined) {
             report(Code::NonValueReturn, range(decl.returnType), {symbol.name, type.name});
-            symbol.returnType.type = program_.errorType;
+            symbol.returnType.type = state_.program.errorType;
         }
     }
     for (const ParamDecl* param : decl.params)
@@ -167,10 +154,10 @@ void Analyzer::resolveSignature(RoutineSymbol& symbol) {
         if (!a.optional && !b.optional && a.group == b.group)
             a.requiredAlternative = b.requiredAlternative = true;
     }
-    if (symbol.predefined) applyRoutineAttributes(symbol);
+    if (symbol.predefined) applyRoutineAttributes(*state_.context.tree, symbol);
 }
 
-DataSymbol& Analyzer::newParameter(RoutineSymbol& routine) {
+DataSymbol& TypeResolver::newParameter(RoutineSymbol& routine) {
     const size_t index = routine.params.size();
     if (index >= routine.formerParams.size()) return facts().symbols->dataSymbols.emplace_back();
     DataSymbol& symbol = *routine.formerParams[index];
@@ -178,7 +165,7 @@ DataSymbol& Analyzer::newParameter(RoutineSymbol& routine) {
     return symbol;
 }
 
-void Analyzer::resolveParameter(RoutineSymbol& routine, const ParamDecl& decl) {
+void TypeResolver::resolveParameter(RoutineSymbol& routine, const ParamDecl& decl) {
     if (decl.placeholder || !isName(decl.name)) {
         if (decl.placeholder) placeholder(decl);
         routine.incomplete = true;
@@ -204,7 +191,7 @@ void Analyzer::resolveParameter(RoutineSymbol& routine, const ParamDecl& decl) {
     routine.params.push_back(&symbol);
     routine.incomplete |= !decl.isSwitch && decl.type == kNoToken; // what it takes is not known
     if (decl.isSwitch) {
-        symbol.type.type = switchType_;
+        symbol.type.type = state_.switchType;
         if (!decl.optional) {
             const uint32_t begin = range(decl).begin;
             report(Code::SwitchNotOptional, range(decl.name), {symbol.name}).fix({begin, begin}, "\\");
@@ -219,7 +206,7 @@ void Analyzer::resolveParameter(RoutineSymbol& routine, const ParamDecl& decl) {
             placeholder(decl);
         else
             report(Code::TooManyDimensions, range(decl.name + 8), {std::to_string(decl.rank)}); // "{*,*,*,*"
-        symbol.type.type = program_.errorType;
+        symbol.type.type = state_.program.errorType;
     }
     if (decl.mode == ParamMode::In && isHandle(*symbol.type.type) && isReal(*symbol.type.type)) {
         report(Code::NonValueInParameter, range(decl.type), {symbol.name, symbol.type.type->name});

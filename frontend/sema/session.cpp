@@ -1,6 +1,6 @@
 #include "frontend/sema/session.h"
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/analyzer.h"
 #include "frontend/syntax/parser.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct SessionFile {
 
 struct SessionTask {
     TaskInput input;
-    TaskScope scope;
+    TaskContext scope;
     std::vector<SessionFile> files; ///< as in `scope`
     Diagnostics whole;              ///< about no file, or known only when all files are checked
 };
@@ -86,7 +86,7 @@ void Session::State::openTask(TaskInput input) {
     task.input = std::move(input);
     analyzer->startTask(task.input);
     analyzer->readFiles(task.input, false);
-    for (const TaskFile& file : analyzer->files()) {
+    for (const TaskFile& file : analyzer->task().files) {
         task.files.emplace_back();
         task.files.back().source = program->trees[file.slot]->source;
     }
@@ -101,16 +101,16 @@ void Session::State::change(SessionTask& task, size_t index, const std::shared_p
     const std::shared_ptr<const SourceFile> before = changed.source;
     analyzer->enterTask(std::move(task.scope));
     syntax::ParseOptions parsing;
-    parsing.earlier = program->trees[analyzer->files()[index].slot].get();
+    parsing.earlier = program->trees[analyzer->task().files[index].slot].get();
     auto tree = syntax::parse(file, sink, parsing);
     const bool broken = sink.hasErrors();
     changed.parsed = sink.take();
     changed.source = file;
-    const bool wasEntangled = analyzer->isEntangled();
+    const bool wasEntangled = analyzer->task().entangled;
     const bool alone = analyzer->replaceTree(index, std::move(tree), broken) && !wasEntangled;
     std::vector<size_t> dirty;
     for (size_t i = 0; i < task.files.size(); ++i) {
-        const bool open = program->facts[analyzer->files()[i].slot]->open;
+        const bool open = program->facts[analyzer->task().files[i].slot]->open;
         if (i == index || !alone || open || pointsInto(task.files[i].checked, before)) dirty.push_back(i);
     }
     std::erase_if(task.whole, [](const diag::Diagnostic& d) { return d.code != diag::Code::SameFileTwice; });
@@ -120,7 +120,7 @@ void Session::State::change(SessionTask& task, size_t index, const std::shared_p
         analyzer->recheckFiles(dirty);
     else
         analyzer->recheckTask();
-    if (alone && analyzer->isEntangled()) { // from now on
+    if (alone && analyzer->task().entangled) { // from now on
         sink.take();
         for (SessionFile& each : task.files)
             each.checked.clear();

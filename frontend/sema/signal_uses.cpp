@@ -2,8 +2,14 @@
 // parameter of a signal type; without any configuration a comparison with a number will do, unless the name is also
 // assigned or calculated with.
 
+#include "frontend/sema/signal_uses.h"
 #include "frontend/sema/add_ins.h"
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/parameters.h"
+#include "frontend/sema/parts.h"
+#include "frontend/sema/resolve_data.h"
+#include "frontend/sema/resolve_types.h"
+#include "frontend/sema/scopes.h"
+#include "frontend/sema/suggestions.h"
 #include "frontend/syntax/tree_walk.h"
 
 #include <cctype>
@@ -81,30 +87,36 @@ bool isMisspelt(std::string_view written, std::string_view declared) {
 
 } // namespace
 
-const Type* Analyzer::signalType(std::string_view name) {
-    const TypeSymbol* type = asType(at(predefined_, interner_.intern(name)));
+SignalFinder::SignalFinder(State& state, const Parts& parts)
+    : CheckerPart(state), data_(parts.data), scopes_(parts.scopes), suggestions_(parts.suggestions),
+      types_(parts.types) {}
+
+const Type* SignalFinder::signalType(std::string_view name) {
+    const TypeSymbol* type = asType(at(state_.predefined, state_.names.intern(name)));
     return type ? type->type : nullptr;
 }
 
-const Type* Analyzer::signalTypeByName(const std::string& name) {
+const Type* SignalFinder::signalTypeByName(const std::string& name) {
     const std::string_view type = typeByName(name);
     return type.empty() ? nullptr : signalType(type);
 }
 
-const Type* Analyzer::signalTypeByUse(NameId name) {
-    if (!signalUses_.known) gatherSignalUses();
-    return signalUses_.arguments.find(name);
+const Type* SignalFinder::signalTypeByUse(NameId name) {
+    if (!state_.task.signalUses.known) gatherSignalUses();
+    return state_.task.signalUses.arguments.find(name);
 }
 
 // The type of a name that is known by comparisons with numbers only; null when its use shows that it is not a signal.
-const Type* Analyzer::signalTypeByComparison(const std::string& written, NameId name) {
-    if (!signalUses_.known) gatherSignalUses();
-    const auto found = signalUses_.compared.find(name);
-    if (found == signalUses_.compared.end() || signalUses_.others.contains(name)) return nullptr;
-    const std::string_view folded = interner_.folded(name);
-    if (moduleNames_.find(name) || !addInOf(folded, false, false).empty()) return nullptr;
-    for (const Module* module : task_->modules)
-        if (module != context_.module && scopes_[module->id]->names.find(name)) return nullptr; // LOCAL there
+const Type* SignalFinder::signalTypeByComparison(const std::string& written, NameId name) {
+    if (!state_.task.signalUses.known) gatherSignalUses();
+    const auto found = state_.task.signalUses.compared.find(name);
+    if (found == state_.task.signalUses.compared.end() || state_.task.signalUses.others.contains(name))
+        return nullptr;
+    const std::string_view folded = state_.names.folded(name);
+    if (state_.task.moduleNames.find(name) || !addInOf(folded, false, false).empty()) return nullptr;
+    for (const Module* module : state_.task.task->modules)
+        if (module != state_.context.module && state_.scopes[module->id]->names.find(name))
+            return nullptr; // LOCAL there
     if (isMisspeltNumber(name)) return nullptr;
     const ComparedName& use = found->second;
     if (use.fraction) return signalType("signalai");
@@ -112,22 +124,22 @@ const Type* Analyzer::signalTypeByComparison(const std::string& written, NameId 
     return signalType(isOutput(written) ? "signaldo" : "signaldi");
 }
 
-bool Analyzer::isMisspeltNumber(NameId name) {
-    const Suggestion best = suggestion(name, Wanted::Data);
+bool SignalFinder::isMisspeltNumber(NameId name) {
+    const Suggestion best = suggestions_.suggestion(name, Wanted::Data);
     if (!best.symbol || best.symbol->predefined || best.symbol->kind != SymbolKind::Data) return false;
     const auto& data = static_cast<const DataSymbol&>(*best.symbol);
     const bool number = data.type.type && data.type.type->isNumeric();
-    return number && isMisspelt(interner_.folded(name), interner_.folded(data.nameId));
+    return number && isMisspelt(state_.names.folded(name), state_.names.folded(data.nameId));
 }
 
-void Analyzer::gatherSignalUses() {
-    signalUses_.known = true;
-    const Context saved = context_;
-    for (Module* module : task_->modules) {
-        enterModule(module);
+void SignalFinder::gatherSignalUses() {
+    state_.task.signalUses.known = true;
+    const Context saved = state_.context;
+    for (Module* module : state_.task.task->modules) {
+        state_.enterModule(module);
         for (const RoutineSymbol* routine : module->routines) {
             const RoutineDecl& decl = *routine->routineDecl;
-            signalUses_.own.clear();
+            state_.task.signalUses.own.clear();
             for (const ParamDecl* param : decl.params)
                 declareOwn(param->name, param->type);
             for (const DataDecl* data : decl.data)
@@ -135,17 +147,17 @@ void Analyzer::gatherSignalUses() {
             gatherSignalUses(decl);
         }
     }
-    context_ = saved;
+    state_.context = saved;
 }
 
 // A name of the routine itself is not a signal in any other routine either: there its declaration is missing.
-void Analyzer::declareOwn(TokenIndex name, TokenIndex type) {
+void SignalFinder::declareOwn(TokenIndex name, TokenIndex type) {
     if (!isName(name)) return;
-    signalUses_.own[idOf(name)] = type;
-    signalUses_.others.insert(idOf(name));
+    state_.task.signalUses.own[idOf(name)] = type;
+    state_.task.signalUses.others.insert(idOf(name));
 }
 
-void Analyzer::gatherSignalUses(const Node& node) {
+void SignalFinder::gatherSignalUses(const Node& node) {
     switch (node.kind) {
     case NodeKind::Aggregate:
         if (as<AggregateExpr>(node).isPlain()) return;
@@ -174,12 +186,13 @@ void Analyzer::gatherSignalUses(const Node& node) {
     }
     case NodeKind::CallStmt: {
         const auto& call = as<CallStmt>(node);
-        const RoutineSymbol* routine = call.lateName ? nullptr : asRoutine(lookupOutside(idOf(call.name)));
+        const RoutineSymbol* routine =
+            call.lateName ? nullptr : asRoutine(scopes_.lookupOutside(idOf(call.name)));
         if (routine) gatherSignalUses(*routine, call.args);
         break;
     }
     case NodeKind::Call:
-        if (const RoutineSymbol* routine = asRoutine(lookupOutside(idOf(as<CallExpr>(node).name))))
+        if (const RoutineSymbol* routine = asRoutine(scopes_.lookupOutside(idOf(as<CallExpr>(node).name))))
             gatherSignalUses(*routine, as<CallExpr>(node).args);
         break;
     default: break;
@@ -187,7 +200,7 @@ void Analyzer::gatherSignalUses(const Node& node) {
     forEachChild(node, [this](const Node& child) { gatherSignalUses(child); });
 }
 
-void Analyzer::operands(const BinaryExpr& e) {
+void SignalFinder::operands(const BinaryExpr& e) {
     if (e.op < BinaryOp::Lt) {
         usedOtherwise(*e.left);
         usedOtherwise(*e.right);
@@ -198,22 +211,22 @@ void Analyzer::operands(const BinaryExpr& e) {
 }
 
 // Assigned, calculated with, or of a type that signals do not have.
-void Analyzer::usedOtherwise(const Expr& place) {
+void SignalFinder::usedOtherwise(const Expr& place) {
     const Expr* e = &bare(place);
     while (e->kind == NodeKind::Index || e->kind == NodeKind::Component)
         e = e->kind == NodeKind::Index ? as<IndexExpr>(*e).base : as<ComponentExpr>(*e).base;
     if (e->kind == NodeKind::Name && isName(as<NameExpr>(*e).name))
-        signalUses_.others.insert(idOf(as<NameExpr>(*e).name));
+        state_.task.signalUses.others.insert(idOf(as<NameExpr>(*e).name));
 }
 
-void Analyzer::compared(const Expr& side, const Expr& number) {
+void SignalFinder::compared(const Expr& side, const Expr& number) {
     const Expr& e = bare(side);
     if (e.kind != NodeKind::Name || !isName(as<NameExpr>(e).name)) return;
     const NameId name = idOf(as<NameExpr>(e).name);
-    if (signalUses_.own.contains(name) || lookupOutside(name)) return;
+    if (state_.task.signalUses.own.contains(name) || scopes_.lookupOutside(name)) return;
     const Type* type = looseType(number);
     if (!type || !isPlainNumber(*type)) return;
-    ComparedName& use = signalUses_.compared[name];
+    ComparedName& use = state_.task.signalUses.compared[name];
     double value = 0;
     if (!looseNumber(number, value)) {
         use.unknown = true;
@@ -225,10 +238,10 @@ void Analyzer::compared(const Expr& side, const Expr& number) {
 }
 
 // What can be said of the type of an expression before anything is checked; null: nothing.
-const Type* Analyzer::looseType(const Expr& expr) {
+const Type* SignalFinder::looseType(const Expr& expr) {
     const Expr& e = bare(expr);
     switch (e.kind) {
-    case NodeKind::NumLiteral: return program_.num;
+    case NodeKind::NumLiteral: return state_.program.num;
     case NodeKind::Unary: return looseType(*as<UnaryExpr>(e).operand);
     case NodeKind::Binary: {
         const auto& binary = as<BinaryExpr>(e);
@@ -237,14 +250,14 @@ const Type* Analyzer::looseType(const Expr& expr) {
         return type && type->isNumeric() ? type->base() : nullptr;
     }
     case NodeKind::Call: {
-        const RoutineSymbol* routine = asRoutine(lookupOutside(idOf(as<CallExpr>(e).name)));
+        const RoutineSymbol* routine = asRoutine(scopes_.lookupOutside(idOf(as<CallExpr>(e).name)));
         return routine ? routine->returnType.type : nullptr;
     }
     case NodeKind::Index: return looseType(*as<IndexExpr>(e).base);
     case NodeKind::Component: {
         const auto& part = as<ComponentExpr>(e);
         const Type* record = part.name == kNoToken ? nullptr : looseType(*part.base);
-        const int index = record ? record->findComponent(context_.tree->text(part.name)) : -1;
+        const int index = record ? record->findComponent(state_.context.tree->text(part.name)) : -1;
         return index < 0 ? nullptr : record->base()->components[static_cast<size_t>(index)].type;
     }
     case NodeKind::Name: break;
@@ -252,20 +265,20 @@ const Type* Analyzer::looseType(const Expr& expr) {
     }
     if (!isName(as<NameExpr>(e).name)) return nullptr;
     const NameId name = idOf(as<NameExpr>(e).name);
-    if (const auto own = signalUses_.own.find(name); own != signalUses_.own.end()) {
-        if (own->second == kNoToken) return program_.num; // of a FOR
-        TypeSymbol* type = findType(idOf(own->second));
-        return type ? ensureType(*type) : nullptr;
+    if (const auto own = state_.task.signalUses.own.find(name); own != state_.task.signalUses.own.end()) {
+        if (own->second == kNoToken) return state_.program.num; // of a FOR
+        TypeSymbol* type = scopes_.findType(idOf(own->second));
+        return type ? types_.ensureType(*type) : nullptr;
     }
-    if (DataSymbol* data = asData(lookupOutside(name))) {
-        ensureData(*data);
+    if (DataSymbol* data = asData(scopes_.lookupOutside(name))) {
+        data_.ensureData(*data);
         return data->type.type;
     }
-    return signalUses_.arguments.find(name);
+    return state_.task.signalUses.arguments.find(name);
 }
 
 // The value of a literal or a constant.
-bool Analyzer::looseNumber(const Expr& expr, double& value) {
+bool SignalFinder::looseNumber(const Expr& expr, double& value) {
     const Expr& e = bare(expr);
     if (e.kind == NodeKind::NumLiteral) {
         value = as<NumLiteralExpr>(e).value;
@@ -278,21 +291,22 @@ bool Analyzer::looseNumber(const Expr& expr, double& value) {
     }
     if (e.kind != NodeKind::Name || !isName(as<NameExpr>(e).name)) return false;
     const NameId name = idOf(as<NameExpr>(e).name);
-    DataSymbol* data = signalUses_.own.contains(name) ? nullptr : asData(lookupOutside(name));
+    DataSymbol* data =
+        state_.task.signalUses.own.contains(name) ? nullptr : asData(scopes_.lookupOutside(name));
     if (!data || data->dataKind != DataKind::Const || data->storage != Storage::ModuleData) return false;
-    ensureValue(*data);
+    data_.ensureValue(*data);
     value = data->value().kind == ConstValue::Kind::Number ? data->value().number : 0;
     return data->value().kind == ConstValue::Kind::Number;
 }
 
-void Analyzer::gatherSignalUses(const RoutineSymbol& routine, std::span<Argument* const> args) {
+void SignalFinder::gatherSignalUses(const RoutineSymbol& routine, std::span<Argument* const> args) {
     size_t next = nextRequired(routine, 0);
     const Type* partner = nullptr; // AliasIO(name, signal): a signal of that type
     for (const Argument* a : args) {
         if (!a->value || a->value->kind != NodeKind::Name || !routine.predefined) continue;
-        DataSymbol* data = asData(lookupOutside(idOf(as<NameExpr>(*a->value).name)));
+        DataSymbol* data = asData(scopes_.lookupOutside(idOf(as<NameExpr>(*a->value).name)));
         if (!data || data->storage != Storage::ModuleData) continue;
-        ensureData(*data);
+        data_.ensureData(*data);
         if (data->type.type->kind == TypeKind::SemiValue) partner = data->type.type;
     }
     for (const Argument* a : args) {
@@ -310,11 +324,11 @@ void Analyzer::gatherSignalUses(const RoutineSymbol& routine, std::span<Argument
         const bool either =
             param->accepts == ParamClass::SignalOrString || param->accepts == ParamClass::Signal;
         const Type* type = either ? partner : param->type.type;
-        if (!type || signalUses_.own.contains(name) || lookupOutside(name)) continue;
+        if (!type || state_.task.signalUses.own.contains(name) || scopes_.lookupOutside(name)) continue;
         if (type->kind != TypeKind::SemiValue) {
             if (!either && param->mode != ParamMode::In) usedOtherwise(*a->value);
-        } else if (!signalUses_.arguments.find(name)) {
-            signalUses_.arguments.set(name, type);
+        } else if (!state_.task.signalUses.arguments.find(name)) {
+            state_.task.signalUses.arguments.set(name, type);
         }
     }
 }

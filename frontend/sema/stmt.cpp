@@ -1,6 +1,21 @@
 // Instructions: assignment, branches, loops, calls (manual 1.4, 1.5).
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/stmt.h"
+#include "frontend/sema/availability.h"
+#include "frontend/sema/call.h"
+#include "frontend/sema/cyclic_condition.h"
+#include "frontend/sema/expr.h"
+#include "frontend/sema/jumps.h"
+#include "frontend/sema/parts.h"
+#include "frontend/sema/place.h"
+#include "frontend/sema/remedies.h"
+#include "frontend/sema/resolve_data.h"
+#include "frontend/sema/routine.h"
+#include "frontend/sema/scopes.h"
+#include "frontend/sema/stmt_flow.h"
+#include "frontend/sema/type_rules.h"
+#include "frontend/sema/unknown.h"
+#include "frontend/sema/wording.h"
 #include "frontend/syntax/later_words.h"
 
 #include <fmt/format.h>
@@ -11,7 +26,12 @@ namespace rapid::sema {
 
 using namespace syntax;
 
-bool Analyzer::statements(StmtList list) {
+Statements::Statements(State& state, const Parts& parts)
+    : CheckerPart(state), availability_(parts.availability), calls_(parts.calls), data_(parts.data),
+      expressions_(parts.expressions), flow_(parts.flow), jumps_(parts.jumps), places_(parts.places),
+      remedies_(parts.remedies), routines_(parts.routines), scopes_(parts.scopes), unknown_(parts.unknown) {}
+
+bool Statements::statements(StmtList list) {
     bool reachable = true;
     for (const Stmt* s : list) {
         if (s->kind == NodeKind::Label) reachable = true;
@@ -22,23 +42,23 @@ bool Analyzer::statements(StmtList list) {
 }
 
 /// Checks one instruction; whether the next one can be reached from it.
-bool Analyzer::statement(const Stmt& s) {
-    muted_ = s.broken; // instructions that contain others never are
+bool Statements::statement(const Stmt& s) {
+    state_.reports.mute(s.broken); // instructions that contain others never are
     const bool goesOn = wholeStatement(s);
-    muted_ = false;
+    state_.reports.mute(false);
     return goesOn;
 }
 
-bool Analyzer::wholeStatement(const Stmt& s) {
+bool Statements::wholeStatement(const Stmt& s) {
     switch (s.kind) {
     case NodeKind::Assign: assign(as<AssignStmt>(s)); return true;
     case NodeKind::CallStmt: return callStmt(as<CallStmt>(s));
     case NodeKind::If: return ifStmt(as<IfStmt>(s));
     case NodeKind::CompactIf: {
         const auto& compact = as<CompactIfStmt>(s);
-        if (compact.condition) condition(*compact.condition, "IF");
+        if (compact.condition) expressions_.condition(*compact.condition, "IF");
         Stmt* body = compact.body;
-        if (body) block(StmtList(&body, 1));
+        if (body) routines_.block(StmtList(&body, 1));
         return true;
     }
     case NodeKind::For: return forStmt(as<ForStmt>(s));
@@ -46,16 +66,18 @@ bool Analyzer::wholeStatement(const Stmt& s) {
     case NodeKind::Test: return testStmt(as<TestStmt>(s));
     case NodeKind::Goto: {
         const auto& jump = as<GotoStmt>(s);
-        if (isName(jump.label)) gotos_.push_back({idOf(jump.label), block_, part_, &s, nullptr});
+        if (isName(jump.label))
+            state_.routine.gotos.push_back(
+                {idOf(jump.label), state_.routine.block, state_.routine.part, &s, nullptr});
         return false;
     }
-    case NodeKind::Label: labelStmt(as<LabelStmt>(s)); return true;
-    case NodeKind::Return: returnStmt(as<ReturnStmt>(s)); return false;
-    case NodeKind::Raise: raiseStmt(as<RaiseStmt>(s)); return false;
-    case NodeKind::Connect: connectStmt(as<ConnectStmt>(s)); return true;
+    case NodeKind::Label: jumps_.labelStmt(as<LabelStmt>(s)); return true;
+    case NodeKind::Return: flow_.returnStmt(as<ReturnStmt>(s)); return false;
+    case NodeKind::Raise: flow_.raiseStmt(as<RaiseStmt>(s)); return false;
+    case NodeKind::Connect: flow_.connectStmt(as<ConnectStmt>(s)); return true;
     case NodeKind::Retry:
     case NodeKind::TryNext:
-        if (part_ != Part::Error)
+        if (state_.routine.part != Part::Error)
             report(Code::OutsideErrorHandler, range(s.first),
                    {s.kind == NodeKind::Retry ? "RETRY" : "TRYNEXT"});
         return false;
@@ -63,7 +85,7 @@ bool Analyzer::wholeStatement(const Stmt& s) {
     case NodeKind::Break:
         if (callsOldProcedure(s)) return true;
         loopWord(s, "BREAK");
-        breakSeen_ = true;
+        state_.routine.breakSeen = true;
         return false;
     case NodeKind::Continue:
         if (callsOldProcedure(s)) return true;
@@ -71,38 +93,38 @@ bool Analyzer::wholeStatement(const Stmt& s) {
         return false;
     case NodeKind::PlaceholderStmt:
         placeholder(s);
-        broken_ = true; // it may stand for the RETURN
+        state_.routine.broken = true; // it may stand for the RETURN
         return true;
     case NodeKind::DeclStmt: { // its place was reported by the parser
         const DataDecl* decl = as<DeclStmt>(s).decl;
         if (!decl || !isName(decl->name)) return true;
-        declareRoutineData(*decl);
-        ensureValue(*context_.routine->data.back());
-        context_.constant = false;
+        routines_.declareRoutineData(*decl);
+        data_.ensureValue(*state_.context.routine->data.back());
+        state_.context.constant = false;
         return true;
     }
-    case NodeKind::ErrorStmt: broken_ = true; return true;
+    case NodeKind::ErrorStmt: state_.routine.broken = true; return true;
     default: return true;
     }
 }
 
 /// `Continue;` in a file of an older system, for which the word is not reserved, calls the procedure of that name if another
 /// file declares one. The parser has dealt with procedures of the same file.
-bool Analyzer::callsOldProcedure(const Stmt& s) {
-    if (!SourceFile::isLegacyFileType(context_.tree->source->path())) return false;
-    RoutineSymbol* routine = asRoutine(lookup(idOf(s.first)));
+bool Statements::callsOldProcedure(const Stmt& s) {
+    if (!SourceFile::isLegacyFileType(state_.context.tree->source->path())) return false;
+    RoutineSymbol* routine = asRoutine(scopes_.lookup(idOf(s.first)));
     if (!routine || routine->routineKind != RoutineKind::Proc) return false;
     report(
         Code::LaterReservedWord, range(s.first),
         {s.kind == NodeKind::Break ? "BREAK" : "CONTINUE",
          std::string(reservedSince(s.kind == NodeKind::Break ? TokenKind::KwBreak : TokenKind::KwContinue))});
-    markUsed(*routine);
-    bindCall(s, *routine, s.first, {});
+    scopes_.markUsed(*routine);
+    calls_.bindCall(s, *routine, s.first, {});
     return true;
 }
 
-void Analyzer::loopWord(const Stmt& s, const char* word) {
-    if (loopDepth_ != 0) return;
+void Statements::loopWord(const Stmt& s, const char* word) {
+    if (state_.routine.loopDepth != 0) return;
     diag::Diagnostic& d = report(Code::OutsideLoop, range(s.first), {word});
     if (s.kind == NodeKind::Break)
         d.fixes.push_back({"write DebugBreak to stop there for debugging, as BREAK did up to RobotWare 7.0",
@@ -110,43 +132,43 @@ void Analyzer::loopWord(const Stmt& s, const char* word) {
                            false});
 }
 
-bool Analyzer::ifStmt(const IfStmt& s) {
+bool Statements::ifStmt(const IfStmt& s) {
     bool completes = !s.hasElse;
     bool first = true;
     for (const IfBranch* branch : s.branches) {
         if (branch->condition)
-            condition(*branch->condition, first ? "IF" : "ELSEIF");
-        else if (context_.tree->tokens[branch->first].kind == TokenKind::PlaceEit)
+            expressions_.condition(*branch->condition, first ? "IF" : "ELSEIF");
+        else if (state_.context.tree->tokens[branch->first].kind == TokenKind::PlaceEit)
             placeholder(*branch);
-        completes |= block(branch->body);
+        completes |= routines_.block(branch->body);
         first = false;
     }
-    if (s.hasElse) completes |= block(s.elseBody);
+    if (s.hasElse) completes |= routines_.block(s.elseBody);
     return completes;
 }
 
-bool Analyzer::whileStmt(const WhileStmt& s) {
+bool Statements::whileStmt(const WhileStmt& s) {
     bool forever = false;
     if (s.condition) {
-        condition(*s.condition, "WHILE");
+        expressions_.condition(*s.condition, "WHILE");
         const ConstValue* value = info(*s.condition).constant;
         forever = value && value->kind == ConstValue::Kind::Bool && value->boolean;
     }
-    const bool outerBreak = std::exchange(breakSeen_, false);
-    ++loopDepth_;
-    block(s.body);
-    --loopDepth_;
-    const bool left = std::exchange(breakSeen_, outerBreak);
+    const bool outerBreak = std::exchange(state_.routine.breakSeen, false);
+    ++state_.routine.loopDepth;
+    routines_.block(s.body);
+    --state_.routine.loopDepth;
+    const bool left = std::exchange(state_.routine.breakSeen, outerBreak);
     return !forever || left;
 }
 
 // The loop variable is declared by FOR, read-only, and hides other names inside the loop.
-bool Analyzer::forStmt(const ForStmt& s) {
+bool Statements::forStmt(const ForStmt& s) {
     const auto bound = [&](const Expr* e, const char* what) {
         if (!e) return;
-        const Typed t = expr(*e);
+        const Typed t = expressions_.expr(*e);
         if (t.isError()) return;
-        if (!fits(*e, t, {program_.num, 0, {}}))
+        if (!expressions_.fits(*e, t, {state_.program.num, 0, {}}))
             report(Code::ForBoundType, range(*e), {what, typeName(*t.info)});
     };
     bound(s.from, "start value");
@@ -156,44 +178,45 @@ bool Analyzer::forStmt(const ForStmt& s) {
     if (step && step->kind == ConstValue::Kind::Number && step->number == 0)
         report(Code::ZeroStep, range(*s.step));
 
-    RoutineSymbol& routine = *context_.routine;
+    RoutineSymbol& routine = *state_.context.routine;
     DataSymbol* variable = nullptr;
     Symbol* hidden = nullptr;
     if (isName(s.variable)) {
         variable = &fill(facts().locals.emplace_back(), SymbolKind::Data, s, s.variable, false);
         variable->storage = Storage::LoopVariable;
-        variable->type = {program_.num, 0, {}};
+        variable->type = {state_.program.num, 0, {}};
         variable->progress = variable->valueProgress = Progress::Done;
         variable->routine = &routine;
         variable->index = static_cast<uint32_t>(routine.params.size() + routine.data.size());
         routine.data.push_back(variable);
         facts().loopVariables[&s] = variable;
-        hidden = at(routineNames_, variable->nameId);
-        put<Symbol>(routineNames_, variable->nameId, variable);
+        hidden = at(state_.routineNames, variable->nameId);
+        put<Symbol>(state_.routineNames, variable->nameId, variable);
     }
-    const bool outerBreak = std::exchange(breakSeen_, false);
-    ++loopDepth_;
-    block(s.body);
-    --loopDepth_;
-    breakSeen_ = outerBreak;
-    if (variable) put(routineNames_, variable->nameId, hidden);
+    const bool outerBreak = std::exchange(state_.routine.breakSeen, false);
+    ++state_.routine.loopDepth;
+    routines_.block(s.body);
+    --state_.routine.loopDepth;
+    state_.routine.breakSeen = outerBreak;
+    if (variable) put(state_.routineNames, variable->nameId, hidden);
     return true;
 }
 
 // Values of all cases first: a group signal as subject takes its numeric type from them.
-void Analyzer::testValues(const TestStmt& s, Typed subject) {
+void Statements::testValues(const TestStmt& s, Typed subject) {
     std::vector<std::pair<const Expr*, Typed>> values;
     const DataType& type = subject.info->type; // changes when a value decides between num and dnum
     const bool known = !subject.isError();
     for (const TestCase* c : s.cases) {
-        if (c->values.empty() && context_.tree->tokens[c->first].kind == TokenKind::PlaceCse) placeholder(*c);
+        if (c->values.empty() && state_.context.tree->tokens[c->first].kind == TokenKind::PlaceCse)
+            placeholder(*c);
         for (const Expr* value : c->values) {
-            const Typed t = expr(*value, &type);
+            const Typed t = expressions_.expr(*value, &type);
             if (t.isError() || !known) continue;
             const bool decides = subject.flex != Flex::None && t.flex == Flex::None &&
                                  t.info->type.rank == 0 && t.info->type.type->isNumeric();
             if (decides) {
-                settle(*s.subject, t.base());
+                expressions_.settle(*s.subject, t.base());
                 subject.flex = Flex::None;
             }
             values.push_back({value, t});
@@ -201,10 +224,10 @@ void Analyzer::testValues(const TestStmt& s, Typed subject) {
     }
     std::unordered_set<std::string> seen;
     for (const auto& [value, t] : values) {
-        if (!fits(*value, t, type)) {
+        if (!expressions_.fits(*value, t, type)) {
             const auto names = typeNames(t.info->type, subject.info->type);
-            const Remedy remedy = remedyFor(*value, t.info->type, type);
-            offer(report(Code::TestValueType, range(*value), {names[0], names[1]}), *value, remedy);
+            const Remedy remedy = remedies_.remedyFor(*value, t.info->type, type);
+            remedies_.offer(report(Code::TestValueType, range(*value), {names[0], names[1]}), *value, remedy);
             continue;
         }
         const ConstValue* constant = info(*value).constant;
@@ -218,54 +241,54 @@ void Analyzer::testValues(const TestStmt& s, Typed subject) {
     }
 }
 
-bool Analyzer::testStmt(const TestStmt& s) {
+bool Statements::testStmt(const TestStmt& s) {
     Typed subject;
     if (s.subject) {
-        subject = expr(*s.subject);
+        subject = expressions_.expr(*s.subject);
         const DataType& type = subject.info->type;
         if (!subject.isError() && (type.rank > 0 || !isValueType(*type.type))) {
             report(Code::TestSubjectType, range(*s.subject), {typeName(type)});
-            subject = errorExpr(*s.subject);
+            subject = expressions_.errorExpr(*s.subject);
         }
         testValues(s, subject);
     }
     bool completes = !s.hasDefault;
     for (const TestCase* c : s.cases)
-        completes |= block(c->body);
-    if (s.hasDefault) completes |= block(s.defaultBody);
+        completes |= routines_.block(c->body);
+    if (s.hasDefault) completes |= routines_.block(s.defaultBody);
     return completes;
 }
 
-void Analyzer::assign(const AssignStmt& s) {
+void Statements::assign(const AssignStmt& s) {
     if (!s.target || !s.value) return;
     if (!isPlaceExpr(*s.target)) {
-        visitLoose(*s.target);
-        visitLoose(*s.value);
+        expressions_.visitLoose(*s.target);
+        expressions_.visitLoose(*s.value);
         return;
     }
     if (assignsResult(*s.target)) {
-        visitLoose(*s.value);
+        expressions_.visitLoose(*s.value);
         return;
     }
-    const Place target = place(*s.target);
+    const Place target = places_.place(*s.target);
     if (!target.root || !assignable(target, *s.target)) {
-        visitLoose(*s.value);
+        expressions_.visitLoose(*s.value);
         return;
     }
-    markAssigned(*target.root);
+    scopes_.markAssigned(*target.root);
     const DataType want = info(*s.target).type;
-    const Typed value = expr(*s.value, &want);
-    if (fits(*s.value, value, want)) return;
+    const Typed value = expressions_.expr(*s.value, &want);
+    if (expressions_.fits(*s.value, value, want)) return;
     const std::string conversion = numDnumRemedy(value, want);
     const auto names = typeNames(value.info->type, want);
     if (!conversion.empty()) {
-        fixCall(report(Code::NumDnumAssign, range(*s.value), {names[0], names[1], conversion}), *s.value,
-                conversion, conversion == "NumToDnum");
+        remedies_.fixCall(report(Code::NumDnumAssign, range(*s.value), {names[0], names[1], conversion}),
+                          *s.value, conversion, conversion == "NumToDnum");
         return;
     }
-    const Remedy remedy = remedyFor(*s.value, value.info->type, want);
+    const Remedy remedy = remedies_.remedyFor(*s.value, value.info->type, want);
     diag::Diagnostic& d = report(Code::AssignType, range(*s.value), {names[0], names[1]});
-    offer(d, *s.value, remedy);
+    remedies_.offer(d, *s.value, remedy);
     noteDeclared(d, *target.root);
 }
 
@@ -279,25 +302,26 @@ bool isWordForResult(std::string_view folded) {
 } // namespace
 
 // "Sum := a + b;" in function Sum, as other languages give back a value.
-bool Analyzer::assignsResult(const Expr& target) {
+bool Statements::assignsResult(const Expr& target) {
     if (target.kind != NodeKind::Name || !isName(as<NameExpr>(target).name)) return false;
     const TokenIndex token = as<NameExpr>(target).name;
     const NameId name = idOf(token);
-    const Symbol* symbol = lookup(name);
-    if (!context_.routine || context_.routine->routineKind != RoutineKind::Func) return false;
-    if (!symbol && isWordForResult(interner_.folded(name))) {
-        reportUnknown(Code::UnknownName, token, name, Wanted::Data, "; a function gives its value by RETURN");
-        declareUnknown(name);
-        broken_ = true; // as below
+    const Symbol* symbol = scopes_.lookup(name);
+    if (!state_.context.routine || state_.context.routine->routineKind != RoutineKind::Func) return false;
+    if (!symbol && isWordForResult(state_.names.folded(name))) {
+        unknown_.reportUnknown(Code::UnknownName, token, name, Wanted::Data,
+                               "; a function gives its value by RETURN");
+        scopes_.declareUnknown(name);
+        state_.routine.broken = true; // as below
         return true;
     }
-    if (!symbol || symbol != context_.routine) return false;
+    if (!symbol || symbol != state_.context.routine) return false;
     report(Code::FunctionAssigned, range(target), {text(target)});
-    broken_ = true; // the missing RETURN is the same mistake
+    state_.routine.broken = true; // the missing RETURN is the same mistake
     return true;
 }
 
-bool Analyzer::assignable(const Place& place, const Expr& target) {
+bool Statements::assignable(const Place& place, const Expr& target) {
     const DataSymbol& root = *place.root;
     const Type& type = *info(target).type.type;
     const bool parameter = root.storage == Storage::Parameter;
@@ -325,65 +349,67 @@ bool Analyzer::assignable(const Place& place, const Expr& target) {
 }
 
 // "CALL name;"
-bool Analyzer::isCallWord(const CallStmt& s) {
-    if (interner_.folded(idOf(s.name)) != "call" || s.args.size() != 1) return false;
+bool Statements::isCallWord(const CallStmt& s) {
+    if (state_.names.folded(idOf(s.name)) != "call" || s.args.size() != 1) return false;
     const Expr* value = s.args[0]->value;
     TokenIndex name = kNoToken; // CALL work; CALL work(1);
     if (value && value->kind == NodeKind::Name) name = as<NameExpr>(*value).name;
     if (value && value->kind == NodeKind::Call) name = as<CallExpr>(*value).name;
     if (!isName(name)) return false;
-    const RoutineSymbol* routine = asRoutine(lookup(idOf(name)));
+    const RoutineSymbol* routine = asRoutine(scopes_.lookup(idOf(name)));
     return routine && routine->routineKind == RoutineKind::Proc;
 }
 
 // "again;" in a routine with "GOTO again;"
-bool Analyzer::reportLabelWithoutColon(const CallStmt& s) {
-    const std::span<const Token> tokens = context_.tree->tokens;
-    if (!s.args.empty() || !context_.routine->routineDecl || tokens[s.last].kind != TokenKind::Semicolon)
+bool Statements::reportLabelWithoutColon(const CallStmt& s) {
+    const std::span<const Token> tokens = state_.context.tree->tokens;
+    if (!s.args.empty() || !state_.context.routine->routineDecl ||
+        tokens[s.last].kind != TokenKind::Semicolon)
         return false;
-    if (!std::exchange(jumpNamesKnown_, true)) {
-        jumpNames_.clear();
-        const RoutineDecl& routine = *context_.routine->routineDecl;
+    if (!std::exchange(state_.routine.jumpNamesKnown, true)) {
+        state_.routine.jumpNames.clear();
+        const RoutineDecl& routine = *state_.context.routine->routineDecl;
         for (TokenIndex i = routine.first; i < routine.last; ++i)
-            if (tokens[i].kind == TokenKind::KwGoto && isName(i + 1)) jumpNames_.insert(idOf(i + 1));
+            if (tokens[i].kind == TokenKind::KwGoto && isName(i + 1))
+                state_.routine.jumpNames.insert(idOf(i + 1));
     }
     const NameId name = idOf(s.name);
-    if (!jumpNames_.contains(name) || labelNames_.find(name)) return false;
+    if (!state_.routine.jumpNames.contains(name) || state_.routine.labelNames.find(name)) return false;
     report(Code::UnexpectedToken, range(s.last), {"';'", "':' behind a label"}).fix(range(s.last), ":");
     LabelSymbol& symbol = fill(facts().labels.emplace_back(), SymbolKind::Label, s, s.name, false);
-    symbol.routine = context_.routine;
-    labels_.push_back({name, block_, part_, &s, &symbol});
-    labelNames_.set(name, &symbol);
+    symbol.routine = state_.context.routine;
+    state_.routine.labels.push_back({name, state_.routine.block, state_.routine.part, &s, &symbol});
+    state_.routine.labelNames.set(name, &symbol);
     return true;
 }
 
 // Words in a line without a semicolon, none of which is known: the parser has missed the semicolon.
-bool Analyzer::isLineOfText(const CallStmt& s) {
-    if (context_.tree->tokens[s.last].kind == TokenKind::Semicolon) return false;
+bool Statements::isLineOfText(const CallStmt& s) {
+    if (state_.context.tree->tokens[s.last].kind == TokenKind::Semicolon) return false;
     return std::all_of(s.args.begin(), s.args.end(), [&](const Argument* arg) {
         return arg->value && arg->value->kind == NodeKind::Name && isName(as<NameExpr>(*arg->value).name) &&
-               !lookup(idOf(as<NameExpr>(*arg->value).name));
+               !scopes_.lookup(idOf(as<NameExpr>(*arg->value).name));
     });
 }
 
-bool Analyzer::namesProcedure(std::span<Argument* const> args) {
+bool Statements::namesProcedure(std::span<Argument* const> args) {
     if (args.size() != 1 || !args[0]->value || args[0]->value->kind != NodeKind::Name) return false;
     const TokenIndex name = as<NameExpr>(*args[0]->value).name;
-    const RoutineSymbol* routine = isName(name) ? asRoutine(lookup(idOf(name))) : nullptr;
+    const RoutineSymbol* routine = isName(name) ? asRoutine(scopes_.lookup(idOf(name))) : nullptr;
     return routine && routine->routineKind == RoutineKind::Proc;
 }
 
-bool Analyzer::callStmt(const CallStmt& s) {
+bool Statements::callStmt(const CallStmt& s) {
     if (s.lateName) {
-        lateCall(s);
+        calls_.lateCall(s);
         return true;
     }
     if (!isName(s.name)) {
-        visitArguments(s.args);
+        calls_.visitArguments(s.args);
         return true;
     }
     const NameId name = idOf(s.name);
-    Symbol* symbol = lookup(name);
+    Symbol* symbol = scopes_.lookup(name);
     RoutineSymbol* routine = asRoutine(symbol);
     if (!routine || routine->routineKind != RoutineKind::Proc) {
         if (!symbol && isParenthesised(s)) reportParentheses(s);
@@ -396,29 +422,31 @@ bool Analyzer::callStmt(const CallStmt& s) {
         } else if (isLineOfText(s) || reportLabelWithoutColon(s)) {
             return true;
         } else {
-            const Meant meant = reportUnknown(Code::UnknownProcedure, s.name, name, Wanted::Procedure);
-            if (meant == Meant::Keyword) broken_ = true; // and its arguments are none
-            if (meant == Meant::Elsewhere) lateCall(s);  // looked for when it is executed
+            const Meant meant =
+                unknown_.reportUnknown(Code::UnknownProcedure, s.name, name, Wanted::Procedure);
+            if (meant == Meant::Keyword) state_.routine.broken = true; // and its arguments are none
+            if (meant == Meant::Elsewhere) calls_.lateCall(s);         // looked for when it is executed
             if (meant != Meant::Unknown) return true;
         }
-        if (!namesProcedure(s.args)) visitArguments(s.args); // "irq IDelete;"
+        if (!namesProcedure(s.args)) calls_.visitArguments(s.args); // "irq IDelete;"
         return true;
     }
-    markUsed(*routine);
-    checkOption(*routine, s.name);
+    scopes_.markUsed(*routine);
+    availability_.checkOption(*routine, s.name);
     if (isParenthesised(s)) reportParentheses(s);
-    bindCall(s, *routine, s.name, s.args);
-    if (part_ == Part::Undo) callInUndo(*routine, s.name);
-    if (movesRobot(*routine) && task_->type != "NORMAL")
-        report(Code::MotionInBackgroundTask, range(s.name), {text(s.name), task_->name, task_->type});
+    calls_.bindCall(s, *routine, s.name, s.args);
+    if (state_.routine.part == Part::Undo) flow_.callInUndo(*routine, s.name);
+    if (flow_.movesRobot(*routine) && state_.task.task->type != "NORMAL")
+        report(Code::MotionInBackgroundTask, range(s.name),
+               {text(s.name), state_.task.task->name, state_.task.task->type});
     if (routine->role == Role::RaiseToUser) raiseToUser(s);
-    if (routine->role == Role::CyclicBool) cyclicCondition(s);
+    if (routine->role == Role::CyclicBool) CyclicCondition(state_).check(s);
     return !routine->predefined || predefinedCall(*routine, s.name);
 }
 
 // Anywhere else, and without a switch, the system handler takes over (manual 1.12).
-void Analyzer::raiseToUser(const CallStmt& s) {
-    if (part_ != Part::Error || !context_.routine->noStepIn)
+void Statements::raiseToUser(const CallStmt& s) {
+    if (state_.routine.part != Part::Error || !state_.context.routine->noStepIn)
         report(Code::RaiseToUserPlace, range(s.name), {text(s.name)});
     const auto isSwitch = [](const BoundArg& arg) {
         return arg.param->isSwitch && arg.kind != BoundArg::Kind::Absent;
@@ -429,21 +457,21 @@ void Analyzer::raiseToUser(const CallStmt& s) {
 }
 
 // Predefined procedures that belong to the flow of control: RETRY in disguise, and those that do not come back.
-bool Analyzer::predefinedCall(const RoutineSymbol& routine, TokenIndex name) {
-    if (routine.flow == Flow::Retries && part_ != Part::Error)
+bool Statements::predefinedCall(const RoutineSymbol& routine, TokenIndex name) {
+    if (routine.flow == Flow::Retries && state_.routine.part != Part::Error)
         report(Code::OutsideErrorHandler, range(name), {text(name)});
     return routine.flow == Flow::GoesOn || routine.flow == Flow::Stops;
 }
 
 /// `name();` and `name(a, b);`: the parentheses are no part of an argument.
-bool Analyzer::isParenthesised(const CallStmt& s) const {
+bool Statements::isParenthesised(const CallStmt& s) const {
     const TokenIndex open = s.name + 1;
-    return context_.tree->tokens[open].kind == TokenKind::LeftParen &&
+    return state_.context.tree->tokens[open].kind == TokenKind::LeftParen &&
            (s.args.empty() || s.args.front()->first != open);
 }
 
-void Analyzer::reportParentheses(const CallStmt& s) {
-    const SyntaxTree& tree = *context_.tree;
+void Statements::reportParentheses(const CallStmt& s) {
+    const SyntaxTree& tree = *state_.context.tree;
     const TokenIndex open = s.name + 1, close = s.last - 1;
     diag::Diagnostic& d = report(Code::CallParentheses, range(open), {text(s.name)});
     if (tree.tokens[s.last].kind != TokenKind::Semicolon || tree.tokens[close].kind != TokenKind::RightParen)
@@ -453,32 +481,32 @@ void Analyzer::reportParentheses(const CallStmt& s) {
 }
 
 // "p;x := 1;" for "p.x := 1;", and "Move p1;v100;" for "Move p1,v100;", where it has been said what is missing.
-bool Analyzer::isCutBySemicolon(const Symbol& symbol, TokenIndex name) {
+bool Statements::isCutBySemicolon(const Symbol& symbol, TokenIndex name) {
     DataSymbol* data = asData(const_cast<Symbol*>(&symbol));
     if (!data) return false;
-    const auto& all = (collect_ ? *collect_ : sink_).all();
+    const auto& all = (state_.reports.collected() ? *state_.reports.collected() : state_.sink).all();
     const SourceRange own = range(name);
     if (!all.empty() && all.back().code == Code::MissingArgument &&
-        all.back().file == context_.tree->source && all.back().range.begin < own.begin &&
-        context_.tree->tokens[name - 1].kind == TokenKind::Semicolon) {
-        const std::string_view between =
-            context_.tree->source->text().substr(all.back().range.begin, own.begin - all.back().range.begin);
+        all.back().file == state_.context.tree->source && all.back().range.begin < own.begin &&
+        state_.context.tree->tokens[name - 1].kind == TokenKind::Semicolon) {
+        const std::string_view between = state_.context.tree->source->text().substr(
+            all.back().range.begin, own.begin - all.back().range.begin);
         if (between.find('\n') == std::string_view::npos) return true;
     }
-    ensureData(*data);
+    data_.ensureData(*data);
     const SourceRange sign = range(name + 1);
     const TokenIndex part = name + 2;
-    if (context_.tree->tokens[name + 1].kind != TokenKind::Semicolon || !isName(part) ||
+    if (state_.context.tree->tokens[name + 1].kind != TokenKind::Semicolon || !isName(part) ||
         sign.begin != own.end || range(part).begin != sign.end || data->type.rank > 0 ||
-        data->type.type->kind != TypeKind::Record || lookup(idOf(part)) ||
-        findComponent(*data->type.type, context_.tree->text(part)) < 0)
+        data->type.type->kind != TypeKind::Record || scopes_.lookup(idOf(part)) ||
+        places_.findComponent(*data->type.type, state_.context.tree->text(part)) < 0)
         return false;
     report(Code::UnexpectedToken, sign, {"';'", "'.' before a component"}).fix(sign, ".");
-    declareUnknown(idOf(part));
+    scopes_.declareUnknown(idOf(part));
     return true;
 }
 
-void Analyzer::reportNotCallable(const Symbol& symbol, TokenIndex name) {
+void Statements::reportNotCallable(const Symbol& symbol, TokenIndex name) {
     const auto* routine = asRoutine(const_cast<Symbol*>(&symbol));
     if (routine && routine->routineKind == RoutineKind::Func)
         noteDeclared(report(Code::FunctionAsInstruction, range(name), {text(name)}), symbol);

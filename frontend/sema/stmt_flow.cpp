@@ -1,7 +1,14 @@
 // Instructions of control flow that depend on the kind of routine or handler: RETURN, RAISE, CONNECT, UNDO
 // (manual 1.1.5, 1.11 to 1.13).
 
-#include "frontend/sema/analysis.h"
+#include "frontend/sema/stmt_flow.h"
+#include "frontend/sema/expr.h"
+#include "frontend/sema/parts.h"
+#include "frontend/sema/place.h"
+#include "frontend/sema/remedies.h"
+#include "frontend/sema/scopes.h"
+#include "frontend/sema/unknown.h"
+#include "frontend/sema/wording.h"
 
 #include <cmath>
 
@@ -9,17 +16,21 @@ namespace rapid::sema {
 
 using namespace syntax;
 
-void Analyzer::returnStmt(const ReturnStmt& s) {
-    const RoutineSymbol& routine = *context_.routine;
-    if (part_ == Part::Undo) {
-        if (s.value) visitLoose(*s.value);
+FlowStatements::FlowStatements(State& state, const Parts& parts)
+    : CheckerPart(state), expressions_(parts.expressions), places_(parts.places), remedies_(parts.remedies),
+      scopes_(parts.scopes), unknown_(parts.unknown) {}
+
+void FlowStatements::returnStmt(const ReturnStmt& s) {
+    const RoutineSymbol& routine = *state_.context.routine;
+    if (state_.routine.part == Part::Undo) {
+        if (s.value) expressions_.visitLoose(*s.value);
         report(Code::IgnoredInUndo, range(s.first), {"RETURN"});
         return;
     }
-    returnSeen_ = true;
+    state_.routine.returnSeen = true;
     if (routine.routineKind != RoutineKind::Func) {
         if (!s.value) return;
-        visitLoose(*s.value);
+        expressions_.visitLoose(*s.value);
         if (s.value->kind == NodeKind::ErrorExpr) return;
         report(Code::ReturnValueUnexpected, range(*s.value),
                {routine.name, routine.routineKind == RoutineKind::Proc ? "procedure" : "trap routine"});
@@ -30,30 +41,31 @@ void Analyzer::returnStmt(const ReturnStmt& s) {
         return;
     }
     if (routine.returnType.type->kind == TypeKind::Error) {
-        visitLoose(*s.value);
+        expressions_.visitLoose(*s.value);
         return;
     }
-    const Typed t = expr(*s.value, &routine.returnType);
-    if (fits(*s.value, t, routine.returnType)) return;
+    const Typed t = expressions_.expr(*s.value, &routine.returnType);
+    if (expressions_.fits(*s.value, t, routine.returnType)) return;
     const auto names = typeNames(t.info->type, routine.returnType);
-    const Remedy remedy = remedyFor(*s.value, t.info->type, routine.returnType);
-    offer(report(Code::ReturnType, range(*s.value), {names[0], names[1], routine.name}), *s.value, remedy);
+    const Remedy remedy = remedies_.remedyFor(*s.value, t.info->type, routine.returnType);
+    remedies_.offer(report(Code::ReturnType, range(*s.value), {names[0], names[1], routine.name}), *s.value,
+                    remedy);
 }
 
-void Analyzer::checkErrorNumber(const Expr& e, const char* what) {
-    const Typed t = expr(e);
-    if (t.isError() || fits(e, t, {program_.num, 0, {}})) return;
+void FlowStatements::checkErrorNumber(const Expr& e, const char* what) {
+    const Typed t = expressions_.expr(e);
+    if (t.isError() || expressions_.fits(e, t, {state_.program.num, 0, {}})) return;
     report(Code::ErrorNumberType, range(e), {what, typeName(*t.info)});
 }
 
-void Analyzer::raiseStmt(const RaiseStmt& s) {
-    if (part_ == Part::Undo) {
-        if (s.value) visitLoose(*s.value);
+void FlowStatements::raiseStmt(const RaiseStmt& s) {
+    if (state_.routine.part == Part::Undo) {
+        if (s.value) expressions_.visitLoose(*s.value);
         report(Code::IgnoredInUndo, range(s.first), {"RAISE"});
         return;
     }
     if (!s.value) {
-        if (part_ != Part::Error) report(Code::RaiseWithoutNumber, range(s.first));
+        if (state_.routine.part != Part::Error) report(Code::RaiseWithoutNumber, range(s.first));
         return;
     }
     checkErrorNumber(*s.value, "RAISE");
@@ -61,7 +73,7 @@ void Analyzer::raiseStmt(const RaiseStmt& s) {
 }
 
 // A constant is ERR_..., or a number that programs may raise; of others the value shows at run time.
-bool Analyzer::mayBeErrorNumber(const Expr& e) {
+bool FlowStatements::mayBeErrorNumber(const Expr& e) {
     const ExprInfo& value = info(e);
     if (!value.constant || value.constant->kind != ConstValue::Kind::Number) return true;
     if (value.symbol && value.symbol->predefined) return true;
@@ -69,32 +81,33 @@ bool Analyzer::mayBeErrorNumber(const Expr& e) {
     return number >= 1 && number <= 90 && number == std::floor(number);
 }
 
-void Analyzer::checkListedError(const Expr& e) {
+void FlowStatements::checkListedError(const Expr& e) {
     checkErrorNumber(e, "ERROR");
     if (!mayBeErrorNumber(e)) report(Code::ListedErrorNumber, range(e), {valueText(e)});
 }
 
 // "CONNECT trap WITH interrupt;"
-bool Analyzer::reportConnectSwapped(const ConnectStmt& s) {
+bool FlowStatements::reportConnectSwapped(const ConnectStmt& s) {
     if (!s.target || s.target->kind != NodeKind::Name || !isName(s.trap)) return false;
     const TokenIndex first = as<NameExpr>(*s.target).name;
-    const RoutineSymbol* trap = isName(first) ? asRoutine(lookup(idOf(first))) : nullptr;
-    if (!trap || trap->routineKind != RoutineKind::Trap || !asData(lookup(idOf(s.trap)))) return false;
+    const RoutineSymbol* trap = isName(first) ? asRoutine(scopes_.lookup(idOf(first))) : nullptr;
+    if (!trap || trap->routineKind != RoutineKind::Trap || !asData(scopes_.lookup(idOf(s.trap))))
+        return false;
     report(Code::ArgumentsSwapped, range(first), {"interrupt", "trap routine", "CONNECT"})
         .fixes.push_back(
             {"let them change places", {{range(first), text(s.trap)}, {range(s.trap), text(first)}}});
     return true;
 }
 
-void Analyzer::connectStmt(const ConnectStmt& s) {
+void FlowStatements::connectStmt(const ConnectStmt& s) {
     if (reportConnectSwapped(s)) return;
     if (s.target) connectTarget(*s.target);
     if (!isName(s.trap)) return;
     const NameId name = idOf(s.trap);
-    Symbol* symbol = lookup(name);
+    Symbol* symbol = scopes_.lookup(name);
     RoutineSymbol* trap = asRoutine(symbol);
     if (trap && trap->routineKind == RoutineKind::Trap) {
-        markUsed(*trap);
+        scopes_.markUsed(*trap);
         facts().references[&s] = trap;
         return;
     }
@@ -102,24 +115,24 @@ void Analyzer::connectStmt(const ConnectStmt& s) {
         noteDeclared(report(Code::NotATrap, range(s.trap), {text(s.trap), describe(*symbol)}), *symbol);
         return;
     }
-    reportUnknown(Code::UnknownTrap, s.trap, name, Wanted::Trap);
+    unknown_.reportUnknown(Code::UnknownTrap, s.trap, name, Wanted::Trap);
 }
 
-void Analyzer::connectTarget(const Expr& target) {
+void FlowStatements::connectTarget(const Expr& target) {
     if (!isPlaceExpr(target)) {
-        visitLoose(target);
+        expressions_.visitLoose(target);
         if (target.kind != NodeKind::PlaceholderExpr && target.kind != NodeKind::ErrorExpr)
             report(Code::ConnectNotVariable, range(target), {describeExpr(target)});
         return;
     }
-    const Place found = place(target);
+    const Place found = places_.place(target);
     if (!found.root) return;
     DataSymbol& root = *found.root;
     const DataType& type = info(target).type;
     const bool isUnknown = type.type->kind == TypeKind::Error; // not declared, which is reported
-    bool isIntnum = type.rank == 0 && (!intnum_ || isUnknown);
+    bool isIntnum = type.rank == 0 && (!state_.intnum || isUnknown);
     for (const Type* t = type.type; t && type.rank == 0; t = t->aliasOf)
-        isIntnum |= t == intnum_;
+        isIntnum |= t == state_.intnum;
     if (!isIntnum) {
         report(Code::ConnectNotInterrupt, range(target), {typeName(type)});
         return;
@@ -131,19 +144,19 @@ void Analyzer::connectTarget(const Expr& target) {
         noteDeclared(report(Code::ConnectNotVariable, range(target), {describe(root)}), root);
         return;
     }
-    markAssigned(root);
+    scopes_.markAssigned(root);
     if (isUnknown) return;
     if (root.storage == Storage::RoutineData || (parameter && root.mode == ParamMode::In))
         noteDeclared(report(Code::ConnectRoutineData, range(target), {root.name}), root);
 }
 
 // A built-in that orders movement; stopping one is not movement.
-bool Analyzer::movesRobot(const RoutineSymbol& routine) const {
+bool FlowStatements::movesRobot(const RoutineSymbol& routine) const {
     return routine.effects == Effects::Motion && routine.native && !routine.traits.has(Trait::NoMovement);
 }
 
 // Stops, raised errors and movement are not for UNDO handlers (manual 1.13).
-void Analyzer::callInUndo(const RoutineSymbol& routine, TokenIndex name) {
+void FlowStatements::callInUndo(const RoutineSymbol& routine, TokenIndex name) {
     if (!routine.predefined) return;
     if (movesRobot(routine))
         report(Code::MotionInUndo, range(name), {text(name)});

@@ -23,13 +23,14 @@ TEST_CASE("every code of lexer and parser is explained", "[diag]") {
         INFO(entry.number);
         CHECK(diag::findExplanation(entry.number) != nullptr);
     }
-    for (const diag::Explanation& e : diag::explanations1xxx())
+    for (const diag::Explanation& e : diag::explanations())
         CHECK(diag::findEntry(e.number) != nullptr);
     CHECK(diag::findExplanation(9) == nullptr);
 }
 
 TEST_CASE("wrong examples cause their diagnostic, right ones none", "[diag]") {
-    for (const diag::Explanation& e : diag::explanations1xxx()) {
+    for (const diag::Explanation& e : diag::explanations()) {
+        if (e.number >= 2000) break;
         if (e.kind == diag::ExampleKind::Files) continue; // explain_files_test.cpp
         INFO(e.number << ": " << e.wrong);
         CHECK(test::parseText(whole(e, e.right)).sink.all().empty());

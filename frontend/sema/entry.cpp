@@ -1,0 +1,68 @@
+// The routine that a task begins with.
+
+#include "frontend/sema/entry.h"
+
+#include "frontend/sema/parameters.h"
+#include "frontend/sema/unknown.h"
+#include "frontend/sema/wording.h"
+
+#include <algorithm>
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+EntryCheck::EntryCheck(State& state, const Parts& parts) : CheckerPart(state), unknown_(parts.unknown) {}
+
+// A LOCAL routine with the name of the entry. Only of a program that is to run, or in which everything else is known:
+// modules that a part of a program consists of may have a LOCAL main of their own, called by name from elsewhere.
+const Symbol* EntryCheck::localEntry(const Task& task, NameId name) {
+    const Symbol* local = nullptr;
+    for (size_t i = 0; i < task.modules.size() && !local; ++i)
+        local = state_.scopes[task.modules[i]->id]->names.find(name);
+    if (!local || state_.options.requireMain) return local;
+    const auto isOpen = [](const Module* module) {
+        const auto& tokens = module->tree->tokens;
+        return module->facts->open || std::any_of(tokens.begin(), tokens.end(), [](const Token& t) {
+                   return t.kind == TokenKind::Percent; // a call by name
+               });
+    };
+    const bool part = state_.task.incomplete || local->used ||
+                      std::any_of(task.modules.begin(), task.modules.end(), isOpen);
+    return part ? nullptr : local;
+}
+
+void EntryCheck::checkEntry(Task& task) {
+    const NameId name = state_.names.intern(task.entry);
+    Symbol* symbol = at(state_.task.globals, name);
+    RoutineSymbol* routine = asRoutine(symbol);
+    const bool procedure = routine && routine->routineKind == RoutineKind::Proc;
+    if (procedure && nextRequired(*routine, 0) >= routine->params.size()) {
+        task.entryRoutine = routine;
+        ++routine->users;
+        routine->used = true;
+        return;
+    }
+    if (symbol) { // what is no procedure, or wants arguments, can be the entry of no task
+        state_.enterModule(symbol->module);
+        std::string found = procedure ? "a procedure with required parameters" : describe(*symbol);
+        report(Code::EntryNotProcedure, range(symbol->nameToken), {symbol->name, std::move(found)});
+        return;
+    }
+    if (const Symbol* local = localEntry(task, name)) {
+        state_.enterModule(local->module);
+        report(Code::EntryLocal, range(local->nameToken), {task.name, local->name});
+        return;
+    }
+    if (!state_.options.requireMain) return;
+    if (state_.task.incomplete || !unknown_.mayReportUnknown(name)) return;
+    if (task.modules.empty()) { // why there is none has been told as a rule
+        if (!state_.sink.hasErrors()) state_.sink.report(Code::NoEntry, nullptr, {}, {task.name, task.entry});
+        return;
+    }
+    const ModuleDecl& first = *task.modules.front()->decl;
+    state_.enterModule(task.modules.front());
+    report(Code::NoEntry, range(first.name == kNoToken ? first.first : first.name), {task.name, task.entry});
+}
+
+} // namespace rapid::sema

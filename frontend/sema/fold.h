@@ -1,0 +1,26 @@
+#pragma once
+// Values of constant expressions. num results are rounded to binary32 after each operation.
+
+#include "frontend/sema/part.h"
+
+namespace rapid::sema {
+
+class Folding : CheckerPart {
+  public:
+    explicit Folding(State& state);
+
+    /// Where the values are kept that are being worked out.
+    Arena& valueArena() { return state_.context.routine ? facts().inner : facts().values; }
+    ConstValue* newConst() { return valueArena().make<ConstValue>(); }
+    void foldBinary(const syntax::BinaryExpr& e);
+    void foldUnary(const syntax::UnaryExpr& e, ConstValue* slot);
+    ConstValue owned(const ConstValue& value);
+    const ConstValue* partOf(const ConstValue& value);
+
+  private:
+    void warnDivision(const syntax::BinaryExpr& e);
+    bool foldArithmetic(const syntax::BinaryExpr& e, double a, double b, bool isDnum, double& out);
+    void foldBool(ExprInfo& info, bool value);
+};
+
+} // namespace rapid::sema

@@ -1,0 +1,70 @@
+// Places, texts and reports for all parts of a check.
+
+#include "frontend/sema/part.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+diag::Diagnostic& Reports::report(Code code, SourceRange where, std::initializer_list<std::string> args) {
+    if (muted_ || isUnclear(where)) return unsaid_ = diag::Diagnostic();
+    return (collect_ ? *collect_ : sink_).report(code, context_.tree->source, where, args);
+}
+
+/// In a line that could not be read as a whole: what seems wrong there follows from that.
+bool Reports::isUnclear(SourceRange where) const {
+    if (where.begin < quietLine_.end && where.begin >= quietLine_.begin) return true;
+    const std::vector<uint32_t>& lines = context_.tree->unclearLines;
+    if (lines.empty()) return false;
+    const auto after = std::upper_bound(lines.begin(), lines.end(), where.begin);
+    if (after == lines.begin()) return false;
+    const uint32_t begin = *(after - 1);
+    if (where.begin - begin > SyntaxTree::kUnclearReach) return false;
+    const std::string_view between = context_.tree->source->text().substr(begin, where.begin - begin);
+    return between.find_first_of("\r\n") == std::string_view::npos;
+}
+
+bool Reports::hasUnclearLine(const Node& node) const {
+    const std::vector<uint32_t>& lines = context_.tree->unclearLines;
+    const SourceRange whole = context_.tree->range(node);
+    const auto line = std::lower_bound(lines.begin(), lines.end(), whole.begin);
+    return line != lines.end() && *line < whole.end;
+}
+
+std::string CheckerPart::text(const Node& node) const {
+    const SourceRange r = range(node);
+    constexpr uint32_t kLongest = 40;
+    if (r.end - r.begin <= kLongest)
+        return std::string(state_.context.tree->source->text().substr(r.begin, r.end - r.begin));
+    const std::string_view all = state_.context.tree->source->text();
+    uint32_t end = r.begin + kLongest - 3;
+    while (end > r.begin && (static_cast<unsigned char>(all[end]) & 0xC0) == 0x80)
+        --end; // not inside a character
+    return std::string(all.substr(r.begin, end - r.begin)) + "...";
+}
+
+void CheckerPart::noteDeclared(diag::Diagnostic& diagnostic, const Symbol& symbol) {
+    if (symbol.predefined || !symbol.decl || symbol.nameToken == kNoToken) return;
+    const SyntaxTree& tree = *symbol.module->tree;
+    diagnostic.notes.push_back(
+        {tree.source, tree.range(symbol.nameToken), "'" + symbol.name + "' is declared here"});
+}
+
+std::string CheckerPart::valueText(const Expr& e) const {
+    const ConstValue* value = info(e).constant;
+    const Expr& inner = e.kind == NodeKind::Unary ? *as<UnaryExpr>(e).operand : e;
+    if (inner.kind == NodeKind::NumLiteral || !value || value->kind != ConstValue::Kind::Number)
+        return text(e);
+    return fmt::format("{} = {}", text(e), value->number);
+}
+
+void CheckerPart::placeholder(const Node& node) {
+    const TokenIndex first = node.first;
+    // A program with placeholders can be loaded and run; ERR_EXECPHR is raised where one is reached (manual 1.1.2).
+    report(Code::Placeholder, range(first), {text(first)});
+}
+
+} // namespace rapid::sema

@@ -1,0 +1,31 @@
+#pragma once
+// References to data and to parts of it.
+
+#include "frontend/sema/part.h"
+
+namespace rapid::sema {
+
+class Places : CheckerPart {
+  public:
+    Places(State& state, const Parts& parts);
+
+    Place place(const syntax::Expr& e, const Type* handle = nullptr);
+    int findComponent(const Type& record, std::string_view name);
+
+  private:
+    Place namePlace(const syntax::NameExpr& e, const Type* handle);
+    Place indexPlace(const syntax::IndexExpr& e, const Type* handle);
+    Place componentPlace(const syntax::ComponentExpr& e, const Type* handle);
+    void checkIndex(const syntax::Expr& index, int32_t dimension, int64_t& value);
+
+    DataResolver& data_;
+    Expressions& expressions_;
+    Folding& folding_;
+    Scopes& scopes_;
+    Suggestions& suggestions_;
+    UnknownNames& unknown_;
+};
+
+bool isPlaceExpr(const syntax::Expr& e);
+
+} // namespace rapid::sema

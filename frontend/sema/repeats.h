@@ -1,0 +1,27 @@
+#pragma once
+// Errors that one mistake explains: they are reported once, with a note for each place.
+
+#include "frontend/sema/one_mistake.h"
+#include "frontend/sema/part.h"
+
+namespace rapid::sema {
+
+class Repeats : CheckerPart {
+  public:
+    Repeats(State& state, const Parts& parts);
+
+    void gatherUnknown(std::span<Module* const> modules);
+    /// `first`: of the errors reported while the file was checked.
+    void gatherRepeats(std::span<Module* const> modules, size_t first);
+    void tellOnce();
+
+  private:
+    void explainUnknown(const Module& module);
+    void explainByType(const Module& module, std::string_view declared);
+    bool explainUnknown(const Module& module, SourceRange where, bool routines, size_t lost);
+
+    Scopes& scopes_;
+    std::vector<Repeat> repeats_; ///< errors of the files checked so far that one mistake explains
+};
+
+} // namespace rapid::sema

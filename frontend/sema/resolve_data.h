@@ -1,0 +1,30 @@
+#pragma once
+// Types, dimensions and initial values of data, on demand and in any order (manual 1.2.2).
+
+#include "frontend/sema/part.h"
+
+namespace rapid::sema {
+
+class DataResolver : CheckerPart {
+  public:
+    DataResolver(State& state, const Parts& parts);
+
+    void ensureData(DataSymbol& symbol);
+    void ensureValue(DataSymbol& symbol);
+
+  private:
+    uint64_t resolveDimensions(DataSymbol& symbol, const syntax::DataDecl& decl);
+    std::string describeDimension(const syntax::Expr& e, Typed t);
+    void initialise(DataSymbol& symbol, const syntax::DataDecl& decl);
+    void checkDeclaration(DataSymbol& symbol);
+    void reportNonConstant(const syntax::Expr& e);
+    const syntax::Expr* findNonConstant(const syntax::Expr& e);
+    const syntax::Expr* findNonLiteral(const syntax::Expr& expr) const;
+
+    Expressions& expressions_;
+    Folding& folding_;
+    Remedies& remedies_;
+    TypeResolver& types_;
+};
+
+} // namespace rapid::sema

@@ -1,0 +1,29 @@
+#pragma once
+// Bodies of routines: scope of parameters and data, handlers (manual 1.1.5, 1.12, 1.13).
+
+#include "frontend/sema/part.h"
+
+namespace rapid::sema {
+
+class RoutineChecker : CheckerPart {
+  public:
+    RoutineChecker(State& state, const Parts& parts);
+
+    void checkRoutine(RoutineSymbol& symbol);
+    void declareRoutineData(const syntax::DataDecl& decl);
+    bool block(syntax::StmtList list); ///< a new block; whether its end can be reached
+
+  private:
+    void declareInRoutine(Symbol& symbol);
+    bool checkPart(Part part, syntax::StmtList list);
+    void reportUntestedOptionals();
+
+    Collector& collector_;
+    DataResolver& data_;
+    Expressions& expressions_;
+    FlowStatements& flow_;
+    Jumps& jumps_;
+    Statements& statements_;
+};
+
+} // namespace rapid::sema

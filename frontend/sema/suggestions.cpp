@@ -1,0 +1,201 @@
+// What was probably meant by a misspelt name.
+
+#include "frontend/sema/suggestions.h"
+
+#include "frontend/sema/place.h"
+#include "frontend/sema/scopes.h"
+#include "frontend/sema/type_rules.h"
+
+namespace rapid::sema {
+
+using namespace syntax;
+
+namespace {
+
+struct Word {
+    std::string_view folded;
+    std::string_view spelling;
+};
+constexpr Word kInstructionWords[] = {{"goto", "GOTO"},   {"return", "RETURN"},     {"raise", "RAISE"},
+                                      {"retry", "RETRY"}, {"trynext", "TRYNEXT"},   {"exit", "EXIT"},
+                                      {"break", "BREAK"}, {"continue", "CONTINUE"}, {"connect", "CONNECT"},
+                                      {"endif", "ENDIF"}, {"endwhile", "ENDWHILE"}, {"endfor", "ENDFOR"}};
+constexpr Word kValueWords[] = {{"true", "TRUE"}, {"false", "FALSE"}};
+
+/// What programmers of other languages write for a predefined name.
+struct ForeignName {
+    std::string_view folded, meant;
+};
+constexpr ForeignName kForeignNames[] = {
+    {"int", "num"},           {"integer", "num"},       {"float", "num"},         {"real", "num"},
+    {"double", "dnum"},       {"number", "num"},        {"boolean", "bool"},      {"char", "string"},
+    {"str", "string"},        {"text", "string"},       {"wait", "WaitTime"},     {"sleep", "WaitTime"},
+    {"delay", "WaitTime"},    {"pause", "WaitTime"},    {"print", "TPWrite"},     {"println", "TPWrite"},
+    {"echo", "TPWrite"},      {"msgbox", "UIMsgBox"},   {"strtonum", "StrToVal"}, {"stringtonum", "StrToVal"},
+    {"valtonum", "StrToVal"}, {"len", "StrLen"},        {"length", "StrLen"},     {"substr", "StrPart"},
+    {"strsub", "StrPart"},    {"tostring", "ValToStr"}, {"sqr", "Sqrt"},          {"power", "Pow"},
+    {"movep", "MoveJ"},       {"linear", "MoveL"},      {"on", "high"},           {"off", "low"}};
+
+/// A name of one or two letters is near to everything of that length.
+bool near(std::string_view written, unsigned distance) {
+    return written.size() > 2 && distance < written.size();
+}
+
+/// The number of "v100" or "z50"; -1 of other names.
+long numberInSeries(std::string_view folded) {
+    constexpr size_t kLongest = 6;
+    const bool member = folded.size() > 1 && folded.size() <= kLongest &&
+                        (folded[0] == 'v' || folded[0] == 'z') &&
+                        folded.find_first_not_of("0123456789", 1) == std::string_view::npos;
+    return member ? std::stol(std::string(folded.substr(1))) : -1;
+}
+
+} // namespace
+
+Suggestions::Suggestions(State& state, const Parts& parts)
+    : CheckerPart(state), places_(parts.places), scopes_(parts.scopes) {}
+
+// "v110" and "z25": of speeds and zones, the next ones that are predefined.
+std::string Suggestions::inSeries(std::string_view written) {
+    const long wanted = numberInSeries(written);
+    if (wanted < 0 || state_.task.comparisonsLeft < state_.predefined.size()) return {};
+    state_.task.comparisonsLeft -= state_.predefined.size();
+    std::string_view below, above;
+    for (const Symbol* symbol : state_.predefined) {
+        const std::string_view other = symbol ? state_.names.folded(symbol->nameId) : std::string_view();
+        const long number = other.starts_with(written[0]) ? numberInSeries(other) : -1;
+        if (number < 0) continue;
+        if (number < wanted && (below.empty() || number > numberInSeries(below))) below = other;
+        if (number > wanted && (above.empty() || number < numberInSeries(above))) above = other;
+    }
+    if (below.empty() && above.empty()) return {};
+    if (below.empty() || above.empty())
+        return "; predefined is '" + std::string(below.empty() ? above : below) + "'";
+    return "; predefined are '" + std::string(below) + "' and '" + std::string(above) + "'";
+}
+
+Suggestion Suggestions::suggestion(NameId name, Wanted wanted) {
+    facts().open = true;
+    const size_t names = state_.task.globals.size() + state_.predefined.size() +
+                         state_.scopes[state_.context.module->id]->names.size();
+    if (state_.task.comparisonsLeft < names) return {};
+    state_.task.comparisonsLeft -= names;
+    const std::string_view written = state_.names.folded(name);
+    for (const ForeignName& foreign : kForeignNames) {
+        if (foreign.folded != written) continue;
+        const Symbol* meant = at(state_.predefined, state_.names.intern(foreign.meant));
+        if (meant && isWanted(*meant, wanted) && scopes_.lookup(meant->nameId) == meant)
+            return {meant->name, false};
+    }
+    unsigned limit = suggestionLimit(written.size());
+    // The nearest scope first: on equal distance it wins, and within a scope the first in the alphabet.
+    Suggestion best;
+    std::string_view bestFolded;
+    unsigned scope = 0, bestScope = 0;
+    const auto consider = [&](std::string_view folded, std::string_view spelling, bool keyword,
+                              const Symbol* symbol = nullptr) {
+        const unsigned distance = editDistance(written, folded, limit);
+        if (distance > std::min(limit, suggestionLimit(folded.size()))) return; // Search_1D is not SearchC
+        const bool equal = !best.name.empty() && distance == limit;
+        if (equal && (scope != bestScope || bestFolded <= folded)) return;
+        if (symbol && scopes_.lookup(symbol->nameId) != symbol) return; // hidden by another of its name
+        best = {std::string(spelling), keyword, symbol};
+        bestFolded = folded;
+        bestScope = scope;
+        limit = distance;
+    };
+    const auto considerSymbol = [&](const Symbol* symbol) {
+        if (symbol && symbol->nameId != name && !symbol->name.empty() && isWanted(*symbol, wanted))
+            consider(state_.names.folded(symbol->nameId), symbol->name, false, symbol);
+    };
+    if (state_.context.routine)
+        for (const NameId id : state_.declaredInRoutine)
+            considerSymbol(at(state_.routineNames, id));
+    scope = 1;
+    state_.scopes[state_.context.module->id]->names.forEach(
+        [&](NameId, const Symbol* symbol) { considerSymbol(symbol); });
+    scope = 2;
+    for (const Symbol* symbol : state_.task.globals)
+        considerSymbol(symbol);
+    scope = 3;
+    for (const DataSymbol* symbol : state_.task.configured)
+        considerSymbol(symbol);
+    // A name of one to three letters is near to everything of that length.
+    scope = 4;
+    constexpr size_t kShort = 4;
+    if (written.size() >= kShort) {
+        if (wanted == Wanted::Procedure)
+            for (const Word& word : kInstructionWords)
+                consider(word.folded, word.spelling, true);
+        if (wanted == Wanted::Data)
+            for (const Word& word : kValueWords)
+                consider(word.folded, word.spelling, true);
+        for (const Symbol* symbol : state_.predefined)
+            considerSymbol(symbol);
+    }
+    return near(written, limit) ? best : Suggestion();
+}
+
+std::string Suggestions::deeperComponent(const Type& record, std::string_view name) {
+    std::string found;
+    for (const Type::Component& part : record.base()->components) {
+        if (part.type->base()->kind != TypeKind::Record) continue;
+        const int inner = places_.findComponent(*part.type, name);
+        if (inner < 0) continue;
+        if (!found.empty()) return {};
+        found = part.name + "." + part.type->base()->components[static_cast<size_t>(inner)].name;
+    }
+    return found;
+}
+
+const Type::Component* Suggestions::nearComponent(const Type& record, std::string_view name) {
+    const std::vector<Type::Component>& components = record.base()->components;
+    if (state_.routine.partComparisonsLeft < components.size()) return nullptr;
+    state_.routine.partComparisonsLeft -= components.size();
+    unsigned limit = suggestionLimit(name.size());
+    const Type::Component* best = nullptr;
+    for (const Type::Component& c : components) {
+        const unsigned distance = editDistance(name, c.name, limit);
+        if (distance > limit || (best && distance == limit)) continue;
+        best = &c;
+        limit = distance;
+    }
+    return best && near(name, limit) ? best : nullptr;
+}
+
+const DataSymbol* Suggestions::nearOptional(const RoutineSymbol& routine, NameId name) {
+    if (state_.routine.partComparisonsLeft < routine.params.size()) return nullptr;
+    state_.routine.partComparisonsLeft -= routine.params.size();
+    const std::string_view written = state_.names.folded(name);
+    unsigned limit = suggestionLimit(written.size());
+    const DataSymbol* best = nullptr;
+    for (const DataSymbol* param : routine.params) {
+        if (!param->optional) continue;
+        const unsigned distance = editDistance(written, state_.names.folded(param->nameId), limit);
+        if (distance > limit || (best && distance == limit)) continue;
+        best = param;
+        limit = distance;
+    }
+    return best && near(written, limit) ? best : nullptr;
+}
+
+bool Suggestions::isWanted(const Symbol& symbol, Wanted wanted) const {
+    if (symbol.kind == SymbolKind::Data) {
+        const auto& data = static_cast<const DataSymbol&>(symbol);
+        if (data.assumed) return false; // nothing declares it
+        return wanted == Wanted::Data || (wanted == Wanted::Signal && data.storage == Storage::Signal);
+    }
+    if (symbol.kind == SymbolKind::Type) {
+        const Type* type = static_cast<const TypeSymbol&>(symbol).type; // null: not resolved yet
+        return wanted == Wanted::Type && (!type || isReal(*type));
+    }
+    if (symbol.kind != SymbolKind::Routine) return false;
+    switch (static_cast<const RoutineSymbol&>(symbol).routineKind) {
+    case RoutineKind::Proc: return wanted == Wanted::Procedure;
+    case RoutineKind::Func: return wanted == Wanted::Function;
+    case RoutineKind::Trap: return wanted == Wanted::Trap;
+    }
+    return false;
+}
+
+} // namespace rapid::sema

@@ -1,0 +1,34 @@
+#pragma once
+// Finds what was probably meant by a misspelt name.
+
+#include "frontend/sema/part.h"
+
+namespace rapid::sema {
+
+/// What a name should be where it is used.
+enum class Wanted : uint8_t { Data, Signal, Type, Procedure, Function, Trap };
+
+struct Suggestion {
+    std::string name; ///< empty: none is near
+    bool isKeyword = false;
+    const Symbol* symbol = nullptr; ///< null: a reserved word
+};
+
+class Suggestions : CheckerPart {
+  public:
+    Suggestions(State& state, const Parts& parts);
+
+    bool isWanted(const Symbol& symbol, Wanted wanted) const;
+    Suggestion suggestion(NameId name, Wanted wanted);
+    std::string inSeries(std::string_view written);
+    /// "trans.z" for "z", when one part of the parts of a record is named so; empty when none or several are.
+    std::string deeperComponent(const Type& record, std::string_view name);
+    const Type::Component* nearComponent(const Type& record, std::string_view name);
+    const DataSymbol* nearOptional(const RoutineSymbol& routine, NameId name);
+
+  private:
+    Places& places_;
+    Scopes& scopes_;
+};
+
+} // namespace rapid::sema

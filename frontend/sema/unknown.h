@@ -1,0 +1,36 @@
+#pragma once
+// Reports names that nothing declares.
+
+#include "frontend/sema/part.h"
+#include "frontend/sema/suggestions.h"
+
+namespace rapid::sema {
+
+/// What a name that nothing declares was found to be. Elsewhere: a module that is not here may declare it.
+enum class Meant : uint8_t { Unknown, Keyword, Elsewhere };
+
+class UnknownNames : CheckerPart {
+  public:
+    UnknownNames(State& state, const Parts& parts);
+
+    bool mayReportUnknown(NameId name);
+    Meant reportUnknown(Code code, syntax::TokenIndex token, NameId name, Wanted wanted,
+                        std::string_view otherHint = {});
+    Symbol* reportUnknownData(syntax::TokenIndex token, NameId name, const Type* handle);
+
+  private:
+    bool reportTorn(syntax::TokenIndex token);
+    void mayDeclareTorn(const syntax::SyntaxTree& tree, syntax::TokenIndex word);
+    bool countedAbove(syntax::TokenIndex token, NameId name);
+    void reportMayBeDeclared(syntax::TokenIndex token, const std::string& hint);
+    bool comparisonsTell() const;
+    void reportSignal(syntax::TokenIndex token, NameId name, const Type& type, bool perhaps);
+
+    Scopes& scopes_;
+    SignalFinder& signals_;
+    Suggestions& suggestions_;
+    syntax::TokenIndex tornUntil_ = syntax::kNoToken; ///< the last word of a name in two, which is reported
+    const syntax::SyntaxTree* tornTree_ = nullptr;    ///< where that is
+};
+
+} // namespace rapid::sema
