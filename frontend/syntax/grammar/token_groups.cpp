@@ -1,0 +1,22 @@
+#include "frontend/syntax/grammar/token_groups.h"
+
+namespace rapid::syntax {
+
+RoutineWords wordsOf(RoutineKind kind) {
+    switch (kind) {
+    case RoutineKind::Proc: break;
+    case RoutineKind::Func: return {TokenKind::KwFunc, TokenKind::KwEndfunc, "FUNC"};
+    case RoutineKind::Trap: return {TokenKind::KwTrap, TokenKind::KwEndtrap, "TRAP"};
+    }
+    return {TokenKind::KwProc, TokenKind::KwEndproc, "PROC"};
+}
+
+bool isBasicType(std::string_view word) {
+    for (const std::string_view type :
+         {"NUM", "DNUM", "BOOL", "STRING", "ROBTARGET", "JOINTTARGET", "POS", "ORIENT", "POSE", "INTNUM",
+          "TOOLDATA", "WOBJDATA", "SPEEDDATA", "ZONEDATA", "LOADDATA", "CLOCK", "BYTE"})
+        if (equalsNoCase(word, type)) return true;
+    return false;
+}
+
+} // namespace rapid::syntax
