@@ -14,8 +14,9 @@ std::span<Argument*> ExpressionParser::parseArguments(bool procedure) {
     bool first = true;
     while (!panic()) {
         height_ = 0;
-        if (!procedure && kind() == K::Semicolon && !first) signs().takesSemicolonAsComma(K::RightParen);
-        if (first) signs().takesSlashAsBackslash();
+        if (!procedure && kind() == K::Semicolon && !first)
+            recovery().repair({.place = Place::ListSeparator, .expected = K::RightParen});
+        if (first && kind() == K::Slash) recovery().repair(Place::Argument);
         if (kind() == K::Backslash) {
             args_.push_back(parseOptionalArgument());
         } else if (kind() == K::Comma) {
@@ -23,9 +24,9 @@ std::span<Argument*> ExpressionParser::parseArguments(bool procedure) {
                 if (!procedure || !signs().commaWasSemicolon()) missing("an argument");
                 break;
             }
-            if (procedure && peek() == K::Identifier && signs().instructionAfterComma()) break;
+            if (procedure && peek() == K::Identifier && recovery().repair(Place::ArgumentComma)) break;
             take();
-            signs().takesSlashAsBackslash();
+            if (kind() == K::Slash) recovery().repair(Place::Argument);
             args_.push_back(kind() == K::Backslash ? parseOptionalArgument()
                                                    : parseRequiredArgument(procedure));
         } else if (first && (startsExpr(kind()) || kind() == K::PlaceArg || ahead().isShownPosition())) {
@@ -79,7 +80,7 @@ Argument* ExpressionParser::parseOptionalArgument() {
     node->name = names().expectName(true);
     if (panic()) return finish(node);
     if (kind() == K::Colon && !startsLine(pos() + 1) && (startsExpr(peek()) || peek() == K::Equal))
-        signs().takeColonAsAssign();
+        recovery().repair(Place::Assignment);
     if (kind() == K::Equal) {
         signs().reportEqual();
         take();

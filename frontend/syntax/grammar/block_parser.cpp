@@ -24,10 +24,11 @@ Stmt* BlockParser::parseIf() {
     block().inCondition = outerCondition.saved();
     block().inHead = outerHead.saved();
     if (forgotten) return parseCompactIf(opening, condition);
-    if (kind() == K::Identifier && ahead().endsLine(pos())) typos().retagIfMeant(K::KwThen);
+    if (kind() == K::Identifier && ahead().endsLine(pos()))
+        recovery().repair({.place = Place::Word, .expected = K::KwThen});
     if (kind() == K::KwDo && !panic() &&
         kindAt(block().unmatchedWord(pos() + 1)) == K::KwEndwhile) { // IF a DO ... ENDWHILE
-        typos().retag(opening, opening, K::KwWhile);
+        typos().readAsKeyword(opening, opening, K::KwWhile);
         return parseWhileBody(opening, condition, true);
     }
     const bool isBlock = hidden || kind() == K::KwThen || kind() == K::Colon || kind() == K::LeftBrace ||
@@ -36,7 +37,7 @@ Stmt* BlockParser::parseIf() {
         return parseIfBlocks(opening, condition, hidden);
     if (isBlockByMargin(opening)) return parseIfBlocks(opening, condition, true);
     if (kind() == K::KwCase && startsLine(pos()) && !panic() && kindAt(opening) == K::KwIf) { // IF n, CASE 1:
-        typos().retag(opening, opening, K::KwTest);
+        typos().readAsKeyword(opening, opening, K::KwTest);
         return parseTestCases(opening, condition, true);
     }
     return parseCompactIf(opening, condition);
@@ -133,12 +134,12 @@ Stmt* BlockParser::parseIfBlocks(TokenIndex opening, Expr* condition, bool headR
             break;
         if (node->hasElse) report(Code::InstructionAfterElse, pos(), {describe(pos())});
         if (kind() == K::KwElse && isSplitElseif()) {
-            typos().retag(pos(), pos() + 1, K::KwElseif);
+            typos().readAsKeyword(pos(), pos() + 1, K::KwElseif);
             take();
         }
         if (TokenIndex then = 0; kind() == K::KwElse && !startsLine(pos() + 1) && peek() != K::KwIf &&
                                  peek() != K::KwThen && ahead().findOnLine(pos() + 1, K::KwThen, then))
-            typos().retag(pos(), pos(), K::KwElseif);
+            typos().readAsKeyword(pos(), pos(), K::KwElseif);
         if (accept(K::KwElse)) {
             signs().takesColonAs("");
             if (kind() == K::KwThen && !startsLine(pos())) {
@@ -183,7 +184,7 @@ Stmt* BlockParser::parseFor() {
     bool whole = true; // once the head is broken, the rest of it is not missed
     if (foreign().parseForeignFor(node)) return parseForBody(node, opening, false);
     if (isWhileWrittenFor()) {
-        typos().retag(opening, opening, K::KwWhile);
+        typos().readAsKeyword(opening, opening, K::KwWhile);
         return parseWhile(opening);
     }
     if (foreign().takesForeignCounter(node)) return parseForBody(node, opening, false);
@@ -225,7 +226,8 @@ Stmt* BlockParser::parseFor() {
         whole = sync().expectHeadWord(K::KwTo, whole);
         node->to = parseHeadExpr(whole);
     }
-    if (!panic() && whole && kind() == K::Identifier && !startsLine(pos())) typos().retagIfMeant(K::KwStep);
+    if (!panic() && whole && kind() == K::Identifier && !startsLine(pos()))
+        recovery().repair({.place = Place::Word, .expected = K::KwStep});
     if (!panic() && whole && accept(K::KwStep)) node->step = parseHeadExpr(whole);
     if (kind() != K::LeftBrace) whole = sync().expectHeadWord(K::KwDo, whole);
     return parseForBody(node, opening, whole);
@@ -269,7 +271,7 @@ Stmt* BlockParser::parseWhile(TokenIndex opening) {
     }
     if (!panic() && kind() == K::KwThen &&
         kIfEnds.has(kindAt(block().unmatchedWord(pos() + 1)))) { // WHILE a THEN ... ENDIF
-        typos().retag(opening, opening, K::KwIf);
+        typos().readAsKeyword(opening, opening, K::KwIf);
         return parseIfBlocks(opening, condition, false);
     }
     if (!hidden && kind() != K::LeftBrace) whole = sync().expectHeadWord(K::KwDo, whole);
@@ -327,7 +329,7 @@ Stmt* BlockParser::parseTestCases(TokenIndex opening, Expr* subject, bool whole)
     while (kind() != K::KwEndtest && kTestEnds.has(kind())) {
         if (node->hasDefault) report(Code::CaseAfterDefault, pos(), {describe(pos())});
         if (kind() == K::KwCase && peek() == K::KwElse && peek(2) == K::Colon) {
-            typos().retag(pos(), pos() + 1, K::KwDefault);
+            typos().readAsKeyword(pos(), pos() + 1, K::KwDefault);
             take();
         }
         if (kind() != K::KwDefault) {
@@ -354,7 +356,7 @@ TestCase* BlockParser::parseCase() {
         bool whole = true;
         do
             nodes().exprs.push_back(parseHeadExpr(whole, HeadPart::CaseValue));
-        while (whole && !panic() && (accept(K::Comma) || signs().takesSemicolonInCase()));
+        while (whole && !panic() && (accept(K::Comma) || recovery().repair(Place::CaseValue)));
         block().inCaseValue = outer.saved();
         node->values = drain(nodes().exprs, bottom);
         TokenIndex found = 0;

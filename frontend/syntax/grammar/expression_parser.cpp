@@ -64,11 +64,11 @@ Expr* ExpressionParser::parseBinary(int minPrecedence) {
     for (;;) {
         const Operator op = operatorOf(kind());
         if (op.precedence == 0 && !panic()) {
-            if (kind() == K::Identifier && typos().isMisspeltOperator(left)) {
+            const bool unusual = kind() == K::Identifier || kind() == K::Percent;
+            if (unusual && recovery().repair({.place = Place::Operator, .left = left})) {
                 if (pos() == left->first) return parseBinary(minPrecedence); // NOT
                 continue;
             }
-            if (kind() == K::Percent && signs().takesPercentAsMod()) continue;
         }
         if (op.precedence == 0 || op.precedence < minPrecedence || panic()) return left;
         if (block().inCaseValue && op.op == BinaryOp::Eq && ahead().isEqualForColon()) return left;
@@ -450,7 +450,7 @@ std::span<Expr*> ExpressionParser::parseExprList(K closing, TokenIndex opening) 
         Expr* number = parseLoneNumber();
         nodes().exprs.push_back(number ? number : parseExpr());
         height = std::max(height, height_);
-        if (kind() == K::Semicolon) signs().takesSemicolonAsComma(closing);
+        if (kind() == K::Semicolon) recovery().repair({.place = Place::ListSeparator, .expected = closing});
     } while (!panic() && accept(K::Comma));
     sync().expectClosing(closing, opening, true);
     height_ = height;

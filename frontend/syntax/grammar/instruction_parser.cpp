@@ -35,10 +35,7 @@ StmtList InstructionParser::parseList(const TokenSet& own, bool braced) {
                 break;
             }
             if (k == K::Identifier) {
-                if (mayBeMisspelt(textOf(pos())[0]) && ends().retagPiece(own)) continue;
-                if (!foreign().isForeignCloser(pos()) && mayBeMisspelt(textOf(pos())[0]) &&
-                    typos().retagMisspelt(own))
-                    continue;
+                if (isMisspelt(own)) continue;
             } else if (isName || ends().isTestWrittenCase()) {
             } else if (k == K::KwLocal) {
                 if (kModuleLevel.has(peek()) || ahead().endsBeforeLocalData()) break;
@@ -50,7 +47,7 @@ StmtList InstructionParser::parseList(const TokenSet& own, bool braced) {
         } else if (k == K::RightBrace && block().braces > 0) {
             if (braced) take();
             break;
-        } else if (k == K::RightBrace && ends().retagBrace(own)) {
+        } else if (k == K::RightBrace && recovery().repair({.place = Place::ListBrace, .own = own})) {
             break;
         }
         const TokenIndex before = pos();
@@ -59,6 +56,13 @@ StmtList InstructionParser::parseList(const TokenSet& own, bool braced) {
         if (pos() == before) take();
     }
     return drain(nodes().stmts, bottom);
+}
+
+/// At a name: whether it was meant as a word that continues or ends this list, and is read so now.
+bool InstructionParser::isMisspelt(const TokenSet& own) {
+    if (!mayBeMisspelt(textOf(pos())[0]) || isMarked(Mark::StrayEnd)) return false;
+    return recovery().repair({.place = Place::ListEnd, .own = own}) ||
+           (!foreign().isForeignCloser(pos()) && recovery().repair({.place = Place::ListWord, .own = own}));
 }
 
 Stmt* InstructionParser::parseStmt() {
@@ -119,7 +123,7 @@ Stmt* InstructionParser::parseStmtUnguarded() {
     case K::PlaceDdn: return parseLateDecl();
     case K::LeftBrace: return foreign().parseBareBraces();
     case K::Minus:
-        if (foreign().skipForeignComment()) return errorStmt(first);
+        if (recovery().repair(Place::Comment)) return errorStmt(first);
         break;
     case K::KwElse:
     case K::KwElseif:
@@ -161,8 +165,8 @@ Stmt* InstructionParser::parseNamedStmt() {
         return parseColonAssignment();
     }
     case K::Identifier:
-        if (typos().retagOpener()) return parseStmtUnguarded();
-        if (foreign().skipForeignComment()) return errorStmt(first);
+        if (recovery().repair(Place::Instruction)) return parseStmtUnguarded();
+        if (recovery().repair(Place::Comment)) return errorStmt(first);
         if (ahead().isWordlessData()) {
             auto* node = make<DeclStmt>(NodeKind::DeclStmt);
             node->decl = data().parseWordlessData();
@@ -171,7 +175,7 @@ Stmt* InstructionParser::parseNamedStmt() {
         break;
     case K::KwTo:
         if (peek(2) == K::Identifier && equalsNoCase(textOf(first), "GO")) {
-            typos().retag(first, first + 1, K::KwGoto);
+            typos().readAsKeyword(first, first + 1, K::KwGoto);
             take();
             return parseStmtUnguarded();
         }

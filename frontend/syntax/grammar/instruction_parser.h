@@ -17,6 +17,7 @@ class InstructionParser : public ParserPart {
     Stmt* parseOrphan();
 
   private:
+    bool isMisspelt(const TokenSet& own);
     Stmt* parseStmtUnguarded();
     Stmt* parseNamedStmt();
     Stmt* noStmt(TokenIndex first);

@@ -30,7 +30,7 @@ void ModuleParser::parseFile(const LexResult& lexed) {
     if (!lexed.hasModule && startsMisspeltModule()) {
         lexical().report(lexed, reports());
         accept(K::FileHeader);
-        typos().retag(pos(), pos(), K::KwModule);
+        typos().readAsKeyword(pos(), pos(), K::KwModule);
     } else if (!lexed.hasModule) { // not RAPID: one report, whatever its characters are
         const TokenIndex first = kind() == K::FileHeader ? 1 : 0;
         if (kindAt(first) == K::EndOfFile) {
@@ -84,7 +84,8 @@ void ModuleParser::cutOff(Node& node) {
 /// MODUEL name
 bool ModuleParser::startsMisspeltModule() const {
     const TokenIndex first = kind() == K::FileHeader ? 1 : 0;
-    return typos().meant(first, K::KwModule) && kindAt(first + 1) == K::Identifier && !startsLine(first + 1);
+    return typos().editsTo(first, K::KwModule) != 0 && kindAt(first + 1) == K::Identifier &&
+           !startsLine(first + 1);
 }
 
 /// Comments belong inside of modules (manual 1.1.2); one report a file.
@@ -210,10 +211,9 @@ void ModuleParser::fixAttributeOrder(TokenIndex first, std::vector<TokenIndex> w
 void ModuleParser::parseModuleDecls(ModuleDecl* module) {
     const size_t bottom = nodes().decls.size();
     while (kind() != K::KwEndmodule && kind() != K::KwModule && kind() != K::EndOfFile) {
-        if (kind() == K::Identifier && !quietOutside_ && (typos().retagDecl() || torn().takesRunTogether()))
-            continue;
+        if (kind() == K::Identifier && !quietOutside_ && recovery().repair(Place::Declaration)) continue;
         if (kind() == K::RightBrace && peek() == K::EndOfFile && !quietOutside_) {
-            typos().retag(pos(), pos(), K::KwEndmodule);
+            typos().readAsKeyword(pos(), pos(), K::KwEndmodule);
             break;
         }
         if (retagLastEnd()) break;
@@ -234,11 +234,11 @@ void ModuleParser::parseModuleDecls(ModuleDecl* module) {
 /// The last word of the file, where ENDMODULE belongs: another END word, or a piece of that one.
 bool ModuleParser::retagLastEnd() {
     if (peek() != K::EndOfFile || kind() == K::EndOfFile || !startsLine(pos())) return false;
-    if (ends().isPieceOf(pos(), K::KwEndmodule)) {
+    if (typos().isPieceOf(pos(), K::KwEndmodule)) {
         if (quietOutside_)
             readAs(pos(), K::KwEndmodule);
         else
-            typos().retag(pos(), pos(), K::KwEndmodule);
+            typos().readAsKeyword(pos(), pos(), K::KwEndmodule);
         return true;
     }
     if (!kEndWords.has(kind())) return false;

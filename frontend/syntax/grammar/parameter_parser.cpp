@@ -16,7 +16,7 @@ void ParameterParser::parseParameters(RoutineDecl* routine) {
         uint32_t group = 0;
         const bool missed = startsLine(pos()) && ahead().bodyBeginsHere();
         while (!missed && !panic() && (kind() != K::RightParen || group > 0)) {
-            if (kind() == K::Slash) signs().takeSlashAsBackslash();
+            if (kind() == K::Slash) recovery().repair(Place::Parameter);
             if (group > 0 && !accept(K::Comma) && kind() != K::Backslash && !foreign().missesComma()) break;
             parseParameterGroup(group++);
         }

@@ -81,6 +81,7 @@ class ParserPart {
     bool isMarked(Mark cause, TokenIndex token) const { return reports_.isMarked(cause, token); }
 
     // ---- The others
+    Parser& parser() const { return parser_; }
     TreeBuilder& nodes() const { return nodes_; }
     Reports& reports() const { return reports_; }
     LexicalMistakes& lexical() const;

@@ -16,6 +16,7 @@
 #include "frontend/syntax/recovery/later_words_reader.h"
 #include "frontend/syntax/recovery/misspelt_words.h"
 #include "frontend/syntax/recovery/name_reader.h"
+#include "frontend/syntax/recovery/strategy.h"
 #include "frontend/syntax/recovery/synchronizer.h"
 #include "frontend/syntax/recovery/torn_words.h"
 #include "frontend/syntax/recovery/wrong_signs.h"

@@ -32,7 +32,7 @@ bool isTornPlace(Code code) {
 
 } // namespace
 
-diag::Diagnostic* Reports::reportAt(Code code, SourceRange range, std::initializer_list<std::string> args) {
+diag::Diagnostic* Reports::reportAt(Code code, SourceRange range, std::span<const std::string> args) {
     if (panic_) return nullptr;
     if (code >= Code::UnexpectedToken && code < Code::MissingSemicolon) ++unreadable_;
     if (isConsequence(code, range) || followsFromLast(code, range)) return nullptr;

@@ -39,8 +39,11 @@ class Reports {
         : in_(in), sink_(sink), lexical_(lexical), torn_(torn) {}
 
     /// Null when it follows from what was reported. The pointer is good until the next report.
+    diag::Diagnostic* reportAt(diag::Code code, SourceRange range, std::span<const std::string> args);
     diag::Diagnostic* reportAt(diag::Code code, SourceRange range,
-                               std::initializer_list<std::string> args = {});
+                               std::initializer_list<std::string> args = {}) {
+        return reportAt(code, range, std::span<const std::string>(args.begin(), args.size()));
+    }
     diag::Diagnostic* report(diag::Code code, TokenIndex at, std::initializer_list<std::string> args = {}) {
         return reportAt(code, in_.range(at), args);
     }

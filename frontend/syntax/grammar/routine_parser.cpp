@@ -245,7 +245,7 @@ void RoutineParser::parseRoutineData() {
             data_.push_back(data().parseData(ScopeWord::None, first));
         } else if (ahead().isWordlessData()) {
             data_.push_back(data().parseWordlessData());
-        } else if (k != K::Identifier || !typos().retagData()) {
+        } else if (k != K::Identifier || !recovery().repair(Place::Data)) {
             break;
         }
     }

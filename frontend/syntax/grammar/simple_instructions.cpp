@@ -38,7 +38,7 @@ Stmt* InstructionParser::parseColonAssignment() {
     auto* target = makeExpr<NameExpr>(NodeKind::Name);
     target->name = take();
     finish(target);
-    signs().takeColonAsAssign();
+    recovery().repair(Place::Assignment);
     return parseAssignment(target, name);
 }
 
@@ -70,7 +70,7 @@ Stmt* InstructionParser::parseCallStmt() {
         unexpected("'\\' or ','"); // "Move 1 speed:=2;"
     }
     if (kind() != K::Semicolon && !panic() && reports().errors() == errorsBefore &&
-        typos().retagCallee(node->name))
+        recovery().repair({.place = Place::AfterCall, .callee = node->name}))
         return parseStmtUnguarded();
     if (node->args.empty() && ahead().atReservedName()) { // an argument
         node->args = {};
@@ -174,7 +174,8 @@ Stmt* InstructionParser::parseConnect() {
         node->target = expressions().errorExpr();
     }
     if (!panic()) {
-        if (kind() == K::Identifier && isName(peek())) typos().retagIfMeant(K::KwWith);
+        if (kind() == K::Identifier && isName(peek()))
+            recovery().repair({.place = Place::Word, .expected = K::KwWith});
         if (accept(K::KwWith)) {
             node->trap = names().expectNameHere();
             skipTrapArguments();

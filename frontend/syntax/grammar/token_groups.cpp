@@ -12,9 +12,11 @@ RoutineWords wordsOf(RoutineKind kind) {
 }
 
 bool isBasicType(std::string_view word) {
-    for (const std::string_view type :
-         {"NUM", "DNUM", "BOOL", "STRING", "ROBTARGET", "JOINTTARGET", "POS", "ORIENT", "POSE", "INTNUM",
-          "TOOLDATA", "WOBJDATA", "SPEEDDATA", "ZONEDATA", "LOADDATA", "CLOCK", "BYTE"})
+    static constexpr std::string_view kTypes[] = {
+#define BASIC_TYPE(name) name,
+#include "frontend/syntax/recovery/spellings.def"
+    };
+    for (const std::string_view type : kTypes)
         if (equalsNoCase(word, type)) return true;
     return false;
 }

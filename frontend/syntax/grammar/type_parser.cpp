@@ -31,13 +31,13 @@ Decl* TypeParser::parseRecord(bool local, TokenIndex first) {
         if (braced && accept(K::RightBrace)) break;
         if (isContextual(pos(), "END") && !startsLine(pos() + 1) && ahead().endsLine(pos() + 1) &&
             (peek() == K::KwRecord || typos().foreignCloserIs(pos() + 1))) { // "END RECORD"
-            typos().retag(pos(), pos() + 1, K::KwEndrecord);
+            typos().readAsKeyword(pos(), pos() + 1, K::KwEndrecord);
             take();
             break;
         }
         if (kind() == K::Identifier && (ahead().endsLine(pos()) || peek() == K::Semicolon) &&
-            (equalsNoCase(textOf(pos()), "END") || typos().meant(pos(), K::KwEndrecord))) {
-            typos().retag(pos(), pos(), K::KwEndrecord);
+            (equalsNoCase(textOf(pos()), "END") || typos().editsTo(pos(), K::KwEndrecord) != 0)) {
+            typos().readAsKeyword(pos(), pos(), K::KwEndrecord);
             break;
         }
         if (ahead().startsDecl(pos()) && !dropComponentWord()) break;

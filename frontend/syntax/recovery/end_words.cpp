@@ -11,9 +11,6 @@ using diag::Code;
 
 namespace {
 
-/// A routine has ended before these.
-constexpr TokenSet kBehindRoutine = {TokenKind::KwProc,   TokenKind::KwFunc,      TokenKind::KwTrap,
-                                     TokenKind::KwModule, TokenKind::KwEndmodule, TokenKind::EndOfFile};
 constexpr TokenSet kBlockEnds = {TokenKind::KwEndif, TokenKind::KwEndfor, TokenKind::KwEndwhile,
                                  TokenKind::KwEndtest};
 
@@ -105,28 +102,6 @@ bool EndWords::handleStray(const TokenSet& own) {
     return false;
 }
 
-bool EndWords::isPieceOf(TokenIndex i, K end) const {
-    if (kindAt(i) != K::Identifier || !startsLine(i) || !startsLine(i + 1)) return false;
-    const std::string_view text = textOf(i), word = tokenText(end);
-    constexpr size_t kLeast = 2;
-    if (text.size() < kLeast) return false;
-    if (text.size() < word.size()) return equalsNoCase(text, word.substr(0, text.size()));
-    return equalsNoCase(text.substr(text.size() - word.size()), word) &&
-           equalsNoCase(text.substr(0, kLeast), word.substr(0, kLeast));
-}
-
-bool EndWords::retagPiece(const TokenSet& own) {
-    const K end = block().endOfOwn(own);
-    if (panic() || !own.has(end) || !isPieceOf(pos(), end)) return false;
-    const bool behind = kBehindRoutine.has(peek()) || peek() == K::KwLocal;
-    const bool fits = end == block().routineEnd
-                          ? behind
-                          : block().opening != kNoToken && startsLine(block().opening) &&
-                                columnOf(pos()) == columnOf(block().opening) && block().closesHere(end);
-    if (fits) typos().retag(pos(), pos(), end);
-    return fits;
-}
-
 bool EndWords::takesEarlyEndmodule() {
     if (panic() || block().abandoned || !block().endsRoutineTooEarly()) return false;
     const std::string end(tokenText(block().routineEnd));
@@ -141,14 +116,6 @@ bool EndWords::takesEarlyEndmodule() {
     return true;
 }
 
-bool EndWords::retagBrace(const TokenSet& own) {
-    const K end = block().endOfOwn(own);
-    if (panic() || !own.has(end) || !startsLine(pos()) || !startsLine(pos() + 1) || !block().closesHere(end))
-        return false;
-    typos().retag(pos(), pos(), end);
-    return true;
-}
-
 bool EndWords::isTestWrittenCase() {
     TokenIndex found = 0, next = pos() + 1;
     if (panic() || kind() != K::KwCase || block().enclosing.has(K::KwCase) ||
@@ -158,20 +125,8 @@ bool EndWords::isTestWrittenCase() {
     while (next < pos() + kLongHead && !startsLine(next))
         ++next;
     if (!startsLine(next) || kindAt(next) != K::KwCase) return false;
-    typos().retag(pos(), pos(), K::KwTest);
+    typos().readAsKeyword(pos(), pos(), K::KwTest);
     return true;
-}
-
-bool EndWords::retagOtherEnd() {
-    if (block().endOfRoutineBelow() != block().routineEnd) {
-        typos().retag(pos(), pos(), block().routineEnd);
-        return true;
-    }
-    report(Code::UnexpectedToken, pos(),
-           {describe(pos()),
-            "an instruction: " + std::string(tokenText(block().routineEnd)) + " is still to come"});
-    mark(Mark::StrayEnd);
-    return false;
 }
 
 void EndWords::closeBracedBlock(K end, TokenIndex opening, bool whole, bool braced) {

@@ -16,20 +16,10 @@ class EndWords : public ParserPart {
     /// A word that ends a list of instructions, but neither this one nor one around it. Returns true when it is taken as
     /// the end of this list all the same.
     bool handleStray(const TokenSet& own);
-    /// What is left of an END word that was cut off or written into another one: "EN", "ENDPENDPROC".
-    bool isPieceOf(TokenIndex i, K end) const;
-    /// Such a piece where the list that is being read ends: before the next routine, or in line with the word that began the
-    /// block.
-    bool retagPiece(const TokenSet& own);
     /// At ENDMODULE in a routine whose own END word is still to come. Afterwards the list goes on.
     bool takesEarlyEndmodule();
-    /// '}' alone in a line, where no '{' began the block.
-    bool retagBrace(const TokenSet& own);
     /// "CASE n" and "CASE 1:" below it, in no TEST.
     bool isTestWrittenCase();
-    /// At a name that was meant as the END word of another kind of routine, "endfunction" in a PROC: that of this one, unless
-    /// it is still to come.
-    bool retagOtherEnd();
     /// The END word of a block that may have ended with '}'. Then it is not missed, and one that stands further out belongs
     /// to a block around this one.
     void closeBracedBlock(K end, TokenIndex opening, bool whole, bool braced);

@@ -18,11 +18,9 @@ struct ForeignBlock {
     std::string_view expected;
 };
 constexpr ForeignBlock kForeignBlocks[] = {
-    {"REPEAT", "UNTIL|ENDREPEAT", "WHILE and a condition"},
-    {"DO", "WHILE|ENDDO|LOOP|UNTIL", "WHILE and a condition before DO"},
-    {"LOOP", "ENDLOOP|UNTIL|WHILE", "WHILE TRUE DO"},
-    {"BEGIN", "END", "an instruction: blocks have no word of their own"},
-    {"TRY", "CATCH ENDTRY", "an ERROR handler at the end of the routine"}};
+#define FOREIGN_BLOCK(word, closer, expected) {word, closer, expected},
+#include "frontend/syntax/recovery/spellings.def"
+};
 
 bool isBlank(char c) {
     return c == ' ' || c == '\t';
@@ -73,7 +71,8 @@ bool ForeignForms::isForeignCloser(TokenIndex i) const {
 }
 
 StmtList ForeignForms::parseBody(const TokenSet& own, const std::string& expected, bool& braced) {
-    if (skipBracedComment() || kind() != K::LeftBrace || panic()) return instructions().parseList(own);
+    if ((kind() == K::LeftBrace && recovery().repair(Place::Braces)) || kind() != K::LeftBrace || panic())
+        return instructions().parseList(own);
     if (!braced && !reports().joinLast(Code::ForeignSpelling, range(pos()), "and no '{', but " + expected))
         report(Code::ForeignSpelling, pos(), {"{", expected});
     else if (!braced && !reports().last()->fixes.empty())
@@ -86,22 +85,9 @@ StmtList ForeignForms::parseBody(const TokenSet& own, const std::string& expecte
     return list;
 }
 
-/// `{ text }` in one line, without a semicolon: a comment of another language.
-bool ForeignForms::skipBracedComment() {
-    if (kind() != K::LeftBrace || panic()) return false;
-    TokenIndex close = pos() + 1;
-    while (close < pos() + kLongLine && !startsLine(close) && kindAt(close) != K::RightBrace &&
-           kindAt(close) != K::Semicolon)
-        ++close;
-    if (kindAt(close) != K::RightBrace || startsLine(close) || close == pos() + 1) return false;
-    report(Code::ForeignSpelling, pos(), {"{", "'!' before a comment"});
-    moveTo(close + 1);
-    return true;
-}
-
 Stmt* ForeignForms::parseBareBraces() {
     const TokenIndex first = pos();
-    if (skipBracedComment()) return instructions().errorStmt(first);
+    if (recovery().repair(Place::Braces)) return instructions().errorStmt(first);
     bool braced = false;
     parseBody(block().enclosing, "an instruction: RAPID has no blocks in braces", braced);
     return instructions().errorStmt(first);
@@ -156,7 +142,7 @@ bool ForeignForms::takesForeignCounter(ForStmt* node) {
     }
     if (!isName(kind()) || !isContextual(pos() + 1, "IN") || startsLine(pos() + 1)) return false;
     if (TokenIndex to = 0; ahead().findOnLine(pos() + 2, K::KwTo, to)) { // FOR i IN 1 TO 3 DO
-        typos().retag(pos() + 1, pos() + 1, K::KwFrom);
+        typos().readAsKeyword(pos() + 1, pos() + 1, K::KwFrom);
         return false;
     }
     report(Code::ForeignSpelling, pos() + 1,
@@ -213,11 +199,9 @@ void ForeignForms::dropForeignMode(ParamDecl* node) {
         ParamMode mode;
     };
     static constexpr Mode kModes[] = {
-        {"IN", "the data type: IN is what has no word", "", ParamMode::In},
-        {"BYVAL", "the data type: what has no word is passed by value", "", ParamMode::In},
-        {"REF", "INOUT", "INOUT", ParamMode::Inout},
-        {"BYREF", "INOUT", "INOUT", ParamMode::Inout},
-        {"OUT", "INOUT", "INOUT", ParamMode::Inout}};
+#define FOREIGN_MODE(word, expected, written, mode) {word, expected, written, ParamMode::mode},
+#include "frontend/syntax/recovery/spellings.def"
+    };
     for (const Mode& mode : kModes) {
         if (!isContextual(pos(), mode.word)) continue;
         diag::Diagnostic* diagnostic =
@@ -246,34 +230,6 @@ bool ForeignForms::missesComma() {
         semicolon ? range(pos()) : endOf(pos() - 1), isSwitch ? "\\" : ",");
     if (semicolon) take();
     if (isSwitch) mark(Mark::SwitchWithoutBackslash);
-    return true;
-}
-
-bool ForeignForms::skipForeignComment() {
-    if (kind() == K::Identifier && ahead().isProse()) {
-        const SourceRange words{range(pos()).begin, range(pos() + 1).end};
-        const auto shown = std::string(sourceText().substr(words.begin, words.end - words.begin));
-        fix(reportAt(Code::ForeignSpelling, words, {shown, "an instruction, or '!' before a comment"}),
-            {words.begin, words.begin}, "! ", false);
-        do
-            take();
-        while (!startsLine(pos()) && kind() != K::EndOfFile);
-        return true;
-    }
-    const bool dashes = kind() == K::Minus && peek() == K::Minus;
-    if (!dashes) {
-        if (!isContextual(pos(), "REM") || startsLine(pos() + 1) || kindAt(pos() + 1) == K::Semicolon)
-            return false;
-        TokenIndex last = pos(); // with a semicolon it is a call
-        while (last < pos() + kLongLine && !startsLine(last + 1))
-            ++last;
-        if (kindAt(last) == K::Semicolon) return false;
-    }
-    const SourceRange place{range(pos()).begin, range(dashes ? pos() + 1 : pos()).end};
-    fix(reportAt(Code::ForeignSpelling, place, {dashes ? "--" : "REM", "'!' before a comment"}), place, "!");
-    do
-        take();
-    while (!startsLine(pos()) && kind() != K::EndOfFile);
     return true;
 }
 

@@ -35,11 +35,8 @@ class ForeignForms : public ParserPart {
     void dropForeignMode(ParamDecl* node);
     /// `num a num b`, `num a; num b`: another parameter, whose comma is missing.
     bool missesComma();
-    /// "REM text", "-- text", and text with nothing before it: the line is skipped.
-    bool skipForeignComment();
 
   private:
-    bool skipBracedComment();
 };
 
 } // namespace rapid::syntax

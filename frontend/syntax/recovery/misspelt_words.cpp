@@ -17,61 +17,40 @@ struct ForeignWord {
     TokenKind keyword;
 };
 constexpr ForeignWord kForeignWords[] = {
-    {"IPERS", TokenKind::EndOfFile}, // an instruction, never meant as PERS
-    {"NEXT", TokenKind::KwEndfor},
-    {"WEND", TokenKind::KwEndwhile},
-    {"ENDDO", TokenKind::KwEndwhile},
-    {"ENDDO", TokenKind::KwEndfor},
-    {"DONE", TokenKind::KwEndwhile},
-    {"DONE", TokenKind::KwEndfor},
-    {"WHEN", TokenKind::KwCase},
-    {"ENDSWITCH", TokenKind::KwEndtest},
-    {"ENDSELECT", TokenKind::KwEndtest},
-    {"ENDCASE", TokenKind::KwEndtest},
-    {"ELIF", TokenKind::KwElseif},
-    {"FUNCTION", TokenKind::KwFunc},
-    {"ENDFUNCTION", TokenKind::KwEndfunc},
-    {"PROCEDURE", TokenKind::KwProc},
-    {"SUB", TokenKind::KwProc},
-    {"ENDPROCEDURE", TokenKind::KwEndproc},
-    {"ENDSUB", TokenKind::KwEndproc},
-    {"SWITCH", TokenKind::KwTest},
-    {"SELECT", TokenKind::KwTest},
-    {"OTHERWISE", TokenKind::KwDefault},
-    {"CONSTANT", TokenKind::KwConst},
-    {"VOID", TokenKind::KwProc},
-    {"BY", TokenKind::KwStep},
-    {"INC", TokenKind::KwStep},
-    {"INCREMENT", TokenKind::KwStep},
-    {"EXCEPT", TokenKind::KwError},
-    {"EXCEPTION", TokenKind::KwError},
-    {"CATCH", TokenKind::KwError},
-    {"PERSISTENT", TokenKind::KwPers},
-    {"VARIABLE", TokenKind::KwVar},
-    {"PRIVATE", TokenKind::KwLocal},
-    {"STATIC", TokenKind::KwLocal},
-    {"STRUCT", TokenKind::KwRecord},
-    {"ENDSTRUCT", TokenKind::KwEndrecord}};
+#define FOREIGN_WORD(word, keyword) {word, TokenKind::keyword},
+#include "frontend/syntax/recovery/spellings.def"
+};
 
 constexpr size_t kLongestTypo = 14;
 
 } // namespace
 
-bool MisspeltWords::meant(TokenIndex i, K word, unsigned limit) const {
-    if (kindAt(i) != K::Identifier) return false;
+unsigned MisspeltWords::editsTo(TokenIndex i, K word, unsigned limit) const {
+    if (kindAt(i) != K::Identifier) return 0;
     const std::string_view text = textOf(i);
     const std::string_view spelling = tokenText(word);
-    if (text.size() < 2 || text.size() > kLongestTypo) return false;
+    if (text.size() < 2 || text.size() > kLongestTypo) return 0;
     const std::string written = upperCase(text);
     bool known = false;
     for (const ForeignWord& foreign : kForeignWords) {
         if (foreign.word != written) continue;
-        if (foreign.keyword == word) return true;
+        if (foreign.keyword == word) return 1;
         known = true;
     }
-    if (known) return false;
+    if (known) return 0;
     if (limit == 0) limit = spelling.size() <= 4 ? 1 : 2;
-    return editDistance(written, spelling, limit) <= limit;
+    const unsigned edits = editDistance(written, spelling, limit);
+    return edits <= limit ? edits : 0;
+}
+
+bool MisspeltWords::isPieceOf(TokenIndex i, K end) const {
+    if (kindAt(i) != K::Identifier || !startsLine(i) || !startsLine(i + 1)) return false;
+    const std::string_view text = textOf(i), word = tokenText(end);
+    constexpr size_t kLeast = 2;
+    if (text.size() < kLeast) return false;
+    if (text.size() < word.size()) return equalsNoCase(text, word.substr(0, text.size()));
+    return equalsNoCase(text.substr(text.size() - word.size()), word) &&
+           equalsNoCase(text.substr(0, kLeast), word.substr(0, kLeast));
 }
 
 /// Letters of the word in another order, or one too many or too few: "Dim" is not meant as DIV.
@@ -83,7 +62,7 @@ bool MisspeltWords::isShuffled(TokenIndex i, K word) const {
     return written == spelling;
 }
 
-void MisspeltWords::retag(TokenIndex first, TokenIndex last, K word) {
+void MisspeltWords::readAsKeyword(TokenIndex first, TokenIndex last, K word) {
     const SourceRange place{range(first).begin, range(last).end};
     const auto shown = sourceText().substr(place.begin, place.end - place.begin);
     const std::string spelling(tokenText(word));
@@ -96,189 +75,6 @@ void MisspeltWords::retag(TokenIndex first, TokenIndex last, K word) {
         noteForeignCloser(diagnostic, last, word);
     }
     readAs(last, word);
-}
-
-bool MisspeltWords::retagIfMeant(K word) {
-    if (!meant(pos(), word)) return false;
-    retag(pos(), pos(), word);
-    return true;
-}
-
-/// Does what follows the words at `pos()` to `last` agree with this keyword of a list?
-bool MisspeltWords::fitsAsListWord(K word, TokenIndex last) const {
-    TokenIndex found = 0;
-    const K next = kindAt(last + 1);
-    const bool alone = ahead().endsLine(last);
-    switch (word) {
-    case K::KwElseif: return !alone && ahead().findOnLine(last + 1, K::KwThen, found);
-    case K::KwCase:
-        return !alone && next != K::Colon && ahead().findOnLine(last + 1, K::Colon, found) &&
-               !startsLine(found);
-    case K::KwDefault: return next == K::Colon;
-    case K::KwError: // of a call, the semicolon would follow
-        if ((textOf(last)[0] | 32) == 'r') return alone && block().isHandledBelow(last + 1);
-        return alone || (next == K::LeftParen && ahead().findOnLine(last + 2, K::RightParen, found) &&
-                         startsLine(found + 1));
-    default: return alone;
-    }
-}
-
-bool MisspeltWords::retagMisspelt(const TokenSet& own) {
-    const std::string_view text = textOf(pos());
-    const K next = peek();
-    if (!panic() && own.has(K::KwError) && ends().isPieceOf(pos(), K::KwError) &&
-        block().isHandledBelow(pos() + 1)) { // "ER"
-        retag(pos(), pos(), K::KwError);
-        return true;
-    }
-    constexpr TokenSet kUsedAsName = {TokenKind::Assign, TokenKind::Semicolon, TokenKind::Dot,
-                                      TokenKind::Comma,  TokenKind::LeftBrace, TokenKind::LeftBracket};
-    if (text.size() < 3 || text.size() > kLongestTypo || kUsedAsName.has(next)) return false;
-    static constexpr K kWords[] = {K::KwEndif,   K::KwEndfor,  K::KwEndwhile, K::KwEndtest, K::KwEndproc,
-                                   K::KwEndfunc, K::KwEndtrap, K::KwElseif,   K::KwElse,    K::KwCase,
-                                   K::KwDefault, K::KwError,   K::KwUndo,     K::KwBackward};
-    if (own.has(K::KwEndfor) && next == K::Identifier && equalsNoCase(text, "NEXT") &&
-        ahead().endsLine(pos() + 1)) {
-        retag(pos(), pos() + 1, K::KwEndfor); // "NEXT i"
-        take();
-        return true;
-    }
-    const bool end = equalsNoCase(text, "END");
-    if (end && next == K::KwIf && own.has(K::KwElseif) &&
-        fitsAsListWord(K::KwElseif, pos() + 1)) { // "END IF b THEN"
-        retag(pos(), pos() + 1, K::KwElseif);
-        take();
-        return true;
-    }
-    constexpr TokenSet kOfRoutines = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
-    for (const K word : kWords) {
-        if (!own.has(word)) continue;
-        if (kOfRoutines.has(word) && word != block().routineEnd) {
-            if (end || !fitsAsListWord(word, pos()) || !meant(pos(), word)) continue;
-            return ends().retagOtherEnd();
-        }
-        const std::string_view spelling = tokenText(word);
-        TokenIndex last = pos();
-        const bool alone = end && startsLine(pos() + 1);
-        const bool twoWords = end && spelling.starts_with("END");
-        if (alone && !block().closesHere(word)) {
-            report(Code::StrayKeyword, pos(), {describe(pos()), "a block"});
-            mark(Mark::StrayEnd);
-            return false;
-        }
-        if (twoWords && !alone) {
-            if (!foreignCloserIs(pos() + 1) && (!isKeyword(next) || tokenText(next) != spelling.substr(3)))
-                continue;
-            last = pos() + 1;
-        }
-        if (next == K::Colon && (word != K::KwDefault || text.size() > spelling.size())) continue;
-        if (!fitsAsListWord(word, last) || (!twoWords && !meant(pos(), word))) continue;
-        retag(pos(), last, word);
-        moveTo(last);
-        return true;
-    }
-    return false;
-}
-
-bool MisspeltWords::retagData() {
-    if (kind() == K::Identifier && isName(peek()) && peek(2) == K::Assign && torn().takesRunTogether())
-        return true;
-    if (kind() != K::Identifier || !isName(peek()) || !isName(peek(2)) || startsLine(pos() + 2)) return false;
-    constexpr TokenSet kAfter = {K::Semicolon, K::Assign, K::LeftBrace, K::Equal};
-    if (!kAfter.has(peek(3))) return false;
-    return retagIfMeant(K::KwVar) || retagIfMeant(K::KwPers) || retagIfMeant(K::KwConst);
-}
-
-bool MisspeltWords::retagOpener() {
-    const K a = peek(), b = peek(2);
-    if (a != K::Identifier) return false;
-    if (b == K::KwFrom) return retagIfMeant(K::KwFor);
-    if (b == K::KwWith || (b == K::Identifier && meant(pos() + 2, K::KwWith) && peek(3) == K::Identifier))
-        return retagIfMeant(K::KwConnect);
-    const bool isCall =
-        equalsNoCase(textOf(pos()), "CALL") && !startsLine(pos() + 1) && !startsLine(pos() + 2);
-    if (isCall && (b == K::Identifier || b == K::NumLiteral || b == K::StringLiteral)) { // "CALL name 1;"
-        fix(report(Code::ForeignSpelling, pos(), {std::string(textOf(pos())), "the name of the procedure"}),
-            {range(pos()).begin, range(pos() + 1).begin}, "");
-        take();
-        return true;
-    }
-    if (b == K::Identifier) return retagData();
-    if (b == K::Semicolon && equalsNoCase(textOf(pos()), "TRY") && equalsNoCase(textOf(pos() + 1), "NEXT")) {
-        retag(pos(), pos() + 1, K::KwTrynext);
-        take();
-        return true;
-    }
-    return false;
-}
-
-bool MisspeltWords::retagCallee(TokenIndex callee) {
-    K word = K::EndOfFile;
-    if (kind() == K::KwThen)
-        word = K::KwIf;
-    else if (kind() == K::KwDo)
-        word = K::KwWhile;
-    else if (kind() == K::KwCase && startsLine(pos()) && callee + 1 < pos())
-        word = K::KwTest;
-    if (word == K::EndOfFile || !meant(callee, word, word == K::KwTest ? 1 : 2)) return false;
-    moveTo(callee);
-    retag(callee, callee, word);
-    return true;
-}
-
-bool MisspeltWords::retagDecl() {
-    if (kind() != K::Identifier) return false;
-    const K a = peek(), b = peek(2);
-    const bool line2 = startsLine(pos() + 1), line3 = startsLine(pos() + 2);
-    if (isContextual(pos(), "END") && (a == K::EndOfFile || (a == K::KwModule && peek(2) == K::EndOfFile))) {
-        const TokenIndex last = a == K::KwModule ? pos() + 1 : pos();
-        retag(pos(), last, K::KwEndmodule);
-        moveTo(last);
-        return true;
-    }
-    if (line2 || a == K::EndOfFile) return retagIfMeant(K::KwEndmodule);
-    constexpr TokenSet kDeclBegins = {K::KwVar,  K::KwPers, K::KwConst,  K::KwProc,
-                                      K::KwFunc, K::KwTrap, K::KwRecord, K::KwAlias};
-    if (kDeclBegins.has(a) && (isContextual(pos(), "GLOBAL") || isContextual(pos(), "PUBLIC"))) {
-        fix(report(Code::ForeignSpelling, pos(),
-                   {std::string(textOf(pos())), describe(pos() + 1) + ": what is not LOCAL is global"}),
-            {range(pos()).begin, range(pos() + 1).begin}, "");
-        take();
-        return true;
-    }
-    if (kDeclBegins.has(a)) return retagIfMeant(K::KwLocal);
-    if (!isName(a)) return false;
-    if (b == K::LeftParen && !line3) return retagIfMeant(K::KwProc);
-    if (line3) return retagIfMeant(K::KwTrap) || retagIfMeant(K::KwRecord) || retagIfMeant(K::KwProc);
-    if (!isName(b)) return false;
-    if (peek(3) == K::LeftParen) return retagIfMeant(K::KwFunc);
-    return retagData() || (peek(3) == K::Semicolon && retagIfMeant(K::KwAlias));
-}
-
-/// Between two operands: "ANDD", "DVI". In an IF without THEN the name begins the instruction instead.
-bool MisspeltWords::retagOperator() {
-    if (startsLine(pos()) || startsLine(pos() + 1) || !startsExpr(peek())) return false;
-    TokenIndex then = 0;
-    if (block().inCondition && !ahead().findOnLine(pos(), K::KwThen, then)) return false;
-    const bool isCall = peek() == K::LeftParen && range(pos()).end == range(pos() + 1).begin;
-    if (isCall) return false;
-    for (const K word : {K::KwAnd, K::KwOr, K::KwXor, K::KwDiv, K::KwMod})
-        if (isShuffled(pos(), word) && retagIfMeant(word)) return true;
-    return false;
-}
-
-bool MisspeltWords::isMisspeltOperator(const Expr* left) {
-    if (left->kind == NodeKind::Name && !startsLine(pos()) && startsExpr(kind()) &&
-        meant(left->first, K::KwNot) && isShuffled(left->first, K::KwNot)) {
-        TokenIndex then = 0;
-        if (block().inHead && block().opening != kNoToken && kindAt(block().opening) == K::KwFor)
-            return false; // a bound
-        if (block().inCondition && !ahead().findOnLine(pos(), K::KwThen, then)) return false;
-        moveTo(left->first);
-        retag(pos(), pos(), K::KwNot);
-        return true;
-    }
-    return retagOperator();
 }
 
 /// The END word of another language that closes what the word at `opening` begins: "ENDSWITCH", "END SWITCH". Its last

@@ -5,37 +5,25 @@
 
 namespace rapid::syntax {
 
-/// Names that were meant as keywords. A name is taken for one only where no name can be, or where what follows proves it.
+/// How near names are to keywords, and how one is read as the other.
 class MisspeltWords : public ParserPart {
   public:
     using ParserPart::ParserPart;
 
-    /// Could the name have been meant as this keyword? Short words have many neighbours, so they allow one edit.
-    bool meant(TokenIndex i, K word, unsigned limit = 0) const;
-    /// Reports the word and reads it as the keyword it stands for. `last` is the last token of the word. A word of another
+    /// How many edits make this keyword of the name; a word of another language for it counts one. 0: it was not meant.
+    /// Short words have many neighbours, so they allow one edit; `limit` allows that many.
+    unsigned editsTo(TokenIndex i, K word, unsigned limit = 0) const;
+    /// Letters of the word in another order, or one too many or too few: "Dim" is not meant as DIV.
+    bool isShuffled(TokenIndex i, K word) const;
+    /// What is left of a word, alone in its line, that was cut off or written into another one: "EN", "ENDPENDPROC".
+    bool isPieceOf(TokenIndex i, K word) const;
+    /// Reports the words `first` to `last` and reads the last one as the keyword they stand for. A word of another
     /// language brings its END word with it: both are one mistake.
-    void retag(TokenIndex first, TokenIndex last, K word);
-    bool retagIfMeant(K word);
-    /// "ENDIFF", "END IF", "ELSIF", "CSAE 2:": names at the beginning of an instruction that stand for a word this list
-    /// waits for.
-    bool retagMisspelt(const TokenSet& own);
-    /// "VRA num x;", "PRES num x := 1;": three names in a row are a declaration.
-    bool retagData();
-    /// A name that begins an instruction and is no callee.
-    bool retagOpener();
-    /// What was read as a call goes on with THEN, DO or CASE: the callee was meant as IF, WHILE or TEST.
-    bool retagCallee(TokenIndex callee);
-    /// At module level, where only a declaration or ENDMODULE can stand.
-    bool retagDecl();
-    /// A misspelt operator at the current token, or a misspelt NOT before it; the parser then stands there.
-    bool isMisspeltOperator(const Expr* left);
+    void readAsKeyword(TokenIndex first, TokenIndex last, K word);
     /// Is it the END word of a block whose opening word has been reported?
     bool foreignCloserIs(TokenIndex i) const;
 
   private:
-    bool isShuffled(TokenIndex i, K word) const;
-    bool fitsAsListWord(K word, TokenIndex last) const;
-    bool retagOperator();
     TokenIndex foreignCloser(TokenIndex opening, K closer) const;
     void noteForeignCloser(diag::Diagnostic* diagnostic, TokenIndex opening, K word);
 

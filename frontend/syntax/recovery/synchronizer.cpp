@@ -57,15 +57,12 @@ void Synchronizer::syncStatement() {
 }
 
 void Synchronizer::expectWord(K word) {
-    if (kind() == word || (!panic() && kind() == K::Identifier && typos().retagIfMeant(word))) {
+    constexpr TokenSet kForWord = {K::Identifier, K::KwThen, K::KwDo};
+    if (kind() == word ||
+        (!panic() && kForWord.has(kind()) && recovery().repair({.place = Place::Word, .expected = word}))) {
         take();
         endPanic();
         if (kind() == K::Colon) signs().takesColonAs("");
-        return;
-    }
-    if (!panic() && ((word == K::KwDo && kind() == K::KwThen) || (word == K::KwThen && kind() == K::KwDo))) {
-        typos().retag(pos(), pos(), word);
-        take();
         return;
     }
     if (signs().takesColonAs(tokenText(word))) return;

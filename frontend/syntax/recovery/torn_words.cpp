@@ -13,12 +13,9 @@ namespace {
 
 /// What stands in most programs without being declared there.
 constexpr std::string_view kFrequent[] = {
-    "AccSet",     "ClkRead",   "ClkReset",  "ClkStart", "ClkStop",   "ConfJ",    "ConfL",    "CRobT",
-    "EulerZYX",   "IDelete",   "ISignalDI", "MoveAbsJ", "MoveC",     "MoveJ",    "MoveL",    "NumToStr",
-    "OrientZYX",  "PulseDO",   "RelTool",   "SearchL",  "SetAO",     "SetDO",    "SetGO",    "SingArea",
-    "SocketSend", "StartMove", "StopMove",  "StrFind",  "StrLen",    "StrPart",  "StrToVal", "TPErase",
-    "TPReadFK",   "TPReadNum", "TPWrite",   "UIMsgBox", "ValToStr",  "VelSet",   "WaitDI",   "WaitDO",
-    "WaitTime",   "WaitUntil", "robtarget", "tooldata", "speeddata", "zonedata", "wobjdata"};
+#define FREQUENT_NAME(name) name,
+#include "frontend/syntax/recovery/spellings.def"
+};
 
 bool isDigits(std::string_view text) {
     return std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
@@ -127,32 +124,6 @@ bool TornWords::takeTornName(TokenIndex name, const TokenSet& after, bool endsLi
     reportWord(name, last, known.empty() ? underscored : std::string(known), !known.empty());
     moveTo(last + 1);
     return true;
-}
-
-bool TornWords::takesRunTogether() {
-    static constexpr K kWords[] = {K::KwProc, K::KwFunc, K::KwTrap, K::KwVar, K::KwPers, K::KwConst};
-    const std::string_view text = textOf(pos());
-    for (const K word : kWords) {
-        const std::string spelling(tokenText(word));
-        if (text.size() <= spelling.size() || !equalsNoCase(text.substr(0, spelling.size()), spelling))
-            continue;
-        const auto rest = std::string(text.substr(spelling.size()));
-        const bool isData = kStorageWords.has(word);
-        const bool fits = isData              ? isBasicType(rest) && isName(peek()) && !startsLine(pos() + 1)
-                          : word == K::KwFunc ? isBasicType(rest) && isName(peek()) && peek(2) == K::LeftParen
-                          : word == K::KwTrap ? startsLine(pos() + 1)
-                                              : peek() == K::LeftParen;
-        if (!fits) continue;
-        const SourceRange place = range(pos());
-        diag::Diagnostic* d = report(Code::UnexpectedToken, pos(),
-                                     {describe(pos()), "'" + spelling + " " + rest + "': two words"});
-        if (d) d->fix(place, spelling + " " + rest);
-        reports().noteUnclear(place.begin);
-        readAs(pos(), word);
-        mark(Mark::RunTogether);
-        return true;
-    }
-    return false;
 }
 
 void TornWords::reportMissingIf() {

@@ -19,9 +19,6 @@ class TornWords : public ParserPart {
     /// Behind the first word of a name that is being declared: takes the others, "n Rows", "my-name". `after`: what follows a
     /// name there. Where nothing does, the line ends with it, and the name must stand elsewhere, too.
     bool takeTornName(TokenIndex name, const TokenSet& after, bool endsLine = false);
-    /// The word of a declaration and what follows it, without a space: "PROCMove(", "VARnum x". The parser then stands at the
-    /// token, read as that word.
-    bool takesRunTogether();
     /// At the first word of a condition that THEN follows: "reg1 = 1 THEN" and "IFreg1 = 1 THEN".
     void reportMissingIf();
 

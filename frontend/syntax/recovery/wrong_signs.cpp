@@ -19,15 +19,6 @@ void WrongSigns::reportEqual() {
     }
 }
 
-void WrongSigns::takeColonAsAssign() {
-    const bool split = peek() == K::Equal;
-    const SourceRange sign{range(pos()).begin, range(split ? pos() + 1 : pos()).end};
-    const std::string_view shown = sourceText().substr(sign.begin, sign.end - sign.begin);
-    fix(reportAt(Code::ForeignSpelling, sign, {std::string(shown), "':='"}), sign, ":=");
-    if (split) take();
-    readAs(pos(), K::Assign);
-}
-
 bool WrongSigns::takesColonAs(std::string_view word) {
     if (panic() || kind() != K::Colon || startsLine(pos()) || !startsLine(pos() + 1)) return false;
     if (word.empty()) {
@@ -47,44 +38,8 @@ bool WrongSigns::takesColonAs(std::string_view word) {
     return true;
 }
 
-void WrongSigns::takesSlashAsBackslash() {
-    constexpr TokenSet kAfterName = {K::Assign,     K::Semicolon, K::Comma,
-                                     K::RightParen, K::Backslash, K::Question};
-    if (kind() != K::Slash || !isName(peek()) || !kAfterName.has(peek(2))) return;
-    reportSlash(pos());
-    readAs(pos(), K::Backslash);
-}
-
 void WrongSigns::reportSlash(TokenIndex slash) {
     fix(report(Code::ForeignSpelling, slash, {"/", "'\\' before an optional argument"}), range(slash), "\\");
-}
-
-void WrongSigns::takeSlashAsBackslash() {
-    if (!isName(peek())) return;
-    fix(report(Code::ForeignSpelling, pos(), {"/", "'\\' before an optional parameter"}), range(pos()), "\\");
-    readAs(pos(), K::Backslash);
-}
-
-bool WrongSigns::takesSemicolonAsComma(K closing) {
-    if (panic() || kind() != K::Semicolon || startsLine(pos() + 1) ||
-        (!startsExpr(peek()) && peek() != K::Backslash))
-        return false;
-    uint32_t depth = 0;
-    for (TokenIndex i = pos() + 1; i < pos() + kLongLine && !startsLine(i); ++i) {
-        const K k = kindAt(i);
-        if (kOpenBrackets.has(k)) ++depth;
-        if (k == K::Semicolon || (depth == 0 && k == K::Assign && kindAt(pos() + 1) != K::Backslash))
-            return false;
-        if (!kCloseBrackets.has(k)) continue;
-        if (depth == 0) {
-            if (k != closing) return false;
-            fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "','"}), range(pos()), ",");
-            readAs(pos(), K::Comma);
-            return true;
-        }
-        --depth;
-    }
-    return false;
 }
 
 bool WrongSigns::commaWasSemicolon() {
@@ -96,26 +51,6 @@ bool WrongSigns::commaWasSemicolon() {
     fix(report(Code::UnexpectedToken, semicolon, {"';'", "','"}), range(semicolon), ",");
     before->broken = true; // the rest of its arguments stands here
     startPanic();
-    return true;
-}
-
-bool WrongSigns::instructionAfterComma() {
-    constexpr TokenSet kNoArgument = {K::Identifier, K::NumLiteral, K::StringLiteral};
-    if (!kNoArgument.has(peek(2)) || !startsLine(pos() + 1) || startsLine(pos() + 2)) return false;
-    fix(report(Code::UnexpectedToken, pos(), {"','", "';'"}), range(pos()), ";");
-    readAs(pos(), K::Semicolon);
-    return true;
-}
-
-bool WrongSigns::takesPercentAsMod() {
-    TokenIndex then = 0;
-    if (block().inLateName || startsLine(pos()) || !startsExpr(peek())) return false;
-    if (block().inCondition && !ahead().findOnLine(pos(), K::KwThen, then)) return false;
-    const SourceRange sign = range(pos());
-    const bool before = range(pos() - 1).end == sign.begin, after = tokenAt(pos() + 1).offset == sign.end;
-    fix(report(Code::ForeignSpelling, pos(), {"%", "MOD"}), sign,
-        std::string(before ? " " : "") + "MOD" + (after ? " " : ""));
-    readAs(pos(), K::KwMod);
     return true;
 }
 
@@ -157,16 +92,6 @@ void WrongSigns::dropEmptyParentheses() {
             both, "()", false);
     take();
     take();
-}
-
-bool WrongSigns::takesSemicolonInCase() {
-    TokenIndex colon = 0;
-    if (kind() != K::Semicolon || startsLine(pos() + 1) || !startsExpr(peek()) ||
-        !ahead().findOnLine(pos() + 1, K::Colon, colon) || !startsLine(colon + 1))
-        return false;
-    fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "','"}), range(pos()), ",");
-    take();
-    return true;
 }
 
 void WrongSigns::expectColonOfDefault() {
