@@ -1,47 +1,10 @@
-// Aggregates of nothing but literals: their elements are made when somebody asks (see AggregateExpr).
+// Aggregates of nothing but literals: their elements are made when they are asked for (see AggregateExpr).
 
-#include "frontend/syntax/parser_impl.h"
-#include "frontend/syntax/plain_pieces.h"
+#include "frontend/syntax/grammar/parts.h"
 
 #include <algorithm>
 
 namespace rapid::syntax {
-
-/// A whole initial value `[...]` of literals; null, and nothing is read, if something else stands here.
-Expr* Parser::parsePlainAggregate() {
-    TokenIndex last = pos_;
-    uint8_t shape = AggregateExpr::kNoShape;
-    if (kind() == K::LeftBracket) {
-        if (badNumbers_) return nullptr;
-        PlainTokens<false> pieces(tree_, pos_);
-        if (!skipPlainAggregate(pieces, [](PlainPiece) {})) return nullptr;
-        last = static_cast<TokenIndex>(pieces.end() - tokens_) - 1;
-    } else if (kind() == K::PlainAggregate) {
-        shape = shapeAt(pos_);
-    } else {
-        return nullptr;
-    }
-    if (kindAt(last + 1) != K::Semicolon) return nullptr;
-    auto* node = makeExpr<AggregateExpr>(NodeKind::Aggregate);
-    node->setPlain(tree_, shape);
-    pos_ = last + 1;
-    return finish(node);
-}
-
-uint8_t Parser::shapeAt(TokenIndex whole) {
-    if (!lexed_) return AggregateExpr::kNoShape;
-    const std::vector<WholeAggregate>& noted = lexed_->aggregates;
-    while (nextAggregate_ < noted.size() && noted[nextAggregate_].token < whole)
-        ++nextAggregate_;
-    const bool found = nextAggregate_ < noted.size() && noted[nextAggregate_].token == whole;
-    return found ? noted[nextAggregate_].shape : AggregateExpr::kNoShape;
-}
-
-/// Reads a plain aggregate as any other one; `opening` is its '['.
-void Parser::parseElements(AggregateExpr& plain, TokenIndex opening) {
-    pos_ = opening + 1;
-    plain.setElements(parseExprList(K::RightBracket, opening));
-}
 
 namespace {
 
@@ -69,7 +32,7 @@ void AggregateExpr::makeElements() const {
     const ParseOptions options;
     const bool whole = tree_->tokens[first].kind == TokenKind::PlainAggregate;
     const TokenIndex opening = whole ? appendTokens(*tree_, first) : first;
-    Parser(*tree_, none, options).parseElements(const_cast<AggregateExpr&>(*this), opening);
+    Parser(*tree_, none, options).expressions.parseElements(const_cast<AggregateExpr&>(*this), opening);
 }
 
 } // namespace rapid::syntax

@@ -1,7 +1,7 @@
 // Words that became reserved late. Files of older systems (.mod, .sys, .prg) may use them as names.
 
+#include "frontend/syntax/grammar/parts.h"
 #include "frontend/syntax/later_words.h"
-#include "frontend/syntax/parser_impl.h"
 
 #include <algorithm>
 
@@ -56,7 +56,7 @@ constexpr TokenSet kBeforeInstruction = {TokenKind::Semicolon,  TokenKind::Colon
 } // namespace
 
 /// Whether the late word at `i` names something. `endsAtOnce`: as an instruction nothing but ';' follows it.
-bool Parser::isNameInOldFile(TokenIndex i, bool endsAtOnce) const {
+bool LaterWords::isNameInOldFile(TokenIndex i, bool endsAtOnce) const {
     const K before = i > 0 ? kindAt(i - 1) : K::EndOfFile, after = kindAt(i + 1);
     if (before == K::Backslash || after == K::EndOfFile) return false; // RaiseToUser \Continue
     if (kBeforeName.has(before)) return true;
@@ -71,21 +71,19 @@ bool Parser::isNameInOldFile(TokenIndex i, bool endsAtOnce) const {
     return before == K::Identifier && kBeforeInstruction.has(further); // "TPWrite continue;"
 }
 
-/// In a file of an older system a word that has been reserved since is a name where it cannot be anything else: one note
-/// a word. A procedure of that name makes a name of every such word in the file.
-void Parser::readLaterWordsAsNames() {
-    if (!SourceFile::isLegacyFileType(tree_.source->path()) || options_.declarations) return;
+void LaterWords::readLaterWordsAsNames() {
+    if (!SourceFile::isLegacyFileType(tree().source->path()) || options().declarations) return;
     for (const LaterWord& word : kLaterWords) {
         TokenIndex first = kNoToken;
         bool procedure = false;
-        for (TokenIndex i = 0; i < last_; ++i) {
+        for (TokenIndex i = 0; i < lastToken(); ++i) {
             if (kindAt(i) != word.kind || !isNameInOldFile(i, word.endsAtOnce)) continue;
             procedure |= kindAt(i - 1) == K::KwProc;
             if (first == kNoToken) first = i;
         }
         if (first == kNoToken) continue;
         report(Code::LaterReservedWord, first, {std::string(tokenText(word.kind)), std::string(word.since)});
-        for (TokenIndex i = 0; i < last_; ++i)
+        for (TokenIndex i = 0; i < lastToken(); ++i)
             if (kindAt(i) == word.kind &&
                 ((procedure && word.endsAtOnce) || isNameInOldFile(i, word.endsAtOnce)))
                 readAs(i, K::Identifier);

@@ -1,0 +1,165 @@
+// One mistake, one message.
+
+#include "frontend/syntax/grammar/parts.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rapid::syntax {
+
+using diag::Code;
+
+namespace {
+
+/// What tells of words that could not be read: the next ones may be misread.
+bool isUnread(Code code) {
+    constexpr Code kAll[] = {Code::UnexpectedToken,           Code::MissingClosing,   Code::MissingSemicolon,
+                             Code::InstructionOutsideRoutine, Code::PartOfCallResult, Code::BadNumber};
+    return std::find(std::begin(kAll), std::end(kAll), code) != std::end(kAll);
+}
+
+/// What is said of words only because others are expected there.
+bool isOnlyUnexpected(Code code) {
+    constexpr Code kAll[] = {Code::UnexpectedToken, Code::ReservedWordAsName, Code::MissingClosing,
+                             Code::MissingSemicolon, Code::InstructionOutsideRoutine};
+    return std::find(std::begin(kAll), std::end(kAll), code) != std::end(kAll);
+}
+
+/// What is said where a name may have been torn in two.
+bool isTornPlace(Code code) {
+    return code == Code::UnexpectedToken || code == Code::MissingClosing || code == Code::MissingBlockWord;
+}
+
+} // namespace
+
+diag::Diagnostic* Reports::reportAt(Code code, SourceRange range, std::span<const std::string> args) {
+    if (panic_) return nullptr;
+    if (code >= Code::UnexpectedToken && code < Code::MissingSemicolon) ++unreadable_;
+    if (isConsequence(code, range) || followsFromLast(code, range)) return nullptr;
+    if (range.begin == in_.tokenAt(in_.pos()).offset && isTornPlace(code))
+        if (diag::Diagnostic* torn = torn_.reportTornName()) return torn;
+    if (isUnread(code)) lastUnread_ = range.begin;
+    if (++errors_ <= kMaxErrorsPerFile) {
+        last_ = &sink_.report(code, in_.tree().source, range, args);
+        lastCount_ = sink_.all().size();
+        return last_;
+    }
+    if (errors_ == kMaxErrorsPerFile + 1)
+        sink_.report(Code::TooManyErrors, in_.tree().source, range, {"errors"});
+    return nullptr;
+}
+
+/// Whether the lexer has said it: about this token, or about a string in the line that lacks one of its quotes.
+bool Reports::isConsequence(Code code, SourceRange range) {
+    if (code != Code::UnexpectedToken && code != Code::MissingClosing && code != Code::MissingSemicolon &&
+        code != Code::MissingBlockWord)
+        return false;
+    return isMarked(Mark::BehindBadNumber, in_.pos()) || lexical_.covers(range);
+}
+
+/// Whether the words are right behind some that could not be read: in the same line, or in the next one when that begins
+/// with the semicolon of the first.
+bool Reports::followsFromLast(Code code, SourceRange range) const {
+    constexpr uint32_t kNear = 4;
+    if (lastUnread_ == kNowhere || range.begin < lastUnread_ || !isOnlyUnexpected(code)) return false;
+    TokenIndex i = in_.pos();
+    for (uint32_t k = 0; in_.tokenAt(i).offset > lastUnread_; ++k, --i)
+        if (k == kNear || (in_.startsLine(i) && in_.kindAt(i) != TokenKind::Semicolon)) return false;
+    return true;
+}
+
+diag::Diagnostic* Reports::reportAfterExpr(Code code, std::initializer_list<std::string> args) {
+    if (in_.kind() != TokenKind::Question) return report(code, in_.pos(), args);
+    if (!panic_) ++unreadable_;
+    return report(Code::ForeignSpelling, in_.pos(),
+                  {"?", "IF ... THEN ... ELSE ... ENDIF to choose a value"});
+}
+
+/// Whether nothing has been reported since `last_`.
+bool Reports::isLastReport() const {
+    return last_ && lastCount_ == sink_.all().size();
+}
+
+bool Reports::joinLast(Code code, SourceRange place, std::string_view message) {
+    if (panic_ || !isLastReport() || last_->code != code || place.begin < last_->range.end) return false;
+    const uint32_t from = last_->range.end;
+    if (in_.sourceText().substr(from, place.begin - from).find_first_of("\r\n") != std::string_view::npos)
+        return false;
+    if (!message.empty()) last_->notes.push_back({in_.tree().source, place, std::string(message)});
+    return true;
+}
+
+bool Reports::joinLastEdit(Code code, SourceRange place, std::string replacement) {
+    if (!isLastReport() || last_->fixes.empty()) return false;
+    const std::string message = replacement.empty() ? "and without this" : "and '" + replacement + "' here";
+    if (!joinLast(code, place, message)) return false;
+    last_->fixes.front().edits.push_back({place, std::move(replacement)});
+    return true;
+}
+
+void Reports::note(diag::Diagnostic* diagnostic, TokenIndex at, std::string message) {
+    if (!diagnostic || at == kNoToken) return;
+    diagnostic->notes.push_back({in_.tree().source, in_.range(at), std::move(message)});
+}
+
+void Reports::fix(diag::Diagnostic* diagnostic, SourceRange place, std::string replacement, bool certain) {
+    if (!diagnostic) return;
+    diagnostic->fix(place, std::move(replacement), certain);
+    // The words after it are read as they were meant, unless a line just seems to end too early.
+    if (certain && diagnostic->code != Code::MissingSemicolon) forgetUnread();
+}
+
+void Reports::fixParentheses(diag::Diagnostic* diagnostic, const Node& operand) {
+    if (!diagnostic || panic_) return;
+    const SourceRange whole = in_.range(operand);
+    diag::Diagnostic::Fix both{"put the operand in parentheses",
+                               {{{whole.begin, whole.begin}, "("}, {{whole.end, whole.end}, ")"}}};
+    diagnostic->fixes.push_back(std::move(both));
+}
+
+void Reports::unexpected(std::string_view expected) {
+    if (in_.kind() != TokenKind::Error)
+        report(Code::UnexpectedToken, in_.pos(), {in_.describe(in_.pos()), std::string(expected)});
+    endReported_ |= in_.kind() == TokenKind::EndOfFile;
+    panic_ = true;
+}
+
+void Reports::missing(std::string_view expected) {
+    if (!in_.startsLine(in_.pos()) || in_.pos() == 0 || in_.kind() == TokenKind::Error)
+        return unexpected(expected);
+    reportAt(Code::UnexpectedToken, in_.endOf(in_.pos() - 1),
+             {in_.describe(in_.pos()), std::string(expected)});
+    endReported_ |= in_.kind() == TokenKind::EndOfFile;
+    panic_ = true;
+}
+
+bool Reports::isNewsHere() {
+    return in_.kind() != TokenKind::EndOfFile || !std::exchange(endReported_, true);
+}
+
+void Reports::reportTooDeep() {
+    report(Code::NestingTooDeep, in_.pos(), {std::to_string(kMaxDepth)});
+    panic_ = true;
+}
+
+diag::Diagnostic* Reports::reportWord(SourceRange range, const std::string& whole, bool certain) {
+    if (++errors_ > kMaxErrorsPerFile) return nullptr;
+    const auto shown = std::string(in_.sourceText().substr(range.begin, range.end - range.begin));
+    diag::Diagnostic& d = sink_.report(Code::UnexpectedToken, in_.tree().source, range,
+                                       {"'" + shown + "'", "'" + whole + "': a name is one word"});
+    d.fix(range, whole, certain);
+    lastUnread_ = range.begin;
+    noteUnclear(range.begin);
+    return &d;
+}
+
+void Reports::noteUnclear(uint32_t place) {
+    const std::string_view text = in_.sourceText();
+    uint32_t begin = place;
+    while (begin > 0 && place - begin < SyntaxTree::kUnclearReach && text[begin - 1] != '\n' &&
+           text[begin - 1] != '\r')
+        --begin;
+    in_.tree().unclearLines.push_back(begin);
+}
+
+} // namespace rapid::syntax

@@ -1,0 +1,127 @@
+#pragma once
+// What the parser reports, and what it remembers of that: one mistake, one message.
+
+#include "frontend/diag/diagnostic.h"
+#include "frontend/syntax/grammar/lexical_mistakes.h"
+#include "frontend/syntax/grammar/token_cursor.h"
+
+#include <array>
+
+namespace rapid::syntax {
+
+class TornWords;
+
+/// Why a token was reported, or is not to be reported when the parser comes to it. The last token of each is remembered.
+enum class Mark : uint8_t {
+    SignAfterOperator,      ///< a sign after an operator; another one after it is the same mistake
+    StrayEnd,               ///< a word for END that ends nothing
+    BrokenHead,             ///< a THEN or DO whose IF, FOR or WHILE could not be read
+    WrongEnd,               ///< an END word that closes a block of another kind
+    SwitchWithoutBackslash, ///< a parameter
+    ForeignList,            ///< the bracket of a list that another language writes so
+    RunTogether,            ///< the word of a declaration that what follows has run into
+    EarlySemicolon,         ///< the place after an operand whose semicolon is before it
+    BehindBadNumber,        ///< the place after a number that could not be read
+    ColonGiven,             ///< an ELSE read as DEFAULT, reported together with its missing colon
+    Count
+};
+
+/// Reports one diagnostic for each mistake. A mistake is a range of the text and a cause; what follows from it is not
+/// reported:
+/// 1. after a mistake nothing is, until the parser has found firm ground (panic);
+/// 2. nothing about words that the lexer could not read, or in a line in which a '"' is missing;
+/// 3. nothing that only says which words are expected, within a few words of others that could not be read;
+/// 4. nothing at a token that is marked for the same cause.
+/// A message about the same cause in the same line joins the last one as a note or an edit (joinLast).
+class Reports {
+  public:
+    Reports(TokenCursor& in, diag::Sink& sink, LexicalMistakes& lexical, TornWords& torn)
+        : in_(in), sink_(sink), lexical_(lexical), torn_(torn) {}
+
+    /// Null when it follows from what was reported. The pointer is good until the next report.
+    diag::Diagnostic* reportAt(diag::Code code, SourceRange range, std::span<const std::string> args);
+    diag::Diagnostic* reportAt(diag::Code code, SourceRange range,
+                               std::initializer_list<std::string> args = {}) {
+        return reportAt(code, range, std::span<const std::string>(args.begin(), args.size()));
+    }
+    diag::Diagnostic* report(diag::Code code, TokenIndex at, std::initializer_list<std::string> args = {}) {
+        return reportAt(code, in_.range(at), args);
+    }
+    /// "found X, expected Y" where an expression has ended.
+    diag::Diagnostic* reportAfterExpr(diag::Code code, std::initializer_list<std::string> args);
+    /// "found 'p Pick', expected 'pPick'"; the checker then says nothing of that line.
+    diag::Diagnostic* reportWord(SourceRange range, const std::string& whole, bool certain);
+    /// Nesting deeper than kMaxDepth, and panic.
+    void reportTooDeep();
+    /// "found X, expected Y" at the current token, and panic.
+    void unexpected(std::string_view expected);
+    /// What the line before lacks at its end; at a token within a line like unexpected().
+    void missing(std::string_view expected);
+
+    void note(diag::Diagnostic* diagnostic, TokenIndex at, std::string message);
+    /// The edit that mends what was reported; nothing when it was not shown.
+    void fix(diag::Diagnostic* diagnostic, SourceRange place, std::string replacement, bool certain = true);
+    /// `(operand)`
+    void fixParentheses(diag::Diagnostic* diagnostic, const Node& operand);
+    /// Part of what has just been reported in the same line, with this code: a note there. False when nothing was.
+    bool joinLast(diag::Code code, SourceRange place, std::string_view message);
+    /// The same, with one more edit to its fix.
+    bool joinLastEdit(diag::Code code, SourceRange place, std::string replacement);
+    /// What was reported last; read it after joinLast() only.
+    diag::Diagnostic* last() const { return last_; }
+
+    bool panic() const { return panic_; }
+    void setPanic(bool panic) { panic_ = panic; }
+    /// Errors of the file, those of the lexer included, also what is no longer shown.
+    size_t errors() const { return errors_; }
+    bool isFull() const { return errors_ > kMaxErrorsPerFile; }
+    size_t& countError() { return ++errors_; }
+    /// Parts of instructions that could not be read, whether that was reported or not.
+    size_t unreadable() const { return unreadable_; }
+    void countUnreadable() { ++unreadable_; }
+    /// All diagnostics of the sink.
+    size_t count() const { return sink_.all().size(); }
+    /// The words after the last ones that could not be read are read as they were meant.
+    void forgetUnread() { lastUnread_ = kNowhere; }
+    /// Nothing follows from what names and types in the line of this place seem to be.
+    void noteUnclear(uint32_t place);
+    /// Whether it is worth saying that the file ends too early: once.
+    bool isNewsHere();
+
+    void mark(Mark cause, TokenIndex token) { marks_[static_cast<size_t>(cause)] = token; }
+    void unmark(Mark cause) { mark(cause, kNoToken); }
+    bool isMarked(Mark cause, TokenIndex token) const {
+        return token != kNoToken && marks_[static_cast<size_t>(cause)] == token;
+    }
+    /// Whether a token after this one is marked.
+    bool isMarkedAfter(Mark cause, TokenIndex token) const {
+        const TokenIndex marked = marks_[static_cast<size_t>(cause)];
+        return marked != kNoToken && marked > token;
+    }
+
+  private:
+    bool isConsequence(diag::Code code, SourceRange range);
+    bool followsFromLast(diag::Code code, SourceRange range) const;
+    bool isLastReport() const;
+
+    static constexpr uint32_t kNowhere = 0xFFFFFFFF;
+    TokenCursor& in_;
+    diag::Sink& sink_;
+    LexicalMistakes& lexical_;
+    TornWords& torn_;
+    bool panic_ = false;
+    bool endReported_ = false; ///< that the file ends too early
+    size_t errors_ = 0;
+    size_t unreadable_ = 0;
+    uint32_t lastUnread_ =
+        kNowhere; ///< where the words begin that could not be read, the last that were reported
+    diag::Diagnostic* last_ = nullptr; ///< good while lastCount_ says that nothing followed
+    size_t lastCount_ = 0;             ///< of the sink
+    std::array<TokenIndex, static_cast<size_t>(Mark::Count)> marks_ = [] {
+        std::array<TokenIndex, static_cast<size_t>(Mark::Count)> none{};
+        none.fill(kNoToken);
+        return none;
+    }();
+};
+
+} // namespace rapid::syntax

@@ -1,0 +1,117 @@
+// Records and aliases (manual 1.2.1).
+
+#include "frontend/syntax/grammar/parts.h"
+
+namespace rapid::syntax {
+
+using diag::Code;
+
+Decl* TypeParser::parseRecord(bool local, TokenIndex first) {
+    auto* node = make<RecordDecl>(NodeKind::Record);
+    node->first = first;
+    node->local = local;
+    const TokenIndex opening = take();
+    const size_t errorsBefore = reports().errors();
+    const bool nameless = isName(kind()) && isName(peek()) && peek(2) == K::Semicolon &&
+                          !startsLine(pos() + 1); // a component already
+    node->name = nameless ? names().missingName() : names().expectName();
+    names().checkNameLength(node->name);
+    if (!startsLine(pos())) torn().takeTornName(node->name, {}, true);
+    if (panic() || kind() == K::Semicolon) {
+        if (!panic()) unexpected("a component");
+        sync().syncStatement();
+    }
+    const bool braced = kind() == K::LeftBrace;
+    if (braced) {
+        report(Code::ForeignSpelling, pos(), {"{", "a component: a record ends with ENDRECORD"});
+        take();
+    }
+    const size_t bottom = components_.size();
+    while (kind() != K::KwEndrecord && kind() != K::EndOfFile) {
+        if (braced && accept(K::RightBrace)) break;
+        if (isContextual(pos(), "END") && !startsLine(pos() + 1) && ahead().endsLine(pos() + 1) &&
+            (peek() == K::KwRecord || typos().foreignCloserIs(pos() + 1))) { // "END RECORD"
+            typos().readAsKeyword(pos(), pos() + 1, K::KwEndrecord);
+            take();
+            break;
+        }
+        if (kind() == K::Identifier && (ahead().endsLine(pos()) || peek() == K::Semicolon) &&
+            (equalsNoCase(textOf(pos()), "END") || typos().editsTo(pos(), K::KwEndrecord) != 0)) {
+            typos().readAsKeyword(pos(), pos(), K::KwEndrecord);
+            break;
+        }
+        if (ahead().startsDecl(pos()) && !dropComponentWord()) break;
+        if (kind() == K::KwEndmodule || kRoutineEnds.has(kind())) break;
+        const TokenIndex before = pos();
+        if (isName(kind())) {
+            components_.push_back(parseComponent());
+        } else {
+            unexpected("a component or ENDRECORD");
+            take();
+            sync().syncStatement();
+        }
+        if (pos() == before) take();
+    }
+    node->components = drain(components_, bottom);
+    if (braced && kindAt(pos() - 1) == K::RightBrace) {
+        accept(K::KwEndrecord);
+        return finish(node);
+    }
+    if (node->components.empty() && kind() == K::KwEndrecord && !options().declarations &&
+        reports().errors() == errorsBefore)
+        report(Code::EmptyRecord, node->name == kNoToken ? opening : node->name,
+               {std::string(textOf(node->name))});
+    // An END word of a routine below RECORD was meant as its end.
+    constexpr TokenSet kWrong = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
+    if (kWrong.has(kind()) && startsLine(pos()) && columnOf(pos()) == indentOf(opening)) mark(Mark::WrongEnd);
+    if (kind() == K::KwEndmodule && ahead().startsDecl(pos() + 1) && peek() != K::KwModule)
+        mark(Mark::WrongEnd);
+    ends().closeBlock(K::KwEndrecord, opening, node->name != kNoToken || !node->components.empty());
+    return finish(node);
+}
+
+/// "VAR num x;" in a record that is closed by ENDRECORD: the word is reported and left out.
+bool TypeParser::dropComponentWord() {
+    if (!kStorageWords.has(kind()) || !isName(peek()) || !isName(peek(2))) return false;
+    constexpr TokenIndex kSearch = 200;
+    for (TokenIndex i = pos() + 1; i < pos() + kSearch && kindAt(i) != K::KwEndrecord; ++i)
+        if (i + 1 == pos() + kSearch || kRoutineEnds.has(kindAt(i)) || kindAt(i) == K::EndOfFile)
+            return false;
+    fix(report(Code::ComponentWord, pos(), {describe(pos())}), {range(pos()).begin, range(pos() + 1).begin},
+        "");
+    take();
+    return true;
+}
+
+RecordComponent* TypeParser::parseComponent() {
+    auto* node = make<RecordComponent>(NodeKind::RecordComponent);
+    if (isName(kind()) && peek() == K::Semicolon && !isBasicType(textOf(pos())))
+        report(Code::MissingDataType, pos(), {std::string(textOf(pos()))});
+    else
+        node->type = names().expectName();
+    node->name = names().expectName();
+    names().checkNameLength(node->name);
+    if (!panic() && kind() == K::LeftBrace) {
+        report(Code::ComponentArray, pos(), {std::string(textOf(node->name))});
+        startPanic();
+    }
+    sync().endStatement(kind() == K::Comma                          ? "';': a component has one name"
+                        : kind() == K::Assign || kind() == K::Equal ? "';': a component has no initial value"
+                                                                    : "';'");
+    return finish(node);
+}
+
+Decl* TypeParser::parseAlias(bool local, TokenIndex first) {
+    auto* node = make<AliasDecl>(NodeKind::Alias);
+    node->first = first;
+    node->local = local;
+    take();
+    node->type = names().expectName();
+    if (!panic()) node->name = names().expectName();
+    names().checkNameLength(node->name);
+    sync().endStatement(
+        kind() == K::LeftBrace ? "';': an alias names a type, arrays are declared with their data" : "';'");
+    return finish(node);
+}
+
+} // namespace rapid::syntax

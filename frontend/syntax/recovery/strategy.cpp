@@ -1,0 +1,72 @@
+#include "frontend/syntax/recovery/strategy.h"
+
+#include "frontend/syntax/grammar/parts.h"
+
+namespace rapid::syntax {
+
+std::optional<Repair> RecoveryStrategy::nearest(TokenIndex i, std::initializer_list<K> words) const {
+    Proposal best;
+    for (const K word : words) {
+        const unsigned edits = typos().editsTo(i, word);
+        if (edits != 0 && (!best || edits < best->cost)) best = keyword(i, i, word, edits);
+    }
+    return best;
+}
+
+Repair RecoveryStrategy::sign(K as, diag::Code code, std::string shown, std::string expected,
+                              std::string text) const {
+    return {.first = pos(),
+            .last = pos(),
+            .as = as,
+            .next = pos(),
+            .code = code,
+            .range = range(pos()),
+            .args = {std::move(shown), std::move(expected)},
+            .edit = TextEdit{range(pos()), std::move(text)}};
+}
+
+Repair RecoveryStrategy::leaveOut(TokenIndex next, diag::Code code, std::vector<std::string> args,
+                                  SourceRange text) const {
+    return {.first = pos(),
+            .last = next - 1,
+            .next = next,
+            .code = code,
+            .range = range(pos()),
+            .args = std::move(args),
+            .edit = TextEdit{text, ""}};
+}
+
+bool Recovery::repair(const Situation& at) {
+    if (!table_) {
+        table_ = std::make_unique<StrategyTable>();
+        addWordStrategies(*table_, parser());
+        addListWordStrategies(*table_, parser());
+        addSignStrategies(*table_, parser());
+    }
+    std::optional<Repair> best;
+    for (const auto& strategy : table_->at(at.place)) {
+        std::optional<Repair> proposal = strategy->propose(at);
+        if (proposal && (!best || proposal->cost < best->cost)) best = std::move(proposal);
+    }
+    if (best) apply(*best);
+    return best.has_value();
+}
+
+void Recovery::apply(const Repair& repair) {
+    if (repair.code == diag::Code::MisspeltKeyword) {
+        moveTo(repair.first);
+        typos().readAsKeyword(repair.first, repair.last, repair.as);
+    } else {
+        diag::Diagnostic* diagnostic = reports().reportAt(repair.code, repair.range, repair.args);
+        if (diagnostic && repair.edit && repair.unclear)
+            diagnostic->fix(repair.edit->range, repair.edit->replacement, repair.certain);
+        else if (repair.edit)
+            fix(diagnostic, repair.edit->range, repair.edit->replacement, repair.certain);
+        if (repair.as != K::Error) readAs(repair.last, repair.as);
+    }
+    if (repair.mark) mark(*repair.mark, repair.first);
+    if (repair.unclear) reports().noteUnclear(repair.range.begin);
+    moveTo(repair.next);
+}
+
+} // namespace rapid::syntax
