@@ -19,7 +19,7 @@ struct RunOptions {
     std::vector<std::string> configFiles;
     /// Each MODEL, of the first robot, or UNIT=MODEL; without one as the configuration says, else kDefaultRobot.
     std::vector<std::string> robots;
-    std::vector<std::string> conveyors; ///< NAME=KEY:VALUE,...
+    std::vector<std::string> conveyors;           ///< NAME=KEY:VALUE,...
     std::string planner = "measured";             ///< what times movements: measured or optimal
     std::string home;                             ///< "" = an empty folder that is removed at the end
     std::vector<std::string> volumes;             ///< NAME=DIR: further disks

@@ -138,6 +138,13 @@ Pose ConveyorTracking::displaced(const PlannedMoment& planned, const Pose& tcp) 
     return object.frame(from + d) * robot::inverse(object.frame(from)) * tcp;
 }
 
+Pose ConveyorTracking::objectShift(const PlannedMoment& planned) const {
+    const auto* on = planned.find<OnConveyor>();
+    if (on == nullptr || !on->object->isConnected()) return {};
+    const TrackedObject& object = *on->object;
+    return object.frame(object.position(planned.time)) * robot::inverse(object.frame(on->planned));
+}
+
 bool ConveyorTracking::movesAtRest() const {
     if (samples_.empty() || isBeginning_) return false;
     const Sample& last = samples_.back();

@@ -57,6 +57,7 @@ class ConveyorTracking : public PathModifier {
     bool isActive() const override { return !samples_.empty() || ordered_ != nullptr; }
     void advance(const PlannedMoment& planned) override;
     Pose displaced(const PlannedMoment& planned, const Pose& tcp) const override;
+    Pose objectShift(const PlannedMoment& planned) const override;
     bool movesAtRest() const override;
     void pathReplaced() override;
     void pathStored() override;

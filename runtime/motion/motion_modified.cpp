@@ -108,7 +108,7 @@ void MotionSystem::Impl::measureSpeeds(MotionState& state, const PlannedMoment& 
         state.jointSpeed[i] = (state.joints[i] - before->joints[i]) / seconds;
     // Another movement may have another object frame.
     if (before->tag != state.tag) return;
-    state.tcpSpeed = norm((inverse(planned.object) * state.tcp).pos - before->tcpInObject) / seconds;
+    state.tcpSpeed = norm(modifiers.placeInObject(planned, state.tcp) - before->tcpInObject) / seconds;
 }
 
 /// Where the arm is on its path now, or would be if it were there.
@@ -156,7 +156,7 @@ void MotionSystem::Impl::advanceModifiers(TimeNs time) {
             modifiers.unreported = modifiers.latestError = error;
         }
         modifiers.isOutOfReach = error.has_value();
-        modifiers.note({next, state.joints, (inverse(planned.object) * state.tcp).pos, state.tag});
+        modifiers.note({next, state.joints, modifiers.placeInObject(planned, state.tcp), state.tag});
     }
     modifiers.setAdvancedTo(last);
 }

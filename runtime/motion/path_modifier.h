@@ -88,6 +88,8 @@ class PathModifier {
     virtual void advance(const PlannedMoment& /*planned*/) {}
     /// The TCP in world; `tcp` is the planned one as modifiers before this one have displaced it.
     virtual Pose displaced(const PlannedMoment& planned, const Pose& tcp) const = 0;
+    /// Carries the planned object frame, in world, to where the object is: speeds are measured relative to that.
+    virtual Pose objectShift(const PlannedMoment& /*planned*/) const { return {}; }
     /// It moves the arm now, although its path is at rest.
     virtual bool movesAtRest() const { return false; }
 

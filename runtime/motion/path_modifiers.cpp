@@ -77,6 +77,13 @@ void PathModifiers::advance(const PlannedMoment& planned) {
         if (modifier->isActive()) modifier->advance(planned);
 }
 
+Vec3 PathModifiers::placeInObject(const PlannedMoment& planned, const Pose& tcp) const {
+    Pose object = planned.object;
+    for (const auto& modifier : modifiers_)
+        if (modifier->isActive()) object = modifier->objectShift(planned) * object;
+    return (robot::inverse(object) * tcp).pos;
+}
+
 Pose PathModifiers::displaced(const PlannedMoment& planned) const {
     Pose tcp = planned.tcp;
     for (const auto& modifier : modifiers_)

@@ -25,6 +25,8 @@ class PathModifiers {
     bool moveAtRest() const;
     void advance(const PlannedMoment& planned);
     Pose displaced(const PlannedMoment& planned) const;
+    /// The TCP in the object frame, wherever the object is.
+    Vec3 placeInObject(const PlannedMoment& planned, const Pose& tcp) const;
 
     void pathReplaced();
     void pathStored();
