@@ -27,6 +27,7 @@ constexpr Quantity kQuantities[] = {{Surroundings::kExternalTorque, 7},
                                     {Surroundings::kInitialized, 0},
                                     {Surroundings::kSynchronized, 0},
                                     {Surroundings::kVariable, kMostVariables},
+                                    {Surroundings::kVacuumFailure, 2},
                                     {Surroundings::kFault, 0},
                                     {Surroundings::kSpeed, 0},
                                     {Surroundings::kObject, 0}};

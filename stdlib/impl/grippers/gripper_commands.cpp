@@ -15,17 +15,14 @@ using lib::SmartGripper;
 
 namespace {
 
+constexpr double kReached = 0.5; // mm
+
 /// kOk, or ERR_ARGVALERR: a given value must lie in 0 (without 0 when `isAbove`) to `most`.
 Status checkRange(TaskCore* task, const float* value, double most, bool isAbove, const char* what) {
     if (value == nullptr || (*value <= most && (isAbove ? *value > 0 : *value >= 0))) return kOk;
     return lib::fail(
         task, err::ERR_ARGVALERR,
         fmt::format("the {} of the gripper must lie {} 0 and {}", what, isAbove ? "between" : "from", most));
-}
-
-/// A misuse for which controllers have no error constant: the program stops.
-Status misused(TaskCore* task, std::string text) {
-    return taskOf(task).fatal(static_cast<int>(EventId::DeviceMisused), std::move(text));
 }
 
 Status jog(TaskCore* task, bool inward) {
@@ -65,11 +62,16 @@ Status moveTo(TaskCore* task, float position, bool noWait) {
     if (const Status status = checkRange(task, &position, gripper.limit(), false, "position (mm)"))
         return status;
     if (!gripper.isCalibrated())
-        return misused(task,
-                       "The gripper is not calibrated, so it has no positions. Use g_Calibrate, or g_Init "
-                       "with \\Calibrate, first.");
+        return lib::fail(
+            task, err::ERR_HAND_NOTCALIBRATED,
+            "the gripper has no positions before it is calibrated (g_Calibrate, g_Init \\Calibrate)");
     gripper.moveTo(position);
-    return noWait ? kOk : gripper.waitStill(taskOf(task));
+    if (noWait) return kOk;
+    if (const Status status = gripper.waitStill(taskOf(task))) return status;
+    if (std::abs(gripper.position() - static_cast<double>(position)) <= kReached) return kOk;
+    return lib::fail(
+        task, err::ERR_HAND_FAILEDMOVEPOS,
+        fmt::format("the fingers stopped at {:g} mm on their way to {:g} mm", gripper.position(), position));
 }
 
 /// Without \targetPos every place where the fingers stop is right, also the end of their travel.
@@ -92,10 +94,10 @@ Status grip(TaskCore* task, bool inward, const float* force, const float* positi
     if (const Status status = gripper.waitStill(taskOf(task))) return status;
     const double most = allowance != nullptr ? static_cast<double>(*allowance) : kUsualAllowance;
     if (position == nullptr || std::abs(gripper.position() - *position) <= most) return kOk;
-    return misused(
-        task, fmt::format("The fingers of the gripper stopped at {:g} mm, and a part was expected at {:g} "
-                          "mm (allowance {:g} mm). Check the part, or \\targetPos and \\posAllowance.",
-                          gripper.position(), *position, most));
+    return lib::fail(
+        task, err::ERR_HAND_FAILEDGRIPPOS,
+        fmt::format("the fingers stopped at {:g} mm, and a part was expected at {:g} mm (allowance {:g} mm)",
+                    gripper.position(), *position, most));
 }
 
 Status stop(TaskCore* task) {
@@ -118,8 +120,10 @@ Status setForce(TaskCore* task, float force) {
 }
 
 Status vacuum(TaskCore* task, std::size_t cup, bool on) {
-    SmartGripper::of(task).setVacuum(cup, on);
-    return kOk;
+    SmartGripper& gripper = SmartGripper::of(task);
+    gripper.setVacuum(cup, on);
+    if (!on || !gripper.failsVacuum(cup)) return kOk;
+    return lib::fail(task, err::ERR_HAND_FAILEDVACUUM, fmt::format("vacuum {} is not reached", cup + 1));
 }
 
 Status blow(TaskCore* task, std::size_t cup, bool on) {

@@ -74,6 +74,11 @@ void SmartGripper::setVacuum(std::size_t cup, bool on) {
     output(fmt::format("hand_CmdVacuum{}", cup + 1), on ? 1 : 0);
 }
 
+bool SmartGripper::failsVacuum(std::size_t cup) const {
+    const auto& around = controller_->service<Surroundings>();
+    return around.value(unit_, Surroundings::kVacuumFailure, static_cast<int>(cup) + 1, 0) != 0;
+}
+
 void SmartGripper::setBlow(std::size_t cup, bool on) {
     if (on) setVacuum(cup, false);
     output(fmt::format("hand_CmdBlowoff{}", cup + 1), on ? 1 : 0);

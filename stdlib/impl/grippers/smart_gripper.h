@@ -36,6 +36,8 @@ class SmartGripper {
     /// Of cup 1 or 2 (index 0 or 1): suction and blow-off exclude each other.
     void setVacuum(std::size_t cup, bool on);
     void setBlow(std::size_t cup, bool on);
+    /// The stimulus lets its vacuum fail.
+    bool failsVacuum(std::size_t cup) const;
 
   private:
     void open(TaskCore* task);

@@ -202,8 +202,8 @@ TEST_CASE("names of well-known add-ins are told from mistakes", "[sema]") {
                              "  TASK PERS menudata md:=[\"\",1];\n"
                              "  CONST be_device dev:=[TRUE];\n"
                              "  PROC main()\n"
-                             "    Hand_GripInward\\holdForce:=10,\\NoWait;\n"
-                             "    Hand_GripInward;\n"
+                             "    Hand_Xylophones\\holdForce:=10,\\NoWait;\n"
+                             "    Hand_Xylophones;\n"
                              "    BESetupToolJ dev;\n"
                              "    hand_openn;\n"
                              "    BESetup;\n"
@@ -221,7 +221,7 @@ TEST_CASE("names of well-known add-ins are told from mistakes", "[sema]") {
         checked->messages() ==
         Messages{
             message("2:13", "menudata", "Production Manager"), message("3:9", "be_device", "BullsEye"),
-            message("5:5", "Hand_GripInward", "SmartGripper (YuMi)"),
+            message("5:5", "Hand_Xylophones", "SmartGripper (YuMi)"),
             message("7:5", "BESetupToolJ", "BullsEye"),
             "RAP2003 at 8:5: 'hand_openn' is not a known procedure or instruction; did you mean 'hand_open'?",
             "RAP2003 at 9:5: 'BESetup' is not a known procedure or instruction"});
