@@ -146,8 +146,26 @@ bool Expressions::aggregateFits(const AggregateExpr& e, const DataType& want) {
     return false;
 }
 
+// Programs and backups of other versions have values of other forms: they can be read, the value has no use.
+Typed Expressions::aggregateOfVersion(const AggregateExpr& e, const DataType& want, ConstValue* slot) {
+    report(Code::AggregateOfVersion, range(e),
+           {counted(e.elements().size(), "member"), std::to_string(want.type->base()->components.size()),
+            typeName(want)});
+    for (const Expr* element : e.elements())
+        visitLoose(*element);
+    ConstValue* value = slot ? slot : folding_.newConst();
+    folding_.setDefault(*value, *want.type);
+    ExprInfo& out = info(e);
+    out.type = want;
+    out.constant = value;
+    return {&out};
+}
+
 // Members get their constants in the place where the whole value keeps them.
 Typed Expressions::aggregate(const AggregateExpr& e, const DataType* want, ConstValue* slot) {
+    if (want && want->rank == 0 && want->type->base()->uncertain &&
+        e.elements().size() != want->type->base()->components.size())
+        return aggregateOfVersion(e, *want, slot);
     if (!want) report(Code::AggregateWithoutType, range(e));
     if (!want || !aggregateFits(e, *want)) {
         for (const Expr* element : e.elements())

@@ -38,6 +38,7 @@ class Expressions : CheckerPart {
     Numeric unify(const syntax::BinaryExpr& e, Typed& left, Typed& right, Flex& flex);
     bool aggregateFits(const syntax::AggregateExpr& e, const DataType& want);
     Typed aggregate(const syntax::AggregateExpr& e, const DataType* want, ConstValue* slot);
+    Typed aggregateOfVersion(const syntax::AggregateExpr& e, const DataType& want, ConstValue* slot);
     Typed result(const syntax::Expr& e, const Type* type, Flex flex = Flex::None);
 
     CallBinder& calls_;

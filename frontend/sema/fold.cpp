@@ -83,6 +83,22 @@ ConstValue aggregateOf(const Vector& vector, Arena& arena) {
 
 Folding::Folding(State& state) : CheckerPart(state) {}
 
+void Folding::setDefault(ConstValue& value, const Type& type) {
+    switch (type.base()->kind) {
+    case TypeKind::Bool: value.kind = ConstValue::Kind::Bool; break;
+    case TypeKind::String: value.setText("", valueArena()); break;
+    case TypeKind::Record: {
+        const std::vector<Type::Component>& components = type.base()->components;
+        const std::span<ConstValue> members = valueArena().makeArray<ConstValue>(components.size());
+        for (size_t i = 0; i < components.size(); ++i)
+            setDefault(members[i], *components[i].type);
+        value.setMembers(members);
+        break;
+    }
+    default: value.kind = ConstValue::Kind::Number; break;
+    }
+}
+
 // A value that stays when the file of `value` is checked again.
 ConstValue Folding::owned(const ConstValue& value) {
     ConstValue copy = value;

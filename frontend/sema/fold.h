@@ -15,6 +15,8 @@ class Folding : CheckerPart {
     void foldBinary(const syntax::BinaryExpr& e);
     void foldUnary(const syntax::UnaryExpr& e, ConstValue* slot);
     ConstValue owned(const ConstValue& value);
+    /// What data of a value type have without an initial value: 0, FALSE, "".
+    void setDefault(ConstValue& value, const Type& type);
     const ConstValue* partOf(const ConstValue& value);
 
   private:

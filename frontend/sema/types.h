@@ -47,6 +47,7 @@ struct Type {
     uint32_t bytes = 0; ///< non-value types that are containers of bytes: their capacity; 0: a handle
     bool containsNonValue = false; ///< records with a non-value component are non-value
     bool unclear = false;          ///< a record of which a part could not be read
+    bool uncertain = false;        ///< a record of an option, whose components differ between versions
 
     const Type* base() const {
         const Type* t = this;
