@@ -18,8 +18,9 @@ constexpr auto kExplanations = std::to_array<Explanation>({
      R"ex($ rapidc check main.mod
 main.mod:
   MODULE MainModule
+    PERS sensor camera := [0, 0, 0];
     PROC main()
-      SpyStop;
+      SiConnect camera;
     ENDPROC
   ENDMODULE)ex",
      R"ex($ rapidc check main.mod
