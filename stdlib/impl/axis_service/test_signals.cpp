@@ -22,6 +22,8 @@ constexpr std::size_t kChannels = 12;
 constexpr float kLongestSample = 0.1F; // s
 constexpr double kRadians = std::numbers::pi / 180;
 // Numbers that published programs use beside the documented ones.
+// RAPID's constant speed is not declared: programs use that name for data of their own.
+constexpr int kMotorSpeed = 6;
 constexpr int kJointPosition = 4000, kJointSpeed = 4001, kJointTorque = 4002, kExternalTorque = 4003;
 constexpr int kFirstForce = 201, kSecondForce = 207, kForces = 6;
 
@@ -47,7 +49,7 @@ bool isKnown(int signal) {
     switch (signal) {
     case static_cast<int>(k::resolver_angle):
     case static_cast<int>(k::speed_ref):
-    case static_cast<int>(k::speed):
+    case kMotorSpeed:
     case static_cast<int>(k::torque_ref):
     case static_cast<int>(k::dig_input1):
     case static_cast<int>(k::dig_input2):
@@ -65,7 +67,7 @@ double read(Controller& controller, const SignalChannel& channel) {
     switch (channel.signal) {
     case static_cast<int>(k::resolver_angle): return values.position * kRadians;
     case static_cast<int>(k::speed_ref):
-    case static_cast<int>(k::speed): return values.speed * kRadians;
+    case kMotorSpeed: return values.speed * kRadians;
     case static_cast<int>(k::torque_ref):
     case kJointTorque: return values.torque;
     case kJointPosition: return values.position;
