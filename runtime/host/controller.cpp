@@ -301,7 +301,8 @@ std::string Controller::startRefusal(const Task& task) const {
     if (powerOff_) return "the power has failed (power_on first)";
     if (systemFailed_) return "a background task has failed; end the run and repair it";
     if (task.isMotionTask() && motion(task).hasLostIndependentAxis())
-        return "an axis was in independent mode when the power failed; move the program pointer to main first "
+        return "an axis was in independent mode when the power failed; move the program pointer to main "
+               "first "
                "(pp_to_main)";
     if (task.canResume()) return "";
     return "SystemStopAction \\StopBlock was executed; move the program pointer to main first (pp_to_main)";

@@ -155,7 +155,8 @@ std::string MechanicalUnits::addRobots(const CfgLookup& configuration, const std
         auto unit = std::make_unique<MechanicalUnit>();
         unit->name = plan.name;
         const auto model = robot::loadRobotModel(plan.model);
-        if (!plan.isAsked && plan.instance != nullptr && isPositioner(configuration, *plan.instance, !model)) {
+        if (!plan.isAsked && plan.instance != nullptr &&
+            isPositioner(configuration, *plan.instance, !model)) {
             positioners.push_back(&plan);
             continue;
         }
@@ -305,9 +306,10 @@ void MechanicalUnits::connectAxes() {
 void MechanicalUnits::startUnit(MechanicalUnit& unit) {
     if (unit.own.empty()) return;
     if (const MechanicalUnit* other = unit.isActive ? sharesAxes(unit) : nullptr) {
-        warnings_.push_back(fmt::format("{} is not active at the start: it shares a logical axis with {}, which is. "
-                                        "Remove activate_at_start_up of one of them",
-                                        unit.name, other->name));
+        warnings_.push_back(
+            fmt::format("{} is not active at the start: it shares a logical axis with {}, which is. "
+                        "Remove activate_at_start_up of one of them",
+                        unit.name, other->name));
         unit.isActive = false;
         for (robot::ExternalJoint& joint : unit.geometry.joints)
             joint.isParked = true;

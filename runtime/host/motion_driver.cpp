@@ -294,6 +294,11 @@ void MotionDriver::joinGroup(std::shared_ptr<SynchronisedGroup> synchronised) {
     isSuspended_ = false;
 }
 
+void MotionDriver::suspendGroup(bool suspended) {
+    isSuspended_ = suspended;
+    applyStops(); // the others wait for this one, or need not any more
+}
+
 void MotionDriver::leaveGroup() {
     synchronised_ = nullptr;
     isSuspended_ = false;

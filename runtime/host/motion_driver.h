@@ -78,7 +78,7 @@ class MotionDriver final : public SteppedArm {
     /// The group of SyncMoveOn, also while this robot moves for itself.
     const std::shared_ptr<SynchronisedGroup>& joinedGroup() const { return synchronised_; }
     /// SyncMoveSuspend, SyncMoveResume.
-    void suspendGroup(bool suspended) { isSuspended_ = suspended; }
+    void suspendGroup(bool suspended);
     bool isSuspended() const { return isSuspended_; }
     /// Where the movement that is being ordered begins.
     struct Beginning {

@@ -24,8 +24,8 @@ void addAxis(report::RobotRecord& robot, const MechanicalUnit::Axis& axis) {
         known.name += " / " + axis.single;
         return;
     }
-    robot.external.push_back({axis.single, axis.index, axis.limits.rotating, axis.limits.maxSpeed,
-                              axis.limits.maxAcceleration});
+    robot.external.push_back(
+        {axis.single, axis.index, axis.limits.rotating, axis.limits.maxSpeed, axis.limits.maxAcceleration});
 }
 
 } // namespace
@@ -36,13 +36,15 @@ bool RunReports::areWanted(const RunOptions& options) {
 
 std::string RunReports::prepare(Controller& controller, const ProgramDesc& program) {
     if (!options_.compare.empty()) {
-        if (const std::string problem = report::readRecording(options_.compare, recordings_); !problem.empty())
+        if (const std::string problem = report::readRecording(options_.compare, recordings_);
+            !problem.empty())
             return "--compare: " + problem;
     }
     recorder_ = std::make_unique<report::RunRecorder>(program.name);
     recorder_->setFolder(program.folder != nullptr ? program.folder : "");
     addRobots(controller);
-    if (const std::string problem = writeFiles(report::robotReports(recorder_->record(), {})); !problem.empty())
+    if (const std::string problem = writeFiles(report::robotReports(recorder_->record(), {}));
+        !problem.empty())
         return problem;
     listen(controller);
     return {};
@@ -103,7 +105,7 @@ std::string RunReports::writeFiles(const std::vector<report::RobotReport>& robot
 
 void RunReports::printSummary(const std::vector<report::RobotReport>& robots) const {
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;
-    fmt::print(stderr, "\ncycle time  {:.3f} s (virtual), simulated in {:.3f} s\n{}", 
+    fmt::print(stderr, "\ncycle time  {:.3f} s (virtual), simulated in {:.3f} s\n{}",
                recorder_->record().end(), wall.count(), report::summaryText(recorder_->record(), robots));
     const std::pair<const char*, const std::string&> files[] = {
         {"trace", options_.trace},     {"signals", options_.signals}, {"events", options_.events},

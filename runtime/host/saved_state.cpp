@@ -207,7 +207,8 @@ StateImage SavedState::present() const {
         group.robot = motion->model().name;
         group.axes.assign(joints.robax.begin(), joints.robax.end());
         for (const motion::GroupAxis& axis : motion->system().independentAxes())
-            if (!axis.isExternal) group.axes[axis.index] -= kTurn * std::round(group.axes[axis.index] / kTurn);
+            if (!axis.isExternal)
+                group.axes[axis.index] -= kTurn * std::round(group.axes[axis.index] / kTurn);
         group.axes.insert(group.axes.end(), joints.extax.begin(), joints.extax.end());
         group.path = motion->remainingPath();
     }

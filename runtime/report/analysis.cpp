@@ -57,9 +57,9 @@ motion::Joints jointAccelerations(const std::vector<Sample>& samples, std::size_
 class MoveAnalysis {
   public:
     MoveAnalysis(const RobotRecord& record, MoveResult& result)
-        : record_(record), accelerations_(record.hasArm ? robot::AccelerationMap(record.robot) : robot::AccelerationMap()),
-          samples_(record.samples), result_(result),
-          move_(*result.move) {}
+        : record_(record),
+          accelerations_(record.hasArm ? robot::AccelerationMap(record.robot) : robot::AccelerationMap()),
+          samples_(record.samples), result_(result), move_(*result.move) {}
 
     void run() {
         for (std::size_t i = result_.first + 1; i <= result_.last; ++i)
@@ -164,7 +164,8 @@ class MoveAnalysis {
             if (step.to + 1 >= samples_.size()) continue;
             const double next = externalSpeed(b, samples_[step.to + 1], axis);
             const double change = std::fabs(next - now) / ((samples_[step.to + 1].time - a.time) / 2);
-            if (change >= kAccelerationReached * axis.maxAcceleration) return {Cause::Acceleration, number, 0};
+            if (change >= kAccelerationReached * axis.maxAcceleration)
+                return {Cause::Acceleration, number, 0};
         }
         return {};
     }

@@ -102,7 +102,8 @@ const char* robotColour(std::size_t robot) {
 }
 
 /// Which path is whose: a broad line below the one that shows the speed.
-void drawHalo(std::string& svg, const Projection& to, const std::vector<Sample>& samples, const char* colour) {
+void drawHalo(std::string& svg, const Projection& to, const std::vector<Sample>& samples,
+              const char* colour) {
     std::string points, last;
     const auto flush = [&] {
         if (points.find(' ') != std::string::npos)

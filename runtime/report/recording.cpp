@@ -206,13 +206,12 @@ std::vector<const Recording*> recordingsFor(const std::vector<RobotRecord>& robo
                                             const std::vector<Recording>& recordings) {
     std::vector<const Recording*> result;
     for (const RobotRecord& robot : robots) {
-        const auto found = std::find_if(recordings.begin(), recordings.end(), [&](const Recording& recording) {
-            return sameName(recording.unit, robot.unit);
-        });
+        const auto found =
+            std::find_if(recordings.begin(), recordings.end(),
+                         [&](const Recording& recording) { return sameName(recording.unit, robot.unit); });
         result.push_back(found == recordings.end() ? nullptr : &*found);
     }
-    if (recordings.size() == 1 && !robots.empty() &&
-        (recordings.front().unit.empty() || robots.size() == 1))
+    if (recordings.size() == 1 && !robots.empty() && (recordings.front().unit.empty() || robots.size() == 1))
         result.front() = &recordings.front();
     return result;
 }

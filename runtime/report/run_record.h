@@ -13,10 +13,10 @@ namespace rt::report {
 
 /// The arm at one moment. While it is at rest, the first and the last sample say all.
 struct Sample {
-    double time = 0;         ///< s
-    motion::Joints joints{}; ///< deg
+    double time = 0;                                         ///< s
+    motion::Joints joints{};                                 ///< deg
     motion::ExternalAxes external = motion::kNoExternalAxes; ///< deg, mm
-    motion::Vec3 position;   ///< TCP in world, mm
+    motion::Vec3 position;                                   ///< TCP in world, mm
     motion::Quat rotation;
     double speed = 0;  ///< TCP, mm/s
     uint64_t move = 0; ///< number of the move instruction, 0 before the first
@@ -77,8 +77,8 @@ struct ExternalAxis {
 /// A robot with the external axes of its motion group, or external axes alone.
 struct RobotRecord {
     std::string unit;        ///< "ROB_1"; of external axes alone the first unit
-    robot::RobotModel robot;  ///< without axes for external axes alone
-    bool hasArm = true;       ///< there is a TCP
+    robot::RobotModel robot; ///< without axes for external axes alone
+    bool hasArm = true;      ///< there is a TCP
     std::vector<ExternalAxis> external;
     std::vector<Sample> samples;
     std::vector<Move> moves; ///< in order of their numbers

@@ -85,17 +85,16 @@ class IndependentAxes {
         const IndependentOrder& order = entry.order;
         const double now = secondsNow(arm);
         const motion::MotionState state = arm.current();
-        const motion::AxisMoment here = axis.isExternal
-                                            ? motion::AxisMoment{state.extax[axis.index], 0}
-                                            : motion::AxisMoment{state.joints[axis.index],
-                                                                 state.jointSpeed[axis.index]};
+        const motion::AxisMoment here =
+            axis.isExternal ? motion::AxisMoment{state.extax[axis.index], 0}
+                            : motion::AxisMoment{state.joints[axis.index], state.jointSpeed[axis.index]};
         const motion::AxisCourse course =
             arm.independent(axis) != nullptr ? *arm.independent(axis) : motion::AxisCourse(now, here);
         const double acceleration = entry.axis.acceleration * order.ramp;
         const double speed = speedOf(motion, entry);
-        arm.setIndependent(axis, order.endless ? course.turning(now, speed, acceleration, entry.axis.jerk)
-                                               : course.movedTo(now, order.goal, speed, acceleration,
-                                                                entry.axis.jerk));
+        arm.setIndependent(axis, order.endless
+                                     ? course.turning(now, speed, acceleration, entry.axis.jerk)
+                                     : course.movedTo(now, order.goal, speed, acceleration, entry.axis.jerk));
         motion.service<lib::WorldZones>().noteMotion();
     }
     /// A program that is stopped stops the axes, too.
@@ -106,8 +105,9 @@ class IndependentAxes {
             if (course == nullptr) continue;
             if (news == ArmNews::Start) carryOut(motion, entry);
             if (news == ArmNews::StopOnPath || news == ArmNews::MotorsOff)
-                arm.setIndependent(entry.axis.axis, course->turning(secondsNow(arm), 0, entry.axis.acceleration,
-                                                                    entry.axis.jerk));
+                arm.setIndependent(
+                    entry.axis.axis,
+                    course->turning(secondsNow(arm), 0, entry.axis.acceleration, entry.axis.jerk));
         }
     }
 
@@ -146,9 +146,10 @@ Status robotAxis(TaskCore* task, std::size_t number, Purpose purpose, NamedAxis&
     const robot::RobotModel& model = arm.model();
     const bool isAxis4 = purpose == Purpose::Reset && number == kAxis4 && canResetAxis4(model);
     if (number != kAxis6 && !isAxis4)
-        return lib::fail(task, err::ERR_AXIS_ACT,
-                         "axis 6 is the only one of the robot that can be independent (IndReset: also axis 4 of IRB "
-                         "1600, 2600 and 4600)");
+        return lib::fail(
+            task, err::ERR_AXIS_ACT,
+            "axis 6 is the only one of the robot that can be independent (IndReset: also axis 4 of IRB "
+            "1600, 2600 and 4600)");
     if (isAxis4 && arm.independent({false, kAxis6}) != nullptr)
         return lib::fail(task, err::ERR_AXIS_ACT,
                          "axis 6 is in independent mode: reset it before axis 4 (IndReset)");
@@ -216,8 +217,9 @@ Status orderMove(TaskCore* task, const NamedAxis& axis, bool endless, double goa
 Status readPosition(TaskCore* task, const NamedAxis& axis, const data::Robtarget* target, const float* number,
                     double& position) {
     if ((target == nullptr) == (number == nullptr))
-        return lib::fail(task, err::ERR_ARGVALERR,
-                         "one position must be given: a number (\\ToAbsNum, \\ToRelNum, \\RefNum) or a robtarget");
+        return lib::fail(
+            task, err::ERR_ARGVALERR,
+            "one position must be given: a number (\\ToAbsNum, \\ToRelNum, \\RefNum) or a robtarget");
     if (number != nullptr) {
         position = *number;
         return kOk;
@@ -350,8 +352,8 @@ Status rt_IndSpeed(TaskCore* task, bool* result, Handle* MecUnit, float Axis, bo
     const motion::MotionSystem& arm = systemOf(task);
     const double speed = momentOf(arm, axis.axis).speed;
     constexpr double kExact = 1e-6; // deg/s
-    *result = ZeroSpeed ? isResting(arm, axis.axis)
-                        : std::fabs(std::fabs(speed) - std::fabs(order.speed)) < kExact;
+    *result =
+        ZeroSpeed ? isResting(arm, axis.axis) : std::fabs(std::fabs(speed) - std::fabs(order.speed)) < kExact;
     return kOk;
 }
 }

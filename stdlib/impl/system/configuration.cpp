@@ -46,7 +46,8 @@ robot::Pose baseOf(Controller& controller, std::string_view robot) {
 
 /// Axes of the robot with that number, from 1: "rob2_3".
 void addArms(const robot::RobotModel& model, int number, CfgSection& arms, CfgSection& calibration) {
-    for (std::size_t i = 0; i < 6 && i < model.upperDeg.size() && model.upperDeg[i] != model.lowerDeg[i]; ++i) {
+    for (std::size_t i = 0; i < 6 && i < model.upperDeg.size() && model.upperDeg[i] != model.lowerDeg[i];
+         ++i) {
         CfgInstance arm, motor;
         for (CfgInstance* instance : {&arm, &motor})
             addText(*instance, "name", fmt::format("rob{}_{}", number, i + 1));

@@ -41,8 +41,8 @@ Move moveNumber(uint64_t number, double speed) {
 }
 
 /// Adds `seconds` of motion along x, with the TCP speed and the angle of axis 1 as functions of the time since its start.
-void addMotion(RobotRecord& record, uint64_t number, double seconds, const std::function<double(double)>& speed,
-               const std::function<double(double)>& axis1) {
+void addMotion(RobotRecord& record, uint64_t number, double seconds,
+               const std::function<double(double)>& speed, const std::function<double(double)>& axis1) {
     if (record.samples.empty()) record.samples.emplace_back();
     const Sample before = record.samples.back();
     Sample sample = before;
@@ -273,16 +273,17 @@ TEST_CASE("columns of a recording are found by lenient names, with units", "[rep
     CHECK(recording.hasJoints);
     CHECK(recording.samples[1].joints[5] == Approx(180));
     // Quaternions of a trace are no axes.
-    REQUIRE(parseRecording("time_s,x,y,z,q1,q2,q3,q4\n0,1,2,3,1,0,0,0\n1,1,2,3,1,0,0,0\n", "r.csv", all)
-                .empty());
+    REQUIRE(
+        parseRecording("time_s,x,y,z,q1,q2,q3,q4\n0,1,2,3,1,0,0,0\n1,1,2,3,1,0,0,0\n", "r.csv", all).empty());
     CHECK_FALSE(all.at(0).hasJoints);
 }
 
 TEST_CASE("a column names the robot of each line of a recording", "[report]") {
     std::vector<Recording> all;
-    REQUIRE(parseRecording("time_s,unit,x,y,z\n0,ROB_1,1,2,3\n0,ROB_2,7,8,9\n1,ROB_1,4,5,6\n0.5,ROB_2,7,8,9\n",
-                           "r.csv", all)
-                .empty());
+    REQUIRE(
+        parseRecording("time_s,unit,x,y,z\n0,ROB_1,1,2,3\n0,ROB_2,7,8,9\n1,ROB_1,4,5,6\n0.5,ROB_2,7,8,9\n",
+                       "r.csv", all)
+            .empty());
     REQUIRE(all.size() == 2);
     CHECK(all[1].unit == "ROB_2");
     CHECK(all[0].samples.at(1).position == robot::Vec3{4, 5, 6});
@@ -446,7 +447,8 @@ TEST_CASE("long paths are paired as finely as short ones", "[report]") {
 }
 
 TEST_CASE("axis angles alone are compared at the flange", "[report]") {
-    const RobotRecord record = angledRun(); // axis 1 turns by 30 degrees, a circle of the flange about the base
+    const RobotRecord record =
+        angledRun(); // axis 1 turns by 30 degrees, a circle of the flange about the base
     const Analysis analysis = analyse(record);
     Recording angles = recordingOf(record, [](RecordedSample& s, const Sample&) { s.position = {}; });
     angles.hasPositions = false;
