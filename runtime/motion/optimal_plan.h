@@ -50,8 +50,13 @@ class OptimalPlan {
     bool planFrom(Course& course, const Route& route, double time, double share);
     bool solveFrom(Course& course, const Route& route, double time, const CourseState& state, double share);
     /// Samples the course and lowers the limits where the arm would exceed them; false when it was not necessary.
-    bool tightenWhereExceeded(const Course& course, const Route& route, double time, double share);
-    double useAt(const Route& route, const std::array<Joints, 3>& axes, double place) const;
+    bool tightenWhereExceeded(const Course& course, const Route& route, double time, double share, int round);
+    /// Shares of limits.
+    struct Use {
+        double acceleration = 0, jerk = 0;
+    };
+    Use useAt(const Route& route, const std::array<Joints, 4>& axes, double place) const;
+    static void tighten(ProfileCell& cell, const Use& use, double speed, int round);
     Course stopped(const Course& course, double now) const;
     static void follow(Course& course, const Slowing& slowing);
 
@@ -59,6 +64,7 @@ class OptimalPlan {
     std::deque<ProfileCell> cells_; // of each stretch, at full override
     std::deque<double> begins_;
     double share_ = 1;
+    bool keepsTicks_ = false; // the plan that was found last keeps all limits at each tick
     ProfileSolver solver_;
 };
 

@@ -69,8 +69,8 @@ void shapeStretch(Course& course, double from, double to, const StretchSpeeds& x
 } // namespace
 
 Run::Run(const RunSettings& settings, double start)
-    : settings_(settings), course_(newCourse(start, 0)), start_(start), share_(settings.speedShare),
-      reachable_{0}, planned_{0} {
+    : settings_(settings), route_(settings.planner == Planner::Optimal), course_(newCourse(start, 0)),
+      start_(start), share_(settings.speedShare), reachable_{0}, planned_{0} {
     if (settings.planner == Planner::Optimal)
         optimal_.emplace(ArmLimits{settings.accelerations, settings.jerk});
 }

@@ -128,7 +128,7 @@ TEST_CASE("stops and the override keep the limits and the path of the optimal pl
     std::mt19937_64 random(10);
     for (int n = 0; n < 12; ++n) {
         const std::vector<MoveCommand> program = randomProgram(random);
-        MotionSystem plain = smallRobot(Planner::Measured);
+        MotionSystem plain = smallRobot(Planner::Optimal);
         plain.setOverride(20);
         const std::vector<Joints> slow = run(plain, program);
         const Disturb stops = [](MotionSystem& s, int i) {
