@@ -148,6 +148,27 @@ double OptimalPlan::mostSquareAhead(double place, double way, double share) cons
     return square * share * share;
 }
 
+/// AccSet \FinePointRamp: the jerk is lower on the way on which deceleration decreases towards the stop point.
+void OptimalPlan::softenEnd(std::vector<ProfileCell>& path) const {
+    if (!(endRampShare_ < 1)) return;
+    double acceleration = 1e7, jerk = 1e9;
+    const ProfileRows& end = path.back().last;
+    for (std::size_t r = 0; r < end.count; ++r) {
+        const double rate = std::max(std::abs(end.rows[r].first), 1e-12);
+        acceleration = std::min(acceleration, std::min(end.rows[r].up, end.rows[r].down) / rate);
+        jerk = std::min(jerk, endRampShare_ * end.rows[r].jerk / rate);
+    }
+    const double speed = std::sqrt(path.back().mostSquare);
+    double left = std::min(acceleration * acceleration * acceleration / (6 * jerk * jerk),
+                           speed * std::sqrt(2 * speed / jerk) / 3);
+    for (auto cell = path.rbegin(); cell != path.rend() && left > 0; ++cell) {
+        left -= cell->width;
+        for (ProfileRows* rows : {&cell->first, &cell->last})
+            for (std::size_t r = 0; r < rows->count; ++r)
+                rows->rows[r].jerk *= endRampShare_;
+    }
+}
+
 bool OptimalPlan::solveFrom(Course& course, const Route& route, double time, const CourseState& state,
                             double share) {
     constexpr double kStanding = 1e-6; // mm/s
@@ -157,8 +178,9 @@ bool OptimalPlan::solveFrom(Course& course, const Route& route, double time, con
     keepsTicks_ = false;
     constexpr int kMostRounds = 16;
     for (int round = 0; round < kMostRounds; ++round) {
-        const std::vector<ProfileCell> path = pathBetween(state.s, length(), share);
+        std::vector<ProfileCell> path = pathBetween(state.s, length(), share);
         if (path.empty()) return false;
+        softenEnd(path);
         ProfileGrid grid;
         ProfileSolver::Result found;
         for (const double firstShare : {1.0, 0.2}) {

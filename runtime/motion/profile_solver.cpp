@@ -39,7 +39,7 @@ ProfileSolver::Result ProfileSolver::solve(const std::vector<ProfileCell>& cells
     Result result;
     begin();
     constexpr int kMostIterations = 90;
-    constexpr double kGapShare = 2e-3; // of the duration
+    constexpr double kGapShare = 6e-4; // of the duration
     constexpr double kBalanceShare = 1e-2;
     const auto pairs = static_cast<double>(2 * terms_.size() + cap_.size());
     double share = 0.2;
@@ -51,9 +51,10 @@ ProfileSolver::Result ProfileSolver::solve(const std::vector<ProfileCell>& cells
         if (gap_ < kGapShare * duration && isKept && imbalance() < kBalanceShare * duration) break;
         assemble(std::max(share * gap_, 0.2 * kGapShare * duration) / pairs);
         if (!factorAndSolve()) return result;
-        const double length = stepLength();
+        const Lengths lengths = stepLengths();
+        const double length = std::min(lengths.speeds, lengths.forces);
         if (!(length > 1e-9)) return result;
-        advance(length);
+        advance(lengths);
         share = length > 0.8 ? 0.05 : length > 0.4 ? 0.3 : 1.0;
     }
     result.excess = worstExcess();
@@ -442,21 +443,23 @@ bool ProfileSolver::factorAndSolve() {
 }
 
 /// The longest step, at most 1, that keeps slacks, forces and squares of speeds positive.
-double ProfileSolver::stepLength() {
+ProfileSolver::Lengths ProfileSolver::stepLengths() {
     constexpr double kToBorder = 0.97;
-    double length = 1 / kToBorder;
-    const auto keep = [&](double value, double step) {
+    Lengths lengths{1 / kToBorder, 1 / kToBorder};
+    const auto keep = [&](double& length, double value, double step) {
         if (step < 0) length = std::min(length, -value / step);
     };
     const std::size_t count = coefficient_.size();
     for (std::size_t i = 0; i < count; ++i) {
         if (fixed_[i] != 0) continue;
-        keep(coefficient_[i], step_[i]);
-        keep(capSlack_[i], capSlackStep_[i] = cap_[i] - coefficient_[i] - capSlack_[i] - step_[i]);
-        keep(capForce_[i], capForceStep_[i] = target_ / capSlack_[i] - capForce_[i] -
-                                              capForce_[i] / capSlack_[i] * capSlackStep_[i]);
+        keep(lengths.speeds, coefficient_[i], step_[i]);
+        keep(lengths.speeds, capSlack_[i],
+             capSlackStep_[i] = cap_[i] - coefficient_[i] - capSlack_[i] - step_[i]);
+        keep(lengths.forces, capForce_[i],
+             capForceStep_[i] =
+                 target_ / capSlack_[i] - capForce_[i] - capForce_[i] / capSlack_[i] * capSlackStep_[i]);
     }
-    Pair shrink{}; // largest share that a slack or a force loses
+    Pair slackShrink{}, forceShrink{}; // largest shares that are lost
     for (Term& term : terms_) {
         const double* step = &step_[term.at];
         const double along = dot(term.row, step);
@@ -466,24 +469,26 @@ double ProfileSolver::stepLength() {
         term.forceStep = (target_ - term.force * term.slackStep) * term.inverse - term.force;
         const Pair slackLoss = -term.slackStep * term.inverse;
         const Pair forceLoss = -term.forceStep / term.force;
-        shrink = slackLoss > shrink ? slackLoss : shrink;
-        shrink = forceLoss > shrink ? forceLoss : shrink;
+        slackShrink = slackLoss > slackShrink ? slackLoss : slackShrink;
+        forceShrink = forceLoss > forceShrink ? forceLoss : forceShrink;
     }
-    length = std::min(length, 1 / std::max({shrink[0], shrink[1], 1e-300}));
-    return std::min(1.0, kToBorder * length);
+    const auto most = [](double length, const Pair& shrink) {
+        return std::min(1.0, kToBorder * std::min(length, 1 / std::max({shrink[0], shrink[1], 1e-300})));
+    };
+    return {most(lengths.speeds, slackShrink), most(lengths.forces, forceShrink)};
 }
 
-void ProfileSolver::advance(double length) {
+void ProfileSolver::advance(const Lengths& lengths) {
     const std::size_t count = coefficient_.size();
     for (std::size_t i = 0; i < count; ++i) {
         if (fixed_[i] != 0) continue;
-        coefficient_[i] += length * step_[i];
-        capSlack_[i] += length * capSlackStep_[i];
-        capForce_[i] += length * capForceStep_[i];
+        coefficient_[i] += lengths.speeds * step_[i];
+        capSlack_[i] += lengths.speeds * capSlackStep_[i];
+        capForce_[i] += lengths.forces * capForceStep_[i];
     }
     for (Term& term : terms_) {
-        term.slack += length * term.slackStep;
-        term.force += length * term.forceStep;
+        term.slack += lengths.speeds * term.slackStep;
+        term.force += lengths.forces * term.forceStep;
     }
     if (startsAtRest_) coefficient_[0] = firstRatio_ * coefficient_[1];
     coefficient_[count - 1] = lastRatio_ * coefficient_[count - 2];

@@ -98,8 +98,11 @@ class ProfileSolver {
     bool evaluateTerms();
     void assemble(double target);
     bool factorAndSolve();
-    double stepLength();
-    void advance(double length);
+    struct Lengths { // of a step
+        double speeds = 0, forces = 0;
+    };
+    Lengths stepLengths();
+    void advance(const Lengths& lengths);
     double imbalance();
     double worstExcess() const;
 

@@ -99,6 +99,7 @@ RunSettings Trajectory::settingsOf(double rampShare) const {
     RunSettings settings = this->settings();
     settings.longWindow = model_.dynamics.longWindow / rampShare;
     settings.shortWindow = model_.dynamics.shortWindow / rampShare;
+    settings.rampShare = rampShare;
     return settings;
 }
 

@@ -37,7 +37,6 @@ struct MotionState {
     motion::SpeedLimits speedLimits; ///< SpeedLimAxis, SpeedLimCheckPoint
     bool motionSupervision = true;   ///< MotionSup, kept for C_MOTSET
     double supervisionLevel = 100;   ///< percent
-    double finePointRamp = 100;      ///< AccSet \FinePointRamp, percent
     int concurrentMoves = 0;         ///< \Conc moves in succession
 };
 MotionState& motionState(TaskCore* task);
