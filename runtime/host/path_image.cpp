@@ -82,12 +82,12 @@ motion::Pose poseFrom(const Json& json) {
 
 Json jsonOf(const motion::MotionSettings& s) {
     return {s.velocityPercent,  s.maxTcpSpeed,      s.accelerationPercent, s.rampPercent,
-            s.pathAcceleration, s.pathDeceleration, s.worldAcceleration};
+            s.pathAcceleration, s.pathDeceleration, s.worldAcceleration,   s.finePointRampPercent};
 }
 
 motion::MotionSettings settingsFrom(const Json& json) {
-    const auto n = numbersFrom<7>(json);
-    return {n[0], n[1], n[2], n[3], n[4], n[5], n[6]};
+    const auto n = numbersFrom<8>(json);
+    return {n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7]};
 }
 
 Json jsonOf(const motion::MoveCommand& c) {

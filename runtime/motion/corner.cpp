@@ -14,17 +14,60 @@ template <class Function> auto slopeOf(Function&& value, double at, double step)
     return (value(at + step) - value(at - step)) * (1 / (2 * step));
 }
 
+/// Second derivative, with the value itself.
+template <class Function, class Point>
+auto bendOf(Function&& value, double at, double step, const Point& middle) {
+    return (value(at + step) + value(at - step) - middle * 2.0) * (1 / (step * step));
+}
+
+/// Smooth: the control points that give these changes over the distance between control points, and second changes by its
+/// square, at both ends.
+template <class Point>
+Bezier<Point> smoothCurve(const Point& from, const Point& leaving, const Point& leavingBend, const Point& to,
+                          const Point& joining, const Point& joiningBend) {
+    constexpr double kBend = 1.25; // the second derivative of the curve is 20 times the second difference
+    Bezier<Point> curve;
+    curve.isSmooth = true;
+    curve.p = {from,
+               from + leaving,
+               from + leaving * 2.0 + leavingBend * kBend,
+               to - joining * 2.0 + joiningBend * kBend,
+               to - joining,
+               to};
+    return curve;
+}
+
 /// The curve that leaves the course of the first leg `before` mm of path from its end (at `entry`) and joins that of the
-/// second `after` mm from its start.
+/// second `after` mm from its start. `tension`: of a smooth one; 0 for one that is not.
 template <class First, class Second>
-auto joiningCurve(First&& first, double entry, double before, Second&& second, double after) {
+auto joiningCurve(First&& first, double entry, double before, Second&& second, double after, double tension) {
     const double step = 1e-3 * std::min(before, after);
     const auto from = first(entry);
     const auto to = second(after);
+    if (tension > 0) {
+        const double wide = 10 * step; // second differences need more room
+        const double leaving = tension * before, joining = tension * after;
+        return smoothCurve(from, slopeOf(first, entry, step) * leaving,
+                           bendOf(first, entry, wide, from) * (leaving * leaving), to,
+                           slopeOf(second, after, step) * joining,
+                           bendOf(second, after, wide, to) * (joining * joining));
+    }
     Bezier<std::decay_t<decltype(from)>> curve;
     curve.p = {from, from + slopeOf(first, entry, step) * (kCornerTension * before),
                to - slopeOf(second, after, step) * (kCornerTension * after), to};
     return curve;
+}
+
+/// From 0 to 1 without a bend at both ends.
+double smoothStep(double x) {
+    return x * x * x * (10 - x * (15 - 6 * x));
+}
+
+/// Tension of a smooth blend: its quantity may not turn back on a route that is shorter than the ways on the legs.
+template <class Point> double blendTension(const Corner& corner, const Blend<Point>& blend) {
+    if (!corner.isSmooth) return kCornerTension;
+    const double length = blend.before - corner.before + corner.lengths.length() + blend.after - corner.after;
+    return std::min(kSmoothTension, 0.45 * length / (blend.before + blend.after));
 }
 
 bool isConnectedAxis(const Leg& leg, std::size_t axis) {
@@ -60,9 +103,15 @@ double Route::armAngleOn(const Leg& leg, double distance) {
 
 void Route::curveInSpace(Corner& corner, const Leg& a, const Leg& b) {
     corner.space = joiningCurve([&](double d) { return poseIn(a, b, d).pos; }, a.length() - corner.before,
-                                corner.before, [&](double d) { return poseOn(b, d).pos; }, corner.after);
-    corner.lengths =
-        LengthMap::measured([&](double x) { return norm(corner.space.slopeAt(x)); }, kCornerPieces);
+                                corner.before, [&](double d) { return poseOn(b, d).pos; }, corner.after,
+                                corner.isSmooth ? kSmoothTension : 0);
+    const bool isScaled = corner.isSmooth && (a.perMm != 1 || b.perMm != 1);
+    const auto rate = [&](double x) {
+        // Where turning counts on a leg the unit of the route changes steadily, too.
+        const double perMm = isScaled ? a.perMm + (b.perMm - a.perMm) * smoothStep(x) : 1;
+        return perMm * norm(corner.space.slopeAt(x));
+    };
+    corner.lengths = LengthMap::measured(rate, kCornerPieces, corner.isSmooth);
     corner.halfLength = corner.lengths.distanceAt(0.5);
 }
 
@@ -80,8 +129,24 @@ void Route::curveOfAxes(Corner& corner, const Leg& a, const Leg& b) {
         b.path->isCartesian()
             ? slopeOf([&](double d) { return axesOn(b, d); }, corner.after, step) * corner.after
             : to - point;
-    corner.axes.p = {from, from + leaving * kCornerTension, to - joining * kCornerTension, to};
-    const auto rate = [&](double x) {
+    if (corner.isSmooth) {
+        const auto bend = [&](const Leg& leg, double at, double size, const AxisVector& middle) {
+            if (!leg.path->isCartesian()) return AxisVector{};
+            const double way = kSmoothTension * size;
+            return bendOf([&](double d) { return axesOn(leg, d); }, at, 10 * step, middle) * (way * way);
+        };
+        corner.axes = smoothCurve(from, leaving * kSmoothTension,
+                                  bend(a, a.length() - corner.before, corner.before, from), to,
+                                  joining * kSmoothTension, bend(b, corner.after, corner.after, to));
+    } else {
+        corner.axes.p = {from, from + leaving * kCornerTension, to - joining * kCornerTension, to};
+    }
+    measureAxesCurve(corner, a, b);
+}
+
+/// The curve of the axes by the path of the TCP; with two tools from that of the first to that of the second.
+void Route::measureAxesCurve(Corner& corner, const Leg& a, const Leg& b) {
+    const auto rateOf = [&](const Leg& tool, double x) {
         constexpr double kStep = 1e-4;
         const auto poseAt = [&](double place) {
             const AxisVector axes = corner.axes.at(place);
@@ -89,7 +154,7 @@ void Route::curveOfAxes(Corner& corner, const Leg& a, const Leg& b) {
             std::copy_n(axes.v.begin(), joints.size(), joints.begin());
             ExternalAxes external = b.path->start().extax;
             takeExternal(axes, external);
-            return b.path->frames().fromFlange(b.path->kinematics().forward(joints), external);
+            return tool.path->frames().fromFlange(b.path->kinematics().forward(joints), external);
         };
         const Pose low = poseAt(x - kStep);
         const Pose high = poseAt(x + kStep);
@@ -97,24 +162,32 @@ void Route::curveOfAxes(Corner& corner, const Leg& a, const Leg& b) {
                         robot::angleBetween(low.rot, high.rot) / (2 * kStep) +
                             externalRate(corner.axes.slopeAt(x)));
     };
-    corner.lengths = LengthMap::measured(rate, kAxesPieces);
+    const bool isShared = corner.isSmooth && !sameTool(a.path->frames(), b.path->frames());
+    const auto rate = [&](double x) {
+        const double second = rateOf(b, x);
+        return isShared ? second + (1 - smoothStep(x)) * (rateOf(a, x) - second) : second;
+    };
+    corner.lengths = LengthMap::measured(rate, kAxesPieces, corner.isSmooth);
     corner.halfLength = corner.lengths.distanceAt(0.5);
 }
 
 void Route::blendTurn(Corner& corner, const Leg& a, const Leg& b, double before, double after) {
     corner.centre = poseOn(b, 0).rot;
     corner.turn = {};
+    corner.turn.before = before;
+    corner.turn.after = after;
+    corner.turn.tension = blendTension(corner, corner.turn);
     const auto turned = [&](const Quat& rot) {
         return robot::rotationVector(conjugate(corner.centre) * rot);
     };
-    const auto curve =
-        joiningCurve([&](double d) { return turned(poseIn(a, b, d).rot); }, a.length() - before, before,
-                     [&](double d) { return turned(poseOn(b, d).rot); }, after);
+    const auto curve = joiningCurve(
+        [&](double d) { return turned(poseIn(a, b, d).rot); }, a.length() - before, before,
+        [&](double d) { return turned(poseOn(b, d).rot); }, after, corner.isSmooth ? corner.turn.tension : 0);
     constexpr double kNothing = 1e-9; // rad
-    if (norm(curve.p[0]) < kNothing && norm(curve.p[3]) < kNothing) return;
-    corner.turn.before = before;
-    corner.turn.after = after;
-    corner.turn.curve = curve;
+    if (norm(curve.p[0]) < kNothing && norm(curve.p[corner.isSmooth ? 5 : 3]) < kNothing)
+        corner.turn = {};
+    else
+        corner.turn.curve = curve;
 }
 
 void Route::blendExternal(Corner& corner, const Leg& a, const Leg& b, double before, double after) {
@@ -129,6 +202,7 @@ void Route::blendExternal(Corner& corner, const Leg& a, const Leg& b, double bef
     if (!moves) return;
     corner.external.before = before;
     corner.external.after = after;
+    corner.external.tension = blendTension(corner, corner.external);
     const auto axes = [&](const Leg& leg, double distance) {
         AxisVector result = axesOn(leg, distance);
         if (hasArmAngle)
@@ -137,7 +211,8 @@ void Route::blendExternal(Corner& corner, const Leg& a, const Leg& b, double bef
         return result;
     };
     corner.external.curve = joiningCurve([&](double d) { return axes(a, d); }, a.length() - before, before,
-                                         [&](double d) { return axes(b, d); }, after);
+                                         [&](double d) { return axes(b, d); }, after,
+                                         corner.isSmooth ? corner.external.tension : 0);
 }
 
 double pathRate(double mm, double degrees) {

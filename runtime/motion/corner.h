@@ -10,21 +10,37 @@
 
 namespace motion {
 
-/// Cubic Bezier curve in any space with + and * by a number.
+/// Bezier curve in any space with + and * by a number: of the third degree with the first four points or, smooth, of the
+/// fifth degree with all of them.
 template <class Point> struct Bezier {
-    std::array<Point, 4> p{};
+    std::array<Point, 6> p{};
+    bool isSmooth = false;
     Point at(double x) const {
         const double y = 1 - x;
+        if (isSmooth) {
+            const double xx = x * x, yy = y * y;
+            return p[0] * (yy * yy * y) + p[1] * (5 * yy * yy * x) + p[2] * (10 * yy * y * xx) +
+                   p[3] * (10 * yy * xx * x) + p[4] * (5 * y * xx * xx) + p[5] * (xx * xx * x);
+        }
         return p[0] * (y * y * y) + p[1] * (3 * y * y * x) + p[2] * (3 * y * x * x) + p[3] * (x * x * x);
     }
     Point slopeAt(double x) const {
         const double y = 1 - x;
+        if (isSmooth) {
+            const double xx = x * x, yy = y * y;
+            return (p[1] - p[0]) * (5 * yy * yy) + (p[2] - p[1]) * (20 * yy * y * x) +
+                   (p[3] - p[2]) * (30 * yy * xx) + (p[4] - p[3]) * (20 * y * xx * x) +
+                   (p[5] - p[4]) * (5 * xx * xx);
+        }
         return (p[1] - p[0]) * (3 * y * y) + (p[2] - p[1]) * (6 * y * x) + (p[3] - p[2]) * (3 * x * x);
     }
 };
 
 /// How far the inner control points lie from the ends, as a share of the zone radius; identified on recordings.
 inline constexpr double kCornerTension = 0.757;
+/// The same between the control points of a smooth curve, which then passes the programmed point at the same distance. At
+/// its ends it bends as the legs do, so that the axes need no sudden change of acceleration.
+inline constexpr double kSmoothTension = 0.48 * kCornerTension;
 
 /// Where the arm angle of a seven-axis arm lies in the vector below: the place of external axis a, which it leaves free.
 inline constexpr std::size_t kArmAnglePlace = robot::kMostJoints;
@@ -49,6 +65,7 @@ struct AxisVector {
 template <class Point> struct Blend {
     double before = 0, after = 0; ///< mm of path, measured on the legs as programmed
     double begin = 0, end = 0;    ///< places on the route
+    double tension = kCornerTension;
     Bezier<Point> curve;
     bool covers(double s) const { return before > 0 && s > begin && s < end; }
     Point at(double s) const { return curve.at(parameter(s)); }
@@ -58,8 +75,14 @@ template <class Point> struct Blend {
     double parameter(double s) const {
         const double length = end - begin;
         const double wanted = (s - begin) / length;
-        const Bezier<double> way{{0.0, std::min(kCornerTension * before / length, 1.0),
-                                  std::max(1 - kCornerTension * after / length, 0.0), 1.0}};
+        Bezier<double> way;
+        const double first = tension * before / length;
+        const double last = tension * after / length;
+        way.isSmooth = curve.isSmooth;
+        if (way.isSmooth)
+            way.p = {0.0, first, 2 * first, 1 - 2 * last, 1 - last, 1.0};
+        else
+            way.p = {0.0, std::min(first, 1.0), std::max(1 - last, 0.0), 1.0};
         double low = 0;
         double high = 1;
         double x = wanted;
@@ -95,6 +118,7 @@ enum class CornerKind : uint8_t {
 
 struct Corner {
     CornerKind kind = CornerKind::None;
+    bool isSmooth = false;        ///< its curves bend at their ends as the legs do
     double before = 0, after = 0; ///< mm of path cut off the two legs
     double begin = 0;             ///< place on the route
     LengthMap lengths;            ///< of the curve

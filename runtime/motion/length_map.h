@@ -11,8 +11,8 @@ class LengthMap {
     /// The parameter grows in proportion to the distance.
     static LengthMap even(double length);
     /// `rate`: length per unit of the parameter, measured at 2 * `pieces` + 1 places, or more where it
-    /// changes fast.
-    static LengthMap measured(const std::function<double(double)>& rate, int pieces);
+    /// changes fast. `isSmooth`: the second derivative of the parameter is continuous, too.
+    static LengthMap measured(const std::function<double(double)>& rate, int pieces, bool isSmooth = false);
 
     double length() const { return length_; }
     /// The parameter at this distance from the start (clamped).
@@ -21,8 +21,11 @@ class LengthMap {
     double distanceAt(double parameter) const;
 
   private:
+    double smoothShare(std::size_t piece, double x) const;
+
     double length_ = 0;
     std::vector<double> distances_, rates_; // at even steps of the parameter; empty when even
+    std::vector<double> bends_;             // derivatives of the rates; empty unless smooth
 };
 
 } // namespace motion

@@ -80,13 +80,14 @@ struct CarriedLoad {
 
 /// AccSet, VelSet, PathAccLim, WorldAccLim in force for the move.
 struct MotionSettings {
-    double velocityPercent = 100;     ///< VelSet Override
-    double maxTcpSpeed = 1e9;         ///< VelSet Max, mm/s; no effect on moves with a duration
-    double accelerationPercent = 100; ///< AccSet Acc; below 20 acts as 20
-    double rampPercent = 100;         ///< AccSet Ramp; below 10 acts as 10
-    double pathAcceleration = 0;      ///< PathAccLim \AccMax, m/s^2 along the path; 0 = no limit
-    double pathDeceleration = 0;      ///< PathAccLim \DecelMax; 0 = no limit
-    double worldAcceleration = 0;     ///< WorldAccLim, m/s^2; 0 = no limit
+    double velocityPercent = 100;      ///< VelSet Override
+    double maxTcpSpeed = 1e9;          ///< VelSet Max, mm/s; no effect on moves with a duration
+    double accelerationPercent = 100;  ///< AccSet Acc; below 20 acts as 20
+    double rampPercent = 100;          ///< AccSet Ramp; below 10 acts as 10
+    double pathAcceleration = 0;       ///< PathAccLim \AccMax, m/s^2 along the path; 0 = no limit
+    double pathDeceleration = 0;       ///< PathAccLim \DecelMax; 0 = no limit
+    double worldAcceleration = 0;      ///< WorldAccLim, m/s^2; 0 = no limit
+    double finePointRampPercent = 100; ///< AccSet \FinePointRamp; below 10 acts as 10
 };
 
 /// Something to be reported when the TCP passes a place on the path (TriggIO and friends). A place before the start of

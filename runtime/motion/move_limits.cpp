@@ -43,6 +43,7 @@ MoveLimits limitsOf(const MoveCommand& command, const robot::RobotModel& model,
     for (double& axis : limits.accelerationShare)
         axis *= accelerationShare;
     limits.rampShare = 0.01 * std::clamp(set.rampPercent, 10.0, 100.0);
+    limits.finePointRampShare = 0.01 * std::clamp(set.finePointRampPercent, 10.0, 100.0);
     limits.jointSpeed = model.maxSpeed;
     const bool isTimed = command.duration > 0; // the time replaces the programmed speeds
     const double share = 0.01 * std::clamp(set.velocityPercent, 0.01, 100.0);

@@ -28,6 +28,8 @@ struct MoveLimits {
     /// Of the robot's accelerations: AccSet and the load.
     std::array<double, robot::kMostJoints> accelerationShare{1, 1, 1, 1, 1, 1, 1};
     double rampShare = 1; ///< AccSet, of the rate at which acceleration changes
+    double finePointRampShare =
+        1; ///< AccSet, of the rate at which deceleration decreases towards a stop point
     ExternalAxes externalSpeed{};
     ExternalAxes externalAcceleration{};
     double pathAcceleration = 1e300, pathDeceleration = 1e300; ///< mm/s^2

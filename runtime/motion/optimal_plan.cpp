@@ -7,10 +7,12 @@ namespace motion {
 
 namespace {
 
-constexpr double kNothing = 1e-9;   // mm
-constexpr double kSliver = 1e-6;    // mm, of a cell that is not worth planning
-constexpr double kTick = 0.001;     // s, at which the result is checked
-constexpr double kAllowed = 0.9985; // share of an acceleration in the check: samples may lie elsewhere later
+constexpr double kNothing = 1e-9; // mm
+constexpr double kSliver = 1e-6;  // mm, of a cell that is not worth planning
+constexpr double kTick = 0.001;   // s, at which the result is checked
+// Shares of the limits in the check: samples may lie elsewhere later, and a jerk changes faster than an acceleration.
+constexpr double kAllowed = 0.9985;
+constexpr double kAllowedJerk = 0.99;
 constexpr double kKeptLead =
     0.25; // s before the arm would brake, from which on a longer path is planned anew
 
@@ -92,13 +94,25 @@ std::vector<ProfileCell> OptimalPlan::pathBetween(double from, double to, double
 bool OptimalPlan::plan(Course& course, const Route& route, double now, double changed, double share) {
     const bool isSameShare = share == share_;
     const double begun = std::max(now, course.begin());
+    std::optional<Course> found; // the first one, until one keeps all limits at each tick
     if (isSameShare && course.plannedEnd() > begun) {
-        const double kept =
+        double kept =
             std::min(course.lastBraking() - kKeptLead, course.plannedTimeAt(changed) - 0.5 * kKeptLead);
-        if (kept > begun + 0.02 && kept > course.begin() + 0.1 && planFrom(course, route, kept, share))
-            return true;
+        for (double earlier = 0.1; kept > begun + 0.02 && kept > course.begin() + 0.1; earlier *= 2) {
+            Course candidate = course;
+            if (planFrom(candidate, route, kept, share)) {
+                if (keepsTicks_ || !found) found = std::move(candidate);
+                if (keepsTicks_) break;
+            }
+            kept -= earlier;
+        }
     }
-    if (!planFrom(course, route, begun, share)) return false;
+    if (!found || !keepsTicks_) {
+        Course candidate = course;
+        if (planFrom(candidate, route, begun, share) && (keepsTicks_ || !found)) found = std::move(candidate);
+    }
+    if (!found) return false;
+    course = std::move(*found);
     share_ = share;
     return true;
 }
@@ -134,16 +148,39 @@ double OptimalPlan::mostSquareAhead(double place, double way, double share) cons
     return square * share * share;
 }
 
+/// AccSet \FinePointRamp: the jerk is lower on the way on which deceleration decreases towards the stop point.
+void OptimalPlan::softenEnd(std::vector<ProfileCell>& path) const {
+    if (!(endRampShare_ < 1)) return;
+    double acceleration = 1e7, jerk = 1e9;
+    const ProfileRows& end = path.back().last;
+    for (std::size_t r = 0; r < end.count; ++r) {
+        const double rate = std::max(std::abs(end.rows[r].first), 1e-12);
+        acceleration = std::min(acceleration, std::min(end.rows[r].up, end.rows[r].down) / rate);
+        jerk = std::min(jerk, endRampShare_ * end.rows[r].jerk / rate);
+    }
+    const double speed = std::sqrt(path.back().mostSquare);
+    double left = std::min(acceleration * acceleration * acceleration / (6 * jerk * jerk),
+                           speed * std::sqrt(2 * speed / jerk) / 3);
+    for (auto cell = path.rbegin(); cell != path.rend() && left > 0; ++cell) {
+        left -= cell->width;
+        for (ProfileRows* rows : {&cell->first, &cell->last})
+            for (std::size_t r = 0; r < rows->count; ++r)
+                rows->rows[r].jerk *= endRampShare_;
+    }
+}
+
 bool OptimalPlan::solveFrom(Course& course, const Route& route, double time, const CourseState& state,
                             double share) {
     constexpr double kStanding = 1e-6; // mm/s
     ProfileStart start;
     if (state.v > kStanding) start = {state.v, state.a, 0};
     bool isPlanned = false;
-    constexpr int kMostRounds = 8;
+    keepsTicks_ = false;
+    constexpr int kMostRounds = 16;
     for (int round = 0; round < kMostRounds; ++round) {
-        const std::vector<ProfileCell> path = pathBetween(state.s, length(), share);
+        std::vector<ProfileCell> path = pathBetween(state.s, length(), share);
         if (path.empty()) return false;
+        softenEnd(path);
         ProfileGrid grid;
         ProfileSolver::Result found;
         for (const double firstShare : {1.0, 0.2}) {
@@ -156,55 +193,84 @@ bool OptimalPlan::solveFrom(Course& course, const Route& route, double time, con
         if (course.plannedEnd() < time) course.rest(time - course.plannedEnd());
         takeProfile(course, state.s, grid, found);
         isPlanned = true;
-        if (!tightenWhereExceeded(course, route, time, share)) break;
+        keepsTicks_ = !tightenWhereExceeded(course, route, time, share, round);
+        if (keepsTicks_) break;
     }
     return true;
 }
 
-/// Largest share of an acceleration's limit that the axes take, by three samples of the course.
-double OptimalPlan::useAt(const Route& route, const std::array<Joints, 3>& axes, double place) const {
+/// Largest shares of the limits that the axes take, by four samples of the course a tick apart.
+OptimalPlan::Use OptimalPlan::useAt(const Route& route, const std::array<Joints, 4>& axes,
+                                    double place) const {
     Joints most = axes[1];
     limits_.accelerations->limitsAt(axes[1], most);
-    const auto& shares = route.leg(route.legAt(place)).limits.accelerationShare;
-    double use = 0;
+    const MoveLimits& limits = route.leg(route.legAt(place)).limits;
+    Use use;
     for (std::size_t i = 0; i < most.size(); ++i) {
-        const double change = axes[2][i] - 2 * axes[1][i] + axes[0][i];
-        use = std::max(use, std::abs(change) / (kTick * kTick * shares[i] * most[i]));
+        const double bend = axes[2][i] - 2 * axes[1][i] + axes[0][i];
+        const double next = axes[3][i] - 2 * axes[2][i] + axes[1][i];
+        const double acceleration = limits.accelerationShare[i] * most[i] * kTick * kTick;
+        const double jerk = limits.rampShare * limits_.jerk[i] * kTick * kTick * kTick;
+        use.acceleration = std::max(use.acceleration, std::abs(bend) / acceleration);
+        use.jerk = std::max(use.jerk, std::abs(next - bend) / jerk);
     }
     return use;
 }
 
-bool OptimalPlan::tightenWhereExceeded(const Course& course, const Route& route, double time, double share) {
+/// Lowers what a cell allows, in proportion to what was exceeded at this speed of the route.
+void OptimalPlan::tighten(ProfileCell& cell, const Use& use, double speed, int round) {
     constexpr double kBent = 1.02; // more is a bend that is sharper than a stretch shows: slower there
-    std::array<Joints, 3> axes;
-    std::array<double, 3> places{};
-    bool isExceeded = false;
-    std::size_t done = cells_.size();
-    const auto count = static_cast<long>((course.plannedEnd() - time) / kTick) + 5;
-    for (long k = 0; k < count; ++k) {
-        std::rotate(axes.begin(), axes.begin() + 1, axes.end());
-        std::rotate(places.begin(), places.begin() + 1, places.end());
-        const CourseState state = course.plannedAt(time + static_cast<double>(k - 2) * kTick);
-        places[2] = state.s;
-        axes[2] = route.at(state.s).joints;
-        if (k < 2) continue;
-        const double use = useAt(route, axes, places[1]);
-        if (use <= kAllowed) continue;
-        const std::size_t i = cellAt(places[1]);
-        if (i == done && use <= kBent) continue; // lowered already
-        done = i;
-        isExceeded = true;
-        ProfileCell& cell = cells_[i];
-        const double speed = (places[2] - places[0]) / (2 * kTick);
-        if (use > kBent)
-            cell.mostSquare = std::min(cell.mostSquare, std::pow(0.99 * speed / (use * share), 2));
-        for (ProfileRows* rows : {&cell.first, &cell.last}) {
-            for (std::size_t r = 0; r < rows->count; ++r) {
-                rows->rows[r].up *= kAllowed / std::min(use, kBent);
-                rows->rows[r].down *= kAllowed / std::min(use, kBent);
-            }
+    const double lower = 0.999 - 0.003 * round; // than necessary, for an end after few rounds
+    const double bend = std::max(std::sqrt(use.acceleration), std::cbrt(use.jerk));
+    if (std::max(use.acceleration, use.jerk) > kBent)
+        cell.mostSquare = std::min(cell.mostSquare, std::pow(std::min(lower, 0.99) * speed / bend, 2));
+    const auto lowered = [&](double used, double allowed) {
+        return used > allowed ? lower * allowed / std::min(used, kBent) : 1.0;
+    };
+    const double acceleration = lowered(use.acceleration, kAllowed);
+    const double jerk = lowered(use.jerk, kAllowedJerk);
+    for (ProfileRows* rows : {&cell.first, &cell.last}) {
+        for (std::size_t r = 0; r < rows->count; ++r) {
+            rows->rows[r].up *= acceleration;
+            rows->rows[r].down *= acceleration;
+            rows->rows[r].jerk *= jerk;
         }
     }
+}
+
+bool OptimalPlan::tightenWhereExceeded(const Course& course, const Route& route, double time, double share,
+                                       int round) {
+    constexpr std::size_t kPhases = 2; // a reader's ticks may lie between those of the check
+    constexpr double kStep = kTick / kPhases;
+    constexpr std::size_t kLast = 3 * kPhases;
+    std::array<Joints, kLast + 1> axes;
+    std::array<double, kLast + 1> places{};
+    std::vector<Use> uses(cells_.size());
+    std::vector<double> speeds(cells_.size(), 0);
+    bool isExceeded = false;
+    const auto count = static_cast<std::size_t>((course.plannedEnd() - time) / kStep) + 2 * kLast;
+    for (std::size_t k = 0; k < count; ++k) {
+        std::rotate(axes.begin(), axes.begin() + 1, axes.end());
+        std::rotate(places.begin(), places.begin() + 1, places.end());
+        // The ticks before are those of the plan before, up to the moment from which on it is another.
+        const double moment = time + (static_cast<double>(k) - 2 * kPhases) * kStep;
+        places[kLast] = course.plannedAt(moment).s;
+        axes[kLast] = route.at(places[kLast]).joints;
+        if (k < kLast) continue;
+        const Use use =
+            useAt(route, {axes[0], axes[kPhases], axes[2 * kPhases], axes[kLast]}, places[kPhases]);
+        if (use.acceleration <= kAllowed && use.jerk <= kAllowedJerk) continue;
+        isExceeded = true;
+        const double speed = (places[kLast] - places[0]) / (3 * kTick * share);
+        const std::size_t last = cellAt(places[kLast]);
+        for (std::size_t i = cellAt(places[0]); i <= last; ++i) {
+            uses[i].acceleration = std::max(uses[i].acceleration, use.acceleration);
+            uses[i].jerk = std::max(uses[i].jerk, use.jerk);
+            speeds[i] = std::max(speeds[i], speed);
+        }
+    }
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+        if (speeds[i] > 0) tighten(cells_[i], uses[i], speeds[i], round);
     return isExceeded;
 }
 

@@ -17,6 +17,8 @@ class OptimalPlan {
 
     /// Measures the stretches of the route from this one on; the ones before are known.
     void measure(const Route& route, std::size_t from);
+    /// AccSet \FinePointRamp as a share of \Ramp, when the route ends with a stop point; else 1.
+    void setEndRamp(double share) { endRampShare_ = share; }
     /// The first stretches of the route have been forgotten.
     void forget(std::size_t stretches);
     /// Replaces what the course does after `now`: to the end of the route at this share of the programmed speed. The route has
@@ -49,9 +51,15 @@ class OptimalPlan {
     std::optional<Slowing> slowing(const Course& course, double now, double speed) const;
     bool planFrom(Course& course, const Route& route, double time, double share);
     bool solveFrom(Course& course, const Route& route, double time, const CourseState& state, double share);
+    void softenEnd(std::vector<ProfileCell>& path) const;
     /// Samples the course and lowers the limits where the arm would exceed them; false when it was not necessary.
-    bool tightenWhereExceeded(const Course& course, const Route& route, double time, double share);
-    double useAt(const Route& route, const std::array<Joints, 3>& axes, double place) const;
+    bool tightenWhereExceeded(const Course& course, const Route& route, double time, double share, int round);
+    /// Shares of limits.
+    struct Use {
+        double acceleration = 0, jerk = 0;
+    };
+    Use useAt(const Route& route, const std::array<Joints, 4>& axes, double place) const;
+    static void tighten(ProfileCell& cell, const Use& use, double speed, int round);
     Course stopped(const Course& course, double now) const;
     static void follow(Course& course, const Slowing& slowing);
 
@@ -59,6 +67,8 @@ class OptimalPlan {
     std::deque<ProfileCell> cells_; // of each stretch, at full override
     std::deque<double> begins_;
     double share_ = 1;
+    double endRampShare_ = 1;
+    bool keepsTicks_ = false; // the plan that was found last keeps all limits at each tick
     ProfileSolver solver_;
 };
 

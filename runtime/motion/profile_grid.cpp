@@ -45,14 +45,17 @@ double restWidthOf(const ProfileCell& cell, const ProfileRows& rows, double leng
 }
 
 /// Widths of cells at the borders of the path's pieces.
-std::vector<double> sizesOf(const std::vector<ProfileCell>& path, const ProfileGrid& grid,
-                            double firstShare) {
+std::vector<double> sizesOf(const std::vector<ProfileCell>& path, const ProfileCell& first,
+                            const ProfileCell& last, const ProfileGrid& grid, double firstShare) {
     std::vector<double> sizes(path.size() + 1, 1e300);
+    const auto width = [&](std::size_t i) {
+        return i + 1 == path.size() ? last.width : i == 0 ? first.width : path[i].width;
+    };
     const bool isMoving = grid.start.v > 0;
     sizes.front() = kGrowth * grid.start.restWidth;
     if (isMoving) {
         const double v = grid.start.v;
-        sizes.front() = kResolution * limitsOf(path.front().first, path.front().mostSquare).riseAt(v);
+        sizes.front() = kResolution * limitsOf(first.first, first.mostSquare).riseAt(v);
         if (grid.start.a != 0) sizes.front() = std::min(sizes.front(), 0.3 * v * v / std::abs(grid.start.a));
         sizes.front() = std::max(firstShare * sizes.front(), 1e-6);
     }
@@ -65,9 +68,9 @@ std::vector<double> sizesOf(const std::vector<ProfileCell>& path, const ProfileG
             std::max(kResolution * limitsOf(path[i].first, low).riseAt(std::sqrt(std::min(low, 1e8))), 1e-3);
     }
     for (std::size_t i = 1; i < sizes.size(); ++i)
-        sizes[i] = std::min(sizes[i], sizes[i - 1] + kGrowth * path[i - 1].width);
+        sizes[i] = std::min(sizes[i], sizes[i - 1] + kGrowth * width(i - 1));
     for (std::size_t i = sizes.size() - 1; i-- > 0;)
-        sizes[i] = std::min(sizes[i], sizes[i + 1] + kGrowth * path[i].width);
+        sizes[i] = std::min(sizes[i], sizes[i + 1] + kGrowth * width(i));
     return sizes;
 }
 
@@ -99,19 +102,25 @@ ProfileCell partOf(const ProfileCell& cell, double from, double to) {
 ProfileGrid gridOf(const std::vector<ProfileCell>& path, const ProfileStart& start, double firstShare) {
     ProfileGrid grid;
     grid.start = start;
-    std::vector<ProfileCell> pieces = path;
     const bool isMoving = start.v > 0;
     double length = 0;
     for (const ProfileCell& cell : path)
         length += cell.width;
-    grid.start.restWidth = isMoving ? 0 : restWidthOf(pieces.front(), pieces.front().first, length);
-    grid.endWidth = restWidthOf(pieces.back(), pieces.back().last, length);
-    if (!isMoving) pieces.front() = partOf(pieces.front(), grid.start.restWidth / pieces.front().width, 1);
-    pieces.back() = partOf(pieces.back(), 0, 1 - grid.endWidth / pieces.back().width);
-    const std::vector<double> sizes = sizesOf(pieces, grid, firstShare);
+    grid.start.restWidth = isMoving ? 0 : restWidthOf(path.front(), path.front().first, length);
+    grid.endWidth = restWidthOf(path.back(), path.back().last, length);
+    // Without the ways from and to rest.
+    ProfileCell first = path.front();
+    if (!isMoving) first = partOf(first, grid.start.restWidth / first.width, 1);
+    ProfileCell last = path.size() == 1 ? first : path.back();
+    last = partOf(last, 0, 1 - grid.endWidth / last.width);
+    const auto piece = [&](std::size_t i) -> const ProfileCell& {
+        return i + 1 == path.size() ? last : i == 0 ? first : path[i];
+    };
+    const std::vector<double> sizes = sizesOf(path, first, last, grid, firstShare);
     std::vector<double> borders;
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        const double width = pieces[i].width;
+    grid.cells.reserve(path.size() + path.size() / 4 + 64);
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const double width = piece(i).width;
         borders.assign(1, 0);
         for (;;) {
             const double at = borders.back();
@@ -123,7 +132,7 @@ ProfileGrid gridOf(const std::vector<ProfileCell>& path, const ProfileStart& sta
         const double scale = 1 / borders.back();
         for (std::size_t k = 1; k < borders.size(); ++k)
             grid.cells.push_back(
-                partOf(pieces[i], borders[k - 1] * scale, k + 1 == borders.size() ? 1 : borders[k] * scale));
+                partOf(piece(i), borders[k - 1] * scale, k + 1 == borders.size() ? 1 : borders[k] * scale));
     }
     return grid;
 }

@@ -39,26 +39,25 @@ ProfileSolver::Result ProfileSolver::solve(const std::vector<ProfileCell>& cells
     Result result;
     begin();
     constexpr int kMostIterations = 90;
-    constexpr double kGapShare = 2e-3; // of the duration
+    constexpr double kGapShare = 6e-4; // of the duration
     constexpr double kBalanceShare = 1e-2;
+    const auto pairs = static_cast<double>(2 * terms_.size() + cap_.size());
     double share = 0.2;
     for (; result.iterations < kMostIterations; ++result.iterations) {
         double duration = 0;
         for (std::size_t i = 0; i < cells_; ++i)
             duration += width_[i] / std::sqrt(coefficient_[i + 1]);
-        const double open = gap();
-        const double pairs = static_cast<double>(2 * terms_.size() + cap_.size());
-        evaluate();
-        result.excess = worstExcess();
-        if (open < kGapShare * duration && result.excess <= 0 && imbalance() < kBalanceShare * duration)
-            break;
-        assemble(std::max(share * open, 0.2 * kGapShare * duration) / pairs);
+        const bool isKept = evaluateTerms();
+        if (gap_ < kGapShare * duration && isKept && imbalance() < kBalanceShare * duration) break;
+        assemble(std::max(share * gap_, 0.2 * kGapShare * duration) / pairs);
         if (!factorAndSolve()) return result;
-        const double length = stepLength();
+        const Lengths lengths = stepLengths();
+        const double length = std::min(lengths.speeds, lengths.forces);
         if (!(length > 1e-9)) return result;
-        advance(length);
+        advance(lengths);
         share = length > 0.8 ? 0.05 : length > 0.4 ? 0.3 : 1.0;
     }
+    result.excess = worstExcess();
     result.isSolved = result.excess <= 1e-9;
     double place = 0;
     for (std::size_t i = 0; i <= cells_; ++i) {
@@ -226,8 +225,9 @@ void ProfileSolver::addAccelerations(std::size_t cell, const ProfileRows& rows, 
         const double unit = std::min(row.up, row.down);
         for (std::size_t k = 0; k < 3; ++k)
             term.row[k] = (row.first * at.slope[k] + row.second * at.place[k]) / unit;
-        term.up = std::min(row.up / unit, 1e6) * (1 - kMargin);
-        term.down = std::min(row.down / unit, 1e6) * (1 - kMargin);
+        term.most = {std::min(row.up / unit, 1e6) * (1 - kMargin),
+                     std::min(row.down / unit, 1e6) * (1 - kMargin)};
+        term.limit = term.most;
         addTerm(term);
     }
 }
@@ -279,7 +279,8 @@ void ProfileSolver::addJerks(std::size_t cell, const ProfileRows& rows, const Li
             term.row[k] =
                 (row.first * change[k] + 3 * row.second * at.slope[k] + row.third * at.place[k]) / unit;
         term.square = at.place;
-        term.up = term.down = std::sqrt(cap) * kJerkShare;
+        const double bound = std::sqrt(cap) * kJerkShare;
+        term.most = {bound, bound};
         addTerm(term);
     }
 }
@@ -299,28 +300,34 @@ void ProfileSolver::addTerm(Term term) {
     terms_.push_back(term);
 }
 
-ProfileSolver::Bounds ProfileSolver::boundsOf(const Term& term) const {
+void ProfileSolver::evaluate(Term& term) const {
     const double* c = &coefficient_[term.at];
     const double value = dot(term.row, c);
-    if (!term.isJerk) {
-        const Three& r = term.row;
-        return {{value - term.up, -value - term.down}, {{r, {-r[0], -r[1], -r[2]}}}, {term.up, term.down}};
+    if (term.isJerk) {
+        const double inverse = 1 / std::sqrt(std::max(dot(term.square, c), 1e-12));
+        term.limit = term.most * inverse;
+        term.fall = 0.5 * term.limit[0] * inverse * inverse;
     }
-    const double square = std::max(dot(term.square, c), 1e-12);
-    const double bound = term.up / std::sqrt(square);
-    const double fall = 0.5 * bound / square;
-    Bounds result{{value - bound, -value - bound}, {}, {bound, bound}};
-    for (std::size_t k = 0; k < 3; ++k) {
-        result.gradient[0][k] = term.row[k] + fall * term.square[k];
-        result.gradient[1][k] = -term.row[k] + fall * term.square[k];
-    }
-    return result;
+    term.value = Pair{value, -value} - term.limit;
 }
 
-void ProfileSolver::evaluate() {
-    bounds_.resize(terms_.size());
-    for (std::size_t n = 0; n < terms_.size(); ++n)
-        bounds_[n] = boundsOf(terms_[n]);
+/// Whether all limits are kept.
+bool ProfileSolver::evaluateTerms() {
+    Pair worst{-1, -1};
+    Pair sum{};
+    for (Term& term : terms_) {
+        evaluate(term);
+        const Pair excess = term.value - term.limit * (kMargin / 2);
+        worst = excess > worst ? excess : worst;
+        sum += term.slack * term.force;
+    }
+    gap_ = sum[0] + sum[1];
+    bool isKept = worst[0] <= 0 && worst[1] <= 0;
+    for (std::size_t i = 0; i < cap_.size(); ++i) {
+        gap_ += capSlack_[i] * capForce_[i];
+        if (fixed_[i] == 0 && coefficient_[i] - cap_[i] > cap_[i] * kMargin / 2) isKept = false;
+    }
+    return isKept;
 }
 
 void ProfileSolver::begin() {
@@ -336,9 +343,9 @@ void ProfileSolver::begin() {
         capForce_[i] = fixed_[i] != 0 ? 0 : target / capSlack_[i];
     }
     for (Term& term : terms_) {
-        const Bounds bounds = boundsOf(term);
+        evaluate(term);
         for (std::size_t side = 0; side < 2; ++side) {
-            term.slack[side] = std::max(std::abs(bounds.value[side]), 0.1);
+            term.slack[side] = std::max(std::abs(term.value[side]), 0.1);
             term.force[side] = target / term.slack[side];
         }
     }
@@ -361,24 +368,41 @@ void ProfileSolver::assemble(double target) {
         diagonal_[i] = -1.5 * slope / coefficient_[i] + ratio;
         right_[i] = -slope - target / capSlack_[i] - ratio * miss;
     }
-    for (std::size_t n = 0; n < terms_.size(); ++n) {
-        const Term& term = terms_[n];
-        const Bounds& bounds = bounds_[n];
-        const std::size_t i = term.at;
-        for (std::size_t side = 0; side < 2; ++side) {
-            const Three& g = bounds.gradient[side];
-            const double inverse = 1 / term.slack[side];
-            const double ratio = term.force[side] * inverse;
-            const double pull = target * inverse + ratio * (bounds.value[side] + term.slack[side]);
-            const Three scaled{ratio * g[0], ratio * g[1], ratio * g[2]};
+    for (Term& term : terms_) {
+        term.inverse = 1.0 / term.slack;
+        const Pair ratio = term.force * term.inverse;
+        const Pair pull = target * term.inverse + ratio * (term.value + term.slack);
+        // The gradients of both sides are row + fall * square and -row + fall * square.
+        const double both = ratio[0] + ratio[1];
+        const double odd = pull[0] - pull[1];
+        const Three& r = term.row;
+        double* diagonal = &diagonal_[term.at];
+        double* right = &right_[term.at];
+        Three even{both * r[0], both * r[1], both * r[2]}; // times row
+        Three shift{odd * r[0], odd * r[1], odd * r[2]};
+        Three q{}, cross{};
+        if (term.isJerk) {
+            const double difference = ratio[0] - ratio[1];
+            const double push = pull[0] + pull[1];
             for (std::size_t k = 0; k < 3; ++k) {
-                diagonal_[i + k] += scaled[k] * g[k];
-                right_[i + k] -= pull * g[k];
+                q[k] = term.fall * term.square[k];
+                even[k] += difference * q[k];
+                cross[k] = difference * r[k] + both * q[k];
+                shift[k] += push * q[k];
             }
-            next_[i] += scaled[0] * g[1];
-            next_[i + 1] += scaled[1] * g[2];
-            second_[i] += scaled[0] * g[2];
+            for (std::size_t k = 0; k < 3; ++k)
+                diagonal[k] += cross[k] * q[k];
+            next_[term.at] += cross[0] * q[1];
+            next_[term.at + 1] += cross[1] * q[2];
+            second_[term.at] += cross[0] * q[2];
         }
+        for (std::size_t k = 0; k < 3; ++k) {
+            diagonal[k] += even[k] * r[k];
+            right[k] -= shift[k];
+        }
+        next_[term.at] += even[0] * r[1];
+        next_[term.at + 1] += even[1] * r[2];
+        second_[term.at] += even[0] * r[2];
     }
     for (std::size_t i = 0; i < count; ++i) {
         if (fixed_[i] == 0) continue;
@@ -419,49 +443,52 @@ bool ProfileSolver::factorAndSolve() {
 }
 
 /// The longest step, at most 1, that keeps slacks, forces and squares of speeds positive.
-double ProfileSolver::stepLength() {
+ProfileSolver::Lengths ProfileSolver::stepLengths() {
     constexpr double kToBorder = 0.97;
-    double length = 1 / kToBorder;
-    const auto keep = [&](double value, double step) {
+    Lengths lengths{1 / kToBorder, 1 / kToBorder};
+    const auto keep = [&](double& length, double value, double step) {
         if (step < 0) length = std::min(length, -value / step);
     };
     const std::size_t count = coefficient_.size();
     for (std::size_t i = 0; i < count; ++i) {
         if (fixed_[i] != 0) continue;
-        keep(coefficient_[i], step_[i]);
-        keep(capSlack_[i], capSlackStep_[i] = cap_[i] - coefficient_[i] - capSlack_[i] - step_[i]);
-        keep(capForce_[i], capForceStep_[i] = target_ / capSlack_[i] - capForce_[i] -
-                                              capForce_[i] / capSlack_[i] * capSlackStep_[i]);
+        keep(lengths.speeds, coefficient_[i], step_[i]);
+        keep(lengths.speeds, capSlack_[i],
+             capSlackStep_[i] = cap_[i] - coefficient_[i] - capSlack_[i] - step_[i]);
+        keep(lengths.forces, capForce_[i],
+             capForceStep_[i] =
+                 target_ / capSlack_[i] - capForce_[i] - capForce_[i] / capSlack_[i] * capSlackStep_[i]);
     }
-    for (std::size_t n = 0; n < terms_.size(); ++n) {
-        Term& term = terms_[n];
-        const Bounds& bounds = bounds_[n];
-        for (std::size_t side = 0; side < 2; ++side) {
-            double& slackStep = term.slackStep[side];
-            double& forceStep = term.forceStep[side];
-            slackStep =
-                -(bounds.value[side] + term.slack[side]) - dot(bounds.gradient[side], &step_[term.at]);
-            forceStep = (target_ - term.force[side] * slackStep) / term.slack[side] - term.force[side];
-            keep(term.slack[side], slackStep);
-            keep(term.force[side], forceStep);
-        }
+    Pair slackShrink{}, forceShrink{}; // largest shares that are lost
+    for (Term& term : terms_) {
+        const double* step = &step_[term.at];
+        const double along = dot(term.row, step);
+        Pair change{along, -along};
+        if (term.isJerk) change += term.fall * dot(term.square, step);
+        term.slackStep = -(term.value + term.slack) - change;
+        term.forceStep = (target_ - term.force * term.slackStep) * term.inverse - term.force;
+        const Pair slackLoss = -term.slackStep * term.inverse;
+        const Pair forceLoss = -term.forceStep / term.force;
+        slackShrink = slackLoss > slackShrink ? slackLoss : slackShrink;
+        forceShrink = forceLoss > forceShrink ? forceLoss : forceShrink;
     }
-    return std::min(1.0, kToBorder * length);
+    const auto most = [](double length, const Pair& shrink) {
+        return std::min(1.0, kToBorder * std::min(length, 1 / std::max({shrink[0], shrink[1], 1e-300})));
+    };
+    return {most(lengths.speeds, slackShrink), most(lengths.forces, forceShrink)};
 }
 
-void ProfileSolver::advance(double length) {
+void ProfileSolver::advance(const Lengths& lengths) {
     const std::size_t count = coefficient_.size();
     for (std::size_t i = 0; i < count; ++i) {
         if (fixed_[i] != 0) continue;
-        coefficient_[i] += length * step_[i];
-        capSlack_[i] += length * capSlackStep_[i];
-        capForce_[i] += length * capForceStep_[i];
+        coefficient_[i] += lengths.speeds * step_[i];
+        capSlack_[i] += lengths.speeds * capSlackStep_[i];
+        capForce_[i] += lengths.forces * capForceStep_[i];
     }
     for (Term& term : terms_) {
-        for (std::size_t side = 0; side < 2; ++side) {
-            term.slack[side] += length * term.slackStep[side];
-            term.force[side] += length * term.forceStep[side];
-        }
+        term.slack += lengths.speeds * term.slackStep;
+        term.force += lengths.forces * term.forceStep;
     }
     if (startsAtRest_) coefficient_[0] = firstRatio_ * coefficient_[1];
     coefficient_[count - 1] = lastRatio_ * coefficient_[count - 2];
@@ -476,35 +503,26 @@ double ProfileSolver::imbalance() {
         const double weight = width_[std::min(i, cells_) - 1];
         step_[i] = capForce_[i] - 0.5 * weight / (coefficient_[i] * std::sqrt(coefficient_[i]));
     }
-    for (std::size_t n = 0; n < terms_.size(); ++n)
-        for (std::size_t side = 0; side < 2; ++side)
-            for (std::size_t k = 0; k < 3; ++k)
-                step_[terms_[n].at + k] += terms_[n].force[side] * bounds_[n].gradient[side][k];
+    for (const Term& term : terms_) {
+        const double odd = term.force[0] - term.force[1];
+        const double even = term.isJerk ? term.fall * (term.force[0] + term.force[1]) : 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            step_[term.at + k] += odd * term.row[k] + even * term.square[k];
+    }
     double sum = 0;
     for (std::size_t i = 0; i < count; ++i)
         if (fixed_[i] == 0) sum += std::abs(step_[i]) * coefficient_[i];
     return sum;
 }
 
-/// What is still to be gained, s.
-double ProfileSolver::gap() const {
-    double sum = 0;
-    for (std::size_t i = 0; i < cap_.size(); ++i)
-        sum += capSlack_[i] * capForce_[i];
-    for (const Term& term : terms_)
-        sum += term.slack[0] * term.force[0] + term.slack[1] * term.force[1];
-    return sum;
-}
-
+/// Largest limit that is passed, as a share of it.
 double ProfileSolver::worstExcess() const {
     double worst = -1;
     for (std::size_t i = 0; i < cap_.size(); ++i)
         if (fixed_[i] == 0) worst = std::max(worst, (coefficient_[i] - cap_[i]) / cap_[i] - kMargin / 2);
-    for (std::size_t n = 0; n < terms_.size(); ++n) {
-        const Bounds& bounds = bounds_[n];
-        // A share of the bound; only whether it is above 0 counts while it is far off.
-        const double up = std::max(bounds.value[0] / bounds.limit[0], bounds.value[1] / bounds.limit[1]);
-        worst = std::max(worst, up - kMargin / 2);
+    for (const Term& term : terms_) {
+        const Pair excess = term.value / term.limit;
+        worst = std::max({worst, excess[0] - kMargin / 2, excess[1] - kMargin / 2});
     }
     return worst;
 }

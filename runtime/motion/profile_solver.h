@@ -3,6 +3,7 @@
 // speed is a quadratic spline over the place, so that speed and acceleration are continuous and jerk changes at borders of
 // cells only. Found by an interior-point method; the work grows in proportion to the number of cells. Knows no robot.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -21,6 +22,16 @@ struct ProfileRows {
     static constexpr std::size_t kMost = 14;
     std::array<ProfileRow, kMost> rows;
     std::size_t count = 0;
+    ProfileRows() = default;
+    ProfileRows(const ProfileRows& other) : count(other.count) {
+        std::copy_n(other.rows.begin(), count, rows.begin());
+    }
+    ProfileRows& operator=(const ProfileRows& other) {
+        count = other.count;
+        std::copy_n(other.rows.begin(), count, rows.begin());
+        return *this;
+    }
+    ~ProfileRows() = default;
     void add(const ProfileRow& row) {
         if (count < kMost) rows[count++] = row;
     }
@@ -59,18 +70,15 @@ class ProfileSolver {
     Result solve(const std::vector<ProfileCell>& cells, const ProfileStart& start, double endWidth);
 
   private:
-    struct Term { // |row * coefficients| is below a bound that falls with the speed when it is a jerk
+    using Pair = double __attribute__((vector_size(16))); // for both sides of a term, calculated together
+    struct Term { // row * coefficients lies between two limits, which fall with the speed when it is a jerk
         std::size_t at = 0;
-        std::array<double, 3> row{}, square{}; // square: of the speed at the place of the term
-        double up = 0, down = 0;
         bool isJerk = false;
-        std::array<double, 2> slack{}, force{};
-        std::array<double, 2> slackStep{}, forceStep{};
-    };
-    struct Bounds { // of a term at the present coefficients: below 0 when kept; its gradients
-        std::array<double, 2> value;
-        std::array<std::array<double, 3>, 2> gradient;
-        std::array<double, 2> limit;
+        double fall = 0;                       // of the limits of a jerk by the square of the speed
+        std::array<double, 3> row{}, square{}; // square: of the speed at the place of the term
+        Pair most{};                           // up and down
+        Pair limit{}, value{}; // at the present coefficients; the value is below 0 when the limit is kept
+        Pair slack{}, force{}, inverse{}, slackStep{}, forceStep{}; // inverse: of the slack
     };
     struct Lines {
         std::array<double, 3> place{},
@@ -85,21 +93,23 @@ class ProfileSolver {
     void addJerks(std::size_t cell, const ProfileRows& rows, const Lines& at,
                   const std::array<double, 3>& change, double capSquare);
     void addTerm(Term term);
-    Bounds boundsOf(const Term& term) const;
+    void evaluate(Term& term) const;
     void begin();
-    void evaluate();
+    bool evaluateTerms();
     void assemble(double target);
     bool factorAndSolve();
-    double stepLength();
-    void advance(double length);
+    struct Lengths { // of a step
+        double speeds = 0, forces = 0;
+    };
+    Lengths stepLengths();
+    void advance(const Lengths& lengths);
     double imbalance();
-    double gap() const;
     double worstExcess() const;
 
     std::size_t cells_ = 0;
     std::vector<double> width_, coefficient_, cap_, capSlack_, capForce_, capSlackStep_, capForceStep_;
     std::vector<Term> terms_;
-    std::vector<Bounds> bounds_; // of the terms at the present coefficients
+    double gap_ = 0; // what is still to be gained, s
     std::vector<double> diagonal_, next_, second_, right_, step_;
     std::vector<char> fixed_;
     double firstRatio_ = 1, lastRatio_ = 1; // of the outermost coefficients to their neighbours, at rest

@@ -33,6 +33,18 @@ Radii radiiOn(const Leg& leg, const ZoneData& zone) {
     return {std::min(r.tcp, half), std::min(r.turn, half), std::min(r.external, half)};
 }
 
+double product(const Vec3& a, const Vec3& b) {
+    return dot(a, b);
+}
+
+/// Axes that are not connected have no angle.
+double product(const AxisVector& a, const AxisVector& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.v.size(); ++i)
+        if (std::isfinite(a.v[i] * b.v[i])) sum += a.v[i] * b.v[i];
+    return sum;
+}
+
 /// Place where the first of the curve and the blends of a corner begins.
 double zoneBegin(const Corner& corner) {
     double begin = corner.begin;
@@ -108,6 +120,7 @@ void Route::makeCorner(CornerKind kind, double before, double after, double fixe
     Corner& corner = corners_[corners_.size() - 2];
     corner = {};
     corner.kind = kind;
+    corner.isSmooth = isSmooth_;
     corner.before = before;
     corner.after = after;
     if (kind == CornerKind::Space) {
@@ -150,6 +163,22 @@ bool Route::isShaped(double place) const {
     return covers(corner(i)) || (i > firstLeg_ && covers(corner(i - 1)));
 }
 
+/// Places inside a part of a corner's curve between which it bends no more than a little.
+void Route::addBends(const Corner& corner, double from, double to, std::vector<double>& places) const {
+    constexpr double kLeastCosine = 0.98;
+    constexpr double kLeastPart = 1e-4;
+    const auto cosine = [&](const auto& curve) {
+        const auto a = curve.slopeAt(from), b = curve.slopeAt(to);
+        return product(a, b) / std::sqrt(product(a, a) * product(b, b));
+    };
+    const double bend = corner.kind == CornerKind::Space ? cosine(corner.space) : cosine(corner.axes);
+    if (!(bend < kLeastCosine) || to - from < kLeastPart) return;
+    const double middle = 0.5 * (from + to);
+    addBends(corner, from, middle, places);
+    places.push_back(corner.begin + corner.lengths.distanceAt(middle));
+    addBends(corner, middle, to, places);
+}
+
 /// Borders of pieces on which all quantities are smooth, and the nodes of the paths, from a place to the end.
 std::vector<double> Route::bordersFrom(double from) const {
     std::vector<double> borders{from};
@@ -176,6 +205,14 @@ std::vector<double> Route::bordersFrom(double from) const {
         add(c.end());
         for (int k = 1; k < kStretchesInZone; ++k)
             add(c.begin + c.length() * k / kStretchesInZone);
+        if (isSmooth_) {
+            std::vector<double> bends;
+            for (int k = 0; k < kStretchesInZone; ++k)
+                addBends(c, static_cast<double>(k) / kStretchesInZone,
+                         static_cast<double>(k + 1) / kStretchesInZone, bends);
+            for (const double place : bends)
+                add(place);
+        }
         const auto addZone = [&](double begin, double end) {
             for (int k = 0; k <= kStretchesInZone; ++k)
                 add(begin + (end - begin) * k / kStretchesInZone);
@@ -196,7 +233,8 @@ bool Route::layStretches(double from) {
     for (std::size_t i = 1; i < borders.size(); ++i) {
         const double gap = borders[i] - begin;
         // Borders closer than this add nothing; the last one is kept in any case.
-        const double least = i + 1 == borders.size() ? kNothing : std::min(0.02, 1e-3 * length());
+        const double worthwhile = isSmooth_ ? 1e-4 : 0.02;
+        const double least = i + 1 == borders.size() ? kNothing : std::min(worthwhile, 1e-3 * length());
         if (gap < least) continue;
         const auto parts = static_cast<int>(std::ceil(gap / kLongestStretch));
         for (int k = 0; k < parts; ++k) {

@@ -54,6 +54,10 @@ struct RouteStretch {
 
 class Route {
   public:
+    /// `isSmooth`: corners bend at their ends as the legs do, for axes that keep a limit of jerk; else as recordings show.
+    explicit Route(bool isSmooth) : isSmooth_(isSmooth) {}
+    Route() = default;
+
     /// Appends a leg that begins where the last one ends, with a corner between the two. `fixedUpTo`: the part of the route
     /// up to there can no longer change. Returns the place from which on the route has changed; nothing when no corner
     /// can be made any more: the route is unchanged then, and its end is a stop point.
@@ -111,11 +115,13 @@ class Route {
     void makeCorner(CornerKind kind, double before, double after, double fixedUpTo);
     static void curveInSpace(Corner& corner, const Leg& a, const Leg& b);
     static void curveOfAxes(Corner& corner, const Leg& a, const Leg& b);
+    static void measureAxesCurve(Corner& corner, const Leg& a, const Leg& b);
     static void blendTurn(Corner& corner, const Leg& a, const Leg& b, double before, double after);
     static void blendExternal(Corner& corner, const Leg& a, const Leg& b, double before, double after);
     void placeLastCorner();
     void dropLastLeg();
     bool layStretches(double from);
+    void addBends(const Corner& corner, double from, double to, std::vector<double>& places) const;
     std::vector<double> bordersFrom(double from) const;
     bool measure(RouteStretch& stretch, const Joints& seed) const;
     bool isShaped(double place) const;
@@ -123,6 +129,7 @@ class Route {
     Pose flangeFor(const FrameSetup& frames, const Pose& target, const ExternalAxes& axes,
                    double place) const;
 
+    bool isSmooth_ = false;
     std::function<Pose(double)> carrier_;
     std::size_t firstLeg_ = 0;
     std::deque<Leg> legs_;

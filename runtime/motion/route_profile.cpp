@@ -11,6 +11,7 @@ constexpr double kUnlimited = 1e200;
 /// Shares of the limits that planning uses: derivatives are known at the ends of stretches only.
 constexpr double kSpeedShare = 1 - 2e-6;
 constexpr double kShare = 0.995;
+constexpr double kJerkShare = 0.986;
 constexpr int kSamples = 5;
 
 using Samples = std::array<double, kSamples>;
@@ -78,7 +79,7 @@ void addRow(ProfileCell& cell, const Samples& f, double h, const std::array<doub
         Derivatives d = isLast ? atEnd(f, h) : atBegin(f, h);
         dropNoise(d, cell.width);
         const double most = kShare * acceleration[isLast ? 1 : 0];
-        (isLast ? cell.last : cell.first).add({d.first, d.second, d.third, most, most, kShare * jerk});
+        (isLast ? cell.last : cell.first).add({d.first, d.second, d.third, most, most, kJerkShare * jerk});
     }
 }
 

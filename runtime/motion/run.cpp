@@ -69,8 +69,8 @@ void shapeStretch(Course& course, double from, double to, const StretchSpeeds& x
 } // namespace
 
 Run::Run(const RunSettings& settings, double start)
-    : settings_(settings), course_(newCourse(start, 0)), start_(start), share_(settings.speedShare),
-      reachable_{0}, planned_{0} {
+    : settings_(settings), route_(settings.planner == Planner::Optimal), course_(newCourse(start, 0)),
+      start_(start), share_(settings.speedShare), reachable_{0}, planned_{0} {
     if (settings.planner == Planner::Optimal)
         optimal_.emplace(ArmLimits{settings.accelerations, settings.jerk});
 }
@@ -94,8 +94,10 @@ bool Run::append(Leg leg, bool isOpen, double now) {
     if (leg.duration > 0) leg.limits.pathSpeed = leg.length() / leg.duration;
     if (isFirst && !isOpen && optimal_) leg.limits.pathSpeed = kUnlimited; // meetDuration() slows it down
     leg.programmed.pathSpeed = leg.limits.pathSpeed;
+    const double endRamp = isOpen ? 1 : std::min(1.0, leg.limits.finePointRampShare / leg.limits.rampShare);
     const auto changed = route_.append(std::move(leg), fixedPlace(now));
     if (!changed) return false;
+    if (optimal_) optimal_->setEndRamp(endRamp);
     if (optimal_ && !appendOptimal(*changed, now)) return false;
     isOpen_ = isOpen;
     if (optimal_) {
@@ -168,6 +170,33 @@ double Run::speedSquare(std::size_t stretch) const {
     return std::min(speed < 1e100 ? speed * speed : kUnlimited, l.bendSquare);
 }
 
+/// AccSet \FinePointRamp: at a stop point deceleration decreases more slowly than the windows make it.
+void Run::taperEnd() {
+    taper_ = 0;
+    if (isOpen_ || route_.legCount() == 0 || limits_.empty()) return;
+    const double share = route_.leg(route_.legCount() - 1).limits.finePointRampShare;
+    const double windows = settings_.longWindow + settings_.shortWindow;
+    taper_ = std::max(0.0, windows * (settings_.rampShare / share - 1));
+    if (!(taper_ > 0)) return;
+    const double width = limits_.back().width;
+    const double braking = reachableFrom(0, limits_.back(), width, false).high / (2 * width);
+    taperJerk_ = std::min(braking, 1e6) / taper_;
+}
+
+/// Largest square of the speed at a place from which deceleration falls evenly to zero at the end.
+double Run::taperSquare(double place) const {
+    if (!(taper_ > 0)) return kUnlimited;
+    const double way = route_.length() - place;
+    const double before = way - taperWay();
+    if (before > limits_.back().width) return kUnlimited;
+    if (before > 0) { // evenly braked up to there
+        const double begun = 0.5 * taperJerk_ * taper_ * taper_;
+        return begun * begun + 2 * taperJerk_ * taper_ * before;
+    }
+    const double speed = std::cbrt(4.5 * taperJerk_ * way * way); // jerk t^2 / 2 after jerk t^3 / 6
+    return speed * speed;
+}
+
 /// Largest speeds from which the plan can still stop at the end; those of stretches before `from` only where they change.
 void Run::planBackward(std::size_t from) {
     const std::size_t count = limits_.size();
@@ -175,12 +204,13 @@ void Run::planBackward(std::size_t from) {
     reachable_.resize(count + 1);
     planned_.resize(count + 1);
     reachable_[count] = 0;
+    taperEnd();
     std::size_t changed = count;
     for (std::size_t i = count; i-- > 0;) {
         double most = speedSquare(i);
         if (i > 0) most = std::min(most, speedSquare(i - 1));
         most = std::min(most, reachableFrom(reachable_[i + 1], limits_[i], limits_[i].width, false).high);
-        most = std::max(most, 0.0);
+        most = std::max(std::min(most, taperSquare(nodePlace(i))), 0.0);
         if (i < known && reachable_[i] == most) break;
         reachable_[i] = most;
         changed = i;
@@ -232,6 +262,8 @@ void Run::passStretch(std::size_t stretch, double from, double square) {
     double next = std::max(0.0, std::min({reach.high, reachable_[stretch + 1], most}));
     // The speed has been lowered meanwhile: as fast as braking allows.
     if (square > most && stretch + 1 < limits_.size()) next = std::max(next, std::min(reach.low, square));
+    if (taper_ > 0 && to > route_.length() - taperWay() + kNothing && square > 0)
+        return passTapered(stretch, from, square, next);
     const double back = reachableFrom(next, limits, width, false).high;
     shapeStretch(course_, from, to, {square, next, most, reach.high, back});
     planned_[stretch + 1] = next;
@@ -265,6 +297,34 @@ void Run::meetDuration() {
     }
     durationAt(high);
     route_.leg(0).limits.pathSpeed = route_.leg(0).programmed.pathSpeed = high;
+}
+
+/// A stretch on which deceleration decreases: in parts of the same time.
+void Run::passTapered(std::size_t stretch, double from, double square, double last) {
+    constexpr int kParts = 24;
+    const StretchLimits& limits = limits_[stretch];
+    const double to = nodePlace(stretch + 1);
+    const double begin = std::max(from, route_.length() - taperWay());
+    double place = from;
+    for (int part = kParts; part >= 0; --part) {
+        const double time =
+            static_cast<double>(part) / kParts; // that is left; the way left goes with its cube
+        const double left = time * time * time;
+        const double next = to - (to - begin) * left;
+        const double width = next - place;
+        if (width < kNothing) continue;
+        const double gained = reachableFrom(square, limits, width, true).high;
+        const double most = part == 0 ? last : std::min({gained, taperSquare(next), speedSquare(stretch)});
+        if (part == kParts) { // up to the place from which on it decreases
+            const double back = reachableFrom(most, limits, width, false).high;
+            shapeStretch(course_, place, next, {square, most, speedSquare(stretch), gained, back});
+        } else {
+            course_.moveTo(next, std::sqrt(std::max(most, 0.0)));
+        }
+        square = most;
+        place = next;
+    }
+    planned_[stretch + 1] = last;
 }
 
 void Run::limitSpeeds(double now, const SpeedLimits& most) {

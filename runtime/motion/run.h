@@ -17,6 +17,7 @@ namespace motion {
 struct RunSettings {
     const robot::AccelerationMap* accelerations = nullptr;
     double longWindow = 0.108, shortWindow = 0.048; ///< s
+    double rampShare = 1;                           ///< AccSet \Ramp, which the windows contain
     double speedShare = 1;                          ///< of the programmed speed, above 0 to 1
     std::shared_ptr<Companions> companions; ///< robots that move together with this one; null for none
     Planner planner = Planner::Measured;
@@ -76,7 +77,11 @@ class Run {
     double speedSquare(std::size_t stretch) const;
     void planBackward(std::size_t from);
     void planForward(double now);
+    void taperEnd();
+    double taperSquare(double place) const;
+    double taperWay() const { return taperJerk_ * taper_ * taper_ * taper_ / 6; } // mm, covered meanwhile
     void passStretch(std::size_t stretch, double from, double square);
+    void passTapered(std::size_t stretch, double from, double square, double last);
     void meetDuration();
     double nodePlace(std::size_t node) const;
 
@@ -93,6 +98,8 @@ class Run {
     std::deque<double> reachable_; // largest squares of speed at the beginnings of stretches, then at the end
     std::deque<double> planned_;   // squares of the plan there
     std::size_t changed_ = 0;      // nodes from this one on have a new reachable speed
+    double taper_ = 0;             // s, in which the braking for a stop point decreases besides the windows
+    double taperJerk_ = 0;         // mm/s^3, at which it does
 };
 
 } // namespace motion

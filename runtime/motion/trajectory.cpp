@@ -52,7 +52,7 @@ Leg Trajectory::legOf(const std::shared_ptr<const MotionPath>& path, const MoveC
             path->tcpRatesAt(s, tcp, turn);
             return pathRate(tcp, turn + external);
         };
-        leg.lengths = LengthMap::measured(rate, kAxesPieces);
+        leg.lengths = LengthMap::measured(rate, kAxesPieces, options_.planner == Planner::Optimal);
         if (!(leg.lengths.length() >
               1e-6)) { // an axis turns that moves and turns nothing: only a bad tool does that
             leg.lengths = LengthMap::even(1);
@@ -99,6 +99,7 @@ RunSettings Trajectory::settingsOf(double rampShare) const {
     RunSettings settings = this->settings();
     settings.longWindow = model_.dynamics.longWindow / rampShare;
     settings.shortWindow = model_.dynamics.shortWindow / rampShare;
+    settings.rampShare = rampShare;
     return settings;
 }
 

@@ -27,10 +27,31 @@ constexpr double kBesideSingular = 0.3; // sine of axis 2 or 5 from which on its
 constexpr int kPlacesAround = 8;        // at which that neighbour is tried
 
 constexpr std::size_t kUnknowns = 5;
+constexpr int kJudged = 4;        // iterations after which a start that leads nowhere is given up ...
+constexpr double kHopeless = 0.1; // ... when this residual is left
+constexpr double kArriving =
+    0.05; // rad; nearer than this to a solution, with less than this residual: it leads there
 
 /// The five angles, rad: axis 1, axis 2, axis 5, axis 6, axis 3 from the line shoulder-wrist into its half plane.
 struct Ends {
     double t[kUnknowns] = {};
+};
+
+/// Solutions that are known, as their five angles.
+struct Found {
+    std::array<Ends, kMostBranches> ends;
+    std::size_t count = 0;
+    bool hasNear(const Ends& wanted, double distance) const {
+        for (std::size_t n = 0; n < count; ++n) {
+            double largest = 0;
+            for (std::size_t k = 0; k < kUnknowns; ++k) {
+                const double turns = (wanted.t[k] - ends[n].t[k]) * (0.5 / std::numbers::pi);
+                largest = std::max(largest, std::fabs(turns - std::nearbyint(turns)));
+            }
+            if (2 * std::numbers::pi * largest < distance) return true;
+        }
+        return false;
+    }
 };
 
 /// The same lines but for the offsets, with the shoulder (axes 1, 2) or the wrist (axes 5, 6) turned over.
@@ -101,7 +122,8 @@ class SevenAxes final : public Mechanism {
     void linesAt(const Target& target, const Ends& ends, Lines& lines) const;
     void equations(const Lines& l, double (&matrix)[kMostJoints][kMostJoints]) const;
     Ends weakDirection(const Target& target, const Ends& ends) const;
-    bool polish(const Target& target, Ends& ends, Lines& lines, int iterations) const;
+    bool polish(const Target& target, Ends& ends, Lines& lines, int iterations,
+                const Found* known = nullptr) const;
     void toJoints(const Ends& ends, const Lines& lines, Joints& out) const;
     double stretchedDeg() const {
         return (std::atan2(g_.elbowOut, g_.upperArm) + std::atan2(g_.elbowUp, g_.forearm)) / trig::kDeg -
@@ -109,8 +131,7 @@ class SevenAxes final : public Mechanism {
     }
     void start(const Target& target, double tilt, int branch, Ends& ends) const;
     Ends endsOf(const Target& target, const Joints& joints) const;
-    bool isNearAny(const Target& target, const Ends& ends, const IkBranches& found) const;
-    void add(const Ends& ends, const Lines& lines, IkBranches& out) const;
+    void add(const Ends& ends, const Lines& lines, Found& found, IkBranches& out) const;
 
     SevenAxisGeometry g_;
 };
@@ -266,7 +287,9 @@ void SevenAxes::equations(const Lines& l, double (&matrix)[kMostJoints][kMostJoi
     matrix[4][4] = dot(l.f, l.axis3Turned);
 }
 
-bool SevenAxes::polish(const Target& target, Ends& ends, Lines& lines, int iterations) const {
+/// With `known` only what leads to another solution than these is followed to its end.
+bool SevenAxes::polish(const Target& target, Ends& ends, Lines& lines, int iterations,
+                       const Found* known) const {
     linesAt(target, ends, lines);
     double size = lines.size();
     for (int n = 0; n < iterations && size > kSolved; ++n) {
@@ -286,6 +309,9 @@ bool SevenAxes::polish(const Target& target, Ends& ends, Lines& lines, int itera
         linesAt(target, ends, lines);
         const double before = size;
         size = lines.size();
+        if (known != nullptr && n == kJudged && size > kHopeless) return false;
+        if (known != nullptr && before > kArriving && size < kArriving && known->hasNear(ends, kArriving))
+            return false;
         if (size < kAccepted && size >= 0.5 * before) break; // rounding
     }
     return size < kAccepted && lines.onHalf;
@@ -352,18 +378,13 @@ void SevenAxes::start(const Target& target, double tilt, int branch, Ends& ends)
     }
 }
 
-void SevenAxes::add(const Ends& ends, const Lines& lines, IkBranches& out) const {
+void SevenAxes::add(const Ends& ends, const Lines& lines, Found& found, IkBranches& out) const {
+    constexpr double kSame = 2e-7; // rad
+    if (found.count >= kMostBranches || found.hasNear(ends, kSame)) return;
     Joints joints;
     toJoints(ends, lines, joints);
-    for (int k = 0; k < static_cast<int>(kMostBranches); ++k) {
-        if (!out.has(k)) continue;
-        double largest = 0;
-        for (std::size_t i = 0; i < 7; ++i)
-            largest = std::max(largest, std::fabs(std::remainder(
-                                            out.joints[static_cast<std::size_t>(k)][i] - joints[i], 360.0)));
-        if (largest < 1e-5) return;
-    }
     out.add(joints);
+    found.ends[found.count++] = ends;
 }
 
 Ends SevenAxes::endsOf(const Target& target, const Joints& joints) const {
@@ -381,32 +402,22 @@ Ends SevenAxes::endsOf(const Target& target, const Joints& joints) const {
     return ends;
 }
 
-bool SevenAxes::isNearAny(const Target& target, const Ends& ends, const IkBranches& found) const {
-    for (std::size_t n = 0; n < kMostBranches && found.has(static_cast<int>(n)); ++n) {
-        const Ends other = endsOf(target, found.joints[n]);
-        double largest = 0;
-        for (std::size_t k = 0; k < kUnknowns; ++k)
-            largest =
-                std::max(largest, std::fabs(std::remainder(ends.t[k] - other.t[k], 2 * std::numbers::pi)));
-        if (largest < kSamePlace) return true;
-    }
-    return false;
-}
-
 void SevenAxes::inverseAll(const Pose& flange, const Joints& seed, double armAngleDeg,
                            IkBranches& out) const {
     out.valid = 0;
     Target target;
     if (!takeApart(flange, std::isnan(armAngleDeg) ? armAngle(seed) : armAngleDeg, target)) return;
+    Found found;
+    bool isThorough = false;
     const auto tryFrom = [&](Ends ends) {
         Lines lines;
-        if (polish(target, ends, lines, 15)) add(ends, lines, out);
+        if (polish(target, ends, lines, 15, isThorough ? nullptr : &found)) add(ends, lines, found, out);
     };
     // With axis 2 near 0 axis 1 hardly turns the upper arm, and a first guess knows nothing of it; the same with axes 5 and 6.
     const auto tryAround = [&](Ends ends, std::size_t unknown) {
         for (int n = 1; n < kPlacesAround; ++n) {
             ends.t[unknown] += 2 * std::numbers::pi / kPlacesAround;
-            if (!isNearAny(target, ends, out)) tryFrom(ends);
+            if (!found.hasNear(ends, kSamePlace)) tryFrom(ends);
         }
     };
     const auto search = [&](double tilt) {
@@ -420,10 +431,10 @@ void SevenAxes::inverseAll(const Pose& flange, const Joints& seed, double armAng
     };
     // But for the offsets, every solution has three more with shoulder and wrist turned over.
     const auto turnOver = [&] {
-        for (std::size_t k = 0; k < kMostBranches && out.has(static_cast<int>(k)); ++k) {
+        for (std::size_t k = 0; k < found.count; ++k) {
             for (int flip = 1; flip < 4; ++flip) {
-                const Ends ends = flipped(endsOf(target, out.joints[k]), (flip & 1) != 0, (flip & 2) != 0);
-                if (!isNearAny(target, ends, out)) tryFrom(ends);
+                const Ends ends = flipped(found.ends[k], (flip & 1) != 0, (flip & 2) != 0);
+                if (!found.hasNear(ends, kSamePlace)) tryFrom(ends);
             }
         }
     };
@@ -431,13 +442,14 @@ void SevenAxes::inverseAll(const Pose& flange, const Joints& seed, double armAng
     tryFrom(endsOf(target, seed));
     turnOver();
     // Solutions come in pairs: an odd number means that one is missing.
-    for (double tilt : {0.4, -0.4}) {
+    isThorough = true;
+    for (double tilt : {0.0, 0.4, -0.4}) {
         if (out.count() % 2 == 0) return;
         search(tilt);
         turnOver();
     }
-    for (std::size_t k = 0; out.count() % 2 != 0 && k < kMostBranches && out.has(static_cast<int>(k)); ++k) {
-        const Ends ends = endsOf(target, out.joints[k]);
+    for (std::size_t k = 0; out.count() % 2 != 0 && k < found.count; ++k) {
+        const Ends ends = found.ends[k];
         const Ends weak = weakDirection(target, ends);
         for (double step : {0.05, -0.05, 0.15, -0.15, 0.4, -0.4}) {
             Ends beside = ends;

@@ -48,7 +48,6 @@ Json save(const MotionState& s) {
             {"gripLoad", numbersOf(s.gripLoad)},
             {"speedLimits", {s.speedLimits.tcp, s.speedLimits.joints, s.speedLimits.external}},
             {"supervision", {s.motionSupervision, s.supervisionLevel}},
-            {"finePointRamp", s.finePointRamp},
             {"objectHeld", s.workObject.robhold},
             {"userFixed", s.workObject.ufprog},
             {"unit", std::string(s.workObject.ufmec.view())},
@@ -78,7 +77,6 @@ MotionState load(const Json& json) {
     limits.at(2).get_to(s.speedLimits.external);
     json.at("supervision").at(0).get_to(s.motionSupervision);
     json.at("supervision").at(1).get_to(s.supervisionLevel);
-    json.at("finePointRamp").get_to(s.finePointRamp);
     json.at("objectHeld").get_to(s.workObject.robhold);
     json.at("userFixed").get_to(s.workObject.ufprog);
     s.workObject.ufmec.assign(json.at("unit").get<std::string>());

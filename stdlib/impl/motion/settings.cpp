@@ -74,11 +74,10 @@ Status rt_VelSet(TaskCore* task, float Override, float Max) {
     return kOk;
 }
 
-/// \FinePointRamp (the ramp at stop points) is not modelled apart, and kept for C_MOTSET.
 Status rt_AccSet(TaskCore* task, float Acc, float Ramp, const float* FinePointRamp) {
-    lib::motionState(task).finePointRamp =
-        FinePointRamp != nullptr ? std::clamp(static_cast<double>(*FinePointRamp), 10.0, 100.0) : 100.0;
     motion::MotionSettings& settings = lib::motionState(task).settings;
+    settings.finePointRampPercent =
+        FinePointRamp != nullptr ? std::clamp(static_cast<double>(*FinePointRamp), 10.0, 100.0) : 100.0;
     settings.accelerationPercent = std::clamp(static_cast<double>(Acc), 20.0, 100.0);
     settings.rampPercent = std::clamp(static_cast<double>(Ramp), 10.0, 100.0);
     return kOk;

@@ -44,7 +44,6 @@ struct MotionState {
     float processMode = 1;           ///< MotionProcessModeSet
     std::bitset<robot::kExternalCount>
         independentExternal;    ///< robot movements leave these axes where they are (STIndGun)
-    double finePointRamp = 100; ///< AccSet \FinePointRamp, percent
     int concurrentMoves = 0;    ///< \Conc moves in succession
 };
 MotionState& motionState(TaskCore* task);

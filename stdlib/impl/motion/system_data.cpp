@@ -35,7 +35,7 @@ data::Motsetdata motionSettings(const lib::MotionState& state, double maxRobotSp
     out.vel = {static_cast<float>(s.velocityPercent),
                static_cast<float>(std::min(s.maxTcpSpeed, maxRobotSpeed))};
     out.acc = {static_cast<float>(s.accelerationPercent), static_cast<float>(s.rampPercent),
-               static_cast<float>(state.finePointRamp)};
+               static_cast<float>(s.finePointRampPercent)};
     const bool deviates = state.singWrist || state.singLockAxis4;
     out.sing = {state.singWrist, state.singLockAxis4, false, !deviates};
     out.conf.jsup = state.confJ;

@@ -68,7 +68,7 @@ std::vector<Joints> run(MotionSystem& system, const std::vector<MoveCommand>& pr
 }
 
 struct Use {
-    double speed = 0, acceleration = 0; ///< largest shares of the limits
+    double speed = 0, acceleration = 0, jerk = 0; ///< largest shares of the limits
 };
 
 Use useOf(const MotionSystem& system, const std::vector<Joints>& axes) {
@@ -83,6 +83,9 @@ Use useOf(const MotionSystem& system, const std::vector<Joints>& axes) {
             use.acceleration =
                 std::max(use.acceleration,
                          std::abs(axes[k + 1][i] - 2 * axes[k][i] + axes[k - 1][i]) / 1e-6 / most[i]);
+            if (k + 2 == axes.size()) continue;
+            const double change = axes[k + 2][i] - 3 * axes[k + 1][i] + 3 * axes[k][i] - axes[k - 1][i];
+            use.jerk = std::max(use.jerk, std::abs(change) / 1e-9 / system.model().maxJerk[i]);
         }
     }
     return use;
@@ -91,22 +94,77 @@ Use useOf(const MotionSystem& system, const std::vector<Joints>& axes) {
 } // namespace
 
 TEST_CASE("the optimal planner keeps the limits of all axes at each ms", "[motion][optimal]") {
+#ifdef RAPIDC_SANITIZE
+    constexpr int kPrograms = 6;
+#else
+    constexpr int kPrograms = 60;
+#endif
     std::mt19937_64 random(8);
-    int above = 0; // programs with a bend that is sharper than its surroundings
-    for (int n = 0; n < 60; ++n) {
+    for (int n = 0; n < kPrograms; ++n) {
         const std::vector<MoveCommand> program = randomProgram(random);
         MotionSystem system = smallRobot(Planner::Optimal);
         const std::vector<Joints> axes = run(system, program);
         const Use use = useOf(system, axes);
         INFO("program " << n);
         CHECK(use.speed <= 1 + 1e-6);
-        CHECK(use.acceleration <= 1.03);
-        if (use.acceleration > 1 + 1e-6) ++above;
+        CHECK(use.acceleration <= 1 + 1e-6);
+        CHECK(use.jerk <= 1 + 1e-6); // in corners, too, and where they begin and end
         const Joints end = system.plannedEnd().robax;
         for (std::size_t i = 0; i < end.size(); ++i)
             CHECK(axes.back()[i] == Approx(end[i]).margin(1e-6));
     }
-    CHECK(above <= 1);
+}
+
+TEST_CASE("corners of the optimal planner pass the programmed points as near as those of the measured one",
+          "[motion][optimal]") {
+    for (const double zone : {1.0, 10.0, 50.0}) {
+        std::array<double, 2> nearest{1e300, 1e300};
+        for (const Planner planner : {Planner::Measured, Planner::Optimal}) {
+            MotionSystem system = smallRobot(planner);
+            MoveCommand command;
+            command.kind = MoveKind::Linear;
+            command.confL = false;
+            command.speed.vTcp = 50;
+            command.target = calcRobTarget(system.kinematics(), system.plannedEnd(), command.frames);
+            command.target.pose = robot::offs(command.target.pose, 0, 120, 0);
+            command.zone = {false, zone, 1.5 * zone, 1.5 * zone, 1, 1.5 * zone, 1};
+            const Vec3 corner = command.target.pose.pos;
+            std::vector<MoveCommand> program{command};
+            command.target.pose = robot::offs(command.target.pose, 0, 0, 120);
+            command.zone = {};
+            program.push_back(command);
+            double& least = nearest[planner == Planner::Optimal ? 1 : 0];
+            run(system, program,
+                [&](MotionSystem& s, int) { least = std::min(least, norm(s.current().tcp.pos - corner)); });
+        }
+        INFO("zone " << zone);
+        // Control points at 0.757 r: 0.4343 r sin(45 deg) from a right angle (docs/motion.md, "The path").
+        CHECK(nearest[0] == Approx(0.4323 * zone * std::sqrt(0.5)).margin(0.02));
+        CHECK(nearest[1] == Approx(nearest[0]).margin(0.02));
+    }
+}
+
+TEST_CASE("triggers of the optimal planner fire at their places", "[motion][optimal]") {
+    MotionSystem system = smallRobot(Planner::Optimal);
+    MoveCommand command;
+    command.kind = MoveKind::Linear;
+    command.confL = false;
+    command.speed.vTcp = 400;
+    command.target = calcRobTarget(system.kinematics(), system.plannedEnd(), command.frames);
+    const double begin = command.target.pose.pos.y;
+    command.target.pose = robot::offs(command.target.pose, 0, 200, 0);
+    PathTrigger atPlace;
+    atPlace.id = 1;
+    atPlace.amount = 30; // mm before the end
+    command.triggers.push_back(atPlace);
+    REQUIRE(system.enqueue(command).hasValue());
+    double place = -1;
+    for (int i = 0; i < 5000 && place < 0 && system.nextEventTime(); ++i) {
+        system.advanceTo(*system.nextEventTime());
+        for (const MotionEvent& event : system.takeEvents())
+            if (event.kind == MotionEventKind::Trigger) place = system.current().tcp.pos.y - begin;
+    }
+    CHECK(place == Approx(170).margin(0.01));
 }
 
 TEST_CASE("the optimal planner keeps the programmed speed of the TCP", "[motion][optimal]") {
@@ -119,7 +177,7 @@ TEST_CASE("the optimal planner keeps the programmed speed of the TCP", "[motion]
         double fastest = 0;
         run(system, program,
             [&](MotionSystem& s, int) { fastest = std::max(fastest, s.current().tcpSpeed); });
-        CHECK(fastest <= 250 * (1 + 1e-5)); // the sampled speed is a difference over 2 um
+        CHECK(fastest <= 250 * (1 + 5e-5)); // the length of a corner is measured to that
         CHECK(fastest >= 200);
     }
 }
@@ -128,7 +186,7 @@ TEST_CASE("stops and the override keep the limits and the path of the optimal pl
     std::mt19937_64 random(10);
     for (int n = 0; n < 12; ++n) {
         const std::vector<MoveCommand> program = randomProgram(random);
-        MotionSystem plain = smallRobot(Planner::Measured);
+        MotionSystem plain = smallRobot(Planner::Optimal);
         plain.setOverride(20);
         const std::vector<Joints> slow = run(plain, program);
         const Disturb stops = [](MotionSystem& s, int i) {

@@ -182,7 +182,7 @@ TEST_CASE("random programs keep speeds and reach their ends", "[motion][random]"
 #ifdef RAPIDC_SANITIZE
     constexpr long kUsual = 100; // the sanitizers make each one slow
 #else
-    constexpr long kUsual = 1000;
+    constexpr long kUsual = 10'000;
 #endif
     const long count = soak != nullptr ? std::atol(soak) : kUsual;
     std::mt19937_64 random(soak != nullptr ? std::random_device()() : 20261123);
