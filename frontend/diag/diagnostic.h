@@ -24,6 +24,20 @@ enum class Code : uint16_t {
 #include "frontend/diag/diagnostics.def"
 };
 
+/// A diagnostic and the number of its arguments: a report with another number does not compile.
+template <size_t N> struct Message {
+    Code code;
+};
+
+/// The catalogue as messages: say::MissingArgument.
+namespace say {
+#define DIAG(number, name, severity, argCount, text) inline constexpr Message<argCount> name{Code::name};
+#include "frontend/diag/diagnostics.def"
+} // namespace say
+
+/// The arguments of a message with N of them, N > 0: `{a, b}`.
+template <size_t N> using MessageArgs = const std::string (&)[N];
+
 struct Diagnostic {
     struct Note {
         std::shared_ptr<const SourceFile> file;
@@ -38,6 +52,8 @@ struct Diagnostic {
     };
     Code code{};
     Severity severity = Severity::Error;
+    uint32_t cause =
+        0; ///< of a check: the mistake it is about, for the last pass over the diagnostics; 0: not known
     std::shared_ptr<const SourceFile>
         file; ///< may be null: a message about the command line or a missing file
     SourceRange range;
@@ -55,8 +71,16 @@ class Sink {
     /// That many errors, and that many warnings and notes, are kept of one file; a note says that there were more.
     static constexpr uint32_t kMaxPerFile = 1000;
 
-    /// Reports `code`. `args` replace {0}, {1}, ... in the catalogue text; their number must match the catalogue.
-    /// The reference is good until the next report.
+    /// `args` replace {0}, {1}, ... in the catalogue text. The reference is good until the next report.
+    template <size_t N>
+    Diagnostic& report(Message<N> message, const std::shared_ptr<const SourceFile>& file, SourceRange range,
+                       MessageArgs<N> args) {
+        return report(message.code, file, range, std::span<const std::string>(args));
+    }
+    Diagnostic& report(Message<0> message, const std::shared_ptr<const SourceFile>& file, SourceRange range) {
+        return report(message.code, file, range, std::span<const std::string>());
+    }
+    /// For a code that is known at run time only; the number of `args` must match the catalogue.
     Diagnostic& report(Code code, const std::shared_ptr<const SourceFile>& file, SourceRange range,
                        std::span<const std::string> args);
     Diagnostic& report(Code code, const std::shared_ptr<const SourceFile>& file, SourceRange range,

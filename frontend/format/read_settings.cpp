@@ -14,7 +14,7 @@ namespace rapid::format {
 
 namespace {
 
-using diag::Code;
+namespace say = diag::say;
 using project::Setting;
 
 /// What one setting takes and where it goes.
@@ -128,13 +128,13 @@ FormatSettings readFormatSettings(const project::Settings& settings, diag::Sink&
         const auto* found = std::find_if(kEntries.begin(), kEntries.end(),
                                          [&](const Entry& entry) { return entry.name == setting.name; });
         if (found == kEntries.end()) {
-            sink.report(Code::UnknownSetting, settings.file, setting.range,
+            sink.report(say::UnknownSetting, settings.file, setting.range,
                         {setting.name, expectedNames(setting.name)});
             continue;
         }
         std::string expected = store(*found, setting, out);
         if (!expected.empty())
-            sink.report(Code::BadSetting, settings.file, setting.range, {setting.name, std::move(expected)});
+            sink.report(say::BadSetting, settings.file, setting.range, {setting.name, std::move(expected)});
     }
     return out;
 }

@@ -131,7 +131,7 @@ class BackwardJudge {
     }
 
     void report(const Movement& movement, std::string why) {
-        reporter_.report(Code::BackwardNotMirrored, tree_, tree_.range(movement.stmt->name),
+        reporter_.report(say::BackwardNotMirrored, tree_, tree_.range(movement.stmt->name),
                          {movement.routine->name, std::move(why)});
     }
 

@@ -227,7 +227,7 @@ void Walker::movement(const BoundCall& call) {
     else if (speedData && !speedData->members().empty())
         tcp = &speedData->members()[0].number;
     if (tcp && *tcp > kFastest)
-        report(Code::ZoneTooSmall, range(*zone->value), {text(*zone->value), fmt::format("{:g}", *tcp)});
+        report(say::ZoneTooSmall, range(*zone->value), {text(*zone->value), fmt::format("{:g}", *tcp)});
 }
 
 void Walker::wait(const Node& node, const BoundCall& call) {
@@ -236,7 +236,7 @@ void Walker::wait(const Node& node, const BoundCall& call) {
     for (const BoundArg& arg : call.args)
         if (arg.argument && named(*arg.param, "InPos")) return;
     if (diag::Diagnostic* d =
-            report(Code::WaitAfterFlyBy, tree_->range(node.first), {std::string(tree_->text(node.first))}))
+            report(say::WaitAfterFlyBy, tree_->range(node.first), {std::string(tree_->text(node.first))}))
         d->notes.push_back({tree_->source, range(*move), "the movement before it does not stop here"});
 }
 

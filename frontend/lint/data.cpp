@@ -75,7 +75,7 @@ void Walker::inParameter(const DataSymbol& param, const Expr& place, bool fromIt
     }
     access |= kReported;
     access &= static_cast<uint8_t>(~kUpdated);
-    report(Code::ParameterAssigned, range(place), {param.name});
+    report(say::ParameterAssigned, range(place), {param.name});
 }
 
 void Walker::write(const Expr& place, uint8_t access, bool fromItself) {
@@ -99,7 +99,7 @@ void Walker::usedTooEarly(const DataSymbol& data, const Expr& e) {
     if ((access_[data.index] & kReported) != 0) return;
     access_[data.index] |= kReported;
     if (diag::Diagnostic* d =
-            report(Code::UsedBeforeAssignment, range(e), {data.name, initialValue(data.type)}))
+            report(say::UsedBeforeAssignment, range(e), {data.name, initialValue(data.type)}))
         d->notes.push_back(
             {tree_->source, tree_->range(data.nameToken), "'" + data.name + "' is declared here"});
 }

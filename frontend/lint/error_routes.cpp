@@ -207,7 +207,7 @@ void ErrorRoutes::judge(Reporter& reporter) const {
             std::string without;
             for (const Routine* routine : lost.path)
                 without += fmt::format("{}'{}'", without.empty() ? "" : " and ", routine->symbol->name);
-            reporter.report(Code::ErrorNotPassedOn, *caller.symbol->module->tree, call.where,
+            reporter.report(say::ErrorNotPassedOn, *caller.symbol->module->tree, call.where,
                             {caller.symbol->name, lost.error->name, without});
         }
     }

@@ -73,8 +73,7 @@ void Walker::inexact(const NumLiteralExpr& e) {
     const double stored = static_cast<double>(static_cast<float>(e.value));
     if (info(e).type.type != program_.num || stored == e.value || !isWholeLiteral(tree_->text(e.first)))
         return;
-    report(Code::InexactInteger, range(e),
-           {std::string(tree_->text(e.first)), fmt::format("{:.0f}", stored)});
+    report(say::InexactInteger, range(e), {std::string(tree_->text(e.first)), fmt::format("{:.0f}", stored)});
 }
 
 void Walker::binary(const BinaryExpr& e, bool partOfText) {
@@ -107,7 +106,7 @@ void Walker::binary(const BinaryExpr& e, bool partOfText) {
 
 void Walker::identical(const BinaryExpr& e) {
     if (e.left->kind == e.right->kind && sameText(*e.left, *e.right))
-        report(Code::IdenticalOperands, range(e), {std::string(tree_->text(e.opToken))});
+        report(say::IdenticalOperands, range(e), {std::string(tree_->text(e.opToken))});
 }
 
 void Walker::comparison(const BinaryExpr& e) {
@@ -136,7 +135,7 @@ void Walker::comparison(const BinaryExpr& e) {
 void Walker::judgeFraction(const Expr& other, const Expr& value, SourceRange where, std::string operation) {
     const DataSymbol* data = rootOf(bare(other));
     if (!data || data->type.type->kind == TypeKind::SemiValue) {
-        report(Code::FractionEquality, where, {std::move(operation), text(value)});
+        report(say::FractionEquality, where, {std::move(operation), text(value)});
         return;
     }
     const bool inside = isOwn(*data) && data->storage != sema::Storage::Parameter;
@@ -158,7 +157,7 @@ void Walker::judgeFractions() {
         if (data->init && data->dataKind == DataKind::Var) setFrom(*data, *data->init);
     for (const FractionUse& use : fractions_)
         if (!numbers_.contains({use.data, use.value}))
-            report(Code::FractionEquality, use.where, {use.operation, use.text});
+            report(say::FractionEquality, use.where, {use.operation, use.text});
 }
 
 void Walker::judgeCase(const Expr& subject, const Expr& value) {
@@ -178,7 +177,7 @@ void Walker::judgeSignal(const Expr& signal, const Expr& value) {
     if (type != "signaldi" && type != "signaldo") return;
     const double* constantValue = number(value);
     if (constantValue && *constantValue != 0 && *constantValue != 1)
-        report(Code::ImpossibleSignalValue, range(value), {root->name, text(value)});
+        report(say::ImpossibleSignalValue, range(value), {root->name, text(value)});
 }
 
 /// Whether two parts of the tree are written alike and mean the same each time: calls may not.
@@ -208,7 +207,7 @@ void Walker::textLength(const BinaryExpr& e) {
     }
     length += leastLength(*rest);
     if (length > kStringCapacity)
-        report(Code::StringMayOverflow, range(e), {fmt::format("{} or more", length)});
+        report(say::StringMayOverflow, range(e), {fmt::format("{} or more", length)});
 }
 
 unsigned Walker::leastLength(const Expr& e) const {

@@ -14,6 +14,7 @@
 namespace rapid::lint {
 
 using diag::Code;
+namespace say = diag::say;
 
 /// Reports what is switched on.
 class Reporter {
@@ -22,8 +23,14 @@ class Reporter {
         : levels_(levels), sink_(sink), severalTasks_(severalTasks) {}
     bool isOn(Code code) const { return levels_.isOn(code); }
     /// Null when the warning is switched off.
+    template <size_t N>
+    diag::Diagnostic* report(diag::Message<N> message, const syntax::SyntaxTree& tree, SourceRange where,
+                             diag::MessageArgs<N> args) {
+        return report(message.code, tree, where, std::span<const std::string>(args));
+    }
+    /// For a code that is known at run time only; the number of `args` must match the catalogue.
     diag::Diagnostic* report(Code code, const syntax::SyntaxTree& tree, SourceRange where,
-                             std::initializer_list<std::string> args = {});
+                             std::span<const std::string> args);
 
   private:
     const WarningLevels& levels_;

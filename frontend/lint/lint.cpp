@@ -29,7 +29,7 @@ using sema::Task;
 using sema::TypeSymbol;
 
 diag::Diagnostic* Reporter::report(Code code, const SyntaxTree& tree, SourceRange where,
-                                   std::initializer_list<std::string> args) {
+                                   std::span<const std::string> args) {
     if (!levels_.isOn(code)) return nullptr;
     // A file that several tasks load is walked over for each of them.
     if (severalTasks_ && !reported_.insert({code, tree.source->path(), where.begin}).second) return nullptr;
@@ -223,8 +223,9 @@ class TaskLint {
     void rings();
     void type(const TypeSymbol& type);
     void hiding(const Symbol& symbol, const char* kind);
-    diag::Diagnostic* report(Code code, const Symbol& symbol, std::initializer_list<std::string> args) {
-        return reporter_.report(code, *symbol.module->tree, symbol.module->tree->range(symbol.nameToken),
+    template <size_t N>
+    diag::Diagnostic* report(diag::Message<N> message, const Symbol& symbol, diag::MessageArgs<N> args) {
+        return reporter_.report(message, *symbol.module->tree, symbol.module->tree->range(symbol.nameToken),
                                 args);
     }
 
@@ -279,10 +280,8 @@ void TaskLint::suspicions() {
         for (size_t i = s.firstCall; i < s.endCall && !refuted; ++i)
             refuted = (conduct.at(facts_.calls[i]) & s.refutedBy) != 0;
         if (refuted) continue;
-        if (s.arg.empty())
-            reporter_.report(s.code, *s.tree, s.where);
-        else
-            reporter_.report(s.code, *s.tree, s.where, {s.arg});
+        const std::span<const std::string> args(&s.arg, s.arg.empty() ? 0 : 1);
+        reporter_.report(s.code, *s.tree, s.where, args);
     }
 }
 
@@ -290,7 +289,7 @@ void TaskLint::fractions() {
     for (const FractionUse& use : facts_.fractions) {
         bool met = facts_.numbers.contains({use.data, use.value});
         forEachFraction(use.data->value(), [&](double initial) { met |= initial == use.value; });
-        if (!met) reporter_.report(Code::FractionEquality, *use.tree, use.where, {use.operation, use.text});
+        if (!met) reporter_.report(say::FractionEquality, *use.tree, use.where, {use.operation, use.text});
     }
 }
 
@@ -302,7 +301,7 @@ void TaskLint::interrupts() {
             facts_.connected.count(&interrupt) > 0 || mayBeUsedElsewhere(interrupt) ||
             !reported.insert(&interrupt).second)
             continue;
-        reporter_.report(Code::InterruptNotConnected, *use.tree, use.where,
+        reporter_.report(say::InterruptNotConnected, *use.tree, use.where,
                          {use.native->name, interrupt.name});
     }
 }
@@ -343,7 +342,7 @@ void TaskLint::declarations(const Module& module) {
 
 void TaskLint::type(const TypeSymbol& type) {
     hiding(type, "data type");
-    if (!type.used && !mayBeUsedElsewhere(type)) report(Code::UnusedType, type, {type.name});
+    if (!type.used && !mayBeUsedElsewhere(type)) report(say::UnusedType, type, {type.name});
 }
 
 void TaskLint::data(const DataSymbol& data) {
@@ -357,7 +356,7 @@ void TaskLint::data(const DataSymbol& data) {
     if (pers && (!data.isLocal || t == predefined_.types.tool || t == predefined_.types.workObject ||
                  t == predefined_.types.load))
         return;
-    report(Code::UnusedVariable, data, {kind, data.name});
+    report(say::UnusedVariable, data, {kind, data.name});
 }
 
 /// `\switch on | switch off`: a look at one of them tells which it is.
@@ -373,16 +372,16 @@ void TaskLint::routine(const RoutineSymbol& routine) {
     hiding(routine, proc ? "procedure" : trap ? "trap routine" : "function");
     if (!routine.used) {
         if (trap && !mayBeUsedElsewhere(routine))
-            report(Code::TrapNotConnected, routine, {routine.name});
+            report(say::TrapNotConnected, routine, {routine.name});
         else if (isOnlyForCallers(routine))
-            report(Code::UnusedRoutine, routine, {proc ? "procedure" : "function", routine.name, ""});
+            report(say::UnusedRoutine, routine, {proc ? "procedure" : "function", routine.name, ""});
     }
     if (isWrong(routine)) return;
     for (const DataSymbol* param : routine.params) {
         hiding(*param, "parameter");
         if (!param->used && !otherAlternativeRead(routine, *param) && !isPlaceholderName(param->name) &&
             !facts_.callsByName && !routine.routineDecl->body.empty())
-            report(Code::UnusedParameter, *param, {param->name, routine.name});
+            report(say::UnusedParameter, *param, {param->name, routine.name});
     }
 }
 
@@ -414,7 +413,7 @@ void TaskLint::rings() {
         const RoutineSymbol& first = *ring.front();
         std::string by = " but by itself";
         if (ring.size() > 1) by = " but by '" + ring[1]->name + "', and that only from here";
-        report(Code::UnusedRoutine, first,
+        report(say::UnusedRoutine, first,
                {first.routineKind == RoutineKind::Proc ? "procedure" : "function", first.name, by});
     }
 }
@@ -426,7 +425,7 @@ void TaskLint::routineData(const RoutineSymbol& routine) {
         hiding(*data, loop ? "loop variable" : constant ? "constant" : "variable");
         if (loop || data->used) continue;
         diag::Diagnostic* d =
-            report(Code::UnusedVariable, *data, {constant ? "constant" : "variable", data->name});
+            report(say::UnusedVariable, *data, {constant ? "constant" : "variable", data->name});
         // Many declare the variable of a FOR.
         const auto same =
             std::find_if(routine.data.begin(), routine.data.end(), [&](const DataSymbol* other) {
@@ -459,7 +458,7 @@ void TaskLint::hiding(const Symbol& symbol, const char* kind) {
     if (hidden->kind == SymbolKind::Data && data && !data->routine &&
         isSameData(*data, static_cast<const DataSymbol&>(*hidden)))
         return;
-    report(Code::HiddenPredefinedName, symbol, {kind, symbol.name, what});
+    report(say::HiddenPredefinedName, symbol, {kind, symbol.name, what});
 }
 
 } // namespace

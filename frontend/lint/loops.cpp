@@ -132,13 +132,13 @@ void Walker::judgeFor(const ForStmt& s) {
     if (*step != std::floor(*step) && s.step->kind != NodeKind::Paren) {
         // 0.5, 0.25 ... add up exactly
         const double fine = *step * 1024;
-        if (fine != std::floor(fine)) report(Code::FractionalStep, range(*s.step), {text(*s.step)});
+        if (fine != std::floor(fine)) report(say::FractionalStep, range(*s.step), {text(*s.step)});
     }
     const double* from = s.from ? number(*s.from) : nullptr;
     const double* to = s.to ? number(*s.to) : nullptr;
     if (!from || !to) return;
     if ((*step > 0 && *from > *to) || (*step < 0 && *from < *to))
-        report(Code::LoopNeverRuns, {range(*s.from).begin, range(*s.step).end},
+        report(say::LoopNeverRuns, {range(*s.from).begin, range(*s.step).end},
                {text(*s.from), text(*s.to), text(*s.step)});
 }
 

@@ -401,7 +401,7 @@ class PresenceWalk {
         if (reported_[param.index]) return;
         reported_[param.index] = true;
         const SyntaxTree& tree = *module_.tree;
-        diag::Diagnostic* d = reporter_.report(Code::OptionalMayBeMissing, tree, tree.range(e), {param.name});
+        diag::Diagnostic* d = reporter_.report(say::OptionalMayBeMissing, tree, tree.range(e), {param.name});
         if (d)
             d->notes.push_back(
                 {tree.source, tree.range(param.nameToken), "'" + param.name + "' is declared here"});

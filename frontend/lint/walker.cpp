@@ -134,11 +134,11 @@ void Walker::finish() {
         if (targets_.count(label.node) == 0) unusedLabel(as<LabelStmt>(*label.node));
     for (const DataSymbol* param : routine_->params)
         if ((access_[param->index] & kUpdated) != 0)
-            report(Code::ParameterAssigned, range(*updates_[param->index]), {param->name});
+            report(say::ParameterAssigned, range(*updates_[param->index]), {param->name});
     for (const DataSymbol* data : routine_->data) {
         if (data->storage != Storage::RoutineData || data->index >= access_.size()) continue;
         if (access_[data->index] == kAssigned)
-            report(Code::UnreadVariable, tree_->range(data->nameToken), {data->name});
+            report(say::UnreadVariable, tree_->range(data->nameToken), {data->name});
     }
 }
 
@@ -158,7 +158,7 @@ void Walker::unusedLabel(const LabelStmt& label) {
     const std::string name(tree_->text(label.name));
     const bool meansCall = isProcedure(name);
     diag::Diagnostic* d =
-        report(Code::UnusedLabel, tree_->range(label.name),
+        report(say::UnusedLabel, tree_->range(label.name),
                {name, meansCall ? fmt::format("; to call the procedure '{}', write ';' in place of ':'", name)
                                 : ""});
     if (!d || meansCall) return;
@@ -201,7 +201,7 @@ void Walker::unreachable(StmtList stmts, size_t at) {
     const NodeKind kind = stmts[at]->kind;
     if (kind == NodeKind::ErrorStmt || kind == NodeKind::DeclStmt || kind == NodeKind::PlaceholderStmt)
         return;
-    report(Code::UnreachableCode, range(*stmts[at]));
+    report(say::UnreachableCode, range(*stmts[at]));
 }
 
 bool Walker::statement(const Stmt& s) {
@@ -276,7 +276,7 @@ void Walker::assign(const AssignStmt& s) {
     const bool place = s.value->kind == NodeKind::Name || s.value->kind == NodeKind::Index ||
                        s.value->kind == NodeKind::Component;
     if (place && sameText(*s.target, *s.value))
-        report(Code::SelfAssignment, range(s), {text(*s.target)}); // and no assignment at all
+        report(say::SelfAssignment, range(s), {text(*s.target)}); // and no assignment at all
     else
         write(*s.target, fromCall ? kFromCall : kAssigned, fromItself);
 }
@@ -319,7 +319,7 @@ void Walker::duplicateConditions(const IfStmt& s) {
         if (!condition || constant(*condition)) continue;
         for (size_t k = 0; k < i; ++k) {
             if (!s.branches[k]->condition || !sameText(*s.branches[k]->condition, *condition)) continue;
-            if (diag::Diagnostic* d = report(Code::DuplicateCondition, range(*condition)))
+            if (diag::Diagnostic* d = report(say::DuplicateCondition, range(*condition)))
                 d->notes.push_back({tree_->source, range(*s.branches[k]->condition), "it stands here first"});
             break;
         }
@@ -355,7 +355,7 @@ void Walker::missingDefault(const TestStmt& s) {
     constexpr size_t kFewest = 2; // one CASE alone is an IF
     if (s.cases.size() < kFewest || !s.subject || !isOpenSubject(*s.subject)) return;
     if (info(*s.subject).type.type->kind == sema::TypeKind::Bool) return;
-    report(Code::MissingDefault, {range(s).begin, range(*s.subject).end}, {text(*s.subject)});
+    report(say::MissingDefault, {range(s).begin, range(*s.subject).end}, {text(*s.subject)});
 }
 
 bool Walker::isOpenSubject(const Expr& subject) const {

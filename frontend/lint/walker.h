@@ -130,8 +130,12 @@ class Walker {
     const sema::ExprInfo& info(const Expr& e) const { return (*module_->exprs)[e.id]; }
     SourceRange range(const syntax::Node& node) const { return tree_->range(node); }
     std::string text(const syntax::Node& node) const;
-    diag::Diagnostic* report(Code code, SourceRange where, std::initializer_list<std::string> args = {}) {
-        return reporter_.report(code, *tree_, where, args);
+    template <size_t N>
+    diag::Diagnostic* report(diag::Message<N> message, SourceRange where, diag::MessageArgs<N> args) {
+        return reporter_.report(message, *tree_, where, args);
+    }
+    diag::Diagnostic* report(diag::Message<0> message, SourceRange where) {
+        return reporter_.report(message.code, *tree_, where, {});
     }
 
     const sema::CheckedProgram& program_;

@@ -14,6 +14,7 @@ namespace rapid::lint {
 
 using diag::CatalogueEntry;
 using diag::Code;
+namespace say = diag::say;
 
 namespace {
 
@@ -246,7 +247,7 @@ void applySettings(const project::Settings& settings, WarningLevels& levels, dia
             const std::string* text = setting.text();
             const bool known = text && (*text == "off" || *text == "warning" || *text == "error");
             if (!known) {
-                sink.report(Code::BadSetting, settings.file, setting.range,
+                sink.report(say::BadSetting, settings.file, setting.range,
                             {setting.name, "\"off\", \"warning\" or \"error\""});
                 continue;
             }
@@ -254,7 +255,7 @@ void applySettings(const project::Settings& settings, WarningLevels& levels, dia
                                 : *text == "error" ? Level::Error
                                                    : Level::Warning;
             if (!levels.set(setting.name, level) && unknown++ < kMostUnknown)
-                sink.report(Code::UnknownWarning, settings.file, setting.range,
+                sink.report(say::UnknownWarning, settings.file, setting.range,
                             {setting.name, warningSuggestion(setting.name)});
         }
     }
@@ -280,7 +281,7 @@ bool applyOption(std::string_view option, WarningLevels& levels, std::string& pr
 void checkDirectives(const std::shared_ptr<const SourceFile>& file, diag::Sink& sink) {
     for (const Directive& directive : readDirectives(*file)) {
         if (directive.word == Word::Unknown || directive.names.empty())
-            sink.report(Code::BadDirective, file,
+            sink.report(say::BadDirective, file,
                         directive.written.empty()
                             ? SourceRange{file->lineStart(directive.line), file->lineStart(directive.line)}
                             : rangeOf(*file, directive.written),
@@ -290,7 +291,7 @@ void checkDirectives(const std::shared_ptr<const SourceFile>& file, diag::Sink& 
                              : fmt::format("'{}' without a name", directive.written)});
         for (const std::string_view name : directive.names)
             if (directive.word != Word::Unknown && !isWarningName(name))
-                sink.report(Code::UnknownWarning, file, rangeOf(*file, name),
+                sink.report(say::UnknownWarning, file, rangeOf(*file, name),
                             {std::string(name), warningSuggestion(name)});
     }
 }

@@ -18,7 +18,7 @@ namespace rapid::project {
 
 namespace fs = std::filesystem;
 using config::sameName;
-using diag::Code;
+namespace say = diag::say;
 
 namespace {
 
@@ -102,9 +102,10 @@ class BackupLoader {
         return {std::make_shared<const SourceFile>(path.string(), std::move(bytes))};
     }
 
-    void report(Code code, const Description& where, SourceRange range,
-                std::initializer_list<std::string> args) {
-        sink_.report(code, where.file, range, args);
+    template <size_t N>
+    void report(diag::Message<N> message, const Description& where, SourceRange range,
+                diag::MessageArgs<N> args) {
+        sink_.report(message, where.file, range, args);
     }
 
     void readDescriptions() {
@@ -210,7 +211,7 @@ class BackupLoader {
             task.folder = *found;
             folders.erase(found);
         }
-        if (info_.tasks.empty()) sink_.report(Code::BackupWithoutList, nullptr, {}, {folder_.string()});
+        if (info_.tasks.empty()) sink_.report(say::BackupWithoutList, nullptr, {}, {folder_.string()});
         for (const fs::path& folder : folders)
             addTask(nameFor(folder)).folder = folder;
         for (const ConfiguredTask& task : parameters_.tasks)
@@ -265,10 +266,10 @@ class BackupLoader {
         const std::string name = listed.folder + "/" + listed.file;
         const SourceRange place = infoFile_.find(listed.file, ">>" + task.listed->folder);
         if (listed.hidden)
-            report(Code::SystemModuleNotSaved, infoFile_, place,
+            report(say::SystemModuleNotSaved, infoFile_, place,
                    {stemOf(listed.file), "task '" + task.input.name + "'", name + ", hidden"});
         else if (!task.folder.empty() || task.configured) // else the task is left out, which is told
-            report(Code::ListedModuleMissing, infoFile_, place,
+            report(say::ListedModuleMissing, infoFile_, place,
                    {name, task.input.name, (fs::path("RAPID") / task.listed->folder).string()});
     }
 
@@ -301,7 +302,7 @@ class BackupLoader {
         const std::string known = listedModuleIn(path, task);
         if (!known.empty())
             outcome = fmt::format("it is left out, as a listed file has its module '{}'", known);
-        report(Code::UnlistedModule, infoFile_, infoFile_.find(">>" + task.listed->folder),
+        report(say::UnlistedModule, infoFile_, infoFile_.find(">>" + task.listed->folder),
                {path.string(), task.input.name, outcome});
         return known.empty();
     }
@@ -358,7 +359,7 @@ class BackupLoader {
             }
             if (lacking.empty()) continue;
             const bool own = sameName(module.file.substr(0, module.file.find(':')), "RELEASE");
-            report(own ? Code::SystemModuleNotSaved : Code::ModuleNotSaved, sysFile_,
+            report(own ? say::SystemModuleNotSaved : say::ModuleNotSaved, sysFile_,
                    sysFile_.find(module.file, "CAB_TASK_MODULES"),
                    {module.name,
                     fmt::format("{} {}", lacking.size() == 1 ? "task" : "tasks", fmt::join(lacking, ", ")),
@@ -392,7 +393,7 @@ class BackupLoader {
             if (hasTask(configured)) continue;
             SourceRange place = sysFile_.find("-Name \"" + configured.name + '"', "CAB_TASKS:");
             if (place.end == 0) place = sysFile_.find('"' + configured.name + '"', "CAB_TASKS:");
-            report(Code::TaskWithoutFolder, sysFile_, place, {configured.name, "backup"});
+            report(say::TaskWithoutFolder, sysFile_, place, {configured.name, "backup"});
         }
     }
 
@@ -406,7 +407,7 @@ class BackupLoader {
         for (const std::string& addIn : info_.addIns)
             text += fmt::format(", add-in {}", addIn);
         text += describeMissingParameters();
-        report(Code::BackupOverview, infoFile_, {}, {text});
+        report(say::BackupOverview, infoFile_, {}, {text});
     }
 
     /// "IRB 1660ID-4/1.55" among the options: the robot, if MOC.cfg does not tell it.
@@ -428,11 +429,11 @@ class BackupLoader {
         if (isLeftOut(task)) {
             std::string reason = "the backup has no modules of it";
             if (task.listed && !parameters_.tasks.empty()) reason += ", an option of the controller makes it";
-            report(Code::TaskLeftOut, infoFile_, place, {input.name, reason});
+            report(say::TaskLeftOut, infoFile_, place, {input.name, reason});
             return;
         }
         if (!task.configured && !parameters_.tasks.empty())
-            report(Code::TaskNotConfigured, infoFile_, place, {input.name});
+            report(say::TaskNotConfigured, infoFile_, place, {input.name});
         std::string text = fmt::format("{}{}, entry '{}': {}", input.type,
                                        task.configured && task.configured->motion ? ", motion" : "",
                                        input.entry, plural(input.files.size(), "module"));
@@ -443,9 +444,9 @@ class BackupLoader {
             text += fmt::format("; {} not in the backup ({})", task.notSaved.size(),
                                 fmt::join(task.notSaved, ", "));
         if (input.incomplete) text += "; names that no module declares may be declared there";
-        report(Code::TaskOverview, infoFile_, place, {input.name, text});
+        report(say::TaskOverview, infoFile_, place, {input.name, text});
         if (input.files.empty())
-            report(Code::TaskLeftOut, infoFile_, place,
+            report(say::TaskLeftOut, infoFile_, place,
                    {input.name, task.encrypted.empty() ? "the backup has no modules of it"
                                                        : "all its modules are encrypted"});
     }

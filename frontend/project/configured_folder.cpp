@@ -11,7 +11,7 @@ namespace rapid::project {
 
 namespace fs = std::filesystem;
 using config::sameName;
-using diag::Code;
+namespace say = diag::say;
 
 namespace {
 
@@ -131,7 +131,7 @@ class FolderLoader {
         }
         if (lacking.empty()) return;
         const bool own = sameName(module.file.substr(0, module.file.find(':')), "RELEASE");
-        sink_.report(own ? Code::SystemModuleNotSaved : Code::ModuleNotSaved, sysFile_,
+        sink_.report(own ? say::SystemModuleNotSaved : say::ModuleNotSaved, sysFile_,
                      find(module.file, "CAB_TASK_MODULES"),
                      {module.name,
                       fmt::format("{} {}", lacking.size() == 1 ? "task" : "tasks", fmt::join(lacking, ", ")),
@@ -197,7 +197,7 @@ class FolderLoader {
             const bool onlyForAll = !task.own && !task.motion && tasks_.size() > 1;
             if (task.input.files.empty() || onlyForAll) {
                 if (!parameters_.tasks.empty())
-                    sink_.report(Code::TaskWithoutFolder, sysFile_,
+                    sink_.report(say::TaskWithoutFolder, sysFile_,
                                  find('"' + task.input.name + '"', "CAB_TASKS"), {task.input.name, "folder"});
                 continue;
             }

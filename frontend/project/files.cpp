@@ -11,7 +11,7 @@ namespace rapid::project {
 
 namespace fs = std::filesystem;
 using config::sameName;
-using diag::Code;
+namespace say = diag::say;
 
 std::string extensionOf(const fs::path& path) {
     std::string extension = path.extension().string();
@@ -70,7 +70,7 @@ fs::path findPath(const fs::path& folder, std::string_view relative) {
 bool FileReader::read(const fs::path& path, std::string& bytes) {
     filesRead_.push_back(path.string());
     const std::string problem = config::readFile(path.string(), bytes);
-    if (!problem.empty()) report(Code::FileUnreadable, {path.string(), problem});
+    if (!problem.empty()) report(say::FileUnreadable, {path.string(), problem});
     return problem.empty();
 }
 
@@ -78,7 +78,7 @@ std::vector<fs::path> FileReader::list(const fs::path& folder) {
     std::error_code error;
     std::vector<fs::path> found = entries(folder, error);
     if (error && !folder.empty() && unreadable_.insert(folder.string()).second)
-        report(Code::FileUnreadable, {folder.string(), error.message()});
+        report(say::FileUnreadable, {folder.string(), error.message()});
     return found;
 }
 
@@ -95,13 +95,13 @@ std::shared_ptr<const SourceFile> FileReader::load(const fs::path& path) {
     std::string bytes;
     if (known || !read(path, bytes)) return known;
     known = std::make_shared<const SourceFile>(path.string(), std::move(bytes));
-    if (known->isEncrypted()) sink_.report(Code::EncryptedModule, known, {}, {path.filename().string()});
+    if (known->isEncrypted()) sink_.report(say::EncryptedModule, known, {}, {path.filename().string()});
     return known;
 }
 
 void FileReader::addModule(const fs::path& path, sema::TaskInput& task) {
     if (isKnown(path, task)) {
-        report(Code::SameFileTwice, {path.string()});
+        report(say::SameFileTwice, {path.string()});
         return;
     }
     const auto file = load(path);

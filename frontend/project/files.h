@@ -30,9 +30,10 @@ class FileReader {
   public:
     explicit FileReader(diag::Sink& sink) : sink_(sink) {}
 
-    void report(diag::Code code, std::initializer_list<std::string> args) {
-        sink_.report(code, nullptr, {}, args);
+    template <size_t N> void report(diag::Message<N> message, diag::MessageArgs<N> args) {
+        sink_.report(message, nullptr, {}, args);
     }
+    void report(diag::Message<0> message) { sink_.report(message, nullptr, {}); }
     /// The bytes of a file; false when it cannot be read, which is reported.
     bool read(const std::filesystem::path& path, std::string& bytes);
     /// Entries of a folder, sorted by name; that it cannot be listed is reported, once.

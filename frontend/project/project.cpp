@@ -14,7 +14,7 @@
 namespace rapid::project {
 
 namespace fs = std::filesystem;
-using diag::Code;
+namespace say = diag::say;
 
 namespace {
 
@@ -29,7 +29,7 @@ class Loader {
         const fs::path path(input);
         std::error_code error;
         if (!fs::exists(path, error)) {
-            report(Code::FileNotFound, {input});
+            report(say::FileNotFound, {input});
         } else if (isFolder(path)) {
             const fs::path backup = allowBackup ? backupIn(path) : fs::path();
             if (!backup.empty())
@@ -43,11 +43,14 @@ class Loader {
         } else if (extensionOf(path) == ".cfg") {
             out_.configFiles.push_back(input);
         } else {
-            report(Code::NotAModule, {input});
+            report(say::NotAModule, {input});
         }
     }
 
-    void report(Code code, std::initializer_list<std::string> args) { files_.report(code, args); }
+    template <size_t N> void report(diag::Message<N> message, diag::MessageArgs<N> args) {
+        files_.report(message, args);
+    }
+    void report(diag::Message<0> message) { files_.report(message); }
     const std::vector<std::string>& filesRead() const { return files_.filesRead(); }
 
   private:
@@ -75,7 +78,7 @@ class Loader {
     void addBackup(const fs::path& folder) {
         const size_t before = out_.tasks.size();
         loadBackup(folder, files_, sink_, out_);
-        if (out_.tasks.size() == before) report(Code::FolderWithoutModules, {folder.string(), ""});
+        if (out_.tasks.size() == before) report(say::FolderWithoutModules, {folder.string(), ""});
     }
 
     /// Where below a folder the modules are: "; there are some in ...: name one of these".
@@ -127,7 +130,7 @@ class Loader {
                 if (isFolder(path) && !config::sameName(path.filename().string(), "SYSPAR"))
                     modules += addFiles(path, task);
         if (modules == 0 && !files_.isUnreadable(folder))
-            report(Code::FolderWithoutModules, {folder.string(), elsewhere(folder)});
+            report(say::FolderWithoutModules, {folder.string(), elsewhere(folder)});
     }
 
     void addParameters(const fs::path& folder) {
@@ -148,18 +151,18 @@ class Loader {
         if (!files_.read(path, text)) return;
         std::vector<std::string> modules;
         if (!readProgramFile(text, modules)) {
-            report(Code::BadProgramFile,
+            report(say::BadProgramFile,
                    {path.string(),
                     "expected the XML program description of a controller, from <Program> to </Program>"});
             return;
         }
-        if (modules.empty()) report(Code::BadProgramFile, {path.string(), "it names no modules"});
+        if (modules.empty()) report(say::BadProgramFile, {path.string(), "it names no modules"});
         task.incomplete = true; // system modules, which it never lists, may declare more
         const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
         for (const std::string& name : modules) {
             const fs::path found = findModule(folder, name);
             if (found.empty())
-                report(Code::ProgramModuleMissing, {path.string(), name});
+                report(say::ProgramModuleMissing, {path.string(), name});
             else
                 files_.addModule(path.parent_path().empty() ? found.lexically_relative(".") : found, task);
         }
@@ -210,7 +213,7 @@ bool loadProject(const std::vector<std::string>& inputs, const std::vector<TaskS
     const auto isEmpty = [](const sema::TaskInput& task) {
         return task.files.empty() && task.missingModules.empty();
     };
-    if (sink.errorCount() == errorsBefore && isEmpty(out.tasks.front())) loader.report(Code::NoInput, {});
+    if (sink.errorCount() == errorsBefore && isEmpty(out.tasks.front())) loader.report(say::NoInput);
     std::erase_if(out.tasks, isEmpty);
     return sink.errorCount() == errorsBefore;
 }

@@ -12,7 +12,7 @@ namespace rapid::project {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using diag::Code;
+namespace say = diag::say;
 
 namespace {
 
@@ -42,11 +42,11 @@ class Reader {
             reportSyntax(text, problem.byte);
             return;
         } catch (const Json::exception&) {
-            report(Code::BadProjectFile, {0, 0}, {"a number in it is too large"});
+            report(say::BadProjectFile, {0, 0}, {"a number in it is too large"});
             return;
         }
         if (!json.is_object()) {
-            report(Code::BadProjectFile, {0, 0}, {"expected an object '{ ... }'"});
+            report(say::BadProjectFile, {0, 0}, {"expected an object '{ ... }'"});
             return;
         }
         for (const auto& [name, section] : json.items())
@@ -57,18 +57,18 @@ class Reader {
     // A whole line is named, so that a missing comma or quote is in sight.
     void reportSyntax(std::string_view text, size_t byte) {
         const auto at = static_cast<uint32_t>(std::min(byte > 0 ? byte - 1 : 0, text.size()));
-        report(Code::BadProjectFile, {at, at},
+        report(say::BadProjectFile, {at, at},
                {fmt::format("the text is not JSON at line {}", out_.file->lineColumn(at).line)});
     }
 
     void readSection(const std::string& name, const Json& section) {
         const SourceRange place = placeOf(out_.file->text(), name, 0);
         if (std::find(kSections.begin(), kSections.end(), name) == kSections.end()) {
-            report(Code::UnknownSetting, place, {name, "'format' or 'warnings'"});
+            report(say::UnknownSetting, place, {name, "'format' or 'warnings'"});
             return;
         }
         if (!section.is_object()) {
-            report(Code::BadSetting, place, {name, "an object '{ ... }'"});
+            report(say::BadSetting, place, {name, "an object '{ ... }'"});
             return;
         }
         constexpr size_t kMostPlaces = 1000; // looking for them takes time, and more mistakes are not shown
@@ -82,15 +82,15 @@ class Reader {
             else if (value.is_string())
                 setting.value = value.get<std::string>();
             else {
-                report(Code::BadSetting, setting.range, {key, "text, a number, true or false"});
+                report(say::BadSetting, setting.range, {key, "text, a number, true or false"});
                 continue;
             }
             out_.entries.push_back(std::move(setting));
         }
     }
 
-    void report(Code code, SourceRange where, std::initializer_list<std::string> args) {
-        sink_.report(code, out_.file, where, args);
+    template <size_t N> void report(diag::Message<N> message, SourceRange where, diag::MessageArgs<N> args) {
+        sink_.report(message, out_.file, where, args);
     }
 
     Settings& out_;
@@ -123,7 +123,7 @@ Settings loadSettings(const std::string& input, diag::Sink& sink) {
     if (path.empty()) return {};
     std::string bytes;
     if (const std::string problem = config::readFile(path, bytes); !problem.empty()) {
-        sink.report(Code::BadProjectFile, nullptr, {},
+        sink.report(say::BadProjectFile, nullptr, {},
                     {fmt::format("'{}' cannot be read: {}", path, problem)});
         return {};
     }

@@ -15,11 +15,11 @@ using namespace syntax;
 bool TaskComparison::sameStructure(const Type& left, const Type& right) {
     const Type &a = *left.base(), &b = *right.base();
     if (&a == &b || a.kind == TypeKind::Error || b.kind == TypeKind::Error) return true;
-    if (a.kind != b.kind || state_.names.intern(a.name) != state_.names.intern(b.name) ||
+    if (a.kind != b.kind || names_.intern(a.name) != names_.intern(b.name) ||
         a.components.size() != b.components.size())
         return false;
     for (size_t i = 0; i < a.components.size(); ++i)
-        if (state_.names.intern(a.components[i].name) != state_.names.intern(b.components[i].name) ||
+        if (names_.intern(a.components[i].name) != names_.intern(b.components[i].name) ||
             !sameStructure(*a.components[i].type, *b.components[i].type))
             return false;
     return true;
@@ -43,10 +43,10 @@ std::pair<std::string, std::string> TaskComparison::difference(const Type& left,
                                                                const std::string& where) {
     const Type &a = *left.base(), &b = *right.base();
     const std::string what = where.empty() ? std::string() : where + " is ";
-    if (state_.names.intern(a.name) != state_.names.intern(b.name)) return {what + a.name, what + b.name};
+    if (names_.intern(a.name) != names_.intern(b.name)) return {what + a.name, what + b.name};
     size_t i = 0;
     for (; i < std::min(a.components.size(), b.components.size()); ++i) {
-        if (state_.names.intern(a.components[i].name) != state_.names.intern(b.components[i].name)) break;
+        if (names_.intern(a.components[i].name) != names_.intern(b.components[i].name)) break;
         if (!sameStructure(*a.components[i].type, *b.components[i].type))
             return difference(*a.components[i].type, *b.components[i].type,
                               (where.empty() ? std::string() : where + ".") + a.components[i].name);
@@ -56,9 +56,9 @@ std::pair<std::string, std::string> TaskComparison::difference(const Type& left,
 
 // The data of a module that is installed shared are one and the same for all tasks (manual 1.2.2).
 void TaskComparison::checkSharedModules() {
-    if (state_.options.sharedModules.empty() || state_.program.tasks.size() < 2) return;
+    if (state_.options.sharedModules.empty() || program_.tasks.size() < 2) return;
     std::map<std::pair<std::string, NameId>, const DataSymbol*> known; // module and name
-    for (const auto& task : state_.program.tasks) {
+    for (const auto& task : program_.tasks) {
         for (Module* module : task->modules) {
             const std::string name = foldName(module->name);
             if (!state_.options.sharedModules.contains(name)) continue;
@@ -73,7 +73,7 @@ void TaskComparison::checkSharedModules() {
                     continue;
                 state_.enterModule(module);
                 noteDeclared(
-                    report(Code::SharedDataConflict, range(data->nameToken), {data->name, module->name}),
+                    report(say::SharedDataConflict, range(data->nameToken), {data->name, module->name}),
                     other);
             }
         }
@@ -93,22 +93,22 @@ void TaskComparison::checkShared(const DataSymbol& data, const DataSymbol& other
     }
     state_.enterModule(data.module);
     noteDeclared(
-        report(Code::PersConflict, range(data.nameToken), {data.name, std::move(own), std::move(theirs)}),
+        report(say::PersConflict, range(data.nameToken), {data.name, std::move(own), std::move(theirs)}),
         other);
 }
 
 void TaskComparison::checkAcrossTasks() {
     constexpr size_t kMaxTasks = 20; // manual 1.20
-    if (state_.program.tasks.size() > kMaxTasks)
-        state_.sink.report(Code::TooManyTasks, nullptr, {}, {std::to_string(state_.program.tasks.size())});
+    if (program_.tasks.size() > kMaxTasks)
+        state_.sink.report(say::TooManyTasks, nullptr, {}, {std::to_string(program_.tasks.size())});
     checkSharedModules();
     NameMap<DataSymbol> shared;
     NameMap<const Task> names;
     DifferentRecords told;
-    const bool several = state_.program.tasks.size() > 1; // the names of one task are judged already
-    for (const auto& task : state_.program.tasks) {
-        const NameId taskName = state_.names.intern(task->name);
-        if (names.find(taskName)) state_.sink.report(Code::DuplicateTask, nullptr, {}, {task->name});
+    const bool several = program_.tasks.size() > 1; // the names of one task are judged already
+    for (const auto& task : program_.tasks) {
+        const NameId taskName = names_.intern(task->name);
+        if (names.find(taskName)) state_.sink.report(say::DuplicateTask, nullptr, {}, {task->name});
         names.set(taskName, task.get());
         for (Module* module : task->modules) {
             for (DataSymbol* data : several ? module->persistents : std::vector<DataSymbol*>()) {

@@ -10,6 +10,7 @@ namespace rapid::sema {
 class TaskComparison : CheckerPart {
   public:
     explicit TaskComparison(State& state);
+    /// Reports what tasks declare differently.
     void checkAcrossTasks();
 
   private:

@@ -124,7 +124,7 @@ void Analyzer::readFiles(const TaskInput& input, bool declare) {
     std::unordered_set<std::string_view> paths;
     for (const auto& file : input.files) {
         if (!paths.insert(file->path()).second) {
-            state_.sink.report(Code::SameFileTwice, nullptr, {}, {file->path()});
+            state_.sink.report(say::SameFileTwice, nullptr, {}, {file->path()});
             continue;
         }
         readFile(file);
@@ -223,7 +223,7 @@ bool Analyzer::leaveOut(const TaskInput& input) {
     if (!state_.options.requireMain || !input.optional ||
         at(state_.task.globals, state_.names.intern(input.entry)))
         return false;
-    state_.sink.report(Code::TaskLeftOut, nullptr, {},
+    state_.sink.report(say::TaskLeftOut, nullptr, {},
                        {input.name, "none of its modules that can be read declares its entry routine '" +
                                         input.entry + "'"});
     state_.program.tasks.pop_back();

@@ -4,7 +4,6 @@
 #include "frontend/sema/arguments.h"
 #include "frontend/sema/call.h"
 #include "frontend/sema/parameters.h"
-#include "frontend/sema/parts.h"
 #include "frontend/sema/place.h"
 #include "frontend/sema/remedies.h"
 #include "frontend/sema/scopes.h"
@@ -62,7 +61,7 @@ bool ArgumentOrder::couldBe(const Expr& e, const DataSymbol& param) {
 
 /// Whether all that was reported of the call is about its required arguments.
 bool ArgumentOrder::errorsLieIn(const std::vector<const Expr*>& given) const {
-    return std::all_of(state_.reports.collected()->all().begin(), state_.reports.collected()->all().end(),
+    return std::all_of(reports_.collected()->all().begin(), reports_.collected()->all().end(),
                        [&](const diag::Diagnostic& d) {
                            if (d.severity != diag::Severity::Error) return true;
                            return std::any_of(given.begin(), given.end(), [&](const Expr* e) {
@@ -82,9 +81,9 @@ bool ArgumentOrder::explainComma(std::span<Argument* const> args) {
             type.rank > 0 || type.type->kind != TypeKind::Record ||
             places_.findComponent(*type.type, text(*part)) < 0)
             continue;
-        state_.reports.collected()->retract([](const diag::Diagnostic&) { return true; });
+        reports_.collected()->retract([](const diag::Diagnostic&) { return true; });
         const SourceRange comma{range(*whole).end, range(*part).begin};
-        report(Code::UnexpectedToken, comma, {"','", "'.' before a component"}).fix(comma, ".");
+        report(say::UnexpectedToken, comma, {"','", "'.' before a component"}).fix(comma, ".");
         return true;
     }
     return false;
@@ -116,7 +115,7 @@ bool ArgumentOrder::explainArguments(const BoundCall& call, TokenIndex name,
 void ArgumentOrder::reportSwapped(const RoutineSymbol& routine, const DataSymbol& one,
                                   const DataSymbol& other, const Expr& first, const Expr& second,
                                   bool certain) {
-    report(Code::ArgumentsSwapped, range(first), {one.name, other.name, routine.name})
+    report(say::ArgumentsSwapped, range(first), {one.name, other.name, routine.name})
         .fixes.push_back(
             {"let them change places",
              {{range(first), remedies_.written(second)}, {range(second), remedies_.written(first)}},
@@ -147,7 +146,7 @@ bool ArgumentOrder::explainOrder(const RoutineSymbol& routine, const std::vector
         inOrder = inOrder && isInPlace(i);
     if (inOrder) return false; // what is wrong is another thing
     const auto dropErrors = [&] {
-        state_.reports.collected()->retract([](const diag::Diagnostic&) { return true; });
+        reports_.collected()->retract([](const diag::Diagnostic&) { return true; });
     };
     for (size_t i = 0; i < count; ++i) {
         for (size_t k = i + 1; k < count; ++k) {
@@ -171,7 +170,7 @@ bool ArgumentOrder::explainOrder(const RoutineSymbol& routine, const std::vector
             if (from == to || !fits()) continue;
             dropErrors();
             const bool late = to < from; // else the one behind it stands too late
-            report(Code::ArgumentOrder, range(*given[late ? from : from + 1]),
+            report(say::ArgumentOrder, range(*given[late ? from : from + 1]),
                    {params[late ? to : from]->name, params[late ? from : to]->name});
             return true;
         }
@@ -189,16 +188,16 @@ bool ArgumentOrder::explainCount(const RoutineSymbol& routine, TokenIndex name,
     if (odd == params.size()) return false;
     for (size_t i = odd; i < params.size(); ++i)
         if (!couldBe(*given[i + 1], *params[i])) return false;
-    state_.reports.collected()->take();
+    reports_.collected()->take();
     if (given[odd]->kind == NodeKind::Name) { // "MoveAbsJ jp, NoEOffs, v100, ..."
         const TokenIndex option = as<NameExpr>(*given[odd]).name;
         if (isName(option) && calls_.namedOptional(routine, idOf(option)) < routine.params.size()) {
-            report(Code::OptionalWithoutBackslash, range(option), {routine.name, text(option)})
+            report(say::OptionalWithoutBackslash, range(option), {routine.name, text(option)})
                 .fix({range(option).begin, range(option).begin}, "\\", false);
             return true;
         }
     }
-    report(Code::TooManyArguments, range(*given[odd]),
+    report(say::TooManyArguments, range(*given[odd]),
            {text(name), counted(params.size(), "required argument"), std::to_string(given.size())});
     return true;
 }
@@ -206,14 +205,14 @@ bool ArgumentOrder::explainCount(const RoutineSymbol& routine, TokenIndex name,
 /// "SetDO do1 := 1;" and "MoveL p10, v100, fine, tool0WObj:=wobj1;": ',' or '\\' is missing, and no parameter is named so.
 bool ArgumentOrder::reportMisspeltSeparator(const RoutineSymbol& routine, const Argument& arg, size_t slot,
                                             bool isLast) {
-    const std::string_view written = state_.names.folded(idOf(arg.name));
+    const std::string_view written = names_.folded(idOf(arg.name));
     for (const DataSymbol* param : routine.params) {
-        const std::string_view option = state_.names.folded(param->nameId);
+        const std::string_view option = names_.folded(param->nameId);
         if (!param->optional || written.size() <= option.size() || !written.ends_with(option)) continue;
         const size_t rest = written.size() - option.size();
-        if (!asData(scopes_.lookup(state_.names.intern(written.substr(0, rest))))) continue;
+        if (!asData(scopes_.lookup(names_.intern(written.substr(0, rest))))) continue;
         const uint32_t at = range(arg.name).end - static_cast<uint32_t>(option.size());
-        report(Code::OptionalWithoutBackslash, {at, range(arg.name).end}, {routine.name, param->name})
+        report(say::OptionalWithoutBackslash, {at, range(arg.name).end}, {routine.name, param->name})
             .fix({at, at}, "\\");
         return true;
     }
@@ -221,7 +220,7 @@ bool ArgumentOrder::reportMisspeltSeparator(const RoutineSymbol& routine, const 
     const bool isArgument =
         asData(scopes_.lookup(idOf(arg.name))) || arguments_.handleHint(*routine.params[slot]);
     if (!isLast || !another || !isArgument) return false;
-    report(Code::UnexpectedToken, range(arg.name + 1), {"':='", "',' before the next argument"})
+    report(say::UnexpectedToken, range(arg.name + 1), {"':='", "',' before the next argument"})
         .fix(range(arg.name + 1), ",");
     return true;
 }

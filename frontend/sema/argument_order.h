@@ -10,9 +10,12 @@ class ArgumentOrder : CheckerPart {
   public:
     ArgumentOrder(State& state, const Parts& parts);
 
+    /// Whether one mistake explained the errors of the call, which are replaced by it.
     bool explainArguments(const BoundCall& call, syntax::TokenIndex name,
                           std::span<syntax::Argument* const> args);
+    /// The same for a decimal comma.
     bool explainComma(std::span<syntax::Argument* const> args);
+    /// "SetDO do1 := 1;": a comma or a backslash is missing. False: nothing was reported.
     bool reportMisspeltSeparator(const RoutineSymbol& routine, const syntax::Argument& arg, size_t slot,
                                  bool isLast);
 
@@ -34,6 +37,7 @@ class ArgumentOrder : CheckerPart {
     Scopes& scopes_;
 };
 
+/// Whether a parameter of this mode can take the data.
 bool mayStandFor(const DataSymbol& root, syntax::ParamMode mode);
 
 } // namespace rapid::sema

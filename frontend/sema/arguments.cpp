@@ -5,7 +5,6 @@
 #include "frontend/sema/call.h"
 #include "frontend/sema/expr.h"
 #include "frontend/sema/parameters.h"
-#include "frontend/sema/parts.h"
 #include "frontend/sema/place.h"
 #include "frontend/sema/remedies.h"
 #include "frontend/sema/scopes.h"
@@ -41,7 +40,7 @@ void Arguments::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
         if (!bound.value) return;
         if (arg.argKind == ArgKind::Required)
             return expressions_.visitLoose(*bound.value); // told where '\\' is missing
-        diag::Diagnostic& d = report(Code::SwitchWithValue, range(*bound.value), {param.name});
+        diag::Diagnostic& d = report(say::SwitchWithValue, range(*bound.value), {param.name});
         const bool isTrue =
             bound.value->kind == NodeKind::BoolLiteral && as<BoolLiteralExpr>(*bound.value).value;
         d.fix({range(arg.name).end, range(arg).end}, "", isTrue);
@@ -49,7 +48,7 @@ void Arguments::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
         return;
     }
     if (!bound.value) {
-        report(Code::OptionalWithoutValue, range(arg), {param.name, typeName(param.type)});
+        report(say::OptionalWithoutValue, range(arg), {param.name, typeName(param.type)});
         return;
     }
     if (routine.role == Role::Present) {
@@ -80,7 +79,7 @@ bool Arguments::reportEqualAsAssign(const BoundArg& bound) {
     if (equal.op != BinaryOp::Eq || equal.left->kind != NodeKind::Name) return false;
     const TokenIndex name = as<NameExpr>(*equal.left).name;
     if (!isName(name) || idOf(name) != bound.param->nameId || scopes_.lookup(idOf(name))) return false;
-    report(Code::EqualInAssignment, range(equal.opToken)).fix(range(equal.opToken), ":=");
+    report(say::EqualInAssignment, range(equal.opToken)).fix(range(equal.opToken), ":=");
     expressions_.visitLoose(*equal.right);
     return true;
 }
@@ -130,7 +129,7 @@ std::span<const BoundArg> Arguments::leftOut(const BoundCall& call, std::vector<
 
 // What was said about arguments that only stand in the wrong place.
 void Arguments::takeBack(const std::vector<const Expr*>& moved) {
-    state_.reports.collected()->retract([&](const diag::Diagnostic& d) {
+    reports_.collected()->retract([&](const diag::Diagnostic& d) {
         const bool aboutArgument = d.code == Code::ArgumentClass || d.code == Code::ArgumentNotVariable ||
                                    d.code == Code::ArgumentNotWhole || d.code == Code::ArgumentAlternatives ||
                                    d.code == Code::NonValueInExpression;
@@ -166,9 +165,8 @@ void Arguments::reportArguments(const BoundCall& call, TokenIndex name, size_t f
         std::vector<const Expr*> moved;
         if (const auto lost = leftOut(call, moved); !lost.empty()) {
             takeBack(moved);
-            noteDeclared(
-                report(Code::MissingArgument, range(name), {text(name), "argument " + namesOf(lost)}),
-                routine);
+            noteDeclared(report(say::MissingArgument, range(name), {text(name), "argument " + namesOf(lost)}),
+                         routine);
             return;
         }
     }
@@ -176,9 +174,9 @@ void Arguments::reportArguments(const BoundCall& call, TokenIndex name, size_t f
     for (const Mismatch& one : wrong) {
         const auto names = typeNames(one.found, one.param->type);
         const Remedy remedy = remedies_.remedyFor(routine, *one.value, one.found, *one.param);
-        remedies_.offer(report(Code::ArgumentType, range(*one.value),
-                               {one.param->name, routine.name, names[0], names[1]}),
-                        *one.value, remedy);
+        remedies_.offer(
+            report(say::ArgumentType, range(*one.value), {one.param->name, routine.name, names[0], names[1]}),
+            *one.value, remedy);
     }
 }
 
@@ -255,7 +253,7 @@ diag::Diagnostic& Arguments::reportAccess(const RoutineSymbol& routine, const Bo
     }
     if (bound.param->type.type->kind == TypeKind::SemiValue)
         expected = shapeReported_ ? "a signal, and ',' before the next argument" : "a signal";
-    auto& d = report(Code::ArgumentNotVariable, range(*bound.value),
+    auto& d = report(say::ArgumentNotVariable, range(*bound.value),
                      {bound.param->name, routine.name, std::move(found), expected});
     if (symbol) noteDeclared(d, *symbol);
     return d;
@@ -288,7 +286,7 @@ void Arguments::checkAccess(const RoutineSymbol& routine, const BoundArg& bound,
     const bool mustBeWhole = !anyPart && (mode == ParamMode::Pers ||
                                           (mode == ParamMode::Inout && persistent && !routine.predefined));
     if (mustBeWhole && !place.whole) {
-        report(Code::ArgumentNotWhole, range(*bound.value),
+        report(say::ArgumentNotWhole, range(*bound.value),
                {bound.param->name, routine.name, "'" + root.name + "'"});
         return;
     }
@@ -326,14 +324,14 @@ bool Arguments::checkClass(const RoutineSymbol& routine, const BoundArg& bound, 
     if (found.type->kind == TypeKind::Error || found.type->kind == TypeKind::AnyType) return true;
     const char* expected = missingClass(bound.param->accepts, found);
     if (!expected) return true;
-    report(Code::ArgumentClass, range(*bound.value),
+    report(say::ArgumentClass, range(*bound.value),
            {bound.param->name, routine.name, typeName(found), expected});
     return false;
 }
 
 // The optional parameter of the current routine that `e` names, or null.
 DataSymbol* Arguments::ownParameter(const Expr& e) {
-    if (e.kind != NodeKind::Name || !state_.context.routine) return nullptr;
+    if (e.kind != NodeKind::Name || !context_.routine) return nullptr;
     DataSymbol* data = asData(scopes_.lookup(idOf(as<NameExpr>(e).name)));
     return data && data->storage == Storage::Parameter ? data : nullptr;
 }
@@ -351,7 +349,7 @@ void Arguments::checkDim(const CallExpr& e, const RoutineSymbol& routine) {
     const ConstValue* value = info(*number).constant;
     if (!value || value->kind != ConstValue::Kind::Number) return;
     if (value->number < 1 || value->number > info(*array).type.rank)
-        report(Code::DimensionNumber, range(*number),
+        report(say::DimensionNumber, range(*number),
                {text(*number), counted(info(*array).type.rank, "dimension")});
 }
 
@@ -362,9 +360,9 @@ void Arguments::checkPresent(const BoundArg& bound) {
     state_.presenceOnly = outer;
     if (!known || e.kind == NodeKind::PlaceholderExpr) return;
     if (const DataSymbol* own = ownOptional(e))
-        state_.routine.optionalUses[own->index].tested = true;
+        routine_.optionalUses[own->index].tested = true;
     else
-        report(ownParameter(e) ? Code::PresentRequired : Code::PresentNotOptional, range(e), {text(e)});
+        report(ownParameter(e) ? say::PresentRequired : say::PresentNotOptional, range(e), {text(e)});
 }
 
 // `\Arg?Param`: present if the caller's own optional parameter is.
@@ -386,7 +384,7 @@ void Arguments::judgeConditional(const RoutineSymbol& routine, const BoundArg& b
         return;
     const DataSymbol* own = ownOptional(e);
     if (!own) {
-        report(Code::ConditionalNotParameter, range(e), {text(e)});
+        report(say::ConditionalNotParameter, range(e), {text(e)});
         return;
     }
     const DataSymbol& param = *bound.param;
@@ -394,7 +392,7 @@ void Arguments::judgeConditional(const RoutineSymbol& routine, const BoundArg& b
         const auto what = [](const DataSymbol& data) {
             return data.isSwitch ? "a switch" : "'" + typeName(data.type) + "'";
         };
-        report(Code::ConditionalSwitch, range(e), {param.name, own->name, what(*own), what(param)});
+        report(say::ConditionalSwitch, range(e), {param.name, own->name, what(*own), what(param)});
         return;
     }
     if (param.isSwitch) return;

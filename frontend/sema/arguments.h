@@ -22,14 +22,21 @@ class Arguments : CheckerPart {
     /// The call is judged: no argument of it was reported that may hold several.
     void forgetShape() { shapeReported_ = false; }
 
+    /// Dim(array, number): which dimensions there are is known.
     void checkDim(const syntax::CallExpr& e, const RoutineSymbol& routine);
+    /// Checks an argument and judges it by its parameter.
     void checkArgument(const RoutineSymbol& routine, BoundArg& bound);
+    /// Judges an argument that was checked already: a reference, or a value.
     void judgeReference(const RoutineSymbol& routine, const BoundArg& bound, const Place& place);
+    /// Reports the mismatches from `firstMismatch` on, and if `missing` the parameters without an argument.
     void reportArguments(const BoundCall& call, syntax::TokenIndex name, size_t firstMismatch, bool missing);
     void judgeValue(const RoutineSymbol& routine, const BoundArg& bound, Typed t);
+    /// The argument cannot be changed by the routine. `found`: what it is.
     diag::Diagnostic& reportAccess(const RoutineSymbol& routine, const BoundArg& bound, const Symbol* symbol,
                                    std::string found);
+    /// The optional parameter of the routine being checked that the expression names, or null.
     DataSymbol* ownOptional(const syntax::Expr& e);
+    /// The type that an undeclared name gets when it is the argument for this parameter, or null.
     const Type* handleHint(const DataSymbol& param) const;
 
   private:
@@ -56,6 +63,7 @@ class Arguments : CheckerPart {
     std::vector<Mismatch> mismatches_; ///< arguments of the wrong type, of the calls being checked
 };
 
+/// What an argument for such a parameter must be; null when `found` is that.
 const char* missingClass(ParamClass accepts, const DataType& found);
 
 } // namespace rapid::sema

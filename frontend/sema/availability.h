@@ -9,8 +9,7 @@ class Availability : CheckerPart {
   public:
     explicit Availability(State& state);
 
-    /// Reports `code`, or rather that the name is LOCAL elsewhere or may be declared in a module that is missing.
-    /// A built-in whose RobotWare option the controller is known not to have.
+    /// Reports, once in a task, a built-in whose RobotWare option the controller is known not to have.
     void checkOption(const RoutineSymbol& routine, syntax::TokenIndex name);
 };
 

@@ -6,7 +6,6 @@
 #include "frontend/sema/availability.h"
 #include "frontend/sema/expr.h"
 #include "frontend/sema/parameters.h"
-#include "frontend/sema/parts.h"
 #include "frontend/sema/place.h"
 #include "frontend/sema/remedies.h"
 #include "frontend/sema/scopes.h"
@@ -24,6 +23,12 @@ using namespace syntax;
 namespace {
 
 constexpr size_t kNoParam = static_cast<size_t>(-1);
+
+void give(BoundArg& bound, const Argument& arg) {
+    bound.kind = arg.argKind == ArgKind::Conditional ? BoundArg::Kind::Conditional : BoundArg::Kind::Present;
+    bound.value = arg.value;
+    bound.argument = &arg;
+}
 
 /// "WaitTime 0,3;": two whole numbers with nothing but a comma between them. Its place, if so.
 std::optional<SourceRange> decimalComma(const syntax::SyntaxTree& tree, const Argument& fraction) {
@@ -52,7 +57,7 @@ Typed CallBinder::functionCall(const CallExpr& e) {
         if (symbol) {
             reportNotAFunction(e, *symbol);
         } else if (isName(e.name)) {
-            unknown_.reportUnknown(Code::UnknownFunction, e.name, idOf(e.name), Wanted::Function);
+            unknown_.reportUnknown(say::UnknownFunction, e.name, idOf(e.name), Wanted::Function);
         }
         visitArguments(e.args);
         return expressions_.errorExpr(e);
@@ -69,7 +74,7 @@ Typed CallBinder::functionCall(const CallExpr& e) {
 
 // Data with arguments: an array whose index stands in parentheses.
 void CallBinder::reportNotAFunction(const CallExpr& e, const Symbol& symbol) {
-    diag::Diagnostic& d = report(Code::NotAFunction, range(e.name), {text(e.name), describe(symbol)});
+    diag::Diagnostic& d = report(say::NotAFunction, range(e.name), {text(e.name), describe(symbol)});
     const auto isIndex = [](const Argument* a) {
         return a->argKind == ArgKind::Required && a->name == kNoToken && a->value;
     };
@@ -101,7 +106,7 @@ void CallBinder::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex n
                           std::span<Argument* const> args) {
     BoundCall& call = facts().calls[&node];
     call.routine = &routine;
-    call.module = state_.context.module;
+    call.module = context_.module;
     call.args = facts().inner.makeArray<BoundArg>(routine.params.size());
     for (size_t i = 0; i < routine.params.size(); ++i)
         call.args[i].param = routine.params[i];
@@ -111,7 +116,7 @@ void CallBinder::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex n
     }
     if (callDepth_ == callSinks_.size()) callSinks_.emplace_back();
     diag::Sink& own = callSinks_[callDepth_++];
-    diag::Sink* outer = state_.reports.collectIn(&own);
+    diag::Sink* outer = reports_.collectIn(&own);
     const size_t judgedBefore = judged_.size();
     const size_t mismatchesBefore = arguments_.mismatchCount();
     const bool complete = matchArguments(call, name, args);
@@ -132,7 +137,7 @@ void CallBinder::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex n
         arguments_.reportArguments(call, name, mismatchesBefore, mayMiss);
     else if (mayMiss)
         arguments_.forgetShape(); // of this call
-    state_.reports.collectIn(outer);
+    reports_.collectIn(outer);
     --callDepth_;
     if (own.all().empty()) return;
     (outer ? *outer : state_.sink).absorb(own);
@@ -142,7 +147,7 @@ void CallBinder::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex n
 bool CallBinder::endsWell(TokenIndex name, std::span<Argument* const> args) const {
     const TokenIndex last = args.empty() ? name : args.back()->last;
     const TokenKind next =
-        state_.context.tree->tokens[std::min<size_t>(last + 1, state_.context.tree->tokens.size() - 1)].kind;
+        context_.tree->tokens[std::min<size_t>(last + 1, context_.tree->tokens.size() - 1)].kind;
     return next == TokenKind::Semicolon || next == TokenKind::RightParen ||
            (args.empty() && next == TokenKind::LeftParen);
 }
@@ -183,7 +188,7 @@ bool CallBinder::matchArguments(BoundCall& call, TokenIndex name, std::span<Argu
             reportTooMany(routine, args, *arg, name);
         }
         if (index != kNoParam && call.args[index].argument) {
-            report(Code::DuplicateArgument, range(*arg), {routine.params[index]->name});
+            report(say::DuplicateArgument, range(*arg), {routine.params[index]->name});
             index = kNoParam;
         }
         if (index == kNoParam) {
@@ -191,7 +196,7 @@ bool CallBinder::matchArguments(BoundCall& call, TokenIndex name, std::span<Argu
             continue;
         }
         if (lastArg && index < last && !std::exchange(orderReported, true)) {
-            report(Code::ArgumentOrder, range(*arg),
+            report(say::ArgumentOrder, range(*arg),
                    {routine.params[index]->name, routine.params[last]->name});
             complete = false;
         }
@@ -201,11 +206,7 @@ bool CallBinder::matchArguments(BoundCall& call, TokenIndex name, std::span<Argu
             last = std::max(last, index);
             lastArg = arg;
         }
-        BoundArg& bound = call.args[index];
-        bound.kind =
-            arg->argKind == ArgKind::Conditional ? BoundArg::Kind::Conditional : BoundArg::Kind::Present;
-        bound.value = arg->value;
-        bound.argument = arg;
+        give(call.args[index], *arg);
     }
     return complete && !tooMany;
 }
@@ -215,7 +216,7 @@ bool CallBinder::reportMisread(const RoutineSymbol& routine, const Argument& arg
     if (!namesOptional(routine, arg)) return reportAssignmentBelow(arg);
     const SourceRange at = range(arg);
     const TokenIndex option = as<NameExpr>(*arg.value).name;
-    report(Code::OptionalWithoutBackslash, at, {text(routineName), text(option)})
+    report(say::OptionalWithoutBackslash, at, {text(routineName), text(option)})
         .fix({at.begin, at.begin}, "\\", routine.params[namedOptional(routine, idOf(option))]->isSwitch);
     return true;
 }
@@ -225,11 +226,11 @@ void CallBinder::reportTooMany(const RoutineSymbol& routine, std::span<Argument*
     const auto given = std::count_if(args.begin(), args.end(),
                                      [](const Argument* a) { return a->argKind == ArgKind::Required; });
     diag::Diagnostic& d = report(
-        Code::TooManyArguments, range(first),
+        say::TooManyArguments, range(first),
         {text(routineName),
          routine.params.empty() ? "no arguments" : counted(requiredSlots(routine), "required argument"),
          std::to_string(given)});
-    if (const auto comma = decimalComma(*state_.context.tree, first);
+    if (const auto comma = decimalComma(*context_.tree, first);
         comma && requiredSlots(routine) == 1 && given == 2) {
         const std::string number = std::string(text(first.first - 2)) + "." + std::string(text(first.first));
         d.message += didYouMean(number) + " A decimal number has a point";
@@ -247,11 +248,11 @@ bool CallBinder::reportAssignmentBelow(const Argument& arg) {
     if (arg.name == kNoToken || arg.name == 0 || !asData(scopes_.lookup(idOf(arg.name)))) return false;
     const SourceRange comma = range(arg.name - 1);
     const std::string_view between =
-        state_.context.tree->source->text().substr(comma.end, range(arg.name).begin - comma.end);
-    if (state_.context.tree->tokens[arg.name - 1].kind != TokenKind::Comma ||
+        context_.tree->source->text().substr(comma.end, range(arg.name).begin - comma.end);
+    if (context_.tree->tokens[arg.name - 1].kind != TokenKind::Comma ||
         between.find('\n') == std::string_view::npos)
         return false;
-    report(Code::UnexpectedToken, comma, {"','", "';'"}).fix(comma, ";");
+    report(say::UnexpectedToken, comma, {"','", "';'"}).fix(comma, ";");
     return true;
 }
 
@@ -267,12 +268,12 @@ size_t CallBinder::matchRequired(BoundCall& call, const Argument& arg, size_t sl
     if (const size_t i = matchUnmarked(routine, arg, isLast); i != kNoParam) return i;
     const Type* type = routine.params[slot]->type.type;
     if (type->kind == TypeKind::Bool && asData(scopes_.lookup(name))) { // "WaitUntil a := 1;"
-        report(Code::AssignmentInCondition, range(arg.name + 1)).fix(range(arg.name + 1), "=");
+        report(say::AssignmentInCondition, range(arg.name + 1)).fix(range(arg.name + 1), "=");
         return kNoParam;
     }
     if (reportAssignmentBelow(arg) || order_.reportMisspeltSeparator(routine, arg, slot, isLast))
         return kNoParam;
-    report(Code::ArgumentName, range(arg.name), {routine.name, text(arg.name), routine.params[slot]->name});
+    report(say::ArgumentName, range(arg.name), {routine.name, text(arg.name), routine.params[slot]->name});
     return slot;
 }
 
@@ -284,14 +285,13 @@ size_t CallBinder::namedParameter(const RoutineSymbol& routine, NameId name) {
             if (routine.params[i]->nameId == name) return i;
         return kNoParam;
     }
-    if (state_.routine.wideRoutine != &routine) {
-        state_.routine.wideRoutine = &routine;
-        state_.routine.wideNames = {};
+    if (routine_.wideRoutine != &routine) {
+        routine_.wideRoutine = &routine;
+        routine_.wideNames = {};
         for (DataSymbol* param : routine.params)
-            if (!state_.routine.wideNames.find(param->nameId))
-                state_.routine.wideNames.set(param->nameId, param);
+            if (!routine_.wideNames.find(param->nameId)) routine_.wideNames.set(param->nameId, param);
     }
-    const DataSymbol* param = state_.routine.wideNames.find(name);
+    const DataSymbol* param = routine_.wideNames.find(name);
     return param ? param->index : kNoParam;
 }
 
@@ -313,7 +313,7 @@ size_t CallBinder::matchUnmarked(const RoutineSymbol& routine, const Argument& a
     const size_t i = namedOptional(routine, idOf(arg.name));
     if (i == kNoParam) return i;
     const DataSymbol& param = *routine.params[i];
-    diag::Diagnostic& d = report(Code::OptionalWithoutBackslash, range(arg.name), {routine.name, param.name});
+    diag::Diagnostic& d = report(say::OptionalWithoutBackslash, range(arg.name), {routine.name, param.name});
     if (param.isSwitch && arg.value) { // "grip Open:=TRUE;"
         d.fix(range(arg), "\\" + text(arg.name), false);
     } else {
@@ -331,7 +331,7 @@ size_t CallBinder::matchOptional(BoundCall& call, const Argument& arg, TokenInde
         const DataSymbol& param = *routine.params[i];
         const bool eitherForm = routine.uncertain && param.requiredAlternative && arg.value;
         if (!param.optional && !eitherForm)
-            report(arg.argKind == ArgKind::Conditional ? Code::ConditionalRequired : Code::NotOptional,
+            report(arg.argKind == ArgKind::Conditional ? say::ConditionalRequired : say::NotOptional,
                    range(arg.name), {routine.name, param.name});
         return !param.optional && call.args[i].argument ? kNoParam : i; // given once more: one report will do
     }
@@ -340,7 +340,7 @@ size_t CallBinder::matchOptional(BoundCall& call, const Argument& arg, TokenInde
     const bool named = arg.value || (near && near->isSwitch);
     const std::string hint = named ? std::string() : remedies_.optionalFor(routine, name);
     const std::string meant = !hint.empty() ? hint + text(arg.name) : near ? near->name : hint;
-    diag::Diagnostic& d = report(Code::UnknownParameter, range(arg.name),
+    diag::Diagnostic& d = report(say::UnknownParameter, range(arg.name),
                                  {routine.name, text(arg.name), meant.empty() ? meant : didYouMean(meant)});
     if (near && hint.empty()) d.fix(range(arg.name), near->name, false);
     if (!hint.empty()) d.fix({range(arg.name).begin - 1, range(arg.name).begin}, hint, false);
@@ -390,7 +390,7 @@ size_t CallBinder::chooseAlternative(BoundCall& call, const Argument& arg, size_
     std::string expected;
     for (size_t i = first; i < end; ++i)
         expected += (i == first ? "'" : " or '") + typeName(routine.params[i]->type) + "'";
-    report(Code::ArgumentAlternatives, range(e), {routine.name, typeName(*t.info), expected});
+    report(say::ArgumentAlternatives, range(e), {routine.name, typeName(*t.info), expected});
     return first;
 }
 
@@ -405,7 +405,7 @@ void CallBinder::reportMissing(const BoundCall& call, TokenIndex name) {
     }
     if (missing.empty()) return;
     const std::string what = (count == 1 ? "argument " : "arguments ") + missing;
-    noteDeclared(report(Code::MissingArgument, range(name), {text(name), what}), routine);
+    noteDeclared(report(say::MissingArgument, range(name), {text(name), what}), routine);
 }
 
 void CallBinder::checkExclusive(const BoundCall& call) {
@@ -413,7 +413,7 @@ void CallBinder::checkExclusive(const BoundCall& call) {
     for (const BoundArg& bound : call.args) {
         if (!bound.param->optional || bound.kind != BoundArg::Kind::Present) continue;
         if (previous && previous->param->group == bound.param->group)
-            report(Code::ExclusiveArguments, range(*bound.argument),
+            report(say::ExclusiveArguments, range(*bound.argument),
                    {previous->param->name, bound.param->name});
         else
             previous = &bound;
@@ -426,10 +426,10 @@ void CallBinder::lateCall(const CallStmt& stmt) {
     if (stmt.lateName) {
         const Typed name = expressions_.expr(*stmt.lateName);
         if (!name.isError() && !name.isScalar(TypeKind::String))
-            report(Code::LateBindingName, range(*stmt.lateName), {typeName(*name.info)});
+            report(say::LateBindingName, range(*stmt.lateName), {typeName(*name.info)});
     }
     BoundCall& call = facts().calls[&stmt];
-    call.module = state_.context.module;
+    call.module = context_.module;
     call.args = facts().inner.makeArray<BoundArg>(stmt.args.size());
     size_t count = 0;
     for (const Argument* arg : stmt.args) {
@@ -438,15 +438,12 @@ void CallBinder::lateCall(const CallStmt& stmt) {
             continue;
         }
         BoundArg& bound = call.args[count++];
-        bound.kind =
-            arg->argKind == ArgKind::Conditional ? BoundArg::Kind::Conditional : BoundArg::Kind::Present;
-        bound.value = arg->value;
-        bound.argument = arg;
+        give(bound, *arg);
         if (!arg->value) continue;
         if (arg->argKind == ArgKind::Conditional) {
             visitArgument(*arg);
             if (!arguments_.ownOptional(*arg->value))
-                report(Code::ConditionalNotParameter, range(*arg->value), {text(*arg->value)});
+                report(say::ConditionalNotParameter, range(*arg->value), {text(*arg->value)});
         } else if (isPlaceExpr(*arg->value)) {
             if (DataSymbol* root = places_.place(*arg->value).root)
                 scopes_.markAssigned(*root); // the callee may take it as VAR

@@ -11,13 +11,20 @@ class CallBinder : CheckerPart {
   public:
     CallBinder(State& state, const Parts& parts);
 
+    /// The call of a function in an expression, with its arguments.
     Typed functionCall(const syntax::CallExpr& e);
+    /// The index of the optional parameter of that name, or -1.
     size_t namedOptional(const RoutineSymbol& routine, NameId name);
+    /// `node`: CallStmt or CallExpr; FileFacts::calls has the outcome.
     void bindCall(const syntax::Node& node, RoutineSymbol& routine, syntax::TokenIndex name,
                   std::span<syntax::Argument* const> args);
+    /// Whether the arguments were read to their end: after a syntax error nothing is reported as missing.
     bool endsWell(syntax::TokenIndex name, std::span<syntax::Argument* const> args) const;
+    /// Names the required parameters without an argument.
     void reportMissing(const BoundCall& call, syntax::TokenIndex name);
+    /// Checks arguments for which no parameter is known.
     void visitArguments(std::span<syntax::Argument* const> args);
+    /// A call by name, or of a procedure in a module that is not here (manual 1.1.5).
     void lateCall(const syntax::CallStmt& stmt);
 
   private:

@@ -13,27 +13,27 @@ Module* Collector::addModule(const SyntaxTree& tree, const ModuleDecl& decl, boo
     auto owned = std::make_unique<Module>();
     Module* module = owned.get();
     module->name = std::string(tree.text(decl.name));
-    module->id = static_cast<uint32_t>(state_.program.moduleStore.size());
+    module->id = static_cast<uint32_t>(program_.moduleStore.size());
     module->tree = &tree;
     module->decl = &decl;
     module->predefined = predefined;
     module->facts = &facts;
     module->exprs = &facts.exprs;
-    state_.program.moduleStore.push_back(std::move(owned));
+    program_.moduleStore.push_back(std::move(owned));
     state_.scopes.push_back(std::make_unique<ModuleScope>());
     return module;
 }
 
 DataSymbol& Collector::newData(const DataDecl& decl) {
     DataSymbol& symbol =
-        fill(state_.context.routine ? facts().locals.emplace_back()
-                                    : recycled(facts().symbols->dataSymbols, SymbolKind::Data, decl.name),
+        fill(context_.routine ? facts().locals.emplace_back()
+                              : recycled(facts().symbols->dataSymbols, SymbolKind::Data, decl.name),
              SymbolKind::Data, decl, decl.name, decl.scope == ScopeWord::Local);
     symbol.dataKind = decl.dataKind;
     symbol.scope = decl.scope;
     symbol.init = decl.init;
-    symbol.routine = state_.context.routine;
-    symbol.storage = state_.context.routine ? Storage::RoutineData : Storage::ModuleData;
+    symbol.routine = context_.routine;
+    symbol.storage = context_.routine ? Storage::RoutineData : Storage::ModuleData;
     return symbol;
 }
 
@@ -43,7 +43,7 @@ RoutineSymbol& Collector::newRoutine(const RoutineDecl& decl) {
     symbol.routineKind = decl.routineKind;
     symbol.routineDecl = &decl;
     symbol.native = !decl.hasBody;
-    symbol.noStepIn = (state_.context.module->decl->attributes & (kAttrNostepin | kAttrNoview)) != 0;
+    symbol.noStepIn = (context_.module->decl->attributes & (kAttrNostepin | kAttrNoview)) != 0;
     return symbol;
 }
 
@@ -59,7 +59,7 @@ void Collector::collect(Module& module) {
     for (size_t i = 0; i < decls.size(); ++i) {
         constexpr size_t kAhead = 8;
         if (i + kAhead < decls.size() && decls[i + kAhead]->kind == NodeKind::Data)
-            state_.names.expect(state_.context.tree->text(as<DataDecl>(*decls[i + kAhead]).name));
+            names_.expect(context_.tree->text(as<DataDecl>(*decls[i + kAhead]).name));
         const Decl* decl = decls[i];
         switch (decl->kind) {
         case NodeKind::Record:
@@ -101,17 +101,17 @@ void Collector::collect(Module& module) {
 void Collector::declareInModule(Symbol& symbol, ModuleScope& scope) {
     if (const Symbol* other = scope.names.find(symbol.nameId)) {
         noteDeclared(
-            report(Code::DuplicateInModule, range(symbol.nameToken), {symbol.name, symbol.module->name}),
+            report(say::DuplicateInModule, range(symbol.nameToken), {symbol.name, symbol.module->name}),
             *other);
         return;
     }
     scope.names.set(symbol.nameId, &symbol);
     if (symbol.isLocal) return;
-    std::vector<Symbol*>& table = symbol.predefined ? state_.predefined : state_.task.globals;
+    std::vector<Symbol*>& table = symbol.predefined ? state_.predefined : task_.globals;
     if (const Symbol* other = at(table, symbol.nameId)) {
         if (duplicateModule_) return;
         noteDeclared(
-            report(Code::DuplicateGlobal, range(symbol.nameToken), {symbol.name, other->module->name}),
+            report(say::DuplicateGlobal, range(symbol.nameToken), {symbol.name, other->module->name}),
             *other);
         return;
     }
@@ -123,8 +123,8 @@ void Collector::checkModuleNames(std::span<Module* const> modules) {
     for (Module* module : modules) {
         state_.enterModule(module);
         const auto check = [&](const Symbol& symbol, const char* what) {
-            if (symbol.isLocal || !state_.task.moduleNames.find(symbol.nameId)) return;
-            report(Code::NameOfModule, range(symbol.nameToken), {symbol.name, what});
+            if (symbol.isLocal || !task_.moduleNames.find(symbol.nameId)) return;
+            report(say::NameOfModule, range(symbol.nameToken), {symbol.name, what});
         };
         for (const TypeSymbol* type : module->types)
             check(*type, "data type");
@@ -138,16 +138,16 @@ void Collector::checkModuleNames(std::span<Module* const> modules) {
 void Collector::declareModules(std::span<Module* const> modules) {
     for (Module* module : modules) {
         state_.enterModule(module);
-        const NameId name = state_.names.intern(module->name);
-        Module* other = state_.task.moduleNames.find(name);
+        const NameId name = names_.intern(module->name);
+        Module* other = task_.moduleNames.find(name);
         duplicateModule_ = other != nullptr;
         if (other) {
-            state_.task.entangled = true;
-            auto& d = report(Code::DuplicateModule, range(module->decl->name), {module->name});
+            task_.entangled = true;
+            auto& d = report(say::DuplicateModule, range(module->decl->name), {module->name});
             d.notes.push_back({other->tree->source, other->tree->range(other->decl->name),
                                "'" + other->name + "' is declared here"});
         } else if (!module->name.empty()) {
-            state_.task.moduleNames.set(name, module);
+            task_.moduleNames.set(name, module);
         }
         collect(*module);
     }

@@ -10,12 +10,16 @@ class Collector : CheckerPart {
     explicit Collector(State& state);
 
     void declareModules(std::span<Module* const> modules);
+    /// A module of the program, with nothing declared yet.
     Module* addModule(const syntax::SyntaxTree& tree, const syntax::ModuleDecl& decl, bool predefined,
                       FileFacts& facts);
+    /// Declares what is declared at the level of the module.
     void collect(Module& module);
+    /// Global names must not be those of modules (manual 1.1.3).
     void checkModuleNames(std::span<Module* const> modules);
     /// Symbols of `earlier`, what the module declared when it was checked before, are used again.
     void collectAgain(Module& module, const NameMap<Symbol>& earlier);
+    /// Data of the module or the routine of the context, not declared yet.
     DataSymbol& newData(const syntax::DataDecl& decl);
 
   private:

@@ -11,6 +11,7 @@
 namespace rapid::sema {
 
 using diag::Code;
+namespace say = diag::say;
 
 /// Where the check is: a module, and in it perhaps a routine.
 struct Context {
@@ -84,6 +85,7 @@ struct UnknownName {
     const Module* module = nullptr;
     NameId name = 0;
     Code code{};
+    uint32_t cause = 0; ///< of the diagnostic
     SourceRange where;
     bool looksMisspelt = false;
     /// What is declared with nearly this name; data of routines only while their file is checked.

@@ -16,7 +16,7 @@ void CyclicCondition::check(const CallStmt& s) {
         if (!arg.param->deferred || arg.value == nullptr) continue;
         const Expr* culprit = arg.value;
         if (const std::string what = notCyclic(*arg.value, culprit); !what.empty())
-            report(Code::ConditionNotCyclic, range(*culprit), {text(s.name), what});
+            report(say::ConditionNotCyclic, range(*culprit), {text(s.name), what});
     }
 }
 

@@ -27,14 +27,14 @@ const Symbol* EntryCheck::localEntry(const Task& task, NameId name) {
                    return t.kind == TokenKind::Percent; // a call by name
                });
     };
-    const bool part = state_.task.incomplete || local->used ||
-                      std::any_of(task.modules.begin(), task.modules.end(), isOpen);
+    const bool part =
+        task_.incomplete || local->used || std::any_of(task.modules.begin(), task.modules.end(), isOpen);
     return part ? nullptr : local;
 }
 
 void EntryCheck::checkEntry(Task& task) {
-    const NameId name = state_.names.intern(task.entry);
-    Symbol* symbol = at(state_.task.globals, name);
+    const NameId name = names_.intern(task.entry);
+    Symbol* symbol = at(task_.globals, name);
     RoutineSymbol* routine = asRoutine(symbol);
     const bool procedure = routine && routine->routineKind == RoutineKind::Proc;
     if (procedure && nextRequired(*routine, 0) >= routine->params.size()) {
@@ -46,23 +46,23 @@ void EntryCheck::checkEntry(Task& task) {
     if (symbol) { // what is no procedure, or wants arguments, can be the entry of no task
         state_.enterModule(symbol->module);
         std::string found = procedure ? "a procedure with required parameters" : describe(*symbol);
-        report(Code::EntryNotProcedure, range(symbol->nameToken), {symbol->name, std::move(found)});
+        report(say::EntryNotProcedure, range(symbol->nameToken), {symbol->name, std::move(found)});
         return;
     }
     if (const Symbol* local = localEntry(task, name)) {
         state_.enterModule(local->module);
-        report(Code::EntryLocal, range(local->nameToken), {task.name, local->name});
+        report(say::EntryLocal, range(local->nameToken), {task.name, local->name});
         return;
     }
     if (!state_.options.requireMain) return;
-    if (state_.task.incomplete || !unknown_.mayReportUnknown(name)) return;
+    if (task_.incomplete || !unknown_.mayReportUnknown(name)) return;
     if (task.modules.empty()) { // why there is none has been told as a rule
-        if (!state_.sink.hasErrors()) state_.sink.report(Code::NoEntry, nullptr, {}, {task.name, task.entry});
+        if (!state_.sink.hasErrors()) state_.sink.report(say::NoEntry, nullptr, {}, {task.name, task.entry});
         return;
     }
     const ModuleDecl& first = *task.modules.front()->decl;
     state_.enterModule(task.modules.front());
-    report(Code::NoEntry, range(first.name == kNoToken ? first.first : first.name), {task.name, task.entry});
+    report(say::NoEntry, range(first.name == kNoToken ? first.first : first.name), {task.name, task.entry});
 }
 
 } // namespace rapid::sema

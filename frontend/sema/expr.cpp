@@ -4,7 +4,6 @@
 #include "frontend/sema/expr.h"
 #include "frontend/sema/call.h"
 #include "frontend/sema/fold.h"
-#include "frontend/sema/parts.h"
 #include "frontend/sema/place.h"
 #include "frontend/sema/remedies.h"
 #include "frontend/sema/type_rules.h"
@@ -30,21 +29,21 @@ Typed Expressions::result(const Expr& e, const Type* type, Flex flex) {
 }
 
 Typed Expressions::errorExpr(const Expr& e) {
-    return result(e, state_.program.errorType);
+    return result(e, program_.errorType);
 }
 
 Typed Expressions::expr(const Expr& e, const DataType* want, ConstValue* slot) {
     switch (e.kind) {
     case NodeKind::NumLiteral: return literal(as<NumLiteralExpr>(e), want, slot);
     case NodeKind::StringLiteral: {
-        const Typed t = result(e, state_.program.string);
+        const Typed t = result(e, program_.string);
         ConstValue* value = slot ? slot : folding_.newConst();
-        value->setText(decodeStringLiteral(state_.context.tree->text(e.first)), folding_.valueArena());
+        value->setText(decodeStringLiteral(context_.tree->text(e.first)), folding_.valueArena());
         t.info->constant = value;
         return t;
     }
     case NodeKind::BoolLiteral: {
-        const Typed t = result(e, state_.program.boolean);
+        const Typed t = result(e, program_.boolean);
         ConstValue* value = slot ? slot : folding_.newConst();
         value->kind = ConstValue::Kind::Bool;
         value->boolean = as<BoolLiteralExpr>(e).value;
@@ -68,9 +67,9 @@ Typed Expressions::literal(const NumLiteralExpr& e, const DataType* want, ConstV
     const bool known = want && want->rank == 0 && want->type->isNumeric();
     // A whole number that num cannot hold exactly is a dnum where the context leaves the choice.
     const bool dnum = known ? want->type->kind == TypeKind::Dnum
-                            : isWholeLiteral(state_.context.tree->text(e.first)) &&
+                            : isWholeLiteral(context_.tree->text(e.first)) &&
                                   static_cast<double>(static_cast<float>(e.value)) != e.value;
-    const Typed t = result(e, dnum ? state_.program.dnum : state_.program.num, Flex::Literal);
+    const Typed t = result(e, dnum ? program_.dnum : program_.num, Flex::Literal);
     ConstValue* value = slot ? slot : folding_.newConst();
     value->kind = ConstValue::Kind::Number;
     value->number = dnum ? e.value : static_cast<double>(static_cast<float>(e.value));
@@ -82,7 +81,7 @@ Typed Expressions::literal(const NumLiteralExpr& e, const DataType* want, ConstV
 // Literals that ended up as num although they do not fit it.
 void Expressions::checkBigLiterals() {
     for (const Expr* e : bigLiterals_)
-        if (info(*e).type.type->kind == TypeKind::Num) report(Code::NumberBeyondNum, range(*e), {text(*e)});
+        if (info(*e).type.type->kind == TypeKind::Num) report(say::NumberBeyondNum, range(*e), {text(*e)});
     bigLiterals_.clear();
 }
 
@@ -97,10 +96,10 @@ Typed Expressions::placeValue(const Expr& e) {
         if (out.type.rank > 0) return {&out};
         const std::string& name = type.base()->name;
         const bool group = name == "signalgi" || name == "signalgo";
-        return result(e, group ? state_.program.dnum : state_.program.num, group ? Flex::Group : Flex::None);
+        return result(e, group ? program_.dnum : program_.num, group ? Flex::Group : Flex::None);
     }
     case TypeKind::Switch:
-        remedies_.fixCall(report(Code::SwitchAsValue, range(e), {text(e)}), e, "Present", true);
+        remedies_.fixCall(report(say::SwitchAsValue, range(e), {text(e)}), e, "Present", true);
         return errorExpr(e);
     case TypeKind::AnyType: return errorExpr(e);
     case TypeKind::NonValue: break;
@@ -109,7 +108,7 @@ Typed Expressions::placeValue(const Expr& e) {
         break;
     default: return {&out};
     }
-    report(Code::NonValueInExpression, range(e), {text(e), type.name});
+    report(say::NonValueInExpression, range(e), {text(e), type.name});
     nonValueReported_ = true;
     return errorExpr(e);
 }
@@ -127,11 +126,11 @@ Typed Expressions::paren(const ParenExpr& e, const DataType* want, ConstValue* s
 bool Expressions::aggregateFits(const AggregateExpr& e, const DataType& want) {
     const size_t count = e.elements().size();
     if (want.type->kind == TypeKind::AnyType)
-        report(Code::AggregateWithoutType, range(e));
+        report(say::AggregateWithoutType, range(e));
     else if (want.type->kind == TypeKind::Error)
         return false;
     else if (want.rank == 0 && want.type->kind != TypeKind::Record)
-        report(Code::AggregateForAtomic, range(e), {typeName(want)});
+        report(say::AggregateForAtomic, range(e), {typeName(want)});
     else {
         const size_t expected = want.rank == 0     ? want.type->base()->components.size()
                                 : want.dims[0] > 0 ? static_cast<size_t>(want.dims[0])
@@ -140,7 +139,7 @@ bool Expressions::aggregateFits(const AggregateExpr& e, const DataType& want) {
         if (want.rank == 0 && want.type->base()->unclear) return false;
         for (const Expr* element : e.elements())
             if (element->kind == NodeKind::ErrorExpr) return false;
-        report(Code::AggregateCount, range(e),
+        report(say::AggregateCount, range(e),
                {counted(count, "member"), std::to_string(expected), typeName(want)});
     }
     return false;
@@ -148,7 +147,7 @@ bool Expressions::aggregateFits(const AggregateExpr& e, const DataType& want) {
 
 // Programs and backups of other versions have values of other forms: they can be read, the value has no use.
 Typed Expressions::aggregateOfVersion(const AggregateExpr& e, const DataType& want, ConstValue* slot) {
-    report(Code::AggregateOfVersion, range(e),
+    report(say::AggregateOfVersion, range(e),
            {counted(e.elements().size(), "member"), std::to_string(want.type->base()->components.size()),
             typeName(want)});
     for (const Expr* element : e.elements())
@@ -166,7 +165,7 @@ Typed Expressions::aggregate(const AggregateExpr& e, const DataType* want, Const
     if (want && want->rank == 0 && want->type->base()->uncertain &&
         e.elements().size() != want->type->base()->components.size())
         return aggregateOfVersion(e, *want, slot);
-    if (!want) report(Code::AggregateWithoutType, range(e));
+    if (!want) report(say::AggregateWithoutType, range(e));
     if (!want || !aggregateFits(e, *want)) {
         for (const Expr* element : e.elements())
             visitLoose(*element);
@@ -191,7 +190,7 @@ Typed Expressions::aggregate(const AggregateExpr& e, const DataType* want, Const
         if (!fit) {
             const auto names = typeNames(t.info->type, member);
             const Remedy remedy = remedies_.remedyFor(element, t.info->type, member);
-            remedies_.offer(report(Code::AggregateMember, range(element), {names[0], names[1]}), element,
+            remedies_.offer(report(say::AggregateMember, range(element), {names[0], names[1]}), element,
                             remedy);
         }
         if (!array &&
@@ -210,7 +209,7 @@ Typed Expressions::aggregate(const AggregateExpr& e, const DataType* want, Const
     }
     ExprInfo& out = info(e);
     out.type = own;
-    if (wrong) out.type.type = state_.program.errorType;
+    if (wrong) out.type.type = program_.errorType;
     if (constant && !wrong) {
         value->setMembers(members);
         out.constant = value;
@@ -220,7 +219,7 @@ Typed Expressions::aggregate(const AggregateExpr& e, const DataType* want, Const
 
 // Looks at an expression whose context is wrong already: own mistakes only, no type is asked for.
 void Expressions::visitLoose(const Expr& e) {
-    const DataType any = {state_.program.errorType, 0, {}};
+    const DataType any = {program_.errorType, 0, {}};
     if (isPlaceExpr(e))
         places_.place(e);
     else
@@ -283,8 +282,8 @@ bool Expressions::condition(const Expr& e, const char* what) {
     const DataSymbol* data = e.kind == NodeKind::Name ? asData(info(e).symbol) : nullptr;
     const bool signal = data && data->type.type->kind == TypeKind::SemiValue;
     const Remedy remedy = signal ? Remedy{": compare the signal, " + data->name + " = 1", data->name + " = 1"}
-                                 : remedies_.remedyFor(e, t.info->type, {state_.program.boolean, 0, {}});
-    auto& d = report(Code::ConditionNotBool, range(e), {what, typeName(*t.info), remedy.words});
+                                 : remedies_.remedyFor(e, t.info->type, {program_.boolean, 0, {}});
+    auto& d = report(say::ConditionNotBool, range(e), {what, typeName(*t.info), remedy.words});
     if (!remedy.instead.empty()) d.fix(range(e), remedy.instead, false);
     return false;
 }

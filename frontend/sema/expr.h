@@ -9,15 +9,22 @@ class Expressions : CheckerPart {
   public:
     Expressions(State& state, const Parts& parts);
 
+    /// Checks an expression. `want`: the type that the context asks for; aggregates need it. `slot`: where to keep the value
+    /// of a constant aggregate, or null.
     Typed expr(const syntax::Expr& e, const DataType* want = nullptr, ConstValue* slot = nullptr);
+    /// Gives the expression the type that fits everything.
     Typed errorExpr(const syntax::Expr& e);
+    /// The value of data: signals are read, data without a value are reported.
     Typed placeValue(const syntax::Expr& e);
+    /// Checks an expression whose context is wrong: only its own mistakes are reported.
     void visitLoose(const syntax::Expr& e);
     /// Gives an expression of open numeric type the type `to`.
     void settle(const syntax::Expr& e, const Type* to);
     /// Whether `e` fits `want`; settles it. Nothing is reported.
     bool fits(const syntax::Expr& e, Typed t, const DataType& want);
+    /// `what`: the instruction, for the message. False: reported.
     bool condition(const syntax::Expr& e, const char* what);
+    /// Judges the literals that a num cannot hold, once their types are settled.
     void checkBigLiterals();
 
   private:

@@ -20,7 +20,7 @@ Typed Expressions::unary(const UnaryExpr& e, const DataType* want, ConstValue* s
     const DataType& type = operand.info->type;
     const bool scalar = type.rank == 0;
     if (e.op == UnaryOp::Not && scalar && type.type->kind == TypeKind::Bool) {
-        const Typed t = result(e, state_.program.boolean);
+        const Typed t = result(e, program_.boolean);
         folding_.foldUnary(e, slot);
         return t;
     }
@@ -29,12 +29,12 @@ Typed Expressions::unary(const UnaryExpr& e, const DataType* want, ConstValue* s
         folding_.foldUnary(e, slot);
         return t;
     }
-    if (e.op != UnaryOp::Not && scalar && state_.program.pos && operand.base() == state_.program.pos) {
-        const Typed t = result(e, state_.program.pos);
+    if (e.op != UnaryOp::Not && scalar && program_.pos && operand.base() == program_.pos) {
+        const Typed t = result(e, program_.pos);
         folding_.foldUnary(e, slot);
         return t;
     }
-    report(Code::UnaryOperatorType, range(e.first), {name, typeName(*operand.info)});
+    report(say::UnaryOperatorType, range(e.first), {name, typeName(*operand.info)});
     return errorExpr(e);
 }
 
@@ -107,11 +107,11 @@ Typed Expressions::binaryChain(const BinaryExpr& top, const DataType* want) {
 // "p10 + [0,0,50]": a record that no operator takes gives the aggregate no type.
 bool Expressions::refusesAggregate(const BinaryExpr& e, const DataType& partner) {
     const Type* type = partner.type->base();
-    if (e.op >= BinaryOp::Lt || partner.rank > 0 || type->kind != TypeKind::Record ||
-        type == state_.program.pos || type == state_.program.orient)
+    if (e.op >= BinaryOp::Lt || partner.rank > 0 || type->kind != TypeKind::Record || type == program_.pos ||
+        type == program_.orient)
         return false;
     const bool left = isAggregate(*e.left);
-    report(Code::OperatorTypes, range(e.opToken),
+    report(say::OperatorTypes, range(e.opToken),
            {text(e.opToken), left ? text(*e.left) : typeName(partner),
             left ? typeName(partner) : text(*e.right), targetRemedy(e.op, partner)});
     return true;
@@ -120,15 +120,15 @@ bool Expressions::refusesAggregate(const BinaryExpr& e, const DataType& partner)
 Typed Expressions::combine(const BinaryExpr& e, Typed left, Typed right) {
     const auto isRelation = [](BinaryOp op) { return op >= BinaryOp::Lt && op <= BinaryOp::Ne; };
     if (isRelation(e.op) && e.left->kind == NodeKind::Binary && isRelation(as<BinaryExpr>(*e.left).op))
-        return result(e, state_.program.boolean); // a chain of relations is a syntax error
+        return result(e, program_.boolean); // a chain of relations is a syntax error
     if (left.isError() || right.isError()) {
         // What a comparison gives is known all the same, and what a logical operator takes.
         const bool gives = e.op >= BinaryOp::Lt;
         const Typed known = left.isError() ? right : left;
         const bool takes = e.op < BinaryOp::And || known.isError() || known.isScalar(TypeKind::Bool);
         if (!takes && text(e.opToken)[0] != '&')
-            report(Code::UnaryOperatorType, range(e.opToken), {text(e.opToken), typeName(*known.info)});
-        return gives ? result(e, state_.program.boolean) : errorExpr(e);
+            report(say::UnaryOperatorType, range(e.opToken), {text(e.opToken), typeName(*known.info)});
+        return gives ? result(e, program_.boolean) : errorExpr(e);
     }
     switch (e.op) {
     case BinaryOp::Add:
@@ -151,8 +151,8 @@ Typed Expressions::combine(const BinaryExpr& e, Typed left, Typed right) {
 }
 
 Typed Expressions::operatorError(const BinaryExpr& e, Typed left, Typed right) {
-    if (state_.context.tree->text(e.opToken)[0] == '&') return errorExpr(e); // of another language, reported
-    report(Code::OperatorTypes, range(e.opToken),
+    if (context_.tree->text(e.opToken)[0] == '&') return errorExpr(e); // of another language, reported
+    report(say::OperatorTypes, range(e.opToken),
            {text(e.opToken), typeName(*left.info), typeName(*right.info), operatorRemedy(e.op, left, right)});
     return errorExpr(e);
 }
@@ -165,8 +165,8 @@ Expressions::Numeric Expressions::unify(const BinaryExpr& e, Typed& left, Typed&
     if (left.flex != Flex::None && right.flex != Flex::None) {
         flex = left.flex == Flex::Group || right.flex == Flex::Group ? Flex::Group : Flex::Literal;
         const bool dnum =
-            flex == Flex::Group || left.base() == state_.program.dnum || right.base() == state_.program.dnum;
-        const Type* common = dnum ? state_.program.dnum : state_.program.num;
+            flex == Flex::Group || left.base() == program_.dnum || right.base() == program_.dnum;
+        const Type* common = dnum ? program_.dnum : program_.num;
         settle(*e.left, common);
         settle(*e.right, common);
     } else if (left.flex != Flex::None)
@@ -181,7 +181,7 @@ Expressions::Numeric Expressions::unify(const BinaryExpr& e, Typed& left, Typed&
 Typed Expressions::arithmetic(const BinaryExpr& e, Typed left, Typed right) {
     Flex flex = Flex::None;
     switch (unify(e, left, right, flex)) {
-    case Numeric::Mixed: report(Code::NumDnumMixed, range(e.opToken), {text(e.opToken)}); return errorExpr(e);
+    case Numeric::Mixed: report(say::NumDnumMixed, range(e.opToken), {text(e.opToken)}); return errorExpr(e);
     case Numeric::NotNumeric: return vectorArithmetic(e, left, right);
     case Numeric::Ok: break;
     }
@@ -199,17 +199,17 @@ void Expressions::checkIntegerOperands(const BinaryExpr& e) {
     const ConstValue& value = a ? *a : *b;
     if (value.kind == ConstValue::Kind::Number && std::isfinite(value.number) &&
         value.number != std::floor(value.number))
-        report(Code::IntegerOperands, range(known), {text(e.opToken)});
+        report(say::IntegerOperands, range(known), {text(e.opToken)});
 }
 
 // Strings, vectors and rotations.
 Typed Expressions::vectorArithmetic(const BinaryExpr& e, Typed left, Typed right) {
-    const Type *pos = state_.program.pos, *orient = state_.program.orient;
+    const Type *pos = program_.pos, *orient = program_.orient;
     if (left.info->type.rank > 0 || right.info->type.rank > 0) return operatorError(e, left, right);
     // A group signal in a product with a vector counts as num; so does a literal already.
     const auto asNum = [&](const Expr& side, Typed t) {
-        if (t.flex != Flex::None) settle(side, state_.program.num);
-        return t.base() == state_.program.num;
+        if (t.flex != Flex::None) settle(side, program_.num);
+        return t.base() == program_.num;
     };
     const auto folded = [&](const Type* type) {
         const Typed t = result(e, type);
@@ -220,7 +220,7 @@ Typed Expressions::vectorArithmetic(const BinaryExpr& e, Typed left, Typed right
     switch (e.op) {
     case BinaryOp::Add:
         if (left.isScalar(TypeKind::String) && right.isScalar(TypeKind::String))
-            return folded(state_.program.string);
+            return folded(program_.string);
         if (leftPos && rightPos) return folded(pos);
         break;
     case BinaryOp::Sub:
@@ -243,15 +243,15 @@ Typed Expressions::vectorArithmetic(const BinaryExpr& e, Typed left, Typed right
 Typed Expressions::comparison(const BinaryExpr& e, Typed left, Typed right) {
     Flex flex = Flex::None;
     switch (unify(e, left, right, flex)) {
-    case Numeric::Mixed: report(Code::NumDnumMixed, range(e.opToken), {text(e.opToken)}); break;
+    case Numeric::Mixed: report(say::NumDnumMixed, range(e.opToken), {text(e.opToken)}); break;
     case Numeric::NotNumeric: operatorError(e, left, right); break;
     case Numeric::Ok: {
-        const Typed t = result(e, state_.program.boolean);
+        const Typed t = result(e, program_.boolean);
         folding_.foldBinary(e);
         return t;
     }
     }
-    return result(e, state_.program.boolean);
+    return result(e, program_.boolean);
 }
 
 namespace {
@@ -275,12 +275,12 @@ bool sameDimensions(const DataType& a, const DataType& b, bool& known) {
 Typed Expressions::equality(const BinaryExpr& e, Typed left, Typed right) {
     Flex flex = Flex::None;
     const Numeric numeric = unify(e, left, right, flex);
-    const Typed t = result(e, state_.program.boolean);
+    const Typed t = result(e, program_.boolean);
     const DataType &a = left.info->type, &b = right.info->type;
     if (numeric == Numeric::Ok)
         folding_.foldBinary(e);
     else if (numeric == Numeric::Mixed)
-        report(Code::NumDnumMixed, range(e.opToken), {text(e.opToken)});
+        report(say::NumDnumMixed, range(e.opToken), {text(e.opToken)});
     else if (bool known = true; a.type->base() != b.type->base() || !sameDimensions(a, b, known)) {
         const auto names = typeNames(a, b);
         const bool literalLeft = e.left->kind == NodeKind::NumLiteral ||
@@ -288,10 +288,10 @@ Typed Expressions::equality(const BinaryExpr& e, Typed left, Typed right) {
                                  e.left->kind == NodeKind::BoolLiteral;
         const Expr& odd = literalLeft ? *e.left : *e.right;
         const Remedy remedy = literalLeft ? remedies_.remedyFor(odd, a, b) : remedies_.remedyFor(odd, b, a);
-        remedies_.offer(report(Code::CompareTypes, range(e.opToken), {text(e.opToken), names[0], names[1]}),
+        remedies_.offer(report(say::CompareTypes, range(e.opToken), {text(e.opToken), names[0], names[1]}),
                         odd, remedy);
     } else if (!known)
-        report(Code::CompareArrays, range(e.opToken), {text(e.opToken)});
+        report(say::CompareArrays, range(e.opToken), {text(e.opToken)});
     else
         folding_.foldBinary(e);
     return t;
@@ -301,7 +301,7 @@ Typed Expressions::logic(const BinaryExpr& e, Typed left, Typed right) {
     if (!left.isScalar(TypeKind::Bool) || !right.isScalar(TypeKind::Bool)) {
         return operatorError(e, left, right);
     }
-    const Typed t = result(e, state_.program.boolean);
+    const Typed t = result(e, program_.boolean);
     folding_.foldBinary(e);
     return t;
 }

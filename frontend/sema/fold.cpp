@@ -153,7 +153,7 @@ void Folding::foldUnary(const UnaryExpr& e, ConstValue* slot) {
 
 // A routine with an ERROR handler may well mean it.
 void Folding::warnDivision(const BinaryExpr& e) {
-    if (!hasErrorHandler()) report(Code::DivisionByZero, range(e.opToken), {text(e.opToken)});
+    if (!hasErrorHandler()) report(say::DivisionByZero, range(e.opToken), {text(e.opToken)});
 }
 
 // False: there is no such value. An error where a constant is demanded; elsewhere it is left to run time.
@@ -164,8 +164,8 @@ bool Folding::foldArithmetic(const BinaryExpr& e, double a, double b, bool isDnu
     case BinaryOp::Mul: out = a * b; break;
     default: {
         if (b == 0) {
-            if (state_.context.constant)
-                report(Code::ConstantDivision, range(e.opToken), {text(e.opToken)});
+            if (context_.constant)
+                report(say::ConstantDivision, range(e.opToken), {text(e.opToken)});
             else
                 warnDivision(e);
             return false;
@@ -175,7 +175,7 @@ bool Folding::foldArithmetic(const BinaryExpr& e, double a, double b, bool isDnu
             break;
         }
         if (a != std::floor(a) || b != std::floor(b)) {
-            report(Code::IntegerOperands, range(e.opToken), {text(e.opToken)});
+            report(say::IntegerOperands, range(e.opToken), {text(e.opToken)});
             return false;
         }
         out = e.op == BinaryOp::IntDiv ? std::trunc(a / b) : std::fmod(a, b);
@@ -185,9 +185,32 @@ bool Folding::foldArithmetic(const BinaryExpr& e, double a, double b, bool isDnu
     out = roundTo(isDnum, out);
     if (std::isfinite(out)) return true;
     const bool literalTooLarge = !std::isfinite(a) || !std::isfinite(b); // reported as a literal
-    if (state_.context.constant && !literalTooLarge)
-        report(Code::ConstantOverflow, range(e.opToken), {isDnum ? "dnum" : "num"});
+    if (context_.constant && !literalTooLarge)
+        report(say::ConstantOverflow, range(e.opToken), {isDnum ? "dnum" : "num"});
     return false;
+}
+
+// Of two vectors, or of a vector and a number.
+const ConstValue* Folding::foldVectors(const BinaryExpr& e, const ConstValue& a, const ConstValue& b) {
+    const bool scalars[] = {a.kind == ConstValue::Kind::Number, b.kind == ConstValue::Kind::Number};
+    Vector left, right;
+    if (!components(a, left) || !components(b, right)) return nullptr;
+    Vector vector = scalars[0] ? right : left;
+    if (!scalars[0] && !scalars[1] && e.op == BinaryOp::Mul) {
+        vector = product(left, right);
+    } else {
+        for (size_t i = 0; i < vector.size; ++i)
+            if (!foldArithmetic(e, scalars[0] ? a.number : left.at[i], scalars[1] ? b.number : right.at[i],
+                                false, vector.at[i]))
+                return nullptr;
+    }
+    if (!std::all_of(vector.at.begin(), vector.at.end(), [](double v) { return std::isfinite(v); })) {
+        if (context_.constant) report(say::ConstantOverflow, range(e.opToken), {"num"});
+        return nullptr;
+    }
+    ConstValue* value = newConst();
+    *value = aggregateOf(vector, valueArena());
+    return value;
 }
 
 void Folding::foldBinary(const BinaryExpr& e) {
@@ -214,8 +237,7 @@ void Folding::foldBinary(const BinaryExpr& e) {
     if (a->kind == ConstValue::Kind::String) {
         const size_t size = a->text().size() + b->text().size();
         if (size > kStringCapacity) {
-            if (state_.context.constant)
-                report(Code::ConstantStringTooLong, range(e), {std::to_string(size)});
+            if (context_.constant) report(say::ConstantStringTooLong, range(e), {std::to_string(size)});
             return;
         }
         ConstValue* value = newConst();
@@ -223,26 +245,8 @@ void Folding::foldBinary(const BinaryExpr& e) {
         out.constant = value;
         return;
     }
-    const bool scalars[] = {a->kind == ConstValue::Kind::Number, b->kind == ConstValue::Kind::Number};
-    if (!scalars[0] || !scalars[1]) {
-        Vector left, right;
-        if (!components(*a, left) || !components(*b, right)) return;
-        Vector vector = scalars[0] ? right : left;
-        if (!scalars[0] && !scalars[1] && e.op == BinaryOp::Mul) {
-            vector = product(left, right);
-        } else {
-            for (size_t i = 0; i < vector.size; ++i)
-                if (!foldArithmetic(e, scalars[0] ? a->number : left.at[i],
-                                    scalars[1] ? b->number : right.at[i], false, vector.at[i]))
-                    return;
-        }
-        if (!std::all_of(vector.at.begin(), vector.at.end(), [](double v) { return std::isfinite(v); })) {
-            if (state_.context.constant) report(Code::ConstantOverflow, range(e.opToken), {"num"});
-            return;
-        }
-        ConstValue* value = newConst();
-        *value = aggregateOf(vector, valueArena());
-        out.constant = value;
+    if (a->kind != ConstValue::Kind::Number || b->kind != ConstValue::Kind::Number) {
+        out.constant = foldVectors(e, *a, *b);
         return;
     }
     double number = 0;

@@ -2,7 +2,6 @@
 
 #include "frontend/sema/jumps.h"
 
-#include "frontend/sema/parts.h"
 #include "frontend/sema/scopes.h"
 #include "frontend/sema/wording.h"
 #include "frontend/syntax/token_set.h"
@@ -15,23 +14,23 @@ Jumps::Jumps(State& state, const Parts& parts) : CheckerPart(state), scopes_(par
 
 bool Jumps::isInside(uint32_t inner, uint32_t outer) const {
     while (inner != outer && inner != kNoBlock)
-        inner = state_.routine.blockParents[inner];
+        inner = routine_.blockParents[inner];
     return inner == outer;
 }
 
 uint32_t Jumps::lineEnd(uint32_t from) const {
-    const std::string_view source = state_.context.tree->source->text();
+    const std::string_view source = context_.tree->source->text();
     return static_cast<uint32_t>(std::min(source.find_first_of("\r\n", from), source.size()));
 }
 
 // "n: n + 1;": what stands behind the colon in the same line is a value and no instruction.
 bool Jumps::valueFollows(const LabelStmt& s) {
-    const auto& tokens = state_.context.tree->tokens;
+    const auto& tokens = context_.tree->tokens;
     const TokenIndex next = s.last + 1;
     if (next + 1 >= tokens.size() || tokens[next].kind != TokenKind::Identifier) return false;
     const uint32_t behind = range(s.last).end;
     const std::string_view between =
-        state_.context.tree->source->text().substr(behind, tokens[next].offset - behind);
+        context_.tree->source->text().substr(behind, tokens[next].offset - behind);
     if (between.find_first_of("\r\n") != std::string_view::npos) return false;
     const RoutineSymbol* routine = asRoutine(scopes_.lookup(idOf(next)));
     if (!scopes_.lookup(idOf(next)) || (routine && routine->routineKind == RoutineKind::Proc)) return false;
@@ -46,32 +45,32 @@ bool Jumps::valueFollows(const LabelStmt& s) {
 void Jumps::labelStmt(const LabelStmt& s) {
     if (!isName(s.name)) return;
     const NameId name = idOf(s.name);
-    if (LabelSymbol* other = state_.routine.labelNames.find(name)) {
-        noteDeclared(report(Code::DuplicateLabel, range(s.name), {text(s.name)}), *other);
-        state_.routine.labels.push_back({name, state_.routine.block, state_.routine.part, &s, other});
+    if (LabelSymbol* other = routine_.labelNames.find(name)) {
+        noteDeclared(report(say::DuplicateLabel, range(s.name), {text(s.name)}), *other);
+        routine_.labels.push_back({name, routine_.block, routine_.part, &s, other});
         return;
     }
     const Symbol* data = at(state_.routineNames, name);
     if (asData(data ? const_cast<Symbol*>(data) : scopes_.lookup(name)) && valueFollows(s)) {
-        report(Code::ForeignSpelling, range(s.last), {":", "':='"}).fix(range(s.last), ":=");
+        report(say::ForeignSpelling, range(s.last), {":", "':='"}).fix(range(s.last), ":=");
         const uint32_t behind = range(s.last).end;
-        if (behind >= state_.reports.quietLine().end) state_.reports.setQuietLine({behind, lineEnd(behind)});
+        if (behind >= reports_.quietLine().end) reports_.setQuietLine({behind, lineEnd(behind)});
         return;
     }
-    if (data) noteDeclared(report(Code::LabelNamedAsData, range(s.name), {text(s.name)}), *data);
+    if (data) noteDeclared(report(say::LabelNamedAsData, range(s.name), {text(s.name)}), *data);
     LabelSymbol& symbol = fill(facts().labels.emplace_back(), SymbolKind::Label, s, s.name, false);
-    symbol.routine = state_.context.routine;
-    state_.routine.labels.push_back({name, state_.routine.block, state_.routine.part, &s, &symbol});
-    state_.routine.labelNames.set(name, &symbol);
+    symbol.routine = context_.routine;
+    routine_.labels.push_back({name, routine_.block, routine_.part, &s, &symbol});
+    routine_.labelNames.set(name, &symbol);
 }
 
 std::string Jumps::nearLabel(NameId name) {
-    if (state_.routine.partComparisonsLeft < state_.routine.labels.size()) return {};
-    state_.routine.partComparisonsLeft -= state_.routine.labels.size();
-    const std::string_view written = state_.names.folded(name);
+    if (routine_.partComparisonsLeft < routine_.labels.size()) return {};
+    routine_.partComparisonsLeft -= routine_.labels.size();
+    const std::string_view written = names_.folded(name);
     const unsigned limit = suggestionLimit(written.size());
-    for (const JumpPoint& label : state_.routine.labels)
-        if (editDistance(written, state_.names.folded(label.name), limit) <= limit) return label.label->name;
+    for (const JumpPoint& label : routine_.labels)
+        if (editDistance(written, names_.folded(label.name), limit) <= limit) return label.label->name;
     return {};
 }
 
@@ -79,29 +78,29 @@ std::string Jumps::nearLabel(NameId name) {
 void Jumps::resolveJumps() {
     NameMap<const JumpPoint> byName;
     std::unordered_set<NameId> repeated; // which of them is meant is not known
-    for (const JumpPoint& label : state_.routine.labels)
+    for (const JumpPoint& label : routine_.labels)
         if (byName.find(label.name))
             repeated.insert(label.name);
         else
             byName.set(label.name, &label);
-    for (const JumpPoint& jump : state_.routine.gotos) {
+    for (const JumpPoint& jump : routine_.gotos) {
         const TokenIndex token = as<GotoStmt>(*jump.node).label;
         const JumpPoint* target = byName.find(jump.name);
         if (!target) {
             const std::string near = nearLabel(jump.name);
-            diag::Diagnostic& d = report(Code::UnknownLabel, range(token),
+            diag::Diagnostic& d = report(say::UnknownLabel, range(token),
                                          {text(token), near.empty() ? std::string() : didYouMean(near)});
             if (!near.empty()) d.fix(range(token), near, false);
             continue;
         }
         target->label->used = true;
         facts().references[jump.node] = target->label;
-        if (state_.routine.blocksAreUnclear || repeated.count(jump.name) > 0)
+        if (routine_.blocksAreUnclear || repeated.count(jump.name) > 0)
             continue; // where the label belongs is not known
         if (target->part != jump.part)
-            noteDeclared(report(Code::GotoOtherPart, range(token), {text(token)}), *target->label);
+            noteDeclared(report(say::GotoOtherPart, range(token), {text(token)}), *target->label);
         else if (!isInside(jump.block, target->block))
-            noteDeclared(report(Code::GotoIntoBlock, range(token), {text(token)}), *target->label);
+            noteDeclared(report(say::GotoIntoBlock, range(token), {text(token)}), *target->label);
     }
 }
 

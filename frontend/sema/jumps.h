@@ -9,7 +9,9 @@ class Jumps : CheckerPart {
   public:
     Jumps(State& state, const Parts& parts);
 
+    /// Declares a label.
     void labelStmt(const syntax::LabelStmt& s);
+    /// At the end of a routine: gives each GOTO its label.
     void resolveJumps();
 
   private:

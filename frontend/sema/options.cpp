@@ -80,8 +80,8 @@ Availability::Availability(State& state) : CheckerPart(state) {}
 void Availability::checkOption(const RoutineSymbol& routine, syntax::TokenIndex name) {
     if (routine.option.empty() || !state_.options.robotWareOptions) return;
     if (isOptionInstalled(*state_.options.robotWareOptions, routine.option)) return;
-    if (!state_.task.reportedNames.insert(routine.nameId).second) return; // once a task
-    report(Code::OptionMissing, range(name), {routine.name, "'" + routine.option + "'"});
+    if (!task_.reportedNames.insert(routine.nameId).second) return; // once a task
+    report(say::OptionMissing, range(name), {routine.name, "'" + routine.option + "'"});
 }
 
 } // namespace rapid::sema

@@ -9,9 +9,11 @@ namespace rapid::sema {
 
 using namespace syntax;
 
-diag::Diagnostic& Reports::report(Code code, SourceRange where, std::initializer_list<std::string> args) {
+diag::Diagnostic& Reports::report(Code code, SourceRange where, std::span<const std::string> args) {
     if (muted_ || isUnclear(where)) return unsaid_ = diag::Diagnostic();
-    return (collect_ ? *collect_ : sink_).report(code, context_.tree->source, where, args);
+    diag::Diagnostic& d = (collect_ ? *collect_ : sink_).report(code, context_.tree->source, where, args);
+    d.cause = ++lastCause_;
+    return d;
 }
 
 /// In a line that could not be read as a whole: what seems wrong there follows from that.
@@ -38,8 +40,8 @@ std::string CheckerPart::text(const Node& node) const {
     const SourceRange r = range(node);
     constexpr uint32_t kLongest = 40;
     if (r.end - r.begin <= kLongest)
-        return std::string(state_.context.tree->source->text().substr(r.begin, r.end - r.begin));
-    const std::string_view all = state_.context.tree->source->text();
+        return std::string(context_.tree->source->text().substr(r.begin, r.end - r.begin));
+    const std::string_view all = context_.tree->source->text();
     uint32_t end = r.begin + kLongest - 3;
     while (end > r.begin && (static_cast<unsigned char>(all[end]) & 0xC0) == 0x80)
         --end; // not inside a character
@@ -64,7 +66,7 @@ std::string CheckerPart::valueText(const Expr& e) const {
 void CheckerPart::placeholder(const Node& node) {
     const TokenIndex first = node.first;
     // A program with placeholders can be loaded and run; ERR_EXECPHR is raised where one is reached (manual 1.1.2).
-    report(Code::Placeholder, range(first), {text(first)});
+    report(say::Placeholder, range(first), {text(first)});
 }
 
 } // namespace rapid::sema

@@ -9,33 +9,37 @@ namespace rapid::sema {
 
 class CheckerPart {
   protected:
-    explicit CheckerPart(State& state) : state_(state) {}
+    explicit CheckerPart(State& state)
+        : state_(state), program_(state.program), names_(state.names), reports_(state.reports),
+          context_(state.context), task_(state.task), routine_(state.routine) {}
 
-    SourceRange range(const syntax::Node& node) const { return state_.context.tree->range(node); }
+    SourceRange range(const syntax::Node& node) const { return context_.tree->range(node); }
     SourceRange range(syntax::TokenIndex token) const {
-        return token == syntax::kNoToken ? SourceRange{} : state_.context.tree->range(token);
+        return token == syntax::kNoToken ? SourceRange{} : context_.tree->range(token);
     }
     /// False for what is missing after a syntax error and for the placeholder <ID>.
     bool isName(syntax::TokenIndex token) const {
         return token != syntax::kNoToken &&
-               state_.context.tree->tokens[token].kind == syntax::TokenKind::Identifier;
+               context_.tree->tokens[token].kind == syntax::TokenKind::Identifier;
     }
-    NameId idOf(syntax::TokenIndex token) const {
-        return state_.names.intern(state_.context.tree->text(token));
-    }
+    NameId idOf(syntax::TokenIndex token) const { return names_.intern(context_.tree->text(token)); }
     /// As written; of a long node the beginning.
     std::string text(const syntax::Node& node) const;
-    std::string text(syntax::TokenIndex token) const { return std::string(state_.context.tree->text(token)); }
+    std::string text(syntax::TokenIndex token) const { return std::string(context_.tree->text(token)); }
     /// As written, and its value where that does not show: "n+1 = 4".
     std::string valueText(const syntax::Expr& e) const;
-    ExprInfo& info(const syntax::Expr& e) const { return state_.context.exprs->at(e.id); }
-    FileFacts& facts() const { return *state_.context.module->facts; }
+    ExprInfo& info(const syntax::Expr& e) const { return context_.exprs->at(e.id); }
+    FileFacts& facts() const { return *context_.module->facts; }
     bool hasErrorHandler() const {
-        return state_.context.routine && !state_.context.routine->routineDecl->errors.empty();
+        return context_.routine && !context_.routine->routineDecl->errors.empty();
     }
 
-    diag::Diagnostic& report(Code code, SourceRange where, std::initializer_list<std::string> args = {}) {
-        return state_.reports.report(code, where, args);
+    template <size_t N>
+    diag::Diagnostic& report(diag::Message<N> message, SourceRange where, diag::MessageArgs<N> args) {
+        return reports_.report(message.code, where, args);
+    }
+    diag::Diagnostic& report(diag::Message<0> message, SourceRange where) {
+        return reports_.report(message.code, where, {});
     }
     /// Adds "declared here" at the declaration of `symbol`, when it has one in a file of the user.
     static void noteDeclared(diag::Diagnostic& diagnostic, const Symbol& symbol);
@@ -45,6 +49,12 @@ class CheckerPart {
     S& fill(S& symbol, SymbolKind kind, const syntax::Node& decl, syntax::TokenIndex name, bool local);
 
     State& state_;
+    CheckedProgram& program_;
+    Interner& names_;
+    Reports& reports_;
+    Context& context_;
+    TaskContext& task_;
+    RoutineContext& routine_;
 };
 
 template <class S>
@@ -53,11 +63,11 @@ S& CheckerPart::fill(S& symbol, SymbolKind kind, const syntax::Node& decl, synta
     symbol.kind = kind;
     symbol.name = text(name);
     symbol.nameId = idOf(name);
-    symbol.module = state_.context.module;
+    symbol.module = context_.module;
     symbol.decl = &decl;
     symbol.nameToken = name;
     symbol.isLocal = local;
-    symbol.predefined = state_.context.module->predefined;
+    symbol.predefined = context_.module->predefined;
     return symbol;
 }
 

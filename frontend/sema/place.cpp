@@ -4,7 +4,6 @@
 #include "frontend/sema/expr.h"
 #include "frontend/sema/fold.h"
 #include "frontend/sema/parameters.h"
-#include "frontend/sema/parts.h"
 #include "frontend/sema/resolve_data.h"
 #include "frontend/sema/scopes.h"
 #include "frontend/sema/suggestions.h"
@@ -35,7 +34,7 @@ Place Places::place(const Expr& e, const Type* handle) {
 
 Place Places::namePlace(const NameExpr& e, const Type* handle) {
     ExprInfo& result = info(e);
-    result.type = {state_.program.errorType, 0, {}};
+    result.type = {program_.errorType, 0, {}};
     Place place;
     place.name = &e;
     if (!isName(e.name)) return place;
@@ -47,10 +46,10 @@ Place Places::namePlace(const NameExpr& e, const Type* handle) {
     if (!data) {
         const RoutineSymbol* routine = asRoutine(symbol);
         const bool function = routine && routine->routineKind == RoutineKind::Func;
-        if (function && state_.context.tree->tokens[e.name + 1].kind == TokenKind::LeftBracket)
+        if (function && context_.tree->tokens[e.name + 1].kind == TokenKind::LeftBracket)
             return place; // reported
-        auto& d = function ? report(Code::FunctionWithoutParentheses, range(e), {text(e)})
-                           : report(Code::NotData, range(e), {text(e), describe(*symbol)});
+        auto& d = function ? report(say::FunctionWithoutParentheses, range(e), {text(e)})
+                           : report(say::NotData, range(e), {text(e), describe(*symbol)});
         if (function && nextRequired(*routine, 0) >= routine->params.size()) {
             const uint32_t end = range(e).end;
             d.fix({end, end}, "()");
@@ -62,9 +61,8 @@ Place Places::namePlace(const NameExpr& e, const Type* handle) {
     if (scopes_.markUsed(*data) && data->storage == Storage::Signal)
         facts().signals.emplace_back(data, e.name);
     data_.ensureData(*data);
-    if (data->optional && !data->isSwitch && data->routine == state_.context.routine &&
-        !state_.presenceOnly) {
-        OptionalUse& use = state_.routine.optionalUses[data->index];
+    if (data->optional && !data->isSwitch && data->routine == context_.routine && !state_.presenceOnly) {
+        OptionalUse& use = routine_.optionalUses[data->index];
         if (!use.first) use.first = &e;
     }
     place.root = data;
@@ -85,9 +83,9 @@ void Places::checkIndex(const Expr& index, int32_t dimension, int64_t& value) {
     const Typed t = expressions_.expr(index);
     value = 0;
     if (t.isError()) return;
-    if (t.flex != Flex::None) expressions_.settle(index, state_.program.num);
+    if (t.flex != Flex::None) expressions_.settle(index, program_.num);
     if (!t.isScalar(TypeKind::Num)) {
-        report(Code::IndexType, range(index), {typeName(*t.info)});
+        report(say::IndexType, range(index), {typeName(*t.info)});
         return;
     }
     const ConstValue* constant = t.info->constant;
@@ -95,16 +93,16 @@ void Places::checkIndex(const Expr& index, int32_t dimension, int64_t& value) {
     const double number = constant->number;
     const bool integer = number == std::floor(number);
     if (dimension > 0 && (!integer || number < 1 || number > dimension))
-        report(Code::IndexOutOfRange, range(index), {valueText(index), std::to_string(dimension)});
+        report(say::IndexOutOfRange, range(index), {valueText(index), std::to_string(dimension)});
     else if (!integer || number < 1)
-        report(Code::IndexBelowOne, range(index), {valueText(index)});
+        report(say::IndexBelowOne, range(index), {valueText(index)});
     else if (number < 2e9)
         value = static_cast<int64_t>(number);
 }
 
 Place Places::indexPlace(const IndexExpr& e, const Type* handle) {
     ExprInfo& result = info(e);
-    result.type = {state_.program.errorType, 0, {}};
+    result.type = {program_.errorType, 0, {}};
     Place place;
     if (!isPlaceExpr(*e.base)) {
         expressions_.visitLoose(*e.base);
@@ -112,7 +110,7 @@ Place Places::indexPlace(const IndexExpr& e, const Type* handle) {
             expressions_.visitLoose(*i);
         return place;
     }
-    if (state_.context.tree->tokens[e.base->last + 1].kind == TokenKind::LeftParen &&
+    if (context_.tree->tokens[e.base->last + 1].kind == TokenKind::LeftParen &&
         e.base->kind == NodeKind::Name &&
         asRoutine(scopes_.lookup(idOf(as<NameExpr>(*e.base).name)))) { // `f(1) := 2`, a syntax error
         for (const Expr* i : e.indices)
@@ -136,11 +134,11 @@ Place Places::indexPlace(const IndexExpr& e, const Type* handle) {
     }
     if (error || e.base->kind != NodeKind::Name) return {}; // an index on a part is a syntax error
     if (type.rank == 0)
-        report(Code::IndexNotArray, range(e), {text(*e.base), typeName(type)});
+        report(say::IndexNotArray, range(e), {text(*e.base), typeName(type)});
     else if (!countOk && !broken) {
         const SourceRange where = {range(*e.indices.front()).begin, range(*e.indices.back()).end};
         report(
-            Code::IndexCount, where,
+            say::IndexCount, where,
             {text(*e.base), counted(e.indices.size(), "index", "indexes"), counted(type.rank, "dimension")});
     }
     if (!countOk) return {};
@@ -154,19 +152,19 @@ int Places::findComponent(const Type& record, std::string_view name) {
     constexpr size_t kMany = 64;
     const std::vector<Type::Component>& all = record.base()->components;
     if (all.size() < kMany) return record.findComponent(name);
-    if (state_.routine.wideRecord != record.base()) {
-        state_.routine.wideRecord = record.base();
-        state_.routine.wideComponents.clear();
+    if (routine_.wideRecord != record.base()) {
+        routine_.wideRecord = record.base();
+        routine_.wideComponents.clear();
         for (size_t i = 0; i < all.size(); ++i)
-            state_.routine.wideComponents.emplace(foldName(all[i].name), static_cast<int>(i));
+            routine_.wideComponents.emplace(foldName(all[i].name), static_cast<int>(i));
     }
-    const auto found = state_.routine.wideComponents.find(foldName(name));
-    return found == state_.routine.wideComponents.end() ? -1 : found->second;
+    const auto found = routine_.wideComponents.find(foldName(name));
+    return found == routine_.wideComponents.end() ? -1 : found->second;
 }
 
 Place Places::componentPlace(const ComponentExpr& e, const Type*) {
     ExprInfo& result = info(e);
-    result.type = {state_.program.errorType, 0, {}};
+    result.type = {program_.errorType, 0, {}};
     Place place;
     if (!isPlaceExpr(*e.base)) {
         expressions_.visitLoose(*e.base);
@@ -177,14 +175,14 @@ Place Places::componentPlace(const ComponentExpr& e, const Type*) {
     const ExprInfo& base = info(*e.base);
     if (base.type.type->kind == TypeKind::Error || e.name == kNoToken) return {};
     if (base.type.rank > 0) {
-        report(Code::ComponentOfArray, range(e.name), {text(e.name)});
+        report(say::ComponentOfArray, range(e.name), {text(e.name)});
         return {};
     }
     if (base.type.type->kind != TypeKind::Record) {
-        report(Code::ComponentOfNonRecord, range(e.name), {text(e.name), typeName(base)});
+        report(say::ComponentOfNonRecord, range(e.name), {text(e.name), typeName(base)});
         return {};
     }
-    const std::string_view name = state_.context.tree->text(e.name);
+    const std::string_view name = context_.tree->text(e.name);
     const int component = findComponent(*base.type.type, name);
     if (component < 0 && base.type.type->base()->unclear) return {}; // it may be among what could not be read
     if (component < 0) {
@@ -193,7 +191,7 @@ Place Places::componentPlace(const ComponentExpr& e, const Type*) {
             near && meant.empty())
             meant = near->name;
         diag::Diagnostic& d =
-            report(Code::UnknownComponent, range(e.name),
+            report(say::UnknownComponent, range(e.name),
                    {text(e.name), base.type.type->name, meant.empty() ? meant : didYouMean(meant)});
         if (!meant.empty()) d.fix(range(e.name), meant, false);
         return {};

@@ -9,7 +9,9 @@ class Places : CheckerPart {
   public:
     Places(State& state, const Parts& parts);
 
+    /// `handle`: the type of signal or other configured object that the context asks for, or null.
     Place place(const syntax::Expr& e, const Type* handle = nullptr);
+    /// Its index, or -1.
     int findComponent(const Type& record, std::string_view name);
 
   private:
@@ -26,6 +28,7 @@ class Places : CheckerPart {
     UnknownNames& unknown_;
 };
 
+/// Whether an expression is a name, an element or a component, and not a value.
 bool isPlaceExpr(const syntax::Expr& e);
 
 } // namespace rapid::sema

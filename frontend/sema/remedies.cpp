@@ -1,7 +1,6 @@
 // What would make a value fit where it stands: the end of a message, and something to write instead.
 
 #include "frontend/sema/remedies.h"
-#include "frontend/sema/parts.h"
 #include "frontend/sema/place.h"
 #include "frontend/sema/scopes.h"
 #include "frontend/sema/type_rules.h"
@@ -34,8 +33,7 @@ Remedies::Remedies(State& state, const Parts& parts) : CheckerPart(state), scope
 // Predefined data that the number stands for: "100" for speeddata is v100.
 std::string Remedies::namedByNumber(std::string_view number, const Type& want) {
     for (const char* letter : {"v", "z"}) {
-        const DataSymbol* data =
-            asData(at(state_.predefined, state_.names.intern(letter + std::string(number))));
+        const DataSymbol* data = asData(at(state_.predefined, names_.intern(letter + std::string(number))));
         if (data && scopes_.lookup(data->nameId) == data && data->type.rank == 0 &&
             data->type.type->base() == want.base())
             return data->name;
@@ -46,7 +44,7 @@ std::string Remedies::namedByNumber(std::string_view number, const Type& want) {
 /// All of it, for a fix; text() shortens.
 std::string Remedies::written(const Expr& e) const {
     const SourceRange whole = range(e);
-    return std::string(state_.context.tree->source->text().substr(whole.begin, whole.end - whole.begin));
+    return std::string(context_.tree->source->text().substr(whole.begin, whole.end - whole.begin));
 }
 
 /// For a message, which is one line.
@@ -170,7 +168,7 @@ Remedy Remedies::signalRemedy(const RoutineSymbol& routine, const DataType& foun
     const size_t where = folded.rfind(other);
     if (where == std::string::npos || other.size() != kind.size()) return {};
     const std::string name = folded.substr(0, where) + kind + folded.substr(where + other.size());
-    const RoutineSymbol* sibling = asRoutine(at(state_.predefined, state_.names.intern(name)));
+    const RoutineSymbol* sibling = asRoutine(at(state_.predefined, names_.intern(name)));
     if (sibling && sibling->routineKind == routine.routineKind)
         return {": " + sibling->name + " takes one", ""};
     const bool sets =
@@ -222,7 +220,7 @@ std::string Remedies::optionalFor(const RoutineSymbol& routine, NameId name) {
 
 void Remedies::fixCall(diag::Diagnostic& diagnostic, const Expr& e, const std::string& name, bool certain) {
     const SourceRange whole = range(e);
-    const Symbol* function = scopes_.lookup(state_.names.intern(name));
+    const Symbol* function = scopes_.lookup(names_.intern(name));
     if (!function || !function->predefined) return; // a name of the program hides it
     diagnostic.fixes.push_back({"write " + name + "(...)",
                                 {{{whole.begin, whole.begin}, name + "("}, {{whole.end, whole.end}, ")"}},

@@ -17,9 +17,11 @@ class Remedies : CheckerPart {
 
     /// Adds the fix that makes `name(e)` of an expression.
     void fixCall(diag::Diagnostic& diagnostic, const syntax::Expr& e, const std::string& name, bool certain);
+    /// What would make a value of type `found` fit.
     Remedy remedyFor(const syntax::Expr& whole, const DataType& found, const DataType& want);
     Remedy remedyFor(const RoutineSymbol& routine, const syntax::Expr& e, const DataType& found,
                      const DataSymbol& param);
+    /// All of the text of an expression, for a fix; text() shortens it.
     std::string written(const syntax::Expr& e) const;
     /// Adds it to what is said about `e`.
     void offer(diag::Diagnostic& diagnostic, const syntax::Expr& e, const Remedy& remedy);
@@ -37,8 +39,10 @@ class Remedies : CheckerPart {
     Scopes& scopes_;
 };
 
+/// The end of a message about an operator that data of these types do not have; empty: none is known.
 std::string targetRemedy(syntax::BinaryOp op, const DataType& operand);
 std::string operatorRemedy(syntax::BinaryOp op, Typed left, Typed right);
+/// "NumToDnum" or "DnumToNum", if one of them helps.
 std::string numDnumRemedy(Typed t, const DataType& want);
 
 } // namespace rapid::sema

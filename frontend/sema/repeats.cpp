@@ -2,7 +2,6 @@
 
 #include "frontend/sema/repeats.h"
 #include "frontend/sema/one_mistake.h"
-#include "frontend/sema/parts.h"
 #include "frontend/sema/scopes.h"
 #include "frontend/syntax/token_set.h"
 
@@ -19,12 +18,6 @@ using namespace syntax;
 namespace {
 
 using diag::Diagnostic;
-using Key = std::tuple<const SourceFile*, uint32_t, uint32_t, Code>;
-
-Key keyOf(const Diagnostic& d) {
-    return {d.file.get(), d.range.begin, d.range.end, d.code};
-}
-
 void addNotes(Diagnostic& lead, std::span<const Diagnostic> places, std::string_view words) {
     constexpr size_t kShown = 20;
     for (size_t i = 0; i < places.size() && i < kShown; ++i) {
@@ -57,7 +50,7 @@ Diagnostic leadOf(const Repeat& repeat) {
     }
     const Repeat::Declared& what = repeat.declared.front();
     diag::Sink sink;
-    Diagnostic& lead = sink.report(Code::DeclaredOtherwise, repeat.members.front().file, what.type,
+    Diagnostic& lead = sink.report(say::DeclaredOtherwise, repeat.members.front().file, what.type,
                                    {what.name, what.found, what.needed});
     if (!what.replacement.empty()) lead.fix(what.type, what.replacement, false);
     addNotes(lead, repeat.members, {});
@@ -75,7 +68,7 @@ void putInOrder(std::vector<Repeat>& repeats) {
     });
     const auto same = [](const Repeat& a, const Repeat& b) {
         return std::equal(a.members.begin(), a.members.end(), b.members.begin(), b.members.end(),
-                          [](const Diagnostic& x, const Diagnostic& y) { return keyOf(x) == keyOf(y); });
+                          [](const Diagnostic& x, const Diagnostic& y) { return x.cause == y.cause; });
     };
     for (size_t i = 0; i + 1 < repeats.size(); ++i)
         if (same(repeats[i], repeats[i + 1])) {
@@ -166,10 +159,10 @@ bool Repeats::explainUnknown(const Module& module, SourceRange where, bool routi
                unknown.where.end <= where.end;
     };
     std::unordered_set<NameId> names;
-    for (const UnknownName& unknown : state_.task.unknownNames)
+    for (const UnknownName& unknown : task_.unknownNames)
         if (concerned(unknown)) names.insert(unknown.name);
     if (names.size() > lost) return false;
-    for (UnknownName& unknown : state_.task.unknownNames)
+    for (UnknownName& unknown : task_.unknownNames)
         unknown.explained |= concerned(unknown);
     return true;
 }
@@ -178,19 +171,19 @@ bool Repeats::explainUnknown(const Module& module, SourceRange where, bool routi
 // "PROC worknum n)": what calls "work" is right.
 void Repeats::explainByType(const Module& module, std::string_view declared) {
     const std::string whole = foldName(declared);
-    for (UnknownName& unknown : state_.task.unknownNames) {
-        const std::string_view name = state_.names.folded(unknown.name);
+    for (UnknownName& unknown : task_.unknownNames) {
+        const std::string_view name = names_.folded(unknown.name);
         if (unknown.module != &module || whole.size() <= name.size() || !whole.starts_with(name)) continue;
-        const Symbol* rest = scopes_.lookup(state_.names.intern(whole.substr(name.size())));
+        const Symbol* rest = scopes_.lookup(names_.intern(whole.substr(name.size())));
         unknown.explained |= rest && rest->kind == SymbolKind::Type;
     }
 }
 
 void Repeats::explainUnknown(const Module& module) {
     const SyntaxTree& tree = *module.tree;
-    for (UnknownName& unknown : state_.task.unknownNames)
+    for (UnknownName& unknown : task_.unknownNames)
         if (unknown.module == &module && unknown.near && unknown.near->users == 0 && unknown.near->decl &&
-            unknown.near->decl->broken && ranInto(state_.names.folded(unknown.name), unknown.near->name))
+            unknown.near->decl->broken && ranInto(names_.folded(unknown.name), unknown.near->name))
             unknown.explained = true;
     size_t lostData = 0, lostRoutines = 0;
     std::unordered_set<NameId> names; // of routines without their first words
@@ -200,7 +193,7 @@ void Repeats::explainUnknown(const Module& module) {
         if (isRestOfRoutine(tree, *decl)) {
             if (tree.tokens[decl->first].kind == TokenKind::Identifier &&
                 tree.tokens[decl->first + 1].kind == TokenKind::LeftParen)
-                names.insert(state_.names.intern(tree.text(decl->first)));
+                names.insert(names_.intern(tree.text(decl->first)));
             else
                 ++lostRoutines;
         }
@@ -213,7 +206,7 @@ void Repeats::explainUnknown(const Module& module) {
             own += lostName(tree, *data);
         if (!explainUnknown(module, tree.range(*decl), false, own)) lostData += own;
     }
-    for (UnknownName& unknown : state_.task.unknownNames)
+    for (UnknownName& unknown : task_.unknownNames)
         unknown.explained |= unknown.module == &module && names.contains(unknown.name);
     const SourceRange whole = tree.range(*module.decl);
     explainUnknown(module, whole, false, lostData);
@@ -225,12 +218,12 @@ void Repeats::explainUnknown(const Module& module) {
 void Repeats::gatherUnknown(std::span<Module* const> modules) {
     for (const Module* module : modules)
         explainUnknown(*module);
-    for (UnknownName& unknown : state_.task.unknownNames) { // what is inside of routines is soon forgotten
+    for (UnknownName& unknown : task_.unknownNames) { // what is inside of routines is soon forgotten
         const DataSymbol* data = asData(const_cast<Symbol*>(unknown.near));
         if (data && data->routine) unknown.near = nullptr;
     }
     std::map<std::pair<const Module*, NameId>, size_t> count;
-    for (const UnknownName& unknown : state_.task.unknownNames)
+    for (const UnknownName& unknown : task_.unknownNames)
         if (unknown.code == Code::UnknownName) ++count[{unknown.module, unknown.name}];
     for (const Module* module : modules)
         for (const RoutineSymbol* routine : module->routines) {
@@ -243,7 +236,7 @@ void Repeats::gatherUnknown(std::span<Module* const> modules) {
             for (const DataSymbol* data : routine->data)
                 drop(data);
         }
-    std::erase_if(state_.task.unknownNames, [&](const UnknownName& unknown) {
+    std::erase_if(task_.unknownNames, [&](const UnknownName& unknown) {
         return !unknown.explained && unknown.code == Code::UnknownName &&
                count[{unknown.module, unknown.name}] < 2;
     });
@@ -259,7 +252,7 @@ void Repeats::gatherRepeats(std::span<Module* const> modules, size_t first) {
         if (d.file.get() == file && d.severity == diag::Severity::Error) said.push_back(&d);
     }
     if (said.size() < 2) return;
-    std::vector<Repeat> found = findRepeats(state_.program, modules, said);
+    std::vector<Repeat> found = findRepeats(program_, modules, said);
     putInOrder(found);
     for (Repeat& repeat : found) {
         if (repeat.guard) modules.front()->facts->open = true; // others may use it some day
@@ -271,19 +264,18 @@ void Repeats::gatherRepeats(std::span<Module* const> modules, size_t first) {
 void Repeats::tellOnce() {
     std::vector<Repeat> repeats = std::exchange(repeats_, {});
     std::erase_if(repeats, [](const Repeat& r) { return r.guard && r.guard->users > 1; });
-    std::map<Key, std::optional<Diagnostic>> fate; // what stands for it, if anything
+    std::unordered_map<uint32_t, std::optional<Diagnostic>> fate; // by cause: what is reported instead
     std::map<std::tuple<const Module*, NameId, Code>, Repeat> byName;
-    std::map<Key, Repeat*> unknown;
-    for (const UnknownName& name : std::exchange(state_.task.unknownNames, {})) {
-        const Key key = {name.module->tree->source.get(), name.where.begin, name.where.end, name.code};
-        if (name.explained) fate[key] = std::nullopt;
+    std::unordered_map<uint32_t, Repeat*> unknown; // by cause
+    for (const UnknownName& name : std::exchange(task_.unknownNames, {})) {
+        if (name.explained) fate[name.cause] = std::nullopt;
         // A name that looks misspelt is a mistake each time, unless it is the declaration that is misspelt.
         if (name.explained || (name.looksMisspelt && (!name.near || name.near->users > 0))) continue;
-        unknown[key] = &byName[{name.module, name.name, name.code}];
+        unknown[name.cause] = &byName[{name.module, name.name, name.code}];
     }
     if (unknown.size() > 1)
         for (const Diagnostic& d : state_.sink.all())
-            if (const auto found = unknown.find(keyOf(d)); found != unknown.end())
+            if (const auto found = unknown.find(d.cause); found != unknown.end())
                 found->second->members.push_back(d);
     for (auto& [key, repeat] : byName) {
         std::sort(repeat.members.begin(), repeat.members.end(),
@@ -291,15 +283,15 @@ void Repeats::tellOnce() {
         repeats.push_back(std::move(repeat));
     }
     for (Repeat& repeat : repeats) {
-        std::erase_if(repeat.members, [&](const Diagnostic& d) { return fate.contains(keyOf(d)); });
+        std::erase_if(repeat.members, [&](const Diagnostic& d) { return fate.contains(d.cause); });
         if (repeat.members.size() < 2) continue;
         for (const Diagnostic& d : repeat.members)
-            fate[keyOf(d)] = std::nullopt;
-        fate[keyOf(repeat.members.front())] = leadOf(repeat);
+            fate[d.cause] = std::nullopt;
+        fate[repeat.members.front().cause] = leadOf(repeat);
     }
     if (fate.empty()) return tellUnfinished(state_.sink);
     state_.sink.revise([&](Diagnostic& d) {
-        const auto found = fate.find(keyOf(d));
+        const auto found = fate.find(d.cause);
         if (found == fate.end()) return true;
         if (!found->second) return false;
         d = *std::exchange(found->second, std::nullopt); // once, were it there twice

@@ -10,9 +10,12 @@ class Repeats : CheckerPart {
   public:
     Repeats(State& state, const Parts& parts);
 
+    /// While the routines of a file are known: which of its unknown names have one cause.
     void gatherUnknown(std::span<Module* const> modules);
-    /// `first`: of the errors reported while the file was checked.
+    /// The same for declarations and uses that contradict each other. `first`: of the errors reported while the file was checked.
     void gatherRepeats(std::span<Module* const> modules, size_t first);
+    /// When all files are known: the last pass over the diagnostics of the task. Causes that one mistake explains are
+    /// merged into its report.
     void tellOnce();
 
   private:

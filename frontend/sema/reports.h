@@ -9,8 +9,8 @@ class Reports {
   public:
     Reports(diag::Sink& sink, const Context& context) : sink_(sink), context_(context) {}
 
-    /// In the file of the context. What seems wrong in a line that could not be read is left out.
-    diag::Diagnostic& report(Code code, SourceRange where, std::initializer_list<std::string> args);
+    /// In the file of the context, with a cause of its own. What seems wrong in a line that could not be read is left out.
+    diag::Diagnostic& report(Code code, SourceRange where, std::span<const std::string> args);
     bool isUnclear(SourceRange where) const;
     bool hasUnclearLine(const syntax::Node& node) const;
     /// Whether `diagnostic`, which report() gave, is one that nobody sees.
@@ -31,6 +31,7 @@ class Reports {
     diag::Sink* collect_ = nullptr;
     SourceRange quietLine_;
     bool muted_ = false;
+    uint32_t lastCause_ = 0;
     diag::Diagnostic unsaid_;
 };
 

@@ -6,7 +6,6 @@
 #include "frontend/sema/expr.h"
 #include "frontend/sema/fold.h"
 #include "frontend/sema/literal_value.h"
-#include "frontend/sema/parts.h"
 #include "frontend/sema/remedies.h"
 #include "frontend/sema/resolve_types.h"
 #include "frontend/sema/type_rules.h"
@@ -31,55 +30,55 @@ DataResolver::DataResolver(State& state, const Parts& parts)
 
 void DataResolver::ensureData(DataSymbol& symbol) {
     if (symbol.progress != Progress::Pending) {
-        if (!symbol.type.type) symbol.type.type = state_.program.errorType; // its dimensions ask for itself
+        if (!symbol.type.type) symbol.type.type = program_.errorType; // its dimensions ask for itself
         return;
     }
     symbol.progress = Progress::Active;
-    const Context saved = state_.context;
+    const Context saved = context_;
     if (!symbol.routine) state_.enterModule(symbol.module);
     if (state_.depth > kMaxDepth) { // its dimensions may ask for the dimensions of others
-        state_.task.entangled = true;
-        report(Code::ConstantTooDeep, range(symbol.nameToken), {symbol.name});
-        symbol.type.type = state_.program.errorType;
+        task_.entangled = true;
+        report(say::ConstantTooDeep, range(symbol.nameToken), {symbol.name});
+        symbol.type.type = program_.errorType;
         symbol.progress = Progress::Done;
-        state_.context = saved;
+        context_ = saved;
         return;
     }
     ++state_.depth;
     const auto& decl = as<DataDecl>(*symbol.decl);
-    const bool outerMuted = state_.reports.mute(decl.broken);
+    const bool outerMuted = reports_.mute(decl.broken);
     const Type* type = types_.resolveType(decl.type, &decl);
     const uint64_t elements = resolveDimensions(symbol, decl);
     // Without its dimensions, or when its line ends in the middle, nothing is said about what is done with it.
     const bool unclear = elements == 0 || (decl.broken && !decl.init);
-    symbol.type.type = unclear ? state_.program.errorType : type;
+    symbol.type.type = unclear ? program_.errorType : type;
     if (elements * type->leaves > kMaxLeaves) {
-        report(Code::ArrayTooLarge, range(symbol.nameToken), {symbol.name});
-        symbol.type.type = state_.program.errorType;
+        report(say::ArrayTooLarge, range(symbol.nameToken), {symbol.name});
+        symbol.type.type = program_.errorType;
     }
     symbol.progress = Progress::Done;
-    if (symbol.predefined) applyDataAttributes(*state_.context.tree, symbol);
+    if (symbol.predefined) applyDataAttributes(*context_.tree, symbol);
     checkDeclaration(symbol);
-    state_.reports.mute(outerMuted);
+    reports_.mute(outerMuted);
     --state_.depth;
-    state_.context = saved;
+    context_ = saved;
 }
 
 void DataResolver::checkDeclaration(DataSymbol& symbol) {
     const auto& decl = as<DataDecl>(*symbol.decl);
     const Type& type = *symbol.type.type;
     if (symbol.routine && symbol.dataKind == DataKind::Pers)
-        report(Code::PersInRoutine, range(symbol.nameToken), {symbol.name});
+        report(say::PersInRoutine, range(symbol.nameToken), {symbol.name});
     if (!isValueType(type) && symbol.dataKind == DataKind::Const)
-        report(Code::ConstantNonValue, range(symbol.nameToken), {symbol.name, type.name});
+        report(say::ConstantNonValue, range(symbol.nameToken), {symbol.name, type.name});
     else if (!isValueType(type) && decl.init)
-        report(Code::NonValueInit, range(*decl.init), {symbol.name, type.name});
+        report(say::NonValueInit, range(*decl.init), {symbol.name, type.name});
     if (symbol.dataKind != DataKind::Pers || decl.init || decl.scope == ScopeWord::None) return;
     const char* scope = decl.scope == ScopeWord::Local ? "LOCAL" : "TASK";
     if (isValueType(type))
-        report(Code::PersWithoutValue, range(symbol.nameToken), {symbol.name, scope});
+        report(say::PersWithoutValue, range(symbol.nameToken), {symbol.name, scope});
     else
-        report(Code::PersNonValue, range(symbol.nameToken), {symbol.name, scope, type.name});
+        report(say::PersNonValue, range(symbol.nameToken), {symbol.name, scope, type.name});
 }
 
 std::string DataResolver::describeDimension(const Expr& e, Typed t) {
@@ -92,7 +91,7 @@ std::string DataResolver::describeDimension(const Expr& e, Typed t) {
 uint64_t DataResolver::resolveDimensions(DataSymbol& symbol, const DataDecl& decl) {
     if (decl.dims.empty()) return 1;
     if (decl.dims.size() > 3) {
-        report(Code::TooManyDimensions, range(*decl.dims[3]), {std::to_string(decl.dims.size())});
+        report(say::TooManyDimensions, range(*decl.dims[3]), {std::to_string(decl.dims.size())});
         symbol.type.rank = 3; // of any size
         return 0;
     }
@@ -100,9 +99,9 @@ uint64_t DataResolver::resolveDimensions(DataSymbol& symbol, const DataDecl& dec
     bool known = true;
     for (size_t i = 0; i < decl.dims.size(); ++i) {
         const Expr& e = *decl.dims[i];
-        const bool wasConstant = std::exchange(state_.context.constant, true);
+        const bool wasConstant = std::exchange(context_.constant, true);
         const Typed t = expressions_.expr(e);
-        state_.context.constant = wasConstant;
+        context_.constant = wasConstant;
         int32_t size = 0; // after an error: any
         const ConstValue* value = t.info->constant;
         if (!value || value->kind != ConstValue::Kind::Number) {
@@ -110,11 +109,11 @@ uint64_t DataResolver::resolveDimensions(DataSymbol& symbol, const DataDecl& dec
             const bool number = t.isScalar(TypeKind::Num) || t.isScalar(TypeKind::Dnum);
             const bool told = number && !findNonConstant(e); // where a constant has no value
             if (!t.isError() && e.kind != NodeKind::PlaceholderExpr && !told)
-                report(Code::DimensionNotConstant, range(e), {describeDimension(e, t)});
+                report(say::DimensionNotConstant, range(e), {describeDimension(e, t)});
         } else if (!(value->number >= 1) || value->number != std::floor(value->number) ||
                    value->number > 2e9) {
             known = false;
-            report(Code::DimensionValue, range(e), {valueText(e)});
+            report(say::DimensionValue, range(e), {valueText(e)});
         } else {
             size = static_cast<int32_t>(value->number);
             elements = std::min<uint64_t>(elements * static_cast<uint64_t>(size), kMaxLeaves + 1);
@@ -130,11 +129,11 @@ void DataResolver::ensureValue(DataSymbol& symbol) {
     const auto& decl = as<DataDecl>(*symbol.decl);
     const bool cycle = symbol.valueProgress == Progress::Active;
     if (cycle || state_.depth >= kMaxDepth) {
-        const Context saved = state_.context;
+        const Context saved = context_;
         if (!symbol.routine) state_.enterModule(symbol.module);
-        state_.task.entangled = true;
-        report(cycle ? Code::ConstantCycle : Code::ConstantTooDeep, range(symbol.nameToken), {symbol.name});
-        state_.context = saved;
+        task_.entangled = true;
+        report(cycle ? say::ConstantCycle : say::ConstantTooDeep, range(symbol.nameToken), {symbol.name});
+        context_ = saved;
         symbol.valueProgress = Progress::Done;
         return;
     }
@@ -142,12 +141,12 @@ void DataResolver::ensureValue(DataSymbol& symbol) {
     ++state_.depth;
     ensureData(symbol);
     if (decl.init) {
-        const Context saved = state_.context;
+        const Context saved = context_;
         if (!symbol.routine) state_.enterModule(symbol.module);
-        const bool outerMuted = state_.reports.mute(decl.broken);
+        const bool outerMuted = reports_.mute(decl.broken);
         initialise(symbol, decl);
-        state_.reports.mute(outerMuted);
-        state_.context = saved;
+        reports_.mute(outerMuted);
+        context_ = saved;
     }
     --state_.depth;
     symbol.valueProgress = Progress::Done;
@@ -157,10 +156,10 @@ void DataResolver::initialise(DataSymbol& symbol, const DataDecl& decl) {
     const Expr& init = *decl.init;
     const bool mustFold = !symbol.routine || symbol.dataKind != DataKind::Var;
     const bool usable = isValueType(*symbol.type.type);
-    state_.context.constant = mustFold;
+    context_.constant = mustFold;
     const DataType& want = symbol.type;
     ConstValue* slot = mustFold ? &symbol.valueSlot() : nullptr;
-    if (usable && isPlain(init) && isLiteralOf(want, *state_.context.tree, as<AggregateExpr>(init))) {
+    if (usable && isPlain(init) && isLiteralOf(want, *context_.tree, as<AggregateExpr>(init))) {
         symbol.setLiteral();
         if (symbol.users > 0 && !state_.options.onlyDiagnostics)
             symbol.value(); // files that are not checked again have its address
@@ -170,7 +169,7 @@ void DataResolver::initialise(DataSymbol& symbol, const DataDecl& decl) {
         if (const Expr* culprit = findNonLiteral(init)) {
             expressions_.visitLoose(init);
             if (info(*culprit).type.type->kind != TypeKind::Error) // not known, which is reported
-                report(Code::NotLiteral, range(*culprit), {symbol.name});
+                report(say::NotLiteral, range(*culprit), {symbol.name});
             return;
         }
     }
@@ -183,7 +182,7 @@ void DataResolver::initialise(DataSymbol& symbol, const DataDecl& decl) {
     if (!expressions_.fits(init, t, want)) {
         const auto names = typeNames(t.info->type, want);
         const Remedy remedy = remedies_.remedyFor(init, t.info->type, want);
-        remedies_.offer(report(Code::InitialValueType, range(init), {names[0], names[1], symbol.name}), init,
+        remedies_.offer(report(say::InitialValueType, range(init), {names[0], names[1], symbol.name}), init,
                         remedy);
     } else if (mustFold && !t.info->constant && !t.isError() && !cycle) {
         reportNonConstant(init);
@@ -198,7 +197,7 @@ void DataResolver::reportNonConstant(const Expr& e) {
     const Expr* culprit = findNonConstant(e);
     if (!culprit) return;
     const bool call = culprit->kind == NodeKind::Call;
-    report(Code::NotConstant, range(*culprit),
+    report(say::NotConstant, range(*culprit),
            {text(*culprit), call ? "a function call" : describe(*info(*culprit).symbol)});
 }
 

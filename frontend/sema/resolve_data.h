@@ -9,7 +9,9 @@ class DataResolver : CheckerPart {
   public:
     DataResolver(State& state, const Parts& parts);
 
+    /// Works out the type of data, if that has not been done.
     void ensureData(DataSymbol& symbol);
+    /// The same, and the value.
     void ensureValue(DataSymbol& symbol);
 
   private:

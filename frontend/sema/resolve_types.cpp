@@ -3,7 +3,6 @@
 #include "frontend/sema/resolve_types.h"
 #include "frontend/sema/attributes.h"
 #include "frontend/sema/literal_value.h"
-#include "frontend/sema/parts.h"
 #include "frontend/sema/scopes.h"
 #include "frontend/sema/type_rules.h"
 #include "frontend/sema/unknown.h"
@@ -24,62 +23,62 @@ bool TypeResolver::reportTypeBehindName(const DataDecl& decl) {
     const NameId name = idOf(decl.type);
     if (!scopes_.findType(idOf(decl.name)) || scopes_.lookup(name)) return false;
     diag::Diagnostic& d =
-        report(Code::UnknownType, range(decl.type),
+        report(say::UnknownType, range(decl.type),
                {text(decl.type), "; '" + text(decl.name) + "' is one: write it before the name"});
     d.fixes.push_back({"write the data type first",
                        {{range(decl.type), text(decl.name)}, {range(decl.name), text(decl.type)}},
                        true});
-    state_.task.maybeDeclared.insert(name);
+    task_.maybeDeclared.insert(name);
     facts().open = true; // others may use it
     return true;
 }
 
 // A name of data may equal the name of a type (`PROC place(pos pos)`): types are looked for on their own.
 const Type* TypeResolver::resolveType(TokenIndex token, const DataDecl* data) {
-    if (token == kNoToken) return state_.program.errorType;
-    if (state_.context.tree->tokens[token].kind != TokenKind::Identifier)
-        return state_.program.errorType; // <ID>, reported
+    if (token == kNoToken) return program_.errorType;
+    if (context_.tree->tokens[token].kind != TokenKind::Identifier)
+        return program_.errorType; // <ID>, reported
     const NameId name = idOf(token);
     TypeSymbol* found = scopes_.findType(name);
     if (!found) {
-        if (data && reportTypeBehindName(*data)) return state_.program.errorType;
-        const Symbol* other = state_.scopes[state_.context.module->id]->names.find(name);
+        if (data && reportTypeBehindName(*data)) return program_.errorType;
+        const Symbol* other = state_.scopes[context_.module->id]->names.find(name);
         if (!other) other = scopes_.lookupOutside(name);
         if (other)
-            noteDeclared(report(Code::NotAType, range(token), {text(token), describe(*other)}), *other);
+            noteDeclared(report(say::NotAType, range(token), {text(token), describe(*other)}), *other);
         else
-            unknown_.reportUnknown(Code::UnknownType, token, name, Wanted::Type);
-        return state_.program.errorType;
+            unknown_.reportUnknown(say::UnknownType, token, name, Wanted::Type);
+        return program_.errorType;
     }
     scopes_.markUsed(*found);
     const Type* type = ensureType(*found);
-    if (!isReal(*type) && !state_.context.module->predefined) {
-        report(Code::PseudoType, range(token), {text(token)});
-        return state_.program.errorType;
+    if (!isReal(*type) && !context_.module->predefined) {
+        report(say::PseudoType, range(token), {text(token)});
+        return program_.errorType;
     }
     return type;
 }
 
 const Type* TypeResolver::ensureType(TypeSymbol& symbol) {
     if (symbol.progress == Progress::Done) return symbol.type;
-    const Context saved = state_.context;
+    const Context saved = context_;
     state_.enterModule(symbol.module);
     const bool cycle = symbol.progress == Progress::Active;
     if (!symbol.type) symbol.type = &facts().symbols->types.emplace_back();
     if (cycle || state_.depth >= kMaxDepth) {
-        state_.task.entangled = true;
+        task_.entangled = true;
         TokenIndex at = symbol.nameToken; // the part that leads back to it
         for (const auto& [whole, part] : resolvingParts_)
             if (cycle && whole == symbol.type) at = part;
-        noteDeclared(report(cycle ? Code::TypeCycle : Code::TypeTooDeep, range(at), {symbol.name}), symbol);
+        noteDeclared(report(cycle ? say::TypeCycle : say::TypeTooDeep, range(at), {symbol.name}), symbol);
         symbol.type->kind = TypeKind::Error;
         symbol.progress = Progress::Done;
-        state_.context = saved;
+        context_ = saved;
         return symbol.type;
     }
     symbol.progress = Progress::Active;
     ++state_.depth;
-    const bool outerMuted = state_.reports.mute(false);
+    const bool outerMuted = reports_.mute(false);
     Type& type = *symbol.type;
     if (type.kind == TypeKind::Error) { // not one of the atomic types, which exist beforehand
         type.kind = TypeKind::Record;
@@ -89,26 +88,26 @@ const Type* TypeResolver::ensureType(TypeSymbol& symbol) {
             resolveRecord(type, as<RecordDecl>(*symbol.decl));
         else
             resolveAlias(type, as<AliasDecl>(*symbol.decl));
-        if (symbol.predefined) applyTypeAttributes(*state_.context.tree, symbol);
+        if (symbol.predefined) applyTypeAttributes(*context_.tree, symbol);
     }
     --state_.depth;
-    state_.reports.mute(outerMuted);
+    reports_.mute(outerMuted);
     symbol.progress = Progress::Done;
-    state_.context = saved;
+    context_ = saved;
     return symbol.type;
 }
 
 void TypeResolver::resolveRecord(Type& type, const RecordDecl& decl) {
     NameMap<const RecordComponent> names;
     uint64_t leaves = 0;
-    type.unclear = state_.reports.hasUnclearLine(decl);
+    type.unclear = reports_.hasUnclearLine(decl);
     for (const RecordComponent* c : decl.components) {
         if (!isName(c->name)) {
             type.unclear = true;
             continue;
         }
         const NameId name = idOf(c->name);
-        if (names.find(name)) report(Code::DuplicateComponent, range(c->name), {text(c->name), type.name});
+        if (names.find(name)) report(say::DuplicateComponent, range(c->name), {text(c->name), type.name});
         names.set(name, c);
         resolvingParts_.emplace_back(&type, c->type);
         const Type* part = resolveType(c->type);
@@ -143,8 +142,8 @@ void TypeResolver::resolveSignature(RoutineSymbol& symbol) {
         symbol.returnType.type = resolveType(decl.returnType);
         const Type& type = *symbol.returnType.type;
         if (!isValueType(type) && !symbol.predefined) {
-            report(Code::NonValueReturn, range(decl.returnType), {symbol.name, type.name});
-            symbol.returnType.type = state_.program.errorType;
+            report(say::NonValueReturn, range(decl.returnType), {symbol.name, type.name});
+            symbol.returnType.type = program_.errorType;
         }
     }
     for (const ParamDecl* param : decl.params)
@@ -154,7 +153,7 @@ void TypeResolver::resolveSignature(RoutineSymbol& symbol) {
         if (!a.optional && !b.optional && a.group == b.group)
             a.requiredAlternative = b.requiredAlternative = true;
     }
-    if (symbol.predefined) applyRoutineAttributes(*state_.context.tree, symbol);
+    if (symbol.predefined) applyRoutineAttributes(*context_.tree, symbol);
 }
 
 DataSymbol& TypeResolver::newParameter(RoutineSymbol& routine) {
@@ -194,7 +193,7 @@ void TypeResolver::resolveParameter(RoutineSymbol& routine, const ParamDecl& dec
         symbol.type.type = state_.switchType;
         if (!decl.optional) {
             const uint32_t begin = range(decl).begin;
-            report(Code::SwitchNotOptional, range(decl.name), {symbol.name}).fix({begin, begin}, "\\");
+            report(say::SwitchNotOptional, range(decl.name), {symbol.name}).fix({begin, begin}, "\\");
         }
         symbol.optional = true;
         return;
@@ -205,11 +204,11 @@ void TypeResolver::resolveParameter(RoutineSymbol& routine, const ParamDecl& dec
         if (decl.rank == 255)
             placeholder(decl);
         else
-            report(Code::TooManyDimensions, range(decl.name + 8), {std::to_string(decl.rank)}); // "{*,*,*,*"
-        symbol.type.type = state_.program.errorType;
+            report(say::TooManyDimensions, range(decl.name + 8), {std::to_string(decl.rank)}); // "{*,*,*,*"
+        symbol.type.type = program_.errorType;
     }
     if (decl.mode == ParamMode::In && isHandle(*symbol.type.type) && isReal(*symbol.type.type)) {
-        report(Code::NonValueInParameter, range(decl.type), {symbol.name, symbol.type.type->name});
+        report(say::NonValueInParameter, range(decl.type), {symbol.name, symbol.type.type->name});
         symbol.mode = ParamMode::Inout; // what is passed to it is right then
     }
 }

@@ -11,7 +11,9 @@ class TypeResolver : CheckerPart {
 
     /// `data`: the declaration that names it, if it is one of data.
     const Type* resolveType(syntax::TokenIndex token, const syntax::DataDecl* data = nullptr);
+    /// Works out a type, if that has not been done. Cycles are reported.
     const Type* ensureType(TypeSymbol& symbol);
+    /// Parameters and type of a routine.
     void resolveSignature(RoutineSymbol& symbol);
 
   private:

@@ -4,7 +4,6 @@
 #include "frontend/sema/collect.h"
 #include "frontend/sema/expr.h"
 #include "frontend/sema/jumps.h"
-#include "frontend/sema/parts.h"
 #include "frontend/sema/resolve_data.h"
 #include "frontend/sema/scopes.h"
 #include "frontend/sema/stmt.h"
@@ -25,20 +24,20 @@ RoutineChecker::RoutineChecker(State& state, const Parts& parts)
 void RoutineChecker::checkRoutine(RoutineSymbol& symbol) {
     if (symbol.native) return;
     state_.enterModule(symbol.module);
-    state_.context.routine = &symbol;
+    context_.routine = &symbol;
     const RoutineDecl& decl = *symbol.routineDecl;
-    state_.routine = {};
-    state_.routine.blocksAreUnclear = state_.reports.hasUnclearLine(decl);
-    state_.reports.setQuietLine({});
+    routine_ = {};
+    routine_.blocksAreUnclear = reports_.hasUnclearLine(decl);
+    reports_.setQuietLine({});
     for (DataSymbol* param : symbol.params)
         declareInRoutine(*param);
-    state_.routine.optionalUses.assign(symbol.params.size(), {});
+    routine_.optionalUses.assign(symbol.params.size(), {});
     const size_t firstOwn = symbol.data.size();
     for (const DataDecl* data : decl.data)
         if (isName(data->name)) declareRoutineData(*data);
     for (size_t i = firstOwn; i < symbol.data.size(); ++i) {
         data_.ensureValue(*symbol.data[i]);
-        state_.context.constant = false;
+        context_.constant = false;
     }
     const bool completes = checkPart(Part::Body, decl.body);
     checkPart(Part::Backward, decl.backward);
@@ -48,11 +47,11 @@ void RoutineChecker::checkRoutine(RoutineSymbol& symbol) {
         checkPart(Part::Error, clause->body);
     }
     checkPart(Part::Undo, decl.undo);
-    if (decl.routineKind == RoutineKind::Func && completes && !state_.routine.broken) {
-        if (!state_.routine.returnSeen) // not even in a handler
-            report(Code::FunctionWithoutReturn, range(decl.name), {symbol.name});
+    if (decl.routineKind == RoutineKind::Func && completes && !routine_.broken) {
+        if (!routine_.returnSeen) // not even in a handler
+            report(say::FunctionWithoutReturn, range(decl.name), {symbol.name});
         else
-            report(Code::FunctionPathWithoutReturn, range(decl.name), {symbol.name});
+            report(say::FunctionPathWithoutReturn, range(decl.name), {symbol.name});
     }
     jumps_.resolveJumps();
     expressions_.checkBigLiterals();
@@ -64,9 +63,9 @@ void RoutineChecker::checkRoutine(RoutineSymbol& symbol) {
 
 void RoutineChecker::declareInRoutine(Symbol& symbol) {
     if (const Symbol* other = at(state_.routineNames, symbol.nameId)) {
-        noteDeclared(report(Code::DuplicateInRoutine, range(symbol.nameToken),
-                            {symbol.name, state_.context.routine->name}),
-                     *other);
+        noteDeclared(
+            report(say::DuplicateInRoutine, range(symbol.nameToken), {symbol.name, context_.routine->name}),
+            *other);
         return;
     }
     put(state_.routineNames, symbol.nameId, &symbol);
@@ -74,7 +73,7 @@ void RoutineChecker::declareInRoutine(Symbol& symbol) {
 }
 
 void RoutineChecker::declareRoutineData(const DataDecl& decl) {
-    RoutineSymbol& routine = *state_.context.routine;
+    RoutineSymbol& routine = *context_.routine;
     DataSymbol& symbol = collector_.newData(decl);
     symbol.index = static_cast<uint32_t>(routine.params.size() + routine.data.size());
     routine.data.push_back(&symbol);
@@ -83,36 +82,35 @@ void RoutineChecker::declareRoutineData(const DataDecl& decl) {
 
 bool RoutineChecker::checkPart(Part part, StmtList list) {
     if (list.empty()) return true;
-    state_.routine.part = part;
-    state_.routine.block = kNoBlock;
+    routine_.part = part;
+    routine_.block = kNoBlock;
     return block(list);
 }
 
 bool RoutineChecker::block(StmtList list) {
-    const uint32_t outer = state_.routine.block;
-    state_.routine.block = static_cast<uint32_t>(state_.routine.blockParents.size());
-    state_.routine.blockParents.push_back(outer);
+    const uint32_t outer = routine_.block;
+    routine_.block = static_cast<uint32_t>(routine_.blockParents.size());
+    routine_.blockParents.push_back(outer);
     const bool completes = statements_.statements(list);
-    state_.routine.block = outer;
+    routine_.block = outer;
     return completes;
 }
 
 // An omitted optional parameter must not be referenced (manual 1.1.5). A routine that never asks Present for it, nor for
 // one that excludes it, cannot know.
 void RoutineChecker::reportUntestedOptionals() {
-    const std::vector<DataSymbol*>& params = state_.context.routine->params;
+    const std::vector<DataSymbol*>& params = context_.routine->params;
     if (hasErrorHandler()) return; // it may answer ERR_NOTPRES
-    const bool any = std::any_of(state_.routine.optionalUses.begin(), state_.routine.optionalUses.end(),
+    const bool any = std::any_of(routine_.optionalUses.begin(), routine_.optionalUses.end(),
                                  [](const OptionalUse& use) { return use.first != nullptr; });
     if (!any) return;
     std::unordered_set<uint32_t> tested; // groups
     for (size_t i = 0; i < params.size(); ++i)
-        if (state_.routine.optionalUses[i].tested) tested.insert(params[i]->group);
+        if (routine_.optionalUses[i].tested) tested.insert(params[i]->group);
     for (size_t i = 0; i < params.size(); ++i) {
-        if (!state_.routine.optionalUses[i].first) continue;
+        if (!routine_.optionalUses[i].first) continue;
         if (!tested.contains(params[i]->group))
-            report(Code::OptionalWithoutPresent, range(*state_.routine.optionalUses[i].first),
-                   {params[i]->name});
+            report(say::OptionalWithoutPresent, range(*routine_.optionalUses[i].first), {params[i]->name});
     }
 }
 

@@ -9,7 +9,9 @@ class RoutineChecker : CheckerPart {
   public:
     RoutineChecker(State& state, const Parts& parts);
 
+    /// Checks a routine with its handlers. The routine context is that of this routine from now on.
     void checkRoutine(RoutineSymbol& symbol);
+    /// Data of the routine of the context.
     void declareRoutineData(const syntax::DataDecl& decl);
     bool block(syntax::StmtList list); ///< a new block; whether its end can be reached
 

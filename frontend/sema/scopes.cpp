@@ -14,56 +14,56 @@ using namespace syntax;
 Scopes::Scopes(State& state) : CheckerPart(state) {}
 
 Symbol* Scopes::lookup(NameId name) const {
-    if (state_.context.routine)
+    if (context_.routine)
         if (Symbol* found = at(state_.routineNames, name)) return found;
     return lookupOutside(name);
 }
 
 Symbol* Scopes::lookupOutside(NameId name) const {
-    if (Symbol* found = state_.scopes[state_.context.module->id]->names.find(name)) return found;
-    if (!state_.context.module->predefined) {
-        if (Symbol* found = at(state_.task.globals, name)) return found;
-        if (DataSymbol* found = at(state_.task.configured, name)) return found;
+    if (Symbol* found = state_.scopes[context_.module->id]->names.find(name)) return found;
+    if (!context_.module->predefined) {
+        if (Symbol* found = at(task_.globals, name)) return found;
+        if (DataSymbol* found = at(task_.configured, name)) return found;
     }
     return at(state_.predefined, name);
 }
 
 TypeSymbol* Scopes::findType(NameId name) const {
-    TypeSymbol* found = asType(state_.scopes[state_.context.module->id]->names.find(name));
-    if (!found && !state_.context.module->predefined) found = asType(at(state_.task.globals, name));
+    TypeSymbol* found = asType(state_.scopes[context_.module->id]->names.find(name));
+    if (!found && !context_.module->predefined) found = asType(at(task_.globals, name));
     return found ? found : asType(at(state_.predefined, name));
 }
 
 DataSymbol* Scopes::configuredObject(NameId name, std::string spelling, const Type* type, bool assumed) {
     DataSymbol* spare = nullptr;
-    if (assumed && !state_.task.spareAssumed.empty()) {
-        spare = state_.task.spareAssumed.back();
-        state_.task.spareAssumed.pop_back();
+    if (assumed && !task_.spareAssumed.empty()) {
+        spare = task_.spareAssumed.back();
+        task_.spareAssumed.pop_back();
         spare->reset();
     }
-    DataSymbol& symbol = spare ? *spare : state_.program.dataSymbols.emplace_back();
+    DataSymbol& symbol = spare ? *spare : program_.dataSymbols.emplace_back();
     symbol.assumed = assumed;
-    if (assumed) state_.task.assumed.push_back(&symbol);
+    if (assumed) task_.assumed.push_back(&symbol);
     symbol.kind = SymbolKind::Data;
     symbol.progress = symbol.valueProgress = Progress::Done;
     symbol.name = std::move(spelling);
     symbol.nameId = name;
     symbol.storage = Storage::Signal;
     symbol.type.type = type;
-    put(state_.task.configured, name, &symbol);
+    put(task_.configured, name, &symbol);
     return &symbol;
 }
 
 void Scopes::declareConfiguration() {
     for (const SignalInfo& signal : state_.options.signals) {
-        const TypeSymbol* type = asType(at(state_.predefined, state_.names.intern(signal.type)));
-        if (type) configuredObject(state_.names.intern(signal.name), signal.name, type->type, false);
+        const TypeSymbol* type = asType(at(state_.predefined, names_.intern(signal.type)));
+        if (type) configuredObject(names_.intern(signal.name), signal.name, type->type, false);
     }
     // Each task has an identity, and the robot of the first motion task is always there.
     const auto declare = [&](const std::string& name, const char* typeName) {
-        const TypeSymbol* type = asType(at(state_.predefined, state_.names.intern(typeName)));
-        const NameId id = state_.names.intern(name);
-        if (type && !at(state_.predefined, id) && !at(state_.task.configured, id))
+        const TypeSymbol* type = asType(at(state_.predefined, names_.intern(typeName)));
+        const NameId id = names_.intern(name);
+        if (type && !at(state_.predefined, id) && !at(task_.configured, id))
             configuredObject(id, name, type->type, false);
     };
     for (const std::string& task : state_.taskNames)
@@ -77,10 +77,10 @@ void Scopes::declareUnknown(NameId name) {
     symbol.kind = SymbolKind::Data;
     symbol.progress = symbol.valueProgress = Progress::Done;
     symbol.nameId = name;
-    symbol.module = state_.context.module;
+    symbol.module = context_.module;
     symbol.storage = Storage::RoutineData;
-    symbol.type.type = state_.program.errorType;
-    symbol.routine = state_.context.routine;
+    symbol.type.type = program_.errorType;
+    symbol.routine = context_.routine;
     symbol.index = kNoIndex;
     put<Symbol>(state_.routineNames, name, &symbol);
     state_.declaredInRoutine.push_back(name);

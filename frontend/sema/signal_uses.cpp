@@ -5,7 +5,6 @@
 #include "frontend/sema/signal_uses.h"
 #include "frontend/sema/add_ins.h"
 #include "frontend/sema/parameters.h"
-#include "frontend/sema/parts.h"
 #include "frontend/sema/resolve_data.h"
 #include "frontend/sema/resolve_types.h"
 #include "frontend/sema/scopes.h"
@@ -92,7 +91,7 @@ SignalFinder::SignalFinder(State& state, const Parts& parts)
       types_(parts.types) {}
 
 const Type* SignalFinder::signalType(std::string_view name) {
-    const TypeSymbol* type = asType(at(state_.predefined, state_.names.intern(name)));
+    const TypeSymbol* type = asType(at(state_.predefined, names_.intern(name)));
     return type ? type->type : nullptr;
 }
 
@@ -102,20 +101,19 @@ const Type* SignalFinder::signalTypeByName(const std::string& name) {
 }
 
 const Type* SignalFinder::signalTypeByUse(NameId name) {
-    if (!state_.task.signalUses.known) gatherSignalUses();
-    return state_.task.signalUses.arguments.find(name);
+    if (!task_.signalUses.known) gatherSignalUses();
+    return task_.signalUses.arguments.find(name);
 }
 
 // The type of a name that is known by comparisons with numbers only; null when its use shows that it is not a signal.
 const Type* SignalFinder::signalTypeByComparison(const std::string& written, NameId name) {
-    if (!state_.task.signalUses.known) gatherSignalUses();
-    const auto found = state_.task.signalUses.compared.find(name);
-    if (found == state_.task.signalUses.compared.end() || state_.task.signalUses.others.contains(name))
-        return nullptr;
-    const std::string_view folded = state_.names.folded(name);
-    if (state_.task.moduleNames.find(name) || !addInOf(folded, false, false).empty()) return nullptr;
-    for (const Module* module : state_.task.task->modules)
-        if (module != state_.context.module && state_.scopes[module->id]->names.find(name))
+    if (!task_.signalUses.known) gatherSignalUses();
+    const auto found = task_.signalUses.compared.find(name);
+    if (found == task_.signalUses.compared.end() || task_.signalUses.others.contains(name)) return nullptr;
+    const std::string_view folded = names_.folded(name);
+    if (task_.moduleNames.find(name) || !addInOf(folded, false, false).empty()) return nullptr;
+    for (const Module* module : task_.task->modules)
+        if (module != context_.module && state_.scopes[module->id]->names.find(name))
             return nullptr; // LOCAL there
     if (isMisspeltNumber(name)) return nullptr;
     const ComparedName& use = found->second;
@@ -129,17 +127,17 @@ bool SignalFinder::isMisspeltNumber(NameId name) {
     if (!best.symbol || best.symbol->predefined || best.symbol->kind != SymbolKind::Data) return false;
     const auto& data = static_cast<const DataSymbol&>(*best.symbol);
     const bool number = data.type.type && data.type.type->isNumeric();
-    return number && isMisspelt(state_.names.folded(name), state_.names.folded(data.nameId));
+    return number && isMisspelt(names_.folded(name), names_.folded(data.nameId));
 }
 
 void SignalFinder::gatherSignalUses() {
-    state_.task.signalUses.known = true;
-    const Context saved = state_.context;
-    for (Module* module : state_.task.task->modules) {
+    task_.signalUses.known = true;
+    const Context saved = context_;
+    for (Module* module : task_.task->modules) {
         state_.enterModule(module);
         for (const RoutineSymbol* routine : module->routines) {
             const RoutineDecl& decl = *routine->routineDecl;
-            state_.task.signalUses.own.clear();
+            task_.signalUses.own.clear();
             for (const ParamDecl* param : decl.params)
                 declareOwn(param->name, param->type);
             for (const DataDecl* data : decl.data)
@@ -147,14 +145,14 @@ void SignalFinder::gatherSignalUses() {
             gatherSignalUses(decl);
         }
     }
-    state_.context = saved;
+    context_ = saved;
 }
 
 // A name of the routine itself is not a signal in any other routine either: there its declaration is missing.
 void SignalFinder::declareOwn(TokenIndex name, TokenIndex type) {
     if (!isName(name)) return;
-    state_.task.signalUses.own[idOf(name)] = type;
-    state_.task.signalUses.others.insert(idOf(name));
+    task_.signalUses.own[idOf(name)] = type;
+    task_.signalUses.others.insert(idOf(name));
 }
 
 void SignalFinder::gatherSignalUses(const Node& node) {
@@ -216,17 +214,17 @@ void SignalFinder::usedOtherwise(const Expr& place) {
     while (e->kind == NodeKind::Index || e->kind == NodeKind::Component)
         e = e->kind == NodeKind::Index ? as<IndexExpr>(*e).base : as<ComponentExpr>(*e).base;
     if (e->kind == NodeKind::Name && isName(as<NameExpr>(*e).name))
-        state_.task.signalUses.others.insert(idOf(as<NameExpr>(*e).name));
+        task_.signalUses.others.insert(idOf(as<NameExpr>(*e).name));
 }
 
 void SignalFinder::compared(const Expr& side, const Expr& number) {
     const Expr& e = bare(side);
     if (e.kind != NodeKind::Name || !isName(as<NameExpr>(e).name)) return;
     const NameId name = idOf(as<NameExpr>(e).name);
-    if (state_.task.signalUses.own.contains(name) || scopes_.lookupOutside(name)) return;
+    if (task_.signalUses.own.contains(name) || scopes_.lookupOutside(name)) return;
     const Type* type = looseType(number);
     if (!type || !isPlainNumber(*type)) return;
-    ComparedName& use = state_.task.signalUses.compared[name];
+    ComparedName& use = task_.signalUses.compared[name];
     double value = 0;
     if (!looseNumber(number, value)) {
         use.unknown = true;
@@ -241,7 +239,7 @@ void SignalFinder::compared(const Expr& side, const Expr& number) {
 const Type* SignalFinder::looseType(const Expr& expr) {
     const Expr& e = bare(expr);
     switch (e.kind) {
-    case NodeKind::NumLiteral: return state_.program.num;
+    case NodeKind::NumLiteral: return program_.num;
     case NodeKind::Unary: return looseType(*as<UnaryExpr>(e).operand);
     case NodeKind::Binary: {
         const auto& binary = as<BinaryExpr>(e);
@@ -257,7 +255,7 @@ const Type* SignalFinder::looseType(const Expr& expr) {
     case NodeKind::Component: {
         const auto& part = as<ComponentExpr>(e);
         const Type* record = part.name == kNoToken ? nullptr : looseType(*part.base);
-        const int index = record ? record->findComponent(state_.context.tree->text(part.name)) : -1;
+        const int index = record ? record->findComponent(context_.tree->text(part.name)) : -1;
         return index < 0 ? nullptr : record->base()->components[static_cast<size_t>(index)].type;
     }
     case NodeKind::Name: break;
@@ -265,8 +263,8 @@ const Type* SignalFinder::looseType(const Expr& expr) {
     }
     if (!isName(as<NameExpr>(e).name)) return nullptr;
     const NameId name = idOf(as<NameExpr>(e).name);
-    if (const auto own = state_.task.signalUses.own.find(name); own != state_.task.signalUses.own.end()) {
-        if (own->second == kNoToken) return state_.program.num; // of a FOR
+    if (const auto own = task_.signalUses.own.find(name); own != task_.signalUses.own.end()) {
+        if (own->second == kNoToken) return program_.num; // of a FOR
         TypeSymbol* type = scopes_.findType(idOf(own->second));
         return type ? types_.ensureType(*type) : nullptr;
     }
@@ -274,7 +272,7 @@ const Type* SignalFinder::looseType(const Expr& expr) {
         data_.ensureData(*data);
         return data->type.type;
     }
-    return state_.task.signalUses.arguments.find(name);
+    return task_.signalUses.arguments.find(name);
 }
 
 // The value of a literal or a constant.
@@ -291,8 +289,7 @@ bool SignalFinder::looseNumber(const Expr& expr, double& value) {
     }
     if (e.kind != NodeKind::Name || !isName(as<NameExpr>(e).name)) return false;
     const NameId name = idOf(as<NameExpr>(e).name);
-    DataSymbol* data =
-        state_.task.signalUses.own.contains(name) ? nullptr : asData(scopes_.lookupOutside(name));
+    DataSymbol* data = task_.signalUses.own.contains(name) ? nullptr : asData(scopes_.lookupOutside(name));
     if (!data || data->dataKind != DataKind::Const || data->storage != Storage::ModuleData) return false;
     data_.ensureValue(*data);
     value = data->value().kind == ConstValue::Kind::Number ? data->value().number : 0;
@@ -324,11 +321,11 @@ void SignalFinder::gatherSignalUses(const RoutineSymbol& routine, std::span<Argu
         const bool either =
             param->accepts == ParamClass::SignalOrString || param->accepts == ParamClass::Signal;
         const Type* type = either ? partner : param->type.type;
-        if (!type || state_.task.signalUses.own.contains(name) || scopes_.lookupOutside(name)) continue;
+        if (!type || task_.signalUses.own.contains(name) || scopes_.lookupOutside(name)) continue;
         if (type->kind != TypeKind::SemiValue) {
             if (!either && param->mode != ParamMode::In) usedOtherwise(*a->value);
-        } else if (!state_.task.signalUses.arguments.find(name)) {
-            state_.task.signalUses.arguments.set(name, type);
+        } else if (!task_.signalUses.arguments.find(name)) {
+            task_.signalUses.arguments.set(name, type);
         }
     }
 }

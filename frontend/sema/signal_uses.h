@@ -9,8 +9,11 @@ class SignalFinder : CheckerPart {
   public:
     SignalFinder(State& state, const Parts& parts);
 
+    /// The type of signal that a name has by its beginning: "di1". Null, here and below: it is not a signal.
     const Type* signalTypeByName(const std::string& name);
+    /// The type that other routines of the task use the name as.
     const Type* signalTypeByUse(NameId name);
+    /// The type that the numbers suggest which the name is compared with.
     const Type* signalTypeByComparison(const std::string& written, NameId name);
 
   private:

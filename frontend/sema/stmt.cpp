@@ -6,7 +6,6 @@
 #include "frontend/sema/cyclic_condition.h"
 #include "frontend/sema/expr.h"
 #include "frontend/sema/jumps.h"
-#include "frontend/sema/parts.h"
 #include "frontend/sema/place.h"
 #include "frontend/sema/remedies.h"
 #include "frontend/sema/resolve_data.h"
@@ -43,9 +42,9 @@ bool Statements::statements(StmtList list) {
 
 /// Checks one instruction; whether the next one can be reached from it.
 bool Statements::statement(const Stmt& s) {
-    state_.reports.mute(s.broken); // instructions that contain others never are
+    reports_.mute(s.broken); // instructions that contain others never are
     const bool goesOn = wholeStatement(s);
-    state_.reports.mute(false);
+    reports_.mute(false);
     return goesOn;
 }
 
@@ -67,8 +66,7 @@ bool Statements::wholeStatement(const Stmt& s) {
     case NodeKind::Goto: {
         const auto& jump = as<GotoStmt>(s);
         if (isName(jump.label))
-            state_.routine.gotos.push_back(
-                {idOf(jump.label), state_.routine.block, state_.routine.part, &s, nullptr});
+            routine_.gotos.push_back({idOf(jump.label), routine_.block, routine_.part, &s, nullptr});
         return false;
     }
     case NodeKind::Label: jumps_.labelStmt(as<LabelStmt>(s)); return true;
@@ -77,15 +75,15 @@ bool Statements::wholeStatement(const Stmt& s) {
     case NodeKind::Connect: flow_.connectStmt(as<ConnectStmt>(s)); return true;
     case NodeKind::Retry:
     case NodeKind::TryNext:
-        if (state_.routine.part != Part::Error)
-            report(Code::OutsideErrorHandler, range(s.first),
+        if (routine_.part != Part::Error)
+            report(say::OutsideErrorHandler, range(s.first),
                    {s.kind == NodeKind::Retry ? "RETRY" : "TRYNEXT"});
         return false;
     case NodeKind::Exit: return false;
     case NodeKind::Break:
         if (callsOldProcedure(s)) return true;
         loopWord(s, "BREAK");
-        state_.routine.breakSeen = true;
+        routine_.breakSeen = true;
         return false;
     case NodeKind::Continue:
         if (callsOldProcedure(s)) return true;
@@ -93,17 +91,17 @@ bool Statements::wholeStatement(const Stmt& s) {
         return false;
     case NodeKind::PlaceholderStmt:
         placeholder(s);
-        state_.routine.broken = true; // it may stand for the RETURN
+        routine_.broken = true; // it may stand for the RETURN
         return true;
     case NodeKind::DeclStmt: { // its place was reported by the parser
         const DataDecl* decl = as<DeclStmt>(s).decl;
         if (!decl || !isName(decl->name)) return true;
         routines_.declareRoutineData(*decl);
-        data_.ensureValue(*state_.context.routine->data.back());
-        state_.context.constant = false;
+        data_.ensureValue(*context_.routine->data.back());
+        context_.constant = false;
         return true;
     }
-    case NodeKind::ErrorStmt: state_.routine.broken = true; return true;
+    case NodeKind::ErrorStmt: routine_.broken = true; return true;
     default: return true;
     }
 }
@@ -111,11 +109,11 @@ bool Statements::wholeStatement(const Stmt& s) {
 /// `Continue;` in a file of an older system, for which the word is not reserved, calls the procedure of that name if another
 /// file declares one. The parser has dealt with procedures of the same file.
 bool Statements::callsOldProcedure(const Stmt& s) {
-    if (!SourceFile::isLegacyFileType(state_.context.tree->source->path())) return false;
+    if (!SourceFile::isLegacyFileType(context_.tree->source->path())) return false;
     RoutineSymbol* routine = asRoutine(scopes_.lookup(idOf(s.first)));
     if (!routine || routine->routineKind != RoutineKind::Proc) return false;
     report(
-        Code::LaterReservedWord, range(s.first),
+        say::LaterReservedWord, range(s.first),
         {s.kind == NodeKind::Break ? "BREAK" : "CONTINUE",
          std::string(reservedSince(s.kind == NodeKind::Break ? TokenKind::KwBreak : TokenKind::KwContinue))});
     scopes_.markUsed(*routine);
@@ -124,8 +122,8 @@ bool Statements::callsOldProcedure(const Stmt& s) {
 }
 
 void Statements::loopWord(const Stmt& s, const char* word) {
-    if (state_.routine.loopDepth != 0) return;
-    diag::Diagnostic& d = report(Code::OutsideLoop, range(s.first), {word});
+    if (routine_.loopDepth != 0) return;
+    diag::Diagnostic& d = report(say::OutsideLoop, range(s.first), {word});
     if (s.kind == NodeKind::Break)
         d.fixes.push_back({"write DebugBreak to stop there for debugging, as BREAK did up to RobotWare 7.0",
                            {{range(s.first), "DebugBreak"}},
@@ -138,7 +136,7 @@ bool Statements::ifStmt(const IfStmt& s) {
     for (const IfBranch* branch : s.branches) {
         if (branch->condition)
             expressions_.condition(*branch->condition, first ? "IF" : "ELSEIF");
-        else if (state_.context.tree->tokens[branch->first].kind == TokenKind::PlaceEit)
+        else if (context_.tree->tokens[branch->first].kind == TokenKind::PlaceEit)
             placeholder(*branch);
         completes |= routines_.block(branch->body);
         first = false;
@@ -154,11 +152,11 @@ bool Statements::whileStmt(const WhileStmt& s) {
         const ConstValue* value = info(*s.condition).constant;
         forever = value && value->kind == ConstValue::Kind::Bool && value->boolean;
     }
-    const bool outerBreak = std::exchange(state_.routine.breakSeen, false);
-    ++state_.routine.loopDepth;
+    const bool outerBreak = std::exchange(routine_.breakSeen, false);
+    ++routine_.loopDepth;
     routines_.block(s.body);
-    --state_.routine.loopDepth;
-    const bool left = std::exchange(state_.routine.breakSeen, outerBreak);
+    --routine_.loopDepth;
+    const bool left = std::exchange(routine_.breakSeen, outerBreak);
     return !forever || left;
 }
 
@@ -168,23 +166,23 @@ bool Statements::forStmt(const ForStmt& s) {
         if (!e) return;
         const Typed t = expressions_.expr(*e);
         if (t.isError()) return;
-        if (!expressions_.fits(*e, t, {state_.program.num, 0, {}}))
-            report(Code::ForBoundType, range(*e), {what, typeName(*t.info)});
+        if (!expressions_.fits(*e, t, {program_.num, 0, {}}))
+            report(say::ForBoundType, range(*e), {what, typeName(*t.info)});
     };
     bound(s.from, "start value");
     bound(s.to, "end value");
     bound(s.step, "step");
     const ConstValue* step = s.step ? info(*s.step).constant : nullptr;
     if (step && step->kind == ConstValue::Kind::Number && step->number == 0)
-        report(Code::ZeroStep, range(*s.step));
+        report(say::ZeroStep, range(*s.step));
 
-    RoutineSymbol& routine = *state_.context.routine;
+    RoutineSymbol& routine = *context_.routine;
     DataSymbol* variable = nullptr;
     Symbol* hidden = nullptr;
     if (isName(s.variable)) {
         variable = &fill(facts().locals.emplace_back(), SymbolKind::Data, s, s.variable, false);
         variable->storage = Storage::LoopVariable;
-        variable->type = {state_.program.num, 0, {}};
+        variable->type = {program_.num, 0, {}};
         variable->progress = variable->valueProgress = Progress::Done;
         variable->routine = &routine;
         variable->index = static_cast<uint32_t>(routine.params.size() + routine.data.size());
@@ -193,11 +191,11 @@ bool Statements::forStmt(const ForStmt& s) {
         hidden = at(state_.routineNames, variable->nameId);
         put<Symbol>(state_.routineNames, variable->nameId, variable);
     }
-    const bool outerBreak = std::exchange(state_.routine.breakSeen, false);
-    ++state_.routine.loopDepth;
+    const bool outerBreak = std::exchange(routine_.breakSeen, false);
+    ++routine_.loopDepth;
     routines_.block(s.body);
-    --state_.routine.loopDepth;
-    state_.routine.breakSeen = outerBreak;
+    --routine_.loopDepth;
+    routine_.breakSeen = outerBreak;
     if (variable) put(state_.routineNames, variable->nameId, hidden);
     return true;
 }
@@ -208,8 +206,7 @@ void Statements::testValues(const TestStmt& s, Typed subject) {
     const DataType& type = subject.info->type; // changes when a value decides between num and dnum
     const bool known = !subject.isError();
     for (const TestCase* c : s.cases) {
-        if (c->values.empty() && state_.context.tree->tokens[c->first].kind == TokenKind::PlaceCse)
-            placeholder(*c);
+        if (c->values.empty() && context_.tree->tokens[c->first].kind == TokenKind::PlaceCse) placeholder(*c);
         for (const Expr* value : c->values) {
             const Typed t = expressions_.expr(*value, &type);
             if (t.isError() || !known) continue;
@@ -227,7 +224,7 @@ void Statements::testValues(const TestStmt& s, Typed subject) {
         if (!expressions_.fits(*value, t, type)) {
             const auto names = typeNames(t.info->type, subject.info->type);
             const Remedy remedy = remedies_.remedyFor(*value, t.info->type, type);
-            remedies_.offer(report(Code::TestValueType, range(*value), {names[0], names[1]}), *value, remedy);
+            remedies_.offer(report(say::TestValueType, range(*value), {names[0], names[1]}), *value, remedy);
             continue;
         }
         const ConstValue* constant = info(*value).constant;
@@ -237,7 +234,7 @@ void Statements::testValues(const TestStmt& s, Typed subject) {
         std::string key = constant->kind == ConstValue::Kind::Number ? fmt::format("{}", constant->number)
                           : constant->kind == ConstValue::Kind::Bool ? (constant->boolean ? "T" : "F")
                                                                      : std::string(constant->text());
-        if (!seen.insert(std::move(key)).second) report(Code::DuplicateCase, range(*value), {text(*value)});
+        if (!seen.insert(std::move(key)).second) report(say::DuplicateCase, range(*value), {text(*value)});
     }
 }
 
@@ -247,7 +244,7 @@ bool Statements::testStmt(const TestStmt& s) {
         subject = expressions_.expr(*s.subject);
         const DataType& type = subject.info->type;
         if (!subject.isError() && (type.rank > 0 || !isValueType(*type.type))) {
-            report(Code::TestSubjectType, range(*s.subject), {typeName(type)});
+            report(say::TestSubjectType, range(*s.subject), {typeName(type)});
             subject = expressions_.errorExpr(*s.subject);
         }
         testValues(s, subject);
@@ -282,12 +279,12 @@ void Statements::assign(const AssignStmt& s) {
     const std::string conversion = numDnumRemedy(value, want);
     const auto names = typeNames(value.info->type, want);
     if (!conversion.empty()) {
-        remedies_.fixCall(report(Code::NumDnumAssign, range(*s.value), {names[0], names[1], conversion}),
+        remedies_.fixCall(report(say::NumDnumAssign, range(*s.value), {names[0], names[1], conversion}),
                           *s.value, conversion, conversion == "NumToDnum");
         return;
     }
     const Remedy remedy = remedies_.remedyFor(*s.value, value.info->type, want);
-    diag::Diagnostic& d = report(Code::AssignType, range(*s.value), {names[0], names[1]});
+    diag::Diagnostic& d = report(say::AssignType, range(*s.value), {names[0], names[1]});
     remedies_.offer(d, *s.value, remedy);
     noteDeclared(d, *target.root);
 }
@@ -307,17 +304,17 @@ bool Statements::assignsResult(const Expr& target) {
     const TokenIndex token = as<NameExpr>(target).name;
     const NameId name = idOf(token);
     const Symbol* symbol = scopes_.lookup(name);
-    if (!state_.context.routine || state_.context.routine->routineKind != RoutineKind::Func) return false;
-    if (!symbol && isWordForResult(state_.names.folded(name))) {
-        unknown_.reportUnknown(Code::UnknownName, token, name, Wanted::Data,
+    if (!context_.routine || context_.routine->routineKind != RoutineKind::Func) return false;
+    if (!symbol && isWordForResult(names_.folded(name))) {
+        unknown_.reportUnknown(say::UnknownName, token, name, Wanted::Data,
                                "; a function gives its value by RETURN");
         scopes_.declareUnknown(name);
-        state_.routine.broken = true; // as below
+        routine_.broken = true; // as below
         return true;
     }
-    if (!symbol || symbol != state_.context.routine) return false;
-    report(Code::FunctionAssigned, range(target), {text(target)});
-    state_.routine.broken = true; // the missing RETURN is the same mistake
+    if (!symbol || symbol != context_.routine) return false;
+    report(say::FunctionAssigned, range(target), {text(target)});
+    routine_.broken = true; // the missing RETURN is the same mistake
     return true;
 }
 
@@ -326,22 +323,22 @@ bool Statements::assignable(const Place& place, const Expr& target) {
     const Type& type = *info(target).type.type;
     const bool parameter = root.storage == Storage::Parameter;
     if (type.kind == TypeKind::Switch) {
-        report(Code::SwitchAsValue, range(target), {text(target)}); // no value to assign either
+        report(say::SwitchAsValue, range(target), {text(target)}); // no value to assign either
     } else if (type.kind == TypeKind::SemiValue) {
         const std::string& name = type.base()->name;
         std::string remedy = name == "signalao" ? "SetAO" : name == "signalgo" ? "SetGO" : "SetDO";
         if (name == "signaldi" || name == "signalai" || name == "signalgi")
             remedy = "AliasIO to connect it, inputs are read-only";
-        report(Code::AssignSignal, range(target), {text(target), remedy});
+        report(say::AssignSignal, range(target), {text(target), remedy});
     } else if (root.storage == Storage::SystemVariable) {
-        report(Code::AssignReadOnly, range(target), {root.name});
+        report(say::AssignReadOnly, range(target), {root.name});
     } else if (root.storage == Storage::LoopVariable) {
-        noteDeclared(report(Code::AssignLoopVariable, range(target), {root.name}), root);
+        noteDeclared(report(say::AssignLoopVariable, range(target), {root.name}), root);
     } else if (root.dataKind == DataKind::Const && !parameter) {
         if (root.init) // without a value CONST itself is the mistake
-            noteDeclared(report(Code::AssignConstant, range(target), {root.name}), root);
+            noteDeclared(report(say::AssignConstant, range(target), {root.name}), root);
     } else if (!isValueType(type) && type.kind != TypeKind::AnyType) {
-        report(Code::AssignNonValue, range(target), {text(target), type.name});
+        report(say::AssignNonValue, range(target), {text(target), type.name});
     } else {
         return true;
     }
@@ -350,7 +347,7 @@ bool Statements::assignable(const Place& place, const Expr& target) {
 
 // "CALL name;"
 bool Statements::isCallWord(const CallStmt& s) {
-    if (state_.names.folded(idOf(s.name)) != "call" || s.args.size() != 1) return false;
+    if (names_.folded(idOf(s.name)) != "call" || s.args.size() != 1) return false;
     const Expr* value = s.args[0]->value;
     TokenIndex name = kNoToken; // CALL work; CALL work(1);
     if (value && value->kind == NodeKind::Name) name = as<NameExpr>(*value).name;
@@ -362,30 +359,28 @@ bool Statements::isCallWord(const CallStmt& s) {
 
 // "again;" in a routine with "GOTO again;"
 bool Statements::reportLabelWithoutColon(const CallStmt& s) {
-    const std::span<const Token> tokens = state_.context.tree->tokens;
-    if (!s.args.empty() || !state_.context.routine->routineDecl ||
-        tokens[s.last].kind != TokenKind::Semicolon)
+    const std::span<const Token> tokens = context_.tree->tokens;
+    if (!s.args.empty() || !context_.routine->routineDecl || tokens[s.last].kind != TokenKind::Semicolon)
         return false;
-    if (!std::exchange(state_.routine.jumpNamesKnown, true)) {
-        state_.routine.jumpNames.clear();
-        const RoutineDecl& routine = *state_.context.routine->routineDecl;
+    if (!std::exchange(routine_.jumpNamesKnown, true)) {
+        routine_.jumpNames.clear();
+        const RoutineDecl& routine = *context_.routine->routineDecl;
         for (TokenIndex i = routine.first; i < routine.last; ++i)
-            if (tokens[i].kind == TokenKind::KwGoto && isName(i + 1))
-                state_.routine.jumpNames.insert(idOf(i + 1));
+            if (tokens[i].kind == TokenKind::KwGoto && isName(i + 1)) routine_.jumpNames.insert(idOf(i + 1));
     }
     const NameId name = idOf(s.name);
-    if (!state_.routine.jumpNames.contains(name) || state_.routine.labelNames.find(name)) return false;
-    report(Code::UnexpectedToken, range(s.last), {"';'", "':' behind a label"}).fix(range(s.last), ":");
+    if (!routine_.jumpNames.contains(name) || routine_.labelNames.find(name)) return false;
+    report(say::UnexpectedToken, range(s.last), {"';'", "':' behind a label"}).fix(range(s.last), ":");
     LabelSymbol& symbol = fill(facts().labels.emplace_back(), SymbolKind::Label, s, s.name, false);
-    symbol.routine = state_.context.routine;
-    state_.routine.labels.push_back({name, state_.routine.block, state_.routine.part, &s, &symbol});
-    state_.routine.labelNames.set(name, &symbol);
+    symbol.routine = context_.routine;
+    routine_.labels.push_back({name, routine_.block, routine_.part, &s, &symbol});
+    routine_.labelNames.set(name, &symbol);
     return true;
 }
 
 // Words in a line without a semicolon, none of which is known: the parser has missed the semicolon.
 bool Statements::isLineOfText(const CallStmt& s) {
-    if (state_.context.tree->tokens[s.last].kind == TokenKind::Semicolon) return false;
+    if (context_.tree->tokens[s.last].kind == TokenKind::Semicolon) return false;
     return std::all_of(s.args.begin(), s.args.end(), [&](const Argument* arg) {
         return arg->value && arg->value->kind == NodeKind::Name && isName(as<NameExpr>(*arg->value).name) &&
                !scopes_.lookup(idOf(as<NameExpr>(*arg->value).name));
@@ -416,16 +411,16 @@ bool Statements::callStmt(const CallStmt& s) {
         if (symbol) {
             reportNotCallable(*symbol, s.name);
         } else if (isCallWord(s)) {
-            report(Code::ForeignSpelling, range(s.name), {text(s.name), "the name of the procedure"})
+            report(say::ForeignSpelling, range(s.name), {text(s.name), "the name of the procedure"})
                 .fix({range(s.name).begin, range(s.args[0]->first).begin}, "");
             return true;
         } else if (isLineOfText(s) || reportLabelWithoutColon(s)) {
             return true;
         } else {
             const Meant meant =
-                unknown_.reportUnknown(Code::UnknownProcedure, s.name, name, Wanted::Procedure);
-            if (meant == Meant::Keyword) state_.routine.broken = true; // and its arguments are none
-            if (meant == Meant::Elsewhere) calls_.lateCall(s);         // looked for when it is executed
+                unknown_.reportUnknown(say::UnknownProcedure, s.name, name, Wanted::Procedure);
+            if (meant == Meant::Keyword) routine_.broken = true; // and its arguments are none
+            if (meant == Meant::Elsewhere) calls_.lateCall(s);   // looked for when it is executed
             if (meant != Meant::Unknown) return true;
         }
         if (!namesProcedure(s.args)) calls_.visitArguments(s.args); // "irq IDelete;"
@@ -435,10 +430,10 @@ bool Statements::callStmt(const CallStmt& s) {
     availability_.checkOption(*routine, s.name);
     if (isParenthesised(s)) reportParentheses(s);
     calls_.bindCall(s, *routine, s.name, s.args);
-    if (state_.routine.part == Part::Undo) flow_.callInUndo(*routine, s.name);
-    if (flow_.movesRobot(*routine) && state_.task.task->type != "NORMAL")
-        report(Code::MotionInBackgroundTask, range(s.name),
-               {text(s.name), state_.task.task->name, state_.task.task->type});
+    if (routine_.part == Part::Undo) flow_.callInUndo(*routine, s.name);
+    if (flow_.movesRobot(*routine) && task_.task->type != "NORMAL")
+        report(say::MotionInBackgroundTask, range(s.name),
+               {text(s.name), task_.task->name, task_.task->type});
     if (routine->role == Role::RaiseToUser) raiseToUser(s);
     if (routine->role == Role::CyclicBool) CyclicCondition(state_).check(s);
     return !routine->predefined || predefinedCall(*routine, s.name);
@@ -446,34 +441,34 @@ bool Statements::callStmt(const CallStmt& s) {
 
 // Anywhere else, and without a switch, the system handler takes over (manual 1.12).
 void Statements::raiseToUser(const CallStmt& s) {
-    if (state_.routine.part != Part::Error || !state_.context.routine->noStepIn)
-        report(Code::RaiseToUserPlace, range(s.name), {text(s.name)});
+    if (routine_.part != Part::Error || !context_.routine->noStepIn)
+        report(say::RaiseToUserPlace, range(s.name), {text(s.name)});
     const auto isSwitch = [](const BoundArg& arg) {
         return arg.param->isSwitch && arg.kind != BoundArg::Kind::Absent;
     };
     const auto args = facts().calls[&s].args;
     if (std::none_of(args.begin(), args.end(), isSwitch))
-        report(Code::RaiseToUserSwitch, range(s.name), {text(s.name)});
+        report(say::RaiseToUserSwitch, range(s.name), {text(s.name)});
 }
 
 // Predefined procedures that belong to the flow of control: RETRY in disguise, and those that do not come back.
 bool Statements::predefinedCall(const RoutineSymbol& routine, TokenIndex name) {
-    if (routine.flow == Flow::Retries && state_.routine.part != Part::Error)
-        report(Code::OutsideErrorHandler, range(name), {text(name)});
+    if (routine.flow == Flow::Retries && routine_.part != Part::Error)
+        report(say::OutsideErrorHandler, range(name), {text(name)});
     return routine.flow == Flow::GoesOn || routine.flow == Flow::Stops;
 }
 
 /// `name();` and `name(a, b);`: the parentheses are no part of an argument.
 bool Statements::isParenthesised(const CallStmt& s) const {
     const TokenIndex open = s.name + 1;
-    return state_.context.tree->tokens[open].kind == TokenKind::LeftParen &&
+    return context_.tree->tokens[open].kind == TokenKind::LeftParen &&
            (s.args.empty() || s.args.front()->first != open);
 }
 
 void Statements::reportParentheses(const CallStmt& s) {
-    const SyntaxTree& tree = *state_.context.tree;
+    const SyntaxTree& tree = *context_.tree;
     const TokenIndex open = s.name + 1, close = s.last - 1;
-    diag::Diagnostic& d = report(Code::CallParentheses, range(open), {text(s.name)});
+    diag::Diagnostic& d = report(say::CallParentheses, range(open), {text(s.name)});
     if (tree.tokens[s.last].kind != TokenKind::Semicolon || tree.tokens[close].kind != TokenKind::RightParen)
         return;
     const bool spaced = range(open).begin > range(s.name).end || close == open + 1;
@@ -484,24 +479,24 @@ void Statements::reportParentheses(const CallStmt& s) {
 bool Statements::isCutBySemicolon(const Symbol& symbol, TokenIndex name) {
     DataSymbol* data = asData(const_cast<Symbol*>(&symbol));
     if (!data) return false;
-    const auto& all = (state_.reports.collected() ? *state_.reports.collected() : state_.sink).all();
+    const auto& all = (reports_.collected() ? *reports_.collected() : state_.sink).all();
     const SourceRange own = range(name);
     if (!all.empty() && all.back().code == Code::MissingArgument &&
-        all.back().file == state_.context.tree->source && all.back().range.begin < own.begin &&
-        state_.context.tree->tokens[name - 1].kind == TokenKind::Semicolon) {
-        const std::string_view between = state_.context.tree->source->text().substr(
-            all.back().range.begin, own.begin - all.back().range.begin);
+        all.back().file == context_.tree->source && all.back().range.begin < own.begin &&
+        context_.tree->tokens[name - 1].kind == TokenKind::Semicolon) {
+        const std::string_view between =
+            context_.tree->source->text().substr(all.back().range.begin, own.begin - all.back().range.begin);
         if (between.find('\n') == std::string_view::npos) return true;
     }
     data_.ensureData(*data);
     const SourceRange sign = range(name + 1);
     const TokenIndex part = name + 2;
-    if (state_.context.tree->tokens[name + 1].kind != TokenKind::Semicolon || !isName(part) ||
+    if (context_.tree->tokens[name + 1].kind != TokenKind::Semicolon || !isName(part) ||
         sign.begin != own.end || range(part).begin != sign.end || data->type.rank > 0 ||
         data->type.type->kind != TypeKind::Record || scopes_.lookup(idOf(part)) ||
-        places_.findComponent(*data->type.type, state_.context.tree->text(part)) < 0)
+        places_.findComponent(*data->type.type, context_.tree->text(part)) < 0)
         return false;
-    report(Code::UnexpectedToken, sign, {"';'", "'.' before a component"}).fix(sign, ".");
+    report(say::UnexpectedToken, sign, {"';'", "'.' before a component"}).fix(sign, ".");
     scopes_.declareUnknown(idOf(part));
     return true;
 }
@@ -509,11 +504,11 @@ bool Statements::isCutBySemicolon(const Symbol& symbol, TokenIndex name) {
 void Statements::reportNotCallable(const Symbol& symbol, TokenIndex name) {
     const auto* routine = asRoutine(const_cast<Symbol*>(&symbol));
     if (routine && routine->routineKind == RoutineKind::Func)
-        noteDeclared(report(Code::FunctionAsInstruction, range(name), {text(name)}), symbol);
+        noteDeclared(report(say::FunctionAsInstruction, range(name), {text(name)}), symbol);
     else if (routine)
-        noteDeclared(report(Code::TrapCalled, range(name), {text(name)}), symbol);
+        noteDeclared(report(say::TrapCalled, range(name), {text(name)}), symbol);
     else if (!isCutBySemicolon(symbol, name))
-        noteDeclared(report(Code::NotAProcedure, range(name), {text(name), describe(symbol)}), symbol);
+        noteDeclared(report(say::NotAProcedure, range(name), {text(name), describe(symbol)}), symbol);
 }
 
 } // namespace rapid::sema

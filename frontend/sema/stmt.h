@@ -9,6 +9,7 @@ class Statements : CheckerPart {
   public:
     Statements(State& state, const Parts& parts);
 
+    /// Whether the end of the list can be reached.
     bool statements(syntax::StmtList list);
 
   private:

@@ -3,7 +3,6 @@
 
 #include "frontend/sema/stmt_flow.h"
 #include "frontend/sema/expr.h"
-#include "frontend/sema/parts.h"
 #include "frontend/sema/place.h"
 #include "frontend/sema/remedies.h"
 #include "frontend/sema/scopes.h"
@@ -21,23 +20,23 @@ FlowStatements::FlowStatements(State& state, const Parts& parts)
       scopes_(parts.scopes), unknown_(parts.unknown) {}
 
 void FlowStatements::returnStmt(const ReturnStmt& s) {
-    const RoutineSymbol& routine = *state_.context.routine;
-    if (state_.routine.part == Part::Undo) {
+    const RoutineSymbol& routine = *context_.routine;
+    if (routine_.part == Part::Undo) {
         if (s.value) expressions_.visitLoose(*s.value);
-        report(Code::IgnoredInUndo, range(s.first), {"RETURN"});
+        report(say::IgnoredInUndo, range(s.first), {"RETURN"});
         return;
     }
-    state_.routine.returnSeen = true;
+    routine_.returnSeen = true;
     if (routine.routineKind != RoutineKind::Func) {
         if (!s.value) return;
         expressions_.visitLoose(*s.value);
         if (s.value->kind == NodeKind::ErrorExpr) return;
-        report(Code::ReturnValueUnexpected, range(*s.value),
+        report(say::ReturnValueUnexpected, range(*s.value),
                {routine.name, routine.routineKind == RoutineKind::Proc ? "procedure" : "trap routine"});
         return;
     }
     if (!s.value) {
-        report(Code::ReturnWithoutValue, range(s.first), {routine.name, typeName(routine.returnType)});
+        report(say::ReturnWithoutValue, range(s.first), {routine.name, typeName(routine.returnType)});
         return;
     }
     if (routine.returnType.type->kind == TypeKind::Error) {
@@ -48,28 +47,28 @@ void FlowStatements::returnStmt(const ReturnStmt& s) {
     if (expressions_.fits(*s.value, t, routine.returnType)) return;
     const auto names = typeNames(t.info->type, routine.returnType);
     const Remedy remedy = remedies_.remedyFor(*s.value, t.info->type, routine.returnType);
-    remedies_.offer(report(Code::ReturnType, range(*s.value), {names[0], names[1], routine.name}), *s.value,
+    remedies_.offer(report(say::ReturnType, range(*s.value), {names[0], names[1], routine.name}), *s.value,
                     remedy);
 }
 
 void FlowStatements::checkErrorNumber(const Expr& e, const char* what) {
     const Typed t = expressions_.expr(e);
-    if (t.isError() || expressions_.fits(e, t, {state_.program.num, 0, {}})) return;
-    report(Code::ErrorNumberType, range(e), {what, typeName(*t.info)});
+    if (t.isError() || expressions_.fits(e, t, {program_.num, 0, {}})) return;
+    report(say::ErrorNumberType, range(e), {what, typeName(*t.info)});
 }
 
 void FlowStatements::raiseStmt(const RaiseStmt& s) {
-    if (state_.routine.part == Part::Undo) {
+    if (routine_.part == Part::Undo) {
         if (s.value) expressions_.visitLoose(*s.value);
-        report(Code::IgnoredInUndo, range(s.first), {"RAISE"});
+        report(say::IgnoredInUndo, range(s.first), {"RAISE"});
         return;
     }
     if (!s.value) {
-        if (state_.routine.part != Part::Error) report(Code::RaiseWithoutNumber, range(s.first));
+        if (routine_.part != Part::Error) report(say::RaiseWithoutNumber, range(s.first));
         return;
     }
     checkErrorNumber(*s.value, "RAISE");
-    if (!mayBeErrorNumber(*s.value)) report(Code::RaiseRange, range(*s.value), {valueText(*s.value)});
+    if (!mayBeErrorNumber(*s.value)) report(say::RaiseRange, range(*s.value), {valueText(*s.value)});
 }
 
 // A constant is ERR_..., or a number that programs may raise; of others the value shows at run time.
@@ -83,7 +82,7 @@ bool FlowStatements::mayBeErrorNumber(const Expr& e) {
 
 void FlowStatements::checkListedError(const Expr& e) {
     checkErrorNumber(e, "ERROR");
-    if (!mayBeErrorNumber(e)) report(Code::ListedErrorNumber, range(e), {valueText(e)});
+    if (!mayBeErrorNumber(e)) report(say::ListedErrorNumber, range(e), {valueText(e)});
 }
 
 // "CONNECT trap WITH interrupt;"
@@ -93,7 +92,7 @@ bool FlowStatements::reportConnectSwapped(const ConnectStmt& s) {
     const RoutineSymbol* trap = isName(first) ? asRoutine(scopes_.lookup(idOf(first))) : nullptr;
     if (!trap || trap->routineKind != RoutineKind::Trap || !asData(scopes_.lookup(idOf(s.trap))))
         return false;
-    report(Code::ArgumentsSwapped, range(first), {"interrupt", "trap routine", "CONNECT"})
+    report(say::ArgumentsSwapped, range(first), {"interrupt", "trap routine", "CONNECT"})
         .fixes.push_back(
             {"let them change places", {{range(first), text(s.trap)}, {range(s.trap), text(first)}}});
     return true;
@@ -112,17 +111,17 @@ void FlowStatements::connectStmt(const ConnectStmt& s) {
         return;
     }
     if (symbol) {
-        noteDeclared(report(Code::NotATrap, range(s.trap), {text(s.trap), describe(*symbol)}), *symbol);
+        noteDeclared(report(say::NotATrap, range(s.trap), {text(s.trap), describe(*symbol)}), *symbol);
         return;
     }
-    unknown_.reportUnknown(Code::UnknownTrap, s.trap, name, Wanted::Trap);
+    unknown_.reportUnknown(say::UnknownTrap, s.trap, name, Wanted::Trap);
 }
 
 void FlowStatements::connectTarget(const Expr& target) {
     if (!isPlaceExpr(target)) {
         expressions_.visitLoose(target);
         if (target.kind != NodeKind::PlaceholderExpr && target.kind != NodeKind::ErrorExpr)
-            report(Code::ConnectNotVariable, range(target), {describeExpr(target)});
+            report(say::ConnectNotVariable, range(target), {describeExpr(target)});
         return;
     }
     const Place found = places_.place(target);
@@ -134,20 +133,20 @@ void FlowStatements::connectTarget(const Expr& target) {
     for (const Type* t = type.type; t && type.rank == 0; t = t->aliasOf)
         isIntnum |= t == state_.intnum;
     if (!isIntnum) {
-        report(Code::ConnectNotInterrupt, range(target), {typeName(type)});
+        report(say::ConnectNotInterrupt, range(target), {typeName(type)});
         return;
     }
     const bool parameter = root.storage == Storage::Parameter;
     const bool variable = root.storage != Storage::SystemVariable && root.storage != Storage::LoopVariable &&
                           root.dataKind == DataKind::Var;
     if (!variable) {
-        noteDeclared(report(Code::ConnectNotVariable, range(target), {describe(root)}), root);
+        noteDeclared(report(say::ConnectNotVariable, range(target), {describe(root)}), root);
         return;
     }
     scopes_.markAssigned(root);
     if (isUnknown) return;
     if (root.storage == Storage::RoutineData || (parameter && root.mode == ParamMode::In))
-        noteDeclared(report(Code::ConnectRoutineData, range(target), {root.name}), root);
+        noteDeclared(report(say::ConnectRoutineData, range(target), {root.name}), root);
 }
 
 // A built-in that orders movement; stopping one is not movement.
@@ -159,9 +158,9 @@ bool FlowStatements::movesRobot(const RoutineSymbol& routine) const {
 void FlowStatements::callInUndo(const RoutineSymbol& routine, TokenIndex name) {
     if (!routine.predefined) return;
     if (movesRobot(routine))
-        report(Code::MotionInUndo, range(name), {text(name)});
+        report(say::MotionInUndo, range(name), {text(name)});
     else if (routine.traits.has(Trait::IgnoredInUndo))
-        report(Code::IgnoredInUndo, range(name), {text(name)});
+        report(say::IgnoredInUndo, range(name), {text(name)});
 }
 
 } // namespace rapid::sema

@@ -10,8 +10,11 @@ class FlowStatements : CheckerPart {
   public:
     FlowStatements(State& state, const Parts& parts);
 
+    /// A number in ERROR (...).
     void checkListedError(const syntax::Expr& e);
+    /// Whether a built-in orders movement; stopping one is not movement.
     bool movesRobot(const RoutineSymbol& routine) const;
+    /// Stops, raised errors and movement are not for UNDO handlers (manual 1.13).
     void callInUndo(const RoutineSymbol& routine, syntax::TokenIndex name);
     void returnStmt(const syntax::ReturnStmt& s);
     void raiseStmt(const syntax::RaiseStmt& s);

@@ -58,11 +58,11 @@ Suggestions::Suggestions(State& state, const Parts& parts)
 // "v110" and "z25": of speeds and zones, the next ones that are predefined.
 std::string Suggestions::inSeries(std::string_view written) {
     const long wanted = numberInSeries(written);
-    if (wanted < 0 || state_.task.comparisonsLeft < state_.predefined.size()) return {};
-    state_.task.comparisonsLeft -= state_.predefined.size();
+    if (wanted < 0 || task_.comparisonsLeft < state_.predefined.size()) return {};
+    task_.comparisonsLeft -= state_.predefined.size();
     std::string_view below, above;
     for (const Symbol* symbol : state_.predefined) {
-        const std::string_view other = symbol ? state_.names.folded(symbol->nameId) : std::string_view();
+        const std::string_view other = symbol ? names_.folded(symbol->nameId) : std::string_view();
         const long number = other.starts_with(written[0]) ? numberInSeries(other) : -1;
         if (number < 0) continue;
         if (number < wanted && (below.empty() || number > numberInSeries(below))) below = other;
@@ -76,14 +76,14 @@ std::string Suggestions::inSeries(std::string_view written) {
 
 Suggestion Suggestions::suggestion(NameId name, Wanted wanted) {
     facts().open = true;
-    const size_t names = state_.task.globals.size() + state_.predefined.size() +
-                         state_.scopes[state_.context.module->id]->names.size();
-    if (state_.task.comparisonsLeft < names) return {};
-    state_.task.comparisonsLeft -= names;
-    const std::string_view written = state_.names.folded(name);
+    const NameMap<Symbol>& own = state_.scopes[context_.module->id]->names;
+    const size_t names = task_.globals.size() + state_.predefined.size() + own.size();
+    if (task_.comparisonsLeft < names) return {};
+    task_.comparisonsLeft -= names;
+    const std::string_view written = names_.folded(name);
     for (const ForeignName& foreign : kForeignNames) {
         if (foreign.folded != written) continue;
-        const Symbol* meant = at(state_.predefined, state_.names.intern(foreign.meant));
+        const Symbol* meant = at(state_.predefined, names_.intern(foreign.meant));
         if (meant && isWanted(*meant, wanted) && scopes_.lookup(meant->nameId) == meant)
             return {meant->name, false};
     }
@@ -106,19 +106,18 @@ Suggestion Suggestions::suggestion(NameId name, Wanted wanted) {
     };
     const auto considerSymbol = [&](const Symbol* symbol) {
         if (symbol && symbol->nameId != name && !symbol->name.empty() && isWanted(*symbol, wanted))
-            consider(state_.names.folded(symbol->nameId), symbol->name, false, symbol);
+            consider(names_.folded(symbol->nameId), symbol->name, false, symbol);
     };
-    if (state_.context.routine)
+    if (context_.routine)
         for (const NameId id : state_.declaredInRoutine)
             considerSymbol(at(state_.routineNames, id));
     scope = 1;
-    state_.scopes[state_.context.module->id]->names.forEach(
-        [&](NameId, const Symbol* symbol) { considerSymbol(symbol); });
+    own.forEach([&](NameId, const Symbol* symbol) { considerSymbol(symbol); });
     scope = 2;
-    for (const Symbol* symbol : state_.task.globals)
+    for (const Symbol* symbol : task_.globals)
         considerSymbol(symbol);
     scope = 3;
-    for (const DataSymbol* symbol : state_.task.configured)
+    for (const DataSymbol* symbol : task_.configured)
         considerSymbol(symbol);
     // A name of one to three letters is near to everything of that length.
     scope = 4;
@@ -150,8 +149,8 @@ std::string Suggestions::deeperComponent(const Type& record, std::string_view na
 
 const Type::Component* Suggestions::nearComponent(const Type& record, std::string_view name) {
     const std::vector<Type::Component>& components = record.base()->components;
-    if (state_.routine.partComparisonsLeft < components.size()) return nullptr;
-    state_.routine.partComparisonsLeft -= components.size();
+    if (routine_.partComparisonsLeft < components.size()) return nullptr;
+    routine_.partComparisonsLeft -= components.size();
     unsigned limit = suggestionLimit(name.size());
     const Type::Component* best = nullptr;
     for (const Type::Component& c : components) {
@@ -164,14 +163,14 @@ const Type::Component* Suggestions::nearComponent(const Type& record, std::strin
 }
 
 const DataSymbol* Suggestions::nearOptional(const RoutineSymbol& routine, NameId name) {
-    if (state_.routine.partComparisonsLeft < routine.params.size()) return nullptr;
-    state_.routine.partComparisonsLeft -= routine.params.size();
-    const std::string_view written = state_.names.folded(name);
+    if (routine_.partComparisonsLeft < routine.params.size()) return nullptr;
+    routine_.partComparisonsLeft -= routine.params.size();
+    const std::string_view written = names_.folded(name);
     unsigned limit = suggestionLimit(written.size());
     const DataSymbol* best = nullptr;
     for (const DataSymbol* param : routine.params) {
         if (!param->optional) continue;
-        const unsigned distance = editDistance(written, state_.names.folded(param->nameId), limit);
+        const unsigned distance = editDistance(written, names_.folded(param->nameId), limit);
         if (distance > limit || (best && distance == limit)) continue;
         best = param;
         limit = distance;

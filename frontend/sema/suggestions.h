@@ -19,10 +19,13 @@ class Suggestions : CheckerPart {
     Suggestions(State& state, const Parts& parts);
 
     bool isWanted(const Symbol& symbol, Wanted wanted) const;
+    /// The nearest name that is wanted here.
     Suggestion suggestion(NameId name, Wanted wanted);
+    /// "v110", "z25": the end of a message with the predefined speeds or zones next to it; else empty.
     std::string inSeries(std::string_view written);
     /// "trans.z" for "z", when one part of the parts of a record is named so; empty when none or several are.
     std::string deeperComponent(const Type& record, std::string_view name);
+    /// Null: none is near.
     const Type::Component* nearComponent(const Type& record, std::string_view name);
     const DataSymbol* nearOptional(const RoutineSymbol& routine, NameId name);
 

@@ -13,9 +13,12 @@ class UnknownNames : CheckerPart {
   public:
     UnknownNames(State& state, const Parts& parts);
 
+    /// False: a declaration of the name may be there that could not be read.
     bool mayReportUnknown(NameId name);
-    Meant reportUnknown(Code code, syntax::TokenIndex token, NameId name, Wanted wanted,
+    /// Reports `message`, or rather that the name is LOCAL elsewhere or may be declared in a module that is missing.
+    Meant reportUnknown(diag::Message<2> message, syntax::TokenIndex token, NameId name, Wanted wanted,
                         std::string_view otherHint = {});
+    /// An unknown name as data: a signal where one is expected or where it is used as one elsewhere, otherwise an error.
     Symbol* reportUnknownData(syntax::TokenIndex token, NameId name, const Type* handle);
 
   private:

@@ -8,7 +8,7 @@ namespace rapidc {
 using rapid::SourceFile;
 using rapid::SourceRange;
 using rapid::config::CfgProblem;
-using rapid::diag::Code;
+namespace say = rapid::diag::say;
 
 namespace {
 
@@ -30,7 +30,7 @@ void reportConfigurationProblems(rapid::diag::Sink& sink, const std::string& nam
     for (const CfgProblem& problem : problems) {
         if (problem.file != name) continue;
         if (!file) file = std::make_shared<const SourceFile>(name, text);
-        sink.report(problem.warning ? Code::ConfigurationDoubt : Code::ConfigurationProblem, file,
+        sink.report(problem.warning ? say::ConfigurationDoubt : say::ConfigurationProblem, file,
                     lineRange(*file, problem.line), {problem.message});
     }
 }

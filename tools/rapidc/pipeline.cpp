@@ -48,7 +48,7 @@ std::string lower(std::string text) {
 bool isForeign(Compilation& compilation, const std::string& path, const std::string& text,
                const rt::CfgFile& cfg) {
     if (!cfg.domain.empty()) return false;
-    compilation.sink.report(diag::Code::ForeignConfiguration, std::make_shared<rapid::SourceFile>(path, text),
+    compilation.sink.report(diag::say::ForeignConfiguration, std::make_shared<rapid::SourceFile>(path, text),
                             {}, {fs::path(path).filename().string()});
     return true;
 }
@@ -178,7 +178,7 @@ void checkRobot(Compilation& compilation, const std::string& option) {
     }
     if (robot.empty()) return;
     if (const auto model = robot::loadRobotModel(robot); !model)
-        compilation.sink.report(diag::Code::RobotUnknown, nullptr, {},
+        compilation.sink.report(diag::say::RobotUnknown, nullptr, {},
                                 {robot, "name one of the known models with --robot to run the program"});
 }
 
@@ -212,7 +212,7 @@ class UnimplementedCalls {
         for (const auto& [name, use] : uses_) {
             const size_t more = use.count - 1;
             sink.report(
-                diag::Code::BuiltinNotImplemented, use.file, use.first,
+                diag::say::BuiltinNotImplemented, use.file, use.first,
                 {name, more == 0 ? std::string()
                                  : fmt::format(", here and in {} more place{}", more, more == 1 ? "" : "s")});
         }
@@ -284,7 +284,7 @@ void assumeSignals(Compilation& compilation) {
     if (signals.empty()) return;
     compilation.configNames.emplace_back("(assumed signals)");
     compilation.configTexts.push_back(writeSignals(signals));
-    compilation.sink.report(diag::Code::SignalsAssumed, nullptr, {}, {describeSignals(signals)});
+    compilation.sink.report(diag::say::SignalsAssumed, nullptr, {}, {describeSignals(signals)});
     for (const UsedSignal& signal : signals)
         compilation.options.signals.push_back({signal.name, "signal" + lower(signal.type)});
 }
@@ -411,7 +411,7 @@ namespace {
 /// False when there are any.
 bool reportFindings(const std::vector<std::string>& findings, diag::Sink& sink) {
     for (const std::string& finding : findings)
-        sink.report(diag::Code::InternalIr, nullptr, {}, {finding});
+        sink.report(diag::say::InternalIr, nullptr, {}, {finding});
     return findings.empty();
 }
 } // namespace
