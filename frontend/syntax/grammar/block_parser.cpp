@@ -34,8 +34,8 @@ Stmt* BlockParser::parseIf() {
     const bool isBlock = hidden || kind() == K::KwThen || kind() == K::Colon || kind() == K::LeftBrace ||
                          (kind() == K::KwDo && startsLine(pos() + 1));
     if (isBlock || ahead().findOnLine(pos(), K::KwThen, found))
-        return parseIfBlocks(opening, condition, hidden);
-    if (isBlockByMargin(opening)) return parseIfBlocks(opening, condition, true);
+        return parseIfBranches(opening, condition, hidden);
+    if (isBlockByMargin(opening)) return parseIfBranches(opening, condition, true);
     if (kind() == K::KwCase && startsLine(pos()) && !panic() && kindAt(opening) == K::KwIf) { // IF n, CASE 1:
         typos().readAsKeyword(opening, opening, K::KwTest);
         return parseTestCases(opening, condition, true);
@@ -54,8 +54,8 @@ Stmt* BlockParser::parseCompactIf(TokenIndex opening, Expr* condition) {
         const K k = kind();
         const bool canStart = k == K::PlaceVar || k == K::PlaceSmt || k == K::Identifier ||
                               (!kListStops.has(k) && k != K::Semicolon);
-        if (canStart && (!startsExpr(k) || isName(k) || k == K::PlaceVar)) {
-            node->body = instructions().parseStmt();
+        if (canStart && (!startsExpression(k) || isName(k) || k == K::PlaceVar)) {
+            node->body = instructions().parseInstruction();
             if (kind() == K::KwElse) parseElseOfCompact(opening);
             return finish(node);
         }
@@ -63,7 +63,7 @@ Stmt* BlockParser::parseCompactIf(TokenIndex opening, Expr* condition) {
         if (kind() != K::Error)
             reportAt(Code::MissingBlockWord, place, {describe(pos()), "THEN or an instruction"});
     }
-    if (!kListStops.has(kind())) sync().syncStatement();
+    if (!kListStops.has(kind())) sync().skipInstruction();
     endPanic();
     node->body = instructions().errorStmt(bodyFirst);
     return finish(node);
@@ -106,11 +106,11 @@ void BlockParser::parseElseOfCompact(TokenIndex opening) {
         return;
     }
     take();
-    if (!kListStops.has(kind()) || kind() == K::Identifier) instructions().parseStmt();
+    if (!kListStops.has(kind()) || kind() == K::Identifier) instructions().parseInstruction();
     if (kind() == K::KwEndif && !startsLine(pos())) take();
 }
 
-Stmt* BlockParser::parseIfBlocks(TokenIndex opening, Expr* condition, bool headRead) {
+Stmt* BlockParser::parseIfBranches(TokenIndex opening, Expr* condition, bool headRead) {
     const Restore restore(block().opening);
     block().opening = opening;
     auto* node = make<IfStmt>(NodeKind::If);
@@ -272,7 +272,7 @@ Stmt* BlockParser::parseWhile(TokenIndex opening) {
     if (!panic() && kind() == K::KwThen &&
         kIfEnds.has(kindAt(block().unmatchedWord(pos() + 1)))) { // WHILE a THEN ... ENDIF
         typos().readAsKeyword(opening, opening, K::KwIf);
-        return parseIfBlocks(opening, condition, false);
+        return parseIfBranches(opening, condition, false);
     }
     if (!hidden && kind() != K::LeftBrace) whole = sync().expectHeadWord(K::KwDo, whole);
     return parseWhileBody(opening, condition, whole);
@@ -314,12 +314,12 @@ Stmt* BlockParser::parseTestCases(TokenIndex opening, Expr* subject, bool whole)
             fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "CASE"}), range(pos()), "");
         take();
     }
-    if (panic()) sync().syncStatement();
+    if (panic()) sync().skipInstruction();
     if (!kTestEnds.has(kind()) && kind() != K::EndOfFile) {
         auto* lost = make<TestCase>(NodeKind::TestCase);
         const TokenIndex at = pos();
         const size_t errorsBefore = reports().errors();
-        lost->body = instructions().parseList(kTestEnds);
+        lost->body = instructions().parseInstructions(kTestEnds);
         if (!lost->body.empty()) {
             if (reports().errors() == errorsBefore) report(Code::InstructionOutsideCase, at);
             if (kRoutineEnds.has(kind())) whole = false; // nothing of TEST but its first line
@@ -338,7 +338,7 @@ Stmt* BlockParser::parseTestCases(TokenIndex opening, Expr* subject, bool whole)
         }
         take();
         signs().expectColonOfDefault();
-        const StmtList body = instructions().parseList(kTestEnds);
+        const StmtList body = instructions().parseInstructions(kTestEnds);
         if (!node->hasDefault) node->defaultBody = body;
         node->hasDefault = true;
     }
@@ -376,12 +376,12 @@ TestCase* BlockParser::parseCase() {
             } else if (isForColon) { // "CASE 1;"
                 take();
             } else if (panic()) {
-                sync().syncStatement();
+                sync().skipInstruction();
             }
             endPanic();
         }
     }
-    node->body = instructions().parseList(kTestEnds);
+    node->body = instructions().parseInstructions(kTestEnds);
     return finish(node);
 }
 
@@ -394,7 +394,8 @@ Expr* BlockParser::parseHeadExpr(bool& whole, HeadPart part) {
         return expressions().errorExpr();
     }
     const bool outer = std::exchange(block().inHead, true);
-    Expr* expr = part == HeadPart::Condition ? expressions().parseCondition() : expressions().parseExpr();
+    Expr* expr =
+        part == HeadPart::Condition ? expressions().parseCondition() : expressions().parseExpression();
     block().inHead = outer;
     if (panic() && (startsLine(pos()) || kind() == K::EndOfFile)) {
         whole = false;

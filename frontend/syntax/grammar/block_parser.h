@@ -14,7 +14,7 @@ class BlockParser : public ParserPart {
 
     Stmt* parseIf();
     /// `headRead`: THEN has been lost in a comment, or its absence reported.
-    Stmt* parseIfBlocks(TokenIndex opening, Expr* condition, bool headRead);
+    Stmt* parseIfBranches(TokenIndex opening, Expr* condition, bool headRead);
     Stmt* parseFor();
     Stmt* parseWhile();
     /// Behind the word, which has been read.

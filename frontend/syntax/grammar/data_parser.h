@@ -21,7 +21,7 @@ class DataParser : public ParserPart {
 
   private:
     void parseDataTail(DataDecl* node, bool nameMissing, bool ofModule);
-    void parseDimensionsOf(DataDecl* node, bool beforeName);
+    void parseDimensions(DataDecl* node, bool beforeName);
     void noteMoreNames(const DataDecl* node);
 
     const DataDecl* moreOf_ = nullptr; ///< a declaration that goes on with another name

@@ -11,7 +11,7 @@ class Lookahead : public ParserPart {
     using ParserPart::ParserPart;
 
     /// Is this the beginning of an instruction, if a line begins here?
-    bool looksLikeStatement(TokenIndex i) const;
+    bool looksLikeInstruction(TokenIndex i) const;
     /// Does the word really begin a block or a declaration, or is it part of a sentence?
     bool opensBlock(TokenIndex i) const;
     /// Looks for a word before the statement can end; an expression may go over several lines.
@@ -26,7 +26,7 @@ class Lookahead : public ParserPart {
     bool quoteInText() const;
     /// An instruction on a line of its own, where something else should go on.
     bool beginsInstruction(bool inCase = false) const;
-    bool startsDecl(TokenIndex i) const;
+    bool startsDeclaration(TokenIndex i) const;
     /// `num x;`, `num x := 1;`: a word is missing before the data type.
     bool isWordlessData() const;
     /// `name(1) := ...`, `name[1].x := ...`

@@ -26,8 +26,8 @@ void ParameterParser::parseParameters(RoutineDecl* routine) {
     if (!panic()) return;
     routine->broken = true; // calls are not judged
     endPanic();             // the header ends with its line
-    while (kind() != K::EndOfFile &&
-           !(startsLine(pos()) && (ahead().startsDecl(pos()) || ahead().looksLikeStatement(pos())))) {
+    while (kind() != K::EndOfFile && !(startsLine(pos()) && (ahead().startsDeclaration(pos()) ||
+                                                             ahead().looksLikeInstruction(pos())))) {
         if (kind() == K::RightParen && startsLine(pos() + 1)) {
             take();
             return;
@@ -164,7 +164,7 @@ ParamDecl* ParameterParser::parseParameter(bool optional, uint32_t group) {
     if (!panic() && (kind() == K::Assign || kind() == K::Equal)) {
         report(Code::ParameterValue, pos(), {std::string(textOf(node->name))});
         take();
-        expressions().parseExpr();
+        expressions().parseExpression();
     }
     return finish(node);
 }

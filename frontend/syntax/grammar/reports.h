@@ -22,6 +22,7 @@ enum class Mark : uint8_t {
     RunTogether,            ///< the word of a declaration that what follows has run into
     EarlySemicolon,         ///< the place after an operand whose semicolon is before it
     BehindBadNumber,        ///< the place after a number that could not be read
+    BlockOfCompactIf,       ///< an IF without THEN whose block is closed below; reported
     ColonGiven,             ///< an ELSE read as DEFAULT, reported together with its missing colon
     Count
 };

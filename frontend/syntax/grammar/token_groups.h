@@ -73,7 +73,7 @@ inline constexpr TokenSet kExprStart = {
     TokenKind::LeftParen,  TokenKind::PlaceId,    TokenKind::LeftBracket,   TokenKind::PlaceExp,
     TokenKind::PlaceVar,   TokenKind::Error};
 
-inline bool startsExpr(TokenKind kind) {
+inline bool startsExpression(TokenKind kind) {
     return kExprStart.has(kind);
 }
 inline bool isName(TokenKind kind) {

@@ -19,7 +19,7 @@ Decl* TypeParser::parseRecord(bool local, TokenIndex first) {
     if (!startsLine(pos())) torn().takeTornName(node->name, {}, true);
     if (panic() || kind() == K::Semicolon) {
         if (!panic()) unexpected("a component");
-        sync().syncStatement();
+        sync().skipInstruction();
     }
     const bool braced = kind() == K::LeftBrace;
     if (braced) {
@@ -40,7 +40,7 @@ Decl* TypeParser::parseRecord(bool local, TokenIndex first) {
             typos().readAsKeyword(pos(), pos(), K::KwEndrecord);
             break;
         }
-        if (ahead().startsDecl(pos()) && !dropComponentWord()) break;
+        if (ahead().startsDeclaration(pos()) && !dropComponentWord()) break;
         if (kind() == K::KwEndmodule || kRoutineEnds.has(kind())) break;
         const TokenIndex before = pos();
         if (isName(kind())) {
@@ -48,7 +48,7 @@ Decl* TypeParser::parseRecord(bool local, TokenIndex first) {
         } else {
             unexpected("a component or ENDRECORD");
             take();
-            sync().syncStatement();
+            sync().skipInstruction();
         }
         if (pos() == before) take();
     }
@@ -64,7 +64,7 @@ Decl* TypeParser::parseRecord(bool local, TokenIndex first) {
     // An END word of a routine below RECORD was meant as its end.
     constexpr TokenSet kWrong = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
     if (kWrong.has(kind()) && startsLine(pos()) && columnOf(pos()) == indentOf(opening)) mark(Mark::WrongEnd);
-    if (kind() == K::KwEndmodule && ahead().startsDecl(pos() + 1) && peek() != K::KwModule)
+    if (kind() == K::KwEndmodule && ahead().startsDeclaration(pos() + 1) && peek() != K::KwModule)
         mark(Mark::WrongEnd);
     ends().closeBlock(K::KwEndrecord, opening, node->name != kNoToken || !node->components.empty());
     return finish(node);
@@ -95,9 +95,10 @@ RecordComponent* TypeParser::parseComponent() {
         report(Code::ComponentArray, pos(), {std::string(textOf(node->name))});
         startPanic();
     }
-    sync().endStatement(kind() == K::Comma                          ? "';': a component has one name"
-                        : kind() == K::Assign || kind() == K::Equal ? "';': a component has no initial value"
-                                                                    : "';'");
+    sync().endInstruction(kind() == K::Comma ? "';': a component has one name"
+                          : kind() == K::Assign || kind() == K::Equal
+                              ? "';': a component has no initial value"
+                              : "';'");
     return finish(node);
 }
 
@@ -109,7 +110,7 @@ Decl* TypeParser::parseAlias(bool local, TokenIndex first) {
     node->type = names().expectName();
     if (!panic()) node->name = names().expectName();
     names().checkNameLength(node->name);
-    sync().endStatement(
+    sync().endInstruction(
         kind() == K::LeftBrace ? "';': an alias names a type, arrays are declared with their data" : "';'");
     return finish(node);
 }

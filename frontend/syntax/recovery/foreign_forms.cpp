@@ -56,7 +56,7 @@ bool ForeignForms::endsForeignBlock() {
     block().foreignCloser.remove_prefix(length == std::string_view::npos ? block().foreignCloser.size()
                                                                          : length + 1);
     take();
-    if (!startsLine(pos())) sync().syncStatement();
+    if (!startsLine(pos())) sync().skipInstruction();
     return true;
 }
 
@@ -72,7 +72,7 @@ bool ForeignForms::isForeignCloser(TokenIndex i) const {
 
 StmtList ForeignForms::parseBody(const TokenSet& own, const std::string& expected, bool& braced) {
     if ((kind() == K::LeftBrace && recovery().repair(Place::Braces)) || kind() != K::LeftBrace || panic())
-        return instructions().parseList(own);
+        return instructions().parseInstructions(own);
     if (!braced && !reports().joinLast(Code::ForeignSpelling, range(pos()), "and no '{', but " + expected))
         report(Code::ForeignSpelling, pos(), {"{", expected});
     else if (!braced && !reports().last()->fixes.empty())
@@ -80,7 +80,7 @@ StmtList ForeignForms::parseBody(const TokenSet& own, const std::string& expecte
     braced = true;
     take();
     ++block().braces;
-    const StmtList list = instructions().parseList(own, true);
+    const StmtList list = instructions().parseInstructions(own, true);
     --block().braces;
     return list;
 }

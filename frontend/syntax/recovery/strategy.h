@@ -14,6 +14,7 @@ enum class Place : uint8_t {
     ListEnd,       ///< at a name that begins an instruction: END words that were cut off
     ListWord,      ///< there: words that continue or end the list
     ListBrace,     ///< at '}' there
+    StrayWord,     ///< at a word that ends a list of instructions, but not this one
     Instruction,   ///< at the first of two names that begin an instruction
     Comment,       ///< at the first token of an instruction: text without '!'
     Braces,        ///< at '{' where a block may begin
@@ -32,9 +33,9 @@ enum class Place : uint8_t {
 /// The place, and what the parser knows there.
 struct Situation {
     Place place;
-    TokenSet own = {};            ///< ListEnd, ListWord, ListBrace: the words that continue or end the list
-    const Expr* left = nullptr;   ///< Operator: the operand
-    TokenIndex callee = kNoToken; ///< AfterCall
+    TokenSet own = {}; ///< ListEnd, ListWord, ListBrace, StrayWord: the words that continue or end the list
+    const Expr* left = nullptr;                ///< Operator: the operand
+    TokenIndex callee = kNoToken;              ///< AfterCall
     TokenKind expected = TokenKind::EndOfFile; ///< Word: the keyword; ListSeparator: the closing bracket
 };
 
@@ -45,14 +46,19 @@ struct Repair {
     /// What the tokens `first` to `last` are read as, in the place of `last`. Error: they are left out.
     TokenKind as = TokenKind::Error;
     TokenIndex next = 0; ///< where the parser reads on
-    /// MisspeltKeyword needs nothing of the following: MisspeltWords::readAsKeyword() reports it.
+    /// Reported without `args`: what MisspeltWords::readAsKeyword() says.
     diag::Code code = diag::Code::MisspeltKeyword;
     SourceRange range = {};
     std::vector<std::string> args = {};
     std::optional<TextEdit> edit = {}; ///< of the text
     bool certain = true;
-    bool unclear = false;          ///< nothing follows from names and types in the line
-    std::optional<Mark> mark = {}; ///< of `first`
+    bool silent = false;   ///< it is reported where the consequence shows
+    bool endsList = false; ///< StrayWord: the list ends here
+    TokenIndex noteAt = kNoToken;
+    std::string note = {};
+    bool unclear = false; ///< nothing follows from names and types in the line
+    std::optional<Mark> mark = {};
+    TokenIndex marked = kNoToken; ///< what has the mark; `first` unless given
 };
 
 /// One kind of mistake. Strategies have no state; what they look at is bounded by Lookahead and BlockContext.
@@ -92,23 +98,26 @@ class StrategyTable {
     std::array<std::vector<std::unique_ptr<RecoveryStrategy>>, static_cast<size_t>(Place::Count)> places_;
 };
 
-void addWordStrategies(StrategyTable& table, Parser& parser);     ///< misspelt and foreign keywords
-void addListWordStrategies(StrategyTable& table, Parser& parser); ///< words that continue or end a list
-void addSignStrategies(StrategyTable& table, Parser& parser);     ///< punctuation, operators, comments
+void addWordStrategies(StrategyTable& table, Parser& parser);      ///< misspelt and foreign keywords
+void addListWordStrategies(StrategyTable& table, Parser& parser);  ///< words that continue or end a list
+void addStrayWordStrategies(StrategyTable& table, Parser& parser); ///< words that end no list here
+void addSignStrategies(StrategyTable& table, Parser& parser);      ///< punctuation, operators, comments
 
-/// Asks the strategies of a place. The cheapest proposal wins, of equal ones that of the earlier strategy.
+/// Asks the strategies of a place. The cheapest proposal wins, of equal ones that of the earlier strategy; none is
+/// cheaper than 1.
 class Recovery : public ParserPart {
   public:
     using ParserPart::ParserPart;
 
-    /// False when no strategy explains the mistake. Otherwise it is reported and the tokens are edited; the parser looks
-    /// again at the current one.
-    bool repair(const Situation& at);
-    bool repair(Place place) { return repair(Situation{.place = place}); }
+    /// Null when no strategy explains the mistake. Otherwise it is reported and the tokens are edited; the parser looks
+    /// again at the current one. The pointer is good until the next call.
+    const Repair* repair(const Situation& at);
+    const Repair* repair(Place place) { return repair(Situation{.place = place}); }
 
   private:
     void apply(const Repair& repair);
 
+    std::optional<Repair> applied_;
     std::unique_ptr<StrategyTable> table_; ///< made when the first one is needed
 };
 

@@ -10,9 +10,9 @@ class Synchronizer : public ParserPart {
   public:
     using ParserPart::ParserPart;
 
-    void endStatement(std::string_view expected = "';'");
+    void endInstruction(std::string_view expected = "';'");
     /// Skips to the end of the instruction: its semicolon, or a line that begins like another one.
-    void syncStatement();
+    void skipInstruction();
     void expectWord(K word);
     /// FROM, TO, DO, THEN in the head of a block that may be broken already: then nothing more is missed in it. Returns
     /// false when the head ends without the word; an unfinished word at the end of the line is skipped.

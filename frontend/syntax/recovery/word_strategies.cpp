@@ -165,7 +165,7 @@ class MisspeltNot : public OperatorStrategy {
     using OperatorStrategy::OperatorStrategy;
     Proposal propose(const Situation& at) const override {
         const TokenIndex first = at.left->first;
-        if (at.left->kind != NodeKind::Name || startsLine(pos()) || !startsExpr(kind()) ||
+        if (at.left->kind != NodeKind::Name || startsLine(pos()) || !startsExpression(kind()) ||
             !typos().isShuffled(first, K::KwNot))
             return {};
         const bool bound =
@@ -178,7 +178,8 @@ class MisspeltNot : public OperatorStrategy {
 class MisspeltOperator : public OperatorStrategy {
     using OperatorStrategy::OperatorStrategy;
     Proposal propose(const Situation&) const override {
-        if (kind() != K::Identifier || startsLine(pos()) || startsLine(pos() + 1) || !startsExpr(peek()))
+        if (kind() != K::Identifier || startsLine(pos()) || startsLine(pos() + 1) ||
+            !startsExpression(peek()))
             return {};
         const bool isCall = peek() == K::LeftParen && range(pos()).end == range(pos() + 1).begin;
         if (isCall || !goesOn()) return {};
@@ -195,7 +196,7 @@ class MisspeltOperator : public OperatorStrategy {
 class PercentForMod : public OperatorStrategy {
     using OperatorStrategy::OperatorStrategy;
     Proposal propose(const Situation&) const override {
-        if (kind() != K::Percent || block().inLateName || startsLine(pos()) || !startsExpr(peek()) ||
+        if (kind() != K::Percent || block().inLateName || startsLine(pos()) || !startsExpression(peek()) ||
             !goesOn())
             return {};
         const bool before = range(pos() - 1).end == range(pos()).begin;
