@@ -87,7 +87,8 @@ void DataParser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) 
         } else if (accept(K::Assign)) {
             if (ofModule) node->init = expressions().parsePlainAggregate();
             if (!node->init) node->init = expressions().parseExpression();
-        } else if (node->dataKind == DataKind::Const && !options().declarations && kind() == K::Semicolon) {
+        } else if (node->dataKind == DataKind::Const && !parser().options.declarations &&
+                   kind() == K::Semicolon) {
             report(Code::ConstantWithoutValue, node->name, {std::string(textOf(node->name))});
         }
     }

@@ -414,7 +414,7 @@ Expr* ExpressionParser::parsePlainAggregate() {
     TokenIndex last = pos();
     uint8_t shape = AggregateExpr::kNoShape;
     if (kind() == K::LeftBracket) {
-        if (lexical().hasBadNumbers()) return nullptr;
+        if (parser().lexical.hasBadNumbers()) return nullptr;
         PlainTokens<false> pieces(tree(), pos());
         if (!skipPlainAggregate(pieces, [](PlainPiece) {})) return nullptr;
         last = static_cast<TokenIndex>(pieces.end() - &tokenAt(0)) - 1;

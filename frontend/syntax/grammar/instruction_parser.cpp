@@ -75,20 +75,24 @@ Stmt* InstructionParser::parseInstruction() {
     return errorStmt(first);
 }
 
+/// A reserved word as the target of an assignment or as a label.
+Stmt* InstructionParser::parseReservedNamed() {
+    const TokenIndex first = names().takeReservedName();
+    if (kindAt(first) == K::Identifier) {
+        moveTo(first);
+        return parseNamedInstruction();
+    }
+    if (kind() == K::Assign) return parseAssignment(expressions().errorExpr(), first);
+    take();
+    return errorStmt(first);
+}
+
 Stmt* InstructionParser::parseEffectiveInstruction() {
     const TokenIndex first = pos();
     const bool gives = kind() == K::KwReturn || kind() == K::KwRaise;
     if ((peek() == K::Assign || (peek() == K::Colon && kind() != K::KwDefault)) && isKeyword(kind()) &&
-        (!gives || startsLine(pos() + 2))) {
-        names().takeReservedName();
-        if (kindAt(first) == K::Identifier) {
-            moveTo(first);
-            return parseNamedInstruction();
-        }
-        if (kind() == K::Assign) return parseAssignment(expressions().errorExpr(), first);
-        take();
-        return errorStmt(first);
-    }
+        (!gives || startsLine(pos() + 2)))
+        return parseReservedNamed();
     switch (kind()) {
     case K::Identifier:
     case K::PlaceId: return parseNamedInstruction();
@@ -107,13 +111,9 @@ Stmt* InstructionParser::parseEffectiveInstruction() {
     case K::KwExit: return parseWordInstruction(NodeKind::Exit);
     case K::KwBreak: return parseWordInstruction(NodeKind::Break);
     case K::KwContinue: return parseWordInstruction(NodeKind::Continue);
-    case K::Semicolon: {
-        auto* node = make<SimpleStmt>(NodeKind::Empty);
-        take();
-        return finish(node);
-    }
+    case K::Semicolon:
     case K::PlaceSmt: {
-        auto* node = make<SimpleStmt>(NodeKind::PlaceholderStmt);
+        auto* node = make<SimpleStmt>(kind() == K::Semicolon ? NodeKind::Empty : NodeKind::PlaceholderStmt);
         take();
         return finish(node);
     }
@@ -166,6 +166,7 @@ Stmt* InstructionParser::parseNamedInstruction() {
         return parseColonAssignment();
     }
     case K::Identifier:
+        if (peek(2) == K::Comma) break; // a call
         if (recovery().repair(Place::Instruction)) return parseEffectiveInstruction();
         if (recovery().repair(Place::Comment)) return errorStmt(first);
         if (ahead().isWordlessData()) {

@@ -18,6 +18,7 @@ class InstructionParser : public ParserPart {
 
   private:
     bool isMisspelt(const TokenSet& own);
+    Stmt* parseReservedNamed();
     Stmt* parseEffectiveInstruction();
     Stmt* parseNamedInstruction();
     Stmt* parseNoInstruction(TokenIndex first);

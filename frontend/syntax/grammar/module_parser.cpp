@@ -28,7 +28,7 @@ uint8_t attributeOf(TokenKind kind) {
 void ModuleParser::parseFile(const LexResult& lexed) {
     expressions().setLexed(lexed);
     if (!lexed.hasModule && startsMisspeltModule()) {
-        lexical().report(lexed, reports());
+        parser().lexical.report(lexed, reports());
         accept(K::FileHeader);
         typos().readAsKeyword(pos(), pos(), K::KwModule);
     } else if (!lexed.hasModule) { // not RAPID: one report, whatever its characters are
@@ -40,8 +40,8 @@ void ModuleParser::parseFile(const LexResult& lexed) {
         }
         return;
     } else {
-        lexical().report(lexed, reports());
-        laterWords().readLaterWordsAsNames();
+        parser().lexical.report(lexed, reports());
+        LaterWords(parser()).readLaterWordsAsNames();
         accept(K::FileHeader);
     }
     for (;;) {
@@ -56,7 +56,7 @@ void ModuleParser::parseFile(const LexResult& lexed) {
             skipOutsideModule();
         }
     }
-    lexical().reportBrokenStrings();
+    parser().lexical.reportBrokenStrings();
     if (!sync().hasGoneBack()) return;
     for (ModuleDecl* module : tree().modules)
         cutOff(*module);
@@ -103,10 +103,10 @@ void ModuleParser::warnOutsideComment(TokenIndex next) {
 }
 
 Expr* ModuleParser::parseWholeExpression(const LexResult& lexed) {
-    lexical().report(lexed, reports());
+    parser().lexical.report(lexed, reports());
     Expr* result = expressions().parseExpression();
     if (kind() != K::EndOfFile && !panic()) unexpected("the end of the expression");
-    lexical().reportBrokenStrings();
+    parser().lexical.reportBrokenStrings();
     return result;
 }
 

@@ -73,10 +73,10 @@ void ParameterParser::parseParameterGroup(uint32_t group) {
     bool optional = accept(K::Backslash) || marked;
     params_.push_back(parseParameter(optional, group));
     while (!panic() && kind() == K::Bar) {
-        if (!optional && !options().declarations) report(Code::RequiredAlternative, pos());
+        if (!optional && !parser().options.declarations) report(Code::RequiredAlternative, pos());
         take();
         if (kind() == K::Backslash) {
-            if (!options().declarations)
+            if (!parser().options.declarations)
                 fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "a parameter after '|'"}),
                     range(pos()), "");
             optional = true;
@@ -105,7 +105,8 @@ bool ParameterParser::parseAccessMode(ParamDecl* node) {
         node->mode = ParamMode::Pers;
     } else if (accept(K::KwInout)) {
         node->mode = ParamMode::Inout;
-    } else if (options().declarations && isContextual(pos(), "REF") && isName(peek()) && isName(peek(2))) {
+    } else if (parser().options.declarations && isContextual(pos(), "REF") && isName(peek()) &&
+               isName(peek(2))) {
         take();
         node->mode = ParamMode::Ref;
     }

@@ -84,8 +84,6 @@ class ParserPart {
     Parser& parser() const { return parser_; }
     TreeBuilder& nodes() const { return nodes_; }
     Reports& reports() const { return reports_; }
-    LexicalMistakes& lexical() const;
-    const ParseOptions& options() const;
 #define PARSER_PART(Type, name) Type& name() const;
 #include "frontend/syntax/grammar/parser_parts.def"
 

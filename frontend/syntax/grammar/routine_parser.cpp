@@ -32,7 +32,7 @@ Decl* RoutineParser::parseRoutine(bool local, TokenIndex first) {
         node->local = true;
         take();
     }
-    if (!options().declarations) correctRoutineWord(node, opening);
+    if (!parser().options.declarations) correctRoutineWord(node, opening);
     block().routineEnd = wordsOf(node->routineKind).end;
     parseRoutineHeader(node);
     if (!panic() && kind() == K::RightParen && !startsLine(pos())) { // PROC name())
@@ -47,7 +47,7 @@ Decl* RoutineParser::parseRoutine(bool local, TokenIndex first) {
         endPanic();
         return finish(node);
     }
-    if (options().declarations && ahead().isNative()) {
+    if (parser().options.declarations && ahead().isNative()) {
         node->hasBody = false;
         return finish(node);
     }

@@ -26,38 +26,12 @@ Decl* TypeParser::parseRecord(bool local, TokenIndex first) {
         report(Code::ForeignSpelling, pos(), {"{", "a component: a record ends with ENDRECORD"});
         take();
     }
-    const size_t bottom = components_.size();
-    while (kind() != K::KwEndrecord && kind() != K::EndOfFile) {
-        if (braced && accept(K::RightBrace)) break;
-        if (isContextual(pos(), "END") && !startsLine(pos() + 1) && ahead().endsLine(pos() + 1) &&
-            (peek() == K::KwRecord || typos().foreignCloserIs(pos() + 1))) { // "END RECORD"
-            typos().readAsKeyword(pos(), pos() + 1, K::KwEndrecord);
-            take();
-            break;
-        }
-        if (kind() == K::Identifier && (ahead().endsLine(pos()) || peek() == K::Semicolon) &&
-            (equalsNoCase(textOf(pos()), "END") || typos().editsTo(pos(), K::KwEndrecord) != 0)) {
-            typos().readAsKeyword(pos(), pos(), K::KwEndrecord);
-            break;
-        }
-        if (ahead().startsDeclaration(pos()) && !dropComponentWord()) break;
-        if (kind() == K::KwEndmodule || kRoutineEnds.has(kind())) break;
-        const TokenIndex before = pos();
-        if (isName(kind())) {
-            components_.push_back(parseComponent());
-        } else {
-            unexpected("a component or ENDRECORD");
-            take();
-            sync().skipInstruction();
-        }
-        if (pos() == before) take();
-    }
-    node->components = drain(components_, bottom);
+    node->components = parseComponents(braced);
     if (braced && kindAt(pos() - 1) == K::RightBrace) {
         accept(K::KwEndrecord);
         return finish(node);
     }
-    if (node->components.empty() && kind() == K::KwEndrecord && !options().declarations &&
+    if (node->components.empty() && kind() == K::KwEndrecord && !parser().options.declarations &&
         reports().errors() == errorsBefore)
         report(Code::EmptyRecord, node->name == kNoToken ? opening : node->name,
                {std::string(textOf(node->name))});
@@ -70,17 +44,26 @@ Decl* TypeParser::parseRecord(bool local, TokenIndex first) {
     return finish(node);
 }
 
-/// "VAR num x;" in a record that is closed by ENDRECORD: the word is reported and left out.
-bool TypeParser::dropComponentWord() {
-    if (!kStorageWords.has(kind()) || !isName(peek()) || !isName(peek(2))) return false;
-    constexpr TokenIndex kSearch = 200;
-    for (TokenIndex i = pos() + 1; i < pos() + kSearch && kindAt(i) != K::KwEndrecord; ++i)
-        if (i + 1 == pos() + kSearch || kRoutineEnds.has(kindAt(i)) || kindAt(i) == K::EndOfFile)
-            return false;
-    fix(report(Code::ComponentWord, pos(), {describe(pos())}), {range(pos()).begin, range(pos() + 1).begin},
-        "");
-    take();
-    return true;
+/// Up to ENDRECORD, or to what no record has. `braced`: the list may end with '}'.
+std::span<RecordComponent*> TypeParser::parseComponents(bool braced) {
+    const size_t bottom = components_.size();
+    while (kind() != K::KwEndrecord && kind() != K::EndOfFile) {
+        if (braced && accept(K::RightBrace)) break;
+        const bool unusual = kind() == K::Identifier || kStorageWords.has(kind());
+        if (unusual && recovery().repair(Place::Component)) continue;
+        if (ahead().startsDeclaration(pos())) break;
+        if (kind() == K::KwEndmodule || kRoutineEnds.has(kind())) break;
+        const TokenIndex before = pos();
+        if (isName(kind())) {
+            components_.push_back(parseComponent());
+        } else {
+            unexpected("a component or ENDRECORD");
+            take();
+            sync().skipInstruction();
+        }
+        if (pos() == before) take();
+    }
+    return drain(components_, bottom);
 }
 
 RecordComponent* TypeParser::parseComponent() {

@@ -193,7 +193,7 @@ bool ForeignForms::parseForeignParameter(ParamDecl* node) {
 }
 
 void ForeignForms::dropForeignMode(ParamDecl* node) {
-    if (options().declarations || !isName(peek()) || !isName(peek(2))) return;
+    if (parser().options.declarations || !isName(peek()) || !isName(peek(2))) return;
     struct Mode {
         std::string_view word, expected, fix;
         ParamMode mode;

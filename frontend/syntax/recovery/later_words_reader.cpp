@@ -72,7 +72,7 @@ bool LaterWords::isNameInOldFile(TokenIndex i, bool endsAtOnce) const {
 }
 
 void LaterWords::readLaterWordsAsNames() {
-    if (!SourceFile::isLegacyFileType(tree().source->path()) || options().declarations) return;
+    if (!SourceFile::isLegacyFileType(tree().source->path()) || parser().options.declarations) return;
     for (const LaterWord& word : kLaterWords) {
         TokenIndex first = kNoToken;
         bool procedure = false;

@@ -10,6 +10,7 @@ namespace rapid::syntax {
 /// Where the grammar does not go on, or where a name may have been meant as something else.
 enum class Place : uint8_t {
     Declaration,   ///< of a module, at a name
+    Component,     ///< at a name, VAR, PERS or CONST where a component of a record begins
     Data,          ///< at a name where the data of a routine is declared
     ListEnd,       ///< at a name that begins an instruction: END words that were cut off
     ListWord,      ///< there: words that continue or end the list

@@ -89,6 +89,35 @@ class RunTogether : public RecoveryStrategy {
     }
 };
 
+/// "END RECORD", "END" and "ENDRECRD" in a record.
+class MisspeltEndrecord : public RecoveryStrategy {
+    using RecoveryStrategy::RecoveryStrategy;
+    Proposal propose(const Situation&) const override {
+        const bool end = isContextual(pos(), "END");
+        if (end && !startsLine(pos() + 1) && ahead().endsLine(pos() + 1) &&
+            (peek() == K::KwRecord || typos().foreignCloserIs(pos() + 1)))
+            return keyword(pos(), pos() + 1, K::KwEndrecord);
+        if (!ahead().endsLine(pos()) && peek() != K::Semicolon) return {};
+        return end ? keyword(pos(), pos(), K::KwEndrecord) : nearest(pos(), {K::KwEndrecord});
+    }
+};
+
+/// "VAR num x;" in a record that is closed by ENDRECORD.
+class WordBeforeComponent : public RecoveryStrategy {
+    using RecoveryStrategy::RecoveryStrategy;
+    Proposal propose(const Situation&) const override {
+        if (!kStorageWords.has(kind()) || !isName(peek()) || !isName(peek(2))) return {};
+        constexpr TokenIndex kSearch = 200;
+        TokenIndex i = pos() + 1;
+        while (i < pos() + kSearch && kindAt(i) != K::KwEndrecord && kindAt(i) != K::EndOfFile &&
+               !kRoutineEnds.has(kindAt(i)))
+            ++i;
+        if (kindAt(i) != K::KwEndrecord) return {};
+        return leaveOut(pos() + 1, Code::ComponentWord, {describe(pos())},
+                        {range(pos()).begin, range(pos() + 1).begin});
+    }
+};
+
 // ---- Instructions ----------------------------------------------------------------------------------------------
 
 /// "FRO i FROM", "CONECT i WITH".
@@ -214,6 +243,8 @@ void addWordStrategies(StrategyTable& table, Parser& parser) {
     table.add<MisspeltDeclaration>(Place::Declaration, parser);
     table.add<MisspeltData>(Place::Declaration, parser);
     table.add<RunTogether>(Place::Declaration, parser);
+    table.add<MisspeltEndrecord>(Place::Component, parser);
+    table.add<WordBeforeComponent>(Place::Component, parser);
     table.add<RunTogether>(Place::Data, parser);
     table.add<MisspeltData>(Place::Data, parser);
     table.add<MisspeltInstruction>(Place::Instruction, parser);
