@@ -29,7 +29,7 @@ class BlockParser : public ParserPart {
     void parseElseOfCompact(TokenIndex opening);
     bool isSplitElseif();
     Stmt* parseForBody(ForStmt* node, TokenIndex opening, bool whole);
-    bool isWhileWrittenFor() const;
+    bool isOtherBlock(TokenIndex opening);
     Stmt* parseTestCases(TokenIndex opening, Expr* subject, bool whole);
     TestCase* parseCase();
     Expr* parseHeadExpr(bool& whole, HeadPart part = HeadPart::Value);

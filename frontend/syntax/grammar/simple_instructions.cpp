@@ -71,7 +71,7 @@ Stmt* InstructionParser::parseProcedureCall() {
         unexpected("'\\' or ','"); // "Move 1 speed:=2;"
     }
     if (kind() != K::Semicolon && !panic() && reports().errors() == errorsBefore &&
-        recovery().repair({.place = Place::AfterCall, .callee = node->name}))
+        recovery().repair({.place = Place::AfterCall, .word = node->name}))
         return parseEffectiveInstruction();
     if (node->args.empty() && ahead().atReservedName()) { // an argument
         node->args = {};

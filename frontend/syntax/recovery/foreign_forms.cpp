@@ -130,21 +130,8 @@ bool ForeignForms::parseForeignFor(ForStmt* node) {
     return true;
 }
 
-bool ForeignForms::takesForeignCounter(ForStmt* node) {
-    if (panic()) return false;
-    if (kStorageWords.has(kind()) && isName(peek())) {
-        const TokenIndex name = isName(peek(2)) ? pos() + 2 : pos() + 1;
-        fix(report(Code::UnexpectedToken, pos(),
-                   {describe(pos()), "the name of the loop variable, which FOR declares by itself"}),
-            {range(pos()).begin, range(name).begin}, "");
-        moveTo(name);
-        return false;
-    }
-    if (!isName(kind()) || !isContextual(pos() + 1, "IN") || startsLine(pos() + 1)) return false;
-    if (TokenIndex to = 0; ahead().findOnLine(pos() + 2, K::KwTo, to)) { // FOR i IN 1 TO 3 DO
-        typos().readAsKeyword(pos() + 1, pos() + 1, K::KwFrom);
-        return false;
-    }
+bool ForeignForms::parseForIn(ForStmt* node) {
+    if (panic() || !isName(kind()) || !isContextual(pos() + 1, "IN") || startsLine(pos() + 1)) return false;
     report(Code::ForeignSpelling, pos() + 1,
            {std::string(textOf(pos() + 1)), "a head such as FOR i FROM 1 TO 10 DO"});
     node->variable = pos();

@@ -42,6 +42,7 @@ const Repair* Recovery::repair(const Situation& at) {
         addWordStrategies(*table_, parser());
         addListWordStrategies(*table_, parser());
         addStrayWordStrategies(*table_, parser());
+        addBlockStrategies(*table_, parser());
         addSignStrategies(*table_, parser());
     }
     std::optional<Repair> best;

@@ -19,6 +19,11 @@ enum class Place : uint8_t {
     Instruction,   ///< at the first of two names that begin an instruction
     Comment,       ///< at the first token of an instruction: text without '!'
     Braces,        ///< at '{' where a block may begin
+    BlockHead,     ///< after the condition of IF or WHILE
+    Counter,       ///< after FOR
+    AfterCounter,  ///< after the loop variable
+    Branch,        ///< at ELSE in an IF, CASE in a TEST
+    ElseBody,      ///< after ELSE
     AfterCall,     ///< after what was read as a call
     Operator,      ///< after an operand
     Word,          ///< where a keyword is expected
@@ -35,8 +40,8 @@ enum class Place : uint8_t {
 struct Situation {
     Place place;
     TokenSet own = {}; ///< ListEnd, ListWord, ListBrace, StrayWord: the words that continue or end the list
-    const Expr* left = nullptr;                ///< Operator: the operand
-    TokenIndex callee = kNoToken;              ///< AfterCall
+    const Expr* left = nullptr; ///< Operator: the operand
+    TokenIndex word = kNoToken; ///< AfterCall: the callee; BlockHead, Counter: the word that began the block
     TokenKind expected = TokenKind::EndOfFile; ///< Word: the keyword; ListSeparator: the closing bracket
 };
 
@@ -102,6 +107,7 @@ class StrategyTable {
 void addWordStrategies(StrategyTable& table, Parser& parser);      ///< misspelt and foreign keywords
 void addListWordStrategies(StrategyTable& table, Parser& parser);  ///< words that continue or end a list
 void addStrayWordStrategies(StrategyTable& table, Parser& parser); ///< words that end no list here
+void addBlockStrategies(StrategyTable& table, Parser& parser);     ///< heads and branches of blocks
 void addSignStrategies(StrategyTable& table, Parser& parser);      ///< punctuation, operators, comments
 
 /// Asks the strategies of a place. The cheapest proposal wins, of equal ones that of the earlier strategy; none is

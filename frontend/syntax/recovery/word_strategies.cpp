@@ -159,11 +159,11 @@ class TornTrynext : public RecoveryStrategy {
 class MisspeltHead : public RecoveryStrategy {
     using RecoveryStrategy::RecoveryStrategy;
     Proposal propose(const Situation& at) const override {
-        const bool test = kind() == K::KwCase && startsLine(pos()) && at.callee + 1 < pos();
+        const bool test = kind() == K::KwCase && startsLine(pos()) && at.word + 1 < pos();
         const K word = kind() == K::KwThen ? K::KwIf : kind() == K::KwDo ? K::KwWhile : K::KwTest;
         if (word == K::KwTest && !test) return {};
-        const unsigned edits = typos().editsTo(at.callee, word, test ? 1 : 2);
-        return edits != 0 ? keyword(at.callee, at.callee, word, edits) : Proposal();
+        const unsigned edits = typos().editsTo(at.word, word, test ? 1 : 2);
+        return edits != 0 ? keyword(at.word, at.word, word, edits) : Proposal();
     }
 };
 

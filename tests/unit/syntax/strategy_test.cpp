@@ -96,6 +96,24 @@ TEST_CASE("misspelt words of instructions are read as they were meant", "[syntax
     check({{"TornTrynext", "TRY NEXT;", "TRYNEXT;"}}, inHandler);
 }
 
+TEST_CASE("heads and branches of blocks are read as they were meant", "[syntax]") {
+    check({{"HeadOfOtherBlock", "IF a DO\nStop;\nENDWHILE", "WHILE a DO\nStop;\nENDWHILE"},
+           {"HeadOfOtherBlock", "WHILE a THEN\nStop;\nENDIF", "IF a THEN\nStop;\nENDIF"},
+           {"HeadOfOtherBlock", "IF n\nCASE 1:\nStop;\nENDTEST", "TEST n\nCASE 1:\nStop;\nENDTEST"},
+           {"ForWithCondition", "FOR n < 3 DO\nStop;\nENDWHILE", "WHILE n < 3 DO\nStop;\nENDWHILE"},
+           {"DeclaredCounter", "FOR VAR num i FROM 1 TO 2 DO\nENDFOR", "FOR i FROM 1 TO 2 DO\nENDFOR"},
+           {"DeclaredCounter", "FOR num i FROM 1 TO 2 DO\nENDFOR", "FOR i FROM 1 TO 2 DO\nENDFOR"},
+           {"InForFrom", "FOR i IN 1 TO 2 DO\nENDFOR", "FOR i FROM 1 TO 2 DO\nENDFOR"},
+           {"AssignForFrom", "FOR i := 1 TO 2 DO\nENDFOR", "FOR i FROM 1 TO 2 DO\nENDFOR"},
+           {"ElseForElseif", "IF a THEN\nStop;\nELSE b THEN\nExit;\nENDIF",
+            "IF a THEN\nStop;\nELSEIF b THEN\nExit;\nENDIF"},
+           {"ThenAfterElse", "IF a THEN\nStop;\nELSE THEN\nExit;\nENDIF",
+            "IF a THEN\nStop;\nELSE \nExit;\nENDIF"},
+           {"CaseElse", "TEST n\nCASE 1:\nStop;\nCASE ELSE:\nENDTEST",
+            "TEST n\nCASE 1:\nStop;\nDEFAULT:\nENDTEST"}},
+          inProcedure);
+}
+
 TEST_CASE("words that end or continue a list are found", "[syntax]") {
     check({{"PieceOfEnd", "PROC p()\nENDPR", "PROC p()\nENDPROC"},
            {"OtherRoutineEnd", "PROC p()\nendfunction", "PROC p()\nENDPROC"},
