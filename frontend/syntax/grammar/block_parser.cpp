@@ -92,7 +92,7 @@ bool BlockParser::isBlockByMargin(TokenIndex opening) {
     return false;
 }
 
-/// `IF a b := 1; ELSE b := 2;`: the ELSE stands in the line of an IF without THEN, or below it, and in no other IF.
+/// `IF a b := 1; ELSE b := 2;`: the ELSE is in the line of an IF without THEN, or below it, and in no other IF.
 void BlockParser::parseElseOfCompact(TokenIndex opening) {
     const bool below = startsLine(pos());
     if (block().opening != kNoToken && kindAt(block().opening) == K::KwIf) return; // it may be of that one
@@ -126,7 +126,7 @@ Stmt* BlockParser::parseIfBranches(TokenIndex opening, Expr* condition, bool hea
     branches_.push_back(finish(branch));
     const TokenIndex outer = restore.saved();
     while (kind() != K::KwEndif && kIfEnds.has(kind())) {
-        // A second ELSE that stands below the IF around this one belongs to that: the ENDIF is missing.
+        // A second ELSE below the IF around this one belongs to that: the ENDIF is missing.
         if (node->hasElse && outer != kNoToken && kindAt(outer) == K::KwIf && startsLine(pos()) &&
             columnOf(pos()) == columnOf(outer) && columnOf(pos()) != columnOf(opening))
             break;

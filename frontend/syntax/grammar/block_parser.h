@@ -19,7 +19,7 @@ class BlockParser : public ParserPart {
     Stmt* parseWhile();
     /// Behind the word, which has been read.
     Stmt* parseWhile(TokenIndex opening);
-    /// From behind DO, or at a DO that has not been read yet.
+    /// From after DO, or at a DO that has not been read yet.
     Stmt* parseWhileBody(TokenIndex opening, Expr* condition, bool whole);
     Stmt* parseTest();
 

@@ -50,7 +50,7 @@ DataDecl* DataParser::parseWordlessData() {
     return finish(node);
 }
 
-/// What follows the data type: name, dimensions, value, semicolon.
+/// The rest after the data type: name, dimensions, value, semicolon.
 void DataParser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) {
     if (!panic() && kind() == K::LeftBrace && nameMissing) parseDimensions(node, true);
     const bool length =

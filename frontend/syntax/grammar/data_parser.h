@@ -24,7 +24,7 @@ class DataParser : public ParserPart {
     void parseDimensions(DataDecl* node, bool beforeName);
     void noteMoreNames(const DataDecl* node);
 
-    const DataDecl* moreOf_ = nullptr; ///< a declaration that goes on with another name
+    const DataDecl* moreOf_ = nullptr; ///< a declaration that continues with another name
 };
 
 } // namespace rapid::syntax

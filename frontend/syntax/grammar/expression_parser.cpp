@@ -458,7 +458,7 @@ std::span<Expr*> ExpressionParser::parseExpressionList(K closing, TokenIndex ope
     return drain(nodes().exprs, bottom);
 }
 
-/// `(1, 2, 3)` and `{1, 2, 3}` as a value, before or behind its first member.
+/// `(1, 2, 3)` and `{1, 2, 3}` as a value, before or after its first member.
 Expr* ExpressionParser::parseForeignAggregate(TokenIndex opening, K closing) {
     auto* node = makeExpr<ErrorExpr>(NodeKind::ErrorExpr);
     node->first = opening;
@@ -488,9 +488,9 @@ Expr* ExpressionParser::parseCondition() {
     return parseMeantEqual(start, errorsBefore);
 }
 
-/// At ":=" where only "=" can stand: what begins at `start` once more, with the sign that was meant.
+/// At ":=" where only "=" is possible: reads the expression at `start` once more, with the sign that was meant.
 Expr* ExpressionParser::parseMeantEqual(TokenIndex start, size_t errorsBefore) {
-    const bool once = reports().errors() == errorsBefore; // else its mistakes would be told again
+    const bool once = reports().errors() == errorsBefore; // else its mistakes would be reported again
     fix(report(Code::AssignmentInCondition, pos()), range(pos()), "=");
     if (once) {
         readAs(pos(), K::Equal);

@@ -16,7 +16,7 @@ class ExpressionParser : public ParserPart {
     Expr* parsePostfix(Expr* base);
     /// `{1,2}`; other brackets are reported and read as if they were these.
     Expr* parseIndex(Expr* base);
-    /// A whole initial value `[...]` of literals; null, and nothing is read, if something else stands here.
+    /// A whole initial value `[...]` of literals; null, and nothing is read, if something else is here.
     Expr* parsePlainAggregate();
     /// Reads a plain aggregate as any other one; `opening` is its '['.
     void parseElements(AggregateExpr& plain, TokenIndex opening);

@@ -74,7 +74,7 @@ bool Lookahead::calleeEndsHere(TokenIndex callee, TokenIndex calleeEnd) const {
     case K::Identifier:
     case K::NumLiteral:
     case K::StringLiteral:
-    case K::Colon: return true; // an argument cannot go on like this
+    case K::Colon: return true; // no argument continues like this
     default: return columnOf(next) <= columnOf(callee) && looksLikeInstruction(next);
     }
 }

@@ -62,7 +62,7 @@ void ModuleParser::parseFile(const LexResult& lexed) {
         cutOff(*module);
 }
 
-/// After going back: what was read as the end of an unfinished line but stands below it is no part of it.
+/// After going back: removes from nodes the tokens below an unfinished line that were read as its end.
 void ModuleParser::cutOff(Node& node) {
     if (node.kind == NodeKind::Aggregate && as<AggregateExpr>(node).isPlain()) return;
     if (node.kind == NodeKind::Component && as<ComponentExpr>(node).name > node.last)
@@ -321,7 +321,7 @@ Decl* ModuleParser::parseScopedDeclaration() {
     return finish(node);
 }
 
-/// What is no declaration: instructions after an ENDPROC too many, misspelt words. One report up to the next routine.
+/// Text that is not a declaration: instructions after an ENDPROC too many, misspelt words. One report up to the next routine.
 Decl* ModuleParser::parseUnknownDeclaration() {
     auto* node = make<PlaceholderDecl>(NodeKind::ErrorDecl);
     constexpr TokenSet kEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};

@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of the parser share.
+// The base of all parts of the parser.
 
 #include "frontend/syntax/grammar/reports.h"
 #include "frontend/syntax/grammar/token_cursor.h"

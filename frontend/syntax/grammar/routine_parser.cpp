@@ -129,7 +129,7 @@ void RoutineParser::parseRoutineHeader(RoutineDecl* routine) {
     }
 }
 
-/// The data type of a function, or one that stands where there is none. True: that of a function is missing.
+/// The data type of a function, or one in a place without. True: that of a function is missing.
 bool RoutineParser::parseReturnType(RoutineDecl* routine) {
     if (routine->routineKind == RoutineKind::Func) {
         const bool typed = isMarked(Mark::RunTogether, pos() - 1); // "FUNCnum name("

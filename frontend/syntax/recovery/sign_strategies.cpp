@@ -10,7 +10,7 @@ namespace {
 
 // ---- Lists -----------------------------------------------------------------------------------------------------
 
-/// "(a; b)": in a list that goes on in the same line to its closing bracket.
+/// "(a; b)": in a list that continues in the same line to its closing bracket.
 class SemicolonInList : public RecoveryStrategy {
     using RecoveryStrategy::RecoveryStrategy;
     Proposal propose(const Situation& at) const override {

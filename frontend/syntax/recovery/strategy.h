@@ -7,7 +7,7 @@
 
 namespace rapid::syntax {
 
-/// Where the grammar does not go on, or where a name may have been meant as something else.
+/// Places where the grammar does not continue, or where a name may have been meant as something else.
 enum class Place : uint8_t {
     Declaration,   ///< of a module, at a name
     Component,     ///< at a name, VAR, PERS or CONST where a component of a record begins
@@ -49,7 +49,7 @@ struct Situation {
 struct Repair {
     unsigned cost = 1; ///< letters, signs or words that are other than they should be
     TokenIndex first = 0, last = 0;
-    /// What the tokens `first` to `last` are read as, in the place of `last`. Error: they are left out.
+    /// The tokens `first` to `last` are read as this kind, in the place of `last`. Error: they are left out.
     TokenKind as = TokenKind::Error;
     TokenIndex next = 0; ///< where the parser reads on
     /// Reported without `args`: what MisspeltWords::readAsKeyword() says.
@@ -84,7 +84,7 @@ class RecoveryStrategy : public ParserPart {
     }
     /// The name at `i` was meant as one of these keywords: the one with the fewest edits, the first of several.
     Proposal nearest(TokenIndex i, std::initializer_list<K> words) const;
-    /// The sign at the current token stands for another one, which `text` writes.
+    /// The sign at the current token was meant as another one, written `text`.
     Repair sign(K as, diag::Code code, std::string shown, std::string expected, std::string text) const;
     /// The tokens from the current one up to `next` are too many, and so is their text up to `textEnd`.
     Repair leaveOut(TokenIndex next, diag::Code code, std::vector<std::string> args, SourceRange text) const;

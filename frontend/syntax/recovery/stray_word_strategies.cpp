@@ -10,7 +10,7 @@ using diag::Code;
 
 namespace {
 
-/// What the strategies of stray words have in common.
+/// Base of the strategies for stray words.
 class StrayStrategy : public RecoveryStrategy {
   protected:
     using RecoveryStrategy::RecoveryStrategy;

@@ -155,7 +155,7 @@ class TornTrynext : public RecoveryStrategy {
     }
 };
 
-/// What was read as a call goes on with THEN, DO or CASE: the callee was meant as IF, WHILE or TEST.
+/// A seeming call is followed by THEN, DO or CASE: the callee was meant as IF, WHILE or TEST.
 class MisspeltHead : public RecoveryStrategy {
     using RecoveryStrategy::RecoveryStrategy;
     Proposal propose(const Situation& at) const override {
