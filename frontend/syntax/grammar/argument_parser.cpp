@@ -29,7 +29,8 @@ std::span<Argument*> ExpressionParser::parseArguments(bool procedure) {
             if (kind() == K::Slash) recovery().repair(Place::Argument);
             args_.push_back(kind() == K::Backslash ? parseOptionalArgument()
                                                    : parseRequiredArgument(procedure));
-        } else if (first && (startsExpr(kind()) || kind() == K::PlaceArg || ahead().isShownPosition())) {
+        } else if (first &&
+                   (startsExpression(kind()) || kind() == K::PlaceArg || ahead().isShownPosition())) {
             args_.push_back(parseRequiredArgument(procedure));
         } else {
             break;
@@ -60,13 +61,13 @@ Argument* ExpressionParser::parseRequiredArgument(bool procedure) {
         take();
         return finish(node);
     }
-    node->value = parseExpr();
+    node->value = parseExpression();
     if (!panic() && kind() == K::Assign && node->value->kind == NodeKind::Binary) { // "tool0/WObj:=wobj1"
         const auto& slash = as<BinaryExpr>(*node->value);
         if (slash.op == BinaryOp::Div && slash.right->kind == NodeKind::Name) {
             signs().reportSlash(slash.opToken);
             take();
-            parseExpr();
+            parseExpression();
             node->value = errorExpr();
         }
     }
@@ -79,19 +80,19 @@ Argument* ExpressionParser::parseOptionalArgument() {
     take();
     node->name = names().expectName(true);
     if (panic()) return finish(node);
-    if (kind() == K::Colon && !startsLine(pos() + 1) && (startsExpr(peek()) || peek() == K::Equal))
+    if (kind() == K::Colon && !startsLine(pos() + 1) && (startsExpression(peek()) || peek() == K::Equal))
         recovery().repair(Place::Assignment);
     if (kind() == K::Equal) {
         signs().reportEqual();
         take();
-        node->value = parseExpr();
+        node->value = parseExpression();
     } else if (accept(K::Assign)) {
-        node->value = parseExpr();
+        node->value = parseExpression();
     } else if (accept(K::Question)) {
         node->argKind = ArgKind::Conditional;
         if (isName(kind())) {
             height_ = 1;
-            node->value = parseNamed(false);
+            node->value = parseVariableOrCall(false);
         } else if (kind() == K::PlaceVar) {
             node->value = parsePrimary();
         } else {

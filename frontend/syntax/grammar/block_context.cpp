@@ -12,8 +12,8 @@ using diag::Code;
 namespace {
 
 /// A routine has ended before these.
-constexpr TokenSet kBehindRoutine = {TokenKind::KwProc,   TokenKind::KwFunc,      TokenKind::KwTrap,
-                                     TokenKind::KwModule, TokenKind::KwEndmodule, TokenKind::EndOfFile};
+constexpr TokenSet kAfterRoutine = {TokenKind::KwProc,   TokenKind::KwFunc,      TokenKind::KwTrap,
+                                    TokenKind::KwModule, TokenKind::KwEndmodule, TokenKind::EndOfFile};
 constexpr TokenSet kBlockEnds = {TokenKind::KwEndif, TokenKind::KwEndfor, TokenKind::KwEndwhile,
                                  TokenKind::KwEndtest};
 
@@ -95,7 +95,7 @@ bool BlockContext::endsRoutineTooEarly() const {
     constexpr TokenSet kEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap, K::KwEndmodule};
     if (!kEnds.has(kind()) || reports().isFull()) return false;
     TokenIndex i = pos() + 1;
-    while (kindAt(i) != routineEnd && !kBehindRoutine.has(kindAt(i)))
+    while (kindAt(i) != routineEnd && !kAfterRoutine.has(kindAt(i)))
         ++i;
     return kindAt(i) == routineEnd;
 }
@@ -104,7 +104,7 @@ TokenKind BlockContext::endOfRoutineBelow() const {
     constexpr TokenSet kEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
     TokenIndex& i = routineEndBelow_.found;
     if (pos() < routineEndBelow_.from || pos() > i) i = routineEndBelow_.from = pos();
-    while (!kEnds.has(kindAt(i)) && !kBehindRoutine.has(kindAt(i)))
+    while (!kEnds.has(kindAt(i)) && !kAfterRoutine.has(kindAt(i)))
         ++i;
     return kEnds.has(kindAt(i)) ? kindAt(i) : K::EndOfFile;
 }
@@ -141,7 +141,7 @@ bool BlockContext::startsAfresh() const {
 
 bool BlockContext::isBlockBrace() const {
     if (kind() != K::LeftBrace || !inHead || !startsLine(pos() + 1)) return false;
-    // An index goes on to its '}', with ':=' only in the arguments of a call.
+    // An index extends to its '}', with ':=' only in the arguments of a call.
     constexpr TokenSet kBlock = {K::Semicolon, K::KwIf,    K::KwFor,  K::KwWhile, K::KwTest,
                                  K::KwReturn,  K::KwRaise, K::KwGoto, K::KwExit,  K::EndOfFile};
     uint32_t depth = 0;

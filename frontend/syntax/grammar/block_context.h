@@ -11,30 +11,30 @@ class BlockContext : public ParserPart {
   public:
     using ParserPart::ParserPart;
 
-    /// At a word that a block further out waits for: by its margin it stands in this block all the same, and below the outer
+    /// At a word that a block further out waits for: by its margin it belongs to this block all the same, and below the outer
     /// one there is such a word again.
     bool standsInside() const;
-    /// From a place on: the first word that goes on with or ends a block, a handler or a routine, and whose block does not
+    /// From a place on: the first word that continues or ends a block, a handler or a routine, and whose block does not
     /// begin there. The end of the file, once so many mistakes have been found that no more are shown.
     TokenIndex unmatchedWord(TokenIndex from) const;
     /// The END word of the list that is being read.
     K endOfOwn(const TokenSet& own) const;
-    /// Is the word here, which could stand for any END, that of the block around it? Not if that is still to come, unless
-    /// it stands below the word that began the block.
+    /// Whether the word here, which may mean any END, is that of the block around it. It is not if that is still to come,
+    /// unless it is in line with the word that began the block.
     bool closesHere(K end) const;
     /// ENDPROC and the like in a block, while the END word of the routine is still to come.
     bool endsRoutineTooEarly() const;
-    /// The END word of this routine, whatever word began it; EndOfFile if there is none ahead of the next routine.
+    /// The END word of this routine, whatever word began it; EndOfFile if there is none before the next routine.
     K endOfRoutineBelow() const;
     /// How many ENDIF the routine lacks; below 0: it has too many.
     void countEndifs();
-    /// What only an ERROR handler can have, before the next handler or the end of the routine.
+    /// Whether RETRY or TRYNEXT, which only an ERROR handler can have, come before the next handler or the end of the routine.
     bool isHandledBelow(TokenIndex from) const;
     /// ELSE in an IF, CASE in a TEST.
     bool continuesBlock() const;
     /// At a token that cannot continue the instruction: does another one begin here?
     bool startsAfresh() const;
-    /// At '{' behind a name: does it begin a block? Then the line ends, and what follows is no list of indexes.
+    /// At '{' after a name: whether it begins a block. Then the line ends, and no list of indexes follows.
     bool isBlockBrace() const;
 
     TokenSet enclosing;                          ///< words that end a list further out

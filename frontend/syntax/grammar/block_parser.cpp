@@ -26,21 +26,19 @@ Stmt* BlockParser::parseIf() {
     if (forgotten) return parseCompactIf(opening, condition);
     if (kind() == K::Identifier && ahead().endsLine(pos()))
         recovery().repair({.place = Place::Word, .expected = K::KwThen});
-    if (kind() == K::KwDo && !panic() &&
-        kindAt(block().unmatchedWord(pos() + 1)) == K::KwEndwhile) { // IF a DO ... ENDWHILE
-        typos().readAsKeyword(opening, opening, K::KwWhile);
-        return parseWhileBody(opening, condition, true);
-    }
+    if (kind() == K::KwDo && isOtherBlock(opening)) return parseWhileBody(opening, condition, true);
     const bool isBlock = hidden || kind() == K::KwThen || kind() == K::Colon || kind() == K::LeftBrace ||
                          (kind() == K::KwDo && startsLine(pos() + 1));
     if (isBlock || ahead().findOnLine(pos(), K::KwThen, found))
-        return parseIfBlocks(opening, condition, hidden);
-    if (isBlockByMargin(opening)) return parseIfBlocks(opening, condition, true);
-    if (kind() == K::KwCase && startsLine(pos()) && !panic() && kindAt(opening) == K::KwIf) { // IF n, CASE 1:
-        typos().readAsKeyword(opening, opening, K::KwTest);
-        return parseTestCases(opening, condition, true);
-    }
+        return parseIfBranches(opening, condition, hidden);
+    if (isBlockByMargin(opening)) return parseIfBranches(opening, condition, true);
+    if (kind() == K::KwCase && isOtherBlock(opening)) return parseTestCases(opening, condition, true);
     return parseCompactIf(opening, condition);
+}
+
+/// Whether the word that began the block was meant as that of another one, and is read so now.
+bool BlockParser::isOtherBlock(TokenIndex opening) {
+    return recovery().repair({.place = Place::BlockHead, .word = opening});
 }
 
 Stmt* BlockParser::parseCompactIf(TokenIndex opening, Expr* condition) {
@@ -54,8 +52,8 @@ Stmt* BlockParser::parseCompactIf(TokenIndex opening, Expr* condition) {
         const K k = kind();
         const bool canStart = k == K::PlaceVar || k == K::PlaceSmt || k == K::Identifier ||
                               (!kListStops.has(k) && k != K::Semicolon);
-        if (canStart && (!startsExpr(k) || isName(k) || k == K::PlaceVar)) {
-            node->body = instructions().parseStmt();
+        if (canStart && (!startsExpression(k) || isName(k) || k == K::PlaceVar)) {
+            node->body = instructions().parseInstruction();
             if (kind() == K::KwElse) parseElseOfCompact(opening);
             return finish(node);
         }
@@ -63,7 +61,7 @@ Stmt* BlockParser::parseCompactIf(TokenIndex opening, Expr* condition) {
         if (kind() != K::Error)
             reportAt(Code::MissingBlockWord, place, {describe(pos()), "THEN or an instruction"});
     }
-    if (!kListStops.has(kind())) sync().syncStatement();
+    if (!kListStops.has(kind())) sync().skipInstruction();
     endPanic();
     node->body = instructions().errorStmt(bodyFirst);
     return finish(node);
@@ -94,7 +92,7 @@ bool BlockParser::isBlockByMargin(TokenIndex opening) {
     return false;
 }
 
-/// `IF a b := 1; ELSE b := 2;`: the ELSE stands in the line of an IF without THEN, or below it, and in no other IF.
+/// `IF a b := 1; ELSE b := 2;`: the ELSE is in the line of an IF without THEN, or below it, and in no other IF.
 void BlockParser::parseElseOfCompact(TokenIndex opening) {
     const bool below = startsLine(pos());
     if (block().opening != kNoToken && kindAt(block().opening) == K::KwIf) return; // it may be of that one
@@ -106,11 +104,11 @@ void BlockParser::parseElseOfCompact(TokenIndex opening) {
         return;
     }
     take();
-    if (!kListStops.has(kind()) || kind() == K::Identifier) instructions().parseStmt();
+    if (!kListStops.has(kind()) || kind() == K::Identifier) instructions().parseInstruction();
     if (kind() == K::KwEndif && !startsLine(pos())) take();
 }
 
-Stmt* BlockParser::parseIfBlocks(TokenIndex opening, Expr* condition, bool headRead) {
+Stmt* BlockParser::parseIfBranches(TokenIndex opening, Expr* condition, bool headRead) {
     const Restore restore(block().opening);
     block().opening = opening;
     auto* node = make<IfStmt>(NodeKind::If);
@@ -128,7 +126,7 @@ Stmt* BlockParser::parseIfBlocks(TokenIndex opening, Expr* condition, bool headR
     branches_.push_back(finish(branch));
     const TokenIndex outer = restore.saved();
     while (kind() != K::KwEndif && kIfEnds.has(kind())) {
-        // A second ELSE that stands below the IF around this one belongs to that: the ENDIF is missing.
+        // A second ELSE below the IF around this one belongs to that: the ENDIF is missing.
         if (node->hasElse && outer != kNoToken && kindAt(outer) == K::KwIf && startsLine(pos()) &&
             columnOf(pos()) == columnOf(outer) && columnOf(pos()) != columnOf(opening))
             break;
@@ -137,15 +135,10 @@ Stmt* BlockParser::parseIfBlocks(TokenIndex opening, Expr* condition, bool headR
             typos().readAsKeyword(pos(), pos() + 1, K::KwElseif);
             take();
         }
-        if (TokenIndex then = 0; kind() == K::KwElse && !startsLine(pos() + 1) && peek() != K::KwIf &&
-                                 peek() != K::KwThen && ahead().findOnLine(pos() + 1, K::KwThen, then))
-            typos().readAsKeyword(pos(), pos(), K::KwElseif);
+        if (kind() == K::KwElse) recovery().repair(Place::Branch);
         if (accept(K::KwElse)) {
             signs().takesColonAs("");
-            if (kind() == K::KwThen && !startsLine(pos())) {
-                fix(report(Code::StrayKeyword, pos(), {"THEN", "IF"}), range(pos()), "");
-                take();
-            }
+            if (kind() == K::KwThen) recovery().repair(Place::ElseBody);
             const StmtList body = foreign().parseBody(kIfEnds, bracesOf, braced);
             if (!node->hasElse) node->elseBody = body;
             node->hasElse = true;
@@ -183,11 +176,9 @@ Stmt* BlockParser::parseFor() {
     const TokenIndex opening = block().opening = take();
     bool whole = true; // once the head is broken, the rest of it is not missed
     if (foreign().parseForeignFor(node)) return parseForBody(node, opening, false);
-    if (isWhileWrittenFor()) {
-        typos().readAsKeyword(opening, opening, K::KwWhile);
-        return parseWhile(opening);
-    }
-    if (foreign().takesForeignCounter(node)) return parseForBody(node, opening, false);
+    recovery().repair({.place = Place::Counter, .word = opening});
+    if (kindAt(opening) == K::KwWhile) return parseWhile(opening);
+    if (foreign().parseForIn(node)) return parseForBody(node, opening, false);
     const bool counterless =
         kind() == K::NumLiteral && peek() == K::KwTo && !startsLine(pos()); // FOR 1 TO 3 DO
     if (counterless) {
@@ -199,25 +190,11 @@ Stmt* BlockParser::parseFor() {
         node->variable = names().missingName();
         whole = false;
     } else {
-        if (isName(kind()) && isName(peek()) && !startsLine(pos() + 1) && peek(2) == K::KwFrom) {
-            fix(report(Code::UnexpectedToken, pos(),
-                       {describe(pos()), "the name of the loop variable, which FOR declares by itself"}),
-                {range(pos()).begin, range(pos() + 1).begin}, "");
-            take();
-        }
         node->variable = names().expectName();
         names().checkNameLength(node->variable);
     }
-    if (counterless) {
-    } else if (!panic() && (kind() == K::Assign || kind() == K::Equal)) { // FOR i := 1 TO 5 DO
-        diag::Diagnostic* diagnostic = report(Code::MissingBlockWord, pos(), {describe(pos()), "FROM"});
-        const bool before = range(pos() - 1).end < range(pos()).begin;
-        const bool behind = range(pos()).end < range(pos() + 1).begin;
-        fix(diagnostic, range(pos()), std::string(before ? "" : " ") + "FROM" + (behind ? "" : " "));
-        take();
-    } else {
+    if (!counterless && !recovery().repair(Place::AfterCounter))
         whole = sync().expectHeadWord(K::KwFrom, whole);
-    }
     node->from = parseHeadExpr(whole);
     if (whole && !panic() && kind() == K::KwDo) {
         report(Code::MissingBlockWord, pos(), {describe(pos()), "TO and the end value"});
@@ -240,19 +217,6 @@ Stmt* BlockParser::parseForBody(ForStmt* node, TokenIndex opening, bool whole) {
     return finish(node);
 }
 
-/// A condition behind FOR, and ENDWHILE below.
-bool BlockParser::isWhileWrittenFor() const {
-    constexpr TokenSet kHead = {K::KwFrom, K::Assign, K::KwTo};
-    if (panic() || startsLine(pos())) return false;
-    TokenIndex i = pos();
-    constexpr TokenIndex kLongHead = 200;
-    while (!startsLine(i + 1) && kindAt(i) != K::KwDo) {
-        if (kHead.has(kindAt(i)) || i > pos() + kLongHead) return false;
-        ++i;
-    }
-    return kindAt(i) == K::KwDo && i > pos() && kindAt(block().unmatchedWord(i)) == K::KwEndwhile;
-}
-
 Stmt* BlockParser::parseWhile() {
     return parseWhile(take());
 }
@@ -269,11 +233,7 @@ Stmt* BlockParser::parseWhile(TokenIndex opening) {
         take();
         return instructions().errorStmt(opening);
     }
-    if (!panic() && kind() == K::KwThen &&
-        kIfEnds.has(kindAt(block().unmatchedWord(pos() + 1)))) { // WHILE a THEN ... ENDIF
-        typos().readAsKeyword(opening, opening, K::KwIf);
-        return parseIfBlocks(opening, condition, false);
-    }
+    if (kind() == K::KwThen && isOtherBlock(opening)) return parseIfBranches(opening, condition, false);
     if (!hidden && kind() != K::LeftBrace) whole = sync().expectHeadWord(K::KwDo, whole);
     return parseWhileBody(opening, condition, whole);
 }
@@ -314,12 +274,12 @@ Stmt* BlockParser::parseTestCases(TokenIndex opening, Expr* subject, bool whole)
             fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "CASE"}), range(pos()), "");
         take();
     }
-    if (panic()) sync().syncStatement();
+    if (panic()) sync().skipInstruction();
     if (!kTestEnds.has(kind()) && kind() != K::EndOfFile) {
         auto* lost = make<TestCase>(NodeKind::TestCase);
         const TokenIndex at = pos();
         const size_t errorsBefore = reports().errors();
-        lost->body = instructions().parseList(kTestEnds);
+        lost->body = instructions().parseInstructions(kTestEnds);
         if (!lost->body.empty()) {
             if (reports().errors() == errorsBefore) report(Code::InstructionOutsideCase, at);
             if (kRoutineEnds.has(kind())) whole = false; // nothing of TEST but its first line
@@ -328,17 +288,14 @@ Stmt* BlockParser::parseTestCases(TokenIndex opening, Expr* subject, bool whole)
     }
     while (kind() != K::KwEndtest && kTestEnds.has(kind())) {
         if (node->hasDefault) report(Code::CaseAfterDefault, pos(), {describe(pos())});
-        if (kind() == K::KwCase && peek() == K::KwElse && peek(2) == K::Colon) {
-            typos().readAsKeyword(pos(), pos() + 1, K::KwDefault);
-            take();
-        }
+        if (peek() == K::KwElse) recovery().repair(Place::Branch);
         if (kind() != K::KwDefault) {
             cases_.push_back(parseCase());
             continue;
         }
         take();
         signs().expectColonOfDefault();
-        const StmtList body = instructions().parseList(kTestEnds);
+        const StmtList body = instructions().parseInstructions(kTestEnds);
         if (!node->hasDefault) node->defaultBody = body;
         node->hasDefault = true;
     }
@@ -376,12 +333,12 @@ TestCase* BlockParser::parseCase() {
             } else if (isForColon) { // "CASE 1;"
                 take();
             } else if (panic()) {
-                sync().syncStatement();
+                sync().skipInstruction();
             }
             endPanic();
         }
     }
-    node->body = instructions().parseList(kTestEnds);
+    node->body = instructions().parseInstructions(kTestEnds);
     return finish(node);
 }
 
@@ -394,7 +351,8 @@ Expr* BlockParser::parseHeadExpr(bool& whole, HeadPart part) {
         return expressions().errorExpr();
     }
     const bool outer = std::exchange(block().inHead, true);
-    Expr* expr = part == HeadPart::Condition ? expressions().parseCondition() : expressions().parseExpr();
+    Expr* expr =
+        part == HeadPart::Condition ? expressions().parseCondition() : expressions().parseExpression();
     block().inHead = outer;
     if (panic() && (startsLine(pos()) || kind() == K::EndOfFile)) {
         whole = false;

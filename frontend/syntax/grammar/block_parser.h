@@ -14,12 +14,12 @@ class BlockParser : public ParserPart {
 
     Stmt* parseIf();
     /// `headRead`: THEN has been lost in a comment, or its absence reported.
-    Stmt* parseIfBlocks(TokenIndex opening, Expr* condition, bool headRead);
+    Stmt* parseIfBranches(TokenIndex opening, Expr* condition, bool headRead);
     Stmt* parseFor();
     Stmt* parseWhile();
     /// Behind the word, which has been read.
     Stmt* parseWhile(TokenIndex opening);
-    /// From behind DO, or at a DO that has not been read yet.
+    /// From after DO, or at a DO that has not been read yet.
     Stmt* parseWhileBody(TokenIndex opening, Expr* condition, bool whole);
     Stmt* parseTest();
 
@@ -29,7 +29,7 @@ class BlockParser : public ParserPart {
     void parseElseOfCompact(TokenIndex opening);
     bool isSplitElseif();
     Stmt* parseForBody(ForStmt* node, TokenIndex opening, bool whole);
-    bool isWhileWrittenFor() const;
+    bool isOtherBlock(TokenIndex opening);
     Stmt* parseTestCases(TokenIndex opening, Expr* subject, bool whole);
     TestCase* parseCase();
     Expr* parseHeadExpr(bool& whole, HeadPart part = HeadPart::Value);

@@ -50,9 +50,9 @@ DataDecl* DataParser::parseWordlessData() {
     return finish(node);
 }
 
-/// What follows the data type: name, dimensions, value, semicolon.
+/// The rest after the data type: name, dimensions, value, semicolon.
 void DataParser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) {
-    if (!panic() && kind() == K::LeftBrace && nameMissing) parseDimensionsOf(node, true);
+    if (!panic() && kind() == K::LeftBrace && nameMissing) parseDimensions(node, true);
     const bool length =
         !node->dims.empty() && kind() == K::Identifier && equalsNoCase(textOf(node->type), "STRING");
     if (length && !panic()) node->dims = {}; // string{80} is a text of that length
@@ -71,36 +71,37 @@ void DataParser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) 
     const bool literal = kLiterals.has(kind()) && !startsLine(pos()) && peek() == K::Semicolon;
     const bool valueFollows =
         !panic() && (literal || (kind() == K::LeftBracket && ahead().valueWithoutSign(node->dataKind)));
-    if (!panic() && !valueFollows) parseDimensionsOf(node, false);
+    if (!panic() && !valueFollows) parseDimensions(node, false);
     if (!panic()) {
         if (valueFollows) {
             diag::Diagnostic* diagnostic =
                 report(Code::UnexpectedToken, pos(), {describe(pos()), "':=' before the value"});
             fix(diagnostic, {range(pos()).begin, range(pos()).begin}, ":= ");
-            node->init = expressions().parseExpr();
+            node->init = expressions().parseExpression();
         } else if (kind() == K::Equal) {
             if (node->type != kNoToken || textOf(pos()) != "=" ||
                 !reports().joinLast(Code::MissingDataType, range(pos()), "and ':=' here"))
                 signs().reportEqual();
             take();
-            node->init = expressions().parseExpr();
+            node->init = expressions().parseExpression();
         } else if (accept(K::Assign)) {
             if (ofModule) node->init = expressions().parsePlainAggregate();
-            if (!node->init) node->init = expressions().parseExpr();
-        } else if (node->dataKind == DataKind::Const && !options().declarations && kind() == K::Semicolon) {
+            if (!node->init) node->init = expressions().parseExpression();
+        } else if (node->dataKind == DataKind::Const && !parser().options.declarations &&
+                   kind() == K::Semicolon) {
             report(Code::ConstantWithoutValue, node->name, {std::string(textOf(node->name))});
         }
     }
     noteMoreNames(node);
     const bool parts = kind() == K::Comma && node->init && node->init->kind == NodeKind::Aggregate;
     if (!moreOf_)
-        sync().endStatement(parts ? "';': a value of several parts stands between '[' and ']' as a whole"
-                            : node->init ? "';'"
-                                         : "':=' or ';'");
+        sync().endInstruction(parts ? "';': a value of several parts stands between '[' and ']' as a whole"
+                              : node->init ? "';'"
+                                           : "':=' or ';'");
 }
 
 /// Dimensions in other brackets, or before the name: `num list[10]`, `num{10} list`.
-void DataParser::parseDimensionsOf(DataDecl* node, bool beforeName) {
+void DataParser::parseDimensions(DataDecl* node, bool beforeName) {
     const K open = kind();
     const bool otherForm = open == K::LeftBracket || open == K::LeftParen;
     if (open != K::LeftBrace && !otherForm) return;
@@ -115,7 +116,7 @@ void DataParser::parseDimensionsOf(DataDecl* node, bool beforeName) {
     const K closing = open == K::LeftBrace ? K::RightBrace : ahead().closingOf(pos());
     const TokenIndex opening = take();
     const size_t countBefore = reports().count();
-    node->dims = expressions().parseExprList(closing, opening);
+    node->dims = expressions().parseExpressionList(closing, opening);
     if (diagnostic && !panic() && reports().count() == countBefore)
         diagnostic->fixes.push_back(
             {"put the dimensions between '{' and '}'", {{range(opening), "{"}, {range(pos() - 1), "}"}}});

@@ -21,10 +21,10 @@ class DataParser : public ParserPart {
 
   private:
     void parseDataTail(DataDecl* node, bool nameMissing, bool ofModule);
-    void parseDimensionsOf(DataDecl* node, bool beforeName);
+    void parseDimensions(DataDecl* node, bool beforeName);
     void noteMoreNames(const DataDecl* node);
 
-    const DataDecl* moreOf_ = nullptr; ///< a declaration that goes on with another name
+    const DataDecl* moreOf_ = nullptr; ///< a declaration that continues with another name
 };
 
 } // namespace rapid::syntax

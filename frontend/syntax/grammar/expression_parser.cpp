@@ -145,7 +145,7 @@ Expr* ExpressionParser::parsePrimary() {
     height_ = 1;
     switch (kind()) {
     case K::Identifier:
-    case K::PlaceId: return parseNamed(true);
+    case K::PlaceId: return parseVariableOrCall(true);
     case K::NumLiteral: return parseNumber();
     case K::StringLiteral: {
         auto* node = makeExpr<StringLiteralExpr>(NodeKind::StringLiteral);
@@ -165,7 +165,7 @@ Expr* ExpressionParser::parsePrimary() {
         take();
         return finish(node);
     }
-    case K::LeftParen: return parseParen();
+    case K::LeftParen: return parseParenthesised();
     case K::LeftBracket: return parseAggregate();
     case K::PlainAggregate:
         if (Expr* whole = parsePlainAggregate()) return whole;
@@ -178,11 +178,12 @@ Expr* ExpressionParser::parsePrimary() {
     }
     default: break;
     }
-    if (kind() == K::LeftBrace && !block().inHead && startsExpr(peek()) && !startsLine(pos())) // x := {1, 2}
+    if (kind() == K::LeftBrace && !block().inHead && startsExpression(peek()) &&
+        !startsLine(pos())) // x := {1, 2}
         return parseForeignAggregate(pos(), ahead().closingOf(pos()));
     if (ahead().atReservedName() && names().isReadAsName(kind())) {
         readAs(pos(), K::Identifier);
-        return parseNamed(true);
+        return parseVariableOrCall(true);
     }
     if (ahead().atReservedName()) {
         report(Code::ReservedWordAsName, pos(), {std::string(tokenText(kind()))});
@@ -230,7 +231,7 @@ void ExpressionParser::reportBadNumber(TokenIndex token) {
         expected = "a number with one decimal point";
     } else if (letter + 1 == text.size() && (last | 32) == 'e') {
         expected = "digits after the exponent 'E'";
-        if ((kind() == K::Plus || kind() == K::Minus) && !startsExpr(peek())) take(); // "1E+"
+        if ((kind() == K::Plus || kind() == K::Minus) && !startsExpression(peek())) take(); // "1E+"
     } else {
         expected = "a number without '" + text.substr(letter) + "' behind it";
     }
@@ -239,7 +240,7 @@ void ExpressionParser::reportBadNumber(TokenIndex token) {
 }
 
 /// A number, with a sign or without, that is a whole element of a list; null if something else begins here. It is what
-/// parseExpr() makes of it, sooner: taught points consist of such numbers.
+/// parseExpression() makes of it, sooner: taught points consist of such numbers.
 Expr* ExpressionParser::parseLoneNumber() {
     const bool minus = kind() == K::Minus;
     if (kindAt(pos() + minus) != K::NumLiteral) return nullptr;
@@ -257,8 +258,8 @@ Expr* ExpressionParser::parseLoneNumber() {
     return finish(node);
 }
 
-Expr* ExpressionParser::parseNamed(bool allowCall) {
-    if (allowCall && peek() == K::LeftParen) return parsePostfix(parseCall());
+Expr* ExpressionParser::parseVariableOrCall(bool allowCall) {
+    if (allowCall && peek() == K::LeftParen) return parsePostfix(parseFunctionCall());
     auto* node = makeExpr<NameExpr>(NodeKind::Name);
     node->name = take();
     finish(node);
@@ -267,7 +268,7 @@ Expr* ExpressionParser::parseNamed(bool allowCall) {
     return parsePostfix(node);
 }
 
-Expr* ExpressionParser::parseCall() {
+Expr* ExpressionParser::parseFunctionCall() {
     const Nest nest(nodes());
     if (!nest) return tooDeepExpr();
     auto* node = makeExpr<CallExpr>(NodeKind::Call);
@@ -355,7 +356,7 @@ Expr* ExpressionParser::parseIndex(Expr* base) {
                                                              : "'{' before an index"});
     const size_t countBefore = reports().count();
     take();
-    node->indices = parseExprList(closing, opening);
+    node->indices = parseExpressionList(closing, opening);
     if (diagnostic && !panic() && reports().count() == countBefore) fixBrackets(diagnostic, *node, opening);
     return finish(node);
 }
@@ -380,13 +381,13 @@ void ExpressionParser::fixBrackets(diag::Diagnostic* diagnostic, const IndexExpr
         {"put the arguments between '(' and ')'", {{first, "("}, {last, ")"}}, false});
 }
 
-Expr* ExpressionParser::parseParen() {
+Expr* ExpressionParser::parseParenthesised() {
     const Nest nest(nodes());
     if (!nest) return tooDeepExpr();
     auto* node = makeExpr<ParenExpr>(NodeKind::Paren);
     const TokenIndex opening = take();
     const size_t errorsBefore = reports().errors();
-    node->inner = parseExpr();
+    node->inner = parseExpression();
     TokenIndex closing = 0;
     if (kind() == K::Assign && !panic() && ahead().findOnLine(pos(), K::RightParen, closing))
         node->inner = parseMeantEqual(opening + 1, errorsBefore);
@@ -404,7 +405,7 @@ Expr* ExpressionParser::parseAggregate() {
     if (!nest) return tooDeepExpr();
     auto* node = makeExpr<AggregateExpr>(NodeKind::Aggregate);
     const TokenIndex opening = take();
-    node->setElements(parseExprList(K::RightBracket, opening));
+    node->setElements(parseExpressionList(K::RightBracket, opening));
     ++height_;
     return finish(node);
 }
@@ -413,7 +414,7 @@ Expr* ExpressionParser::parsePlainAggregate() {
     TokenIndex last = pos();
     uint8_t shape = AggregateExpr::kNoShape;
     if (kind() == K::LeftBracket) {
-        if (lexical().hasBadNumbers()) return nullptr;
+        if (parser().lexical.hasBadNumbers()) return nullptr;
         PlainTokens<false> pieces(tree(), pos());
         if (!skipPlainAggregate(pieces, [](PlainPiece) {})) return nullptr;
         last = static_cast<TokenIndex>(pieces.end() - &tokenAt(0)) - 1;
@@ -440,15 +441,15 @@ uint8_t ExpressionParser::shapeAt(TokenIndex whole) {
 
 void ExpressionParser::parseElements(AggregateExpr& plain, TokenIndex opening) {
     moveTo(opening + 1);
-    plain.setElements(parseExprList(K::RightBracket, opening));
+    plain.setElements(parseExpressionList(K::RightBracket, opening));
 }
 
-std::span<Expr*> ExpressionParser::parseExprList(K closing, TokenIndex opening) {
+std::span<Expr*> ExpressionParser::parseExpressionList(K closing, TokenIndex opening) {
     const size_t bottom = nodes().exprs.size();
     uint32_t height = 0;
     do {
         Expr* number = parseLoneNumber();
-        nodes().exprs.push_back(number ? number : parseExpr());
+        nodes().exprs.push_back(number ? number : parseExpression());
         height = std::max(height, height_);
         if (kind() == K::Semicolon) recovery().repair({.place = Place::ListSeparator, .expected = closing});
     } while (!panic() && accept(K::Comma));
@@ -457,7 +458,7 @@ std::span<Expr*> ExpressionParser::parseExprList(K closing, TokenIndex opening) 
     return drain(nodes().exprs, bottom);
 }
 
-/// `(1, 2, 3)` and `{1, 2, 3}` as a value, before or behind its first member.
+/// `(1, 2, 3)` and `{1, 2, 3}` as a value, before or after its first member.
 Expr* ExpressionParser::parseForeignAggregate(TokenIndex opening, K closing) {
     auto* node = makeExpr<ErrorExpr>(NodeKind::ErrorExpr);
     node->first = opening;
@@ -466,7 +467,7 @@ Expr* ExpressionParser::parseForeignAggregate(TokenIndex opening, K closing) {
                {std::string(textOf(opening)), "'[' around the values of a record or an array"});
     const size_t countBefore = reports().count();
     take();
-    parseExprList(closing, opening);
+    parseExpressionList(closing, opening);
     if (diagnostic && !panic() && reports().count() == countBefore)
         diagnostic->fixes.push_back({"put the values between '[' and ']'",
                                      {{range(opening), "["}, {range(pos() - 1), "]"}},
@@ -478,7 +479,7 @@ Expr* ExpressionParser::parseForeignAggregate(TokenIndex opening, K closing) {
 Expr* ExpressionParser::parseCondition() {
     const TokenIndex start = pos();
     const size_t errorsBefore = reports().errors();
-    Expr* condition = parseExpr();
+    Expr* condition = parseExpression();
     if (panic() || kind() != K::Assign) return condition;
     TokenIndex found = 0;
     if (!ahead().findOnLine(pos(), K::KwThen, found) && !ahead().findOnLine(pos(), K::KwDo, found) &&
@@ -487,17 +488,17 @@ Expr* ExpressionParser::parseCondition() {
     return parseMeantEqual(start, errorsBefore);
 }
 
-/// At ":=" where only "=" can stand: what begins at `start` once more, with the sign that was meant.
+/// At ":=" where only "=" is possible: reads the expression at `start` once more, with the sign that was meant.
 Expr* ExpressionParser::parseMeantEqual(TokenIndex start, size_t errorsBefore) {
-    const bool once = reports().errors() == errorsBefore; // else its mistakes would be told again
+    const bool once = reports().errors() == errorsBefore; // else its mistakes would be reported again
     fix(report(Code::AssignmentInCondition, pos()), range(pos()), "=");
     if (once) {
         readAs(pos(), K::Equal);
         moveTo(start);
-        return parseExpr();
+        return parseExpression();
     }
     take();
-    parseExpr();
+    parseExpression();
     return errorExpr();
 }
 

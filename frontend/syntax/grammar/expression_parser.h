@@ -11,24 +11,24 @@ class ExpressionParser : public ParserPart {
     using ParserPart::ParserPart;
 
     Expr* parsePrimary();
-    Expr* parseNamed(bool allowCall);
+    Expr* parseVariableOrCall(bool allowCall);
     /// Index and components. Only a whole variable takes an index, and a call result has no parts (manual 1.3.6).
     Expr* parsePostfix(Expr* base);
     /// `{1,2}`; other brackets are reported and read as if they were these.
     Expr* parseIndex(Expr* base);
-    /// A whole initial value `[...]` of literals; null, and nothing is read, if something else stands here.
+    /// A whole initial value `[...]` of literals; null, and nothing is read, if something else is here.
     Expr* parsePlainAggregate();
     /// Reads a plain aggregate as any other one; `opening` is its '['.
     void parseElements(AggregateExpr& plain, TokenIndex opening);
     /// `expr {, expr}` and the closing bracket; height_ is that of the highest one.
-    std::span<Expr*> parseExprList(K closing, TokenIndex opening);
+    std::span<Expr*> parseExpressionList(K closing, TokenIndex opening);
     /// A condition; an assignment in it was meant as a comparison.
     Expr* parseCondition();
     Expr* errorExpr();
     /// The arguments of a call up to what cannot be one; sets height_ to that of the call.
     std::span<Argument*> parseArguments(bool procedure);
 
-    Expr* parseExpr() { return parseBinary(1); }
+    Expr* parseExpression() { return parseBinary(1); }
     /// The shapes of aggregates that are one token, as the lexer has found them.
     void setLexed(const LexResult& lexed) { lexed_ = &lexed; }
 
@@ -39,9 +39,9 @@ class ExpressionParser : public ParserPart {
     Expr* parseNumber();
     void reportBadNumber(TokenIndex token);
     Expr* parseLoneNumber();
-    Expr* parseCall();
+    Expr* parseFunctionCall();
     void fixBrackets(diag::Diagnostic* diagnostic, const IndexExpr& node, TokenIndex opening);
-    Expr* parseParen();
+    Expr* parseParenthesised();
     Expr* parseAggregate();
     uint8_t shapeAt(TokenIndex whole);
     Expr* parseForeignAggregate(TokenIndex opening, K closing);

@@ -18,7 +18,7 @@ bool mayBeMisspelt(char first) {
 
 } // namespace
 
-StmtList InstructionParser::parseList(const TokenSet& own, bool braced) {
+StmtList InstructionParser::parseInstructions(const TokenSet& own, bool braced) {
     const Restore restore(block().enclosing);
     const TokenSet outer = block().enclosing;
     block().enclosing = block().enclosing | own;
@@ -36,13 +36,14 @@ StmtList InstructionParser::parseList(const TokenSet& own, bool braced) {
             }
             if (k == K::Identifier) {
                 if (isMisspelt(own)) continue;
-            } else if (isName || ends().isTestWrittenCase()) {
+            } else if (isName) {
             } else if (k == K::KwLocal) {
                 if (kModuleLevel.has(peek()) || ahead().endsBeforeLocalData()) break;
-            } else if (outer.has(k) && !block().endsRoutineTooEarly()
-                           ? !block().standsInside() || ends().handleStray(own)
-                           : ends().handleStray(own)) {
+            } else if (outer.has(k) && !block().endsRoutineTooEarly() && !block().standsInside()) {
                 break;
+            } else {
+                const Repair* repair = recovery().repair({.place = Place::StrayWord, .own = own});
+                if (repair && repair->endsList) break;
             }
         } else if (k == K::RightBrace && block().braces > 0) {
             if (braced) take();
@@ -51,8 +52,8 @@ StmtList InstructionParser::parseList(const TokenSet& own, bool braced) {
             break;
         }
         const TokenIndex before = pos();
-        nodes().stmts.push_back(parseStmt());
-        if (data().hasMoreNames()) nodes().stmts.push_back(parseLateMore());
+        nodes().stmts.push_back(parseInstruction());
+        if (data().hasMoreNames()) nodes().stmts.push_back(parseMoreData());
         if (pos() == before) take();
     }
     return drain(nodes().stmts, bottom);
@@ -65,54 +66,54 @@ bool InstructionParser::isMisspelt(const TokenSet& own) {
            (!foreign().isForeignCloser(pos()) && recovery().repair({.place = Place::ListWord, .own = own}));
 }
 
-Stmt* InstructionParser::parseStmt() {
+Stmt* InstructionParser::parseInstruction() {
     const Nest nest(nodes());
-    if (nest) return parseStmtUnguarded();
+    if (nest) return parseEffectiveInstruction();
     const TokenIndex first = pos();
     reports().reportTooDeep();
     sync().abandonRoutine();
     return errorStmt(first);
 }
 
-Stmt* InstructionParser::parseStmtUnguarded() {
+/// A reserved word as the target of an assignment or as a label.
+Stmt* InstructionParser::parseReservedNamed() {
+    const TokenIndex first = names().takeReservedName();
+    if (kindAt(first) == K::Identifier) {
+        moveTo(first);
+        return parseNamedInstruction();
+    }
+    if (kind() == K::Assign) return parseAssignment(expressions().errorExpr(), first);
+    take();
+    return errorStmt(first);
+}
+
+Stmt* InstructionParser::parseEffectiveInstruction() {
     const TokenIndex first = pos();
     const bool gives = kind() == K::KwReturn || kind() == K::KwRaise;
     if ((peek() == K::Assign || (peek() == K::Colon && kind() != K::KwDefault)) && isKeyword(kind()) &&
-        (!gives || startsLine(pos() + 2))) {
-        names().takeReservedName();
-        if (kindAt(first) == K::Identifier) {
-            moveTo(first);
-            return parseNamedStmt();
-        }
-        if (kind() == K::Assign) return parseAssignment(expressions().errorExpr(), first);
-        take();
-        return errorStmt(first);
-    }
+        (!gives || startsLine(pos() + 2)))
+        return parseReservedNamed();
     switch (kind()) {
     case K::Identifier:
-    case K::PlaceId: return parseNamedStmt();
+    case K::PlaceId: return parseNamedInstruction();
     case K::PlaceVar: return parseAssignment(expressions().parsePrimary(), first);
-    case K::Percent: return parseLateCall();
+    case K::Percent: return parseLateBoundCall();
     case K::KwIf: return blocks().parseIf();
     case K::KwFor: return blocks().parseFor();
     case K::KwWhile: return blocks().parseWhile();
     case K::KwTest: return blocks().parseTest();
     case K::KwGoto: return parseGoto();
-    case K::KwReturn: return parseValueStmt(true);
-    case K::KwRaise: return parseValueStmt(false);
+    case K::KwReturn: return parseReturnOrRaise(true);
+    case K::KwRaise: return parseReturnOrRaise(false);
     case K::KwConnect: return parseConnect();
-    case K::KwRetry: return parseSimple(NodeKind::Retry);
-    case K::KwTrynext: return parseSimple(NodeKind::TryNext);
-    case K::KwExit: return parseSimple(NodeKind::Exit);
-    case K::KwBreak: return parseSimple(NodeKind::Break);
-    case K::KwContinue: return parseSimple(NodeKind::Continue);
-    case K::Semicolon: {
-        auto* node = make<SimpleStmt>(NodeKind::Empty);
-        take();
-        return finish(node);
-    }
+    case K::KwRetry: return parseWordInstruction(NodeKind::Retry);
+    case K::KwTrynext: return parseWordInstruction(NodeKind::TryNext);
+    case K::KwExit: return parseWordInstruction(NodeKind::Exit);
+    case K::KwBreak: return parseWordInstruction(NodeKind::Break);
+    case K::KwContinue: return parseWordInstruction(NodeKind::Continue);
+    case K::Semicolon:
     case K::PlaceSmt: {
-        auto* node = make<SimpleStmt>(NodeKind::PlaceholderStmt);
+        auto* node = make<SimpleStmt>(kind() == K::Semicolon ? NodeKind::Empty : NodeKind::PlaceholderStmt);
         take();
         return finish(node);
     }
@@ -120,7 +121,7 @@ Stmt* InstructionParser::parseStmtUnguarded() {
     case K::KwPers:
     case K::KwConst:
     case K::KwLocal:
-    case K::PlaceDdn: return parseLateDecl();
+    case K::PlaceDdn: return parseLateDeclaration();
     case K::LeftBrace: return foreign().parseBareBraces();
     case K::Minus:
         if (recovery().repair(Place::Comment)) return errorStmt(first);
@@ -135,10 +136,10 @@ Stmt* InstructionParser::parseStmtUnguarded() {
     case K::PlaceCse: return parseOrphan();
     default: break;
     }
-    return noStmt(first);
+    return parseNoInstruction(first);
 }
 
-Stmt* InstructionParser::parseNamedStmt() {
+Stmt* InstructionParser::parseNamedInstruction() {
     const TokenIndex first = pos();
     if (isMarked(Mark::StrayEnd)) {
         take();
@@ -147,14 +148,14 @@ Stmt* InstructionParser::parseNamedStmt() {
     switch (peek()) {
     case K::Assign:
     case K::LeftBrace:
-    case K::Dot: return parseAssignment(expressions().parseNamed(false), first);
+    case K::Dot: return parseAssignment(expressions().parseVariableOrCall(false), first);
     case K::Equal: {
         TokenIndex then = 0;
         if (ahead().findOnLine(pos() + 2, K::KwThen, then)) {
             torn().reportMissingIf();
-            return blocks().parseIfBlocks(first, expressions().parseCondition(), false);
+            return blocks().parseIfBranches(first, expressions().parseCondition(), false);
         }
-        return parseAssignment(expressions().parseNamed(false), first);
+        return parseAssignment(expressions().parseVariableOrCall(false), first);
     }
     case K::Colon: {
         constexpr TokenSet kNoInstruction = {K::Equal,   K::NumLiteral, K::StringLiteral, K::KwTrue,
@@ -165,7 +166,8 @@ Stmt* InstructionParser::parseNamedStmt() {
         return parseColonAssignment();
     }
     case K::Identifier:
-        if (recovery().repair(Place::Instruction)) return parseStmtUnguarded();
+        if (peek(2) == K::Comma) break; // a call
+        if (recovery().repair(Place::Instruction)) return parseEffectiveInstruction();
         if (recovery().repair(Place::Comment)) return errorStmt(first);
         if (ahead().isWordlessData()) {
             auto* node = make<DeclStmt>(NodeKind::DeclStmt);
@@ -177,7 +179,7 @@ Stmt* InstructionParser::parseNamedStmt() {
         if (peek(2) == K::Identifier && equalsNoCase(textOf(first), "GO")) {
             typos().readAsKeyword(first, first + 1, K::KwGoto);
             take();
-            return parseStmtUnguarded();
+            return parseEffectiveInstruction();
         }
         break;
     case K::LeftBracket:
@@ -189,17 +191,17 @@ Stmt* InstructionParser::parseNamedStmt() {
     }
     default: break;
     }
-    if (isTaskDirective(pos())) return parseLateDecl();
+    if (isTaskDirective(pos())) return parseLateDeclaration();
     if (foreign().isEndlessLoop()) {
         const TokenIndex opening = take();
         return blocks().parseWhileBody(opening, expressions().errorExpr(), true);
     }
     if (foreign().endsForeignBlock() || foreign().startsForeignBlock()) return errorStmt(first);
-    return parseCallStmt();
+    return parseProcedureCall();
 }
 
 /// At what begins no instruction.
-Stmt* InstructionParser::noStmt(TokenIndex first) {
+Stmt* InstructionParser::parseNoInstruction(TokenIndex first) {
     // An END word has been reported as stray.
     if (kListStops.has(kind()) && kind() != K::KwLocal) {
         take();
@@ -210,7 +212,7 @@ Stmt* InstructionParser::noStmt(TokenIndex first) {
                        ? "an instruction: a branch of TEST begins with CASE, a label with a letter"
                        : "an instruction");
         take();
-        sync().syncStatement();
+        sync().skipInstruction();
     }
     return errorStmt(first);
 }
@@ -245,7 +247,7 @@ Stmt* InstructionParser::parseOrphan() {
         take();
         if (hasCondition) skipHead();
         if (kindAt(pos() - 1) == K::KwDefault) accept(K::Colon);
-        parseList(ends);
+        parseInstructions(ends);
     } while (ends.has(kind()) && !kEnds.has(kind()));
     if (ends.has(kind()) && !isBranch) take();
     endPanic();
@@ -260,14 +262,14 @@ void InstructionParser::skipHead() {
 }
 
 /// Another name of the data declared last.
-Stmt* InstructionParser::parseLateMore() {
+Stmt* InstructionParser::parseMoreData() {
     auto* node = make<DeclStmt>(NodeKind::DeclStmt);
     node->decl = data().parseMoreNames();
     return finish(node);
 }
 
 /// Data declared after an instruction or inside a block.
-Stmt* InstructionParser::parseLateDecl() {
+Stmt* InstructionParser::parseLateDeclaration() {
     auto* node = make<DeclStmt>(NodeKind::DeclStmt);
     if (accept(K::PlaceDdn)) {
         node->kind = NodeKind::PlaceholderStmt;
@@ -285,7 +287,7 @@ Stmt* InstructionParser::parseLateDecl() {
     }
     if (kind() != K::KwVar && kind() != K::KwPers && kind() != K::KwConst) {
         if (!countBefore) unexpected("a data declaration");
-        sync().syncStatement();
+        sync().skipInstruction();
         return errorStmt(first);
     }
     const size_t errorsBefore = reports().errors();

@@ -10,31 +10,32 @@ class InstructionParser : public ParserPart {
   public:
     using ParserPart::ParserPart;
 
-    StmtList parseList(const TokenSet& own, bool braced = false);
-    Stmt* parseStmt();
+    StmtList parseInstructions(const TokenSet& own, bool braced = false);
+    Stmt* parseInstruction();
     Stmt* errorStmt(TokenIndex first);
     /// The tail of a block whose head was broken or lost: read as the block it was meant to be, without more reports.
     Stmt* parseOrphan();
 
   private:
     bool isMisspelt(const TokenSet& own);
-    Stmt* parseStmtUnguarded();
-    Stmt* parseNamedStmt();
-    Stmt* noStmt(TokenIndex first);
+    Stmt* parseReservedNamed();
+    Stmt* parseEffectiveInstruction();
+    Stmt* parseNamedInstruction();
+    Stmt* parseNoInstruction(TokenIndex first);
     void skipHead();
-    Stmt* parseLateMore();
-    Stmt* parseLateDecl();
+    Stmt* parseMoreData();
+    Stmt* parseLateDeclaration();
     Stmt* parseAssignment(Expr* target, TokenIndex first);
     Stmt* parseColonAssignment();
     Stmt* parseLabel();
-    Stmt* parseCallStmt();
+    Stmt* parseProcedureCall();
     bool parseParenthesisedCall(CallStmt* call);
-    Stmt* parseLateCall();
+    Stmt* parseLateBoundCall();
     Stmt* parseGoto();
-    Stmt* parseValueStmt(bool isReturn);
+    Stmt* parseReturnOrRaise(bool isReturn);
     Stmt* parseConnect();
     void skipTrapArguments();
-    Stmt* parseSimple(NodeKind nodeKind);
+    Stmt* parseWordInstruction(NodeKind nodeKind);
 };
 
 } // namespace rapid::syntax

@@ -1,4 +1,4 @@
-// What the lexer could not read.
+// Mistakes of the lexer.
 
 #include "frontend/syntax/grammar/reports.h"
 
@@ -22,7 +22,7 @@ bool LexicalMistakes::endsBrokenString(const LexError& error, const LexError* be
     return next == std::string_view::npos || kAfterString.find(text[next]) != std::string_view::npos;
 }
 
-/// A backslash in a string that does not end: what is wrong there is the missing '"'. Both stand near in the list.
+/// A backslash in a string that does not end: the mistake is the missing '"'. Both are near in the list.
 bool LexicalMistakes::isInBrokenString(const LexResult& lexed, const LexError& escape) {
     constexpr std::ptrdiff_t kNear = 64;
     const LexError *begin = lexed.errors.data(), *end = begin + lexed.errors.size();
@@ -94,7 +94,7 @@ void LexicalMistakes::reportBrokenStrings() {
     }
 }
 
-/// Doubles each backslash of the string that stands for itself. Not certain beside character codes: a path may look
+/// Doubles each backslash of the string that means itself. Not certain beside character codes: a path may look
 /// like one (`"C:\temp\data"`).
 void LexicalMistakes::fixEscapes(diag::Diagnostic& diagnostic) const {
     const std::string_view text = in_.sourceText();

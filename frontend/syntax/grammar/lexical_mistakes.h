@@ -1,5 +1,5 @@
 #pragma once
-// What the lexer could not read.
+// Mistakes of the lexer.
 
 #include "frontend/diag/diagnostic.h"
 #include "frontend/syntax/grammar/token_cursor.h"

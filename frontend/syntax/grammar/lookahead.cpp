@@ -6,7 +6,7 @@ namespace rapid::syntax {
 
 using diag::Code;
 
-bool Lookahead::looksLikeStatement(TokenIndex i) const {
+bool Lookahead::looksLikeInstruction(TokenIndex i) const {
     if (!isName(kindAt(i))) return kindAt(i) == K::Percent;
     switch (kindAt(i + 1)) {
     case K::Assign:
@@ -56,7 +56,7 @@ bool Lookahead::findOnLine(TokenIndex from, K wanted, TokenIndex& found) const {
             return true;
         }
         if (kSearchEnd.has(kindAt(i))) return false;
-        if (startsLine(i) && looksLikeStatement(i)) return false;
+        if (startsLine(i) && looksLikeInstruction(i)) return false;
     }
     return false;
 }
@@ -74,14 +74,14 @@ bool Lookahead::calleeEndsHere(TokenIndex callee, TokenIndex calleeEnd) const {
     case K::Identifier:
     case K::NumLiteral:
     case K::StringLiteral:
-    case K::Colon: return true; // an argument cannot go on like this
-    default: return columnOf(next) <= columnOf(callee) && looksLikeStatement(next);
+    case K::Colon: return true; // no argument continues like this
+    default: return columnOf(next) <= columnOf(callee) && looksLikeInstruction(next);
     }
 }
 
 bool Lookahead::endsLine(TokenIndex last) const {
     const K next = kindAt(last + 1);
-    return startsLine(last + 1) && (isName(next) || (!startsExpr(next) && next != K::Backslash));
+    return startsLine(last + 1) && (isName(next) || (!startsExpression(next) && next != K::Backslash));
 }
 
 bool Lookahead::quoteInText() const {
@@ -96,11 +96,11 @@ bool Lookahead::beginsInstruction(bool inCase) const {
     constexpr TokenSet kNoOperator = {K::Identifier, K::NumLiteral, K::StringLiteral, K::Assign, K::Colon};
     if (!startsLine(pos()) || !isName(kind())) return false;
     if (inCase && peek() == K::Colon) return false; // the last value of CASE, no label
-    if (peek() == K::Dot || peek() == K::LeftBrace) return looksLikeStatement(pos());
+    if (peek() == K::Dot || peek() == K::LeftBrace) return looksLikeInstruction(pos());
     return kNoOperator.has(peek()) && !(peek() == K::Identifier && startsLine(pos() + 1));
 }
 
-bool Lookahead::startsDecl(TokenIndex i) const {
+bool Lookahead::startsDeclaration(TokenIndex i) const {
     return kDeclWords.has(kindAt(i)) || isTaskDirective(i);
 }
 
@@ -155,7 +155,7 @@ bool Lookahead::isEqualForColon() const {
     constexpr TokenSet kNoOperator = {K::Identifier, K::NumLiteral, K::StringLiteral, K::Assign,
                                       K::Semicolon};
     if (!startsLine(pos() + 1)) return false;
-    return isName(peek()) ? kNoOperator.has(peek(2)) : isKeyword(peek()) && !startsExpr(peek());
+    return isName(peek()) ? kNoOperator.has(peek(2)) : isKeyword(peek()) && !startsExpression(peek());
 }
 
 bool Lookahead::missesCondition() const {

@@ -28,7 +28,7 @@ uint8_t attributeOf(TokenKind kind) {
 void ModuleParser::parseFile(const LexResult& lexed) {
     expressions().setLexed(lexed);
     if (!lexed.hasModule && startsMisspeltModule()) {
-        lexical().report(lexed, reports());
+        parser().lexical.report(lexed, reports());
         accept(K::FileHeader);
         typos().readAsKeyword(pos(), pos(), K::KwModule);
     } else if (!lexed.hasModule) { // not RAPID: one report, whatever its characters are
@@ -40,8 +40,8 @@ void ModuleParser::parseFile(const LexResult& lexed) {
         }
         return;
     } else {
-        lexical().report(lexed, reports());
-        laterWords().readLaterWordsAsNames();
+        parser().lexical.report(lexed, reports());
+        LaterWords(parser()).readLaterWordsAsNames();
         accept(K::FileHeader);
     }
     for (;;) {
@@ -56,13 +56,13 @@ void ModuleParser::parseFile(const LexResult& lexed) {
             skipOutsideModule();
         }
     }
-    lexical().reportBrokenStrings();
+    parser().lexical.reportBrokenStrings();
     if (!sync().hasGoneBack()) return;
     for (ModuleDecl* module : tree().modules)
         cutOff(*module);
 }
 
-/// After going back: what was read as the end of an unfinished line but stands below it is no part of it.
+/// After going back: removes from nodes the tokens below an unfinished line that were read as its end.
 void ModuleParser::cutOff(Node& node) {
     if (node.kind == NodeKind::Aggregate && as<AggregateExpr>(node).isPlain()) return;
     if (node.kind == NodeKind::Component && as<ComponentExpr>(node).name > node.last)
@@ -103,10 +103,10 @@ void ModuleParser::warnOutsideComment(TokenIndex next) {
 }
 
 Expr* ModuleParser::parseWholeExpression(const LexResult& lexed) {
-    lexical().report(lexed, reports());
-    Expr* result = expressions().parseExpr();
+    parser().lexical.report(lexed, reports());
+    Expr* result = expressions().parseExpression();
     if (kind() != K::EndOfFile && !panic()) unexpected("the end of the expression");
-    lexical().reportBrokenStrings();
+    parser().lexical.reportBrokenStrings();
     return result;
 }
 
@@ -143,11 +143,11 @@ void ModuleParser::parseModule() {
     node->name = names().expectName();
     names().checkNameLength(node->name);
     if (!panic() && kind() == K::LeftParen) parseModuleAttributes(node);
-    if (!panic() && !ahead().startsDecl(pos()) && !startsLine(pos()) && kind() != K::KwEndmodule &&
+    if (!panic() && !ahead().startsDeclaration(pos()) && !startsLine(pos()) && kind() != K::KwEndmodule &&
         kind() != K::EndOfFile && kind() != K::Semicolon)
         unexpected("'(' or a declaration");
-    if (panic()) skipToDecl();
-    parseModuleDecls(node);
+    if (panic()) skipToDeclaration();
+    parseDeclarations(node);
     if (!accept(K::KwEndmodule)) {
         ++openModules_;
         if (reports().isNewsHere())
@@ -208,7 +208,7 @@ void ModuleParser::fixAttributeOrder(TokenIndex first, std::vector<TokenIndex> w
     fix(lastOrder_, {range(first).begin, range(pos() - 1).end}, sorted);
 }
 
-void ModuleParser::parseModuleDecls(ModuleDecl* module) {
+void ModuleParser::parseDeclarations(ModuleDecl* module) {
     const size_t bottom = nodes().decls.size();
     while (kind() != K::KwEndmodule && kind() != K::KwModule && kind() != K::EndOfFile) {
         if (kind() == K::Identifier && !quietOutside_ && recovery().repair(Place::Declaration)) continue;
@@ -222,7 +222,7 @@ void ModuleParser::parseModuleDecls(ModuleDecl* module) {
             skipStraySemicolons();
             continue;
         }
-        if (Decl* decl = parseModuleDecl()) nodes().decls.push_back(decl);
+        if (Decl* decl = parseDeclaration()) nodes().decls.push_back(decl);
         while (Decl* decl = data().parseMoreNames())
             nodes().decls.push_back(decl);
         endPanic();
@@ -248,13 +248,13 @@ bool ModuleParser::retagLastEnd() {
     return true;
 }
 
-Decl* ModuleParser::parseModuleDecl() {
+Decl* ModuleParser::parseDeclaration() {
     const TokenIndex first = pos();
     switch (kind()) {
     case K::KwVar:
     case K::KwPers:
     case K::KwConst: return data().parseData(ScopeWord::None, first, true);
-    case K::KwLocal: return parseScopedDecl();
+    case K::KwLocal: return parseScopedDeclaration();
     case K::KwProc:
     case K::KwFunc:
     case K::KwTrap: quietOutside_ = false; return routines().parseRoutine(false, first);
@@ -274,13 +274,13 @@ Decl* ModuleParser::parseModuleDecl() {
         return data().parseData(ScopeWord::Task, first, true);
     }
     if (isContextual(pos(), "TASK") && (kDeclWords.has(peek()) && !isPlaceholder(peek())))
-        return parseTaskDecl();
+        return parseTaskDeclaration();
     if (ahead().isWordlessData() && !quietOutside_) return data().parseWordlessData();
-    return parseUnknownDecl();
+    return parseUnknownDeclaration();
 }
 
 /// TASK before what cannot take it: left out, or with LOCAL.
-Decl* ModuleParser::parseTaskDecl() {
+Decl* ModuleParser::parseTaskDeclaration() {
     const TokenIndex first = pos();
     const SourceRange word{range(pos()).begin, range(pos() + 1).begin};
     if (peek() == K::KwLocal) {
@@ -289,13 +289,13 @@ Decl* ModuleParser::parseTaskDecl() {
         fix(report(Code::TaskDirective, pos(), {describe(pos() + 1)}), word, "");
     }
     take();
-    if (Decl* decl = parseModuleDecl()) return decl;
+    if (Decl* decl = parseDeclaration()) return decl;
     auto* node = make<PlaceholderDecl>(NodeKind::ErrorDecl);
     node->first = first;
     return finish(node);
 }
 
-Decl* ModuleParser::parseScopedDecl() {
+Decl* ModuleParser::parseScopedDeclaration() {
     const TokenIndex first = take();
     switch (kind()) {
     case K::KwVar:
@@ -315,14 +315,14 @@ Decl* ModuleParser::parseScopedDecl() {
     }
     unexpected("a declaration after LOCAL");
     quietOutside_ = true;
-    skipToDecl();
+    skipToDeclaration();
     auto* node = make<PlaceholderDecl>(NodeKind::ErrorDecl);
     node->first = first;
     return finish(node);
 }
 
-/// What is no declaration: instructions after an ENDPROC too many, misspelt words. One report up to the next routine.
-Decl* ModuleParser::parseUnknownDecl() {
+/// Text that is not a declaration: instructions after an ENDPROC too many, misspelt words. One report up to the next routine.
+Decl* ModuleParser::parseUnknownDeclaration() {
     auto* node = make<PlaceholderDecl>(NodeKind::ErrorDecl);
     constexpr TokenSet kEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
     if (kind() != K::Error && !quietOutside_) {
@@ -337,15 +337,15 @@ Decl* ModuleParser::parseUnknownDecl() {
     }
     if (kind() != K::Semicolon) quietOutside_ = true;
     take();
-    skipToDecl();
+    skipToDeclaration();
     return finish(node);
 }
 
 /// To the next word at the beginning of a line, or after a semicolon or END word, that begins a declaration.
-void ModuleParser::skipToDecl() {
+void ModuleParser::skipToDeclaration() {
     endPanic();
     for (; kind() != K::EndOfFile && kind() != K::KwEndmodule; take()) {
-        if (!ahead().startsDecl(pos())) continue;
+        if (!ahead().startsDeclaration(pos())) continue;
         const K before = pos() > 0 ? kindAt(pos() - 1) : K::Semicolon;
         if (startsLine(pos()) || before == K::Semicolon || before == K::RightParen || isKeyword(before))
             return;

@@ -12,7 +12,7 @@ class ModuleParser : public ParserPart {
 
     void parseFile(const LexResult& lexed);
     Expr* parseWholeExpression(const LexResult& lexed);
-    Decl* parseModuleDecl();
+    Decl* parseDeclaration();
 
   private:
     static void cutOff(Node& node);
@@ -24,12 +24,12 @@ class ModuleParser : public ParserPart {
     void parseModuleAttributes(ModuleDecl* module);
     void addAttribute(ModuleDecl* module, TokenIndex token, std::vector<TokenIndex>& seen);
     void fixAttributeOrder(TokenIndex first, std::vector<TokenIndex> words);
-    void parseModuleDecls(ModuleDecl* module);
+    void parseDeclarations(ModuleDecl* module);
     bool retagLastEnd();
-    Decl* parseTaskDecl();
-    Decl* parseScopedDecl();
-    Decl* parseUnknownDecl();
-    void skipToDecl();
+    Decl* parseTaskDeclaration();
+    Decl* parseScopedDeclaration();
+    Decl* parseUnknownDeclaration();
+    void skipToDeclaration();
 
     bool quietOutside_ = false; ///< text between declarations has been reported
     bool outsideCommentShown_ = false;

@@ -26,8 +26,8 @@ void ParameterParser::parseParameters(RoutineDecl* routine) {
     if (!panic()) return;
     routine->broken = true; // calls are not judged
     endPanic();             // the header ends with its line
-    while (kind() != K::EndOfFile &&
-           !(startsLine(pos()) && (ahead().startsDecl(pos()) || ahead().looksLikeStatement(pos())))) {
+    while (kind() != K::EndOfFile && !(startsLine(pos()) && (ahead().startsDeclaration(pos()) ||
+                                                             ahead().looksLikeInstruction(pos())))) {
         if (kind() == K::RightParen && startsLine(pos() + 1)) {
             take();
             return;
@@ -73,10 +73,10 @@ void ParameterParser::parseParameterGroup(uint32_t group) {
     bool optional = accept(K::Backslash) || marked;
     params_.push_back(parseParameter(optional, group));
     while (!panic() && kind() == K::Bar) {
-        if (!optional && !options().declarations) report(Code::RequiredAlternative, pos());
+        if (!optional && !parser().options.declarations) report(Code::RequiredAlternative, pos());
         take();
         if (kind() == K::Backslash) {
-            if (!options().declarations)
+            if (!parser().options.declarations)
                 fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "a parameter after '|'"}),
                     range(pos()), "");
             optional = true;
@@ -105,7 +105,8 @@ bool ParameterParser::parseAccessMode(ParamDecl* node) {
         node->mode = ParamMode::Pers;
     } else if (accept(K::KwInout)) {
         node->mode = ParamMode::Inout;
-    } else if (options().declarations && isContextual(pos(), "REF") && isName(peek()) && isName(peek(2))) {
+    } else if (parser().options.declarations && isContextual(pos(), "REF") && isName(peek()) &&
+               isName(peek(2))) {
         take();
         node->mode = ParamMode::Ref;
     }
@@ -164,7 +165,7 @@ ParamDecl* ParameterParser::parseParameter(bool optional, uint32_t group) {
     if (!panic() && (kind() == K::Assign || kind() == K::Equal)) {
         report(Code::ParameterValue, pos(), {std::string(textOf(node->name))});
         take();
-        expressions().parseExpr();
+        expressions().parseExpression();
     }
     return finish(node);
 }

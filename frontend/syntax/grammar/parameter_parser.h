@@ -11,7 +11,7 @@ class ParameterParser : public ParserPart {
     using ParserPart::ParserPart;
 
     void parseParameters(RoutineDecl* routine);
-    /// What stands where '(' should.
+    /// At another token than the '(' that is expected.
     void parseParametersWithoutParen(RoutineDecl* routine);
 
     bool typeMissed = false; ///< a parameter of the header without a data type has been reported

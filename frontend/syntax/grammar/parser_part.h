@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of the parser share.
+// The base of all parts of the parser.
 
 #include "frontend/syntax/grammar/reports.h"
 #include "frontend/syntax/grammar/token_cursor.h"
@@ -84,8 +84,6 @@ class ParserPart {
     Parser& parser() const { return parser_; }
     TreeBuilder& nodes() const { return nodes_; }
     Reports& reports() const { return reports_; }
-    LexicalMistakes& lexical() const;
-    const ParseOptions& options() const;
 #define PARSER_PART(Type, name) Type& name() const;
 #include "frontend/syntax/grammar/parser_parts.def"
 

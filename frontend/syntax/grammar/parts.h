@@ -40,12 +40,6 @@ struct Parser {
 
 inline ParserPart::ParserPart(Parser& parser)
     : parser_(parser), in_(parser.in), nodes_(parser.nodes), reports_(parser.reports) {}
-inline LexicalMistakes& ParserPart::lexical() const {
-    return parser_.lexical;
-}
-inline const ParseOptions& ParserPart::options() const {
-    return parser_.options;
-}
 #define PARSER_PART(Type, name)                                                                              \
     inline Type& ParserPart::name() const {                                                                  \
         return parser_.name;                                                                                 \

@@ -11,21 +11,21 @@ using diag::Code;
 
 namespace {
 
-/// What tells of words that could not be read: the next ones may be misread.
+/// Codes of words that could not be read: the next ones may be misread.
 bool isUnread(Code code) {
     constexpr Code kAll[] = {Code::UnexpectedToken,           Code::MissingClosing,   Code::MissingSemicolon,
                              Code::InstructionOutsideRoutine, Code::PartOfCallResult, Code::BadNumber};
     return std::find(std::begin(kAll), std::end(kAll), code) != std::end(kAll);
 }
 
-/// What is said of words only because others are expected there.
+/// Codes that only say that other words are expected.
 bool isOnlyUnexpected(Code code) {
     constexpr Code kAll[] = {Code::UnexpectedToken, Code::ReservedWordAsName, Code::MissingClosing,
                              Code::MissingSemicolon, Code::InstructionOutsideRoutine};
     return std::find(std::begin(kAll), std::end(kAll), code) != std::end(kAll);
 }
 
-/// What is said where a name may have been torn in two.
+/// Codes of places where a name may have been torn in two.
 bool isTornPlace(Code code) {
     return code == Code::UnexpectedToken || code == Code::MissingClosing || code == Code::MissingBlockWord;
 }
@@ -57,7 +57,7 @@ bool Reports::isConsequence(Code code, SourceRange range) {
     return isMarked(Mark::BehindBadNumber, in_.pos()) || lexical_.covers(range);
 }
 
-/// Whether the words are right behind some that could not be read: in the same line, or in the next one when that begins
+/// Whether the words follow some that could not be read: in the same line, or in the next one when that begins
 /// with the semicolon of the first.
 bool Reports::followsFromLast(Code code, SourceRange range) const {
     constexpr uint32_t kNear = 4;

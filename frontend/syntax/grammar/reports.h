@@ -1,5 +1,5 @@
 #pragma once
-// What the parser reports, and what it remembers of that: one mistake, one message.
+// Reports of the parser, and its memory of them: one mistake, one message.
 
 #include "frontend/diag/diagnostic.h"
 #include "frontend/syntax/grammar/lexical_mistakes.h"
@@ -22,6 +22,7 @@ enum class Mark : uint8_t {
     RunTogether,            ///< the word of a declaration that what follows has run into
     EarlySemicolon,         ///< the place after an operand whose semicolon is before it
     BehindBadNumber,        ///< the place after a number that could not be read
+    BlockOfCompactIf,       ///< an IF without THEN whose block is closed below; reported
     ColonGiven,             ///< an ELSE read as DEFAULT, reported together with its missing colon
     Count
 };
@@ -55,7 +56,7 @@ class Reports {
     void reportTooDeep();
     /// "found X, expected Y" at the current token, and panic.
     void unexpected(std::string_view expected);
-    /// What the line before lacks at its end; at a token within a line like unexpected().
+    /// Reports at the end of the line before what it lacks; at a token within a line like unexpected().
     void missing(std::string_view expected);
 
     void note(diag::Diagnostic* diagnostic, TokenIndex at, std::string message);
@@ -67,7 +68,7 @@ class Reports {
     bool joinLast(diag::Code code, SourceRange place, std::string_view message);
     /// The same, with one more edit to its fix.
     bool joinLastEdit(diag::Code code, SourceRange place, std::string replacement);
-    /// What was reported last; read it after joinLast() only.
+    /// The last report; read it after joinLast() only.
     diag::Diagnostic* last() const { return last_; }
 
     bool panic() const { return panic_; }
@@ -75,7 +76,7 @@ class Reports {
     /// Errors of the file, those of the lexer included, also what is no longer shown.
     size_t errors() const { return errors_; }
     bool isFull() const { return errors_ > kMaxErrorsPerFile; }
-    size_t& countError() { return ++errors_; }
+    size_t countError() { return ++errors_; }
     /// Parts of instructions that could not be read, whether that was reported or not.
     size_t unreadable() const { return unreadable_; }
     void countUnreadable() { ++unreadable_; }

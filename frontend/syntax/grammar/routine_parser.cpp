@@ -32,7 +32,7 @@ Decl* RoutineParser::parseRoutine(bool local, TokenIndex first) {
         node->local = true;
         take();
     }
-    if (!options().declarations) correctRoutineWord(node, opening);
+    if (!parser().options.declarations) correctRoutineWord(node, opening);
     block().routineEnd = wordsOf(node->routineKind).end;
     parseRoutineHeader(node);
     if (!panic() && kind() == K::RightParen && !startsLine(pos())) { // PROC name())
@@ -47,7 +47,7 @@ Decl* RoutineParser::parseRoutine(bool local, TokenIndex first) {
         endPanic();
         return finish(node);
     }
-    if (options().declarations && ahead().isNative()) {
+    if (parser().options.declarations && ahead().isNative()) {
         node->hasBody = false;
         return finish(node);
     }
@@ -129,7 +129,7 @@ void RoutineParser::parseRoutineHeader(RoutineDecl* routine) {
     }
 }
 
-/// The data type of a function, or one that stands where there is none. True: that of a function is missing.
+/// The data type of a function, or one in a place without. True: that of a function is missing.
 bool RoutineParser::parseReturnType(RoutineDecl* routine) {
     if (routine->routineKind == RoutineKind::Func) {
         const bool typed = isMarked(Mark::RunTogether, pos() - 1); // "FUNCnum name("
@@ -180,7 +180,7 @@ void RoutineParser::parseRoutineBody(RoutineDecl* routine, bool& braced) {
     while (!braced && parseNested(routine)) {
         nodes().stmts.insert(nodes().stmts.end(), list.begin(), list.end());
         if (nodes().stmts.size() == bottom) parseRoutineData();
-        list = instructions().parseList(kRoutineEnds);
+        list = instructions().parseInstructions(kRoutineEnds);
     }
     routine->data = drain(data_, dataMark);
     if (nodes().stmts.size() == bottom) {
@@ -212,7 +212,7 @@ bool RoutineParser::parseNested(const RoutineDecl* routine) {
     report(Code::NestedDeclaration, word,
            {describe(word), routine->name == kNoToken ? std::string() : std::string(textOf(routine->name))});
     const TokenIndex start = block().routineStart;
-    if (Decl* decl = modules().parseModuleDecl()) nodes().decls.push_back(decl);
+    if (Decl* decl = modules().parseDeclaration()) nodes().decls.push_back(decl);
     block().routineStart = start;
     block().endifsCounted = false;
     block().enclosing = TokenSet();
@@ -227,7 +227,7 @@ void RoutineParser::parseRoutineData() {
         if (k == K::KwVar || k == K::KwPers || k == K::KwConst) {
             data_.push_back(data().parseData(ScopeWord::None, first));
         } else if (k == K::Semicolon) {
-            nodes().stmts.push_back(instructions().parseStmt());
+            nodes().stmts.push_back(instructions().parseInstruction());
         } else if (k == K::PlaceDdn) {
             take();
         } else if ((k == K::KwLocal && (peek() == K::KwVar || peek() == K::KwPers || peek() == K::KwConst)) ||
@@ -290,12 +290,12 @@ void RoutineParser::parseHandler(RoutineDecl* routine, K previous) {
     if (word == K::KwError && kind() == K::LeftParen) {
         const TokenIndex opening = take();
         clause->hasList = true;
-        clause->numbers = expressions().parseExprList(K::RightParen, opening);
-        if (panic()) sync().syncStatement();
+        clause->numbers = expressions().parseExpressionList(K::RightParen, opening);
+        if (panic()) sync().skipInstruction();
     }
     signs().takesColonAs("");
     block().opening = kNoToken;
-    const StmtList body = instructions().parseList(kRoutineEnds);
+    const StmtList body = instructions().parseInstructions(kRoutineEnds);
     if (word == K::KwError) {
         clause->body = body;
         handlers_.push_back(finish(clause));
@@ -317,7 +317,7 @@ void RoutineParser::closeRoutine(RoutineDecl* routine, TokenIndex opening, bool 
     diag::Diagnostic* diagnostic = report(Code::MissingBlockEnd, pos(), {describe(pos()), expected});
     note(diagnostic, opening, std::string(words.name) + " begins here");
     const bool endsModule = kind() == K::KwEndmodule &&
-                            (peek() == K::KwEndmodule || ahead().startsDecl(pos() + 1)) &&
+                            (peek() == K::KwEndmodule || ahead().startsDeclaration(pos() + 1)) &&
                             peek() != K::KwModule;
     if (!kEnds.has(kind()) && !isMarked(Mark::WrongEnd) && !endsModule) return;
     fix(diagnostic, range(pos()), expected, false);

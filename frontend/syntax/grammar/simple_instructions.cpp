@@ -19,15 +19,16 @@ Stmt* InstructionParser::parseAssignment(Expr* target, TokenIndex first) {
     } else if (!accept(K::Assign) && !panic()) {
         missing("':='");
     }
-    const bool valueLost = ahead().beginsInstruction() || (!isName(kind()) && !startsExpr(kind()));
+    const bool valueLost = ahead().beginsInstruction() || (!isName(kind()) && !startsExpression(kind()));
     if (valueLost && foreign().negatesByComment(";")) {
         node->value = expressions().errorExpr();
         node->broken = true;
         return finish(node);
     }
-    node->value = panic() ? expressions().errorExpr() : expressions().parseExpr();
-    const bool named = node->value->kind == NodeKind::Name && kind() != K::Semicolon && startsExpr(kind());
-    sync().endStatement(named ? "';', or '(' before the arguments of a function" : "';'");
+    node->value = panic() ? expressions().errorExpr() : expressions().parseExpression();
+    const bool named =
+        node->value->kind == NodeKind::Name && kind() != K::Semicolon && startsExpression(kind());
+    sync().endInstruction(named ? "';', or '(' before the arguments of a function" : "';'");
     node->broken = reports().unreadable() > unreadable;
     return finish(node);
 }
@@ -50,7 +51,7 @@ Stmt* InstructionParser::parseLabel() {
     return finish(node);
 }
 
-Stmt* InstructionParser::parseCallStmt() {
+Stmt* InstructionParser::parseProcedureCall() {
     auto* node = make<CallStmt>(NodeKind::CallStmt);
     node->name = take();
     if (ahead().calleeEndsHere(node->name, node->name)) {
@@ -60,7 +61,7 @@ Stmt* InstructionParser::parseCallStmt() {
     }
     if (kind() == K::LeftParen && parseParenthesisedCall(node)) return finish(node);
     if (kind() == K::Error) { // reported; perhaps no call at all
-        sync().syncStatement();
+        sync().skipInstruction();
         return errorStmt(node->name);
     }
     const size_t errorsBefore = reports().errors();
@@ -70,14 +71,14 @@ Stmt* InstructionParser::parseCallStmt() {
         unexpected("'\\' or ','"); // "Move 1 speed:=2;"
     }
     if (kind() != K::Semicolon && !panic() && reports().errors() == errorsBefore &&
-        recovery().repair({.place = Place::AfterCall, .callee = node->name}))
-        return parseStmtUnguarded();
+        recovery().repair({.place = Place::AfterCall, .word = node->name}))
+        return parseEffectiveInstruction();
     if (node->args.empty() && ahead().atReservedName()) { // an argument
         node->args = {};
         report(Code::ReservedWordAsName, pos(), {std::string(tokenText(kind()))});
         startPanic();
     }
-    sync().endStatement(node->args.empty() ? "an argument or ';'" : "',' or ';'");
+    sync().endInstruction(node->args.empty() ? "an argument or ';'" : "',' or ';'");
     node->broken = reports().unreadable() > unreadable;
     return finish(node);
 }
@@ -100,21 +101,21 @@ bool InstructionParser::parseParenthesisedCall(CallStmt* call) {
     const TokenIndex opening = take();
     call->args = expressions().parseArguments(true);
     sync().expectClosing(K::RightParen, opening, true);
-    sync().endStatement();
+    sync().endInstruction();
     return true;
 }
 
 /// `%"proc" + NumToStr(i, 0)% x, y;`
-Stmt* InstructionParser::parseLateCall() {
+Stmt* InstructionParser::parseLateBoundCall() {
     auto* node = make<CallStmt>(NodeKind::CallStmt);
     const TokenIndex opening = take();
     const bool outer = std::exchange(block().inLateName, true);
-    node->lateName = expressions().parseExpr();
+    node->lateName = expressions().parseExpression();
     block().inLateName = outer;
     sync().expectClosing(K::Percent, opening, false);
     if (!panic() && !ahead().calleeEndsHere(opening, pos() - 1))
         node->args = expressions().parseArguments(true);
-    sync().endStatement(node->args.empty() ? "an argument or ';'" : "',' or ';'");
+    sync().endInstruction(node->args.empty() ? "an argument or ';'" : "',' or ';'");
     return finish(node);
 }
 
@@ -122,17 +123,17 @@ Stmt* InstructionParser::parseGoto() {
     auto* node = make<GotoStmt>(NodeKind::Goto);
     take();
     node->label = names().expectNameHere();
-    sync().endStatement();
+    sync().endInstruction();
     return finish(node);
 }
 
 /// RETURN and RAISE with an optional value.
-Stmt* InstructionParser::parseValueStmt(bool isReturn) {
+Stmt* InstructionParser::parseReturnOrRaise(bool isReturn) {
     Expr* value = nullptr;
     const size_t unreadable = reports().unreadable();
     const TokenIndex first = take();
     constexpr TokenSet kSigns = {K::Assign, K::Equal, K::Colon};
-    if (kSigns.has(kind()) && !startsLine(pos()) && startsExpr(peek()) &&
+    if (kSigns.has(kind()) && !startsLine(pos()) && startsExpression(peek()) &&
         !startsLine(pos() + 1)) { // RETURN = x;
         fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "a value behind " + describe(first)}),
             {range(pos()).begin, range(pos() + 1).begin}, range(first).end == range(pos()).begin ? " " : "");
@@ -140,10 +141,10 @@ Stmt* InstructionParser::parseValueStmt(bool isReturn) {
     }
     const bool valueBelow =
         isReturn && block().routineEnd == K::KwEndfunc && isName(kind()) && peek() == K::Semicolon;
-    if (kind() != K::Semicolon && startsExpr(kind()) &&
+    if (kind() != K::Semicolon && startsExpression(kind()) &&
         (valueBelow || !ahead().calleeEndsHere(first, first)) &&
         !(startsLine(pos()) && isName(kind()) && (peek() == K::Assign || peek() == K::Colon)))
-        value = expressions().parseExpr();
+        value = expressions().parseExpression();
     Stmt* result;
     if (isReturn) {
         auto* node = make<ReturnStmt>(NodeKind::Return);
@@ -156,7 +157,7 @@ Stmt* InstructionParser::parseValueStmt(bool isReturn) {
     }
     result->first = first;
     if (isReturn && !value && !panic() && kind() == K::KwEndfunc) missing("an expression");
-    sync().endStatement(value ? "';'" : "an expression or ';'");
+    sync().endInstruction(value ? "';'" : "an expression or ';'");
     const bool unfinished = !value && kindAt(pos() - 1) != K::Semicolon;
     result->broken = unfinished || reports().unreadable() > unreadable;
     return finish(result);
@@ -166,7 +167,7 @@ Stmt* InstructionParser::parseConnect() {
     auto* node = make<ConnectStmt>(NodeKind::Connect);
     take();
     if (isName(kind())) {
-        node->target = expressions().parseNamed(false);
+        node->target = expressions().parseVariableOrCall(false);
     } else if (kind() == K::PlaceVar) {
         node->target = expressions().parsePrimary();
     } else {
@@ -183,7 +184,7 @@ Stmt* InstructionParser::parseConnect() {
             missing("WITH");
         }
     }
-    sync().endStatement();
+    sync().endInstruction();
     return finish(node);
 }
 
@@ -200,10 +201,10 @@ void InstructionParser::skipTrapArguments() {
     moveTo(last + 1);
 }
 
-Stmt* InstructionParser::parseSimple(NodeKind nodeKind) {
+Stmt* InstructionParser::parseWordInstruction(NodeKind nodeKind) {
     auto* node = make<SimpleStmt>(nodeKind);
     take();
-    sync().endStatement();
+    sync().endInstruction();
     return finish(node);
 }
 

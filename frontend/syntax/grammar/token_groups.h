@@ -62,18 +62,18 @@ inline constexpr TokenSet kLineWords = kStmtWords | kEndWords | kBlockWords | kD
 /// Words that begin a declaration no routine has.
 inline constexpr TokenSet kModuleLevel = {TokenKind::KwProc, TokenKind::KwFunc, TokenKind::KwTrap,
                                           TokenKind::KwRecord, TokenKind::KwAlias};
-/// What ends any search for a word that is missing.
+/// Ends of any search for a word that is missing.
 inline constexpr TokenSet kSearchEnd = kLineWords | TokenSet{TokenKind::Semicolon};
 
 inline constexpr uint32_t kSearchTokens = 200;
-/// What an expression begins with.
+/// First tokens of expressions.
 inline constexpr TokenSet kExprStart = {
     TokenKind::Identifier, TokenKind::NumLiteral, TokenKind::StringLiteral, TokenKind::KwTrue,
     TokenKind::KwFalse,    TokenKind::KwNot,      TokenKind::Plus,          TokenKind::Minus,
     TokenKind::LeftParen,  TokenKind::PlaceId,    TokenKind::LeftBracket,   TokenKind::PlaceExp,
     TokenKind::PlaceVar,   TokenKind::Error};
 
-inline bool startsExpr(TokenKind kind) {
+inline bool startsExpression(TokenKind kind) {
     return kExprStart.has(kind);
 }
 inline bool isName(TokenKind kind) {

@@ -19,28 +19,39 @@ Decl* TypeParser::parseRecord(bool local, TokenIndex first) {
     if (!startsLine(pos())) torn().takeTornName(node->name, {}, true);
     if (panic() || kind() == K::Semicolon) {
         if (!panic()) unexpected("a component");
-        sync().syncStatement();
+        sync().skipInstruction();
     }
     const bool braced = kind() == K::LeftBrace;
     if (braced) {
         report(Code::ForeignSpelling, pos(), {"{", "a component: a record ends with ENDRECORD"});
         take();
     }
+    node->components = parseComponents(braced);
+    if (braced && kindAt(pos() - 1) == K::RightBrace) {
+        accept(K::KwEndrecord);
+        return finish(node);
+    }
+    if (node->components.empty() && kind() == K::KwEndrecord && !parser().options.declarations &&
+        reports().errors() == errorsBefore)
+        report(Code::EmptyRecord, node->name == kNoToken ? opening : node->name,
+               {std::string(textOf(node->name))});
+    // An END word of a routine below RECORD was meant as its end.
+    constexpr TokenSet kWrong = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
+    if (kWrong.has(kind()) && startsLine(pos()) && columnOf(pos()) == indentOf(opening)) mark(Mark::WrongEnd);
+    if (kind() == K::KwEndmodule && ahead().startsDeclaration(pos() + 1) && peek() != K::KwModule)
+        mark(Mark::WrongEnd);
+    ends().closeBlock(K::KwEndrecord, opening, node->name != kNoToken || !node->components.empty());
+    return finish(node);
+}
+
+/// Up to ENDRECORD, or to what no record has. `braced`: the list may end with '}'.
+std::span<RecordComponent*> TypeParser::parseComponents(bool braced) {
     const size_t bottom = components_.size();
     while (kind() != K::KwEndrecord && kind() != K::EndOfFile) {
         if (braced && accept(K::RightBrace)) break;
-        if (isContextual(pos(), "END") && !startsLine(pos() + 1) && ahead().endsLine(pos() + 1) &&
-            (peek() == K::KwRecord || typos().foreignCloserIs(pos() + 1))) { // "END RECORD"
-            typos().readAsKeyword(pos(), pos() + 1, K::KwEndrecord);
-            take();
-            break;
-        }
-        if (kind() == K::Identifier && (ahead().endsLine(pos()) || peek() == K::Semicolon) &&
-            (equalsNoCase(textOf(pos()), "END") || typos().editsTo(pos(), K::KwEndrecord) != 0)) {
-            typos().readAsKeyword(pos(), pos(), K::KwEndrecord);
-            break;
-        }
-        if (ahead().startsDecl(pos()) && !dropComponentWord()) break;
+        const bool unusual = kind() == K::Identifier || kStorageWords.has(kind());
+        if (unusual && recovery().repair(Place::Component)) continue;
+        if (ahead().startsDeclaration(pos())) break;
         if (kind() == K::KwEndmodule || kRoutineEnds.has(kind())) break;
         const TokenIndex before = pos();
         if (isName(kind())) {
@@ -48,39 +59,11 @@ Decl* TypeParser::parseRecord(bool local, TokenIndex first) {
         } else {
             unexpected("a component or ENDRECORD");
             take();
-            sync().syncStatement();
+            sync().skipInstruction();
         }
         if (pos() == before) take();
     }
-    node->components = drain(components_, bottom);
-    if (braced && kindAt(pos() - 1) == K::RightBrace) {
-        accept(K::KwEndrecord);
-        return finish(node);
-    }
-    if (node->components.empty() && kind() == K::KwEndrecord && !options().declarations &&
-        reports().errors() == errorsBefore)
-        report(Code::EmptyRecord, node->name == kNoToken ? opening : node->name,
-               {std::string(textOf(node->name))});
-    // An END word of a routine below RECORD was meant as its end.
-    constexpr TokenSet kWrong = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
-    if (kWrong.has(kind()) && startsLine(pos()) && columnOf(pos()) == indentOf(opening)) mark(Mark::WrongEnd);
-    if (kind() == K::KwEndmodule && ahead().startsDecl(pos() + 1) && peek() != K::KwModule)
-        mark(Mark::WrongEnd);
-    ends().closeBlock(K::KwEndrecord, opening, node->name != kNoToken || !node->components.empty());
-    return finish(node);
-}
-
-/// "VAR num x;" in a record that is closed by ENDRECORD: the word is reported and left out.
-bool TypeParser::dropComponentWord() {
-    if (!kStorageWords.has(kind()) || !isName(peek()) || !isName(peek(2))) return false;
-    constexpr TokenIndex kSearch = 200;
-    for (TokenIndex i = pos() + 1; i < pos() + kSearch && kindAt(i) != K::KwEndrecord; ++i)
-        if (i + 1 == pos() + kSearch || kRoutineEnds.has(kindAt(i)) || kindAt(i) == K::EndOfFile)
-            return false;
-    fix(report(Code::ComponentWord, pos(), {describe(pos())}), {range(pos()).begin, range(pos() + 1).begin},
-        "");
-    take();
-    return true;
+    return drain(components_, bottom);
 }
 
 RecordComponent* TypeParser::parseComponent() {
@@ -95,9 +78,10 @@ RecordComponent* TypeParser::parseComponent() {
         report(Code::ComponentArray, pos(), {std::string(textOf(node->name))});
         startPanic();
     }
-    sync().endStatement(kind() == K::Comma                          ? "';': a component has one name"
-                        : kind() == K::Assign || kind() == K::Equal ? "';': a component has no initial value"
-                                                                    : "';'");
+    sync().endInstruction(kind() == K::Comma ? "';': a component has one name"
+                          : kind() == K::Assign || kind() == K::Equal
+                              ? "';': a component has no initial value"
+                              : "';'");
     return finish(node);
 }
 
@@ -109,7 +93,7 @@ Decl* TypeParser::parseAlias(bool local, TokenIndex first) {
     node->type = names().expectName();
     if (!panic()) node->name = names().expectName();
     names().checkNameLength(node->name);
-    sync().endStatement(
+    sync().endInstruction(
         kind() == K::LeftBrace ? "';': an alias names a type, arrays are declared with their data" : "';'");
     return finish(node);
 }

@@ -14,7 +14,7 @@ class TypeParser : public ParserPart {
     Decl* parseAlias(bool local, TokenIndex first);
 
   private:
-    bool dropComponentWord();
+    std::span<RecordComponent*> parseComponents(bool braced);
     RecordComponent* parseComponent();
 
     std::vector<RecordComponent*> components_;

@@ -56,7 +56,7 @@ bool ForeignForms::endsForeignBlock() {
     block().foreignCloser.remove_prefix(length == std::string_view::npos ? block().foreignCloser.size()
                                                                          : length + 1);
     take();
-    if (!startsLine(pos())) sync().syncStatement();
+    if (!startsLine(pos())) sync().skipInstruction();
     return true;
 }
 
@@ -72,7 +72,7 @@ bool ForeignForms::isForeignCloser(TokenIndex i) const {
 
 StmtList ForeignForms::parseBody(const TokenSet& own, const std::string& expected, bool& braced) {
     if ((kind() == K::LeftBrace && recovery().repair(Place::Braces)) || kind() != K::LeftBrace || panic())
-        return instructions().parseList(own);
+        return instructions().parseInstructions(own);
     if (!braced && !reports().joinLast(Code::ForeignSpelling, range(pos()), "and no '{', but " + expected))
         report(Code::ForeignSpelling, pos(), {"{", expected});
     else if (!braced && !reports().last()->fixes.empty())
@@ -80,7 +80,7 @@ StmtList ForeignForms::parseBody(const TokenSet& own, const std::string& expecte
     braced = true;
     take();
     ++block().braces;
-    const StmtList list = instructions().parseList(own, true);
+    const StmtList list = instructions().parseInstructions(own, true);
     --block().braces;
     return list;
 }
@@ -130,21 +130,8 @@ bool ForeignForms::parseForeignFor(ForStmt* node) {
     return true;
 }
 
-bool ForeignForms::takesForeignCounter(ForStmt* node) {
-    if (panic()) return false;
-    if (kStorageWords.has(kind()) && isName(peek())) {
-        const TokenIndex name = isName(peek(2)) ? pos() + 2 : pos() + 1;
-        fix(report(Code::UnexpectedToken, pos(),
-                   {describe(pos()), "the name of the loop variable, which FOR declares by itself"}),
-            {range(pos()).begin, range(name).begin}, "");
-        moveTo(name);
-        return false;
-    }
-    if (!isName(kind()) || !isContextual(pos() + 1, "IN") || startsLine(pos() + 1)) return false;
-    if (TokenIndex to = 0; ahead().findOnLine(pos() + 2, K::KwTo, to)) { // FOR i IN 1 TO 3 DO
-        typos().readAsKeyword(pos() + 1, pos() + 1, K::KwFrom);
-        return false;
-    }
+bool ForeignForms::parseForIn(ForStmt* node) {
+    if (panic() || !isName(kind()) || !isContextual(pos() + 1, "IN") || startsLine(pos() + 1)) return false;
     report(Code::ForeignSpelling, pos() + 1,
            {std::string(textOf(pos() + 1)), "a head such as FOR i FROM 1 TO 10 DO"});
     node->variable = pos();
@@ -193,7 +180,7 @@ bool ForeignForms::parseForeignParameter(ParamDecl* node) {
 }
 
 void ForeignForms::dropForeignMode(ParamDecl* node) {
-    if (options().declarations || !isName(peek()) || !isName(peek(2))) return;
+    if (parser().options.declarations || !isName(peek()) || !isName(peek(2))) return;
     struct Mode {
         std::string_view word, expected, fix;
         ParamMode mode;

@@ -5,7 +5,7 @@
 
 namespace rapid::syntax {
 
-/// What other languages write where RAPID has blocks, negation and declarations of its own: reported once, and read as meant.
+/// Blocks, negation and declarations as other languages write them: reported once, and read as meant.
 class ForeignForms : public ParserPart {
   public:
     using ParserPart::ParserPart;
@@ -25,11 +25,11 @@ class ForeignForms : public ParserPart {
     bool negatesByComment(std::string_view ending);
     /// `FOR (i = 0; i < 3; i++)`: one report for the head; what is assigned first is the loop variable.
     bool parseForeignFor(ForStmt* node);
-    /// `FOR VAR num i FROM 1 TO 3 DO`: without the words of a declaration. `for i in range(3):`: true, the head has been read.
-    bool takesForeignCounter(ForStmt* node);
-    /// Type and name of data that stand in another order, or without a type: `x : num`, `x AS num`, `x := 1`.
+    /// `for i in range(3):`: true when the head has been read.
+    bool parseForIn(ForStmt* node);
+    /// Type and name of data in another order, or without a type: `x : num`, `x AS num`, `x := 1`.
     bool parseForeignData(DataDecl* node);
-    /// A parameter without a data type, or with it behind the name; true when it has been read.
+    /// A parameter without a data type, or with it after the name; true when it has been read.
     bool parseForeignParameter(ParamDecl* node);
     /// IN, REF, OUT ... before a parameter: reported and left out.
     void dropForeignMode(ParamDecl* node);

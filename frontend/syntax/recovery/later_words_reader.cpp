@@ -21,7 +21,7 @@ constexpr LaterWord kLaterWords[] = {{TokenKind::KwBreak, kBreakSystem, true},
                                      {TokenKind::KwContinue, kBreakSystem, true},
                                      {TokenKind::KwUndo, "RobotWare 5", false}};
 
-/// What can follow a name, but neither BREAK, CONTINUE nor UNDO.
+/// Tokens that can follow a name, but neither BREAK, CONTINUE nor UNDO.
 constexpr TokenSet kAfterName = {
     TokenKind::Assign,   TokenKind::LeftParen,  TokenKind::RightParen,   TokenKind::LeftBrace,
     TokenKind::Comma,    TokenKind::RightBrace, TokenKind::RightBracket, TokenKind::Dot,
@@ -31,7 +31,7 @@ constexpr TokenSet kAfterName = {
     TokenKind::KwDo,     TokenKind::KwTo,       TokenKind::KwStep,       TokenKind::KwAnd,
     TokenKind::KwOr,     TokenKind::KwXor,      TokenKind::KwDiv,        TokenKind::KwMod,
     TokenKind::KwElseif, TokenKind::Bar};
-/// What can stand before a value or the name of a declaration, but not before an instruction.
+/// Tokens that can precede a value or the name of a declaration, but not an instruction.
 constexpr TokenSet kBeforeName = {
     TokenKind::Assign,    TokenKind::Comma,   TokenKind::LeftParen,    TokenKind::LeftBracket,
     TokenKind::LeftBrace, TokenKind::Plus,    TokenKind::Minus,        TokenKind::Star,
@@ -72,7 +72,7 @@ bool LaterWords::isNameInOldFile(TokenIndex i, bool endsAtOnce) const {
 }
 
 void LaterWords::readLaterWordsAsNames() {
-    if (!SourceFile::isLegacyFileType(tree().source->path()) || options().declarations) return;
+    if (!SourceFile::isLegacyFileType(tree().source->path()) || parser().options.declarations) return;
     for (const LaterWord& word : kLaterWords) {
         TokenIndex first = kNoToken;
         bool procedure = false;

@@ -47,18 +47,18 @@ class ListStrategy : public RecoveryStrategy {
     }
 };
 
-/// What is left of the END word of the list: before the next routine, or in line with the word that began the block.
+/// A piece of the END word of the list: before the next routine, or in line with the word that began the block.
 class PieceOfEnd : public ListStrategy {
     using ListStrategy::ListStrategy;
     Proposal propose(const Situation& at) const override {
-        constexpr TokenSet kBehindRoutine = {K::KwProc,   K::KwFunc,      K::KwTrap,   K::KwLocal,
-                                             K::KwModule, K::KwEndmodule, K::EndOfFile};
+        constexpr TokenSet kAfterRoutine = {K::KwProc,   K::KwFunc,      K::KwTrap,   K::KwLocal,
+                                            K::KwModule, K::KwEndmodule, K::EndOfFile};
         const K end = block().endOfOwn(at.own);
         if (panic() || !at.own.has(end) || !typos().isPieceOf(pos(), end)) return {};
         const bool inLine = block().opening != kNoToken && startsLine(block().opening) &&
                             columnOf(pos()) == columnOf(block().opening);
         const bool fits =
-            end == block().routineEnd ? kBehindRoutine.has(peek()) : inLine && block().closesHere(end);
+            end == block().routineEnd ? kAfterRoutine.has(peek()) : inLine && block().closesHere(end);
         return fits ? keyword(pos(), pos(), end) : Proposal();
     }
 };

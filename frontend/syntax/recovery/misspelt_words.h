@@ -15,9 +15,9 @@ class MisspeltWords : public ParserPart {
     unsigned editsTo(TokenIndex i, K word, unsigned limit = 0) const;
     /// Letters of the word in another order, or one too many or too few: "Dim" is not meant as DIV.
     bool isShuffled(TokenIndex i, K word) const;
-    /// What is left of a word, alone in its line, that was cut off or written into another one: "EN", "ENDPENDPROC".
+    /// A piece of a word, alone in its line, that was cut off or written into another one: "EN", "ENDPENDPROC".
     bool isPieceOf(TokenIndex i, K word) const;
-    /// Reports the words `first` to `last` and reads the last one as the keyword they stand for. A word of another
+    /// Reports the words `first` to `last` and reads the last one as the keyword they mean. A word of another
     /// language brings its END word with it: both are one mistake.
     void readAsKeyword(TokenIndex first, TokenIndex last, K word);
     /// Is it the END word of a block whose opening word has been reported?

@@ -10,12 +10,12 @@ namespace {
 
 // ---- Lists -----------------------------------------------------------------------------------------------------
 
-/// "(a; b)": in a list that goes on in the same line to its closing bracket.
+/// "(a; b)": in a list that continues in the same line to its closing bracket.
 class SemicolonInList : public RecoveryStrategy {
     using RecoveryStrategy::RecoveryStrategy;
     Proposal propose(const Situation& at) const override {
         const bool optional = peek() == K::Backslash;
-        if (panic() || startsLine(pos() + 1) || (!startsExpr(peek()) && !optional)) return {};
+        if (panic() || startsLine(pos() + 1) || (!startsExpression(peek()) && !optional)) return {};
         uint32_t depth = 0;
         for (TokenIndex i = pos() + 1; i < pos() + kLongLine && !startsLine(i); ++i) {
             const K k = kindAt(i);
@@ -34,7 +34,7 @@ class SemicolonInCase : public RecoveryStrategy {
     using RecoveryStrategy::RecoveryStrategy;
     Proposal propose(const Situation&) const override {
         TokenIndex colon = 0;
-        if (kind() != K::Semicolon || startsLine(pos() + 1) || !startsExpr(peek()) ||
+        if (kind() != K::Semicolon || startsLine(pos() + 1) || !startsExpression(peek()) ||
             !ahead().findOnLine(pos() + 1, K::Colon, colon) || !startsLine(colon + 1))
             return {};
         Repair repair = leaveOut(pos() + 1, Code::UnexpectedToken, {describe(pos()), "','"}, range(pos()));

@@ -36,35 +36,41 @@ Repair RecoveryStrategy::leaveOut(TokenIndex next, diag::Code code, std::vector<
             .edit = TextEdit{text, ""}};
 }
 
-bool Recovery::repair(const Situation& at) {
+const Repair* Recovery::repair(const Situation& at) {
     if (!table_) {
         table_ = std::make_unique<StrategyTable>();
         addWordStrategies(*table_, parser());
         addListWordStrategies(*table_, parser());
+        addStrayWordStrategies(*table_, parser());
+        addBlockStrategies(*table_, parser());
         addSignStrategies(*table_, parser());
     }
     std::optional<Repair> best;
     for (const auto& strategy : table_->at(at.place)) {
+        if (best && best->cost <= 1) break;
         std::optional<Repair> proposal = strategy->propose(at);
         if (proposal && (!best || proposal->cost < best->cost)) best = std::move(proposal);
     }
-    if (best) apply(*best);
-    return best.has_value();
+    if (!best) return nullptr;
+    apply(*best);
+    applied_ = std::move(best);
+    return &*applied_;
 }
 
 void Recovery::apply(const Repair& repair) {
-    if (repair.code == diag::Code::MisspeltKeyword) {
+    if (repair.code == diag::Code::MisspeltKeyword && repair.args.empty() && !repair.silent) {
         moveTo(repair.first);
         typos().readAsKeyword(repair.first, repair.last, repair.as);
-    } else {
+    } else if (!repair.silent) {
         diag::Diagnostic* diagnostic = reports().reportAt(repair.code, repair.range, repair.args);
         if (diagnostic && repair.edit && repair.unclear)
             diagnostic->fix(repair.edit->range, repair.edit->replacement, repair.certain);
         else if (repair.edit)
             fix(diagnostic, repair.edit->range, repair.edit->replacement, repair.certain);
+        note(diagnostic, repair.noteAt, repair.note);
         if (repair.as != K::Error) readAs(repair.last, repair.as);
     }
-    if (repair.mark) mark(*repair.mark, repair.first);
+    if (repair.mark) mark(*repair.mark, repair.marked == kNoToken ? repair.first : repair.marked);
     if (repair.unclear) reports().noteUnclear(repair.range.begin);
     moveTo(repair.next);
 }

@@ -7,16 +7,23 @@
 
 namespace rapid::syntax {
 
-/// Where the grammar does not go on, or where a name may have been meant as something else.
+/// Places where the grammar does not continue, or where a name may have been meant as something else.
 enum class Place : uint8_t {
     Declaration,   ///< of a module, at a name
+    Component,     ///< at a name, VAR, PERS or CONST where a component of a record begins
     Data,          ///< at a name where the data of a routine is declared
     ListEnd,       ///< at a name that begins an instruction: END words that were cut off
     ListWord,      ///< there: words that continue or end the list
     ListBrace,     ///< at '}' there
+    StrayWord,     ///< at a word that ends a list of instructions, but not this one
     Instruction,   ///< at the first of two names that begin an instruction
     Comment,       ///< at the first token of an instruction: text without '!'
     Braces,        ///< at '{' where a block may begin
+    BlockHead,     ///< after the condition of IF or WHILE
+    Counter,       ///< after FOR
+    AfterCounter,  ///< after the loop variable
+    Branch,        ///< at ELSE in an IF, CASE in a TEST
+    ElseBody,      ///< after ELSE
     AfterCall,     ///< after what was read as a call
     Operator,      ///< after an operand
     Word,          ///< where a keyword is expected
@@ -32,9 +39,9 @@ enum class Place : uint8_t {
 /// The place, and what the parser knows there.
 struct Situation {
     Place place;
-    TokenSet own = {};            ///< ListEnd, ListWord, ListBrace: the words that continue or end the list
-    const Expr* left = nullptr;   ///< Operator: the operand
-    TokenIndex callee = kNoToken; ///< AfterCall
+    TokenSet own = {}; ///< ListEnd, ListWord, ListBrace, StrayWord: the words that continue or end the list
+    const Expr* left = nullptr; ///< Operator: the operand
+    TokenIndex word = kNoToken; ///< AfterCall: the callee; BlockHead, Counter: the word that began the block
     TokenKind expected = TokenKind::EndOfFile; ///< Word: the keyword; ListSeparator: the closing bracket
 };
 
@@ -42,17 +49,22 @@ struct Situation {
 struct Repair {
     unsigned cost = 1; ///< letters, signs or words that are other than they should be
     TokenIndex first = 0, last = 0;
-    /// What the tokens `first` to `last` are read as, in the place of `last`. Error: they are left out.
+    /// The tokens `first` to `last` are read as this kind, in the place of `last`. Error: they are left out.
     TokenKind as = TokenKind::Error;
     TokenIndex next = 0; ///< where the parser reads on
-    /// MisspeltKeyword needs nothing of the following: MisspeltWords::readAsKeyword() reports it.
+    /// Reported without `args`: what MisspeltWords::readAsKeyword() says.
     diag::Code code = diag::Code::MisspeltKeyword;
     SourceRange range = {};
     std::vector<std::string> args = {};
     std::optional<TextEdit> edit = {}; ///< of the text
     bool certain = true;
-    bool unclear = false;          ///< nothing follows from names and types in the line
-    std::optional<Mark> mark = {}; ///< of `first`
+    bool silent = false;   ///< it is reported where the consequence shows
+    bool endsList = false; ///< StrayWord: the list ends here
+    TokenIndex noteAt = kNoToken;
+    std::string note = {};
+    bool unclear = false; ///< nothing follows from names and types in the line
+    std::optional<Mark> mark = {};
+    TokenIndex marked = kNoToken; ///< what has the mark; `first` unless given
 };
 
 /// One kind of mistake. Strategies have no state; what they look at is bounded by Lookahead and BlockContext.
@@ -72,7 +84,7 @@ class RecoveryStrategy : public ParserPart {
     }
     /// The name at `i` was meant as one of these keywords: the one with the fewest edits, the first of several.
     Proposal nearest(TokenIndex i, std::initializer_list<K> words) const;
-    /// The sign at the current token stands for another one, which `text` writes.
+    /// The sign at the current token was meant as another one, written `text`.
     Repair sign(K as, diag::Code code, std::string shown, std::string expected, std::string text) const;
     /// The tokens from the current one up to `next` are too many, and so is their text up to `textEnd`.
     Repair leaveOut(TokenIndex next, diag::Code code, std::vector<std::string> args, SourceRange text) const;
@@ -92,23 +104,27 @@ class StrategyTable {
     std::array<std::vector<std::unique_ptr<RecoveryStrategy>>, static_cast<size_t>(Place::Count)> places_;
 };
 
-void addWordStrategies(StrategyTable& table, Parser& parser);     ///< misspelt and foreign keywords
-void addListWordStrategies(StrategyTable& table, Parser& parser); ///< words that continue or end a list
-void addSignStrategies(StrategyTable& table, Parser& parser);     ///< punctuation, operators, comments
+void addWordStrategies(StrategyTable& table, Parser& parser);      ///< misspelt and foreign keywords
+void addListWordStrategies(StrategyTable& table, Parser& parser);  ///< words that continue or end a list
+void addStrayWordStrategies(StrategyTable& table, Parser& parser); ///< words that end no list here
+void addBlockStrategies(StrategyTable& table, Parser& parser);     ///< heads and branches of blocks
+void addSignStrategies(StrategyTable& table, Parser& parser);      ///< punctuation, operators, comments
 
-/// Asks the strategies of a place. The cheapest proposal wins, of equal ones that of the earlier strategy.
+/// Asks the strategies of a place. The cheapest proposal wins, of equal ones that of the earlier strategy; none is
+/// cheaper than 1.
 class Recovery : public ParserPart {
   public:
     using ParserPart::ParserPart;
 
-    /// False when no strategy explains the mistake. Otherwise it is reported and the tokens are edited; the parser looks
-    /// again at the current one.
-    bool repair(const Situation& at);
-    bool repair(Place place) { return repair(Situation{.place = place}); }
+    /// Null when no strategy explains the mistake. Otherwise it is reported and the tokens are edited; the parser looks
+    /// again at the current one. The pointer is good until the next call.
+    const Repair* repair(const Situation& at);
+    const Repair* repair(Place place) { return repair(Situation{.place = place}); }
 
   private:
     void apply(const Repair& repair);
 
+    std::optional<Repair> applied_;
     std::unique_ptr<StrategyTable> table_; ///< made when the first one is needed
 };
 

@@ -8,15 +8,15 @@ namespace rapid::syntax {
 
 using diag::Code;
 
-void Synchronizer::endStatement(std::string_view expected) {
+void Synchronizer::endInstruction(std::string_view expected) {
     if (accept(K::Semicolon)) {
         constexpr TokenSet kClosing = {K::RightParen, K::RightBracket, K::RightBrace};
-        if (panic() && kClosing.has(kind()) && !startsLine(pos())) return syncStatement(); // "Abs(n;);"
+        if (panic() && kClosing.has(kind()) && !startsLine(pos())) return skipInstruction(); // "Abs(n;);"
         endPanic();
         return;
     }
     if (isMarked(Mark::EarlySemicolon) && !panic()) return;
-    if (assignmentBelow()) return syncStatement();
+    if (assignmentBelow()) return skipInstruction();
     if (!panic() && kind() != K::Error) {
         if (block().startsAfresh()) {
             diag::Diagnostic* missing =
@@ -26,7 +26,7 @@ void Synchronizer::endStatement(std::string_view expected) {
             fix(missing, endOf(pos() - 1), ";");
             if (twoWords) reports().countUnreadable();
             if (twoWords) note(missing, pos() - 2, "if this is a remark, put '!' before it");
-            if (kLineWords.has(kind()) || ahead().looksLikeStatement(pos())) return;
+            if (kLineWords.has(kind()) || ahead().looksLikeInstruction(pos())) return;
         } else if (kind() == K::Equal) {
             signs().reportEqual();
         } else if (!signs().reportDecimalComma()) {
@@ -38,15 +38,15 @@ void Synchronizer::endStatement(std::string_view expected) {
                 fix(d, range(pos()), ";");
         }
     }
-    syncStatement();
+    skipInstruction();
 }
 
-void Synchronizer::syncStatement() {
+void Synchronizer::skipInstruction() {
     endPanic();
     for (; kind() != K::EndOfFile; take()) {
         if (accept(K::Semicolon)) return;
         if (kEndWords.has(kind()) || block().continuesBlock()) return;
-        if (startsLine(pos()) && (kLineWords.has(kind()) || ahead().looksLikeStatement(pos()))) return;
+        if (startsLine(pos()) && (kLineWords.has(kind()) || ahead().looksLikeInstruction(pos()))) return;
         if (isTaskDirective(pos()) && startsLine(pos())) return;
         // "FI a = b THEN" and the like: the block is there, only its head is broken.
         if ((kind() == K::KwThen || kind() == K::KwDo) && startsLine(pos() + 1)) {

@@ -11,7 +11,7 @@ using diag::Code;
 
 namespace {
 
-/// What stands in most programs without being declared there.
+/// Names that most programs use without declaring them.
 constexpr std::string_view kFrequent[] = {
 #define FREQUENT_NAME(name) name,
 #include "frontend/syntax/recovery/spellings.def"
@@ -23,7 +23,7 @@ bool isDigits(std::string_view text) {
 
 } // namespace
 
-/// The spelling of a name as it stands in the file, up to `except` of its places aside; empty when it does not. `wanted` is
+/// The spelling of a name in the file, outside of the places `exceptFirst` to `exceptLast`; empty when there is none. `wanted` is
 /// compared without case.
 std::string_view TornWords::spellingInFile(std::string_view wanted, TokenIndex exceptFirst,
                                            TokenIndex exceptLast) {

@@ -5,7 +5,7 @@
 
 namespace rapid::syntax {
 
-/// What was meant is looked for among the words of the file, kMostWords in all searches together.
+/// The meant name is looked for among the words of the file, kMostWords in all searches together.
 class TornWords : public ParserPart {
   public:
     using ParserPart::ParserPart;
@@ -14,10 +14,10 @@ class TornWords : public ParserPart {
     bool isArrayOfFile(TokenIndex name);
     /// Two words in one line, with nothing but blanks between them: the one name they were meant as, if there is such a name.
     std::string tornName(TokenIndex second);
-    /// At a word that cannot stand here: it and the word before it, or the two before it, are one name.
+    /// At a word that is not possible here: it and the word before it, or the two before it, are one name.
     diag::Diagnostic* reportTornName();
     /// Behind the first word of a name that is being declared: takes the others, "n Rows", "my-name". `after`: what follows a
-    /// name there. Where nothing does, the line ends with it, and the name must stand elsewhere, too.
+    /// name there. Where nothing does, the line ends with it, and the name must be used elsewhere, too.
     bool takeTornName(TokenIndex name, const TokenSet& after, bool endsLine = false);
     /// At the first word of a condition that THEN follows: "reg1 = 1 THEN" and "IFreg1 = 1 THEN".
     void reportMissingIf();

@@ -89,6 +89,35 @@ class RunTogether : public RecoveryStrategy {
     }
 };
 
+/// "END RECORD", "END" and "ENDRECRD" in a record.
+class MisspeltEndrecord : public RecoveryStrategy {
+    using RecoveryStrategy::RecoveryStrategy;
+    Proposal propose(const Situation&) const override {
+        const bool end = isContextual(pos(), "END");
+        if (end && !startsLine(pos() + 1) && ahead().endsLine(pos() + 1) &&
+            (peek() == K::KwRecord || typos().foreignCloserIs(pos() + 1)))
+            return keyword(pos(), pos() + 1, K::KwEndrecord);
+        if (!ahead().endsLine(pos()) && peek() != K::Semicolon) return {};
+        return end ? keyword(pos(), pos(), K::KwEndrecord) : nearest(pos(), {K::KwEndrecord});
+    }
+};
+
+/// "VAR num x;" in a record that is closed by ENDRECORD.
+class WordBeforeComponent : public RecoveryStrategy {
+    using RecoveryStrategy::RecoveryStrategy;
+    Proposal propose(const Situation&) const override {
+        if (!kStorageWords.has(kind()) || !isName(peek()) || !isName(peek(2))) return {};
+        constexpr TokenIndex kSearch = 200;
+        TokenIndex i = pos() + 1;
+        while (i < pos() + kSearch && kindAt(i) != K::KwEndrecord && kindAt(i) != K::EndOfFile &&
+               !kRoutineEnds.has(kindAt(i)))
+            ++i;
+        if (kindAt(i) != K::KwEndrecord) return {};
+        return leaveOut(pos() + 1, Code::ComponentWord, {describe(pos())},
+                        {range(pos()).begin, range(pos() + 1).begin});
+    }
+};
+
 // ---- Instructions ----------------------------------------------------------------------------------------------
 
 /// "FRO i FROM", "CONECT i WITH".
@@ -126,15 +155,15 @@ class TornTrynext : public RecoveryStrategy {
     }
 };
 
-/// What was read as a call goes on with THEN, DO or CASE: the callee was meant as IF, WHILE or TEST.
+/// A seeming call is followed by THEN, DO or CASE: the callee was meant as IF, WHILE or TEST.
 class MisspeltHead : public RecoveryStrategy {
     using RecoveryStrategy::RecoveryStrategy;
     Proposal propose(const Situation& at) const override {
-        const bool test = kind() == K::KwCase && startsLine(pos()) && at.callee + 1 < pos();
+        const bool test = kind() == K::KwCase && startsLine(pos()) && at.word + 1 < pos();
         const K word = kind() == K::KwThen ? K::KwIf : kind() == K::KwDo ? K::KwWhile : K::KwTest;
         if (word == K::KwTest && !test) return {};
-        const unsigned edits = typos().editsTo(at.callee, word, test ? 1 : 2);
-        return edits != 0 ? keyword(at.callee, at.callee, word, edits) : Proposal();
+        const unsigned edits = typos().editsTo(at.word, word, test ? 1 : 2);
+        return edits != 0 ? keyword(at.word, at.word, word, edits) : Proposal();
     }
 };
 
@@ -165,7 +194,7 @@ class MisspeltNot : public OperatorStrategy {
     using OperatorStrategy::OperatorStrategy;
     Proposal propose(const Situation& at) const override {
         const TokenIndex first = at.left->first;
-        if (at.left->kind != NodeKind::Name || startsLine(pos()) || !startsExpr(kind()) ||
+        if (at.left->kind != NodeKind::Name || startsLine(pos()) || !startsExpression(kind()) ||
             !typos().isShuffled(first, K::KwNot))
             return {};
         const bool bound =
@@ -178,7 +207,8 @@ class MisspeltNot : public OperatorStrategy {
 class MisspeltOperator : public OperatorStrategy {
     using OperatorStrategy::OperatorStrategy;
     Proposal propose(const Situation&) const override {
-        if (kind() != K::Identifier || startsLine(pos()) || startsLine(pos() + 1) || !startsExpr(peek()))
+        if (kind() != K::Identifier || startsLine(pos()) || startsLine(pos() + 1) ||
+            !startsExpression(peek()))
             return {};
         const bool isCall = peek() == K::LeftParen && range(pos()).end == range(pos() + 1).begin;
         if (isCall || !goesOn()) return {};
@@ -195,7 +225,7 @@ class MisspeltOperator : public OperatorStrategy {
 class PercentForMod : public OperatorStrategy {
     using OperatorStrategy::OperatorStrategy;
     Proposal propose(const Situation&) const override {
-        if (kind() != K::Percent || block().inLateName || startsLine(pos()) || !startsExpr(peek()) ||
+        if (kind() != K::Percent || block().inLateName || startsLine(pos()) || !startsExpression(peek()) ||
             !goesOn())
             return {};
         const bool before = range(pos() - 1).end == range(pos()).begin;
@@ -213,6 +243,8 @@ void addWordStrategies(StrategyTable& table, Parser& parser) {
     table.add<MisspeltDeclaration>(Place::Declaration, parser);
     table.add<MisspeltData>(Place::Declaration, parser);
     table.add<RunTogether>(Place::Declaration, parser);
+    table.add<MisspeltEndrecord>(Place::Component, parser);
+    table.add<WordBeforeComponent>(Place::Component, parser);
     table.add<RunTogether>(Place::Data, parser);
     table.add<MisspeltData>(Place::Data, parser);
     table.add<MisspeltInstruction>(Place::Instruction, parser);

@@ -49,7 +49,7 @@ bool WrongSigns::commaWasSemicolon() {
     Stmt* before = nodes().stmts.back();
     if (before->kind != NodeKind::CallStmt || before->last != semicolon) return false;
     fix(report(Code::UnexpectedToken, semicolon, {"';'", "','"}), range(semicolon), ",");
-    before->broken = true; // the rest of its arguments stands here
+    before->broken = true; // the rest of its arguments is here
     startPanic();
     return true;
 }

@@ -10,9 +10,9 @@ class WrongSigns : public ParserPart {
   public:
     using ParserPart::ParserPart;
 
-    /// `=`, `==` or `=:` where `:=` belongs; the parser then stands at the last token of it.
+    /// `=`, `==` or `=:` where `:=` belongs; the parser then is at the last token of it.
     void reportEqual();
-    /// `:` in place of THEN or DO, or behind a word that takes none.
+    /// `:` in place of THEN or DO, or after a word that takes none.
     bool takesColonAs(std::string_view word);
     void reportSlash(TokenIndex slash);
     /// "MoveL p10; v100, fine, tool0;": the semicolon before the name was meant as a comma. No instruction begins with a name
@@ -20,7 +20,7 @@ class WrongSigns : public ParserPart {
     bool commaWasSemicolon();
     /// "1,5" where a value ends.
     bool reportDecimalComma();
-    /// "x := a + ;b": the operand of one word behind the semicolon ends the line. The parser then stands at it.
+    /// "x := a + ;b": the operand of one word after the semicolon ends the line. The parser then is at it.
     bool operandBehindSemicolon();
     /// `VAR num x();`, `x() := 1;`
     void dropEmptyParentheses();
