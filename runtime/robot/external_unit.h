@@ -25,10 +25,10 @@ inline bool isConnected(double externalValue) {
 
 /// One axis of a unit. It turns about z of its base frame, or moves along x of it when it is linear.
 struct ExternalJoint {
-    std::size_t axis = 0; ///< index in ExternalAxes
-    bool rotating = true; ///< degrees, else mm
-    Pose base;            ///< base frame with every axis of the unit at 0, in world
-    double parked = 0;    ///< position while the axis is not connected: the unit has been deactivated
+    std::size_t axis = 0;  ///< index in ExternalAxes
+    bool rotating = true;  ///< degrees, else mm
+    Pose base;             ///< base frame with every axis of the unit at 0, in world
+    double parked = 0;     ///< position while the axis is not connected: the unit has been deactivated
     bool isParked = false; ///< the unit is not active; another one may use the axis meanwhile
 };
 
