@@ -81,12 +81,13 @@ void TaskComparison::checkSharedModules() {
 }
 
 // A global persistent is one object for all tasks that declare it (manual 1.20).
-void TaskComparison::checkShared(const DataSymbol& data, const DataSymbol& other, DifferentRecords& told) {
+void TaskComparison::checkShared(const DataSymbol& data, const DataSymbol& other,
+                                 DifferentRecords& reported) {
     const bool sameTypes = sameStructure(*data.type.type, *other.type.type);
     if (sameTypes && sameShape(data.type, other.type)) return;
     std::string own = typeName(data.type), theirs = typeName(other.type);
     if (own == theirs) { // records of one name
-        if (!told.insert({data.type.type->base(), other.type.type->base()}).second) return;
+        if (!reported.insert({data.type.type->base(), other.type.type->base()}).second) return;
         const auto [mine, yours] = difference(*data.type.type, *other.type.type, "");
         own += " (" + mine + ")";
         theirs += " (" + yours + ")";
@@ -104,7 +105,7 @@ void TaskComparison::checkAcrossTasks() {
     checkSharedModules();
     NameMap<DataSymbol> shared;
     NameMap<const Task> names;
-    DifferentRecords told;
+    DifferentRecords reported;
     const bool several = program_.tasks.size() > 1; // the names of one task are judged already
     for (const auto& task : program_.tasks) {
         const NameId taskName = names_.intern(task->name);
@@ -117,7 +118,7 @@ void TaskComparison::checkAcrossTasks() {
                     shared.set(data->nameId, data);
                     continue;
                 }
-                checkShared(*data, *other, told);
+                checkShared(*data, *other, reported);
             }
         }
     }

@@ -18,7 +18,7 @@ class TaskComparison : CheckerPart {
     bool sameStructure(const Type& left, const Type& right);
     std::pair<std::string, std::string> difference(const Type& left, const Type& right,
                                                    const std::string& where);
-    void checkShared(const DataSymbol& data, const DataSymbol& other, DifferentRecords& told);
+    void checkShared(const DataSymbol& data, const DataSymbol& other, DifferentRecords& reported);
     void checkSharedModules();
 };
 

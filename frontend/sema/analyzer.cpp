@@ -184,7 +184,7 @@ void Analyzer::checkModules(std::span<Module* const> modules) {
         }
         finishFile(modules.subspan(first, end - first), said);
     }
-    repeats_.tellOnce();
+    repeats_.mergeCauses();
 }
 
 void Analyzer::finishFile(std::span<Module* const> modules, size_t said) {

@@ -1,4 +1,4 @@
-// Arguments that do not fit where they stand, but would in another order or with one more or less: one mistake, said once.
+// Arguments that would fit in another order, or with one more or one less: one report.
 
 #include "frontend/sema/argument_order.h"
 #include "frontend/sema/arguments.h"
@@ -89,7 +89,7 @@ bool ArgumentOrder::explainComma(std::span<Argument* const> args) {
     return false;
 }
 
-/// Looks for the one mistake behind what was found wrong with the arguments; then it alone is reported.
+/// Looks for the one mistake that explains all errors of the arguments; then it alone is reported.
 bool ArgumentOrder::explainArguments(const BoundCall& call, TokenIndex name,
                                      std::span<Argument* const> args) {
     const RoutineSymbol& routine = *call.routine;
@@ -122,7 +122,7 @@ void ArgumentOrder::reportSwapped(const RoutineSymbol& routine, const DataSymbol
              certain});
 }
 
-/// Two that have changed places, or one that stands too early or too late.
+/// Two are swapped, or one comes too early or too late.
 bool ArgumentOrder::explainOrder(const RoutineSymbol& routine, const std::vector<const DataSymbol*>& params,
                                  const std::vector<const Expr*>& given) {
     const size_t count = params.size();
@@ -169,7 +169,7 @@ bool ArgumentOrder::explainOrder(const RoutineSymbol& routine, const std::vector
             order.insert(order.begin() + static_cast<std::ptrdiff_t>(to), from);
             if (from == to || !fits()) continue;
             dropErrors();
-            const bool late = to < from; // else the one behind it stands too late
+            const bool late = to < from; // else the one after it comes too late
             report(say::ArgumentOrder, range(*given[late ? from : from + 1]),
                    {params[late ? to : from]->name, params[late ? from : to]->name});
             return true;

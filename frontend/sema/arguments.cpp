@@ -20,7 +20,7 @@ Arguments::Arguments(State& state, const Parts& parts)
     : CheckerPart(state), calls_(parts.calls), expressions_(parts.expressions), places_(parts.places),
       remedies_(parts.remedies), scopes_(parts.scopes) {}
 
-// The type an undeclared name gets when it stands for this parameter.
+// The type an undeclared name gets as the argument for this parameter.
 const Type* Arguments::handleHint(const DataSymbol& param) const {
     const Type& type = *param.type.type;
     const std::string& name = type.base()->name;
@@ -39,7 +39,7 @@ void Arguments::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
     if (param.isSwitch) {
         if (!bound.value) return;
         if (arg.argKind == ArgKind::Required)
-            return expressions_.visitLoose(*bound.value); // told where '\\' is missing
+            return expressions_.visitLoose(*bound.value); // reported where '\\' is missing
         diag::Diagnostic& d = report(say::SwitchWithValue, range(*bound.value), {param.name});
         const bool isTrue =
             bound.value->kind == NodeKind::BoolLiteral && as<BoolLiteralExpr>(*bound.value).value;
@@ -65,9 +65,9 @@ void Arguments::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
         state_.presenceOnly = outer;
     } else {
         const bool any = param.type.type->kind == TypeKind::AnyType;
-        state_.leaveUnread = state_.options.onlyDiagnostics && bound.value->kind == NodeKind::Name;
+        state_.valueUnused = state_.options.onlyDiagnostics && bound.value->kind == NodeKind::Name;
         const Typed t = expressions_.expr(*bound.value, any ? nullptr : &param.type);
-        state_.leaveUnread = false;
+        state_.valueUnused = false;
         judgeValue(routine, bound, t);
     }
 }
@@ -104,7 +104,7 @@ bool Arguments::couldStandFor(const Expr& value, std::span<const BoundArg> param
     });
 }
 
-// The place of the required parameter whose argument is missing in the middle: the arguments behind it fit the
+// The place of the required parameter whose argument is missing in the middle: the arguments after it fit the
 // parameters after it. `moved`: these arguments.
 std::span<const BoundArg> Arguments::leftOut(const BoundCall& call, std::vector<const Expr*>& moved) {
     std::vector<std::span<const BoundArg>> places;
@@ -127,7 +127,7 @@ std::span<const BoundArg> Arguments::leftOut(const BoundCall& call, std::vector<
     return places[out];
 }
 
-// What was said about arguments that only stand in the wrong place.
+// Reports about arguments that are only in the wrong place.
 void Arguments::takeBack(const std::vector<const Expr*>& moved) {
     reports_.collected()->retract([&](const diag::Diagnostic& d) {
         const bool aboutArgument = d.code == Code::ArgumentClass || d.code == Code::ArgumentNotVariable ||
@@ -155,7 +155,7 @@ void Arguments::reportArguments(const BoundCall& call, TokenIndex name, size_t f
     const bool dotForComma = std::any_of(call.args.begin(), call.args.end(), [&](const BoundArg& a) {
         return a.argument && a.value && isDotForComma(*a.value);
     });
-    if (dotForComma) return; // the arguments behind it have moved
+    if (dotForComma) return; // the arguments after it have moved
     if (std::exchange(shapeReported_, false)) missing = false;
     const bool unknown = std::any_of(call.args.begin(), call.args.end(), [&](const BoundArg& a) {
         return a.argument && a.value && a.value->kind == NodeKind::Name && !info(*a.value).symbol;

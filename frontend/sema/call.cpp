@@ -72,7 +72,7 @@ Typed CallBinder::functionCall(const CallExpr& e) {
     return {&out};
 }
 
-// Data with arguments: an array whose index stands in parentheses.
+// Data with arguments: an array with its index in parentheses.
 void CallBinder::reportNotAFunction(const CallExpr& e, const Symbol& symbol) {
     diag::Diagnostic& d = report(say::NotAFunction, range(e.name), {text(e.name), describe(symbol)});
     const auto isIndex = [](const Argument* a) {
@@ -211,7 +211,7 @@ bool CallBinder::matchArguments(BoundCall& call, TokenIndex name, std::span<Argu
     return complete && !tooMany;
 }
 
-/// An argument behind the last required one that is something else: an optional one, the next instruction.
+/// An argument after the last required one that is something else: an optional one, the next instruction.
 bool CallBinder::reportMisread(const RoutineSymbol& routine, const Argument& arg, TokenIndex routineName) {
     if (!namesOptional(routine, arg)) return reportAssignmentBelow(arg);
     const SourceRange at = range(arg);

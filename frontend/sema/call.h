@@ -35,7 +35,7 @@ class CallBinder : CheckerPart {
                        const syntax::Argument& first, syntax::TokenIndex routineName);
     bool reportAssignmentBelow(const syntax::Argument& arg);
     bool namesOptional(const RoutineSymbol& routine, const syntax::Argument& arg);
-    /// `isLast`: nothing follows that would have to stand before it.
+    /// `isLast`: nothing follows that would have to come first.
     size_t matchUnmarked(const RoutineSymbol& routine, const syntax::Argument& arg, bool isLast);
     size_t namedParameter(const RoutineSymbol& routine, NameId name);
     /// Gives each written argument its parameter; false when "missing" would only repeat what was reported.

@@ -70,7 +70,7 @@ struct BoundArg {
 
 /// A resolved call: one entry per formal parameter, in their order.
 struct BoundCall {
-    const Module* module = nullptr; ///< where the call stands
+    const Module* module = nullptr; ///< of the call
     /// Null: late binding; then `args` hold what was written, param == nullptr.
     RoutineSymbol* routine = nullptr;
     std::span<BoundArg> args;
@@ -90,7 +90,7 @@ struct FileFacts {
     FileFacts(const syntax::SyntaxTree& tree, const Type* unknown, std::shared_ptr<FileSymbols> own,
               uint32_t number)
         : symbols(std::move(own)), stamp(number), exprs(tree.exprCount, unknown, inner) {}
-    /// Forgets what nobody needs who neither reports nor lowers what is inside the routines.
+    /// Drops per-routine facts that only diagnostics and lowering need.
     void dropInner();
     std::shared_ptr<FileSymbols> symbols;
     uint32_t stamp = 0; ///< no two checks of files have the same

@@ -49,7 +49,7 @@ struct CheckOptions {
     bool onlyDiagnostics = false;
 };
 
-/// Parses and checks. Always returns a program; `sink` tells whether it may be lowered.
+/// Parses and checks. Always returns a program; lower it only when `sink` has no errors.
 std::unique_ptr<CheckedProgram> check(const std::vector<TaskInput>& tasks, const CheckOptions& options,
                                       diag::Sink& sink);
 

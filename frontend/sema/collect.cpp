@@ -142,7 +142,7 @@ void Collector::declareModules(std::span<Module* const> modules) {
         Module* other = task_.moduleNames.find(name);
         duplicateModule_ = other != nullptr;
         if (other) {
-            task_.entangled = true;
+            task_.dependsOnOrder = true;
             auto& d = report(say::DuplicateModule, range(module->decl->name), {module->name});
             d.notes.push_back({other->tree->source, other->tree->range(other->decl->name),
                                "'" + other->name + "' is declared here"});

@@ -120,7 +120,7 @@ struct TaskContext {
     bool incomplete = false;                 ///< modules are missing: names may be unknown
     std::vector<std::string> missingModules; ///< their names, as far as they are known
     /// The outcome depends on the order of the work: no file can be checked alone.
-    bool entangled = false;
+    bool dependsOnOrder = false;
     SignalUses signalUses;
     std::vector<const syntax::SyntaxTree*> brokenTrees; ///< with syntax errors
     std::unordered_set<NameId> maybeDeclared;           ///< names in declarations that could not be read

@@ -56,7 +56,7 @@ void EntryCheck::checkEntry(Task& task) {
     }
     if (!state_.options.requireMain) return;
     if (task_.incomplete || !unknown_.mayReportUnknown(name)) return;
-    if (task.modules.empty()) { // why there is none has been told as a rule
+    if (task.modules.empty()) { // the reason is usually reported already
         if (!state_.sink.hasErrors()) state_.sink.report(say::NoEntry, nullptr, {}, {task.name, task.entry});
         return;
     }

@@ -199,7 +199,7 @@ Typed Expressions::aggregate(const AggregateExpr& e, const DataType* want, Const
             continue;
         }
         wrong |= !fit || t.isError();
-        // The first row of an array of unknown size tells the length of the others.
+        // The first row of an array of unknown size gives the length of the others.
         if (array && i == 0) std::copy_n(t.info->type.dims, member.rank, own.dims + 1);
         if (array) std::copy_n(own.dims + 1, member.rank, member.dims);
         if (!t.info->constant)

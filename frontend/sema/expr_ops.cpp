@@ -157,7 +157,7 @@ Typed Expressions::operatorError(const BinaryExpr& e, Typed left, Typed right) {
     return errorExpr(e);
 }
 
-// Brings two numbers to one type; `flex` tells whether it is still open.
+// Brings two numbers to one type; `flex` says whether it is still open.
 Expressions::Numeric Expressions::unify(const BinaryExpr& e, Typed& left, Typed& right, Flex& flex) {
     const DataType &a = left.info->type, &b = right.info->type;
     if (a.rank > 0 || b.rank > 0 || !a.type->isNumeric() || !b.type->isNumeric()) return Numeric::NotNumeric;

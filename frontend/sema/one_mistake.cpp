@@ -19,14 +19,14 @@ using diag::Diagnostic;
 
 namespace {
 
-/// So many uses are hardly wrong each for itself. Fewer are told one by one: a programmer who takes a bool for a number
+/// So many uses are hardly wrong each for itself. Fewer are reported one by one: a programmer who takes a bool for a number
 /// twice has declared it well.
 constexpr size_t kEnoughUses = 5;
 constexpr size_t kEnoughOfOneKind = 3;
 
 using Said = std::vector<const Diagnostic*>;
 
-/// What the place of a use tells about its type.
+/// What the place of a use says about its type.
 struct Claim {
     Said said;              ///< what is wrong there; empty: it fits
     DataType needed;        ///< null type: see `shape`
@@ -73,7 +73,7 @@ class UseWalk {
             if (isOfUse(d->code)) said_.emplace(std::tuple(d->range.begin, d->range.end, d->code), d);
     }
 
-    /// Whether there is anything to tell once.
+    /// Whether there is anything to merge.
     bool isWorthIt() const { return said_.size() > 1; }
 
     void walk(const Module& module) {

@@ -1,5 +1,5 @@
 #pragma once
-// Errors that are one mistake told in several places: a declaration with a wrong type makes each use of it wrong.
+// One mistake reported in several places: a declaration with a wrong type makes each use of it wrong.
 
 #include "frontend/sema/checked.h"
 
@@ -12,7 +12,7 @@ namespace rapid::sema {
 /// Errors of one file that one mistake explains.
 struct Repeat {
     std::vector<diag::Diagnostic> members; ///< in the order of the text
-    /// What is told instead, with a note for each member; without it the first member stands for all.
+    /// What is reported instead, with a note for each member; without it the first member stands for all.
     struct Declared {
         SourceRange type; ///< as the declaration names it
         std::string name, found, needed;
@@ -22,12 +22,12 @@ struct Repeat {
     const Symbol* guard = nullptr;  ///< what other files may use, too; null: nothing
 };
 
-/// What `said`, the errors of one file, tell more than once: declarations that all uses contradict in the same way, and
+/// What `said`, the errors of one file, report more than once: declarations that all uses contradict in the same way, and
 /// data that all instructions want of another kind. `modules`: those of the file, whose routines are still known.
 std::vector<Repeat> findRepeats(const CheckedProgram& program, std::span<Module* const> modules,
                                 const std::vector<const diag::Diagnostic*>& said);
 
 /// When everything is reported: a line that lacks its semicolon and whose callee or last word is not known is one mistake.
-void tellUnfinished(diag::Sink& sink);
+void mergeUnfinishedLines(diag::Sink& sink);
 
 } // namespace rapid::sema

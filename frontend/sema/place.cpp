@@ -71,7 +71,7 @@ Place Places::namePlace(const NameExpr& e, const Type* handle) {
     if (data->dataKind == DataKind::Const && data->storage != Storage::Parameter &&
         data->storage != Storage::Signal) {
         data_.ensureValue(*data);
-        if (state_.leaveUnread && data->isLiteralConstant()) return place;
+        if (state_.valueUnused && data->isLiteralConstant()) return place;
         const ConstValue& value = data->value();
         if (value.kind != ConstValue::Kind::None) result.constant = &value;
     }

@@ -200,7 +200,7 @@ void Analyzer::recheckTask() {
     state_.task.task->modules.clear();
     state_.task.globals.assign(state_.task.globals.size(), nullptr);
     state_.task.moduleNames = {};
-    state_.task.entangled = false;
+    state_.task.dependsOnOrder = false;
     for (TaskFile& file : state_.task.files) {
         const SyntaxTree& tree = *state_.program.trees[file.slot];
         file.modules.resize(std::min(file.modules.size(), tree.modules.size()));

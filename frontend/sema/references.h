@@ -1,11 +1,11 @@
 #pragma once
-// Every place of a checked program where a name stands, and what it means there: for renaming and for editors.
+// Every place of a checked program with a name, and its meaning: for renaming and for editors.
 
 #include "frontend/sema/checked.h"
 
 namespace rapid::sema {
 
-/// A name that stands somewhere in the modules of a task.
+/// A name in the modules of a task.
 struct Reference {
     const Task* task = nullptr;
     const Module* module = nullptr;

@@ -1,4 +1,4 @@
-// What would make a value fit where it stands: the end of a message, and something to write instead.
+// What would make a value fit: the end of a message, and something to write instead.
 
 #include "frontend/sema/remedies.h"
 #include "frontend/sema/place.h"

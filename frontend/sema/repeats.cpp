@@ -1,4 +1,4 @@
-// One mistake, one message: what several errors tell of one mistake is told once, with a note for each place.
+// One mistake, one message: several errors of one cause are reported once, with a note for each place.
 
 #include "frontend/sema/repeats.h"
 #include "frontend/sema/one_mistake.h"
@@ -57,7 +57,7 @@ Diagnostic leadOf(const Repeat& repeat) {
     return lead;
 }
 
-/// Those that explain most first. Of two declarations that contradict each other nobody knows which one is wrong.
+/// Those that explain most first. Which of two declarations that contradict each other is wrong is not known.
 void putInOrder(std::vector<Repeat>& repeats) {
     const auto begin = [](const Repeat& r) { return r.members.front().range.begin; };
     std::sort(repeats.begin(), repeats.end(), [&](const Repeat& a, const Repeat& b) {
@@ -242,7 +242,7 @@ void Repeats::gatherUnknown(std::span<Module* const> modules) {
     });
 }
 
-// While the routines of a file are known: what its errors tell more than once.
+// While the routines of a file are known: which of its errors have one cause.
 void Repeats::gatherRepeats(std::span<Module* const> modules, size_t first) {
     if (state_.sink.all().size() < first + 2) return;
     const SourceFile* file = modules.front()->tree->source.get();
@@ -261,7 +261,7 @@ void Repeats::gatherRepeats(std::span<Module* const> modules, size_t first) {
 }
 
 // When all files are known.
-void Repeats::tellOnce() {
+void Repeats::mergeCauses() {
     std::vector<Repeat> repeats = std::exchange(repeats_, {});
     std::erase_if(repeats, [](const Repeat& r) { return r.guard && r.guard->users > 1; });
     std::unordered_map<uint32_t, std::optional<Diagnostic>> fate; // by cause: what is reported instead
@@ -289,7 +289,7 @@ void Repeats::tellOnce() {
             fate[d.cause] = std::nullopt;
         fate[repeat.members.front().cause] = leadOf(repeat);
     }
-    if (fate.empty()) return tellUnfinished(state_.sink);
+    if (fate.empty()) return mergeUnfinishedLines(state_.sink);
     state_.sink.revise([&](Diagnostic& d) {
         const auto found = fate.find(d.cause);
         if (found == fate.end()) return true;
@@ -297,13 +297,13 @@ void Repeats::tellOnce() {
         d = *std::exchange(found->second, std::nullopt); // once, were it there twice
         return true;
     });
-    tellUnfinished(state_.sink);
+    mergeUnfinishedLines(state_.sink);
 }
 
-void tellUnfinished(diag::Sink& sink) {
+void mergeUnfinishedLines(diag::Sink& sink) {
     using LineEnd = std::pair<const SourceFile*, uint32_t>;
     std::map<LineEnd, bool>
-        ends; // of lines without their semicolon, and whether something else is told there
+        ends; // of lines without their semicolon, and whether something else is reported there
     for (const Diagnostic& d : sink.all())
         if (d.code == Code::MissingSemicolon) ends.emplace(LineEnd(d.file.get(), d.range.begin), false);
     if (ends.empty()) return;

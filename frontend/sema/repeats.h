@@ -16,7 +16,7 @@ class Repeats : CheckerPart {
     void gatherRepeats(std::span<Module* const> modules, size_t first);
     /// When all files are known: the last pass over the diagnostics of the task. Causes that one mistake explains are
     /// merged into its report.
-    void tellOnce();
+    void mergeCauses();
 
   private:
     void explainUnknown(const Module& module);

@@ -13,7 +13,7 @@ class Reports {
     diag::Diagnostic& report(Code code, SourceRange where, std::span<const std::string> args);
     bool isUnclear(SourceRange where) const;
     bool hasUnclearLine(const syntax::Node& node) const;
-    /// Whether `diagnostic`, which report() gave, is one that nobody sees.
+    /// Whether `diagnostic`, which report() gave, is left out.
     bool isUnsaid(const diag::Diagnostic& diagnostic) const { return &diagnostic == &unsaid_; }
 
     /// In what could not be read as a whole, which is reported. Gives what was before.

@@ -37,7 +37,7 @@ void DataResolver::ensureData(DataSymbol& symbol) {
     const Context saved = context_;
     if (!symbol.routine) state_.enterModule(symbol.module);
     if (state_.depth > kMaxDepth) { // its dimensions may ask for the dimensions of others
-        task_.entangled = true;
+        task_.dependsOnOrder = true;
         report(say::ConstantTooDeep, range(symbol.nameToken), {symbol.name});
         symbol.type.type = program_.errorType;
         symbol.progress = Progress::Done;
@@ -107,8 +107,8 @@ uint64_t DataResolver::resolveDimensions(DataSymbol& symbol, const DataDecl& dec
         if (!value || value->kind != ConstValue::Kind::Number) {
             known = known && e.kind == NodeKind::PlaceholderExpr;
             const bool number = t.isScalar(TypeKind::Num) || t.isScalar(TypeKind::Dnum);
-            const bool told = number && !findNonConstant(e); // where a constant has no value
-            if (!t.isError() && e.kind != NodeKind::PlaceholderExpr && !told)
+            const bool reported = number && !findNonConstant(e); // where a constant has no value
+            if (!t.isError() && e.kind != NodeKind::PlaceholderExpr && !reported)
                 report(say::DimensionNotConstant, range(e), {describeDimension(e, t)});
         } else if (!(value->number >= 1) || value->number != std::floor(value->number) ||
                    value->number > 2e9) {
@@ -131,7 +131,7 @@ void DataResolver::ensureValue(DataSymbol& symbol) {
     if (cycle || state_.depth >= kMaxDepth) {
         const Context saved = context_;
         if (!symbol.routine) state_.enterModule(symbol.module);
-        task_.entangled = true;
+        task_.dependsOnOrder = true;
         report(cycle ? say::ConstantCycle : say::ConstantTooDeep, range(symbol.nameToken), {symbol.name});
         context_ = saved;
         symbol.valueProgress = Progress::Done;
@@ -192,7 +192,7 @@ void DataResolver::initialise(DataSymbol& symbol, const DataDecl& decl) {
     if (mustFold) expressions_.checkBigLiterals();
 }
 
-// Names the first part that keeps `expr` from being constant, if that has not been told at its declaration.
+// Names the first part that keeps `expr` from being constant, if that was not reported at its declaration.
 void DataResolver::reportNonConstant(const Expr& e) {
     const Expr* culprit = findNonConstant(e);
     if (!culprit) return;

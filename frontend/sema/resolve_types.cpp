@@ -66,7 +66,7 @@ const Type* TypeResolver::ensureType(TypeSymbol& symbol) {
     const bool cycle = symbol.progress == Progress::Active;
     if (!symbol.type) symbol.type = &facts().symbols->types.emplace_back();
     if (cycle || state_.depth >= kMaxDepth) {
-        task_.entangled = true;
+        task_.dependsOnOrder = true;
         TokenIndex at = symbol.nameToken; // the part that leads back to it
         for (const auto& [whole, part] : resolvingParts_)
             if (cycle && whole == symbol.type) at = part;

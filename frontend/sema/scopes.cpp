@@ -1,5 +1,5 @@
 // What a name means: routine, module, task, configuration, library, in this order (manual 1.1.5, 1.2.2). Signals that
-// nobody declares are part of the controller's configuration and are recognised by how they are used.
+// nothing declares are part of the controller's configuration and are recognised by how they are used.
 
 #include "frontend/sema/scopes.h"
 #include "frontend/sema/signal_uses.h"

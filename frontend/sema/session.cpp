@@ -106,8 +106,8 @@ void Session::State::change(SessionTask& task, size_t index, const std::shared_p
     const bool broken = sink.hasErrors();
     changed.parsed = sink.take();
     changed.source = file;
-    const bool wasEntangled = analyzer->task().entangled;
-    const bool alone = analyzer->replaceTree(index, std::move(tree), broken) && !wasEntangled;
+    const bool dependedOnOrder = analyzer->task().dependsOnOrder;
+    const bool alone = analyzer->replaceTree(index, std::move(tree), broken) && !dependedOnOrder;
     std::vector<size_t> dirty;
     for (size_t i = 0; i < task.files.size(); ++i) {
         const bool open = program->facts[analyzer->task().files[i].slot]->open;
@@ -120,7 +120,7 @@ void Session::State::change(SessionTask& task, size_t index, const std::shared_p
         analyzer->recheckFiles(dirty);
     else
         analyzer->recheckTask();
-    if (alone && analyzer->task().entangled) { // from now on
+    if (alone && analyzer->task().dependsOnOrder) { // from now on
         sink.take();
         for (SessionFile& each : task.files)
             each.checked.clear();
@@ -196,7 +196,7 @@ std::vector<diag::Diagnostic> Session::diagnostics() const {
         all.add(task.whole);
     }
     all.add(state_->across);
-    tellUnfinished(all);
+    mergeUnfinishedLines(all);
     return all.sorted();
 }
 

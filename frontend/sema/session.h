@@ -10,7 +10,7 @@ namespace rapid::sema {
 ///
 /// A changed file is parsed and checked again. Other files are left alone as long as they cannot see the change: the
 /// declarations that others see are the same, letter by letter. Otherwise all files of the task are checked again, but
-/// not parsed. Files with names that nobody declares are always checked again, because what is said about those names
+/// not parsed. Files with names that nothing declares are always checked again, because what is said about those names
 /// hangs on the bodies of other files; so are files with a message that points into the changed one.
 class Session {
   public:

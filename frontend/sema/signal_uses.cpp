@@ -20,7 +20,7 @@ using namespace syntax;
 
 namespace {
 
-/// The part of a name that tells the kind of a signal: all of diStart, what follows in PLC_di_Start and sdoStart, the end
+/// The part of a name that gives the kind of a signal: all of diStart, what follows in PLC_di_Start and sdoStart, the end
 /// of Part_Gi.
 std::string_view kindOnwards(std::string_view name) {
     static constexpr std::string_view kKinds[] = {"di", "do", "gi", "go", "ai", "ao"};

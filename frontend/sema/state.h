@@ -42,7 +42,7 @@ struct State {
     std::vector<NameId> declaredInRoutine;
     Reports reports;
     unsigned depth = 0;        ///< of declarations being resolved inside each other
-    bool leaveUnread = false;  ///< the value of the name that is looked at is not needed
+    bool valueUnused = false;  ///< the value of the name that is looked at is not needed
     bool presenceOnly = false; ///< a name is looked at for its presence, not for its value
 };
 

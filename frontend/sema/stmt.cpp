@@ -91,7 +91,7 @@ bool Statements::wholeStatement(const Stmt& s) {
         return false;
     case NodeKind::PlaceholderStmt:
         placeholder(s);
-        routine_.broken = true; // it may stand for the RETURN
+        routine_.broken = true; // it may be the RETURN
         return true;
     case NodeKind::DeclStmt: { // its place was reported by the parser
         const DataDecl* decl = as<DeclStmt>(s).decl;

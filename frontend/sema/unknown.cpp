@@ -88,8 +88,8 @@ void UnknownNames::mayDeclareTorn(const SyntaxTree& tree, TokenIndex word) {
     }
 }
 
-// After a syntax error a name may be missing because its declaration could not be read: whoever uses it is not to
-// blame. Such a declaration still shows two words in a row, the second of which is the name.
+// After a syntax error a name may be missing because its declaration could not be read: its use is not the
+// mistake. Such a declaration still shows two words in a row, the second of which is the name.
 bool UnknownNames::mayReportUnknown(NameId name) {
     if (context_.module) facts().open = true;
     for (const SyntaxTree* tree : std::exchange(task_.brokenTrees, {})) {
@@ -106,7 +106,7 @@ bool UnknownNames::mayReportUnknown(NameId name) {
     return !task_.maybeDeclared.contains(name);
 }
 
-// Whether a FOR of this routine, ahead of `token`, counts a variable of that name.
+// Whether a FOR of this routine, before `token`, counts a variable of that name.
 bool UnknownNames::countedAbove(TokenIndex token, NameId name) {
     const TokenIndex first = context_.routine->decl->first;
     if (first >= token || task_.comparisonsLeft < token - first) return false;
@@ -181,7 +181,7 @@ Meant UnknownNames::reportUnknown(diag::Message<2> message, TokenIndex token, Na
     }
     diag::Diagnostic& d = report(message, range(token), {text(token), hint});
     if (!best.name.empty()) d.fix(range(token), best.name, false);
-    constexpr size_t kMany = 2000; // nobody reads so many messages
+    constexpr size_t kMany = 2000; // so many messages are not read
     if (reports_.isUnsaid(d) || task_.unknownNames.size() >= kMany) return meant;
     const bool declared = best.symbol && !best.symbol->predefined;
     task_.unknownNames.push_back({context_.module, name, message.code, d.cause, range(token),

@@ -35,7 +35,7 @@ void gather(std::set<std::string>& found, const std::string& text, const std::re
 } // namespace
 
 TEST_CASE("every code of the catalogue is used by the program", "[diag][gate]") {
-    static const std::regex use(R"(\bCode::(\w+))");
+    static const std::regex use(R"(\b(?:Code|say)::(\w+))");
     std::set<std::string> used;
     for (const char* folder : {"frontend", "ir", "codegen", "tools"})
         forEachFile(kRoot / folder, {".cpp", ".h"},

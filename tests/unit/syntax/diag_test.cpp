@@ -19,6 +19,21 @@ std::shared_ptr<const SourceFile> file(std::string text) {
     return std::make_shared<const SourceFile>("a.modx", std::move(text));
 }
 
+/// Whether a report of the message with `args` compiles.
+template <class M, class Args>
+concept Reportable = requires(diag::Sink& sink, M message, const Args& args) {
+    sink.report(message, nullptr, SourceRange{}, args);
+};
+template <size_t N> using Words = std::string[N];
+
+// Rule: a wrong number or type of arguments does not compile.
+static_assert(Reportable<diag::Message<2>, Words<2>>);
+static_assert(!Reportable<diag::Message<2>, Words<1>>);
+static_assert(!Reportable<diag::Message<2>, Words<3>>);
+static_assert(!Reportable<diag::Message<0>, Words<1>>);
+static_assert(!Reportable<diag::Message<1>, int[1]>);
+static_assert(std::is_same_v<decltype(diag::say::MissingArgument), const diag::Message<2>>);
+
 } // namespace
 
 TEST_CASE("every text of the catalogue follows the wording rules", "[diag]") {
