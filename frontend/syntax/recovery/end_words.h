@@ -18,8 +18,6 @@ class EndWords : public ParserPart {
     /// The END word of a block that may have ended with '}'. Then it is not missed, and one further out belongs
     /// to a block around this one.
     void closeBracedBlock(K end, TokenIndex opening, bool whole, bool braced);
-
-  private:
 };
 
 } // namespace rapid::syntax

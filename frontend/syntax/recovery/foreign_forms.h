@@ -35,8 +35,6 @@ class ForeignForms : public ParserPart {
     void dropForeignMode(ParamDecl* node);
     /// `num a num b`, `num a; num b`: another parameter, whose comma is missing.
     bool missesComma();
-
-  private:
 };
 
 } // namespace rapid::syntax

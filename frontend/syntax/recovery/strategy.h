@@ -86,7 +86,7 @@ class RecoveryStrategy : public ParserPart {
     Proposal nearest(TokenIndex i, std::initializer_list<K> words) const;
     /// The sign at the current token was meant as another one, written `text`.
     Repair sign(K as, diag::Code code, std::string shown, std::string expected, std::string text) const;
-    /// The tokens from the current one up to `next` are too many, and so is their text up to `textEnd`.
+    /// The tokens from the current one up to `next` are too many; removing `text` mends it.
     Repair leaveOut(TokenIndex next, diag::Code code, std::vector<std::string> args, SourceRange text) const;
 };
 

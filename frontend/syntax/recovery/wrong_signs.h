@@ -25,8 +25,6 @@ class WrongSigns : public ParserPart {
     /// `VAR num x();`, `x() := 1;`
     void dropEmptyParentheses();
     void expectColonOfDefault();
-
-  private:
 };
 
 } // namespace rapid::syntax
