@@ -93,8 +93,8 @@ void applyTypeAttributes(const SyntaxTree& tree, TypeSymbol& symbol) {
     }
     if (typeClass == TypeClass::SemiValue) kind = TypeKind::SemiValue;
     if (typeClass == TypeClass::Pseudo) kind = TypeKind::AnyType;
-    symbol.type->uncertain = kind == TypeKind::Record && !comment.get("option").empty() &&
-                             comment.get("confidence") != "high";
+    symbol.type->uncertain =
+        kind == TypeKind::Record && !comment.get("option").empty() && comment.get("confidence") != "high";
 }
 
 void applyDataAttributes(const SyntaxTree& tree, DataSymbol& symbol) {

@@ -243,12 +243,13 @@ std::string openConveyors(Controller& controller, const std::vector<std::string>
                 motion->refresh();
         });
     }
-    controller.service<Surroundings>().addListener([&conveyors](const Surroundings::Name& name, double value) {
-        Conveyor* conveyor = conveyors.find(name.unit);
-        if (conveyor == nullptr) return;
-        if (sameName(name.quantity, Surroundings::kSpeed)) conveyor->setSpeed(value);
-        if (sameName(name.quantity, Surroundings::kObject)) conveyor->objectAtSync(value);
-    });
+    controller.service<Surroundings>().addListener(
+        [&conveyors](const Surroundings::Name& name, double value) {
+            Conveyor* conveyor = conveyors.find(name.unit);
+            if (conveyor == nullptr) return;
+            if (sameName(name.quantity, Surroundings::kSpeed)) conveyor->setSpeed(value);
+            if (sameName(name.quantity, Surroundings::kObject)) conveyor->objectAtSync(value);
+        });
     return {};
 }
 

@@ -176,7 +176,8 @@ std::string writeImage(const StateImage& image) {
 std::string readImage(const std::string& text, StateImage& image, const robot::UnitLookup& units) {
     const Json json = rapid::config::tryParseJson(text);
     if (json.is_discarded()) return "it is not JSON text, or only a part of it";
-    if (!json.is_object() || json.value("format", Json()) != kFormat) return "it is not the state of a controller";
+    if (!json.is_object() || json.value("format", Json()) != kFormat)
+        return "it is not the state of a controller";
     if (json.value("version", Json()) != kVersion) return "it was written by another version of rapidc";
     try {
         image = imageFrom(json, units);

@@ -76,9 +76,9 @@ Status rt_OpenDir(TaskCore* task, Handle* Dev, const String* Path) {
     if (open.directories().find(*Dev) != nullptr)
         return lib::fail(task, err::ERR_FILEACC, "the variable names an open directory: use CloseDir first");
     if (open.directories().size() >= OpenFiles::kMostOpen)
-        return lib::fail(task, err::ERR_FILEACC,
-                         fmt::format("{} directories are open already, the maximum; close some",
-                                     OpenFiles::kMostOpen));
+        return lib::fail(
+            task, err::ERR_FILEACC,
+            fmt::format("{} directories are open already, the maximum; close some", OpenFiles::kMostOpen));
     VolumePlace place;
     if (const Status status = lib::placeOf(task, *Path, LastLink::Follow, place)) return status;
     OpenFiles::Directory directory;

@@ -328,7 +328,8 @@ Status rt_IndReset(TaskCore* task, Handle* MecUnit, float Axis, const data::Robt
     if (moves) position = sameAngle(position, reference, Fwd, Bwd);
     arm.setIndependent(axis.axis, motion::AxisCourse(secondsNow(arm), {position, 0}));
     if (!arm.endIndependent(axis.axis, position))
-        return lib::fail(task, err::ERR_AXIS_MOVING, "the robot moves: wait until it has reached a stop point");
+        return lib::fail(task, err::ERR_AXIS_MOVING,
+                         "the robot moves: wait until it has reached a stop point");
     driver.refresh();
     return kOk;
 }

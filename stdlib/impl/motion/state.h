@@ -43,8 +43,8 @@ struct MotionState {
     bool eventBuffer = true;         ///< ActEventBuffer, DeactEventBuffer; kept for C_MOTSET
     float processMode = 1;           ///< MotionProcessModeSet
     std::bitset<robot::kExternalCount>
-        independentExternal;    ///< robot movements leave these axes where they are (STIndGun)
-    int concurrentMoves = 0;    ///< \Conc moves in succession
+        independentExternal; ///< robot movements leave these axes where they are (STIndGun)
+    int concurrentMoves = 0; ///< \Conc moves in succession
 };
 MotionState& motionState(TaskCore* task);
 /// SYS_RESET: the default settings; tool and work object stay.

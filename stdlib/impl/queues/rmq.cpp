@@ -69,8 +69,8 @@ Status send(TaskCore* task, Handle slot, const void* data, const TypeDesc* type,
     case MessageQueues::Sent::Full: break;
     }
     return lib::fail(task, err::ERR_RMQ_FULL,
-                     fmt::format("{} holds {} messages already, the maximum (RmqMaxNoOfMsg)",
-                                 target->name, target->maxMessages));
+                     fmt::format("{} holds {} messages already, the maximum (RmqMaxNoOfMsg)", target->name,
+                                 target->maxMessages));
 }
 
 const lib::Message* messageOf(TaskCore* task, Handle handle, Status& status) {

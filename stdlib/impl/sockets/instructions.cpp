@@ -197,10 +197,9 @@ Status rt_SocketCreate(TaskCore* task, Handle* Socket, bool UDP) {
     if (sockets.find(*Socket))
         return lib::fail(task, err::ERR_SOCK_UNSPEC, "the socket is in use already; use SocketClose first");
     if (sockets.isFull())
-        return lib::fail(
-            task, err::ERR_SOCK_UNSPEC,
-            fmt::format("{} sockets are in use, the maximum; close those that are not needed",
-                        Sockets::kMost));
+        return lib::fail(task, err::ERR_SOCK_UNSPEC,
+                         fmt::format("{} sockets are in use, the maximum; close those that are not needed",
+                                     Sockets::kMost));
     *Socket = sockets.add(std::make_shared<net::Socket>(sockets.network(), taskOf(task), UDP));
     return kOk;
 }
