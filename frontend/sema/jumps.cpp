@@ -23,7 +23,7 @@ uint32_t Jumps::lineEnd(uint32_t from) const {
     return static_cast<uint32_t>(std::min(source.find_first_of("\r\n", from), source.size()));
 }
 
-// "n: n + 1;": what stands behind the colon in the same line is a value and no instruction.
+// "n: n + 1;": a value follows the colon in the same line, not an instruction.
 bool Jumps::valueFollows(const LabelStmt& s) {
     const auto& tokens = context_.tree->tokens;
     const TokenIndex next = s.last + 1;

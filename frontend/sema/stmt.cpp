@@ -370,7 +370,7 @@ bool Statements::reportLabelWithoutColon(const CallStmt& s) {
     }
     const NameId name = idOf(s.name);
     if (!routine_.jumpNames.contains(name) || routine_.labelNames.find(name)) return false;
-    report(say::UnexpectedToken, range(s.last), {"';'", "':' behind a label"}).fix(range(s.last), ":");
+    report(say::UnexpectedToken, range(s.last), {"';'", "':' after a label"}).fix(range(s.last), ":");
     LabelSymbol& symbol = fill(facts().labels.emplace_back(), SymbolKind::Label, s, s.name, false);
     symbol.routine = context_.routine;
     routine_.labels.push_back({name, routine_.block, routine_.part, &s, &symbol});

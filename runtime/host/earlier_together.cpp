@@ -106,7 +106,7 @@ void MotionDriver::continueTogether(SynchronisedGroup& group, std::vector<Earlie
     }
 }
 
-/// Puts the level aside as it was, or goes on with it when it is the present one.
+/// Puts the level aside as it was, or continues with it when it is the present one.
 void MotionDriver::finishEarlierLevel(const EarlierPath& path, std::size_t number, bool isOrdered,
                                       const motion::JointTarget& here) {
     if (number > path.stored.size()) return;

@@ -314,7 +314,7 @@ bool isMoved(const Task& task, const StateImage& image) {
 
 } // namespace
 
-/// Of tasks that go on where they were.
+/// Of tasks that continue where they were.
 void SavedState::restorePaths(StateImage& image) {
     for (StateImage::Group& group : image.groups) {
         MotionDriver::EarlierPath& path = group.path;

@@ -37,7 +37,7 @@ void PathCorrections::setOffsetAhead(const Vec3& offset, double mm) {
     ahead_.push_back({way_ + mm, offset});
 }
 
-/// What lies ahead of the TCP no more is in force.
+/// Corrections whose place the TCP has reached are in force.
 void PathCorrections::takeAhead(const PlannedMoment& planned) {
     if (hasPlace_) way_ += planned.distanceFrom(run_, s_);
     for (; !ahead_.empty() && ahead_.front().at <= way_; ahead_.pop_front())

@@ -95,7 +95,7 @@ void DataParser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) 
     noteMoreNames(node);
     const bool parts = kind() == K::Comma && node->init && node->init->kind == NodeKind::Aggregate;
     if (!moreOf_)
-        sync().endInstruction(parts ? "';': a value of several parts stands between '[' and ']' as a whole"
+        sync().endInstruction(parts        ? "';': a value of several parts is between '[' and ']' as a whole"
                               : node->init ? "';'"
                                            : "':=' or ';'");
 }
@@ -108,7 +108,7 @@ void DataParser::parseDimensions(DataDecl* node, bool beforeName) {
     if (open == K::LeftParen && peek() == K::RightParen && !beforeName) return signs().dropEmptyParentheses();
     diag::Diagnostic* diagnostic = nullptr;
     if (beforeName) {
-        report(Code::UnexpectedToken, pos(), {describe(pos()), "a name: the dimensions stand behind it"});
+        report(Code::UnexpectedToken, pos(), {describe(pos()), "a name: the dimensions follow it"});
     } else if (otherForm) {
         diagnostic =
             report(Code::ForeignSpelling, pos(), {std::string(textOf(pos())), "'{' before the dimensions"});

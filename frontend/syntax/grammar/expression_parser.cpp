@@ -233,7 +233,7 @@ void ExpressionParser::reportBadNumber(TokenIndex token) {
         expected = "digits after the exponent 'E'";
         if ((kind() == K::Plus || kind() == K::Minus) && !startsExpression(peek())) take(); // "1E+"
     } else {
-        expected = "a number without '" + text.substr(letter) + "' behind it";
+        expected = "a number without '" + text.substr(letter) + "' after it";
     }
     report(Code::BadNumber, token, {text, expected});
     mark(Mark::BehindBadNumber);

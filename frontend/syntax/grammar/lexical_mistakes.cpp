@@ -90,7 +90,7 @@ void LexicalMistakes::reportBrokenStrings() {
         if (string.doubtful.end != 0)
             d.notes.push_back(
                 {in_.tree().source, string.doubtful,
-                 "this stands between two strings: a '\"' may be missing or one too many before it"});
+                 "this is between two strings: a '\"' may be missing or one too many before it"});
     }
 }
 

@@ -189,7 +189,7 @@ void ParameterParser::dropMisplacedMode(ParamDecl* param) {
 void ParameterParser::parseDimensions(ParamDecl* param) {
     const bool otherForm = kind() == K::LeftBracket;
     const K closing = otherForm ? K::RightBracket : K::RightBrace;
-    if (otherForm) report(Code::ForeignSpelling, pos(), {"[", "'{*}' behind the name of an array"});
+    if (otherForm) report(Code::ForeignSpelling, pos(), {"[", "'{*}' after the name of an array"});
     const TokenIndex opening = take();
     if (otherForm && accept(closing)) {
         param->rank = 1;

@@ -26,8 +26,7 @@ Decl* RoutineParser::parseRoutine(bool local, TokenIndex first) {
     const size_t errorsBefore = reports().errors();
     if (kind() == K::KwLocal && isName(peek()) && !startsLine(pos())) { // PROC LOCAL name()
         const SourceRange both{range(opening).begin, range(pos()).end};
-        fix(report(Code::UnexpectedToken, pos(),
-                   {"LOCAL", "a name: LOCAL stands before " + describe(opening)}),
+        fix(report(Code::UnexpectedToken, pos(), {"LOCAL", "a name: LOCAL is before " + describe(opening)}),
             both, (local ? "" : "LOCAL ") + describe(opening));
         node->local = true;
         take();

@@ -135,7 +135,7 @@ Stmt* InstructionParser::parseReturnOrRaise(bool isReturn) {
     constexpr TokenSet kSigns = {K::Assign, K::Equal, K::Colon};
     if (kSigns.has(kind()) && !startsLine(pos()) && startsExpression(peek()) &&
         !startsLine(pos() + 1)) { // RETURN = x;
-        fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "a value behind " + describe(first)}),
+        fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "a value after " + describe(first)}),
             {range(pos()).begin, range(pos() + 1).begin}, range(first).end == range(pos()).begin ? " " : "");
         take();
     }

@@ -76,7 +76,7 @@ StmtList ForeignForms::parseBody(const TokenSet& own, const std::string& expecte
     if (!braced && !reports().joinLast(Code::ForeignSpelling, range(pos()), "and no '{', but " + expected))
         report(Code::ForeignSpelling, pos(), {"{", expected});
     else if (!braced && !reports().last()->fixes.empty())
-        reports().last()->fixes.front().certain = false; // the braces are still to be mended
+        reports().last()->fixes.front().certain = false; // the braces are still to be corrected
     braced = true;
     take();
     ++block().braces;

@@ -74,7 +74,7 @@ bool WrongSigns::operandBehindSemicolon() {
         !startsLine(pos() + 2))
         return false;
     if (diag::Diagnostic* d = report(Code::UnexpectedToken, pos(), {describe(pos()), "an expression"}))
-        d->fixes.push_back({"write ';' behind it", {{range(pos()), ""}, {endOf(pos() + 1), ";"}}});
+        d->fixes.push_back({"write ';' after it", {{range(pos()), ""}, {endOf(pos() + 1), ";"}}});
     reports().forgetUnread();
     take();
     mark(Mark::EarlySemicolon, pos() + 1);
@@ -84,7 +84,7 @@ bool WrongSigns::operandBehindSemicolon() {
 void WrongSigns::dropEmptyParentheses() {
     const SourceRange both{range(pos()).begin, range(pos() + 1).end};
     if (kind() == K::LeftParen)
-        fix(reportAt(Code::UnexpectedToken, both, {"'()'", "no parentheses behind the name of data"}), both,
+        fix(reportAt(Code::UnexpectedToken, both, {"'()'", "no parentheses after the name of data"}), both,
             "");
     else
         fix(report(Code::ForeignSpelling, pos(),

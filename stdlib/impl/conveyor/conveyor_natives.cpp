@@ -83,7 +83,7 @@ Status waitForObject(TaskCore* task, Conveyor& conveyor, const ObjectWait& wait)
 Status dropObject(TaskCore* task, Conveyor& conveyor) {
     if (!conveyor.isActive()) return notActive(task, conveyor);
     if (conveyor.connected() != nullptr)
-        conveyor.lose("the program has dropped it, although a movement was going on. "
+        conveyor.lose("the program has dropped it, although a movement was in progress. "
                       "Finish movements on the conveyor first");
     return kOk;
 }

@@ -36,7 +36,7 @@ IndexingConveyors& indexing(Controller& controller) {
 void step(Controller& controller, Conveyor& conveyor) {
     Indexing& state = indexing(controller).all[&conveyor];
     Scheduler& scheduler = controller.scheduler();
-    if (scheduler.now() < state.busyUntil) return; // the last step goes on
+    if (scheduler.now() < state.busyUntil) return; // the last step continues
     const ConveyorSettings& settings = conveyor.settings();
     const double speed = std::min(settings.indexSpeed, std::sqrt(settings.index * settings.acceleration));
     const Time travel = fromSeconds(settings.index / speed);

@@ -14,7 +14,8 @@ using namespace rt;
 
 namespace {
 
-constexpr double kStartDelay = 0.020;   // s, from the order of a movement to its start when the robot stands
+constexpr double kStartDelay =
+    0.020; // s, from the order of a movement to its start when the robot is at rest
 constexpr double kEverywhere = 100'000; // mm, of a SyncToSensor without \MaxSync
 
 /// Of a robot, between SyncToSensor \On and \Off.

@@ -1,6 +1,7 @@
 // DispL and DispC: movements with a bead. \Corr changes the path as it does for MoveL.
 
 #include "stdlib/impl/dispense/dispense_process.h"
+#include "stdlib/impl/motion/corrections.h"
 #include "stdlib/impl/motion/move_order.h"
 #include "stdlib/impl/support/fail.h"
 
@@ -71,7 +72,7 @@ Status dispense(TaskCore* task, motion::MoveCommand command, const DispenseArgum
     process.setOrdered(!args.off);
     const Status status = lib::orderMove(task, std::move(command), move, std::move(actions));
     if (status != kOk) {
-        process.interrupt();          // the robot stands still
+        process.interrupt();          // the robot is at rest
         process.setOrdered(!args.on); // executed again it is the same instruction
     }
     return status;
@@ -83,17 +84,17 @@ extern "C" {
 
 Status rt_DispL(TaskCore* task, bool On, bool Off, const data::Robtarget* ToPoint, const float* ID,
                 const data::Speeddata* Speed, data::Beaddata* Bead, const float* D,
-                const data::Zonedata* Zone, data::Tooldata* Tool, data::Wobjdata* WObj, bool,
+                const data::Zonedata* Zone, data::Tooldata* Tool, data::Wobjdata* WObj, bool Corr,
                 data::Loaddata* TLoad) {
-    return dispense(task, lib::linearMove(task, *ToPoint, ID),
+    return dispense(task, lib::corrected(task, lib::linearMove(task, *ToPoint, ID), Corr),
                     {On, Off, Speed, Bead, D, Zone, Tool, WObj, TLoad});
 }
 
 Status rt_DispC(TaskCore* task, bool On, bool Off, const data::Robtarget* CirPoint,
                 const data::Robtarget* ToPoint, const float* ID, const data::Speeddata* Speed,
                 data::Beaddata* Bead, const float* D, const data::Zonedata* Zone, data::Tooldata* Tool,
-                data::Wobjdata* WObj, bool, data::Loaddata* TLoad) {
-    return dispense(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
+                data::Wobjdata* WObj, bool Corr, data::Loaddata* TLoad) {
+    return dispense(task, lib::corrected(task, lib::circularMove(task, *CirPoint, *ToPoint, ID), Corr),
                     {On, Off, Speed, Bead, D, Zone, Tool, WObj, TLoad});
 }
 }

@@ -110,7 +110,7 @@ Status testMovements(TaskCore* task, double angle, bool withAxis3, bool slowOnly
     return moveAxes(task, from);
 }
 
-/// A mistake of the user that a corrected call mends.
+/// An error of the user that a correct call removes.
 Status refuse(TaskCore* task, std::string_view text) {
     return lib::fail(task, err::ERR_PID_RAISE_PP, text);
 }

@@ -61,7 +61,7 @@ class CollisionWatch {
         check();
     }
 
-    /// The arm that stands, or already brakes, does not collide any more.
+    /// An arm that is at rest or already brakes does not collide any more.
     bool isHit(std::size_t& axis) {
         const auto& state = motion_->service<MotionState>();
         if (!state.motionSupervision || allowed_ || isBacking_ || !motion_->system().isMoving() ||

@@ -32,9 +32,9 @@ ServoGun* gunNamed(TaskCore* task, std::string_view name, Status& status) {
 enum Needs : unsigned { Sync = 1, Opened = 2 };
 
 /// The gun for a movement; null with the error in `status`.
-ServoGun* gunToMove(TaskCore* task, const String* name, unsigned needs, Status& status) {
+ServoGun* gunToMove(TaskCore* task, std::string_view name, unsigned needs, Status& status) {
     if ((status = lib::requireMotionTask(task)) != kOk) return nullptr;
-    ServoGun* gun = gunNamed(task, name->view(), status);
+    ServoGun* gun = gunNamed(task, name, status);
     if (gun == nullptr) return nullptr;
     const auto refuse = [&](Status error, const char* text) {
         status = lib::fail(task, error, text);
@@ -63,6 +63,17 @@ void give(float* result, double value) {
     if (result != nullptr) *result = static_cast<float>(value);
 }
 
+/// Name of the gun that spot welding knows by a number, counted in the order of the units, or by gundata.
+std::string spotGunName(TaskCore* task, const float* number, const data::Gundata* gun) {
+    if (gun != nullptr) return std::string(gun->gun_name.view());
+    Controller& controller = taskOf(task).controller();
+    double left = *number;
+    for (const auto& unit : controller.units().all())
+        if (controller.service<lib::ServoGuns>().find(controller, unit->name) != nullptr && --left == 0)
+            return unit->name;
+    return fmt::format("gun {}", *number);
+}
+
 ServoGun* gunOfUnit(TaskCore* task, const Handle* unit, Status& status) {
     const MechanicalUnit* found = lib::unitOf(task, *unit, status);
     return found == nullptr ? nullptr : gunNamed(task, found->name, status);
@@ -75,7 +86,7 @@ extern "C" {
 Status rt_STClose(TaskCore* task, const String* ToolName, float TipForce, float Thickness,
                   float* RetThickness, bool Conc) {
     Status status = kOk;
-    ServoGun* gun = gunToMove(task, ToolName, Sync | Opened, status);
+    ServoGun* gun = gunToMove(task, ToolName->view(), Sync | Opened, status);
     if (gun == nullptr) return status;
     if ((status = checkNegative(task, &TipForce, "the force")) != kOk) return status;
     if ((status = checkNegative(task, &Thickness, "the thickness")) != kOk) return status;
@@ -87,7 +98,7 @@ Status rt_STClose(TaskCore* task, const String* ToolName, float TipForce, float 
 /// A gun that is open already stays as it is.
 Status rt_STOpen(TaskCore* task, const String* ToolName, bool WaitZeroSpeed, bool Conc) {
     Status status = kOk;
-    ServoGun* gun = gunToMove(task, ToolName, Sync, status);
+    ServoGun* gun = gunToMove(task, ToolName->view(), Sync, status);
     if (gun == nullptr) return status;
     if (WaitZeroSpeed && (status = lib::motionOf(task).waitZeroSpeed(taskOf(task))) != kOk) return status;
     return gun->phase() == ServoGun::Phase::Open ? kOk : gun->open(task, Conc);
@@ -98,7 +109,7 @@ Status rt_STCalib(TaskCore* task, const String* ToolName, bool ToolChg, bool Tip
     if (ToolChg + TipChg + TipWear != 1)
         return lib::fail(task, err::ERR_ARGVALERR, "STCalib needs one of \\ToolChg, \\TipChg and \\TipWear");
     Status status = kOk;
-    ServoGun* gun = gunToMove(task, ToolName, ToolChg ? Opened : Sync | Opened, status);
+    ServoGun* gun = gunToMove(task, ToolName->view(), ToolChg ? Opened : Sync | Opened, status);
     if (gun == nullptr) return status;
     if ((status = checkNegative(task, PrePos, "\\PrePos")) != kOk) return status;
     using Kind = ServoGun::Calibration;
@@ -112,7 +123,7 @@ Status rt_STCalib(TaskCore* task, const String* ToolName, bool ToolChg, bool Tip
 
 Status rt_STIndGun(TaskCore* task, const String* ToolName, float GunPos) {
     Status status = kOk;
-    ServoGun* gun = gunToMove(task, ToolName, 0, status);
+    ServoGun* gun = gunToMove(task, ToolName->view(), 0, status);
     if (gun == nullptr) return status;
     if ((status = checkNegative(task, &GunPos, "the position")) != kOk) return status;
     return gun->moveAlone(task, GunPos);
@@ -121,6 +132,21 @@ Status rt_STIndGun(TaskCore* task, const String* ToolName, float GunPos) {
 Status rt_STIndGunReset(TaskCore* task, const String* ToolName) {
     Status status = kOk;
     ServoGun* gun = gunNamed(task, ToolName->view(), status);
+    if (gun != nullptr) gun->endIndependence();
+    return status;
+}
+
+Status rt_IndGunMove(TaskCore* task, const float* Gun, data::Gundata* GunData, float GunPos) {
+    Status status = kOk;
+    ServoGun* gun = gunToMove(task, spotGunName(task, Gun, GunData), 0, status);
+    if (gun == nullptr) return status;
+    if ((status = checkNegative(task, &GunPos, "the position")) != kOk) return status;
+    return gun->moveAlone(task, GunPos);
+}
+
+Status rt_IndGunMoveReset(TaskCore* task, const float* Gun, data::Gundata* GunData) {
+    Status status = kOk;
+    ServoGun* gun = gunNamed(task, spotGunName(task, Gun, GunData), status);
     if (gun != nullptr) gun->endIndependence();
     return status;
 }

@@ -28,7 +28,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-/// An object with these keys and no others: a misspelt key would be passed over in silence.
+/// An object with these keys and no others: a misspelt key would be skipped in silence.
 void checkKeys(const json& object, const std::string& where, std::initializer_list<const char*> keys) {
     if (!object.is_object()) throw Mistake{where + " is not an object"};
     for (const auto& [key, value] : object.items()) {
