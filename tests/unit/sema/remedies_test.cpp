@@ -216,7 +216,7 @@ TEST_CASE("parts of a value without brackets around them are one message", "[sem
         "  VAR pos p := [1,2,3];\nENDMODULE\n";
     CHECK(
         testing::checkTexts({text})->messages() ==
-        std::vector<std::string>{"RAP1101 at 2:31: found ',', expected ';': a value of several parts stands "
+        std::vector<std::string>{"RAP1101 at 2:31: found ',', expected ';': a value of several parts is "
                                  "between '[' and ']' as a whole"});
 }
 
