@@ -120,8 +120,9 @@ class Budget {
 } // namespace
 
 llvm::PreservedAnalyses BudgetLoops::run(llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {
-    if (!function.hasFnAttribute(kTakesTask) || !Budget(function, analyses).run())
-        return llvm::PreservedAnalyses::all();
+    // A routine that does not use its task may have lost the argument.
+    const bool takesTask = function.hasFnAttribute(kTakesTask) && !function.arg_empty();
+    if (!takesTask || !Budget(function, analyses).run()) return llvm::PreservedAnalyses::all();
     return llvm::PreservedAnalyses::none();
 }
 
