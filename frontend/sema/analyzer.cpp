@@ -218,7 +218,7 @@ void Analyzer::listSignals() {
     }
 }
 
-// A task that may lack its entry routine, and does, is no part of the program; nothing else in it is judged.
+// A task that may lack its entry routine, and does, is not part of the program: nothing else in it is checked.
 bool Analyzer::leaveOut(const TaskInput& input) {
     if (!state_.options.requireMain || !input.optional ||
         at(state_.task.globals, state_.names.intern(input.entry)))

@@ -43,7 +43,7 @@ void EntryCheck::checkEntry(Task& task) {
         routine->used = true;
         return;
     }
-    if (symbol) { // what is no procedure, or wants arguments, can be the entry of no task
+    if (symbol) { // the entry of a task must be a procedure without arguments
         state_.enterModule(symbol->module);
         std::string found = procedure ? "a procedure with required parameters" : describe(*symbol);
         report(say::EntryNotProcedure, range(symbol->nameToken), {symbol->name, std::move(found)});

@@ -12,7 +12,7 @@ namespace rapid::sema {
 /// Errors of one file that one mistake explains.
 struct Repeat {
     std::vector<diag::Diagnostic> members; ///< in the order of the text
-    /// What is reported instead, with a note for each member; without it the first member stands for all.
+    /// Reported instead, with a note for each member; without it the first member is reported for all.
     struct Declared {
         SourceRange type; ///< as the declaration names it
         std::string name, found, needed;

@@ -62,7 +62,7 @@ void LexicalMistakes::report(const LexResult& lexed, Reports& reports) {
     }
 }
 
-/// The text between the two lines of a broken string is no code.
+/// The text between the two lines of a broken string is not code.
 void LexicalMistakes::hideBetween(SourceRange first, SourceRange second) {
     const Token* begin = &in_.tokenAt(0);
     const Token* end = begin + in_.lastToken();

@@ -54,7 +54,7 @@ class Lookahead : public ParserPart {
     bool bodyBeginsHere() const;
     /// "PROC worknum n)": the name and a data type, from which only '(' is missing.
     bool lacksParenthesis(TokenIndex name) const;
-    /// Neither a text, a list, a truth value nor a number that is no place in an array.
+    /// Not a text, a list, a truth value, or a number that cannot be an index.
     bool mayBeIndex(const Expr& index) const;
 
   private:
