@@ -33,7 +33,7 @@ inline constexpr const char* kSettingsFile = "rapidc.json";
 /// there is none.
 std::string findSettings(const std::string& input);
 
-/// Reads the project file that belongs to `input`. What cannot be read is reported in it, the rest holds.
+/// Reads the project file that belongs to `input`. Unreadable parts are reported in it, the rest is used.
 Settings loadSettings(const std::string& input, diag::Sink& sink);
 
 /// Reads a project file that is in memory already.
