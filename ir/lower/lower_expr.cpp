@@ -247,7 +247,7 @@ bool RoutineLowering::isCheap(const Expr& outer) const {
     }
 }
 
-/// AND and OR do not evaluate the right operand when the left one decides (docs/decisions.md).
+/// AND and OR do not evaluate the right operand when the left one decides (decision 16).
 ir::ValueId RoutineLowering::lowerShortCircuit(const BinaryExpr& expr) {
     const uint32_t result = temp(ir::kBool);
     const ir::BlockId more = b_.addBlock("right");
