@@ -174,6 +174,12 @@ void ArgumentScan::choosePositional(Frame& frame) const {
     }
 }
 
+bool ArgumentScan::beginsLine(TokenIndex t) const {
+    const uint32_t from = tree_.range(t - 1).end, to = tree_.tokens[t].offset;
+    return from <= to &&
+           tree_.source->text().substr(from, to - from).find_first_of("\r\n") != std::string_view::npos;
+}
+
 /// Arguments that are given by name after the offset, in the same list.
 void ArgumentScan::findLater(CallContext& call) const {
     if (!call.routine) return;
@@ -182,6 +188,7 @@ void ArgumentScan::findLater(CallContext& call) const {
     for (TokenIndex t = at_; t < count; ++t) {
         const TokenKind k = kind(t);
         if (k == TokenKind::Semicolon || k == TokenKind::EndOfFile || (depth == 0 && kClosing.has(k))) return;
+        if (depth == 0 && isWord(k) && t > 0 && kind(t - 1) != TokenKind::Comma && beginsLine(t)) return;
         if (kOpening.has(k)) ++depth;
         if (kClosing.has(k)) --depth;
         // The word at the offset is what is being written, not an argument.

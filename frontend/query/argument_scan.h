@@ -45,6 +45,7 @@ class ArgumentScan {
     void endArgument(Frame& frame);
     void choosePositional(Frame& frame) const;
     void findLater(CallContext& call) const;
+    bool beginsLine(syntax::TokenIndex t) const;
     void expectedOf(const Frame& frame, Cursor& cursor) const;
     sema::DataType memberType(const Frame& frame) const;
     sema::DataType valueType(const Frame& frame) const;

@@ -249,7 +249,8 @@ TEST_CASE("query: traps, labels and late-bound procedures", "[query][completion]
 
 TEST_CASE("query: a new point is declared with its first use", "[query][completion]") {
     const Program program({inMain("MoveL $1\nMoveL pick$2,v100", kCell)});
-    const CompletionItem& next = item(complete(program), "p20");
+    const CompletionList list = complete(program);
+    const CompletionItem& next = item(list, "p20");
     CHECK(next.kind == ItemKind::NewData);
     REQUIRE(next.edits.size() == 1);
     CHECK(next.edits[0].replacement ==
