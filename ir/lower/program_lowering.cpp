@@ -493,7 +493,7 @@ void ProgramLowering::lowerTask(uint32_t index) {
     entry.kind = current.type;
     entry.motionTask = index == 0;
     entry.entry = current.entryRoutine ? routineFor(*current.entryRoutine, index) : ir::kNone;
-    if (entry.entry == ir::kNone && options_.calledFromOutside) entry.entry = makeEmptyEntry(index);
+    if (entry.entry == ir::kNone) entry.entry = makeEmptyEntry(index);
     entry.reset = makeReset(index);
     if (entry.entry != ir::kNone) module_.routines[entry.entry].exported = true;
     module_.tasks.push_back(std::move(entry));
