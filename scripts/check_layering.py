@@ -24,6 +24,8 @@ LAYERS = {
     "frontend/format": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/edit",
                         "frontend/project"],
     "frontend/lint": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/project"],
+    "frontend/workspace": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/edit",
+                           "frontend/project", "frontend/format", "frontend/lint", "config"],
     "ir/core": [],
     "ir/verify": ["ir/core"],
     "ir/text": ["ir/core", "ir/verify"],

@@ -31,7 +31,7 @@ PATTERNS = [(re.compile(pattern), instead) for pattern, instead in HABITS]
 CODE = (".cpp", ".h", ".def", ".py", ".cmake", ".sysx", ".modx")
 PROSE = (".md",)
 # Texts about the habits themselves, and records of the past.
-EXEMPT = ("docs/style.md", "scripts/check_wording.py", "docs/decisions.md", "CHANGELOG.md")
+EXEMPT = ("docs/style.md", "scripts/check_wording.py", "CHANGELOG.md")
 
 
 def git(*arguments):

@@ -316,7 +316,7 @@ void Arguments::checkAccess(const RoutineSymbol& routine, const BoundArg& bound,
     }
     // What takes a persistent of any type (IPers, GetSysData) also takes a component or an element of one.
     const bool anyPart = mode == ParamMode::Pers && bound.param->accepts == ParamClass::Value;
-    // Instructions of RobotWare change parts of persistents, too: "Incr rack{2}.count" (docs/decisions.md, 37).
+    // Instructions of RobotWare change parts of persistents, too: "Incr rack{2}.count" (decision 37).
     const bool mustBeWhole = !anyPart && (mode == ParamMode::Pers ||
                                           (mode == ParamMode::Inout && persistent && !routine.predefined));
     if (mustBeWhole && !place.whole) {

@@ -10,6 +10,7 @@ namespace rapid::lower {
 
 using sema::DataSymbol;
 using sema::DataType;
+using sema::LanguageError;
 using sema::RoutineSymbol;
 using sema::TypeKind;
 
@@ -77,10 +78,10 @@ ProgramLowering::ProgramLowering(const sema::CheckedProgram& program, const Opti
         for (const DataSymbol* data : lib->data)
             if (data->dataKind == syntax::DataKind::Const && data->type.type->name == "errnum") {
                 const auto number = static_cast<int32_t>(data->value().number);
-                errorNumbers_[data->name] = number;
+                if (data->languageError != LanguageError::None) errorNumbers_[data->languageError] = number;
                 if (data->meaning == sema::Meaning::AllErrors) allErrors_ = number;
             }
-    module_.overflowError = errorNumber("ERR_OVERFLOW");
+    module_.overflowError = errorNumber(LanguageError::Overflow);
 }
 
 ir::TypeId ProgramLowering::irType(const sema::Type* type) {
@@ -318,8 +319,8 @@ uint32_t ProgramLowering::stringGlobal(std::string_view text) {
     return constGlobal(stringType(), {scalar});
 }
 
-int32_t ProgramLowering::errorNumber(std::string_view name) const {
-    return errorNumbers_.at(std::string(name));
+int32_t ProgramLowering::errorNumber(LanguageError error) const {
+    return errorNumbers_.at(error);
 }
 
 bool ProgramLowering::implemented(const RoutineSymbol& symbol) const {

@@ -1,4 +1,4 @@
-#include "tools/rapidc/signal_uses.h"
+#include "frontend/workspace/signal_uses.h"
 
 #include "frontend/sema/names.h"
 #include "frontend/syntax/tree_walk.h"
@@ -11,18 +11,18 @@
 #include <map>
 #include <set>
 
-namespace rapidc {
+namespace rapid::workspace {
 
 namespace {
 
-using namespace rapid::syntax;
-using rapid::sema::BoundArg;
-using rapid::sema::BoundCall;
-using rapid::sema::CheckedProgram;
-using rapid::sema::ConstValue;
-using rapid::sema::DataSymbol;
-using rapid::sema::Module;
-using rapid::sema::TypeKind;
+using namespace syntax;
+using sema::BoundArg;
+using sema::BoundCall;
+using sema::CheckedProgram;
+using sema::ConstValue;
+using sema::DataSymbol;
+using sema::Module;
+using sema::TypeKind;
 
 /// The values that a group signal is written with or compared with.
 struct GroupValues {
@@ -43,7 +43,7 @@ bool isSignal(const DataSymbol& data) {
 
 /// "GI" of "signalgi".
 std::string shortType(const DataSymbol& data) {
-    const std::string name = rapid::sema::foldName(data.type.type->base()->name);
+    const std::string name = sema::foldName(data.type.type->base()->name);
     std::string type = name.size() > 6 ? name.substr(6) : name;
     std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::toupper(c); });
     return type;
@@ -56,7 +56,7 @@ class UseReader {
 
     void read(const Module& module) {
         module_ = &module;
-        for (const rapid::sema::RoutineSymbol* routine : module.routines)
+        for (const sema::RoutineSymbol* routine : module.routines)
             if (routine->routineDecl) visit(*routine->routineDecl);
     }
 
@@ -84,7 +84,7 @@ class UseReader {
     const std::vector<std::pair<std::string, const DataSymbol*>>& byText() const { return byText_; }
 
   private:
-    const rapid::sema::ExprInfo& info(const Expr& e) const { return program_.info(*module_, e); }
+    const sema::ExprInfo& info(const Expr& e) const { return program_.info(*module_, e); }
 
     const DataSymbol* signalIn(const Expr& expr) const {
         const Expr& e = bare(expr);
@@ -96,8 +96,8 @@ class UseReader {
                        : nullptr;
         }
         if (e.kind != NodeKind::Name) return nullptr;
-        const rapid::sema::Symbol* symbol = info(e).symbol;
-        if (!symbol || symbol->kind != rapid::sema::SymbolKind::Data) return nullptr;
+        const sema::Symbol* symbol = info(e).symbol;
+        if (!symbol || symbol->kind != sema::SymbolKind::Data) return nullptr;
         const auto& data = static_cast<const DataSymbol&>(*symbol);
         return isSignal(data) ? &data : nullptr;
     }
@@ -108,8 +108,8 @@ class UseReader {
     }
 
     const ConstValue* constantOf(const Expr& e) const {
-        const rapid::sema::ExprInfo& known = info(e);
-        if (known.constant || !known.symbol || known.symbol->kind != rapid::sema::SymbolKind::Data)
+        const sema::ExprInfo& known = info(e);
+        if (known.constant || !known.symbol || known.symbol->kind != sema::SymbolKind::Data)
             return known.constant;
         const auto& data = static_cast<const DataSymbol&>(*known.symbol);
         return data.isLiteralConstant() ? &data.value() : nullptr;
@@ -167,8 +167,8 @@ class UseReader {
         if (!signal || !call.routine->predefined) return;
         for (const BoundArg& arg : call.args) {
             if (!arg.value || !arg.param || arg.kind != BoundArg::Kind::Present) continue;
-            if (arg.param->accepts == rapid::sema::ParamClass::SignalOrString) alias(call, *arg.value);
-            const bool isValue = rapid::sema::foldName(arg.param->name).find("value") != std::string::npos;
+            if (arg.param->accepts == sema::ParamClass::SignalOrString) alias(call, *arg.value);
+            const bool isValue = sema::foldName(arg.param->name).find("value") != std::string::npos;
             if (isValue && !signalIn(*arg.value)) noteValue(*signal, *arg.value);
         }
     }
@@ -195,7 +195,7 @@ class UseReader {
 } // namespace
 
 std::vector<UsedSignal> usedSignals(const CheckedProgram& program,
-                                    const std::vector<rapid::sema::SignalInfo>& configured) {
+                                    const std::vector<sema::SignalInfo>& configured) {
     UseReader reader(program);
     for (const auto& task : program.tasks)
         for (const Module* module : task->modules)
@@ -203,13 +203,12 @@ std::vector<UsedSignal> usedSignals(const CheckedProgram& program,
     reader.finish();
     std::map<std::string, UsedSignal> found; // by name in lower case
     std::set<std::string> known;
-    for (const rapid::sema::SignalInfo& signal : configured)
-        known.insert(rapid::sema::foldName(signal.name));
+    for (const sema::SignalInfo& signal : configured)
+        known.insert(sema::foldName(signal.name));
     const auto add = [&](const std::string& name, const DataSymbol& data, const std::string& task) {
         const std::string type = shortType(data);
         const unsigned bits = type[0] == 'G' ? reader.bitsOf(data) : 0;
-        const auto [entry, isNew] =
-            found.try_emplace(rapid::sema::foldName(name), UsedSignal{name, type, bits, {}});
+        const auto [entry, isNew] = found.try_emplace(sema::foldName(name), UsedSignal{name, type, bits, {}});
         UsedSignal& signal = entry->second;
         if (isNew) return;
         if (signal.type == type)
@@ -221,7 +220,7 @@ std::vector<UsedSignal> usedSignals(const CheckedProgram& program,
         for (const DataSymbol* signal : task->signals)
             if (isSignal(*signal) && signal->assumed) add(signal->name, *signal, task->name);
     for (const auto& [name, data] : reader.byText())
-        if (!known.contains(rapid::sema::foldName(name))) add(name, *data, "");
+        if (!known.contains(sema::foldName(name))) add(name, *data, "");
     std::vector<UsedSignal> signals;
     for (auto& [name, signal] : found)
         signals.push_back(std::move(signal));
@@ -249,4 +248,4 @@ std::string describeSignals(const std::vector<UsedSignal>& signals) {
                        types);
 }
 
-} // namespace rapidc
+} // namespace rapid::workspace

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-namespace rapidc {
+namespace rapid::workspace {
 
 /// Reads the values of --task. Several for one task add up. `typesTold` gets the tasks whose type is given; what cannot
 /// be read is added to `problems`.
-std::vector<rapid::project::TaskSpec> readTaskSpecs(const std::vector<std::string>& options,
-                                                    std::set<std::string>& typesTold,
-                                                    std::vector<std::string>& problems);
+std::vector<project::TaskSpec> readTaskSpecs(const std::vector<std::string>& options,
+                                             std::set<std::string>& typesTold,
+                                             std::vector<std::string>& problems);
 
-} // namespace rapidc
+} // namespace rapid::workspace

@@ -1,4 +1,4 @@
-#include "tools/rapidc/module_files.h"
+#include "frontend/workspace/module_files.h"
 
 #include "config/read_file.h"
 
@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fstream>
 
-namespace rapidc {
+namespace rapid::workspace {
 
 namespace fs = std::filesystem;
 
@@ -63,12 +63,12 @@ ModuleFiles findModuleFiles(const std::vector<std::string>& inputs) {
     return out;
 }
 
-std::shared_ptr<const rapid::SourceFile> readModuleFile(const std::string& path, std::string& problem) {
+std::shared_ptr<const SourceFile> readModuleFile(const std::string& path, std::string& problem) {
     std::string bytes;
-    const std::string reason = rapid::config::readFile(path, bytes);
-    if (reason.empty()) return std::make_shared<const rapid::SourceFile>(path, std::move(bytes));
+    const std::string reason = config::readFile(path, bytes);
+    if (reason.empty()) return std::make_shared<const SourceFile>(path, std::move(bytes));
     problem = "cannot be read: " + reason;
     return nullptr;
 }
 
-} // namespace rapidc
+} // namespace rapid::workspace

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace rapidc {
+namespace rapid::workspace {
 
 struct UsedSignal {
     std::string name;
@@ -17,8 +17,8 @@ struct UsedSignal {
 };
 
 /// In the order of their names; `configured` ones are left out. The widths need the facts about the inside of routines (CheckOptions::onlyDiagnostics).
-std::vector<UsedSignal> usedSignals(const rapid::sema::CheckedProgram& program,
-                                    const std::vector<rapid::sema::SignalInfo>& configured);
+std::vector<UsedSignal> usedSignals(const sema::CheckedProgram& program,
+                                    const std::vector<sema::SignalInfo>& configured);
 
 /// An EIO.cfg that defines them as signals without a device.
 std::string writeSignals(const std::vector<UsedSignal>& signals);
@@ -26,4 +26,4 @@ std::string writeSignals(const std::vector<UsedSignal>& signals);
 /// "3 signals are assumed: 2 DI, 1 GO".
 std::string describeSignals(const std::vector<UsedSignal>& signals);
 
-} // namespace rapidc
+} // namespace rapid::workspace

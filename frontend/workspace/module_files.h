@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace rapidc {
+namespace rapid::workspace {
 
 struct ModuleFiles {
     std::vector<std::string> paths;    ///< in the order of the inputs; those of a folder sorted
@@ -18,6 +18,6 @@ struct ModuleFiles {
 ModuleFiles findModuleFiles(const std::vector<std::string>& inputs);
 
 /// The module in a file; null, with `problem` set, when it cannot be read.
-std::shared_ptr<const rapid::SourceFile> readModuleFile(const std::string& path, std::string& problem);
+std::shared_ptr<const SourceFile> readModuleFile(const std::string& path, std::string& problem);
 
-} // namespace rapidc
+} // namespace rapid::workspace

@@ -1,4 +1,4 @@
-#include "tools/rapidc/task_specs.h"
+#include "frontend/workspace/task_specs.h"
 
 #include "config/text_util.h"
 
@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fmt/format.h>
 
-namespace rapidc {
+namespace rapid::workspace {
 
-using rapid::config::sameName;
-using rapid::project::TaskSpec;
+using config::sameName;
+using project::TaskSpec;
 
 namespace {
 
@@ -45,7 +45,7 @@ std::string readTaskSpec(const std::string& text, TaskSpec& spec, bool& typeTold
     const size_t colon = head.find(':');
     typeTold = colon != std::string::npos;
     spec.name = head.substr(0, colon);
-    spec.type = typeTold ? rapid::config::upperCase(head.substr(colon + 1)) : "NORMAL";
+    spec.type = typeTold ? config::upperCase(head.substr(colon + 1)) : "NORMAL";
     spec.inputs = inputsOf(equals == text.size() ? std::string() : text.substr(equals + 1));
     const bool knownType = spec.type == "NORMAL" || spec.type == "STATIC" || spec.type == "SEMISTATIC";
     const bool emptyInput =
@@ -95,4 +95,4 @@ std::vector<TaskSpec> readTaskSpecs(const std::vector<std::string>& options, std
     return specs;
 }
 
-} // namespace rapidc
+} // namespace rapid::workspace
