@@ -288,9 +288,9 @@ void ProgramLowering::addTablesOf(uint32_t task, const sema::Module& module, boo
     if (erases_ && !unit_) entry.gone = goneFlag(module, task);
     module_.modules.push_back(std::move(entry));
     if (unit_ || program_.uses(sema::Trait::SearchesData)) addRoutineData(task, module);
-    if (!callsByName) return;
+    const auto& fromOutside = options_.calledFromOutside;
     for (const RoutineSymbol* routine : module.routines)
-        addNamedRoutine(*routine, task);
+        if (callsByName || (fromOutside && fromOutside(*routine))) addNamedRoutine(*routine, task);
 }
 
 /// Needed when the program is complete: what it asks for by name.

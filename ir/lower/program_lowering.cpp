@@ -459,6 +459,18 @@ uint32_t ProgramLowering::makeReset(uint32_t taskIndex) {
     return static_cast<uint32_t>(module_.routines.size() - 1);
 }
 
+/// The entry of a task without main, of which only routines that are called from outside are executed.
+uint32_t ProgramLowering::makeEmptyEntry(uint32_t taskIndex) {
+    ir::Routine routine;
+    routine.name = task(taskIndex).name + "/$entry";
+    routine.displayName = "$entry";
+    ir::Builder b(module_, routine);
+    b.setBlock(b.addBlock("entry"));
+    b.ret();
+    module_.routines.push_back(std::move(routine));
+    return static_cast<uint32_t>(module_.routines.size() - 1);
+}
+
 uint32_t ProgramLowering::valueFlag(const DataSymbol& symbol, uint32_t task) {
     auto [found, isNew] = valueFlags_.try_emplace({task, &symbol}, 0);
     if (isNew)
@@ -482,6 +494,7 @@ void ProgramLowering::lowerTask(uint32_t index) {
     entry.kind = current.type;
     entry.motionTask = index == 0;
     entry.entry = current.entryRoutine ? routineFor(*current.entryRoutine, index) : ir::kNone;
+    if (entry.entry == ir::kNone) entry.entry = makeEmptyEntry(index);
     entry.reset = makeReset(index);
     if (entry.entry != ir::kNone) module_.routines[entry.entry].exported = true;
     module_.tasks.push_back(std::move(entry));

@@ -126,6 +126,7 @@ class ProgramLowering {
     void addTablesOf(uint32_t task, const sema::Module& module, bool callsByName);
     bool isImported(const sema::DataSymbol& symbol) const;
     uint32_t importGlobal(const sema::DataSymbol& symbol, uint32_t task);
+    uint32_t makeEmptyEntry(uint32_t taskIndex);
     uint32_t makeReset(uint32_t task);
     void drainPending();
     uint32_t lowerDetachedHandler(const Pending& routine, const RoutineLowering& body);
