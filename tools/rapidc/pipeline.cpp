@@ -145,14 +145,16 @@ void findSharedModules(Compilation& compilation, const std::vector<std::string>&
                 compilation.sharedModules.insert(lower(module->name));
 }
 
-/// What SYS.cfg says of the tasks of the command line: entry and type. `typesTold`: tasks whose type the command line
-/// tells; that of the first task is NORMAL.
-void configureTasks(Compilation& compilation, const std::set<std::string>& typesTold) {
+/// The configuration of tasks in SYS.cfg: BindRef of each task; entry and type of the tasks of the command line (those of a
+/// backup have theirs). `typesTold`: tasks whose type the command line gives; that of the first task is NORMAL.
+void configureTasks(Compilation& compilation, const std::set<std::string>& typesTold, bool isBackup) {
     for (const std::string& text : compilation.configTexts) {
         for (const rapid::project::ConfiguredTask& configured :
              rapid::project::readTaskParameters(text).tasks) {
             for (sema::TaskInput& task : compilation.tasks) {
                 if (lower(task.name) != lower(configured.name)) continue;
+                task.bindsLate = !configured.bindsReferences;
+                if (isBackup) continue;
                 task.entry = configured.entry;
                 if (!typesTold.contains(task.name)) task.type = configured.type;
             }
@@ -399,7 +401,7 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs) {
         compilation->library.push_back({source.name, source.text});
     options.library = compilation->library;
     compilation->tasks = std::move(project.tasks);
-    if (!project.isBackup) configureTasks(*compilation, typesTold);
+    configureTasks(*compilation, typesTold, project.isBackup);
     readTaskSettings(*compilation);
     judge(*compilation, inputs.onlyDiagnostics);
     if (inputs.assumeSignals) assumeSignals(*compilation);
