@@ -21,14 +21,14 @@ namespace {
 class Loader {
   public:
     /// `elsewhere`: the tasks whose modules the command line names.
-    Loader(ProjectInput& out, diag::Sink& sink, std::set<std::string> elsewhere)
-        : out_(out), sink_(sink), files_(sink), elsewhere_(std::move(elsewhere)) {}
+    Loader(ProjectInput& out, diag::Sink& sink, std::set<std::string> elsewhere, const OpenTexts* texts)
+        : out_(out), sink_(sink), texts_(texts), files_(sink, texts), elsewhere_(std::move(elsewhere)) {}
 
     /// Adds what `input` names to `task`. A backup adds tasks of its own and leaves `task` alone.
     void add(const std::string& input, sema::TaskInput& task, bool allowBackup) {
         const fs::path path(input);
         std::error_code error;
-        if (!fs::exists(path, error)) {
+        if (!fs::exists(path, error) && !(texts_ && texts_->find(input))) {
             report(say::FileNotFound, {input});
         } else if (isFolder(path)) {
             const fs::path backup = allowBackup ? backupIn(path) : fs::path();
@@ -171,6 +171,7 @@ class Loader {
 
     ProjectInput& out_;
     diag::Sink& sink_;
+    const OpenTexts* texts_;
     FileReader files_;
     std::set<std::string> elsewhere_;
 };
@@ -189,12 +190,12 @@ void joinFirst(ProjectInput& out, sema::TaskInput& main) {
 } // namespace
 
 bool loadProject(const std::vector<std::string>& inputs, const std::vector<TaskSpec>& extraTasks,
-                 ProjectInput& out, diag::Sink& sink) {
+                 ProjectInput& out, diag::Sink& sink, const OpenTexts* texts) {
     const size_t errorsBefore = sink.errorCount();
     std::set<std::string> elsewhere;
     for (const TaskSpec& spec : extraTasks)
         elsewhere.insert(config::upperCase(spec.name));
-    Loader loader(out, sink, std::move(elsewhere));
+    Loader loader(out, sink, std::move(elsewhere), texts);
     sema::TaskInput main;
     for (const std::string& input : inputs)
         loader.add(input, main, true);

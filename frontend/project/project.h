@@ -2,6 +2,7 @@
 // From the command line to tasks: files, folders, program files (.pgf) and controller backups become lists of source
 // files for each task, and the configuration files found beside them.
 
+#include "frontend/project/open_texts.h"
 #include "frontend/sema/checker.h"
 
 #include <optional>
@@ -31,8 +32,8 @@ struct ProjectInput {
 
 /// Resolves `inputs` (they make up task T_ROB1, unless one of them is a backup, which brings its own tasks) and the
 /// additional tasks. Unusable inputs are reported with their remedy. Returns false if something was an error; `out`
-/// then holds what could be read.
+/// then holds what could be read. `texts` count before files.
 bool loadProject(const std::vector<std::string>& inputs, const std::vector<TaskSpec>& extraTasks,
-                 ProjectInput& out, diag::Sink& sink);
+                 ProjectInput& out, diag::Sink& sink, const OpenTexts* texts = nullptr);
 
 } // namespace rapid::project

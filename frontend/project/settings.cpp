@@ -1,7 +1,6 @@
 #include "frontend/project/settings.h"
 
 #include "config/json_text.h"
-#include "config/read_file.h"
 
 #include <algorithm>
 #include <array>
@@ -118,11 +117,11 @@ Settings readSettings(std::shared_ptr<const SourceFile> file, diag::Sink& sink) 
     return settings;
 }
 
-Settings loadSettings(const std::string& input, diag::Sink& sink) {
+Settings loadSettings(const std::string& input, diag::Sink& sink, const OpenTexts* texts) {
     const std::string path = findSettings(input);
     if (path.empty()) return {};
     std::string bytes;
-    if (const std::string problem = config::readFile(path, bytes); !problem.empty()) {
+    if (const std::string problem = readText(texts, path, bytes); !problem.empty()) {
         sink.report(say::BadProjectFile, nullptr, {},
                     {fmt::format("'{}' cannot be read: {}", path, problem)});
         return {};

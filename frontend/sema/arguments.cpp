@@ -12,6 +12,8 @@
 #include "frontend/sema/wording.h"
 #include "frontend/syntax/tree_walk.h"
 
+#include <algorithm>
+
 namespace rapid::sema {
 
 using namespace syntax;
@@ -69,6 +71,38 @@ void Arguments::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
         const Typed t = expressions_.expr(*bound.value, any ? nullptr : &param.type);
         state_.valueUnused = false;
         judgeValue(routine, bound, t);
+    }
+}
+
+// A value whose type depends on what is expected of it.
+static bool takesTypeFromContext(const Expr& value) {
+    const NodeKind kind = bare(value).kind;
+    return kind == NodeKind::Aggregate || kind == NodeKind::NumLiteral || kind == NodeKind::Unary;
+}
+
+void Arguments::checkSameType(const BoundCall& call, std::vector<const Argument*>& judged) {
+    std::vector<const BoundArg*> alike;
+    for (const BoundArg& bound : call.args)
+        if (bound.param->type.type->kind == TypeKind::AnyType && bound.kind == BoundArg::Kind::Present &&
+            bound.value)
+            alike.push_back(&bound);
+    if (alike.size() < 2) return;
+    const auto leads = [](const BoundArg* bound) { return !takesTypeFromContext(*bound->value); };
+    const auto lead = std::find_if(alike.begin(), alike.end(), leads);
+    if (lead != alike.end()) std::rotate(alike.begin(), lead, lead + 1);
+    DataType want;
+    for (const BoundArg* bound : alike) {
+        judged.push_back(bound->argument);
+        const Typed t = expressions_.expr(*bound->value, want.type ? &want : nullptr);
+        if (t.isError()) continue;
+        if (!checkClass(*call.routine, *bound, t.info->type)) continue;
+        if (!want.type) {
+            want = t.info->type;
+        } else if (!expressions_.fits(*bound->value, t, want)) {
+            const auto names = typeNames(t.info->type, want);
+            report(say::ArgumentType, range(*bound->value),
+                   {bound->param->name, call.routine->name, names[0], names[1]});
+        }
     }
 }
 

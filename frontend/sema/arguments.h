@@ -26,6 +26,9 @@ class Arguments : CheckerPart {
     void checkDim(const syntax::CallExpr& e, const RoutineSymbol& routine);
     /// Checks an argument and judges it by its parameter.
     void checkArgument(const RoutineSymbol& routine, BoundArg& bound);
+    /// Checks the arguments for the parameters of type anytype of a routine that takes data of one type: an aggregate or a
+    /// literal has the type of the other one. Adds them to `judged`.
+    void checkSameType(const BoundCall& call, std::vector<const syntax::Argument*>& judged);
     /// Judges an argument that was checked already: a reference, or a value.
     void judgeReference(const RoutineSymbol& routine, const BoundArg& bound, const Place& place);
     /// Reports the mismatches from `firstMismatch` on, and if `missing` the parameters without an argument.

@@ -44,6 +44,13 @@ enum class Meaning : uint8_t {
 #include "frontend/sema/builtin_words.def"
 };
 
+/// Error numbers that constructs of the language raise; from `raisedby:` in the declaration (manual 1.12).
+enum class LanguageError : uint8_t {
+    None,
+#define LANGUAGE_ERROR(Name, word) Name,
+#include "frontend/sema/builtin_words.def"
+};
+
 /// Properties of a native for checker, warnings and lowering; from `traits:` in the declaration.
 enum class Trait : uint8_t {
 #define TRAIT(Name, word) Name,
@@ -90,6 +97,10 @@ inline constexpr BuiltinWord<TypeClass> kTypeClassWords[] = {
 };
 inline constexpr BuiltinWord<Meaning> kMeaningWords[] = {
 #define MEANING(Name, word) {word, Meaning::Name},
+#include "frontend/sema/builtin_words.def"
+};
+inline constexpr BuiltinWord<LanguageError> kLanguageErrorWords[] = {
+#define LANGUAGE_ERROR(Name, word) {word, LanguageError::Name},
 #include "frontend/sema/builtin_words.def"
 };
 inline constexpr BuiltinWord<Trait> kTraitWords[] = {

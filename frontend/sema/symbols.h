@@ -108,8 +108,9 @@ struct DataSymbol : Symbol {
     bool requiredAlternative = false; ///< built-ins: `a | b` between required parameters
     bool assigned = false;            ///< some statement writes it, or it is passed on as VAR, INOUT or PERS
     bool deferred = false; ///< parameter of a built-in whose expression is evaluated again and again
-    ParamClass accepts = ParamClass::Any; ///< parameters of type `anytype`
-    Meaning meaning = Meaning::None;      ///< predefined data
+    ParamClass accepts = ParamClass::Any;              ///< parameters of type `anytype`
+    Meaning meaning = Meaning::None;                   ///< predefined data
+    LanguageError languageError = LanguageError::None; ///< predefined error numbers
     Progress valueProgress = Progress::Pending;
 
   private:

@@ -10,6 +10,7 @@ namespace rapidc {
 void addCheckCommand(rt::CommandLine& line);
 void addBuildCommand(rt::CommandLine& line);
 void addRunCommand(rt::CommandLine& line);
+void addTestCommand(rt::CommandLine& line);
 void addEmitCommand(rt::CommandLine& line);
 void addExplainCommand(rt::CommandLine& line);
 void addBuiltinsCommand(rt::CommandLine& line);
