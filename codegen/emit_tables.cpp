@@ -261,14 +261,6 @@ llvm::Function* ModuleEmitter::entryOrNull(uint32_t routine) {
     return routine == ir::kNone ? nullptr : cEntry(routine);
 }
 
-/// The task a routine belongs to is the first part of its linkage name ("T_ROB1/MainModule/main"); -1 = any.
-int64_t ModuleEmitter::taskOf(const ir::Routine& routine) {
-    const std::string prefix = routine.name.substr(0, routine.name.find('/'));
-    for (size_t t = 0; t < module_.tasks.size(); ++t)
-        if (module_.tasks[t].name == prefix) return static_cast<int64_t>(t);
-    return module_.unitTask;
-}
-
 std::vector<llvm::Constant*> ModuleEmitter::paramRows(const ir::NamedRoutine& named) {
     using Desc = rt::ParamDesc;
     std::vector<llvm::Constant*> rows;
@@ -291,7 +283,7 @@ llvm::Constant* ModuleEmitter::routineRow(uint32_t index, const ir::NamedRoutine
     return abi::Row<Desc>(context_)
         .set<&Desc::name>(text(routine.displayName))
         .set<&Desc::module>(text(routine.moduleName))
-        .set<&Desc::task>(taskOf(routine))
+        .set<&Desc::task>(named.task == ir::kNone ? int64_t{-1} : int64_t{named.task})
         .set<&Desc::kind>(abi::kindOf(named.kind))
         .set<&Desc::isLocal>(named.isLocal)
         .set<&Desc::address>(cEntry(index))

@@ -80,6 +80,7 @@ std::vector<uint32_t> describedLocals(const ir::Routine& routine);
 /// Those, then the ones its detached handler reaches: what SteppingFrame::addresses names.
 std::vector<uint32_t> addressedLocals(const ir::Routine& routine);
 
+// Size: the tables of a program refer to each other; one object holds the LLVM module they are built in.
 class ModuleEmitter {
   public:
     /// `part`: null for the whole program.
@@ -182,7 +183,6 @@ class ModuleEmitter {
     llvm::Constant* routineRow(uint32_t index, const ir::NamedRoutine& named);
     llvm::Constant* moduleTable();
     llvm::Constant* routineDataTable();
-    int64_t taskOf(const ir::Routine& routine);
     void emitProgram();
 
     const ir::Module& module_;

@@ -19,6 +19,7 @@ namespace codegen {
 class JoinedRounds;
 class WideLoop;
 
+// Size: one method for each kind of instruction; they share the values, blocks and the frame record of one routine.
 class RoutineEmitter {
   public:
     RoutineEmitter(ModuleEmitter& module, uint32_t index);

@@ -1,6 +1,8 @@
 #pragma once
 // Small things that the readers of foreign text share.
 
+#include "config/letter_case.h"
+
 #include <string>
 #include <string_view>
 
@@ -8,10 +10,6 @@ namespace rapid::config {
 
 /// Without blanks, tabs and carriage returns at both ends.
 std::string_view trimmed(std::string_view text);
-/// ASCII letters in upper case.
-std::string upperCase(std::string_view text);
-/// Equal without regard to the case of ASCII letters.
-bool sameName(std::string_view a, std::string_view b);
 /// The whole text is one finite decimal number (sign, fraction, exponent); `value` is left alone otherwise.
 bool parseNumber(std::string_view text, double& value);
 /// UTF-8 stays (a byte order mark is dropped); anything else is read as ISO 8859-1.

@@ -4,8 +4,9 @@
 A larger class needs a reason: a line "// Size: ..." directly before it.
 """
 
+import glob
+import os
 import re
-import subprocess
 import sys
 
 MOST_FUNCTIONS, MOST_FIELDS = 60, 25
@@ -78,11 +79,14 @@ def body_end(source, begin):
 
 
 def main():
-    files = sys.argv[1:] or subprocess.run(
-        ("git", "ls-files", "*.h", "*.cpp"), capture_output=True, text=True, check=True).stdout.splitlines()
+    arguments = sys.argv[1:]
+    if arguments[:1] == ["--source"]:
+        os.chdir(arguments[1])
+        arguments = arguments[2:]
+    files = arguments or sorted(glob.glob("**/*.h", recursive=True) + glob.glob("**/*.cpp", recursive=True))
     found = classes = 0
     for path in files:
-        if path.startswith("tests/"):
+        if path.startswith(("tests/", "build")):
             continue
         with open(path, encoding="utf-8") as file:
             original = file.read()

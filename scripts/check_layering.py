@@ -13,19 +13,20 @@ import sys
 # Layer of a file = the longest of these prefixes. The value lists the layers it may include besides itself; all of them
 # stand further up in this table (check_table), so that no two layers need each other.
 LAYERS = {
-    # configuration text: needed by the front end and by the runtime, and knows neither
+    # configuration text and letter case: needed by the front end and by the runtime, and knows neither
     "config": [],
-    "frontend/source": [],
+    "frontend/source": ["config"],
     "frontend/diag": ["frontend/source", "config"],
-    "frontend/syntax": ["frontend/source", "frontend/diag"],
-    "frontend/sema": ["frontend/source", "frontend/diag", "frontend/syntax"],
-    "frontend/edit": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema"],
+    "frontend/syntax": ["frontend/source", "frontend/diag", "config"],
+    "frontend/sema": ["frontend/source", "frontend/diag", "frontend/syntax", "config"],
+    "frontend/edit": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "config"],
     "frontend/project": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "config"],
     "frontend/format": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/edit",
-                        "frontend/project"],
+                        "frontend/project", "config"],
     "frontend/query": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/edit",
                        "frontend/format", "frontend/project", "config"],
-    "frontend/lint": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/project"],
+    "frontend/lint": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/project",
+                      "config"],
     "frontend/workspace": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/edit",
                            "frontend/project", "frontend/format", "frontend/lint", "config"],
     "ir/core": [],
@@ -34,7 +35,7 @@ LAYERS = {
     "ir/passes": ["ir/core", "ir/text", "ir/verify"],
     # C layout, shared by code generation and runtime; the headers stand alone
     "runtime/abi": [],
-    "ir/lower": ["ir/core", "ir/text", "ir/verify", "ir/passes", "frontend/", "runtime/abi"],
+    "ir/lower": ["ir/core", "ir/text", "ir/verify", "ir/passes", "frontend/", "runtime/abi", "config"],
     # code generation and the runtime share the C layout of runtime/abi and nothing else
     "codegen": ["ir/core", "ir/text", "ir/verify", "ir/passes", "runtime/abi"],
     # arms and paths, which know nothing of the rest

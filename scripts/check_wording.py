@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Looks for phrases that docs/style.md replaces, in the lines that a change adds.
+"""Looks for phrases that docs/style.md replaces.
 
 usage: check_wording.py [BASE]   lines added since BASE (default: origin/main, else the parent commit)
        check_wording.py --all    every text of the project
@@ -18,7 +18,7 @@ HABITS = [
     (r"\bstands for\b", "means, represents"),
     (r"\bstands\b", "is"),
     (r"(?<!there )\b(is|are) no (?!longer|more|less|such)\w+", "is not a ..., are not ..."),
-    (r"\bnobody (asks|needs|waits|uses)\b", "is not used, is not needed"),
+    (r"\bnobody\b", "is not used, is not needed; no task, no handler"),
     (r"\breplace[sd]? [^.;]{1,40} by\b", "replace ... with"),
     (r"\bchanged places\b", "are swapped"),
     (r"\bon every way\b", "on every path"),

@@ -125,7 +125,7 @@ std::string_view severityName(Severity severity);
 /// For people: `file:line:column: error[RAP2104]: text` (warnings: and their names), the source line, a caret line, help,
 /// notes. ANSI colours if asked.
 std::string renderText(const Diagnostic& diagnostic, bool colour);
-/// One JSON array of {file,line,column,endLine,endColumn,severity,code,name,message} (design chapter 8).
+/// One JSON array of {file,line,column,endLine,endColumn,severity,code,name,message}.
 std::string renderJson(std::span<const Diagnostic> diagnostics);
 /// SARIF 2.1.0, as code scanning services read it. `root`: absolute folder to which paths are relative.
 std::string renderSarif(std::span<const Diagnostic> diagnostics, std::string_view root = {});

@@ -1,5 +1,7 @@
 #include "frontend/format/canonical_names.h"
 
+#include "config/letter_case.h"
+
 namespace rapid::format {
 
 using namespace rapid::syntax;
@@ -18,18 +20,11 @@ TokenIndex nameOf(const Decl& decl) {
 
 } // namespace
 
-std::string lowerCase(std::string_view text) {
-    std::string out(text);
-    for (char& c : out)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-    return out;
-}
-
 void addDeclaredNames(const SyntaxTree& tree, NameTable& names) {
     for (const ModuleDecl* module : tree.modules)
         for (const Decl* decl : module->decls) {
             const std::string_view name = tree.text(nameOf(*decl));
-            if (!name.empty()) names.emplace(lowerCase(name), name);
+            if (!name.empty()) names.emplace(config::lowerCase(name), name);
         }
 }
 

@@ -8,7 +8,4 @@ namespace rapid::format {
 /// Adds the names that the modules of `tree` declare: types, data and routines, by their lower-case form.
 void addDeclaredNames(const syntax::SyntaxTree& tree, NameTable& names);
 
-/// Lower case of the letters A to Z.
-std::string lowerCase(std::string_view text);
-
 } // namespace rapid::format

@@ -1,5 +1,6 @@
 #include "frontend/format/formatter.h"
 
+#include "config/letter_case.h"
 #include "frontend/edit/apply_edits.h"
 #include "frontend/format/canonical_names.h"
 #include "frontend/format/layout.h"
@@ -42,7 +43,7 @@ class DeclaredNames {
     bool has(const std::string& name) const { return names_.contains(name); }
 
   private:
-    void add(TokenIndex name) { names_.insert(lowerCase(tree_.text(name))); }
+    void add(TokenIndex name) { names_.insert(config::lowerCase(tree_.text(name))); }
     void visit(const Node& node) {
         switch (node.kind) {
         case NodeKind::Record: add(as<RecordDecl>(node).name); break;
@@ -137,7 +138,7 @@ class Formatter {
         if (keyword || plan.has(kUpperWord)) {
             const std::string word = keyword ? std::string(tokenText(kind)) : "TASK";
             if (settings_.keywords == KeywordCase::Upper) replace(tree_.range(t), word);
-            if (settings_.keywords == KeywordCase::Lower) replace(tree_.range(t), lowerCase(word));
+            if (settings_.keywords == KeywordCase::Lower) replace(tree_.range(t), config::lowerCase(word));
         } else if (plan.has(kLowerWord)) {
             if (settings_.keywords != KeywordCase::Keep) replace(tree_.range(t), "switch");
         } else if (plan.has(kNameUse) && kind == TokenKind::Identifier) {
@@ -147,7 +148,7 @@ class Formatter {
 
     void editName(TokenIndex t) {
         if (settings_.names != NameCase::Canonical || !request_.names) return;
-        const std::string folded = lowerCase(tree_.text(t));
+        const std::string folded = config::lowerCase(tree_.text(t));
         const auto found = request_.names->find(folded);
         if (found == request_.names->end()) return;
         if (!declared_) declared_ = std::make_unique<DeclaredNames>(tree_);

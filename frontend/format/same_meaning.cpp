@@ -1,5 +1,6 @@
 #include "frontend/format/same_meaning.h"
 
+#include "config/letter_case.h"
 #include "frontend/format/atoms.h"
 #include "frontend/syntax/token_set.h"
 #include "frontend/syntax/tree_walk.h"
@@ -16,17 +17,11 @@ std::string_view textOf(const SyntaxTree& tree, const Atom& atom) {
     return tree.source->text().substr(atom.begin, atom.end - atom.begin);
 }
 
-bool equalsAnyCase(std::string_view a, std::string_view b) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [&](char x, char y) { return lower(x) == lower(y); });
-}
-
 bool sameToken(const SyntaxTree& a, const SyntaxTree& b, TokenIndex t) {
     const TokenKind kind = a.tokens[t].kind;
     if (kind != b.tokens[t].kind) return false;
     const bool word = kind == TokenKind::Identifier || isKeyword(kind) || isPlaceholder(kind);
-    return word ? equalsAnyCase(a.text(t), b.text(t)) : a.text(t) == b.text(t);
+    return word ? config::sameName(a.text(t), b.text(t)) : a.text(t) == b.text(t);
 }
 
 /// The innermost node that differs; null when none does.

@@ -24,8 +24,8 @@ struct Movement {
 };
 using Movements = std::vector<Movement>;
 
-bool goesOn(sema::Flow flow) {
-    return flow == sema::Flow::GoesOn || flow == sema::Flow::Stops;
+bool continues(sema::Flow flow) {
+    return flow == sema::Flow::Continues || flow == sema::Flow::Stops;
 }
 
 constexpr const char* kKindNames[] = {"joint", "linear", "circular"};
@@ -64,7 +64,7 @@ class BackwardJudge {
             const auto call = module_.facts->calls.find(s);
             if (call == module_.facts->calls.end() || !call->second.routine) return std::nullopt;
             const RoutineSymbol& routine = *call->second.routine;
-            if (!routine.native || !goesOn(routine.flow)) return std::nullopt;
+            if (!routine.native || !continues(routine.flow)) return std::nullopt;
             if (routine.effects != sema::Effects::Motion) continue;
             std::optional<Movement> movement = movementOf(as<CallStmt>(*s), call->second);
             if (!movement) return std::nullopt;

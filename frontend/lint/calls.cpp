@@ -1,5 +1,6 @@
 // Calls: arguments, interrupts, movements and the waits after them.
 
+#include "config/letter_case.h"
 #include "frontend/lint/walker.h"
 
 #include <fmt/format.h>
@@ -21,10 +22,7 @@ bool isPlace(const Expr& e) {
 }
 
 bool named(const DataSymbol& param, std::string_view name) {
-    if (param.name.size() != name.size()) return false;
-    for (size_t i = 0; i < name.size(); ++i)
-        if ((param.name[i] | 0x20) != (name[i] | 0x20)) return false;
-    return true;
+    return config::sameName(param.name, name);
 }
 
 bool handlesSignal(const RoutineSymbol& routine) {
@@ -153,7 +151,7 @@ bool Walker::conduct(const BoundCall& call) {
     const bool unlikely = handlesSignal(routine) || routine.traits.has(sema::Trait::Calculates);
     if (acts && routine.raises && (!routine_->routineDecl->errors.empty() || !unlikely)) ++errors_;
     switch (routine.flow) {
-    case sema::Flow::GoesOn: return true;
+    case sema::Flow::Continues: return true;
     case sema::Flow::Stops: ++ends_; return true;
     case sema::Flow::Raises: return raises();
     case sema::Flow::Leaves:

@@ -2,10 +2,10 @@
 
 #include "frontend/lint/error_routes.h"
 
+#include "config/letter_case.h"
 #include "frontend/syntax/tree_walk.h"
 
 #include <algorithm>
-#include <cctype>
 #include <fmt/format.h>
 
 namespace rapid::lint {
@@ -17,13 +17,6 @@ using sema::RoutineSymbol;
 namespace {
 
 constexpr size_t kLongestPath = 4;
-
-std::string upper(std::string_view text) {
-    std::string result(text);
-    for (char& c : result)
-        c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return result;
-}
 
 const DataSymbol* named(const Expr& e, const sema::Module& module) {
     if (e.kind == NodeKind::Paren) return named(*as<ParenExpr>(e).inner, module);
@@ -43,7 +36,7 @@ bool isErrno(const Expr& e, const sema::Module& module) {
 void addNames(std::string_view text, std::vector<std::string>& names) {
     while (!text.empty()) {
         const size_t end = std::min(text.find_first_of(", "), text.size());
-        if (end > 0) names.push_back(upper(text.substr(0, end)));
+        if (end > 0) names.push_back(config::upperCase(text.substr(0, end)));
         text.remove_prefix(std::min(end + 1, text.size()));
     }
 }
@@ -56,7 +49,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 
 bool ErrorRoutes::Routine::canRaise(const Error& error) const {
     return (divides && error.languageError == sema::LanguageError::Divisor) ||
-           has(fromNatives, upper(error.name));
+           has(fromNatives, config::upperCase(error.name));
 }
 
 ErrorRoutes::Error ErrorRoutes::errorOf(const Expr& number, const sema::Module& module) {

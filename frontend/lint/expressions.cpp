@@ -1,5 +1,6 @@
 // Expressions: what is read, comparisons that cannot be meant, texts that become too long.
 
+#include "config/letter_case.h"
 #include "frontend/lint/walker.h"
 #include "frontend/syntax/lexer.h"
 #include "frontend/syntax/limits.h"
@@ -22,21 +23,12 @@ bool isIdentifier(TokenKind kind) {
     return kind == TokenKind::Identifier;
 }
 
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-bool equalNames(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](char x, char y) { return lower(x) == lower(y); });
-}
-
 } // namespace
 
 const ConstValue* Walker::constant(const Expr& e) const {
     const sema::ExprInfo& known = info(e);
     if (known.constant || e.kind != NodeKind::Name) return known.constant;
-    // Perhaps a point that was only passed on, so that nobody asked for its value.
+    // Perhaps a point that was only passed on, so that its value was not needed.
     if (!known.symbol || known.symbol->kind != sema::SymbolKind::Data) return nullptr;
     const auto& data = static_cast<const DataSymbol&>(*known.symbol);
     return data.isLiteralConstant() ? &data.value() : nullptr;
@@ -191,7 +183,7 @@ bool Walker::sameText(const Node& a, const Node& b) const {
             return false; // a call
         const std::string_view textX = tree_->text(a.first + i), textY = tree_->text(b.first + i);
         const bool exact = x.kind == TokenKind::StringLiteral || x.kind == TokenKind::PlainAggregate;
-        if (exact ? textX != textY : !equalNames(textX, textY)) return false;
+        if (exact ? textX != textY : !config::sameName(textX, textY)) return false;
     }
     return true;
 }

@@ -2,6 +2,7 @@
 
 #include "frontend/lint/lint.h"
 
+#include "config/letter_case.h"
 #include "frontend/lint/backward.h"
 #include "frontend/lint/error_routes.h"
 #include "frontend/lint/presence.h"
@@ -63,12 +64,7 @@ namespace {
 
 /// "dummy", "nUnused": the name says that the data is not meant to be used.
 bool isPlaceholderName(std::string_view name) {
-    const auto has = [&](std::string_view word) {
-        return std::search(name.begin(), name.end(), word.begin(), word.end(), [](char a, char b) {
-                   return std::tolower(static_cast<unsigned char>(a)) == b;
-               }) != name.end();
-    };
-    return has("dummy") || has("unused");
+    return config::containsName(name, "dummy") || config::containsName(name, "unused");
 }
 
 bool equalValues(const sema::ConstValue& a, const sema::ConstValue& b) {
@@ -450,7 +446,7 @@ void TaskLint::hiding(const Symbol& symbol, const char* kind) {
     if (hidden->kind == SymbolKind::Routine) {
         const auto& routine = static_cast<const RoutineSymbol&>(*hidden);
         if (!routine.option.empty()) return; // not there on every controller
-        // Inside a routine nobody takes data for an instruction or a function; what calls it there is an error.
+        // Inside a routine data is not mistaken for an instruction or a function; what calls it there is an error.
         if (data && data->routine) return;
         what = routine.routineKind == RoutineKind::Func ? "the predefined function"
                                                         : "the predefined instruction";

@@ -42,7 +42,7 @@ class PresenceWalk {
     struct Use {
         const DataSymbol* param;
         const Expr* place;
-        bool passedBy; ///< nobody has asked on the way to this place
+        bool passedBy; ///< it was not checked on the way to this place
     };
 
     /// The place where the body was left is not known.
@@ -199,24 +199,24 @@ class PresenceWalk {
 
     /// Whether the end of the list is reached.
     bool list(StmtList stmts) {
-        bool goesOn = true;
+        bool continues = true;
         for (const Stmt* s : stmts) {
             if (s->kind == NodeKind::Label) {
                 std::fill(known_.begin(), known_.end(), Known::Nothing); // a jump may come from anywhere
                 certain_ = false;
-                goesOn = true;
+                continues = true;
             }
             const bool passes = statement(*s);
-            goesOn = goesOn && passes;
+            continues = continues && passes;
         }
-        return goesOn;
+        return continues;
     }
 
     bool branch(StmtList body) {
         const bool outer = std::exchange(certain_, false);
-        const bool goesOn = list(body);
+        const bool continues = list(body);
         certain_ = outer;
-        return goesOn;
+        return continues;
     }
 
     void whileStmt(const WhileStmt& loop) {
@@ -265,7 +265,7 @@ class PresenceWalk {
             const auto& call = as<CallStmt>(s);
             if (call.lateName) expr(*call.lateName);
             arguments(s, call.args);
-            return goesOnBehind(s);
+            return continuesAfter(s);
         }
         case NodeKind::Assign: {
             const auto& assign = as<AssignStmt>(s);
@@ -284,7 +284,7 @@ class PresenceWalk {
         switch (s.kind) {
         case NodeKind::Break:
         case NodeKind::Continue:
-            if (module_.facts->calls.find(&s) != module_.facts->calls.end()) return goesOnBehind(s);
+            if (module_.facts->calls.find(&s) != module_.facts->calls.end()) return continuesAfter(s);
             ++leaves_;
             return false;
         case NodeKind::Return:
@@ -312,14 +312,17 @@ class PresenceWalk {
         return value && value->kind == sema::ConstValue::Kind::Number ? &value->number : nullptr;
     }
 
-    bool goesOnBehind(const Stmt& s) {
+    bool continuesAfter(const Stmt& s) {
         const auto found = module_.facts->calls.find(&s);
         if (found == module_.facts->calls.end() || !found->second.routine) return true;
-        const bool comesBack = goesOn(found->second.routine->flow) && !endsElsewhere(*found->second.routine);
+        const bool comesBack =
+            continues(found->second.routine->flow) && !endsElsewhere(*found->second.routine);
         if (!comesBack) ++leaves_;
         return comesBack;
     }
-    static bool goesOn(sema::Flow flow) { return flow == sema::Flow::GoesOn || flow == sema::Flow::Stops; }
+    static bool continues(sema::Flow flow) {
+        return flow == sema::Flow::Continues || flow == sema::Flow::Stops;
+    }
 
     /// "IF NOT Present(x) giveUp;": a procedure of this module whose last instruction is EXIT or RAISE.
     bool endsElsewhere(const RoutineSymbol& routine) const {
@@ -330,7 +333,7 @@ class PresenceWalk {
             return last->kind == NodeKind::Exit || last->kind == NodeKind::Raise;
         const auto found = module_.facts->calls.find(last);
         return found != module_.facts->calls.end() && found->second.routine &&
-               !goesOn(found->second.routine->flow);
+               !continues(found->second.routine->flow);
     }
 
     bool mentionsPresent(const Expr& e) const {
@@ -350,8 +353,8 @@ class PresenceWalk {
     bool ifStmt(const IfStmt& s) {
         State after;
         bool completes = false;
-        const auto meet = [&](bool goesOn) {
-            if (!goesOn) return;
+        const auto meet = [&](bool continues) {
+            if (!continues) return;
             after = completes ? merged(std::move(after), known_) : known_;
             completes = true;
         };
@@ -362,9 +365,9 @@ class PresenceWalk {
             certain_ = false; // the next condition is evaluated on one of the ways only
             const State before = known_;
             if (one->condition) learn(*one->condition, true);
-            const bool goesOn = branch(one->body);
-            if (!goesOn && one->condition && !isPlain(*one->condition)) understood = false;
-            meet(goesOn);
+            const bool continues = branch(one->body);
+            if (!continues && one->condition && !isPlain(*one->condition)) understood = false;
+            meet(continues);
             known_ = before;
             if (one->condition) learn(*one->condition, false);
         }

@@ -57,9 +57,9 @@ void Walker::begin(const RoutineSymbol& routine) {
     for (const DataSymbol* data : routine.data)
         if (isTracked(*data) && tracked_ < kMaxTracked && data->index < count)
             slots_[data->index] = static_cast<int16_t>(tracked_++);
-    handlerGoesOn_ = inHandler_ = false;
+    handlerContinues_ = inHandler_ = false;
     for (const ErrorClause* clause : routine.routineDecl->errors)
-        handlerGoesOn_ |= containsToken(*tree_, *clause, TokenKind::KwTrynext);
+        handlerContinues_ |= containsToken(*tree_, *clause, TokenKind::KwTrynext);
     assigned_.reset();
     written_.reset();
     pending_.clear();
@@ -112,9 +112,9 @@ void Walker::errorClause(const ErrorClause& clause) {
     inHandler_ = true;
     handlerResumes_ = containsToken(*tree_, clause, TokenKind::KwRetry) ||
                       containsToken(*tree_, clause, TokenKind::KwTrynext);
-    const bool goesOn = list(clause.body);
+    const bool continues = list(clause.body);
     inHandler_ = handlerResumes_ = false;
-    if (!goesOn || jumps_ + ends_ != left || facts_.callsByName || !reporter_.isOn(Code::UnhandledError))
+    if (!continues || jumps_ + ends_ != left || facts_.callsByName || !reporter_.isOn(Code::UnhandledError))
         return;
     facts_.suspicions.push_back({Code::UnhandledError, tree_, tree_->range(clause.first), routine_->name,
                                  calls, facts_.calls.size(), kEnds});
@@ -186,8 +186,8 @@ bool Walker::list(StmtList stmts) {
             reported = true;
             unreachable(stmts, i);
         }
-        const bool goesOn = statement(s);
-        reachable = reachable && goesOn;
+        const bool continues = statement(s);
+        reachable = reachable && continues;
     }
     flyBy_ = nullptr;
     list_ = outer;
@@ -224,8 +224,8 @@ bool Walker::statement(const Stmt& s) {
         judgeJumpBack(compact);
         const Slots before = assigned_;
         Stmt* body = compact.body;
-        const bool goesOn = !body || branch(StmtList(&body, 1));
-        assigned_ = goesOn ? assigned_ | before : before;
+        const bool continues = !body || branch(StmtList(&body, 1));
+        assigned_ = continues ? assigned_ | before : before;
         return true;
     }
     case NodeKind::For: forStmt(as<ForStmt>(s)); return true;
@@ -256,7 +256,7 @@ bool Walker::statement(const Stmt& s) {
 // TRYNEXT in the handler of the routine continues after the RAISE.
 bool Walker::raises() {
     ++ends_;
-    return handlerGoesOn_ && !inHandler_;
+    return handlerContinues_ && !inHandler_;
 }
 
 void Walker::assign(const AssignStmt& s) {
@@ -284,9 +284,9 @@ void Walker::assign(const AssignStmt& s) {
 /// Statements that a condition may leave out.
 bool Walker::branch(StmtList body) {
     ++branchDepth_;
-    const bool goesOn = list(body);
+    const bool continues = list(body);
     --branchDepth_;
-    return goesOn;
+    return continues;
 }
 
 bool Walker::ifStmt(const IfStmt& s) {
@@ -350,7 +350,7 @@ bool Walker::testStmt(const TestStmt& s) {
     return completes;
 }
 
-// Only for values from outside the program text, of which nobody can promise that the list is complete.
+// Only for values from outside the program text, whose list of values is never known to be complete.
 void Walker::missingDefault(const TestStmt& s) {
     constexpr size_t kFewest = 2; // one CASE alone is an IF
     if (s.cases.size() < kFewest || !s.subject || !isOpenSubject(*s.subject)) return;

@@ -18,7 +18,7 @@ enum Access : uint8_t {
     kFromCall = 4,  ///< assigned the result of a function: RAPID needs a place for it
     kMentioned = 8, ///< by Present and the like
     kReported = 16,
-    kUpdated = 32 ///< an IN parameter got a new value made from its old one, nobody has read that yet
+    kUpdated = 32 ///< an IN parameter got a new value made from its old one, not read yet
 };
 
 /// Which parameters of a movement instruction mean what; -1: it has none such.
@@ -26,6 +26,7 @@ struct MoveParams {
     int zone = -1, zoneSize = -1, speed = -1, speedValue = -1, time = -1, inPos = -1, concurrent = -1;
 };
 
+// Size: one walk over a routine collects the facts of all warnings, because a walk for each would cost the check its speed.
 class Walker {
   public:
     Walker(const sema::CheckedProgram& program, const sema::Task& task, const Predefined& predefined,
@@ -154,7 +155,7 @@ class Walker {
     std::vector<const syntax::Expr*>
         updates_; ///< of IN parameters, by DataSymbol::index: where kUpdated came from
     size_t tracked_ = 0;
-    bool handlerGoesOn_ = false; ///< an ERROR handler has TRYNEXT: instructions after RAISE are reached
+    bool handlerContinues_ = false; ///< an ERROR handler has TRYNEXT: instructions after RAISE are reached
     bool inHandler_ = false;
     bool handlerResumes_ = false; ///< with RETRY or TRYNEXT: the body reads again what the handler assigns
     std::vector<FractionUse> fractions_;                           ///< of data of the routine

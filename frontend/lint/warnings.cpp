@@ -157,9 +157,8 @@ class OffLines {
             ranges_[i].second = std::max(ranges_[i].second, ranges_[i - 1].second);
     }
     bool has(uint32_t line) const {
-        const auto behind =
-            std::upper_bound(ranges_.begin(), ranges_.end(), std::make_pair(line, 0xFFFFFFFFu));
-        return behind != ranges_.begin() && std::prev(behind)->second >= line;
+        const auto next = std::upper_bound(ranges_.begin(), ranges_.end(), std::make_pair(line, 0xFFFFFFFFu));
+        return next != ranges_.begin() && std::prev(next)->second >= line;
     }
 
   private:

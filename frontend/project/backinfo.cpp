@@ -1,5 +1,6 @@
 #include "frontend/project/backinfo.h"
 
+#include "config/letter_case.h"
 #include "config/text_util.h"
 
 #include <algorithm>
@@ -20,10 +21,6 @@ template <class F> void forEachLine(std::string_view text, F&& visit) {
         if (end == std::string_view::npos) return;
         text.remove_prefix(end + 1);
     }
-}
-
-bool startsWithNoCase(std::string_view text, std::string_view prefix) {
-    return text.size() >= prefix.size() && sameName(text.substr(0, prefix.size()), prefix);
 }
 
 /// `>>TASK1: (T_ROB1,ProgramName,)`
@@ -79,11 +76,11 @@ class InfoReader {
 
     void openSection(std::string_view text) {
         section_ = Section::Other;
-        const bool isTask = startsWithNoCase(text, ">>TASK") && text.size() > 6 &&
+        const bool isTask = config::beginsWithName(text, ">>TASK") && text.size() > 6 &&
                             std::isdigit(static_cast<unsigned char>(text[6])) != 0;
-        if (startsWithNoCase(text, ">>SYSTEM_ID:")) {
+        if (config::beginsWithName(text, ">>SYSTEM_ID:")) {
             section_ = Section::System;
-        } else if (startsWithNoCase(text, ">>PRODUCTS_ID:")) {
+        } else if (config::beginsWithName(text, ">>PRODUCTS_ID:")) {
             section_ = Section::Products;
         } else if (ListedTask task; isTask && readTask(text, task)) {
             out_.tasks.push_back(std::move(task));

@@ -459,7 +459,7 @@ class BackupLoader {
         if (motionTask != tasks_.end()) std::rotate(tasks_.begin(), motionTask, motionTask + 1);
         for (TaskParts& task : tasks_) {
             if (task.input.files.empty()) continue;
-            // Its entry routine may be in a module that nobody can read.
+            // Its entry routine may be in a module that cannot be read.
             const bool motion = task.configured && task.configured->motion;
             if (task.input.incomplete && !motion && tasks_.size() > 1) task.input.optional = true;
             out_.tasks.push_back(std::move(task.input));

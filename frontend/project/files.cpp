@@ -1,5 +1,6 @@
 #include "frontend/project/files.h"
 
+#include "config/letter_case.h"
 #include "config/text_util.h"
 
 #include <algorithm>
@@ -13,10 +14,7 @@ using config::sameName;
 namespace say = diag::say;
 
 std::string extensionOf(const fs::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
+    return config::lowerCase(path.extension().string());
 }
 
 bool isModule(const fs::path& path) {

@@ -1,14 +1,11 @@
 #include "frontend/query/fuzzy.h"
 
+#include "config/letter_case.h"
 #include "frontend/sema/names.h"
 
 namespace rapid::query {
 
 namespace {
-
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-}
 
 bool beginsWord(std::string_view name, size_t i) {
     if (i == 0) return true;
@@ -20,7 +17,7 @@ bool beginsWord(std::string_view name, size_t i) {
 bool scattered(std::string_view letters, std::string_view name, size_t from) {
     size_t at = 0;
     for (size_t i = from; i < name.size() && at < letters.size(); ++i)
-        if (lower(name[i]) == lower(letters[at])) ++at;
+        if (config::lowerLetter(name[i]) == config::lowerLetter(letters[at])) ++at;
     return at == letters.size();
 }
 
@@ -29,7 +26,8 @@ bool scattered(std::string_view letters, std::string_view name, size_t from) {
 bool fuzzyMatch(std::string_view letters, std::string_view name) {
     if (letters.empty()) return true;
     for (size_t i = 0; i < name.size(); ++i)
-        if (lower(name[i]) == lower(letters[0]) && beginsWord(name, i) && scattered(letters, name, i))
+        if (config::lowerLetter(name[i]) == config::lowerLetter(letters[0]) && beginsWord(name, i) &&
+            scattered(letters, name, i))
             return true;
     return false;
 }

@@ -54,7 +54,7 @@ void setTextLength(RoutineSymbol& symbol, std::string_view value) {
 
 void applyAttribute(RoutineSymbol& symbol, std::string_view key, std::string_view value) {
     if (key == "effects") symbol.effects = valueOf(kEffectsWords, value).value_or(Effects::None);
-    if (key == "flow") symbol.flow = valueOf(kFlowWords, value).value_or(Flow::GoesOn);
+    if (key == "flow") symbol.flow = valueOf(kFlowWords, value).value_or(Flow::Continues);
     if (key == "role") symbol.role = valueOf(kRoleWords, value).value_or(Role::None);
     if (key == "option") symbol.option = std::string(value);
     if (key == "confidence") symbol.uncertain = value != "high";

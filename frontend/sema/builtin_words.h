@@ -18,7 +18,7 @@ enum class Effects : uint8_t {
 
 /// The place where execution continues after a predefined procedure; from `flow:` in the declaration.
 enum class Flow : uint8_t {
-    GoesOn,
+    Continues,
 #define FLOW(Name, word) Name,
 #include "frontend/sema/builtin_words.def"
 };

@@ -28,9 +28,8 @@ bool Jumps::valueFollows(const LabelStmt& s) {
     const auto& tokens = context_.tree->tokens;
     const TokenIndex next = s.last + 1;
     if (next + 1 >= tokens.size() || tokens[next].kind != TokenKind::Identifier) return false;
-    const uint32_t behind = range(s.last).end;
-    const std::string_view between =
-        context_.tree->source->text().substr(behind, tokens[next].offset - behind);
+    const uint32_t after = range(s.last).end;
+    const std::string_view between = context_.tree->source->text().substr(after, tokens[next].offset - after);
     if (between.find_first_of("\r\n") != std::string_view::npos) return false;
     const RoutineSymbol* routine = asRoutine(scopes_.lookup(idOf(next)));
     if (!scopes_.lookup(idOf(next)) || (routine && routine->routineKind == RoutineKind::Proc)) return false;
@@ -53,8 +52,8 @@ void Jumps::labelStmt(const LabelStmt& s) {
     const Symbol* data = at(state_.routineNames, name);
     if (asData(data ? const_cast<Symbol*>(data) : scopes_.lookup(name)) && valueFollows(s)) {
         report(say::ForeignSpelling, range(s.last), {":", "':='"}).fix(range(s.last), ":=");
-        const uint32_t behind = range(s.last).end;
-        if (behind >= reports_.quietLine().end) reports_.setQuietLine({behind, lineEnd(behind)});
+        const uint32_t after = range(s.last).end;
+        if (after >= reports_.quietLine().end) reports_.setQuietLine({after, lineEnd(after)});
         return;
     }
     if (data) noteDeclared(report(say::LabelNamedAsData, range(s.name), {text(s.name)}), *data);

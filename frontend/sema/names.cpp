@@ -10,15 +10,6 @@ namespace rapid::sema {
 
 namespace {
 
-constexpr unsigned char kLatin1Lead = 0xC3; // first byte of U+00C0 to U+00FF in UTF-8
-
-/// Lower case of one byte; `previous` distinguishes the second byte of an ISO 8859-1 letter from others.
-unsigned char foldByte(unsigned char c, unsigned char previous) {
-    if (c >= 'A' && c <= 'Z') return static_cast<unsigned char>(c + 32);
-    const bool upperLatin1 = previous == kLatin1Lead && c >= 0x80 && c <= 0x9E && c != 0x97;
-    return upperLatin1 ? static_cast<unsigned char>(c + 0x20) : c;
-}
-
 /// Equal for names that differ in case only: the bit that distinguishes upper from lower case is left out, also in the
 /// second bytes of ISO 8859-1 letters. Eight bytes at a time, the last ones overlapping those before.
 uint32_t foldedHash(std::string_view name) {
@@ -50,12 +41,8 @@ uint32_t foldedHash(std::string_view name) {
 }
 
 bool equalsFolded(std::string_view name, const char* folded) {
-    unsigned char previous = 0;
-    for (size_t i = 0; i < name.size(); ++i) {
-        const auto c = static_cast<unsigned char>(name[i]);
-        if (foldByte(c, previous) != static_cast<unsigned char>(folded[i])) return false;
-        previous = c;
-    }
+    for (size_t i = 0; i < name.size(); ++i)
+        if (config::lowerByte(name[i], i > 0 ? name[i - 1] : '\0') != folded[i]) return false;
     return true;
 }
 
@@ -89,12 +76,8 @@ NameId Interner::add(std::string_view name, uint32_t hash, size_t slot) {
     std::memcpy(text_.data() + at, &id, sizeof id);
     std::memcpy(text_.data() + at + 4, &length, sizeof length);
     std::copy(name.begin(), name.end(), text_.data() + at + kHead);
-    unsigned char previous = 0;
-    for (size_t i = 0; i < size; ++i) {
-        const auto c = static_cast<unsigned char>(name[i]);
-        text_[at + kHead + size + i] = static_cast<char>(foldByte(c, previous));
-        previous = c;
-    }
+    for (size_t i = 0; i < size; ++i)
+        text_[at + kHead + size + i] = config::lowerByte(name[i], i > 0 ? name[i - 1] : '\0');
     slots_[slot] = {hash, static_cast<uint32_t>(at)};
     if (records_.size() * 2 > slots_.size()) grow();
     return id;
@@ -109,17 +92,6 @@ void Interner::grow() {
             i = (i + 1) & (slots_.size() - 1);
         slots_[i] = slot;
     }
-}
-
-std::string foldName(std::string_view name) {
-    std::string out(name);
-    unsigned char previous = 0;
-    for (char& ch : out) {
-        const auto c = static_cast<unsigned char>(ch);
-        ch = static_cast<char>(foldByte(c, previous));
-        previous = c;
-    }
-    return out;
 }
 
 } // namespace rapid::sema

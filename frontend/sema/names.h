@@ -1,6 +1,7 @@
 #pragma once
 // Identifiers as small numbers: RAPID names are compared without regard to case (manual 1.1.1, 1.1.2).
 
+#include "config/letter_case.h"
 #include "frontend/source/spelling.h"
 
 #include <array>
@@ -94,6 +95,8 @@ template <class T> class NameMap {
 };
 
 /// The folded spelling of a name that is not interned.
-std::string foldName(std::string_view name);
+inline std::string foldName(std::string_view name) {
+    return config::lowerCase(name);
+}
 
 } // namespace rapid::sema

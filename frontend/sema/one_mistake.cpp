@@ -67,7 +67,7 @@ class UseWalk {
     }
 
     /// Whether there is anything to merge.
-    bool isWorthIt() const { return said_.size() > 1; }
+    bool hasSeveral() const { return said_.size() > 1; }
 
     void walk(const Module& module) {
         module_ = &module;
@@ -437,7 +437,7 @@ class UseWalk {
 std::vector<Repeat> findRepeats(const CheckedProgram& program, std::span<Module* const> modules,
                                 const Said& said, std::span<const ReportedMisfit> misfits) {
     UseWalk walk(program, said, misfits);
-    if (!walk.isWorthIt()) return {};
+    if (!walk.hasSeveral()) return {};
     for (const Module* module : modules)
         walk.walk(*module);
     return walk.repeats();

@@ -2,6 +2,7 @@
 
 #include "frontend/sema/options.h"
 
+#include "config/letter_case.h"
 #include "frontend/sema/availability.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ std::vector<std::string> wordsOf(std::string_view text) {
     std::vector<std::string> words(1);
     for (const char c : text) {
         if (std::isalpha(static_cast<unsigned char>(c)))
-            words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+            words.back() += config::lowerLetter(c);
         else if (!words.back().empty())
             words.emplace_back();
     }

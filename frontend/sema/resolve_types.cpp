@@ -17,8 +17,8 @@ using namespace syntax;
 TypeResolver::TypeResolver(State& state, const Parts& parts)
     : CheckerPart(state), scopes_(parts.scopes), unknown_(parts.unknown) {}
 
-// "VAR counter num;": nobody is to blame who uses 'counter'.
-bool TypeResolver::reportTypeBehindName(const DataDecl& decl) {
+// "VAR counter num;": uses of 'counter' are not reported.
+bool TypeResolver::reportTypeAfterName(const DataDecl& decl) {
     if (!isName(decl.type) || !isName(decl.name)) return false;
     const NameId name = idOf(decl.type);
     if (!scopes_.findType(idOf(decl.name)) || scopes_.lookup(name)) return false;
@@ -41,7 +41,7 @@ const Type* TypeResolver::resolveType(TokenIndex token, const DataDecl* data) {
     const NameId name = idOf(token);
     TypeSymbol* found = scopes_.findType(name);
     if (!found) {
-        if (data && reportTypeBehindName(*data)) return program_.errorType;
+        if (data && reportTypeAfterName(*data)) return program_.errorType;
         const Symbol* other = state_.scopes[context_.module->id]->names.find(name);
         if (!other) other = scopes_.lookupOutside(name);
         if (other)

@@ -17,7 +17,7 @@ class TypeResolver : CheckerPart {
     void resolveSignature(RoutineSymbol& symbol);
 
   private:
-    bool reportTypeBehindName(const syntax::DataDecl& decl);
+    bool reportTypeAfterName(const syntax::DataDecl& decl);
     void resolveRecord(Type& type, const syntax::RecordDecl& decl);
     void resolveAlias(Type& type, const syntax::AliasDecl& decl);
     void resolveParameter(RoutineSymbol& routine, const syntax::ParamDecl& decl);

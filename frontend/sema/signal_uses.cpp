@@ -3,6 +3,7 @@
 // assigned or calculated with.
 
 #include "frontend/sema/signal_uses.h"
+#include "config/letter_case.h"
 #include "frontend/sema/add_ins.h"
 #include "frontend/sema/parameters.h"
 #include "frontend/sema/resolve_data.h"
@@ -45,7 +46,6 @@ std::string_view typeByName(std::string_view name) {
     name = kindOnwards(whole);
     const bool isEnd = name.size() == 2 && whole.size() > 3;
     if (name.size() < 3 && !isEnd) return {};
-    const auto lower = [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); };
     const auto isUpper = [](char c) { return c >= 'A' && c <= 'Z'; };
     const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
     const bool marked =
@@ -54,14 +54,13 @@ std::string_view typeByName(std::string_view name) {
     static constexpr std::string_view kTypes[] = {"signaldi", "signaldo", "signalgi",
                                                   "signalgo", "signalai", "signalao"};
     for (const std::string_view type : kTypes)
-        if (lower(name[0]) == type[6] && lower(name[1]) == type[7]) return type;
+        if (config::lowerLetter(name[0]) == type[6] && config::lowerLetter(name[1]) == type[7]) return type;
     return {};
 }
 
 /// soTouch: an output by the habit of some plants.
 bool isOutput(std::string_view name) {
-    const auto lower = [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); };
-    return name.size() > 2 && lower(name[0]) == 's' && lower(name[1]) == 'o' &&
+    return name.size() > 2 && config::lowerLetter(name[0]) == 's' && config::lowerLetter(name[1]) == 'o' &&
            (name[2] < 'a' || name[2] > 'z');
 }
 

@@ -34,8 +34,8 @@ bool Statements::statements(StmtList list) {
     bool reachable = true;
     for (const Stmt* s : list) {
         if (s->kind == NodeKind::Label) reachable = true;
-        const bool goesOn = statement(*s);
-        reachable = reachable && goesOn;
+        const bool continues = statement(*s);
+        reachable = reachable && continues;
     }
     return reachable;
 }
@@ -43,9 +43,9 @@ bool Statements::statements(StmtList list) {
 /// Checks one instruction; whether the next one can be reached from it.
 bool Statements::statement(const Stmt& s) {
     reports_.mute(s.broken); // instructions that contain others never are
-    const bool goesOn = wholeStatement(s);
+    const bool continues = wholeStatement(s);
     reports_.mute(false);
-    return goesOn;
+    return continues;
 }
 
 bool Statements::wholeStatement(const Stmt& s) {
@@ -460,7 +460,7 @@ void Statements::raiseToUser(const CallStmt& s) {
 bool Statements::predefinedCall(const RoutineSymbol& routine, TokenIndex name) {
     if (routine.flow == Flow::Retries && routine_.part != Part::Error)
         report(say::OutsideErrorHandler, range(name), {text(name)});
-    return routine.flow == Flow::GoesOn || routine.flow == Flow::Stops;
+    return routine.flow == Flow::Continues || routine.flow == Flow::Stops;
 }
 
 /// `name();` and `name(a, b);`: the parentheses are not part of an argument.

@@ -162,7 +162,7 @@ struct RoutineSymbol : Symbol {
     bool native = false;           ///< declared without body in stdlib
     bool noStepIn = false;         ///< its module is NOSTEPIN or NOVIEW
     Effects effects = Effects::None;
-    Flow flow = Flow::GoesOn;
+    Flow flow = Flow::Continues;
     Role role = Role::None;
     Traits traits;
     bool raises = false;                         ///< natives: it may raise an error

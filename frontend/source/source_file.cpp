@@ -1,5 +1,7 @@
 #include "frontend/source/source_file.h"
 
+#include "config/letter_case.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -12,14 +14,6 @@ constexpr size_t kMaxBytes = 0x7FFFFFF0;
 /// A byte of a UTF-8 sequence that is not its first.
 bool isContinuation(char c) {
     return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
-}
-
-bool endsWithNoCase(std::string_view text, std::string_view suffix) {
-    if (text.size() < suffix.size()) return false;
-    text.remove_prefix(text.size() - suffix.size());
-    return std::equal(text.begin(), text.end(), suffix.begin(), [](char a, char b) {
-        return (a >= 'A' && a <= 'Z' ? static_cast<char>(a + 32) : a) == b;
-    });
 }
 
 /// Length of the valid UTF-8 sequence at `p`, 0 if there is none (overlong forms and surrogates are none).
@@ -172,7 +166,8 @@ bool isValidUtf8(std::string_view bytes) {
 }
 
 bool SourceFile::isLegacyFileType(std::string_view path) {
-    return endsWithNoCase(path, ".mod") || endsWithNoCase(path, ".sys") || endsWithNoCase(path, ".prg");
+    return config::endsWithName(path, ".mod") || config::endsWithName(path, ".sys") ||
+           config::endsWithName(path, ".prg");
 }
 
 SourceFile::SourceFile(std::string path, std::string bytes) : path_(std::move(path)) {

@@ -117,7 +117,7 @@ class AggregateExpr : public Expr {
         made_ = false;
         shape_ = shape;
     }
-    /// Place in SyntaxTree::shapes of what it consists of; kNoShape when nobody has noted it.
+    /// Place in SyntaxTree::shapes of what it consists of; kNoShape when it is not noted.
     uint8_t shape() const { return shape_; }
     static constexpr uint8_t kNoShape = 0xFF;
 

@@ -23,10 +23,6 @@ constexpr size_t kLongest = 9;
 constexpr auto kFirst = static_cast<size_t>(TokenKind::KwAlias);
 constexpr auto kLast = static_cast<size_t>(TokenKind::KwXor);
 
-constexpr char upper(char c) {
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
-}
-
 constexpr uint32_t hashOf(std::string_view word, uint32_t factor) {
     const auto fold = [](char c) { return static_cast<uint32_t>(static_cast<unsigned char>(c) & 0xDFu); };
     const uint32_t mix = static_cast<uint32_t>(word.size()) + fold(word[0]) * 33u + fold(word[1]) * 1009u +
@@ -62,20 +58,6 @@ std::string_view tokenText(TokenKind kind) {
 }
 std::string_view tokenKindName(TokenKind kind) {
     return kNames[static_cast<size_t>(kind)];
-}
-
-std::string upperCase(std::string_view text) {
-    std::string out(text);
-    for (char& c : out)
-        c = upper(c);
-    return out;
-}
-
-bool equalsNoCase(std::string_view text, std::string_view upperText) {
-    if (text.size() != upperText.size()) return false;
-    for (size_t i = 0; i < text.size(); ++i)
-        if (upper(text[i]) != upperText[i]) return false;
-    return true;
 }
 
 TokenKind keywordKind(std::string_view word) {

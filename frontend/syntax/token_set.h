@@ -1,6 +1,7 @@
 #pragma once
 // Facts about token kinds: sets of them, groups, spelling.
 
+#include "config/letter_case.h"
 #include "frontend/syntax/ast.h"
 
 #include <string>
@@ -44,10 +45,11 @@ std::string_view tokenKindName(TokenKind kind);
 /// The keyword that `word` is, in any case; Identifier when it is none.
 TokenKind keywordKind(std::string_view word);
 
-/// The ASCII letters in upper case.
-std::string upperCase(std::string_view text);
+using config::upperCase;
 
-/// ASCII comparison without regard to case; `upper` is in upper case.
-bool equalsNoCase(std::string_view text, std::string_view upper);
+/// Equal without regard to case.
+inline bool equalsNoCase(std::string_view a, std::string_view b) {
+    return config::sameName(a, b);
+}
 
 } // namespace rapid::syntax

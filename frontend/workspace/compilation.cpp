@@ -1,5 +1,6 @@
 #include "frontend/workspace/compilation.h"
 
+#include "config/letter_case.h"
 #include "config/text_util.h"
 #include "frontend/project/settings.h"
 #include "frontend/workspace/configuration.h"
@@ -12,11 +13,6 @@ namespace rapid::workspace {
 
 namespace {
 
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
 /// The modules that are one for all tasks: those of SYS.cfg, and what a backup holds for all of them.
 void findSharedModules(Compilation& compilation) {
     compilation.sharedModules = compilation.options.sharedModules;
@@ -24,7 +20,7 @@ void findSharedModules(Compilation& compilation) {
         for (const sema::Module* module : task->modules)
             if (std::find(compilation.sharedFiles.begin(), compilation.sharedFiles.end(),
                           module->tree->source->path()) != compilation.sharedFiles.end())
-                compilation.sharedModules.insert(lower(module->name));
+                compilation.sharedModules.insert(config::lowerCase(module->name));
 }
 
 /// The warnings that are wanted: by the project file beside or above the first input, then by the command line.
@@ -52,7 +48,7 @@ void assumeSignals(Compilation& compilation) {
     compilation.configTexts.push_back(writeSignals(signals));
     compilation.sink.report(diag::say::SignalsAssumed, nullptr, {}, {describeSignals(signals)});
     for (const UsedSignal& signal : signals)
-        compilation.options.signals.push_back({signal.name, "signal" + lower(signal.type)});
+        compilation.options.signals.push_back({signal.name, "signal" + config::lowerCase(signal.type)});
 }
 
 /// Checks all tasks and looks at each file as soon as it is checked.

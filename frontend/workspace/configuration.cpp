@@ -1,5 +1,6 @@
 #include "frontend/workspace/configuration.h"
 
+#include "config/letter_case.h"
 #include "config/text_util.h"
 #include "frontend/project/system_parameters.h"
 
@@ -19,11 +20,6 @@ using config::CfgProblem;
 using config::CfgSection;
 
 namespace {
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
 
 SourceRange lineRange(const SourceFile& file, uint32_t line) {
     if (line == 0 || line > file.lineCount()) return {};
@@ -86,10 +82,8 @@ void readConfiguration(Compilation& compilation, const Environment& environment,
         options.configurationKnown = true;
         for (const CfgSection* section : cfg.find("EIO_SIGNAL"))
             for (const CfgInstance& signal : section->instances) {
-                std::string type = signal.text("SignalType");
-                std::transform(type.begin(), type.end(), type.begin(),
-                               [](unsigned char c) { return std::tolower(c); });
-                options.signals.push_back({signal.text("Name"), "signal" + type});
+                options.signals.push_back(
+                    {signal.text("Name"), "signal" + config::lowerCase(signal.text("SignalType"))});
             }
     }
     if (withSignals) environment.judgeSignals(problems, compilation.configNames, compilation.configTexts);
@@ -113,7 +107,9 @@ void addConveyors(Compilation& compilation, const Environment& environment,
             continue;
         }
         const auto add = [&known](const std::string& name, const std::string& type) {
-            const auto same = [&](const sema::SignalInfo& other) { return lower(other.name) == lower(name); };
+            const auto same = [&](const sema::SignalInfo& other) {
+                return config::sameName(other.name, name);
+            };
             if (std::none_of(known.begin(), known.end(), same)) known.push_back({name, type});
         };
         add(names.unit, "mecunit");
@@ -129,10 +125,10 @@ void readTaskSettings(Compilation& compilation) {
         if (config::upperCase(cfg.domain) != "SYS") continue;
         for (const CfgSection* section : cfg.find("CAB_EXEC_HOOKS"))
             for (const CfgInstance& hook : section->instances)
-                compilation.eventRoutines.insert(lower(hook.text("Routine")));
+                compilation.eventRoutines.insert(config::lowerCase(hook.text("Routine")));
         for (const project::ConfiguredModule& module :
              project::readTaskParameters(compilation.configTexts[i]).modules)
-            if (module.shared) compilation.options.sharedModules.insert(lower(module.name));
+            if (module.shared) compilation.options.sharedModules.insert(config::lowerCase(module.name));
     }
 }
 
@@ -140,7 +136,7 @@ void configureTasks(Compilation& compilation, const std::set<std::string>& types
     for (const std::string& text : compilation.configTexts) {
         for (const project::ConfiguredTask& configured : project::readTaskParameters(text).tasks) {
             for (sema::TaskInput& task : compilation.tasks) {
-                if (lower(task.name) != lower(configured.name)) continue;
+                if (!config::sameName(task.name, configured.name)) continue;
                 task.bindsLate = !configured.bindsReferences;
                 if (isBackup) continue;
                 task.entry = configured.entry;
@@ -180,7 +176,7 @@ std::set<std::string> namedByConfiguration(const Compilation& compilation) {
             for (const CfgInstance& instance : section.instances)
                 for (const CfgAttribute& attribute : instance.attributes)
                     for (const std::string& value : attribute.values)
-                        names.insert(lower(value));
+                        names.insert(config::lowerCase(value));
     }
     return names;
 }

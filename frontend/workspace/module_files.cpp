@@ -1,5 +1,6 @@
 #include "frontend/workspace/module_files.h"
 
+#include "config/letter_case.h"
 #include "config/read_file.h"
 
 #include <algorithm>
@@ -16,8 +17,7 @@ namespace {
 
 bool isModule(const fs::path& path) {
     constexpr std::array<std::string_view, 5> kTypes = {".mod", ".modx", ".sys", ".sysx", ".prg"};
-    std::string type = path.extension().string();
-    std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string type = config::lowerCase(path.extension().string());
     return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
 }
 

@@ -1,5 +1,6 @@
 #include "frontend/workspace/signal_uses.h"
 
+#include "config/letter_case.h"
 #include "frontend/sema/names.h"
 #include "frontend/syntax/tree_walk.h"
 
@@ -44,9 +45,7 @@ bool isSignal(const DataSymbol& data) {
 /// "GI" of "signalgi".
 std::string shortType(const DataSymbol& data) {
     const std::string name = sema::foldName(data.type.type->base()->name);
-    std::string type = name.size() > 6 ? name.substr(6) : name;
-    std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::toupper(c); });
-    return type;
+    return config::upperCase(name.size() > 6 ? name.substr(6) : name);
 }
 
 /// Reads all modules: the values of groups, and which signal another name stands for.

@@ -283,6 +283,7 @@ struct NamedRoutine {
     RoutineKind kind = RoutineKind::Procedure;
     bool isLocal = false;
     bool late = false; ///< callable with its arguments in a table (rt::LateEntry)
+    uint32_t task = kNone;
     std::vector<ParamEntry> params;
 };
 

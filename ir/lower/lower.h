@@ -20,7 +20,7 @@ struct Options {
     /// Tells whether a native symbol ("rt_MoveL") has an implementation; empty: all have. A call of one
     /// without is reported as a warning and stops the program with an event when it is reached.
     std::function<bool(std::string_view)> nativeImplemented;
-    /// For the stepping profile (design chapter 4): every statement can be chosen to go on with, data of routines
+    /// For the stepping profile (decision 34): every statement can be chosen to go on with, data of routines
     /// lie in memory and are described, BACKWARD handlers are compiled.
     bool stepping = false;
     /// Procedures that the configuration connects with system events: reachable by name at run time. Lower case.

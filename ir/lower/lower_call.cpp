@@ -1,5 +1,6 @@
 // Calls of routines and natives, the built-ins that the compiler treats itself, late binding.
 
+#include "config/letter_case.h"
 #include "frontend/syntax/tree_walk.h"
 #include "ir/lower/routine_lowering.h"
 
@@ -13,9 +14,9 @@ using sema::DataSymbol;
 using sema::LanguageError;
 
 const BoundArg* RoutineLowering::findArg(const BoundCall& call, std::string_view name) const {
-    const std::string wanted = foldCase(name);
+    const std::string wanted = config::lowerCase(name);
     for (const BoundArg& arg : call.args)
-        if (arg.param && foldCase(arg.param->name) == wanted) return &arg;
+        if (arg.param && config::lowerCase(arg.param->name) == wanted) return &arg;
     return nullptr;
 }
 

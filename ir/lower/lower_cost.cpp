@@ -1,4 +1,4 @@
-// What execution costs (design chapter 4). A routine is charged at its entry for its statements outside loops, a handler
+// The cost of execution (decision 7). A routine is charged at its entry for its statements outside loops, a handler
 // when it begins, a loop in each round, a jump back for what it repeats. A FOR loop that counts and calls nothing is
 // charged ahead for all its rounds, so that its body stays free of control flow and can be vectorised. All of this
 // follows from the source text alone: a program takes the same virtual time in every profile.

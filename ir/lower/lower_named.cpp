@@ -1,5 +1,6 @@
 // What a program finds out by name at run time: calls by name, tables of routines, modules and data, names of arguments.
 
+#include "config/letter_case.h"
 #include "frontend/syntax/tree_walk.h"
 #include "ir/lower/routine_lowering.h"
 
@@ -40,7 +41,7 @@ bool ProgramLowering::isGiven(const RoutineSymbol& routine, std::string_view par
         for (const auto& [node, call] : facts->calls)
             for (const BoundArg& arg : call.args)
                 if (call.routine == &routine && arg.kind != BoundArg::Kind::Absent &&
-                    foldCase(arg.param->name) == param)
+                    config::lowerCase(arg.param->name) == param)
                     return true;
     return false;
 }
@@ -254,6 +255,7 @@ void ProgramLowering::addNamedRoutine(const RoutineSymbol& symbol, uint32_t task
     named.routine = routineFor(symbol, task);
     module_.routines[named.routine].exported = true;
     named.isLocal = symbol.isLocal;
+    named.task = task;
     switch (symbol.routineKind) {
     case RoutineKind::Proc: named.kind = ir::RoutineKind::Procedure; break;
     case RoutineKind::Func: named.kind = ir::RoutineKind::Function; break;

@@ -1,5 +1,6 @@
 #include "ir/lower/program_lowering.h"
 
+#include "config/letter_case.h"
 #include "frontend/syntax/limits.h"
 #include "ir/lower/routine_lowering.h"
 
@@ -13,13 +14,6 @@ using sema::DataType;
 using sema::LanguageError;
 using sema::RoutineSymbol;
 using sema::TypeKind;
-
-std::string foldCase(std::string_view text) {
-    std::string out(text);
-    for (char& c : out)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return out;
-}
 
 namespace {
 
@@ -231,7 +225,7 @@ uint32_t ProgramLowering::addGlobal(const DataSymbol& symbol, uint32_t task, boo
 /// Its module is installed once for all tasks, and it is no TASK data (manual 1.2.2).
 bool ProgramLowering::inSharedModule(const DataSymbol& symbol) const {
     return symbol.module && symbol.scope != syntax::ScopeWord::Task && !symbol.routine &&
-           options_.sharedModules.contains(foldCase(symbol.module->name));
+           options_.sharedModules.contains(config::lowerCase(symbol.module->name));
 }
 
 uint32_t ProgramLowering::globalFor(const DataSymbol& symbol, uint32_t task) {
@@ -248,7 +242,7 @@ uint32_t ProgramLowering::globalFor(const DataSymbol& symbol, uint32_t task) {
     uint32_t index = 0;
     if (systemGlobalPers) {
         // One object for every task that declares it; sema has compared types and dimensions.
-        auto [it, isNew] = sharedPersistents_.try_emplace(foldCase(symbol.name), 0);
+        auto [it, isNew] = sharedPersistents_.try_emplace(config::lowerCase(symbol.name), 0);
         if (isNew)
             it->second = addGlobal(symbol, task, true, "pers/" + it->first);
         else if (symbol.module && symbol.decl && !symbol.predefined)
@@ -259,8 +253,8 @@ uint32_t ProgramLowering::globalFor(const DataSymbol& symbol, uint32_t task) {
             flatten(symbol.value(), symbol.type, global.init);
     } else if (sharedModule) {
         // Every task has read the module for itself, so its data are found by their names.
-        const std::string name =
-            fmt::format("shared/{}/{}", foldCase(symbol.module->name), foldCase(symbol.name));
+        const std::string name = fmt::format("shared/{}/{}", config::lowerCase(symbol.module->name),
+                                             config::lowerCase(symbol.name));
         auto [it, isNew] = sharedPersistents_.try_emplace(name, 0);
         if (isNew) it->second = addGlobal(symbol, task, true, name);
         index = it->second;
@@ -271,7 +265,7 @@ uint32_t ProgramLowering::globalFor(const DataSymbol& symbol, uint32_t task) {
         }
     } else if (signal) {
         index = addGlobal(symbol, task, false,
-                          fmt::format("{}/signal/{}", this->task(task).name, foldCase(symbol.name)));
+                          fmt::format("{}/signal/{}", this->task(task).name, config::lowerCase(symbol.name)));
         ir::ExternalRef ref;
         ref.name = symbol.name;
         ref.kind = symbol.type.type->base()->name;
@@ -428,8 +422,9 @@ void ProgramLowering::drainPending() {
         done.exported =
             done.exported || module_.routines[next.index].exported; // a CONNECT names it meanwhile
         // Breakpoints and the program pointer reach every routine of the program.
-        done.exported = done.exported || (options_.stepping && !next.symbol->predefined) ||
-                        (done.callable && options_.eventRoutines.contains(foldCase(next.symbol->name)));
+        done.exported =
+            done.exported || (options_.stepping && !next.symbol->predefined) ||
+            (done.callable && options_.eventRoutines.contains(config::lowerCase(next.symbol->name)));
         module_.routines[next.index] = std::move(done);
     }
 }

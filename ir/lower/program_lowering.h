@@ -33,6 +33,7 @@ bool isWithoutForm(const sema::DataSymbol& data);
 
 class RoutineLowering;
 
+// Size: all parts add to the tables of one IR module and share their indexes.
 class ProgramLowering {
   public:
     ProgramLowering(const sema::CheckedProgram& program, const Options& options, diag::Sink& sink,
@@ -162,8 +163,5 @@ class ProgramLowering {
     std::map<std::pair<uint32_t, const sema::DataSymbol*>, uint32_t> valueFlags_;
     ir::TypeId lateRow_ = ir::kVoid;
 };
-
-/// Lower-cased copy: RAPID names are not case sensitive.
-std::string foldCase(std::string_view text);
 
 } // namespace rapid::lower

@@ -16,6 +16,7 @@ ir::Routine declareRoutine(ProgramLowering& program, const sema::RoutineSymbol& 
 /// Tells whether the text of a routine was changed since an earlier compilation; layout and comments do not count.
 uint32_t textHash(const sema::RoutineSymbol& symbol);
 
+// Size: one method for each kind of node; they share the builder, the locals and the handler of one routine.
 class RoutineLowering {
   public:
     /// `declared` is the result of declareRoutine(); the finished routine is returned by run().

@@ -42,7 +42,7 @@ void foldConstants(const Module& module, Routine& routine);
 void checkOverflow(const Module& module, Routine& routine);
 /// One look at several values in place of a check of each; release profile only.
 void mergeChecks(const Module& module, Routine& routine);
-/// Inserts the safepoints (design chapter 4); the input must contain none.
+/// Inserts the safepoints; the input must contain none.
 void placeSafepoints(const Module& module, Routine& routine, Profile profile);
 
 } // namespace ir

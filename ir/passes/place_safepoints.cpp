@@ -1,4 +1,4 @@
-// Inserts the safepoints (design chapter 4). The front end has said what execution costs (`charge`); here is decided
+// Inserts the safepoints. The front end has said what execution costs (`charge`); here is decided
 // where compiled code looks whether the budget is used up: at each charge, or at each statement in the stepping profile,
 // which charges the same. Each cycle gets a safepoint, except counted loops without calls, so that they can be
 // vectorised. What may have caused an interrupt is followed by a safepoint without cost: interrupt routines run when the next

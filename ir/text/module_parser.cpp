@@ -110,6 +110,7 @@ class ModuleParser {
         entry.kind = static_cast<RoutineKind>(kind);
         entry.isLocal = in_.takeWord("local");
         entry.late = in_.takeWord("late");
+        if (in_.takeWord("task") && !in_.unsignedInt(entry.task)) return false;
         if (!in_.punct('(')) return false;
         while (!in_.isPunct(')')) {
             if (!namedParam(entry.params.emplace_back())) return false;

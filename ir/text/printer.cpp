@@ -293,6 +293,7 @@ void printNamed(Out& out, const Module& module, const NamedRoutine& named) {
         kRoutineKindNames[static_cast<size_t>(named.kind)]);
     if (named.isLocal) put(out, " local");
     if (named.late) put(out, " late");
+    if (named.task != kNone) put(out, " task {}", named.task);
     put(out, " (");
     for (size_t i = 0; i < named.params.size(); ++i) {
         const ParamEntry& p = named.params[i];

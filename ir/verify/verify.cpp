@@ -209,6 +209,9 @@ void checkNamed(const Module& module, Findings& out) {
         }
         const Routine& routine = module.routines[named.routine];
         if (!routine.exported) out.push_back(fmt::format("named routine {}: is not exported", routine.name));
+        const bool ofUnit = module.unitTask >= 0 && named.task == static_cast<uint32_t>(module.unitTask);
+        if (named.task != kNone && named.task >= module.tasks.size() && !ofUnit)
+            out.push_back(fmt::format("named routine {}: task does not exist", routine.name));
         if (!covers(routine, named.params))
             out.push_back(fmt::format("named routine {}: parameters do not fit", routine.name));
         for (const ParamEntry& param : named.params)

@@ -11,7 +11,7 @@ namespace rt {
 /// Bytes that a string of the source language holds.
 inline constexpr uint32_t kStringCapacity = 80;
 
-/// A string: fixed, UTF-8, a plain value (design chapter 3).
+/// A string: fixed, UTF-8, a plain value.
 struct String {
     uint32_t length = 0;
     char bytes[kStringCapacity] = {};
@@ -114,7 +114,7 @@ struct LocalDesc {
         Value,    ///< its address is the object's
         Reference ///< at its address is that of the object; null = parameter not given
     };
-    const char* name;     ///< "": belongs to an instruction (end and step of FOR), nobody sees it
+    const char* name;     ///< "": belongs to an instruction (end and step of FOR), not visible
     const TypeDesc* type; ///< of the object; when rank > 0: of its elements
     Kind kind;
     uint8_t isParam;

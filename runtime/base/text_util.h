@@ -6,6 +6,8 @@
 
 namespace rt {
 
+using rapid::config::lowerCase;
+using rapid::config::lowerLetter;
 using rapid::config::parseNumber;
 using rapid::config::readStream;
 using rapid::config::sameName;

@@ -45,6 +45,7 @@ struct SystemSettings {
     int noOfRetry = 4; ///< SYS_MISC NoOfRetry
 };
 
+// Size: owns all parts of the controller and joins them; each part is a class of its own.
 class Controller final : public DebugHost {
   public:
     explicit Controller(const RunOptions& options);

@@ -248,17 +248,17 @@ ExitStatus Controller::openFiles() {
         print("--camera: " + problem);
         return ExitStatus::BadUsage;
     }
-    if (!options_.trace.empty()) {
+    if (!options_.outputs.trace.empty()) {
         trace_ = std::make_unique<TraceWriter>();
-        if (!trace_->open(options_.trace, error)) {
+        if (!trace_->open(options_.outputs.trace, error)) {
             print("--trace: " + error);
             return ExitStatus::BadUsage;
         }
         traceMotion();
     }
-    if (!options_.signals.empty()) {
+    if (!options_.outputs.signals.empty()) {
         signalsWriter_ = std::make_unique<SignalsWriter>();
-        if (!signalsWriter_->open(options_.signals, error)) {
+        if (!signalsWriter_->open(options_.outputs.signals, error)) {
             print("--signals: " + error);
             return ExitStatus::BadUsage;
         }
@@ -266,7 +266,7 @@ ExitStatus Controller::openFiles() {
             signalsWriter_->change(scheduler_.now(), io_.config(id).name, value);
         });
     }
-    if (!options_.events.empty() && !log_.openJson(options_.events, error)) {
+    if (!options_.outputs.events.empty() && !log_.openJson(options_.outputs.events, error)) {
         print("--events: " + error);
         return ExitStatus::BadUsage;
     }

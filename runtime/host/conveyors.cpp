@@ -1,5 +1,6 @@
 #include "runtime/host/conveyors.h"
 
+#include "config/letter_case.h"
 #include "runtime/base/text_util.h"
 #include "runtime/host/controller.h"
 #include "runtime/sim/surroundings.h"
@@ -56,7 +57,7 @@ const std::vector<Parameter>& parameters() {
 std::string folded(std::string_view name) {
     std::string result;
     for (const char c : name)
-        if (c != '_' && c != ' ') result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        if (c != '_' && c != ' ') result += rapid::config::lowerLetter(c);
     return result;
 }
 
@@ -188,10 +189,8 @@ std::string readConveyorOption(const std::string& text, ConveyorSettings& settin
 std::vector<std::pair<std::string, std::string>> conveyorSignals(const ConveyorSettings& settings) {
     std::vector<std::pair<std::string, std::string>> result;
     for (const ConveyorSignal& signal : allConveyorSignals()) {
-        std::string type = signalTypeName(signal.type);
-        std::transform(type.begin(), type.end(), type.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-        result.emplace_back(settings.prefix + signal.name, "signal" + type);
+        result.emplace_back(settings.prefix + signal.name,
+                            "signal" + rapid::config::lowerCase(signalTypeName(signal.type)));
     }
     return result;
 }

@@ -42,6 +42,7 @@ enum class ArmNews : uint8_t {
     OutOfReach   ///< a path modifier asked for a place that the arm cannot reach; it brakes on its path
 };
 
+// Size: the interface of a motion group to tasks, modifiers and services; motion itself is below it.
 class MotionDriver final : public SteppedArm {
   public:
     /// `unit`: name of the robot; "" for external units alone. `group`: number of the motion group, from 0.

@@ -1,5 +1,6 @@
 #include "runtime/host/rapidc_compiler.h"
 
+#include "config/letter_case.h"
 #include "runtime/host/rapidc_process.h"
 #include "runtime/host/unit_messages.h"
 #include "runtime/io/io_system.h"
@@ -33,10 +34,8 @@ UnitAnswer askForUnit(const std::string& request, std::string& problem) {
 SignalNames signalsOf(const IoSystem& io) {
     SignalNames signals;
     for (SignalId id = 0; id < static_cast<SignalId>(io.size()); ++id) {
-        std::string type = std::string("signal") + signalTypeName(io.config(id).type);
-        for (char& letter : type)
-            letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-        signals.emplace_back(io.config(id).name, std::move(type));
+        signals.emplace_back(io.config(id).name,
+                             "signal" + rapid::config::lowerCase(signalTypeName(io.config(id).type)));
     }
     return signals;
 }

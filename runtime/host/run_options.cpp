@@ -149,22 +149,24 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
              "what happens from outside: lines time_s,target,value; a file, a pipe, or - for the "
              "standard input")
         .typeName("FILE.csv");
-    command.add("--trace", options.trace, "write the robot's motion, a sample each 4 ms")
+    command.add("--trace", options.outputs.trace, "write the robot's motion, a sample each 4 ms")
         .typeName("FILE.csv");
-    command.add("--signals", options.signals, "write every change of a signal").typeName("FILE.csv");
-    command.add("--events", options.events, "write the event log, an object a line").typeName("FILE.jsonl");
+    command.add("--signals", options.outputs.signals, "write every change of a signal").typeName("FILE.csv");
+    command.add("--events", options.outputs.events, "write the event log, an object a line")
+        .typeName("FILE.jsonl");
     command
-        .add("--report", options.report,
+        .add("--report", options.outputs.report,
              "write a page with the path in 3D, speeds, signals, events and a table of movements")
         .typeName("FILE.html");
     command
-        .add("--compare", options.compare,
+        .add("--compare", options.outputs.compare,
              "compare with a trace or a recording (columns time_s and j1..j6 or x,y,z): time error, path "
              "distance, where they come from")
         .typeName("FILE.csv");
-    command.add("--picture", options.picture, "draw the path of the TCP with zones, points and signals")
+    command
+        .add("--picture", options.outputs.picture, "draw the path of the TCP with zones, points and signals")
         .typeName("FILE.svg");
-    command.addFlag("--summary", options.summary,
+    command.addFlag("--summary", options.outputs.summary,
                     "show cycle time, what each movement was slowed by, and where the files lie");
     command
         .add("--state", options.state,

@@ -13,23 +13,30 @@ namespace rt {
 
 class Command;
 
+/// Files that a run writes, by path; "" = not asked for.
+struct RunOutputs {
+    std::string trace, signals, events;
+    std::string picture, report;
+    std::string compare;  ///< a recording to compare with: it is read
+    bool summary = false; ///< prints what slowed the movements, at the end
+};
+
 struct RunOptions {
     int64_t cycles = 1;             ///< how often main is run; 0 = for ever
     std::vector<std::string> tasks; ///< --task=NAME[:TYPE]=INPUT; used by `rapidc run` alone
     std::vector<std::string> configFiles;
-    /// Each MODEL, of the first robot, or UNIT=MODEL; without one as the configuration says, else kDefaultRobot.
+    /// Each MODEL, of the first robot, or UNIT=MODEL; without one that of the configuration, else kDefaultRobot.
     std::vector<std::string> robots;
-    std::vector<std::string> conveyors;           ///< NAME=KEY:VALUE,...
-    std::string planner = "measured";             ///< what times movements: measured or optimal
-    std::string home;                             ///< "" = an empty folder that is removed at the end
-    std::vector<std::string> volumes;             ///< NAME=DIR: further disks
-    std::vector<std::string> devices;             ///< NAME=FILE[,FILE]: serial channels and printers
-    std::vector<std::string> cameras;             ///< NAME=FILE: cameras and what they see
-    std::string stimulus, trace, signals, events; ///< paths; "" = not asked for
-    std::string picture, report, compare;         ///< the same
-    bool summary = false;                         ///< what the movements were slowed by, at the end
-    std::optional<std::string>
-        stimulusText; ///< what `stimulus` holds, when it has been read: a pipe is read once
+    std::vector<std::string> conveyors; ///< NAME=KEY:VALUE,...
+    std::string planner = "measured";   ///< how movements are timed: measured or optimal
+    std::string home;                   ///< "" = an empty folder that is removed at the end
+    std::vector<std::string> volumes;   ///< NAME=DIR: further disks
+    std::vector<std::string> devices;   ///< NAME=FILE[,FILE]: serial channels and printers
+    std::vector<std::string> cameras;   ///< NAME=FILE: cameras and their results
+    std::string stimulus;               ///< path; "" = none
+    /// The text of `stimulus`, when it has been read: a pipe is read once.
+    std::optional<std::string> stimulusText;
+    RunOutputs outputs;
     bool realtime = false;
     net::NetworkOptions network;
     std::string state;     ///< folder in which the controller's state survives the process; "" = none
@@ -44,7 +51,7 @@ struct RunOptions {
 
 inline constexpr const char* kDefaultRobot = "IRB 120-3/0.58";
 
-/// Exit statuses (design chapter 8).
+/// Exit statuses.
 enum class ExitStatus : int {
     Ended = 0, ///< the program ended
     StoppedByError = 1,

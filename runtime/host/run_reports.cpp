@@ -31,12 +31,13 @@ void addAxis(report::RobotRecord& robot, const MechanicalUnit::Axis& axis) {
 } // namespace
 
 bool RunReports::areWanted(const RunOptions& options) {
-    return options.summary || !options.report.empty() || !options.compare.empty() || !options.picture.empty();
+    return options.outputs.summary || !options.outputs.report.empty() || !options.outputs.compare.empty() ||
+           !options.outputs.picture.empty();
 }
 
 std::string RunReports::prepare(Controller& controller, const ProgramDesc& program) {
-    if (!options_.compare.empty()) {
-        if (const std::string problem = report::readRecording(options_.compare, recordings_);
+    if (!options_.outputs.compare.empty()) {
+        if (const std::string problem = report::readRecording(options_.outputs.compare, recordings_);
             !problem.empty())
             return "--compare: " + problem;
     }
@@ -94,12 +95,12 @@ void RunReports::listen(Controller& controller) {
 /// Returns the problem, with the option; empty: success.
 std::string RunReports::writeFiles(const std::vector<report::RobotReport>& robots) const {
     const report::RunRecord& record = recorder_->record();
-    if (!options_.picture.empty()) {
-        const std::string problem = writeWhole(options_.picture, report::pathPicture(record));
+    if (!options_.outputs.picture.empty()) {
+        const std::string problem = writeWhole(options_.outputs.picture, report::pathPicture(record));
         if (!problem.empty()) return "--picture: " + problem;
     }
-    if (options_.report.empty()) return {};
-    const std::string problem = writeWhole(options_.report, report::reportPage({record, robots}));
+    if (options_.outputs.report.empty()) return {};
+    const std::string problem = writeWhole(options_.outputs.report, report::reportPage({record, robots}));
     return problem.empty() ? problem : "--report: " + problem;
 }
 
@@ -108,8 +109,9 @@ void RunReports::printSummary(const std::vector<report::RobotReport>& robots) co
     fmt::print(stderr, "\ncycle time  {:.3f} s (virtual), simulated in {:.3f} s\n{}",
                recorder_->record().end(), wall.count(), report::summaryText(recorder_->record(), robots));
     const std::pair<const char*, const std::string&> files[] = {
-        {"trace", options_.trace},     {"signals", options_.signals}, {"events", options_.events},
-        {"picture", options_.picture}, {"report", options_.report},
+        {"trace", options_.outputs.trace},   {"signals", options_.outputs.signals},
+        {"events", options_.outputs.events}, {"picture", options_.outputs.picture},
+        {"report", options_.outputs.report},
     };
     const bool hasTable = std::any_of(robots.begin(), robots.end(),
                                       [](const auto& robot) { return !robot.analysis.moves.empty(); });
@@ -124,8 +126,8 @@ bool RunReports::finish(Time end) {
     recorder_->finish(end);
     const std::vector<report::RobotReport> robots = report::robotReports(recorder_->record(), recordings_);
     const std::string problem = writeFiles(robots);
-    if (options_.summary) printSummary(robots);
-    if (!options_.compare.empty())
+    if (options_.outputs.summary) printSummary(robots);
+    if (!options_.outputs.compare.empty())
         fmt::print(stderr, "\n{}", report::comparisonText(recorder_->record(), robots, recordings_));
     if (!problem.empty()) fmt::print(stderr, "error: {}\n", problem);
     return problem.empty();

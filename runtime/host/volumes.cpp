@@ -1,5 +1,6 @@
 #include "runtime/host/volumes.h"
 
+#include "config/letter_case.h"
 #include "runtime/base/text_util.h"
 
 #include <fmt/format.h>
@@ -251,9 +252,7 @@ const Volumes::Volume* Volumes::volumeNamed(std::string_view name, std::string& 
         return nullptr;
     }
     Volume& volume = volumes_[key];
-    std::string purpose = key;
-    for (char& c : purpose)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string purpose = rapid::config::lowerCase(key);
     if (const int problem = volume.temporary.make(purpose); problem != 0)
         error = fmt::format("cannot make a temporary folder for {}: {}", key, std::strerror(problem));
     else if (openFolder(volume, volume.temporary.path(), error))

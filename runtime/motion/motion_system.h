@@ -62,6 +62,7 @@ struct MotionOptions {
     Planner planner = Planner::Measured;
 };
 
+// Size: the interface of motion: each order, question and event of an arm is a method.
 class MotionSystem {
   public:
     /// The arm is at joints 0, joint 5 at 30 degrees, at time 0.

@@ -60,6 +60,7 @@ struct Span {
     TimeNs ledUntil = 0;                    // led from outside with the speeds of `still` until then
 };
 
+// Size: one method for each method of the interface; paths, plans and modifiers are classes of their own.
 struct MotionSystem::Impl {
     robot::RobotModel model;
     MotionOptions options;

@@ -8,13 +8,6 @@
 namespace rt {
 namespace {
 
-std::string folded(std::string_view name) {
-    std::string out(name);
-    for (char& c : out)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return out;
-}
-
 bool seenBy(int32_t owner, int32_t task) {
     return owner < 0 || owner == task;
 }
@@ -67,9 +60,9 @@ void ProgramTables::index() {
     globalByName_.clear();
     routineByName_.clear();
     for (const GlobalDesc* global : globals_)
-        globalByName_.emplace(folded(global->name), global);
+        globalByName_.emplace(lowerCase(global->name), global);
     for (const RoutineEntry* routine : routines_)
-        routineByName_.emplace(folded(routine->name), routine);
+        routineByName_.emplace(lowerCase(routine->name), routine);
 }
 
 bool ProgramTables::remove(int32_t task, std::string_view module) {
@@ -136,7 +129,7 @@ const GlobalDesc* ProgramTables::findGlobal(std::string_view name, std::string_v
     const auto rank = [](const GlobalDesc& global) {
         return ((global.flags & kDataPredefined) != 0 ? 2 : 0) + (global.task < 0 ? 1 : 0);
     };
-    const auto [first, last] = globalByName_.equal_range(folded(name));
+    const auto [first, last] = globalByName_.equal_range(lowerCase(name));
     for (auto it = first; it != last; ++it) {
         const GlobalDesc& global = *it->second;
         if (!seenBy(global.task, task) || (!module.empty() && !sameName(global.module, module))) continue;
@@ -149,7 +142,7 @@ const GlobalDesc* ProgramTables::findGlobal(std::string_view name, std::string_v
 const RoutineEntry* ProgramTables::findRoutine(std::string_view name, std::string_view module,
                                                std::string_view from, int32_t task) const {
     const RoutineEntry* best = nullptr;
-    const auto [first, last] = routineByName_.equal_range(folded(name));
+    const auto [first, last] = routineByName_.equal_range(lowerCase(name));
     for (auto it = first; it != last; ++it) {
         const RoutineEntry& routine = *it->second;
         if (!seenBy(routine.task, task) || (!module.empty() && !sameName(routine.module, module))) continue;

@@ -1,5 +1,6 @@
 #include "runtime/report/recording.h"
 
+#include "config/letter_case.h"
 #include "runtime/base/text_util.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ struct Header {
         for (const char c : text) {
             if (c == '[' || c == '(') into = &unit;
             if (std::isalnum(static_cast<unsigned char>(c)) != 0 || (c == '_' && into == &name))
-                *into += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+                *into += rapid::config::lowerLetter(c);
         }
         const std::size_t underline = name.rfind('_');
         for (const char* known : {"s", "ms", "mm", "m", "deg", "rad"}) {

@@ -32,7 +32,8 @@ std::vector<std::string> tokens(std::string_view name) {
     std::string token;
     for (char c : name) {
         if (isNameCharacter(c))
-            token += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+            token += static_cast<char>(
+                std::tolower(static_cast<unsigned char>(c))); // this layer includes no other
         else if (!token.empty())
             result.push_back(std::exchange(token, {}));
     }

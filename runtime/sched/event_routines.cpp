@@ -36,8 +36,8 @@ void EventRoutines::add(SystemEvent event, EntryFunction routine) {
 
 void EventRoutines::owe(SystemEvent event) {
     if (routines_[indexOf(event)].empty() || task_.state() == TaskState::Finished) return;
-    const bool goesOn = running_ != SystemEvent::None && !executesStopped() && !task_.isUnwinding();
-    if (goesOn && !runsWhileStopped(event)) return;
+    const bool continues = running_ != SystemEvent::None && !executesStopped() && !task_.isUnwinding();
+    if (continues && !runsWhileStopped(event)) return;
     if (std::find(owed_.begin(), owed_.end(), event) != owed_.end()) return;
     owed_.push_back(event);
     task_.interruptPosted(); // wakes it: its wait continues afterwards

@@ -26,7 +26,7 @@ struct Trap {
 };
 
 /// What an interrupt was ordered for, in words that a later process understands (--state): the instruction and its
-/// arguments. Empty `kind`: nobody can order it again.
+/// arguments. Empty `kind`: it cannot be ordered again.
 struct InterruptOrder {
     std::string kind;            ///< "ISignalDI" ...
     std::string object;          ///< signal, persistent

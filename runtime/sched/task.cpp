@@ -141,7 +141,7 @@ Time Task::now() const {
 }
 
 bool Task::runnable() const {
-    return state_ == TaskState::Ready && (!mustStand() || isUnwinding() || events_.owed());
+    return state_ == TaskState::Ready && (!mustHalt() || isUnwinding() || events_.owed());
 }
 
 Status Task::beginUnwind(Unwind cause) {
@@ -312,7 +312,7 @@ Status Task::safepointOnce(Frame* at) {
     flushHandledWarning();
     budget += stash_;
     stash_ = 0;
-    const bool leaving = pendingUnwind_ != Unwind::None || unwinding_ != Unwind::None || mustStand();
+    const bool leaving = pendingUnwind_ != Unwind::None || unwinding_ != Unwind::None || mustHalt();
     Status status = kOk;
     if (budget < 0 || leaving || events_.owed()) {
         yieldWanted_ = false;
@@ -409,7 +409,7 @@ Status Task::stopHere(const char* instruction, bool allNormal, StopCause cause) 
 Status Task::suspendStopped() {
     for (;;) {
         if (const Status status = events_.runOwed(); status < 0) return status;
-        if (!mustStand()) return kOk;
+        if (!mustHalt()) return kOk;
         state_ = TaskState::Ready;
         scheduler_.makeReady(*this);
         scheduler_.switchOut(*this);

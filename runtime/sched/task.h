@@ -144,6 +144,7 @@ class TaskHost {
     ~TaskHost() = default;
 };
 
+// Size: the interface of compiled code, natives, scheduler and debugger to a task; errors, interrupts and events are parts of it.
 class Task : public TaskCore {
   public:
     /// `desc` must outlive the task. Tasks are made by the Controller.
@@ -358,7 +359,7 @@ class Task : public TaskCore {
     /// Halts until started again or unwound. Event routines that are due run first.
     Status suspendStopped();
     /// Stopped, and no event routine of the system executes meanwhile.
-    bool mustStand() const { return isStopped() && !events_.executesStopped(); }
+    bool mustHalt() const { return isStopped() && !events_.executesStopped(); }
     /// The event routine in progress ends here, with its UNDO handlers: at once / was ended so.
     void endEventRoutine();
     void eventRoutinesEnded(SystemEvent event) { host_.eventRoutinesEnded(*this, event); }

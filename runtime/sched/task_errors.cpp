@@ -319,7 +319,7 @@ Status Task::continueAtUser(int number, HandlerDecision& decision) {
     return kJumpPast;
 }
 
-/// RAISE in a detached handler: at once to the system handler when nobody further out takes the error. Positive: the handler
+/// RAISE in a detached handler: at once to the system handler when no handler further out takes the error. Positive: the handler
 /// returns, and its routine raises the error when the stack has been unwound to it.
 Status Task::leaveDetached(int number) {
     if (number != errorNumber) noteRaised(number);

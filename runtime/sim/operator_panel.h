@@ -45,7 +45,7 @@ enum class DialogEnd : uint8_t {
     Answered,
     Timeout,  ///< ERR_TP_MAXTIME
     Broken,   ///< ERR_TP_DIBREAK, ERR_TP_DOBREAK, ERR_TP_PERSBOOLBREAK
-    NoClient, ///< nobody can ever answer: no stimulus answer left, no terminal. ERR_TP_NO_CLIENT; an event is
+    NoClient, ///< no answer can come: no stimulus answer left, no terminal. ERR_TP_NO_CLIENT; an event is
               ///< written
 };
 
@@ -102,7 +102,7 @@ class OperatorPanel {
     void answerCame(std::string text) {
         answersToCome_ -= answersToCome_ > 0 ? 1 : 0;
         giveAnswer(std::move(text));
-        if (answersToCome_ == 0) answered_.notifyAll(); // whoever still asks learns that nobody will answer
+        if (answersToCome_ == 0) answered_.notifyAll(); // dialogs still open learn that no answer will come
     }
     /// Somebody is there to answer or an answer is due (UIClientExist).
     bool canAnswer() const;

@@ -53,13 +53,6 @@ std::string problemOf(const rapid::syntax::Attribute& attribute) {
 
 } // namespace
 
-std::string lowered(std::string_view text) {
-    std::string out(text);
-    for (char& c : out)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return out;
-}
-
 std::string Doc::summary() const {
     for (size_t i = 0; i < text.size(); ++i) {
         if (text[i] == '\n') return text.substr(0, i);

@@ -71,7 +71,7 @@ std::string prototype(const Model& model, const Routine& routine) {
 
 /// Records in an order in which each comes after the records it contains.
 void emitRecord(const Model& model, const TypeInfo& type, std::set<std::string>& done, std::string& out) {
-    if (!done.insert(lowered(type.name)).second) return;
+    if (!done.insert(rapid::config::lowerCase(type.name)).second) return;
     for (const auto& field : type.fields) {
         const TypeInfo* base = model.baseType(field.type);
         if (base && base->repr == Repr::Record) emitRecord(model, *base, done, out);
@@ -96,7 +96,7 @@ std::string quotedText(std::string_view text) {
 }
 
 bool isErrorConstant(const Datum& d) {
-    return d.number && lowered(d.type) == "errnum";
+    return d.number && rapid::config::lowerCase(d.type) == "errnum";
 }
 
 } // namespace

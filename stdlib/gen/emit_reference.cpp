@@ -181,8 +181,9 @@ std::vector<Page> emitReference(const Model& model) {
         for (const Routine& r : model.routines) {
             if (r.place.file != source.path) continue;
             blocks += routineBlock(r);
-            byName[lowered(r.name)] = fmt::format("| [{}]({}#{}) | {} |\n", r.name, file, lowered(r.name),
-                                                  escaped(r.doc.summary()));
+            byName[rapid::config::lowerCase(r.name)] =
+                fmt::format("| [{}]({}#{}) | {} |\n", r.name, file, rapid::config::lowerCase(r.name),
+                            escaped(r.doc.summary()));
         }
         if (blocks.empty()) continue;
         const std::string title = titleOf(source);

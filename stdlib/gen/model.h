@@ -2,6 +2,7 @@
 // What the declarations in stdlib/decl and stdlib/data say, read once and checked; every generated file is
 // written from this.
 
+#include "config/letter_case.h"
 #include "frontend/sema/builtin_words.h"
 #include "frontend/syntax/parser.h"
 
@@ -29,7 +30,7 @@ struct Doc {
     std::string get(const std::string& key) const;
 };
 
-/// How a type is represented (design chapter 3).
+/// How a type is represented.
 enum class Repr : uint8_t { Num, Dnum, Bool, String, Record, Handle, Bytes, Any, Switch };
 
 struct TypeInfo {
@@ -105,7 +106,5 @@ Doc readDocumentation(std::string_view text, uint32_t offset, std::string& probl
 
 /// A mistake in the attribute `where:` of a routine; empty: none.
 std::string whereProblem(const Routine& routine);
-
-std::string lowered(std::string_view text);
 
 } // namespace stdlibgen

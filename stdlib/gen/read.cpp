@@ -44,7 +44,7 @@ std::optional<double> literalNumber(const syn::Expr* expr) {
 }
 
 Repr reprOf(const std::string& name, const std::string& classWord) {
-    const std::string key = lowered(name);
+    const std::string key = rapid::config::lowerCase(name);
     if (key == "num") return Repr::Num;
     if (key == "dnum") return Repr::Dnum;
     if (key == "bool") return Repr::Bool;
@@ -120,7 +120,7 @@ class Reader {
 
     void declareName(const syn::Node& node, const std::string& name) {
         const Place here = place(node);
-        const auto [at, fresh] = names_.try_emplace(lowered(name), here);
+        const auto [at, fresh] = names_.try_emplace(rapid::config::lowerCase(name), here);
         if (fresh) return;
         fail(here,
              fmt::format("'{}' is declared twice, first at {}:{}", name, at->second.file, at->second.line));
@@ -255,9 +255,9 @@ void addLanguageTypes(Model& model) {
 } // namespace
 
 const TypeInfo* Model::findType(std::string_view name) const {
-    const std::string key = lowered(name);
+    const std::string key = rapid::config::lowerCase(name);
     for (const TypeInfo& type : types)
-        if (lowered(type.name) == key) return &type;
+        if (rapid::config::lowerCase(type.name) == key) return &type;
     return nullptr;
 }
 

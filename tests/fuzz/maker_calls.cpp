@@ -175,7 +175,7 @@ std::string ProgramMaker::procedureCall() {
         }
     }
     const sema::RoutineSymbol& routine = *choose_.of(catalog_.procedures());
-    if (routine.flow != sema::Flow::GoesOn && !choose_.chance(20)) return "";
+    if (routine.flow != sema::Flow::Continues && !choose_.chance(20)) return "";
     if (part_ == Part::Undo && routine.effects != sema::Effects::Pure) return "";
     if (routine.flow == sema::Flow::Retries) return "";
     bool possible = true;

@@ -45,7 +45,7 @@ class ProgramRunner {
 
 /// How many programs were tried and how many of them check has accepted.
 struct Tally {
-    size_t all = 0, accepted = 0, compared = 0, ended = 0; ///< ended: without an error that nobody handled
+    size_t all = 0, accepted = 0, compared = 0, ended = 0; ///< ended: without an unhandled error
 };
 
 /// Checks, runs in two profiles, compares what they print unless `hasTime`. False: check refuses the program. `optimise`: the

@@ -92,6 +92,7 @@ def write_ctest(path, source, build):
     add("layers/layering", [sys.executable, os.path.join(scripts, "check_layering.py"), "--source", source], 60)
     layers = os.path.join(source, "tests", "layers")
     add("layers/layering_test", [sys.executable, os.path.join(layers, "layering_test.py")], 60)
+    add("layers/classes", [sys.executable, os.path.join(scripts, "check_classes.py"), "--source", source], 60)
     add("layers/runtime_alone", [os.path.join(build, "rapidc_runtime_alone")], 60)
     add("stdlib/names", [sys.executable, os.path.join(scripts, "check_stdlib.py"), "--rapidc",
                          os.path.join(build, "rapidc")], 60)

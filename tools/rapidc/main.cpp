@@ -1,4 +1,4 @@
-// rapidc: one executable, its commands (design chapter 8).
+// rapidc: one executable, its commands.
 
 #include "codegen/codegen.h"
 #include "runtime/host/command_line.h"

@@ -83,9 +83,9 @@ bool stimulusSteps(const rt::RunOptions& options) {
 }
 
 void makeFolders(const RunSettings& settings) {
-    for (const std::string* path :
-         {&settings.options.trace, &settings.options.signals, &settings.options.events,
-          &settings.options.picture, &settings.options.report}) {
+    for (const std::string* path : {&settings.options.outputs.trace, &settings.options.outputs.signals,
+                                    &settings.options.outputs.events, &settings.options.outputs.picture,
+                                    &settings.options.outputs.report}) {
         std::error_code ignored;
         const fs::path folder = fs::path(*path).parent_path();
         if (!folder.empty()) fs::create_directories(folder, ignored);

@@ -19,14 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 using rapid::sema::Module;
 using rapid::sema::RoutineSymbol;
+using rt::lowerCase;
 using rt::sameName;
 using rt::trimmed;
-
-std::string lowerCase(std::string text) {
-    for (char& c : text)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
 
 bool isProcedure(const RoutineSymbol& routine) {
     return routine.routineKind == rapid::syntax::RoutineKind::Proc && !routine.predefined;

@@ -45,7 +45,7 @@ TokenIndex BlockContext::outerOpenerOf(K word) const {
     return kNoToken;
 }
 
-bool BlockContext::standsInside() const {
+bool BlockContext::isInside() const {
     if (opening == kNoToken || !startsLine(pos()) || !startsLine(opening)) return false;
     if (reports().isFull()) return false;
     const TokenIndex outer = outerOpenerOf(kind());

@@ -13,7 +13,7 @@ class BlockContext : public ParserPart {
 
     /// At a word that a block further out waits for: by its margin it belongs to this block all the same, and below the outer
     /// one there is such a word again.
-    bool standsInside() const;
+    bool isInside() const;
     /// From a place on: the first word that continues or ends a block, a handler or a routine, and whose block does not
     /// begin there. The end of the file, once so many mistakes have been found that no more are shown.
     TokenIndex unmatchedWord(TokenIndex from) const;

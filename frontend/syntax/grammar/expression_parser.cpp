@@ -193,7 +193,7 @@ Expr* ExpressionParser::parsePrimary() {
     constexpr TokenSet kCompares = {K::Equal,     K::NotEqual, K::Less,
                                     K::LessEqual, K::Greater,  K::GreaterEqual};
     const bool halfCompared = pos() > 0 && kLogic.has(kindAt(pos() - 1)) && kCompares.has(kind());
-    if (kind() == K::Semicolon && signs().operandBehindSemicolon()) return parsePrimary();
+    if (kind() == K::Semicolon && signs().operandAfterSemicolon()) return parsePrimary();
     missing(kind() == K::Percent ? "an expression: only procedures are called by a name in a string"
             : halfCompared ? "an expression: each comparison names both of its sides, as in n > 1 AND n < 5"
                            : "an expression");
@@ -234,7 +234,7 @@ void ExpressionParser::reportBadNumber(TokenIndex token) {
         expected = "a number without '" + text.substr(letter) + "' after it";
     }
     report(say::BadNumber, token, {text, expected});
-    mark(Mark::BehindBadNumber);
+    mark(Mark::AfterBadNumber);
 }
 
 /// A number, with a sign or without, that is a whole element of a list; null if something else begins here. It is what

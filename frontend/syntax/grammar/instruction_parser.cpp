@@ -37,7 +37,7 @@ StmtList InstructionParser::parseInstructions(const TokenSet& own, bool braced) 
             } else if (isName) {
             } else if (k == K::KwLocal) {
                 if (kModuleLevel.has(peek()) || ahead().endsBeforeLocalData()) break;
-            } else if (outer.has(k) && !block().endsRoutineTooEarly() && !block().standsInside()) {
+            } else if (outer.has(k) && !block().endsRoutineTooEarly() && !block().isInside()) {
                 break;
             } else {
                 const Repair* repair = recovery().repair({.place = Place::StrayWord, .own = own});

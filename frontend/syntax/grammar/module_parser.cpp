@@ -148,7 +148,7 @@ void ModuleParser::parseModule() {
     parseDeclarations(node);
     if (!accept(K::KwEndmodule)) {
         ++openModules_;
-        if (reports().isNewsHere())
+        if (reports().mayReportEnd())
             note(report(say::MissingBlockEnd, pos(), {describe(pos()), "ENDMODULE"}), opening,
                  "MODULE begins here");
     }

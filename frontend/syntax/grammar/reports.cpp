@@ -54,7 +54,7 @@ bool Reports::isConsequence(Code code, SourceRange range) {
     if (code != Code::UnexpectedToken && code != Code::MissingClosing && code != Code::MissingSemicolon &&
         code != Code::MissingBlockWord)
         return false;
-    return isMarked(Mark::BehindBadNumber, in_.pos()) || lexical_.covers(range);
+    return isMarked(Mark::AfterBadNumber, in_.pos()) || lexical_.covers(range);
 }
 
 /// Whether the words follow some that could not be read: in the same line, or in the next one when that begins
@@ -132,7 +132,7 @@ void Reports::missing(std::string_view expected) {
     panic_ = true;
 }
 
-bool Reports::isNewsHere() {
+bool Reports::mayReportEnd() {
     return in_.kind() != TokenKind::EndOfFile || !std::exchange(endReported_, true);
 }
 

@@ -22,7 +22,7 @@ enum class Mark : uint8_t {
     ForeignList,            ///< the bracket of a list that another language writes so
     RunTogether,            ///< the word of a declaration that what follows has run into
     EarlySemicolon,         ///< the place after an operand whose semicolon is before it
-    BehindBadNumber,        ///< the place after a number that could not be read
+    AfterBadNumber,         ///< the place after a number that could not be read
     BlockOfCompactIf,       ///< an IF without THEN whose block is closed below; reported
     ColonGiven,             ///< an ELSE read as DEFAULT, reported together with its missing colon
     Count
@@ -96,7 +96,7 @@ class Reports {
     /// Nothing follows from what names and types in the line of this place seem to be.
     void noteUnclear(uint32_t place);
     /// Whether it is worth saying that the file ends too early: once.
-    bool isNewsHere();
+    bool mayReportEnd();
 
     void mark(Mark cause, TokenIndex token) { marks_[static_cast<size_t>(cause)] = token; }
     void unmark(Mark cause) { mark(cause, kNoToken); }

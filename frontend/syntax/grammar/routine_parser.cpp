@@ -309,7 +309,7 @@ void RoutineParser::closeRoutine(RoutineDecl* routine, TokenIndex opening, bool 
     const RoutineWords words = wordsOf(routine->routineKind);
     constexpr TokenSet kEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
     if (accept(words.end) || braced) return;
-    if (!reports().isNewsHere()) return;
+    if (!reports().mayReportEnd()) return;
     const std::string expected(tokenText(words.end));
     diag::Diagnostic* diagnostic = report(say::MissingBlockEnd, pos(), {describe(pos()), expected});
     note(diagnostic, opening, std::string(words.name) + " begins here");

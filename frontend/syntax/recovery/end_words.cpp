@@ -30,7 +30,7 @@ void EndWords::closeBlock(K end, TokenIndex opening, bool whole) {
         return;
     }
     const std::string opened = describe(opening);
-    if (whole && reports().isNewsHere())
+    if (whole && reports().mayReportEnd())
         note(report(say::MissingBlockEnd, pos(), {describe(pos()), std::string(tokenText(end))}), opening,
              fmt::format("{} begins here", opened));
     if (isMarked(Mark::WrongEnd)) take();

@@ -181,7 +181,7 @@ class MisspeltExpected : public RecoveryStrategy {
 class OperatorStrategy : public RecoveryStrategy {
   protected:
     using RecoveryStrategy::RecoveryStrategy;
-    bool goesOn() const {
+    bool continues() const {
         TokenIndex then = 0;
         return !block().inCondition || ahead().findOnLine(pos(), K::KwThen, then);
     }
@@ -197,7 +197,7 @@ class MisspeltNot : public OperatorStrategy {
             return {};
         const bool bound =
             block().inHead && block().opening != kNoToken && kindAt(block().opening) == K::KwFor;
-        return bound || !goesOn() ? Proposal() : nearest(first, {K::KwNot});
+        return bound || !continues() ? Proposal() : nearest(first, {K::KwNot});
     }
 };
 
@@ -209,7 +209,7 @@ class MisspeltOperator : public OperatorStrategy {
             !startsExpression(peek()))
             return {};
         const bool isCall = peek() == K::LeftParen && range(pos()).end == range(pos() + 1).begin;
-        if (isCall || !goesOn()) return {};
+        if (isCall || !continues()) return {};
         Proposal best;
         for (const K word : {K::KwAnd, K::KwOr, K::KwXor, K::KwDiv, K::KwMod}) {
             Proposal one = typos().isShuffled(pos(), word) ? nearest(pos(), {word}) : Proposal();
@@ -224,7 +224,7 @@ class PercentForMod : public OperatorStrategy {
     using OperatorStrategy::OperatorStrategy;
     Proposal propose(const Situation&) const override {
         if (kind() != K::Percent || block().inLateName || startsLine(pos()) || !startsExpression(peek()) ||
-            !goesOn())
+            !continues())
             return {};
         const bool before = range(pos() - 1).end == range(pos()).begin;
         const bool after = range(pos() + 1).begin == range(pos()).end;

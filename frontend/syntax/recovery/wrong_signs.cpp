@@ -68,7 +68,7 @@ bool WrongSigns::reportDecimalComma() {
     return true;
 }
 
-bool WrongSigns::operandBehindSemicolon() {
+bool WrongSigns::operandAfterSemicolon() {
     constexpr TokenSet kOperands = {K::Identifier, K::NumLiteral, K::StringLiteral, K::KwTrue, K::KwFalse};
     if (panic() || startsLine(pos()) || !kOperands.has(peek()) || startsLine(pos() + 1) ||
         !startsLine(pos() + 2))

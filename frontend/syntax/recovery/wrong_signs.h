@@ -21,7 +21,7 @@ class WrongSigns : public ParserPart {
     /// "1,5" where a value ends.
     bool reportDecimalComma();
     /// "x := a + ;b": the operand of one word after the semicolon ends the line. The parser then is at it.
-    bool operandBehindSemicolon();
+    bool operandAfterSemicolon();
     /// `VAR num x();`, `x() := 1;`
     void dropEmptyParentheses();
     void expectColonOfDefault();

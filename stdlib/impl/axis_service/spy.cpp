@@ -70,7 +70,7 @@ class Spy final : public StepHook {
             task->askSteps += kAsksForSpy;
         }
         if (std::exchange(endsWithRun_, true)) return;
-        controller.onShutDown([this] { (void)stop(); }); // nobody is left to hear of a problem
+        controller.onShutDown([this] { (void)stop(); }); // no caller is left to report a problem to
     }
     /// "" or why the file cannot be written.
     std::string stop() {

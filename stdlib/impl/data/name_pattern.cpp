@@ -1,5 +1,7 @@
 #include "stdlib/impl/data/name_pattern.h"
 
+#include "config/letter_case.h"
+
 #include <algorithm>
 
 namespace rt::lib {
@@ -9,7 +11,7 @@ constexpr std::size_t kLongest = 63; // positions in a name are bits of a word
 constexpr int kDeepest = 40;         // nesting of parentheses; a pattern has at most 80 characters
 
 unsigned char fold(char c) {
-    return static_cast<unsigned char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    return static_cast<unsigned char>(rapid::config::lowerLetter(c)); // patterns are matched byte by byte
 }
 
 } // namespace

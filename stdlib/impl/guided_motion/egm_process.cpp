@@ -43,7 +43,7 @@ void EgmProcess::activate(const GuidanceSettings& settings, Time period) {
     data_ = {};
     hasData_ = false;
     correction_ = {};
-    hasNews_ = true; // signals have a value already
+    hasNewData_ = true; // signals have a value already
     if (mode_ == GuidanceMode::PathCorrection) corrections().setOffset({});
     beginSession(period);
 }
@@ -89,7 +89,7 @@ void EgmProcess::awaitCondition() {
 }
 
 void EgmProcess::wake() {
-    hasNews_ = true;
+    hasNewData_ = true;
     if (phase_ != Phase::None || mode_ == GuidanceMode::PathCorrection) schedule();
 }
 
@@ -128,9 +128,9 @@ void EgmProcess::schedule() {
 /// With signals alone there is nothing to do while the robot is where it is asked to be.
 bool EgmProcess::mustTick() const {
     if (partner_ && partner_->answers()) return true;
-    if (mode_ == GuidanceMode::PathCorrection) return hasNews_ && isActivated();
+    if (mode_ == GuidanceMode::PathCorrection) return hasNewData_ && isActivated();
     if (phase_ == Phase::None) return false;
-    if (hasNews_) return true;
+    if (hasNewData_) return true;
     if (isPaused_) return !arm_->isStanding();
     const bool isCounting = awaitsCondition_ && convergedSince_ != kNever;
     return phase_ != Phase::Following || !arm_->isSteady() || isCounting;
@@ -145,9 +145,9 @@ void EgmProcess::tick() {
     }
     if (partner_ && partner_->receive(data_)) {
         lastAnswer_ = now;
-        hasData_ = hasNews_ = true;
+        hasData_ = hasNewData_ = true;
     }
-    const bool isNew = std::exchange(hasNews_, false);
+    const bool isNew = std::exchange(hasNewData_, false);
     if (mode_ == GuidanceMode::PathCorrection && isActivated()) correct(now, isNew);
     if (phase_ != Phase::None) guide(now);
     if (session_.isOpen && now >= session_.next) exchange();

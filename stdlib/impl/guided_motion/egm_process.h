@@ -23,6 +23,7 @@ struct ExternalMotionData {
     double rampTime = 0.5; ///< s
 };
 
+// Size: the settings of six instructions, which EGMRun reads together.
 class EgmProcess {
   public:
     enum class State : uint8_t { Disconnected, Connected, Running };
@@ -128,7 +129,7 @@ class EgmProcess {
     Session session_;
     WayBack wayBack_;
     bool timedOut_ = false, isPaused_ = false;
-    bool hasNews_ = false;        ///< the source may have other data than at the latest period
+    bool hasNewData_ = false;     ///< the source may have other data than at the latest period
     bool awaitsCondition_ = true; ///< the guidance ends when its condition is met
     Time began_ = 0, lastAnswer_ = 0, convergedSince_ = kNever;
     std::string limit_; ///< reported last

@@ -1,5 +1,6 @@
 // Manual 1.9: signal variables and the signals that they refer to.
 
+#include "config/letter_case.h"
 #include "runtime/value/value_text.h"
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/support/fail.h"
@@ -18,9 +19,7 @@ namespace {
 bool sameSignalType(const char* rapidType, SignalType type) {
     const std::string_view name(rapidType);
     const std::string_view kind = signalTypeName(type);
-    if (name.size() != 8) return false;
-    return std::toupper(static_cast<unsigned char>(name[6])) == kind[0] &&
-           std::toupper(static_cast<unsigned char>(name[7])) == kind[1];
+    return name.size() == 8 && rapid::config::sameName(name.substr(6), kind);
 }
 
 Handle handleAt(const void* slot) {

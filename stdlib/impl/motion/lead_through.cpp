@@ -1,4 +1,4 @@
-// Lead-through: the arm gives way to a hand. Nobody leads the simulated arm, which keeps its place; the program sees the same
+// Lead-through: the arm gives way to a hand. The simulated arm is not led, which keeps its place; the program sees the same
 // states, and the path is stopped, thrown away and released as on a controller.
 
 #include "stdlib/impl/motion/state.h"

@@ -82,7 +82,7 @@ void execute(Task& task, const TriggerDefinition& trigger) {
 constexpr int kRampSteps = 50;
 
 /// The place of a step `mm` after that of the trigger.
-motion::PathTrigger behind(motion::PathTrigger place, double mm) {
+motion::PathTrigger later(motion::PathTrigger place, double mm) {
     if (place.fromStart || place.nextMove) {
         place.amount += mm;
         return place;
@@ -110,7 +110,7 @@ void addRamp(Task* owner, const TriggerDefinition& ramp, std::vector<PathAction>
         if (ramp.rampInTime)
             step.delay = fromSeconds(share * ramp.rampLength);
         else
-            step.place = behind(ramp.place, share * ramp.rampLength);
+            step.place = later(ramp.place, share * ramp.rampLength);
         actions.push_back(std::move(step));
     }
 }

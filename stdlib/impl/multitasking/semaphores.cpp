@@ -26,11 +26,11 @@ bool take(bool* object) {
 struct Waiting {
     std::map<const bool*, std::deque<const Task*>> queues;
 
-    /// Nobody who came earlier could take it. Tasks that stand still do not hold up the others.
+    /// No earlier task could take it. Halted tasks do not hold up the others.
     bool isFirst(const Task& task, const bool* object) const {
         const std::deque<const Task*>& queue = queues.at(object);
         const auto first =
-            std::find_if(queue.begin(), queue.end(), [](const Task* other) { return !other->mustStand(); });
+            std::find_if(queue.begin(), queue.end(), [](const Task* other) { return !other->mustHalt(); });
         return first != queue.end() && *first == &task;
     }
 };

@@ -79,7 +79,7 @@ std::string nameOfPoint(const Task& owner, const Handle* sync) {
         if (address < first || address >= first + global.type->size) continue;
         return upperCase(fmt::format("{}/{}", global.name, (address - first) / sizeof(Handle)));
     }
-    return fmt::format("{}", address); // data of a routine: nobody else can come there
+    return fmt::format("{}", address); // data of a routine: no other task can reach it
 }
 
 Status misuse(Task& owner, const std::string& why) {

@@ -1,5 +1,6 @@
 #include "stdlib/impl/queues/message_queue.h"
 
+#include "config/letter_case.h"
 #include "runtime/value/value_text.h"
 #include "stdlib/impl/interrupts/ordering.h"
 
@@ -14,11 +15,6 @@ namespace {
 constexpr double kFewestMessages = 1, kMostMessages = 10;
 constexpr double kSmallestSize = 400, kLargestSize = 3000;
 
-bool sameText(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-
 std::size_t limited(const CfgInstance& task, std::string_view name, std::size_t otherwise, double least,
                     double most) {
     double value = 0;
@@ -26,10 +22,10 @@ std::size_t limited(const CfgInstance& task, std::string_view name, std::size_t 
 }
 
 void configure(MessageQueue& queue, const CfgInstance& task) {
-    queue.exists = !sameText(task.text("RmqType"), "None");
+    queue.exists = !rapid::config::sameName(task.text("RmqType"), "None");
     const std::string mode = task.text("RmqMode");
-    if (sameText(mode, "Interrupt")) queue.mode = QueueMode::Interrupt;
-    if (sameText(mode, "Synchronous")) queue.mode = QueueMode::Synchronous;
+    if (rapid::config::sameName(mode, "Interrupt")) queue.mode = QueueMode::Interrupt;
+    if (rapid::config::sameName(mode, "Synchronous")) queue.mode = QueueMode::Synchronous;
     queue.maxMessages = limited(task, "RmqMaxNoOfMsg", queue.maxMessages, kFewestMessages, kMostMessages);
     queue.maxSize = limited(task, "RmqMaxMsgSize", queue.maxSize, kSmallestSize, kLargestSize);
 }
@@ -48,7 +44,7 @@ void MessageQueues::makeQueues(Controller& controller) {
         queue->name = "RMQ_" + task->name();
         queue->task = task.get();
         for (const CfgInstance* instance : controller.instances("SYS", "CAB_TASKS")) {
-            if (sameText(instance->text("Name"), task->name())) configure(*queue, *instance);
+            if (rapid::config::sameName(instance->text("Name"), task->name())) configure(*queue, *instance);
         }
         queues_.push_back(std::move(queue));
     }
@@ -67,7 +63,8 @@ MessageQueue* MessageQueues::find(Handle slot) {
 
 Handle MessageQueues::findByName(std::string_view name) const {
     for (std::size_t i = 0; i < queues_.size(); ++i)
-        if (queues_[i]->exists && sameText(queues_[i]->name, name)) return static_cast<Handle>(i) + 1;
+        if (queues_[i]->exists && rapid::config::sameName(queues_[i]->name, name))
+            return static_cast<Handle>(i) + 1;
     return 0;
 }
 

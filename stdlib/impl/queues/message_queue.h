@@ -64,7 +64,7 @@ class MessageQueues {
 
     enum class Sent : uint8_t { Ok, TooLarge, Full };
     /// Delivers to the waiting RMQSendWait, to the queue (posting the interrupt ordered for the type), or, when a task
-    /// in interrupt mode has not ordered one, to nobody: an event reports it.
+    /// in interrupt mode has not ordered one, to no task: an event reports it.
     Sent send(MessageQueue& target, Message message);
 
     /// Keeps a message for a variable of type rmqmessage; the newest kKept of a controller.

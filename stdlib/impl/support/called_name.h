@@ -9,10 +9,12 @@
 
 namespace rt::lib {
 
+/// A letter, then letters, digits and '_'. Bytes above ASCII count as letters of ISO 8859-1.
 inline bool isIdentifier(std::string_view text) {
-    return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) &&
+    const auto isLetter = [](unsigned char c) { return std::isalpha(c) != 0 || c >= 0x80; };
+    return !text.empty() && isLetter(static_cast<unsigned char>(text[0])) &&
            std::all_of(text.begin(), text.end(),
-                       [](unsigned char c) { return std::isalnum(c) || c == '_' || c >= 0x80; });
+                       [&](unsigned char c) { return isLetter(c) || std::isdigit(c) != 0 || c == '_'; });
 }
 
 /// "name" or "Module:name".

@@ -98,7 +98,7 @@ Status rt_TaskIsActive(TaskCore* task, bool* result, Handle* TaskRef, const Stri
     if (other) *result = other->kind() == TaskKind::Normal;
     return status;
 }
-/// Nobody deselects tasks on a virtual controller.
+/// Tasks cannot be deselected on a virtual controller.
 Status rt_GetTSPStatus(TaskCore* task, float* result, Handle* TaskRef, const String* TaskName) {
     Status status = kOk;
     const Task* other = lib::taskAsked(task, TaskRef, TaskName, status);

@@ -1,6 +1,7 @@
 #include "stdlib/impl/vision/camera_file.h"
 
 #include "config/json_text.h"
+#include "config/letter_case.h"
 #include "config/text_util.h"
 
 #include <fmt/format.h>
@@ -21,12 +22,6 @@ using nlohmann::json;
 struct Mistake {
     std::string text;
 };
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 /// An object with these keys and no others: a misspelt key would be skipped in silence.
 void checkKeys(const json& object, const std::string& where, std::initializer_list<const char*> keys) {
@@ -78,11 +73,11 @@ CameraParameters parametersOf(const json& object, const std::string& where) {
     CameraParameters out;
     for (const auto& [key, value] : object.items()) {
         if (value.is_boolean())
-            out[lower(key)] = value.get<bool>();
+            out[rapid::config::lowerCase(key)] = value.get<bool>();
         else if (value.is_number())
-            out[lower(key)] = value.get<double>();
+            out[rapid::config::lowerCase(key)] = value.get<double>();
         else
-            out[lower(key)] = textOf(value, where + "." + key);
+            out[rapid::config::lowerCase(key)] = textOf(value, where + "." + key);
     }
     return out;
 }
@@ -193,10 +188,11 @@ void readRoot(const json& root, CameraFile& file) {
     if (root.contains("jobs")) {
         if (!root["jobs"].is_object()) throw Mistake{"jobs is not an object"};
         for (const auto& [name, job] : root["jobs"].items())
-            file.jobs[lower(name)] = jobOf(textOf(json(name), "the name of a job"), job, "jobs." + name);
+            file.jobs[rapid::config::lowerCase(name)] =
+                jobOf(textOf(json(name), "the name of a job"), job, "jobs." + name);
     }
     if (root.contains("job")) {
-        file.job = lower(textOf(root["job"], "job"));
+        file.job = rapid::config::lowerCase(textOf(root["job"], "job"));
         if (!file.jobs.contains(file.job)) throw Mistake{"job is not one of the jobs"};
     }
     file.silent = spansOf(root, "silent");

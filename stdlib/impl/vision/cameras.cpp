@@ -1,5 +1,6 @@
 #include "stdlib/impl/vision/cameras.h"
 
+#include "config/letter_case.h"
 #include "config/read_file.h"
 #include "runtime/host/camera_names.h"
 
@@ -17,13 +18,6 @@ namespace {
 struct Cameras {
     std::map<int, std::unique_ptr<Camera>> byNumber;
 };
-
-std::string lowerCase(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return out;
-}
 
 bool isWithin(const std::vector<CameraSpan>& spans, Time now) {
     return std::any_of(spans.begin(), spans.end(),
@@ -104,7 +98,7 @@ bool Camera::isElsewhere(Time now) const {
 }
 
 bool Camera::startLoad(std::string_view job, bool keepResults, Time now) {
-    const std::string wanted = lowerCase(job);
+    const std::string wanted = rapid::config::lowerCase(job);
     auto found = file_.jobs.find(wanted);
     if (found == file_.jobs.end() && !wanted.ends_with(".job")) found = file_.jobs.find(wanted + ".job");
     if (found == file_.jobs.end()) return false;
@@ -150,7 +144,7 @@ std::optional<CameraResult> Camera::fetch(const std::optional<double>& scene) {
 }
 
 CameraValue* Camera::parameter(std::string_view name) {
-    const std::string wanted = lowerCase(name);
+    const std::string wanted = rapid::config::lowerCase(name);
     std::vector<CameraParameters*> places = {&seen_};
     if (job_ != nullptr) places.push_back(&job_->parameters);
     places.push_back(&file_.parameters);

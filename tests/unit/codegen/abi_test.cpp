@@ -112,7 +112,7 @@ struct Gap {
     int64_t number = 0;
     char letter = 0;
 };
-struct BehindGap : Gap {
+struct AfterGap : Gap {
     char after;
 };
 struct Padded {
@@ -182,7 +182,7 @@ TEST_CASE("arrays, structs in structs, and derived structs keep their fields", "
     CHECK(abi::structType<rt::Frame>(context)->getName() == "rt.Frame");
     static_assert(!abi::LaidOutNaturally<Padded> && !abi::LaidOutNaturally<Aligned>,
                   "attributes of layout are refused");
-    static_assert(!abi::LaidOutNaturally<BehindGap>, "so are bases with gaps that C++ fills");
+    static_assert(!abi::LaidOutNaturally<AfterGap>, "so are bases with gaps that C++ fills");
 }
 
 TEST_CASE("an altered structure gives another type", "[codegen][abi]") {

@@ -32,7 +32,7 @@ rt::Status raise(rt::TaskCore* task, rt::Frame* frame, rt::Status number) {
     return number;
 }
 
-/// An error that nobody takes; the task is started again at once.
+/// An unhandled error; the task is started again at once.
 constexpr rt::Status kStoppedAndStarted = 500;
 
 rt::Status nativeFailed(rt::TaskCore* task, rt::Frame* frame, rt::Status status) {

@@ -126,7 +126,7 @@ routine @"memset" "r" in "M" exported f32 () {
     }
 }
 
-TEST_CASE("symbols that nobody supplies are named", "[codegen]") {
+TEST_CASE("missing symbols are named", "[codegen]") {
     ir::Module module = prepared("handlers.rir");
     std::vector<codegen::NativeSymbol> table;
     for (const codegen::NativeSymbol& symbol : symbols())

@@ -1,4 +1,4 @@
-// The passes, on small routines whose outcome follows from the rules in ir/LANGREF.md and design chapter 4.
+// The passes, on small routines whose outcome follows from the rules in ir/LANGREF.md and decision 7.
 
 #include <functional>
 #include <limits>

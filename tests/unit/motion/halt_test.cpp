@@ -56,7 +56,7 @@ int finish(MotionSystem& system, MotionEventKind kind, MoveId move) {
     return count;
 }
 
-bool standsAt(const MotionSystem& system, const Joints& goal) {
+bool isAt(const MotionSystem& system, const Joints& goal) {
     const Joints here = system.currentJoints().robax;
     for (std::size_t i = 0; i < goal.size(); ++i)
         if (std::fabs(here[i] - goal[i]) > 1e-6) return false;
@@ -90,7 +90,7 @@ TEST_CASE("a halt takes the arm off its path, a start brings it back", "[motion]
     CHECK_FALSE(system.nextEventTime().has_value());
     system.start();
     CHECK(finish(system, MotionEventKind::Reached, move) == 1);
-    CHECK(standsAt(system, goal));
+    CHECK(isAt(system, goal));
     CHECK(system.isIdle());
     CHECK(offLine(system.current().tcp.pos, from, from + robot::Vec3{0, 150, -100}) < 1e-6);
 }
@@ -158,7 +158,7 @@ TEST_CASE("halts, stops and starts at random: every move is reached, once", "[mo
             advance(*next);
         INFO("round " << round);
         CHECK(reached == std::vector<int>{1, 1, 1});
-        CHECK(standsAt(system, goal));
+        CHECK(isAt(system, goal));
         CHECK(system.isIdle());
     }
 }
@@ -175,7 +175,7 @@ TEST_CASE("a path can be thrown away after a halt", "[motion][halt]") {
     const MoveId third = system.enqueue(joints({5, 0, 0, 0, 30, 0})).value();
     system.start();
     CHECK(finish(system, MotionEventKind::Reached, third) == 1);
-    CHECK(standsAt(system, {5, 0, 0, 0, 30, 0}));
+    CHECK(isAt(system, {5, 0, 0, 0, 30, 0}));
 }
 
 TEST_CASE("a halt while standing is a stop", "[motion][halt]") {

@@ -170,7 +170,7 @@ TEST_CASE("a model is data: a new file needs no new build", "[robot][model]") {
     CHECK_FALSE(loadRobotModel("IRB99").hasValue());
 
     folder.write("broken.json", "{");
-    CHECK(loadRobotModel("IRB 140", folders).hasValue()); // a file nobody asked for does no harm
+    CHECK(loadRobotModel("IRB 140", folders).hasValue()); // an unused file does no harm
     const auto missing = loadRobotModel("IRB 77", folders);
     REQUIRE_FALSE(missing.hasValue());
     CHECK(missing.error().message.find("broken.json") != std::string::npos);

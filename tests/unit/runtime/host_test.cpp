@@ -161,8 +161,8 @@ TEST_CASE("stimulus drives a program; signals and events are written", "[host]")
     Run run;
     run.options.configFiles = {folder.write("EIO.cfg", kSignals)};
     run.options.stimulus = folder.write("s.csv", "1.5,di1,1\n");
-    run.options.signals = folder.file("signals.csv");
-    run.options.events = folder.file("events.jsonl");
+    run.options.outputs.signals = folder.file("signals.csv");
+    run.options.outputs.events = folder.file("events.jsonl");
     static Handle slot = 0;
     slot = 0;
     run.externals = {{"DI1", "signaldi", &slot, "main.modx", 3, 8}};
@@ -210,7 +210,7 @@ TEST_CASE("wrong use of options ends with status 3, wrong configuration with 2",
     CHECK(tried([](RunOptions& o) { o.home = "/nowhere/at/all"; }) == ExitStatus::BadUsage);
     CHECK(tried([](RunOptions& o) { o.robots = {"no such robot"}; }) == ExitStatus::BadUsage);
     CHECK(tried([](RunOptions& o) { o.stimulus = "/nowhere.csv"; }) == ExitStatus::BadUsage);
-    CHECK(tried([](RunOptions& o) { o.trace = "/nowhere/t.csv"; }) == ExitStatus::BadUsage);
+    CHECK(tried([](RunOptions& o) { o.outputs.trace = "/nowhere/t.csv"; }) == ExitStatus::BadUsage);
     CHECK(tried([](RunOptions& o) { o.configFiles = {"/nowhere.cfg"}; }) == ExitStatus::BadUsage);
     CHECK(tried([&](RunOptions& o) { o.stimulus = folder.write("s.csv", "1,di99,1\n"); }) ==
           ExitStatus::BadUsage);
@@ -317,7 +317,7 @@ TEST_CASE("answers come from the stimulus: waiting at that time or asked next", 
             DialogEnd end{};
             std::string answer;
             if (const Status status = task.controller().panel().ask(task, dialog, end, answer)) return status;
-            got.push_back(answer + (end == DialogEnd::NoClient ? "(nobody)" : "") + "@" +
+            got.push_back(answer + (end == DialogEnd::NoClient ? "(no answer)" : "") + "@" +
                           formatSeconds(task.now(), 0));
             if (i == 0) {
                 if (const Status status = task.sleepFor(3 * kSecond)) return status;
@@ -326,11 +326,11 @@ TEST_CASE("answers come from the stimulus: waiting at that time or asked next", 
         return kOk;
     });
     REQUIRE(run.run() == ExitStatus::Ended);
-    CHECK(got == std::vector<std::string>{"first@1", "second@4", "(nobody)@4"});
+    CHECK(got == std::vector<std::string>{"first@1", "second@4", "(no answer)@4"});
     CHECK(run.count(EventId::NoOperator) == 1);
 }
 
-TEST_CASE("a dialog with a time limit ends by it when nobody answers", "[host]") {
+TEST_CASE("a dialog with a time limit ends by it when no answer comes", "[host]") {
     static DialogEnd end{};
     Run run;
     run.task("T", [](TaskCore* core, Frame*) -> Status {
@@ -399,7 +399,7 @@ TEST_CASE("system signals give orders and show states", "[host]") {
     Run run;
     run.options.configFiles = {folder.write("EIO.cfg", kSignals + std::string("\n") + plus)};
     run.options.stimulus = folder.write("s.csv", "1,diStop,1\n3,diStart,1\n");
-    run.options.signals = folder.file("signals.csv");
+    run.options.outputs.signals = folder.file("signals.csv");
     run.task("T", [](TaskCore* core, Frame*) -> Status {
         if (const Status status = taskOf(core).sleepFor(2 * kSecond)) return status;
         CHECK(taskOf(core).now() == 5 * kSecond); // the wait counts again from the start (manual 2.2.6)

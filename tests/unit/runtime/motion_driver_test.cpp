@@ -59,7 +59,7 @@ Status twoMoves(TaskCore* core, Frame*) {
 }
 
 std::string traceOf(const TempFolder& folder, const std::string& stimulus, EntryFunction entry, Run& run) {
-    run.options.trace = folder.file("trace.csv");
+    run.options.outputs.trace = folder.file("trace.csv");
     if (!stimulus.empty()) run.options.stimulus = folder.write("s.csv", stimulus);
     run.task("T_ROB1", entry);
     CHECK(run.run() == ExitStatus::Ended);

@@ -1,4 +1,4 @@
-// Manual 1.16, design chapter 8: whatever a path looks like and whatever links there are, a program reaches its volumes only.
+// Manual 1.16: whatever a path looks like and whatever links there are, a program reaches its volumes only.
 
 #include "runtime/host/volumes.h"
 #include "unit/temporary_folder.h"

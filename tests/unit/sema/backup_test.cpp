@@ -222,7 +222,7 @@ TEST_CASE("a missing module is reported once", "[project][backup]") {
                                    "      -File \"HOME:/user.sys\" -ModName \"user\" -AllTask \n");
     backup.write("RAPID/TASK1/PROGMOD/main.mod", kModule);
     backup.load();
-    CHECK(backup.codes() == "RAP6055 RAP6059"); // RAP6059: nobody can copy what is hidden
+    CHECK(backup.codes() == "RAP6055 RAP6059"); // RAP6059: hidden modules cannot be copied
     CHECK(backup.message(diag::Code::SystemModuleNotSaved).find("'LINKEDM' of task 'T_ROB1'") !=
           std::string::npos);
     CHECK(backup.modules(0) == "main.mod ?USER.sys ?LINKEDM.sys");

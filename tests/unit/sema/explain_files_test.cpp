@@ -80,7 +80,7 @@ TEST_CASE("examples of files and a command do what they say", "[sema][diag]") {
 }
 
 TEST_CASE("every code has a wrong and a right example", "[sema][diag]") {
-    constexpr int kInternalError = 9001; // of rapidc itself: nobody can write it on purpose
+    constexpr int kInternalError = 9001; // of rapidc itself: no program causes it on purpose
     for (const diag::Explanation* e : all()) {
         INFO(e->number);
         CHECK(e->wrong.empty() == (e->number == kInternalError));

@@ -183,7 +183,7 @@ TEST_CASE("what cannot be used is named with its remedy", "[project]") {
     CHECK(load({nothing})->ok);
 }
 
-TEST_CASE("a folder that nobody may list is reported, not taken for an empty one", "[project]") {
+TEST_CASE("a folder that cannot be listed is reported, not taken for an empty one", "[project]") {
     const Folder folder;
     folder.write("PROGMOD/a.mod", "MODULE a\nENDMODULE\n");
     folder.write("SYSMOD/b.sys", "MODULE b\nENDMODULE\n");

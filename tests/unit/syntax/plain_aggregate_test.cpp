@@ -1,4 +1,4 @@
-// Aggregates of literals whose elements are made when they are asked for: nobody can tell them from others.
+// Aggregates of literals whose elements are made when they are needed: they cannot be distinguished from others.
 
 #include "syntax_test.h"
 

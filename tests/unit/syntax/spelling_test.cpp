@@ -50,10 +50,10 @@ TEST_CASE("the distance of two words is given up to the limit", "[source]") {
         for (const std::string& b : all) {
             const unsigned exact = byDefinition(a, b);
             for (unsigned limit = 1; limit <= 3; ++limit) {
-                const unsigned told = editDistance(a, b, limit);
-                if (told == std::min(exact, limit + 1)) continue;
+                const unsigned given = editDistance(a, b, limit);
+                if (given == std::min(exact, limit + 1)) continue;
                 INFO(a << " " << b << " limit " << limit);
-                CHECK(told == std::min(exact, limit + 1));
+                CHECK(given == std::min(exact, limit + 1));
             }
         }
     }
