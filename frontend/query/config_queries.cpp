@@ -44,7 +44,7 @@ bool isOfType(std::string_view type, std::string_view wanted) {
     return type == wanted || (wanted == "EIO_DEVICE" && (type.ends_with("_DEVICE") || type == "EIO_UNIT"));
 }
 
-/// What an offset is in.
+/// The parts of the text around an offset.
 struct Place {
     const ConfigSection* section = nullptr;
     const ConfigInstance* instance = nullptr;
