@@ -12,7 +12,7 @@ namespace rapid::workspace {
 namespace fs = std::filesystem;
 
 Program::Program(std::string root, const Environment& environment, const project::OpenTexts& texts)
-    : root_(std::move(root)), environment_(environment), texts_(texts) {}
+    : root_(std::move(root)), environment_(environment), texts_(texts), isFolder_(project::isFolder(root_)) {}
 
 Program::~Program() = default;
 
@@ -42,6 +42,7 @@ bool Program::update() {
 }
 
 void Program::load() {
+    isFolder_ = project::isFolder(root_);
     Inputs inputs;
     inputs.paths = {root_};
     inputs.warnings = warnings_;
@@ -105,7 +106,7 @@ void Program::judge() {
     Judge judge(*loaded_, environment_, sink);
     judge.files(session_->program());
     judge.finish(session_->program(), loaded_->tasks);
-    if (!project::isFolder(root_)) project::noteNeighbours(sink, {root_});
+    if (!isFolder_) project::noteNeighbours(sink, {root_});
     diagnostics_ = sink.sorted();
 }
 

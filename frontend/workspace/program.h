@@ -31,6 +31,7 @@ class Program {
     Program& operator=(const Program&) = delete;
 
     const std::string& root() const { return root_; }
+    bool isFolder() const { return isFolder_; }
     /// Options as those of -W, for the whole program.
     void setWarnings(const std::vector<std::string>& warnings);
     /// The text of a file changed, in memory or on disk. Files that are not part of the program are ignored.
@@ -79,6 +80,7 @@ class Program {
     std::map<std::string, bool> changed_;       ///< paths of modules
     uint64_t generation_ = 0;
     bool stale_ = true;
+    bool isFolder_ = false;
 };
 
 } // namespace rapid::workspace

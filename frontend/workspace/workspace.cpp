@@ -25,6 +25,23 @@ Program* Workspace::make(const std::string& root) {
     return programs_.back().get();
 }
 
+Program* Workspace::rooted(const std::string& root) {
+    const auto known = std::find_if(programs_.begin(), programs_.end(),
+                                    [&](const auto& program) { return program->root() == root; });
+    Program* program = known == programs_.end() ? make(root) : known->get();
+    program->update();
+    return program;
+}
+
+void Workspace::adopt(const std::string& path) {
+    if (project::isModule(path)) {
+        programOf(path);
+        return;
+    }
+    const std::string type = project::extensionOf(path);
+    if (type == ".pgf" || (type == ".cfg" && !ownerOf(path))) rooted(path);
+}
+
 void Workspace::setFolders(const std::vector<std::string>& folders) {
     folders_.clear();
     for (const std::string& folder : folders)
@@ -90,8 +107,8 @@ void Workspace::dropText(const std::string& path) {
     std::error_code ignored;
     const bool gone = !fs::exists(path, ignored);
     noteChange(path, gone);
-    if (!isInFolders(path)) // a program of its own
-        std::erase_if(programs_, [&](const auto& program) { return program->root() == path; });
+    std::erase_if(programs_,
+                  [&](const auto& program) { return !program->isFolder() && program->root() == path; });
 }
 
 void Workspace::fileChanged(const std::string& path) {
@@ -121,10 +138,7 @@ Program* Workspace::programOf(const std::string& path) {
     if (!project::isModule(path)) return nullptr;
     if (Program* owner = ownerOf(path); owner && owner->hasModule(path)) return owner;
     for (const std::string& root : {rootFor(path), path}) {
-        const auto known = std::find_if(programs_.begin(), programs_.end(),
-                                        [&](const auto& program) { return program->root() == root; });
-        Program* program = known == programs_.end() ? make(root) : known->get();
-        program->update();
+        Program* program = rooted(root);
         if (program->hasModule(path)) return program;
     }
     return nullptr; // encrypted, or it vanished
@@ -134,16 +148,24 @@ Program* Workspace::ownerOf(const std::string& path) {
     Program* best = nullptr;
     for (const auto& program : programs_) {
         program->update();
+        if (!program->isFolder() && program->root() != path) continue; // its files belong to their folders
         if (program->reads(path) && (!best || program->root().size() > best->root().size()))
             best = program.get();
     }
     return best;
 }
 
+bool Workspace::bringUpToDate() {
+    for (const auto& program : programs_) {
+        if (!program->isUpToDate() && interrupted_ && interrupted_()) return false;
+        program->update();
+    }
+    return true;
+}
+
 std::vector<Program*> Workspace::programs() {
     std::vector<Program*> found;
     for (const auto& program : programs_) {
-        if (!program->isUpToDate() && interrupted_ && interrupted_()) continue;
         program->update();
         found.push_back(program.get());
     }

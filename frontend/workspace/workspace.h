@@ -41,16 +41,21 @@ class Workspace {
     /// The program that a module belongs to, up to date; null when the path is no module. The modules of no folder get a program
     /// of their own here.
     Program* programOf(const std::string& path);
+    /// Gives an open file that no program reads one of its own, if it is a module, a program file or a configuration. A program
+    /// file always gets one.
+    void adopt(const std::string& path);
     /// The program that owns what is said about a file of any kind, up to date; null if none reads it.
     Program* ownerOf(const std::string& path);
+    /// Takes in all changes. False: `interrupted` (setInterrupted) has ended that early.
+    bool bringUpToDate();
     /// All programs, folders first, up to date.
     std::vector<Program*> programs();
-    /// Asked between programs while they are brought up to date; true ends that early, and programs() then leaves out those that
-    /// are not.
+    /// Asked between programs while all are brought up to date.
     void setInterrupted(std::function<bool()> interrupted) { interrupted_ = std::move(interrupted); }
 
   private:
     Program* make(const std::string& root);
+    Program* rooted(const std::string& root);
     std::string rootFor(const std::string& path) const;
     bool isInFolders(const std::string& path) const;
     void noteChange(const std::string& path, bool cameOrVanished);
