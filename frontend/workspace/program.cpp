@@ -4,7 +4,7 @@
 #include "frontend/project/neighbours.h"
 #include "frontend/workspace/judge.h"
 
-#include <algorithm>
+#include <atomic>
 #include <filesystem>
 
 namespace rapid::workspace {
@@ -37,7 +37,8 @@ bool Program::update() {
     else
         return false;
     judge();
-    ++generation_;
+    static std::atomic<uint64_t> last = 0;
+    generation_ = ++last;
     return true;
 }
 

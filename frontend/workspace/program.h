@@ -42,7 +42,7 @@ class Program {
     bool update();
     bool isUpToDate() const { return !stale_ && changed_.empty(); }
 
-    /// Counts the updates that changed something.
+    /// Of the last update that changed something; no two updates of any programs have the same.
     uint64_t generation() const { return generation_; }
     /// Trees, symbols and facts of all tasks; of files with mistakes as well.
     const sema::CheckedProgram& checked() const { return session_->program(); }

@@ -1,6 +1,7 @@
-// textDocument/codeAction: the fixes of diagnostics, found by place.
+// textDocument/codeAction: the fixes of diagnostics, found by place, and what the query library can rewrite.
 
 #include "config/json_text.h"
+#include "frontend/query/refactoring.h"
 #include "tools/lsp/diagnostics.h"
 #include "tools/lsp/requests.h"
 
@@ -9,6 +10,7 @@
 
 namespace lsp {
 
+namespace query = rapid::query;
 using rapid::SourceRange;
 using rapid::TextEdit;
 using rapid::diag::Diagnostic;
@@ -63,6 +65,40 @@ std::vector<TextEdit> certainFixes(const std::vector<const Diagnostic*>& diagnos
 
 } // namespace
 
+namespace {
+
+const char* kindOf(query::RefactoringKind kind) {
+    switch (kind) {
+    case query::RefactoringKind::QuickFix: return "quickfix";
+    case query::RefactoringKind::Extract: return "refactor.extract";
+    case query::RefactoringKind::Inline: return "refactor.inline";
+    case query::RefactoringKind::Rewrite: return "refactor.rewrite";
+    case query::RefactoringKind::Organize: return "source.organize";
+    }
+    return "refactor";
+}
+
+void addRefactorings(State& state, const Target& target, SourceRange range, const Json* only,
+                     const std::vector<const Diagnostic*>& diagnostics, Json& actions) {
+    for (const query::Refactoring& found : query::refactoringsAt(*target.snapshot, *target.view, range)) {
+        const std::string kind = kindOf(found.kind);
+        if (!isWanted(only, kind)) continue;
+        Json action{{"title", found.title},
+                    {"kind", kind},
+                    {"edit", state.workspaceEdit({{target.positions->source(), found.edits}})}};
+        if (found.kind == query::RefactoringKind::QuickFix) {
+            Json about = Json::array();
+            for (const Diagnostic* diagnostic : diagnostics)
+                if (diagnostic->file && touch(diagnostic->range, range))
+                    about.push_back(toJson(state, *diagnostic));
+            action["diagnostics"] = std::move(about);
+        }
+        actions.push_back(std::move(action));
+    }
+}
+
+} // namespace
+
 Json codeActions(State& state, const Json& params) {
     const Target target = state.target(params);
     const SourceRange range = target.positions->offsets(rangeOf(field(params, "range")));
@@ -75,6 +111,7 @@ Json codeActions(State& state, const Json& params) {
             if (diagnostic->file && touch(diagnostic->range, range))
                 for (const Diagnostic::Fix& fix : diagnostic->fixes)
                     actions.push_back(quickFix(state, target, *diagnostic, fix));
+    if (target.isModule()) addRefactorings(state, target, range, only, diagnostics, actions);
     if (isWanted(only, "source.fixAll"))
         if (const auto edits = certainFixes(diagnostics); !edits.empty())
             actions.push_back({{"title", "Fix all mistakes with certain fixes"},

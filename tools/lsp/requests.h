@@ -33,6 +33,41 @@ Json onTypeFormatting(State& state, const Json& params);
 // ---- code_actions.cpp
 Json codeActions(State& state, const Json& params);
 
+// ---- completion.cpp, hover.cpp, navigation.cpp
+Json completion(State& state, const Json& params);
+Json resolveCompletion(State& state, const Json& params);
+Json hover(State& state, const Json& params);
+Json signatureHelp(State& state, const Json& params);
+Json definition(State& state, const Json& params);
+Json typeDefinition(State& state, const Json& params);
+Json implementation(State& state, const Json& params);
+Json references(State& state, const Json& params);
+Json documentHighlight(State& state, const Json& params);
+Json prepareRename(State& state, const Json& params);
+Json rename(State& state, const Json& params);
+
+// ---- outline.cpp, semantic_tokens.cpp, hints.cpp
+Json documentSymbol(State& state, const Json& params);
+Json workspaceSymbol(State& state, const Json& params);
+Json foldingRange(State& state, const Json& params);
+Json selectionRange(State& state, const Json& params);
+Json semanticTokensFull(State& state, const Json& params);
+Json semanticTokensDelta(State& state, const Json& params);
+Json semanticTokensRange(State& state, const Json& params);
+Json inlayHint(State& state, const Json& params);
+Json codeLens(State& state, const Json& params);
+Json resolveCodeLens(State& state, const Json& params);
+Json documentLink(State& state, const Json& params);
+Json prepareCallHierarchy(State& state, const Json& params);
+Json incomingCalls(State& state, const Json& params);
+Json outgoingCalls(State& state, const Json& params);
+
+// ---- configuration_requests.cpp: the same for configuration files (.cfg); null or empty for all other documents
+Json configurationCompletion(State& state, const Target& target);
+Json configurationHover(State& state, const Target& target);
+Json configurationDefinition(State& state, const Target& target);
+Json configurationReferences(State& state, const Target& target, bool withDeclaration);
+
 // ---- file_operations.cpp
 Json willRenameFiles(State& state, const Json& params);
 void filesRenamed(State& state, const Json& params);

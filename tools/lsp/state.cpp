@@ -2,6 +2,7 @@
 
 #include "config/json_text.h"
 #include "frontend/project/files.h"
+#include "tools/lsp/readable_texts.h"
 #include "tools/lsp/uri.h"
 
 #include <filesystem>
@@ -71,6 +72,29 @@ Target State::target(const Json& params) {
     return targetOfPath(path);
 }
 
+Target State::targetAt(const Json& params) {
+    Target found = target(params);
+    found.offset = found.positions->offset(positionOf(field(params, "position")));
+    return found;
+}
+
+const rapid::query::Snapshot& State::snapshot(const rapid::workspace::Program& program) {
+    constexpr size_t kMostKept = 16;
+    if (snapshots_.size() > kMostKept) snapshots_.clear();
+    KeptSnapshot& kept = snapshots_[program.root()];
+    if (kept.snapshot && kept.generation == program.generation()) return *kept.snapshot;
+    std::vector<std::shared_ptr<const rapid::SourceFile>> configuration;
+    const auto& loaded = program.loaded();
+    for (size_t i = 0; i < loaded.configNames.size(); ++i)
+        if (loaded.configNames[i].starts_with('/'))
+            configuration.push_back(
+                std::make_shared<const rapid::SourceFile>(loaded.configNames[i], loaded.configTexts[i]));
+    kept.snapshot.reset();
+    kept.snapshot = std::make_unique<rapid::query::Snapshot>(program.checked(), std::move(configuration));
+    kept.generation = program.generation();
+    return *kept.snapshot;
+}
+
 Target State::targetOfPath(const std::string& path) {
     Target target;
     target.path = path;
@@ -79,8 +103,11 @@ Target State::targetOfPath(const std::string& path) {
     const auto file = target.tree ? target.tree->source : workspace.read(path);
     if (!file)
         throw RequestError{error::kInvalidParams, fmt::format("'{}' is not open and cannot be read", path)};
-    if (!target.tree) target.program = nullptr;
     target.positions = positions(file);
+    if (!target.tree) target.program = nullptr;
+    if (!target.program) return target;
+    target.snapshot = &snapshot(*target.program);
+    target.view = target.snapshot->file(path);
     return target;
 }
 
@@ -88,6 +115,19 @@ Json State::location(const std::shared_ptr<const rapid::SourceFile>& file, rapid
     std::error_code ignored;
     const std::string path = std::filesystem::absolute(file->path(), ignored).lexically_normal().string();
     return {{"uri", documents.uriOf(path)}, {"range", toJson(positions(file)->range(range))}};
+}
+
+std::string State::uriOf(const rapid::query::Location& location) {
+    if (!location.file) return {};
+    if (!location.isLibrary) return documents.uriOf(location.file->path());
+    const std::string path = declarationPath(environment, location.file->path());
+    return path.empty() ? "" : fileUri(path);
+}
+
+Json State::location(const rapid::query::Location& location) {
+    const std::string uri = uriOf(location);
+    if (uri.empty()) return nullptr;
+    return {{"uri", uri}, {"range", toJson(positions(location.file)->range(location.range))}};
 }
 
 Json State::edits(const PositionMap& positions, const std::vector<rapid::TextEdit>& edits) const {

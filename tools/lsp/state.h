@@ -2,6 +2,7 @@
 // What the server knows while a client is connected: its documents, the programs they belong to, what the client can do.
 // Every request is a function of it (requests.h).
 
+#include "frontend/query/snapshot.h"
 #include "frontend/workspace/workspace.h"
 #include "tools/lsp/documents.h"
 #include "tools/lsp/positions.h"
@@ -22,6 +23,11 @@ struct Target {
     std::shared_ptr<const PositionMap> positions; ///< of its text as it is now
     rapid::workspace::Program* program = nullptr; ///< up to date; null: it is no module
     const rapid::syntax::SyntaxTree* tree = nullptr;
+    const rapid::query::Snapshot* snapshot = nullptr; ///< of the program
+    const rapid::query::FileView* view = nullptr;     ///< of the module
+    uint32_t offset = 0;                              ///< of params.position; see targetAt
+
+    bool isModule() const { return view != nullptr; }
 };
 
 class State {
@@ -59,9 +65,17 @@ class State {
     std::shared_ptr<const PositionMap> positions(const std::shared_ptr<const rapid::SourceFile>& file);
     /// The document of params.textDocument. Throws RequestError when there is no such text.
     Target target(const Json& params);
+    /// With the offset of params.position.
+    Target targetAt(const Json& params);
     Target targetOfPath(const std::string& path);
+    /// The program as queries see it, good until it changes.
+    const rapid::query::Snapshot& snapshot(const rapid::workspace::Program& program);
     /// { uri, range } of a place in a file.
     Json location(const std::shared_ptr<const rapid::SourceFile>& file, rapid::SourceRange range);
+    /// Of a declaration; those of the library as a readable file. Null when there is no such text.
+    Json location(const rapid::query::Location& location);
+    /// The URI of the file of a location; "" when there is none.
+    std::string uriOf(const rapid::query::Location& location);
     /// TextEdits of a file.
     Json edits(const PositionMap& positions, const std::vector<rapid::TextEdit>& edits) const;
     /// A WorkspaceEdit: edits by path, in the form that the client has.
@@ -81,6 +95,11 @@ class State {
     std::map<int64_t, Answered> waiting_;
     int64_t lastRequest_ = 0;
     std::map<const rapid::SourceFile*, std::shared_ptr<const PositionMap>> positions_;
+    struct KeptSnapshot {
+        uint64_t generation = 0;
+        std::unique_ptr<rapid::query::Snapshot> snapshot;
+    };
+    std::map<std::string, KeptSnapshot> snapshots_; ///< by root of the program
 };
 
 } // namespace lsp
