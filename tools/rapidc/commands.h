@@ -18,6 +18,7 @@ void addRobotsCommand(rt::CommandLine& line);
 void addFmtCommand(rt::CommandLine& line);
 void addRenameCommand(rt::CommandLine& line);
 void addSetValueCommand(rt::CommandLine& line);
+void addDapCommand(rt::CommandLine& line);
 void addCompileUnitCommand(rt::CommandLine& line);
 
 } // namespace rapidc

@@ -26,6 +26,7 @@ int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of m
     rapidc::addFmtCommand(line);
     rapidc::addRenameCommand(line);
     rapidc::addSetValueCommand(line);
+    rapidc::addDapCommand(line);
     rapidc::addCompileUnitCommand(line);
     int status = static_cast<int>(rt::ExitStatus::BadUsage);
     try {

@@ -421,6 +421,7 @@ bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping,
     rapid::lower::Options options;
     options.programName = name;
     options.stepping = stepping;
+    options.callsByName = compilation.callsByName;
     options.configNames = compilation.configNames;
     options.configTexts = compilation.configTexts;
     options.eventRoutines = compilation.eventRoutines;
