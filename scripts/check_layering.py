@@ -23,6 +23,8 @@ LAYERS = {
     "frontend/project": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "config"],
     "frontend/format": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/edit",
                         "frontend/project"],
+    "frontend/query": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/edit",
+                       "frontend/format", "frontend/project", "config"],
     "frontend/lint": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/project"],
     "frontend/workspace": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/edit",
                            "frontend/project", "frontend/format", "frontend/lint", "config"],

@@ -21,4 +21,9 @@ namespace rapid::edit {
 EditSet rename(std::unique_ptr<const sema::CheckedProgram> program, const std::vector<sema::TaskInput>& tasks,
                const sema::CheckOptions& options, std::string_view path, std::string_view newName);
 
+/// Why nothing can have the name: no identifier, a keyword, too long, predefined; empty: it is fine. `component`: a component of
+/// a record, which may have a predefined name.
+std::string newNameProblem(std::string_view name, const sema::CheckedProgram& program,
+                           bool component = false);
+
 } // namespace rapid::edit

@@ -12,6 +12,7 @@ struct ConfiguredTask {
     std::string type = "SEMISTATIC"; ///< what an absent Type means
     std::string entry = "main";
     bool motion = false;
+    bool bindsReferences = true; ///< BindRef: names that nothing declares are errors
 };
 
 /// A module that the controller loads at start-up. Part of a task, or of all of them.

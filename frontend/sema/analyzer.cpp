@@ -103,8 +103,9 @@ void Analyzer::setMissingModules(const TaskInput& input) {
     for (const auto& file : input.files) // what a file declares that cannot be read is not known
         if (file->isBinary())
             state_.task.missingModules.push_back(std::filesystem::path(file->path()).filename().string());
+    state_.task.bindsLate = input.bindsLate;
     state_.task.incomplete =
-        input.incomplete || state_.task.missingModules.size() > input.missingModules.size();
+        input.incomplete || input.bindsLate || state_.task.missingModules.size() > input.missingModules.size();
 }
 
 void Analyzer::startTask(const TaskInput& input) {

@@ -26,6 +26,8 @@ struct TaskInput {
     /// Names that nothing declares may be declared elsewhere: some `missingModules`, or modules that were not named, as the
     /// system modules of a controller are that a program file never lists.
     bool incomplete = false;
+    /// BindRef of SYS.cfg is off: a name that nothing declares is an error of execution, which the program may handle.
+    bool bindsLate = false;
     /// Without an entry routine the task is left out of a program, with a warning, instead of being an error: tasks of
     /// options and add-ins, whose modules a backup does not hold.
     bool optional = false;

@@ -119,6 +119,7 @@ struct TaskContext {
     NameMap<Module> moduleNames;
     bool incomplete = false;                 ///< modules are missing: names may be unknown
     std::vector<std::string> missingModules; ///< their names, as far as they are known
+    bool bindsLate = false;                  ///< BindRef is off: names are looked for during execution
     /// The outcome depends on the order of the work: no file can be checked alone.
     bool dependsOnOrder = false;
     SignalUses signalUses;

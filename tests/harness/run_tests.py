@@ -70,6 +70,7 @@ def write_ctest(path, source, build):
     add("layers/runtime_alone", [os.path.join(build, "rapidc_runtime_alone")], 60)
     add("stdlib", [sys.executable, os.path.join(scripts, "check_stdlib.py"), "--rapidc", os.path.join(build, "rapidc")],
         60)
+    add("error_tests", [sys.executable, os.path.join(scripts, "check_error_tests.py")], 60)
     with open(path, "w", encoding="utf-8") as file:
         file.write("\n".join(lines) + "\n")
 
