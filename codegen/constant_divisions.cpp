@@ -12,6 +12,7 @@
 #include <cmath>
 #include <vector>
 
+#include "codegen/finite_sums.h"
 #include "codegen/integral_numbers.h"
 #include "codegen/whole_numbers.h"
 
@@ -118,6 +119,11 @@ struct Division {
     }
 };
 
+Value* isFinite(llvm::IRBuilder<>& b, Value* number) {
+    return b.CreateFCmpOLT(b.CreateUnaryIntrinsic(llvm::Intrinsic::fabs, number),
+                           llvm::ConstantFP::getInfinity(number->getType()));
+}
+
 void replace(const Division& division) {
     llvm::Instruction& ratio = *division.ratio;
     Value *number = ratio.getOperand(0), *divisor = ratio.getOperand(1);
@@ -145,12 +151,22 @@ void replace(const Division& division) {
     Value* slowQuotient = whole(slowRatio);
     Value* slowRemainder = division.remainder ? remainderOf(slowQuotient) : nullptr;
     b.SetInsertPoint(&*ratio.getParent()->begin());
-    const auto join = [&](llvm::Instruction* old, Value* fast, Value* exact) {
-        if (!old) return;
-        llvm::PHINode* phi = b.CreatePHI(type, 2);
+    const auto merge = [&](llvm::Type* of, Value* fast, Value* exact) {
+        llvm::PHINode* phi = b.CreatePHI(of, 2);
         phi->addIncoming(fast, before);
         phi->addIncoming(exact, divided);
-        old->replaceAllUsesWith(phi);
+        return phi;
+    };
+    const auto join = [&](llvm::Instruction* old, Value* fast, Value* exact) {
+        if (!old) return;
+        // Without the division the result is finite.
+        for (const FiniteCheck& check : FiniteCheck::of(*old)) {
+            llvm::IRBuilder<> inSlow(slow);
+            Value* finite = isFinite(inSlow, exact);
+            if (!check.trueWhenFinite) finite = inSlow.CreateNot(finite);
+            check.replaceBy(merge(b.getInt1Ty(), b.getInt1(check.trueWhenFinite), finite));
+        }
+        old->replaceAllUsesWith(merge(type, fast, exact));
         old->eraseFromParent();
     };
     join(division.remainder, remainder, slowRemainder);
