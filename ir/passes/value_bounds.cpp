@@ -221,6 +221,9 @@ double ValueBounds::remainder(const Inst& difference) const {
     const Inst& ratio = inst(whole.operands[0]);
     if (ratio.op != Op::FDiv || ratio.operands[0] != a || ratio.operands[1] != b) return kUnbounded;
     const TypeId type = valueType(difference);
+    int exponent = 0;
+    if (inst(b).op == Op::Const && std::frexp(std::abs(inst(b).number), &exponent) == 0.5)
+        return std::abs(inst(b).number); // nothing is rounded
     const double lastBits = std::ldexp(taken(a).magnitude, type == kF32 ? -22 : -51);
     const double most = taken(b).magnitude * 1.001 + lastBits;
     return taken(a).magnitude + most <= largest(type) ? rounded(type, most) : kUnbounded;
