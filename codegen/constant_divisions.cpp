@@ -150,8 +150,9 @@ void replace(const Division& division) {
     Value* slowRatio = b.CreateFDiv(number, divisor);
     Value* slowQuotient = whole(slowRatio);
     Value* slowRemainder = division.remainder ? remainderOf(slowQuotient) : nullptr;
-    b.SetInsertPoint(&*ratio.getParent()->begin());
+    llvm::BasicBlock* after = ratio.getParent();
     const auto merge = [&](llvm::Type* of, Value* fast, Value* exact) {
+        b.SetInsertPoint(after, after->begin());
         llvm::PHINode* phi = b.CreatePHI(of, 2);
         phi->addIncoming(fast, before);
         phi->addIncoming(exact, divided);
@@ -159,15 +160,16 @@ void replace(const Division& division) {
     };
     const auto join = [&](llvm::Instruction* old, Value* fast, Value* exact) {
         if (!old) return;
-        // Without the division the result is finite.
-        for (const FiniteCheck& check : FiniteCheck::of(*old)) {
+        llvm::PHINode* joined = merge(type, fast, exact);
+        old->replaceAllUsesWith(joined);
+        old->eraseFromParent();
+        // Without the division the result is finite. Checks that have no user any more are left to LLVM.
+        for (const FiniteCheck& check : FiniteCheck::of(*joined)) {
             llvm::IRBuilder<> inSlow(slow);
             Value* finite = isFinite(inSlow, exact);
             if (!check.trueWhenFinite) finite = inSlow.CreateNot(finite);
-            check.replaceBy(merge(b.getInt1Ty(), b.getInt1(check.trueWhenFinite), finite));
+            check.inst->replaceAllUsesWith(merge(b.getInt1Ty(), b.getInt1(check.trueWhenFinite), finite));
         }
-        old->replaceAllUsesWith(merge(type, fast, exact));
-        old->eraseFromParent();
     };
     join(division.remainder, remainder, slowRemainder);
     join(division.quotient, quotient, slowQuotient);
