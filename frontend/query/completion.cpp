@@ -205,7 +205,17 @@ class Completer {
         item->snippet = escaped(routine.name) + (arguments.empty() ? "" : " " + arguments) + ";$0";
     }
 
+    /// What is known to be absent or present: of the type that the argument has.
+    void optionalParameters() {
+        if (!scope_.around().routine) return;
+        const Type* type = cursor_.type.type;
+        for (const DataSymbol* param : scope_.around().routine->params)
+            if (param->optional && (!type || (param->type.type && param->type.type->base() == type->base())))
+                add(*param, kBest, true);
+    }
+
     void values() {
+        if (cursor_.optionalParameter) return optionalParameters();
         const FitRules rules(cursor_);
         const bool callFollows = nextCharacter() == '(';
         for (const Symbol* symbol : scope_.visible(cancel_, cursor_.prefix)) {

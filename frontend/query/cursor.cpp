@@ -178,6 +178,7 @@ class CursorReader {
             if (node->kind == NodeKind::Record && tree_.range(*node).begin < offset_ &&
                 offset_ < tree_.range(*node).end)
                 return type();
+        if (!around.routineDecl && inOpenRecord()) return type();
         if (around.routineDecl || (around.module && !around.module->decl))
             cursor_.expect = Expect::Statement;
         else

@@ -53,7 +53,8 @@ struct Cursor {
     const sema::Type* record = nullptr;             ///< Component: of the value before the dot
     std::vector<syntax::TokenKind> keywords;        ///< that may follow, besides
     bool instruction = false;                       ///< Keyword: an instruction may begin here, too
-    bool errorNumber = false; ///< in the list of an ERROR clause, or compared with ERRNO
+    bool optionalParameter = false; ///< after `?` and in Present: an optional parameter of the routine
+    bool errorNumber = false;       ///< in the list of an ERROR clause, or compared with ERRNO
 };
 
 /// `scope` is that of the offset.
