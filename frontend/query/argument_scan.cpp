@@ -292,8 +292,14 @@ void ArgumentScan::expectedOf(const Frame& frame, Cursor& cursor) const {
     const auto& call = frame.call;
     if (!call.routine || call.parameter < 0) return;
     const DataSymbol& param = *call.routine->params[static_cast<size_t>(call.parameter)];
-    if (frame.valueStart == at_) cursor.mode = param.mode;
+    const bool atValue = frame.valueStart == at_;
+    if (atValue) cursor.mode = param.mode;
     cursor.accepts = param.accepts;
+    if (!param.optional && atValue)
+        for (const DataSymbol* other : call.routine->params)
+            if (!other->optional && other->group == param.group && other->requiredAlternative)
+                cursor.alternatives.push_back(other);
+    if (cursor.alternatives.size() < 2) cursor.alternatives.clear();
     cursor.optionalParameter = frame.conditional || call.routine->role == Role::Present;
     if (!param.type.type || param.type.type->kind != TypeKind::AnyType) return;
     cursor.anyType = true;

@@ -247,6 +247,16 @@ TEST_CASE("query: traps, labels and late-bound procedures", "[query][completion]
     CHECK_FALSE(has(complete(program, 4), "alarm"));
 }
 
+TEST_CASE("query: one of several required parameters", "[query][completion]") {
+    sema::CheckOptions options;
+    options.signals = {{"di_found", "signaldi"}};
+    const Program program({inMain("SearchL \\Stop,$1", "PERS bool found:=FALSE;\nVAR bool other;\n")}, {},
+                          options);
+    CHECK(has(complete(program), "di_found"));
+    CHECK(has(complete(program), "found"));
+    CHECK_FALSE(has(complete(program), "other")); // not a persistent
+}
+
 TEST_CASE("query: completion at the end of a text that is being written", "[query][completion]") {
     const std::pair<const char*, const char*> cases[] = {
         {"MODULE m\nRECORD part\nstring name;\nd$1", "dnum"},
