@@ -59,6 +59,13 @@ TEST_CASE("query: signature of what is being written", "[query][signature]") {
     }
 }
 
+TEST_CASE("query: the parameter that fits, of several that exclude each other", "[query][signature]") {
+    const Program program(
+        {inMain("BitSet $1whole,1;\nBitSet $2small,1;", "VAR dnum whole;\nVAR byte small;\n")});
+    CHECK(active(program, 1) == "INOUT dnum DnumData");
+    CHECK(active(program, 2) == "INOUT byte BitData");
+}
+
 TEST_CASE("query: documentation of the signature and its parameters", "[query][signature]") {
     const Program program({inMain("MoveJ $1")});
     const auto help = signatureHelpAt(program.snapshot(), program.file(), program.offset());
