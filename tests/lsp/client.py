@@ -48,7 +48,7 @@ class Client:
 
     def __init__(self, arguments=(), environment=None):
         self.process = subprocess.Popen([RAPIDC, "lsp", *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, env={**os.environ, **(environment or {})})
+                                        stderr=(None if os.environ.get("LSP_STDERR") else subprocess.PIPE), env={**os.environ, **(environment or {})})
         self.messages = queue.Queue()
         self.notifications = []
         self.answers = {}
@@ -171,7 +171,7 @@ class Client:
 
     def wait(self):
         status = self.process.wait(timeout=HANGS_AFTER_S)
-        for stream in (self.process.stdin, self.process.stdout, self.process.stderr):
+        for stream in filter(None, (self.process.stdin, self.process.stdout, self.process.stderr)):
             try:
                 stream.close()
             except BrokenPipeError:
