@@ -250,7 +250,7 @@ class LspCase(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder, True)
         self.cache = os.path.join(self.folder, "cache")
 
-    def client(self, *arguments):
+    def connect(self, *arguments):
         client = Client(arguments, {"XDG_CACHE_HOME": self.cache, "RAPIDC_CACHE": ""})
         self.addCleanup(client.end)
         return client
@@ -269,7 +269,7 @@ class LspCase(unittest.TestCase):
     def opened(self, text, name="m.modx", folders=True):
         """A client with one module open in a folder; the client and the URI."""
         path = self.write(name, text)
-        client = self.client()
+        client = self.connect()
         client.initialize([self.work()] if folders else [])
         return client, client.open(path, text)
 
