@@ -3,9 +3,9 @@
 //
 //   rapidc_fuzz_query -dict=tests/fuzz/dictionaries/rapid.dict <own corpus folder> tests/fuzz/corpus/query
 
-#include "../unit/query/every_query.h"
 #include "frontend/sema/checker.h"
 #include "fuzz_support.h"
+#include "tests/unit/query/every_query.h"
 
 #include <algorithm>
 #include <cstring>
