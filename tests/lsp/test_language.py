@@ -484,8 +484,8 @@ class Configuration(Language):
         end["character"] += 1
         found = self.client.request("textDocument/completion", {"textDocument": {"uri": self.config}, "position": end})
         labels = [i["label"] for i in found["items"]]
-        self.assertIn("-Access", labels)
-        self.assertNotIn("-SignalType", labels)
+        self.assertIn("Access", labels)
+        self.assertNotIn("SignalType", labels)
         hover = self.client.request("textDocument/hover", at(self.config, self.CONFIG, "SignalType"))
         self.assertIn("SignalType", hover["contents"]["value"])
 
