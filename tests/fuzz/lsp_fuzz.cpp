@@ -77,7 +77,7 @@ class Conversation {
         if (!message.is_discarded()) return hear(message);
         const size_t before = answered_;
         server_.receiveGarbage();
-        answered_ = before; // it was no request
+        answered_ = before; // not a request
     }
 
     void end() {
@@ -98,11 +98,11 @@ class Conversation {
         const size_t before = answered_;
         server_.receive(message);
         if (request) ++asked_;
-        if (!request) answered_ = before; // refusals of what is no request
+        if (!request) answered_ = before; // refusals of other messages
     }
     void sent(const Json& message) {
         fuzz::require(!config::tryParseJson(config::textOf(message)).is_discarded(),
-                      "what is sent is no JSON");
+                      "the server sends what is not JSON");
         if (!message.contains("method")) ++answered_;
     }
     void shorthand(const std::string& text) {

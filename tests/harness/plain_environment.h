@@ -1,5 +1,5 @@
 #pragma once
-// What a workspace has to be given, without a controller: the declarations of the standard library, and nothing else.
+// A workspace without a controller: it is given the declarations of the standard library, and nothing else.
 
 #include "frontend/workspace/environment.h"
 #include "stdlib/stdlib_text.h"

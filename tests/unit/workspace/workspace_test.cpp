@@ -32,7 +32,7 @@ std::string show(const std::vector<diag::Diagnostic>& diagnostics) {
     return out;
 }
 
-/// What `rapidc check ROOT` says of the same texts.
+/// The messages of `rapidc check ROOT` about the same texts.
 std::string checked(const std::string& root, const Workspace& workspace,
                     const std::vector<std::string>& warnings = {}) {
     Inputs inputs;
