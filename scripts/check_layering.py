@@ -83,7 +83,8 @@ RESTRICTED = [
       "stdlib/impl/flow/errors.cpp", "stdlib/impl/motion/kept_settings.cpp", "stdlib/impl/motion/kept_triggers.cpp",
       "stdlib/impl/motion/kept_world_zones.cpp",
       "stdlib/impl/queues/kept_messages.cpp", "stdlib/impl/time/clocks.cpp", "stdlib/impl/vision/camera_file.cpp", "stdlib/gen/emit_reference.cpp",
-      "tools/lsp", "tools/rapidc/missing_report.cpp", "tools/rapidc/program_sources.cpp", "tools/rapidc/robots_command.cpp", "tests"],
+      "tools/lsp", "tools/rapidc/missing_report.cpp", "tools/rapidc/program_sources.cpp", "tools/rapidc/robots_command.cpp",
+      "tools/rapidc/dap/messages.h", "tools/testing/json_report.cpp", "tests"],
      "JSON costs a file seconds: add it to this list only when the file reads or writes JSON itself"),
     (re.compile(r"^catch2/"), ["tests"], "the test framework belongs to tests"),
 ]

@@ -58,7 +58,7 @@ class Loader {
     /// there is RAPID.
     static fs::path backupIn(const fs::path& given) {
         fs::path folder = given.has_filename() ? given : given.parent_path(); // "RAPID/"
-        std::error_code unreadable; // then it is no folder, which is told elsewhere
+        std::error_code unreadable; // then it is not a folder, which is reported elsewhere
         const fs::path whole = fs::canonical(folder, unreadable); // "." has a name, too
         fs::path parent = folder / "..";
         if (folder.filename() == whole.filename())
@@ -81,7 +81,7 @@ class Loader {
         if (out_.tasks.size() == before) report(say::FolderWithoutModules, {folder.string(), ""});
     }
 
-    /// Where below a folder the modules are: "; there are some in ...: name one of these".
+    /// The folders below a folder that have modules: "; there are some in ...: name one of these".
     static std::string elsewhere(const fs::path& folder) {
         constexpr int kMostEntries = 5000, kMostNamed = 3;
         std::set<std::string> found;

@@ -102,7 +102,7 @@ std::unique_ptr<Compilation> loadInputs(const Inputs& inputs, const Environment&
     compilation->library = environment.library();
     options.library = compilation->library;
     compilation->tasks = std::move(input.tasks);
-    if (!input.isBackup) configureTasks(*compilation, typesGiven);
+    configureTasks(*compilation, typesGiven, input.isBackup);
     readTaskSettings(*compilation);
     compilation->sharedFiles = std::move(input.sharedFiles);
     compilation->loaded = true;

@@ -136,11 +136,13 @@ void readTaskSettings(Compilation& compilation) {
     }
 }
 
-void configureTasks(Compilation& compilation, const std::set<std::string>& typesGiven) {
+void configureTasks(Compilation& compilation, const std::set<std::string>& typesGiven, bool isBackup) {
     for (const std::string& text : compilation.configTexts) {
         for (const project::ConfiguredTask& configured : project::readTaskParameters(text).tasks) {
             for (sema::TaskInput& task : compilation.tasks) {
                 if (lower(task.name) != lower(configured.name)) continue;
+                task.bindsLate = !configured.bindsReferences;
+                if (isBackup) continue;
                 task.entry = configured.entry;
                 if (!typesGiven.contains(task.name)) task.type = configured.type;
             }

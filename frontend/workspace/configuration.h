@@ -22,9 +22,9 @@ void addConveyors(Compilation& compilation, const Environment& environment,
 /// Event routines and shared modules of SYS.cfg.
 void readTaskSettings(Compilation& compilation);
 
-/// SYS.cfg about the tasks of the command line: entry and type. `typesGiven`: tasks whose type the command line
-/// gives; that of the first task is NORMAL.
-void configureTasks(Compilation& compilation, const std::set<std::string>& typesGiven);
+/// The configuration of tasks in SYS.cfg: BindRef of each task; entry and type of the tasks of the command line (those of a backup
+/// have theirs). `typesGiven`: tasks whose type the command line gives; that of the first task is NORMAL.
+void configureTasks(Compilation& compilation, const std::set<std::string>& typesGiven, bool isBackup);
 
 /// The robot of a backup: that of MOC.cfg, else the one among its options, which becomes part of the configuration.
 void checkRobot(Compilation& compilation, const Environment& environment, const std::string& option);

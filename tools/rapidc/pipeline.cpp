@@ -84,10 +84,12 @@ bool reportFindings(const std::vector<std::string>& findings, diag::Sink& sink) 
 } // namespace
 
 bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping, ir::Module& out,
-               size_t passesBelow) {
+               size_t passesBelow, const std::function<bool(const sema::RoutineSymbol&)>& calledFromOutside) {
     rapid::lower::Options options;
+    options.calledFromOutside = calledFromOutside;
     options.programName = name;
     options.stepping = stepping;
+    options.callsByName = compilation.callsByName;
     options.configNames = compilation.configNames;
     options.configTexts = compilation.configTexts;
     options.eventRoutines = compilation.eventRoutines;

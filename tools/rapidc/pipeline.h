@@ -6,6 +6,7 @@
 #include "ir/core/ir.h"
 #include "ir/passes/passes.h"
 
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <set>
@@ -37,8 +38,10 @@ std::unique_ptr<Compilation> checkInputs(const Inputs& inputs);
 
 /// Lowers and runs the IR passes. False with diagnostics in the sink when something stands against it. `passesBelow`: a
 /// program of as many IR instructions is only verified outside its routines; whoever compiles it runs the passes (irPasses).
+/// `calledFromOutside`: procedures that are found by name (tests); may be empty.
 bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping, ir::Module& out,
-               size_t passesBelow = SIZE_MAX);
+               size_t passesBelow = SIZE_MAX,
+               const std::function<bool(const rapid::sema::RoutineSymbol&)>& calledFromOutside = {});
 
 /// The program looks at every statement (SpyStart): it has to be compiled for the stepping profile.
 bool timesStatements(const Compilation& compilation);
