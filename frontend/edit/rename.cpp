@@ -37,7 +37,7 @@ bool isConfigured(const Symbol& symbol) {
            static_cast<const sema::DataSymbol&>(symbol).storage == sema::Storage::Signal;
 }
 
-/// Predefined names and configured objects have no place in the files of the program: their name stands for it.
+/// Predefined names and configured objects have no place in the files of the program: their name represents it.
 bool isOutside(const Symbol& symbol) {
     return symbol.predefined || isConfigured(symbol) || !symbol.module;
 }
@@ -73,7 +73,7 @@ size_t characters(std::string_view name) {
         name.begin(), name.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
-/// What the names of a program mean, without the program: a large one does not stay in memory while it is checked again.
+/// The meaning of the names of a program, without the program: a large one does not stay in memory during the second check.
 class Meanings {
   public:
     /// A name and the declaration it means, of which `place` is the file or, outside of the files, the name itself.
@@ -164,7 +164,7 @@ class Renamer {
         const Symbol& first = *found.begin()->second;
         const bool shared = std::all_of(found.begin(), found.end(),
                                         [](const auto& entry) { return isSharedPersistent(*entry.second); });
-        // Loops of one routine may have variables of the same name, which no path tells apart.
+        // Loops of one routine may have variables of the same name, which a path cannot distinguish.
         const bool same = std::all_of(found.begin(), found.end(), [&](const auto& entry) {
             return entry.first.path == found.begin()->first.path &&
                    foldedPathOf(*entry.second) == foldedPathOf(first);
@@ -365,7 +365,7 @@ std::string newNameProblem(std::string_view name, const sema::CheckedProgram& pr
     if (word && isKeyword(lexed.tokens[0].kind))
         return fmt::format("'{}' is a word of the language: choose another name", name);
     if (!word || lexed.tokens[0].kind != TokenKind::Identifier)
-        return fmt::format("'{}' is no name: expected letters, digits and '_', a letter first", name);
+        return fmt::format("'{}' is not a name: expected letters, digits and '_', a letter first", name);
     if (characters(name) > kMaxNameLength)
         return fmt::format("'{}' has more than {} characters", name, kMaxNameLength);
     if (component) return {};

@@ -44,7 +44,7 @@ class ErrorRoutes {
         std::vector<Call> calls;                 ///< of routines of the program, in the body
         bool canRaise(const Error& error) const; ///< by instructions in the body
     };
-    /// What the routines that a call leads to, through routines without handler, cannot pass on.
+    /// The errors that the routines which a call leads to, through routines without handler, cannot pass on.
     struct Lost {
         const Routine* raiser = nullptr;
         const Error* error = nullptr;     ///< raised by RAISE; null: by an instruction

@@ -65,6 +65,11 @@ class Completer {
             list_.items.resize(options_.limit);
             list_.incomplete = true;
         }
+        for (CompletionItem& item : list_.items)
+            if (item.symbol && item.detail.empty()) {
+                item.key = keyOf(snapshot_, *item.symbol);
+                item.detail = detailOf(*item.symbol);
+            }
         return std::move(list_);
     }
 
@@ -115,8 +120,7 @@ class Completer {
         if (!matches(symbol.name)) return nullptr;
         CompletionItem& item = append(symbol.name, kindOf(symbol), rank, symbol.name);
         item.fits = fits;
-        item.key = keyOf(snapshot_, symbol);
-        item.detail = detailOf(symbol);
+        item.symbol = &symbol;
         return &item;
     }
 

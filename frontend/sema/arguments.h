@@ -66,7 +66,7 @@ class Arguments : CheckerPart {
     std::vector<Mismatch> mismatches_; ///< arguments of the wrong type, of the calls being checked
 };
 
-/// What an argument for such a parameter must be; null when `found` is that.
+/// The kind of argument that such a parameter needs; null when `found` is that.
 const char* missingClass(ParamClass accepts, const DataType& found);
 
 } // namespace rapid::sema

@@ -1,5 +1,5 @@
 #pragma once
-// What the attributes of predefined names say, as enumerations; the words are in builtin_words.def. No library is needed: the
+// The attributes of predefined names, as enumerations; the words are in builtin_words.def. No library is needed: the
 // generator of the standard library uses it, too.
 
 #include <cstdint>
@@ -16,7 +16,7 @@ enum class Effects : uint8_t {
 #include "frontend/sema/builtin_words.def"
 };
 
-/// Where execution continues after a predefined procedure; from `flow:` in the declaration.
+/// The place where execution continues after a predefined procedure; from `flow:` in the declaration.
 enum class Flow : uint8_t {
     GoesOn,
 #define FLOW(Name, word) Name,
@@ -51,7 +51,7 @@ enum class LanguageError : uint8_t {
 #include "frontend/sema/builtin_words.def"
 };
 
-/// What checker, warnings and lowering want to know of a native; from `traits:` in the declaration.
+/// Properties of a native for checker, warnings and lowering; from `traits:` in the declaration.
 enum class Trait : uint8_t {
 #define TRAIT(Name, word) Name,
 #include "frontend/sema/builtin_words.def"

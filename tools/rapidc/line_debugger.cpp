@@ -25,6 +25,9 @@ const char* reasonText(rt::StopReason reason) {
     case rt::StopReason::Stop: return "Stop";
     case rt::StopReason::Error: return "error";
     case rt::StopReason::Pointer: return "program pointer moved";
+    case rt::StopReason::Routine: return "breakpoint";
+    case rt::StopReason::Data: return "data changed";
+    case rt::StopReason::Raised: return "error raised";
     }
     return "";
 }
@@ -203,7 +206,7 @@ bool LineDebugger::breakAt(std::string_view arguments) {
     std::string module;
     uint32_t line = 0;
     if (!readPlace(arguments, module, line)) return false;
-    const rt::Breakpoint breakpoint = debugger_->addBreakpoint(module, line);
+    const rt::Breakpoint breakpoint = debugger_->breakpoints().addLine(module, line);
     if (breakpoint.waits)
         fmt::print("breakpoint {}: {}:{}, waits for a module of that name to be loaded\n", breakpoint.id,
                    module, line);
@@ -215,17 +218,17 @@ bool LineDebugger::breakAt(std::string_view arguments) {
 }
 
 bool LineDebugger::breakpoints(std::string_view) {
-    for (const rt::Breakpoint& breakpoint : debugger_->breakpoints())
+    for (const rt::Breakpoint& breakpoint : debugger_->breakpoints().all())
         fmt::print("{}  {}:{}{}\n", breakpoint.id, breakpoint.file,
                    breakpoint.waits ? breakpoint.line : breakpoint.actualLine,
                    breakpoint.waits ? " (waits for its module)" : "");
-    if (debugger_->breakpoints().empty()) fmt::print("no breakpoints\n");
+    if (debugger_->breakpoints().all().empty()) fmt::print("no breakpoints\n");
     return false;
 }
 
 bool LineDebugger::deleteBreakpoint(std::string_view arguments) {
     uint32_t id = 0;
-    if (!readNumber(arguments, id) || !debugger_->removeBreakpoint(static_cast<int>(id)))
+    if (!readNumber(arguments, id) || !debugger_->breakpoints().remove(static_cast<int>(id)))
         fmt::print("there is no breakpoint '{}'\n", arguments);
     return false;
 }

@@ -45,9 +45,9 @@ Status checkLag(TaskCore* task, double lag) {
     if (lag == 0) return kOk;
     const std::optional<double> preset = eventPresetTime(taskOf(task).controller());
     if (!preset || lag <= *preset) return kOk;
-    return lib::failWith(task, err::ERR_DIPLAG_LIM,
-                         "\\DipLag of TriggSpeed is {} s, but event_preset_time of MOC.cfg is {} s: enlarge it", lag,
-                         *preset);
+    return lib::failWith(
+        task, err::ERR_DIPLAG_LIM,
+        "\\DipLag of TriggSpeed is {} s, but event_preset_time of MOC.cfg is {} s: enlarge it", lag, *preset);
 }
 
 /// Its signal can be used, and the output of a TriggSpeed can follow the programmed speed.
@@ -74,7 +74,7 @@ Status addTrigger(TaskCore* task, Handle variable, const char* name, const data:
     return kOk;
 }
 
-/// Elements without contents are passed over.
+/// Elements without contents are skipped.
 Status addArray(TaskCore* task, const TriggerArguments& args, const data::Speeddata& speed,
                 Actions& actions) {
     for (const Handle* other : args.others)
