@@ -51,6 +51,7 @@ TEST_CASE("query: signature of what is being written", "[query][signature]") {
         {"TPWrite \"a\"; ! TPWrite $1", "none"},
         {"IF x=1 TPWrite $1", "string String"},
         {"unknown $1", "none"},
+        {"TPWrite\n  $1\"text\";", "string String"},
     };
     for (const auto& [text, expected] : cases) {
         INFO(text);
