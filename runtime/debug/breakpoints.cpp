@@ -39,8 +39,7 @@ bool isPlace(const RoutineDesc& routine, std::string_view where) {
 
 Breakpoint Breakpoints::addLine(std::string_view where, uint32_t line) {
     std::string place(where);
-    return addLine(
-        place, line, [place](const RoutineDesc& routine) { return isPlace(routine, place); }, {});
+    return addLine(place, line, [place](const RoutineDesc& routine) { return isPlace(routine, place); }, {});
 }
 
 Breakpoint Breakpoints::addLine(std::string where, uint32_t line,
@@ -141,8 +140,7 @@ std::vector<int> Breakpoints::stopsAt(const Breakpoint& breakpoint, const Routin
     if (breakpoint.line == 0) return {firstStatement(routine)};
     for (uint32_t s = 0; s < routine.statementCount; ++s) {
         const StmtDesc& statement = routine.statements[s];
-        if (statement.canStart != 0 && statement.line == breakpoint.actualLine)
-            return {static_cast<int>(s)};
+        if (statement.canStart != 0 && statement.line == breakpoint.actualLine) return {static_cast<int>(s)};
     }
     return {};
 }

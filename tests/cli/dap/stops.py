@@ -76,10 +76,10 @@ def test_unhandled_error(a):
     holds("ERR_DIVZERO" in stop.get("text", "") + stop.get("description", ""), str(stop))
     info = a.ask("exceptionInfo", threadId=1)
     equal((info["exceptionId"], info["breakMode"]), ("ERR_DIVZERO", "unhandled"))
-    equal(a.lines(), ["in handler"])
+    equal(a.lines(), ["in handler", "next"])
     a.ask("setExpression", expression="divisor", value="4", frameId=a.top())
     a.go()
-    equal(a.run_out(), ["in handler", "share 3"])
+    equal(a.run_out(), ["in handler", "next", "share 3"])
 
 
 def test_error_again(a):
@@ -115,13 +115,13 @@ def test_chosen_errors(a):
     a.stopped("exception", UNHANDLED)
     a.ask("setExceptionBreakpoints", filters=[])
     a.go()
-    equal(a.run_out(1), ["in handler"])
+    equal(a.run_out(1), ["in handler", "next"])
 
 
 def test_no_filter(a):
     """Contract 5: without filters the run ends with exit code 1."""
     a.start("errors.modx", filters=[])
-    equal(a.run_out(1), ["in handler"])
+    equal(a.run_out(1), ["in handler", "next"])
     errors = [m["body"] for m in a.seen if m.get("event") == "output" and "ERR_DIVZERO" in m["body"]["output"]]
     holds(errors and errors[-1]["line"] == UNHANDLED and errors[-1]["category"] != "stdout", str(errors))
 

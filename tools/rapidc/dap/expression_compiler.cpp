@@ -76,8 +76,8 @@ struct ExpressionCompiler::Draft {
     const std::string& text;
     ExpressionKind kind;
     std::string resultType = "num";
-    std::vector<std::string> names;     ///< data of the routine that the text names, in order
-    const sema::Module* module = nullptr; ///< as it was checked
+    std::vector<std::string> names;        ///< data of the routine that the text names, in order
+    const sema::Module* module = nullptr;  ///< as it was checked
     const sema::Type* valueType = nullptr; ///< of the expression; null: not known
 
     bool isOrder() const { return kind == ExpressionKind::Orders; }
@@ -106,8 +106,7 @@ std::string moduleText(const sema::CheckedProgram& program, const std::set<std::
                        const ExpressionScope& scope, const std::string& text, bool isOrder,
                        const std::string& resultType, std::vector<std::string>& names) {
     const sema::Module* host = findModule(*program.tasks[static_cast<std::size_t>(scope.task)], scope.module);
-    const sema::RoutineSymbol* routine =
-        scope.routine.empty() ? nullptr : findRoutine(host, scope.routine);
+    const sema::RoutineSymbol* routine = scope.routine.empty() ? nullptr : findRoutine(host, scope.routine);
     std::string params = fmt::format("INOUT num {}", kError);
     if (!isOrder) params += fmt::format(", INOUT {} {}", resultType, kResult);
     std::string constants;
@@ -139,7 +138,8 @@ std::string moduleText(const sema::CheckedProgram& program, const std::set<std::
         out += text + "\n";
     else
         out += fmt::format("{} := \n{}\n;\n", kResult, text);
-    out += fmt::format("ERROR (LONG_JMP_ALL_ERR)\n{} := ERRNO;\nSkipWarn;\nRETURN;\nENDPROC\nENDMODULE\n", kError);
+    out += fmt::format("ERROR (LONG_JMP_ALL_ERR)\n{} := ERRNO;\nSkipWarn;\nRETURN;\nENDPROC\nENDMODULE\n",
+                       kError);
     return out;
 }
 
@@ -148,8 +148,8 @@ const syntax::RoutineDecl* onlyRoutine(const sema::Module& module) {
         !module.types.empty())
         return nullptr;
     const syntax::RoutineDecl* routine = module.routines.front()->routineDecl;
-    const bool plain = routine != nullptr && routine->errors.size() == 1 && !routine->hasUndo &&
-                       !routine->hasBackward;
+    const bool plain =
+        routine != nullptr && routine->errors.size() == 1 && !routine->hasUndo && !routine->hasBackward;
     return plain ? routine : nullptr;
 }
 
@@ -173,11 +173,10 @@ std::string harmfulCall(const sema::Module& module, const syntax::Node& node) {
         const auto found = module.facts->calls.find(&node);
         const sema::RoutineSymbol* routine =
             found != module.facts->calls.end() ? found->second.routine : nullptr;
-        const bool harmless = routine != nullptr && routine->predefined &&
-                              (routine->effects == sema::Effects::None ||
-                               routine->effects == sema::Effects::Const ||
-                               routine->effects == sema::Effects::Pure ||
-                               routine->effects == sema::Effects::Reads);
+        const bool harmless =
+            routine != nullptr && routine->predefined &&
+            (routine->effects == sema::Effects::None || routine->effects == sema::Effects::Const ||
+             routine->effects == sema::Effects::Pure || routine->effects == sema::Effects::Reads);
         if (!harmless) return routine != nullptr ? routine->name : "a routine";
     }
     std::string found;
@@ -211,8 +210,9 @@ void ExpressionCompiler::openSession() {
     std::vector<sema::TaskInput> tasks;
     for (std::size_t i = 0; i < compilation_.program->tasks.size(); ++i) {
         const sema::Task& checked = *compilation_.program->tasks[i];
-        const auto found = std::find_if(compilation_.tasks.begin(), compilation_.tasks.end(),
-                                        [&](const sema::TaskInput& input) { return input.name == checked.name; });
+        const auto found =
+            std::find_if(compilation_.tasks.begin(), compilation_.tasks.end(),
+                         [&](const sema::TaskInput& input) { return input.name == checked.name; });
         sema::TaskInput& task = tasks.emplace_back();
         task.name = checked.name;
         if (found != compilation_.tasks.end()) task = *found;
@@ -224,16 +224,17 @@ void ExpressionCompiler::openSession() {
         }
         task.files.push_back(std::make_shared<const rapid::SourceFile>(pathOf(i), emptyModule()));
     }
-    session_ = std::make_unique<sema::Session>(compilation_.options);
+    sema::CheckOptions options = compilation_.options;
+    options.configurationKnown = true; // the program runs: no signal is assumed any more
+    session_ = std::make_unique<sema::Session>(options);
     session_->open(std::move(tasks));
 }
 
 /// Whether the text means something; then the type of its value is known.
 bool ExpressionCompiler::check(Draft& draft, std::string& problem) {
     const auto task = static_cast<std::size_t>(draft.scope.task);
-    const std::string text =
-        moduleText(session_->program(), namesIn(draft.text), draft.scope, draft.text, draft.isOrder(),
-                   draft.resultType, draft.names);
+    const std::string text = moduleText(session_->program(), namesIn(draft.text), draft.scope, draft.text,
+                                        draft.isOrder(), draft.resultType, draft.names);
     session_->setGuest(kModule, draft.scope.module);
     session_->change(std::make_shared<const rapid::SourceFile>(pathOf(task), text));
     problem = problemOf(session_->diagnostics(), pathOf(task));

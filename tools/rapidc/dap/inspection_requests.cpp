@@ -143,16 +143,17 @@ Json InspectionRequests::exceptionInfo(const Arguments& arguments) {
     const rt::Task& task = context_.task(arguments.number("threadId"));
     context_.requireStop();
     if (error_.task != &task) throw Refusal("the task was not stopped by an error");
-    const std::string name = error_.name.empty() ? (error_.number != 0 ? std::to_string(error_.number) : "error")
-                                                 : error_.name;
+    const std::string name =
+        error_.name.empty() ? (error_.number != 0 ? std::to_string(error_.number) : "error") : error_.name;
     std::string chain;
     for (const rt::SourcePlace& place : task.callChain())
         chain += fmt::format("{} {}:{}\n", place.routine, place.module, place.line);
-    return {{"exceptionId", name},
-            {"description", error_.text},
-            {"breakMode", error_.handled ? "always" : "unhandled"},
-            {"details",
-             {{"message", error_.text}, {"typeName", name}, {"evaluateName", "ERRNO"}, {"stackTrace", chain}}}};
+    return {
+        {"exceptionId", name},
+        {"description", error_.text},
+        {"breakMode", error_.handled ? "always" : "unhandled"},
+        {"details",
+         {{"message", error_.text}, {"typeName", name}, {"evaluateName", "ERRNO"}, {"stackTrace", chain}}}};
 }
 
 // ---- Expressions ---------------------------------------------------------------------------------------------------
@@ -173,8 +174,7 @@ std::optional<Json> InspectionRequests::evaluate(const Request& request, const A
     const Site at = site(arguments);
     if (!context_.debugger().standsStill()) {
         const Evaluation found = context_.evaluator->find(at, text);
-        if (!found.hasValue)
-            throw Refusal("the program is executing: pause it to evaluate more than a name");
+        if (!found.hasValue) throw Refusal("the program is executing: pause it to evaluate more than a name");
         return resultOf(found, text);
     }
     return evaluateIn(request, at, text, context);

@@ -74,6 +74,7 @@ class Session final : public rt::DebugClient {
     bool initialized_ = false, configured_ = false;
     bool startWanted_ = false; ///< the program is ready to run
     bool finished_ = false;
+    std::vector<std::string> early_; ///< messages that came before the run had begun
     int status_ = 0;
 };
 

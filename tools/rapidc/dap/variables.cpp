@@ -16,7 +16,8 @@ constexpr uint64_t kMostChildren = 100'000; ///< in one answer, when the client 
 
 /// "list" and 2: "list{2}"; "list{2,*}" and 3: "list{2,3}".
 std::string elementExpression(const std::string& array, int32_t index, std::size_t dimensions) {
-    const std::size_t star = array.empty() || array.back() != '}' ? std::string::npos : array.find(",*", array.rfind('{'));
+    const std::size_t star =
+        array.empty() || array.back() != '}' ? std::string::npos : array.find(",*", array.rfind('{'));
     std::string text;
     if (star != std::string::npos)
         text = array.substr(0, star) + fmt::format(",{}", index);
@@ -42,8 +43,8 @@ int64_t Variables::add(Node node) {
 const Variables::Node& Variables::find(int64_t reference) const {
     const auto found = nodes_.find(reference);
     if (found == nodes_.end())
-        throw Refusal(fmt::format("there is no variablesReference {}; they are good until the program goes on",
-                                  reference));
+        throw Refusal(fmt::format(
+            "there is no variablesReference {}; they are good until the program goes on", reference));
     return found->second;
 }
 
@@ -93,7 +94,8 @@ std::vector<Variables::Child> Variables::scopeOf(const Node& node) const {
                             : node.scope == Scope::Module    ? !persistent && own
                                                              : !persistent && !own && !local;
         if (!wanted) continue;
-        const std::string expression = local && !own ? fmt::format("{}:{}", desc->module, desc->name) : desc->name;
+        const std::string expression =
+            local && !own ? fmt::format("{}:{}", desc->module, desc->name) : desc->name;
         list.push_back({desc->name, expression, rt::dataOf(*desc)});
     }
     return list;
@@ -118,9 +120,10 @@ std::vector<Variables::Child> Variables::childrenOf(const Node& node, uint64_t s
         const uint64_t end = std::min<uint64_t>(start + count, static_cast<uint64_t>(std::max(dims[0], 0)));
         for (uint64_t i = start; i < end; ++i) {
             const auto index = static_cast<int32_t>(i + 1);
-            list.push_back({fmt::format("{{{}}}", index),
-                            node.expression.empty() ? "" : elementExpression(node.expression, index, dims.size()),
-                            rowOf(value, index)});
+            list.push_back(
+                {fmt::format("{{{}}}", index),
+                 node.expression.empty() ? "" : elementExpression(node.expression, index, dims.size()),
+                 rowOf(value, index)});
         }
         return list;
     }
@@ -130,18 +133,18 @@ std::vector<Variables::Child> Variables::childrenOf(const Node& node, uint64_t s
         part.type = type.fields[i];
         part.data = static_cast<char*>(value.data) + type.offsets[i];
         part.name = type.fieldNames[i];
-        list.push_back({type.fieldNames[i],
-                        node.expression.empty() ? "" : fmt::format("{}.{}", node.expression, type.fieldNames[i]),
-                        std::move(part)});
+        list.push_back(
+            {type.fieldNames[i],
+             node.expression.empty() ? "" : fmt::format("{}.{}", node.expression, type.fieldNames[i]),
+             std::move(part)});
     }
     return list;
 }
 
 Json Variables::describe(const rt::DebugVariable& variable, const std::string& expression,
                          std::shared_ptr<void> storage) {
-    Json json{{"value", rt::valueText(variable)},
-              {"type", rt::typeName(variable)},
-              {"variablesReference", 0}};
+    Json json{
+        {"value", rt::valueText(variable)}, {"type", rt::typeName(variable)}, {"variablesReference", 0}};
     if (!hasChildren(variable)) return json;
     Node node;
     node.value = variable;
@@ -186,7 +189,8 @@ Json Variables::children(const Arguments& arguments) {
             all = childrenOf(node, first, most);
         } else {
             all = node.scope == Scope::None ? childrenOf(node, 0, 0) : scopeOf(node);
-            all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min<uint64_t>(first, all.size())));
+            all.erase(all.begin(),
+                      all.begin() + static_cast<std::ptrdiff_t>(std::min<uint64_t>(first, all.size())));
             if (all.size() > most) all.resize(most);
         }
         for (const Child& child : all)
@@ -196,7 +200,8 @@ Json Variables::children(const Arguments& arguments) {
 }
 
 void Variables::assign(const rt::DebugVariable& variable, const std::string& text) {
-    const std::vector<int32_t> dims = variable.data != nullptr ? dimensionsOf(variable) : std::vector<int32_t>();
+    const std::vector<int32_t> dims =
+        variable.data != nullptr ? dimensionsOf(variable) : std::vector<int32_t>();
     if (variable.isConstant || dims.empty()) {
         const std::string problem = rt::assignText(variable, rt::trimmed(text));
         if (!problem.empty()) throw Refusal(problem);
