@@ -1,5 +1,5 @@
 #pragma once
-// The analysis behind check(): an Analyzer works through the library and then each task. Internal to frontend/sema.
+// The analysis of check(): an Analyzer works through the library and then each task. Internal to frontend/sema.
 
 #include "frontend/sema/across_tasks.h"
 #include "frontend/sema/argument_order.h"
@@ -34,7 +34,7 @@ class Analyzer {
 
     void loadLibrary();
     void checkTask(const TaskInput& input);
-    /// What concerns several tasks: persistents and modules they share.
+    /// Checks across tasks: persistents and modules they share.
     void checkAcrossTasks() { comparison_.checkAcrossTasks(); }
 
     // ---- the steps of checkTask(), for a Session (analyzer.cpp, recheck.cpp)

@@ -1,4 +1,4 @@
-// What a name means: routine, module, task, configuration, library, in this order (manual 1.1.5, 1.2.2). Signals that
+// The meaning of a name: routine, module, task, configuration, library, in this order (manual 1.1.5, 1.2.2). Signals that
 // nothing declares are part of the controller's configuration and are recognised by how they are used.
 
 #include "frontend/sema/scopes.h"

@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of a check share: the program, the names, the contexts, and where to report. Each check has one.
+// The shared state of a check: the program, the names, the contexts, and where to report. Each check has one.
 
 #include "frontend/sema/reports.h"
 

@@ -27,6 +27,8 @@ struct Options {
     bool callsByName = false;
     /// Procedures that the configuration connects with system events: reachable by name at run time. Lower case.
     std::set<std::string> eventRoutines;
+    /// Is this routine called from outside the program (a test)? Then it is found by name. Empty: none is.
+    std::function<bool(const sema::RoutineSymbol&)> calledFromOutside;
     /// Modules that are installed once for all tasks: their data, except TASK data, are shared. Lower case.
     std::set<std::string> sharedModules;
 };

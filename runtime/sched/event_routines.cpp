@@ -41,7 +41,7 @@ void EventRoutines::owe(SystemEvent event) {
     if (goesOn && !runsWhileStopped(event)) return;
     if (std::find(owed_.begin(), owed_.end(), event) != owed_.end()) return;
     owed_.push_back(event);
-    task_.interruptPosted(); // wakes it: what it waits for goes on waiting afterwards
+    task_.interruptPosted(); // wakes it: its wait continues afterwards
 }
 
 bool EventRoutines::owed() const {
@@ -101,7 +101,7 @@ Status EventRoutines::visitNow(const Visit& visit) {
 
 Status EventRoutines::run(SystemEvent event) {
     if (event == SystemEvent::Visit) return runVisit();
-    // What was interrupted must not see that something ran in between.
+    // The interrupted code must not see that something ran in between.
     Frame* const interrupted = task_.frame;
     const int32_t errorNumber = task_.errorNumber;
     const SystemEvent outer = running_;

@@ -1,6 +1,6 @@
 #pragma once
 // EventRoutines: the routines that the configuration connects with system events (SYS.cfg, CAB_EXEC_HOOKS), for one task.
-// They run on the task's own fibre: ahead of main, or on top of what was interrupted, as traps do.
+// They run on the task's own fibre: before main, or on top of the interrupted code, as traps do.
 
 #include "runtime/abi/rt_abi.h"
 #include "runtime/base/time.h"
@@ -53,7 +53,7 @@ class EventRoutines {
     /// Called in the order in which they are to run.
     void add(SystemEvent event, EntryFunction routine);
     /// The event happened: its routines run as soon as the task can. Nothing when it has none. START, RESTART and STEP are
-    /// passed over while such a routine has not ended: it goes on instead.
+    /// skipped while such a routine has not ended: it continues instead.
     void owe(SystemEvent event);
     /// Events that the task has still to deal with in its present state.
     bool owed() const;

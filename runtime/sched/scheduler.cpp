@@ -40,7 +40,7 @@ Scheduler::~Scheduler() = default;
 
 // ---- Time ----------------------------------------------------------------------------------------------------------
 
-/// What the running task owes so far in this slice, its debt included.
+/// The instructions that the running task owes so far in this slice, its debt included.
 int64_t Scheduler::unitsUsed() const {
     const int64_t instructions = granted_ - (running_->budget + running_->stash_);
     // A counted loop without calls is charged ahead as a whole: a year of it must not overflow.

@@ -94,7 +94,7 @@ def compare(names, rapidc, work, rounds, rate):
 
 
 def overflow(names, rapidc, work, rounds, rate):
-    """What it costs to notice results that are out of range: all programs with and without the checks."""
+    """The cost of noticing results out of range: all programs with and without the checks."""
     print(f"checks of overflow, {rounds} rounds in turns, processor time (best)\n")
     print(f"{'program':16} {'with s':>9} {'without s':>9} {'ratio':>7}")
     ratios = []
@@ -200,7 +200,7 @@ def recheck(program, work):
 
 
 def scheduler(rapidc, work, rounds):
-    """What tasks and interrupts cost that wait while one task runs a million rounds of the scheduler."""
+    """The cost of tasks and interrupts that wait while one task runs a million rounds of the scheduler."""
     tasks = os.path.join(HERE, "tasks")
     million, waiting = (os.path.join(tasks, name + ".modx") for name in ("rounds", "waiting"))
     armed = os.path.join(work, "armed.modx")

@@ -54,7 +54,7 @@ TEST_CASE("values are written in the encoding of the file", "[edit]") {
                Catch::Contains("refused") && Catch::Contains("ISO 8859-1"));
 }
 
-TEST_CASE("an equal value is no change", "[edit]") {
+TEST_CASE("an equal value changes nothing", "[edit]") {
     const test::Parsed parsed = test::parseText("MODULE m\nVAR num a:=1;\nENDMODULE\n");
     const auto edits = edit::setInitialValue(*parsed.tree, "a", "1");
     CHECK(edits.ok());

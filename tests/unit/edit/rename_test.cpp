@@ -1,4 +1,4 @@
-// A name changes wherever it stands and means the same; what would change the program is refused.
+// A name changes at all its places and means the same; a change of the program is refused.
 
 #include "frontend/edit/apply_edits.h"
 #include "frontend/edit/rename.h"
