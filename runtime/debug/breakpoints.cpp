@@ -193,15 +193,18 @@ bool Breakpoints::isAt(const Frame& at) const {
 
 bool Breakpoints::dataStops(Task& task, Frame* at) {
     if (watches_.empty()) return false;
-    std::vector<int> hits;
+    std::vector<DataWatch> changed; // copies: a condition that waits lets clients change the list
     for (DataWatch& watch : watches_) {
         std::string value = watch.read();
         if (value == watch.last) continue;
-        std::string change = fmt::format("{} has changed", watch.name);
         watch.last = std::move(value);
+        changed.push_back(watch);
+    }
+    std::vector<int> hits;
+    for (const DataWatch& watch : changed) {
         if (watch.accepts && !watch.accepts(task, at)) continue;
         hits.push_back(watch.id);
-        change_ = std::move(change);
+        change_ = fmt::format("{} has changed", watch.name);
     }
     if (hits.empty()) return false;
     hits_ = std::move(hits);

@@ -272,5 +272,74 @@ def test_realtime_wait_can_be_paused(a):
     a.ended()
 
 
+def test_condition_without_end(a):
+    """pause ends the evaluation, and the program stops at the breakpoint."""
+    line = line_of("part.modx", "! call")
+    a.start("part.modx", [{"line": line, "condition": "forever() = 1"}])
+    a.ask("threads")
+    a.go("pause")
+    a.stopped("breakpoint", line)
+    a.set_lines("part.modx", [])
+    a.go()
+    a.run_out()
+
+
+def test_end_in_a_condition(a):
+    a.start("part.modx", [{"line": line_of("part.modx", "! call"), "condition": "forever() = 1"}])
+    a.ask("threads")
+    a.ask("disconnect")
+    a.ended()
+
+
+def test_goto_another_routine(a):
+    """Procedures without parameters: the pointer is at their first instruction."""
+    a.start("errors.modx", stopOnEntry=True)
+    a.stopped("entry")
+    line = line_of("errors.modx", "! handled")
+    targets = a.ask("gotoTargets", source={"path": path("errors.modx")}, line=line)["targets"]
+    a.go("goto", targetId=targets[0]["id"])
+    a.stopped("goto", line, "handled")
+    equal(a.value("zero + 1"), "1")
+    a.go()
+    equal(a.run_out(), ["in handler", "next"])
+
+
+def test_breakpoints_before_launch(a):
+    """They are not verified yet; an event follows."""
+    a.initialize()
+    made = a.set_lines("part.modx", [line_of("part.modx", "! first"), {"line": 1000}])
+    equal([m["verified"] for m in made], [False, False])
+    launched = a.send("launch", {"program": path("part.modx")})
+    a.event("initialized")
+    equal(a.event("breakpoint")["breakpoint"]["verified"], True)
+    a.ask("configurationDone")
+    a.answer(launched)
+    a.stopped("breakpoint", line_of("part.modx", "! first"))
+
+
+def test_pause_of_waits(a):
+    """A loop of waits in virtual time."""
+    a.start("two_a.modx", tasks=["T_B=" + path("polls.modx")])
+    a.event("output", output="a ends\n")
+    threads = {t["name"]: t["id"] for t in a.ask("threads")["threads"]}
+    a.go("pause", thread=threads["T_B"])
+    stop = a.stopped("pause")
+    equal(stop["threadId"], threads["T_B"])
+    a.ask("evaluate", expression="left := TRUE", frameId=a.top(threads["T_B"]), context="repl")
+    a.go()
+    a.run_out()
+
+
+def test_constants_of_routines(a):
+    a.start("polls.modx", stopOnEntry=True)
+    a.stopped("entry")
+    local = a.scope("Locals")
+    equal((local["SPAN"]["value"], local["SPAN"]["type"]), ("0.5", "num"))
+    equal(local["NAMES"]["value"], '["a","b"]')
+    equal(a.value("SPAN * 2"), "1")
+    scopes = {s["name"]: s["variablesReference"] for s in a.ask("scopes", frameId=a.top())["scopes"]}
+    a.refused("setVariable", variablesReference=scopes["Locals"], name="SPAN", value="1")
+
+
 if __name__ == "__main__":
     main(globals())

@@ -177,8 +177,10 @@ Json BreakpointRequests::setFunctionBreakpoints(const Arguments& arguments) {
 }
 
 Json BreakpointRequests::dataBreakpointInfo(const Arguments& arguments) {
-    const std::string name = arguments.text("name");
     (void)context_.debugger();
+    std::string name = arguments.text("name");
+    if (arguments.has("variablesReference"))
+        name = context_.expressionOf(arguments.number("variablesReference"), name);
     std::string problem;
     const bool known = static_cast<bool>(readerOf(context_, name, problem));
     if (!known) return {{"dataId", nullptr}, {"description", problem}};

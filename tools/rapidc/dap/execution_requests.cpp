@@ -123,6 +123,8 @@ Json ExecutionRequests::pause(const Arguments& arguments) {
         return nullptr;
     }
     if (!context_.running) throw Refusal("the program is not executing");
+    for (const auto& each : context_.controller().tasks())
+        if (each->events().isVisited()) each->events().endVisit(); // the condition of a breakpoint
     if (const std::string problem = debugger.pause(task); !problem.empty()) throw Refusal(problem);
     return nullptr;
 }

@@ -34,6 +34,7 @@ namespace {
 
 constexpr const char* kModule = "rapidc_expression";
 constexpr const char* kRoutine = "rapidc_evaluate";
+constexpr const char* kShown = "(expression)"; ///< its name in events
 constexpr const char* kResult = "rapidc_result";
 constexpr const char* kError = "rapidc_error";
 
@@ -188,6 +189,25 @@ std::string harmfulCall(const sema::Module& module, const syntax::Node& node) {
 
 } // namespace
 
+namespace {
+
+/// A movement instruction in the text; "" when there is none.
+std::string movement(const sema::Module& module, const syntax::Node& node) {
+    if (node.kind == syntax::NodeKind::CallStmt) {
+        const auto found = module.facts->calls.find(&node);
+        const sema::RoutineSymbol* routine =
+            found != module.facts->calls.end() ? found->second.routine : nullptr;
+        if (routine != nullptr && routine->effects == sema::Effects::Motion) return routine->name;
+    }
+    std::string found;
+    syntax::forEachChild(node, [&](const syntax::Node& child) {
+        if (found.empty()) found = movement(module, child);
+    });
+    return found;
+}
+
+} // namespace
+
 ExpressionCompiler::ExpressionCompiler(const Compilation& compilation, rt::Controller& controller)
     : compilation_(compilation), controller_(controller) {}
 
@@ -252,6 +272,10 @@ bool ExpressionCompiler::check(Draft& draft, std::string& problem) {
 }
 
 bool ExpressionCompiler::judge(const Draft& draft, std::string& problem) const {
+    if (const std::string move = movement(*draft.module, *onlyRoutine(*draft.module)); !move.empty()) {
+        problem = fmt::format("'{}' moves the robot, which only the program itself can do", move);
+        return false;
+    }
     if (draft.kind != ExpressionKind::Harmless) return true;
     const std::string call = harmfulCall(*draft.module, *valueOf(*onlyRoutine(*draft.module)));
     if (call.empty()) return true;
@@ -300,9 +324,11 @@ bool ExpressionCompiler::generate(const Draft& draft, CompiledExpression& out, s
         return false;
     }
     // What it calls by name may be LOCAL in the module that it stands in.
-    if (!draft.scope.module.empty())
-        for (ir::Routine& routine : made.routines)
-            if (routine.moduleName == kModule) routine.moduleName = draft.scope.module;
+    for (ir::Routine& routine : made.routines) {
+        if (routine.moduleName != kModule) continue;
+        if (!draft.scope.module.empty()) routine.moduleName = draft.scope.module;
+        routine.displayName = kShown;
+    }
     ImportedData data;
     for (const ir::Global& global : made.globals)
         if (global.kind == ir::GlobalKind::External) {
@@ -344,7 +370,7 @@ bool ExpressionCompiler::map(const rt::UnitImage& image, const ImportedData& dat
         return false;
     }
     for (uint32_t i = 0; i < program.routineCount; ++i)
-        if (rt::sameName(program.routines[i].name, kRoutine)) out.entry = &program.routines[i];
+        if (rt::sameName(program.routines[i].name, kShown)) out.entry = &program.routines[i];
     if (out.entry == nullptr || out.entry->late == nullptr) problem = "the expression cannot be called";
     return problem.empty();
 }

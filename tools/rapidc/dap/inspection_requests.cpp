@@ -35,6 +35,12 @@ std::string completed(const std::string& text) {
 
 } // namespace
 
+InspectionRequests::InspectionRequests(Context& context) : context_(context), variables_(context) {
+    context.expressionOf = [this](int64_t reference, const std::string& name) {
+        return variables_.expressionOf(reference, name);
+    };
+}
+
 void InspectionRequests::addTo(Handlers& handlers) {
     const auto add = [&](const char* name, Json (InspectionRequests::*handler)(const Arguments&)) {
         handlers[name] = [this, handler](const Request&, const Arguments& arguments) {
@@ -68,6 +74,10 @@ void InspectionRequests::forget() {
 InspectionRequests::FrameList& InspectionRequests::framesOf(rt::Task& task) {
     const auto [found, isNew] = frames_.try_emplace(&task);
     if (isNew) {
+        if (context_.evaluator->isBusy()) {
+            frames_.erase(found);
+            throw Refusal("an expression is being evaluated");
+        }
         found->second.frames = context_.debugger().frames(task);
         found->second.first = nextFrame_;
         nextFrame_ += static_cast<int64_t>(found->second.frames.size());

@@ -131,7 +131,7 @@ void Session::handle(const Request& request) {
         if (answer) client_.answer(request, std::move(*answer));
     } catch (const Refusal& refusal) {
         client_.refuse(request, refusal.what());
-    } catch (const nlohmann::json::exception& problem) {
+    } catch (const std::exception& problem) {
         client_.refuse(request, problem.what());
     }
     showStray();
@@ -366,6 +366,13 @@ std::string Session::reasonOf(rt::StopReason reason) const {
 }
 
 void Session::stopped(rt::Debugger& debugger, rt::Task& task, rt::StopReason reason) {
+    // The program pointer at another routine: that is entered, so that there is a place to show.
+    if (reason == rt::StopReason::Pointer && debugger.frames(task).empty() &&
+        debugger.enterRoutine(task).empty()) {
+        entering_ = true;
+        return;
+    }
+    if (std::exchange(entering_, false) && reason == rt::StopReason::Step) reason = rt::StopReason::Pointer;
     inspection_.forget();
     execution_.forgetTargets();
     context_.stopped = &task;

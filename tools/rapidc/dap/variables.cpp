@@ -3,6 +3,7 @@
 #include "runtime/base/text_util.h"
 #include "runtime/sched/error_search.h"
 #include "runtime/value/value_text.h"
+#include "tools/rapidc/dap/routine_constants.h"
 
 #include <algorithm>
 #include <deque>
@@ -79,6 +80,10 @@ std::vector<Variables::Child> Variables::scopeOf(const Node& node) const {
         for (rt::DebugVariable& variable : debugger.locals({rt::placeOf(node.frame), node.frame, false}))
             if (variable.isParameter == (node.scope == Scope::Parameters))
                 list.push_back({variable.name, variable.name, std::move(variable)});
+        if (node.scope == Scope::Locals)
+            for (ConstantText& constant :
+                 constantsOf(context_.program->compilation(), node.task->index(), *node.frame->routine))
+                list.push_back({constant.name, constant.name, {}, constant.value, constant.type});
         return list;
     }
     const rt::ProgramTables& tables = context_.controller().tables();
@@ -160,12 +165,15 @@ Json Variables::describe(const rt::DebugVariable& variable, const std::string& e
 }
 
 Json Variables::entry(const Child& child, const std::shared_ptr<void>& storage) {
-    Json json = describe(child.value, child.expression, storage);
+    Json json = child.text.empty()
+                    ? describe(child.value, child.expression, storage)
+                    : Json{{"value", child.text}, {"type", child.type}, {"variablesReference", 0}};
     json["name"] = child.name;
     if (!child.expression.empty()) json["evaluateName"] = child.expression;
     Json attributes = Json::array();
-    if (child.value.isConstant) attributes.push_back("constant");
-    if (child.value.isConstant || child.value.data == nullptr) attributes.push_back("readOnly");
+    const bool constant = child.value.isConstant || !child.text.empty();
+    if (constant) attributes.push_back("constant");
+    if (constant || child.value.data == nullptr) attributes.push_back("readOnly");
     if (!attributes.empty()) json["presentationHint"] = {{"attributes", std::move(attributes)}};
     return json;
 }
@@ -231,14 +239,24 @@ Json Variables::set(const Arguments& arguments) {
     const Node node = find(arguments.number("variablesReference"));
     const std::string name = arguments.text("name");
     const std::string text = arguments.text("value");
+    const Child child = findChild(node, name);
+    if (node.storage) throw Refusal("the value of an expression cannot be changed");
+    if (!child.text.empty()) throw Refusal(fmt::format("'{}' is a constant", child.name));
+    assign(child.value, text);
+    return describe(child.value, child.expression);
+}
+
+Variables::Child Variables::findChild(const Node& node, const std::string& name) const {
     const std::vector<Child> all =
-        node.scope == Scope::None ? childrenOf(node, 0, kMostChildren) : scopeOf(node);
+        node.scope == Scope::None ? childrenOf(node, 0, UINT32_MAX) : scopeOf(node);
     const auto same = [&](const Child& child) { return rt::sameName(child.name, name); };
     const auto found = std::find_if(all.begin(), all.end(), same);
     if (found == all.end()) throw Refusal(fmt::format("there is no variable '{}'", name));
-    if (node.storage) throw Refusal("the value of an expression cannot be changed");
-    assign(found->value, text);
-    return describe(found->value, found->expression);
+    return *found;
+}
+
+std::string Variables::expressionOf(int64_t reference, const std::string& name) const {
+    return findChild(find(reference), name).expression;
 }
 
 } // namespace rapidc::dap
