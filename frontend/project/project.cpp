@@ -146,23 +146,38 @@ class Loader {
         return findPath(folder, std::string_view(name).substr(name.find_last_of("/\\:") + 1));
     }
 
+    /// The place of a module's name in a program file, or its beginning.
+    static SourceRange placeIn(const SourceFile& file, const std::string& name) {
+        const std::string_view text = file.text();
+        std::string other = name; // as it may be written
+        std::replace(other.begin(), other.end(), '/', '\\');
+        for (const std::string& form : {name, other})
+            if (const size_t at = text.find(form); at != std::string_view::npos)
+                return {static_cast<uint32_t>(at), static_cast<uint32_t>(at + form.size())};
+        return {};
+    }
+
     void addProgram(const fs::path& path, sema::TaskInput& task) {
         std::string text;
         if (!files_.read(path, text)) return;
         std::vector<std::string> modules;
-        if (!readProgramFile(text, modules)) {
-            report(say::BadProgramFile,
-                   {path.string(),
-                    "expected the XML program description of a controller, from <Program> to </Program>"});
+        const bool readable = readProgramFile(text, modules);
+        const auto file = std::make_shared<const SourceFile>(path.string(), std::move(text));
+        if (!readable) {
+            sink_.report(
+                say::BadProgramFile, file, {},
+                {path.string(),
+                 "expected the XML program description of a controller, from <Program> to </Program>"});
             return;
         }
-        if (modules.empty()) report(say::BadProgramFile, {path.string(), "it names no modules"});
+        if (modules.empty())
+            sink_.report(say::BadProgramFile, file, {}, {path.string(), "it names no modules"});
         task.incomplete = true; // system modules, which it never lists, may declare more
         const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
         for (const std::string& name : modules) {
             const fs::path found = findModule(folder, name);
             if (found.empty())
-                report(say::ProgramModuleMissing, {path.string(), name});
+                sink_.report(say::ProgramModuleMissing, file, placeIn(*file, name), {path.string(), name});
             else
                 files_.addModule(path.parent_path().empty() ? found.lexically_relative(".") : found, task);
         }

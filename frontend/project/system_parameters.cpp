@@ -41,8 +41,8 @@ TaskParameters readTaskParameters(std::string_view text) {
             module.shared = instance.flag("Shared");
             module.allMotionTasks = instance.flag("AllMotionTask");
             // The copy of a shared module that belongs to no task is part of each.
-            module.allTasks = instance.flag("AllTask") ||
-                              (module.shared && module.task.empty() && !module.allMotionTasks);
+            module.allTasks =
+                instance.flag("AllTask") || (module.shared && module.task.empty() && !module.allMotionTasks);
             if (!module.file.empty()) parameters.modules.push_back(std::move(module));
         }
     }

@@ -35,9 +35,10 @@ struct CompletionItem {
                  ///< have the indentation relative to that of the line.
     std::string sortText;
     std::string filterText;
-    std::string key;             ///< for documentationOf(key); empty: there is none
-    std::vector<TextEdit> edits; ///< further edits of the same file
-    bool fits = false;           ///< it has the type that is expected
+    std::string key;                      ///< for documentationOf(key); empty: there is none
+    std::vector<TextEdit> edits;          ///< further edits of the same file
+    const sema::Symbol* symbol = nullptr; ///< of this generation; null: it is not a declared name
+    bool fits = false;                    ///< it has the type that is expected
 };
 
 struct CompletionList {

@@ -104,8 +104,8 @@ void Analyzer::setMissingModules(const TaskInput& input) {
         if (file->isBinary())
             state_.task.missingModules.push_back(std::filesystem::path(file->path()).filename().string());
     state_.task.bindsLate = input.bindsLate;
-    state_.task.incomplete =
-        input.incomplete || input.bindsLate || state_.task.missingModules.size() > input.missingModules.size();
+    state_.task.incomplete = input.incomplete || input.bindsLate ||
+                             state_.task.missingModules.size() > input.missingModules.size();
 }
 
 void Analyzer::startTask(const TaskInput& input) {

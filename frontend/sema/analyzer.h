@@ -54,6 +54,12 @@ class Analyzer {
     const TaskContext& task() const { return state_.task; }
 
     void keepFacts() { state_.keepsFacts = true; }
+    /// Session::setGuest.
+    void setGuest(const std::string& guest, const std::string& host) {
+        state_.guest = state_.names.intern(guest);
+        state_.host = state_.names.intern(host);
+        state_.hasGuest = true;
+    }
     /// Before the first task: all of them, because each can name the others.
     void setTaskNames(std::vector<std::string> names) { state_.taskNames = std::move(names); }
 

@@ -191,9 +191,8 @@ Meant UnknownNames::reportUnknown(diag::Message<2> message, TokenIndex token, Na
 
 void UnknownNames::reportMayBeDeclared(TokenIndex token, const std::string& hint) {
     const std::string where = !task_.missingModules.empty() ? listed(task_.missingModules)
-                              : task_.bindsLate
-                                  ? "a module that is loaded later (BindRef of the task is off)"
-                                  : "a module that is not here, such as a system module";
+                              : task_.bindsLate ? "a module that is loaded later (BindRef of the task is off)"
+                                                : "a module that is not here, such as a system module";
     report(say::MayBeDeclared, range(token), {text(token), where, hint});
 }
 

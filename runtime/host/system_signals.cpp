@@ -50,9 +50,9 @@ void SystemSignals::configure(const CfgFile& file, std::vector<CfgProblem>& prob
         if (id < 0) {
             problems.push_back(
                 {file.name, instance.line,
-                 name.empty() ? "system signal without a signal: add -Signal and its name"
-                              : fmt::format("system signal: signal '{}' is not defined; add it to EIO_SIGNAL",
-                                            name),
+                 name.empty()
+                     ? "system signal without a signal: add -Signal and its name"
+                     : fmt::format("system signal: signal '{}' is not defined; add it to EIO_SIGNAL", name),
                  true});
         }
         return id;

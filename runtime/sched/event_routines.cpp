@@ -4,6 +4,7 @@
 #include "runtime/sched/task.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace rt {
 namespace {
@@ -27,7 +28,7 @@ SystemEvent systemEventOf(std::string_view shelf) {
 }
 
 const char* nameOf(SystemEvent event) {
-    return kNames[indexOf(event)];
+    return event == SystemEvent::Visit ? "" : kNames[indexOf(event)];
 }
 
 void EventRoutines::add(SystemEvent event, EntryFunction routine) {
@@ -61,7 +62,45 @@ Status EventRoutines::runOwed() {
     return kOk;
 }
 
+void EventRoutines::order(Visit visit) {
+    visit_ = std::move(visit);
+    owed_.push_front(SystemEvent::Visit);
+    task_.interruptPosted();
+}
+
+Status EventRoutines::runVisit() {
+    const Visit visit = std::exchange(visit_, nullptr);
+    const Status status = visitNow(visit);
+    return status > 0 ? kOk : status; // whoever visits knows of errors
+}
+
+bool EventRoutines::endVisit() {
+    if (running_ == SystemEvent::Visit) {
+        task_.endEventRoutine();
+        return true;
+    }
+    visit_ = nullptr;
+    std::erase(owed_, SystemEvent::Visit);
+    return false;
+}
+
+Status EventRoutines::visitNow(const Visit& visit) {
+    Frame* const interrupted = task_.frame;
+    Task::ErrorInProgress error = task_.errorInProgress();
+    const int32_t interruptNumber = task_.interruptNumber;
+    const SystemEvent outer = std::exchange(running_, SystemEvent::Visit);
+    Frame boundary{interrupted, &kEventBoundary, -1, 0};
+    task_.frame = &boundary;
+    const Status status = visit(task_, &boundary);
+    running_ = outer;
+    task_.frame = interrupted;
+    task_.setErrorInProgress(std::move(error));
+    task_.interruptNumber = interruptNumber;
+    return task_.takeEventEnd() ? kOk : status;
+}
+
 Status EventRoutines::run(SystemEvent event) {
+    if (event == SystemEvent::Visit) return runVisit();
     // The interrupted code must not see that something ran in between.
     Frame* const interrupted = task_.frame;
     const int32_t errorNumber = task_.errorNumber;

@@ -14,6 +14,9 @@ class StepHook {
     virtual int32_t beforeStatement(Task& task, Frame* at) = 0;
     /// An error in a statement that is executed backwards cannot be handled (manual 1.21).
     virtual bool isBackward(const Task& task) const = 0;
+    /// Called on the task's fibre when an error has been raised and a handler will take it, before anything is unwound. May
+    /// stop the task; a negative status unwinds it.
+    virtual Status handledErrorRaised(Task&, int) { return kOk; }
     /// An error while this hook leads a task back to where an earlier process stood (Task::reenter). A negative status.
     virtual Status failed(Task&) { return kUnwind; }
 

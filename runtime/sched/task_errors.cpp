@@ -161,6 +161,10 @@ Status Task::dispatchError(const ErrorRoute& route, int number, const Frame* fro
     if (guide_ != nullptr) return guide_->failed(*this);
     const bool backward =
         stepHook_ != nullptr && stepHook_->isBackward(*this); // no handler then (manual 1.21)
+    if (route.handler != nullptr && !backward && stepHook_ != nullptr && unwinding_ == Unwind::None &&
+        events_.running() == SystemEvent::None) {
+        if (const Status status = stepHook_->handledErrorRaised(*this, number); status < 0) return status;
+    }
     if (route.longJump && !backward) return startJump(route.handler, number);
     if (route.handler != nullptr && !backward) {
         noteHandled(route.handler, number);

@@ -19,6 +19,8 @@ void addRobotsCommand(rt::CommandLine& line);
 void addFmtCommand(rt::CommandLine& line);
 void addRenameCommand(rt::CommandLine& line);
 void addSetValueCommand(rt::CommandLine& line);
+void addLspCommand(rt::CommandLine& line);
+void addDapCommand(rt::CommandLine& line);
 void addCompileUnitCommand(rt::CommandLine& line);
 
 } // namespace rapidc

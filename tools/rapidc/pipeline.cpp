@@ -89,6 +89,7 @@ bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping,
     options.calledFromOutside = calledFromOutside;
     options.programName = name;
     options.stepping = stepping;
+    options.callsByName = compilation.callsByName;
     options.configNames = compilation.configNames;
     options.configTexts = compilation.configTexts;
     options.eventRoutines = compilation.eventRoutines;

@@ -45,9 +45,9 @@ Status checkLag(TaskCore* task, double lag) {
     if (lag == 0) return kOk;
     const std::optional<double> preset = eventPresetTime(taskOf(task).controller());
     if (!preset || lag <= *preset) return kOk;
-    return lib::failWith(task, err::ERR_DIPLAG_LIM,
-                         "\\DipLag of TriggSpeed is {} s, but event_preset_time of MOC.cfg is {} s: enlarge it", lag,
-                         *preset);
+    return lib::failWith(
+        task, err::ERR_DIPLAG_LIM,
+        "\\DipLag of TriggSpeed is {} s, but event_preset_time of MOC.cfg is {} s: enlarge it", lag, *preset);
 }
 
 /// Its signal can be used, and the output of a TriggSpeed can follow the programmed speed.

@@ -3,7 +3,7 @@
 
 #include "frontend/query/completion.h"
 
-#include "../sema/sema_testing.h"
+#include "tests/unit/sema/sema_testing.h"
 
 #include <map>
 
