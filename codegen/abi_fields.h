@@ -68,7 +68,7 @@ template <class... F> constexpr std::tuple<const F*...> addressesOf(const F&... 
 #define RAPIDC_RUNG(number, ...)                                                                             \
     if constexpr (count == number) { const auto& [__VA_ARGS__] = kSample<T>; return addressesOf(__VA_ARGS__); } else
 
-/// Where the fields of kSample<T> lie. T has no base.
+/// The offsets of the fields of kSample<T>. T has no base.
 template <class T> constexpr auto fieldAddresses() {
     constexpr size_t count = countFields<T>();
     static_assert(count >= 1 && count <= 28, "a struct of more fields needs a further rung");
@@ -157,7 +157,7 @@ constexpr size_t roundUp(size_t size, size_t align) {
     return (size + align - 1) / align * align;
 }
 
-/// The fields, each at the first place behind the one before that its alignment allows: LLVM lays structs out that way.
+/// The fields, each at the first place after the one before that its alignment allows: LLVM lays structs out that way.
 /// C++ does, too, unless a struct has attributes of layout, or a base with a gap at its end.
 template <class T> constexpr auto placedFields() {
     auto fields = unplacedFields<T>();

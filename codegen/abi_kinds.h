@@ -1,5 +1,5 @@
 #pragma once
-// What the IR and the runtime call the same thing. They may not include each other: here, in one place, each name of the IR
+// Names of the same things in the IR and in the runtime. They may not include each other: here, in one place, each name of the IR
 // gets its counterpart, and one that is added to the IR and has none does not compile (a switch without a default).
 
 #include <llvm/Support/ErrorHandling.h>

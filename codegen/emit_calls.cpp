@@ -44,7 +44,7 @@ void RoutineEmitter::storeStatement(Value* stmt) {
     storeFrame<&rt::Frame::statement>(stmt);
 }
 
-/// Stores the statement ahead of a call, unless the call before it in this block did.
+/// Stores the statement before a call, unless the call before it in this block did.
 void RoutineEmitter::noteStatement(const ir::Inst& inst) {
     if (storedStmt_ == inst.stmt) return;
     storeStatement(stmtNumber(inst));
@@ -181,7 +181,7 @@ void RoutineEmitter::checkBudget(const ir::Inst& inst, Value* left) {
     storedStmt_.reset(); // the slow path stores its own
 }
 
-/// Who watches the program is asked which statement to go on with; usually it is this one. Nobody is as a rule.
+/// If a debugger is attached, ask it which statement to execute next; usually it is this one. As a rule none is attached.
 void RoutineEmitter::step(const ir::Inst& inst) {
     Value* here = b_.getInt32(inst.index);
     storeStatement(here);

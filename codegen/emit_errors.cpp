@@ -57,7 +57,7 @@ void RoutineEmitter::raise(const ir::Inst& inst) {
     b_.CreateBr(raiseFrom(inst, number));
 }
 
-/// Goes on when the status of a routine is 0. Its errors have been raised already.
+/// Continues when the status of a routine is 0. Its errors have been raised already.
 void RoutineEmitter::continueIfOk(const ir::Inst& inst, Value* status) {
     BasicBlock* ok = newBlock("ok");
     BasicBlock* fail = joinFrom(isHandled(inst) && !inUndo() ? dispatchJoin() : leaveJoin(), status);
@@ -80,7 +80,7 @@ void RoutineEmitter::continueIfNativeOk(const ir::Inst& inst, Value* status, Bas
     if (before) storeTaskFrame(before); // the record of a caller: this routine does not set its own
     if (routine_.stepping && !inUndo() && inst.stmt < routine_.statements.size() &&
         routine_.statements[inst.stmt].start != ir::kNone) {
-        call = newBlock("again"); // the whole statement: what its arguments are made of may have been mended
+        call = newBlock("again"); // the whole statement: the data of its arguments may have been corrected
         llvm::IRBuilder<>::InsertPointGuard guard(b_);
         b_.SetInsertPoint(call);
         Value* stmt = abi::loadField<&rt::Frame::statement>(b_, frame_);
@@ -97,7 +97,7 @@ void RoutineEmitter::handlerCall(const ir::Inst& inst, HandlerCall callee) {
     leaveOrAgain(callee.call(b_, task_, frame_));
 }
 
-/// After the system handler: leaves the routine, or, started again in the stepping profile, goes on with the statement
+/// After the system handler: leaves the routine, or, started again in the stepping profile, continues with the statement
 /// of the frame record.
 void RoutineEmitter::leaveOrAgain(Value* status) {
     if (!routine_.stepping || inUndo()) {
@@ -177,7 +177,7 @@ void RoutineEmitter::emitRaise(ErrorJoin& join, bool handled) {
     b_.CreateBr(next.block);
 }
 
-/// An UNDO handler that ends early: the runtime may have told to skip those of the callers, too (kUnwindSilent).
+/// An UNDO handler that ends early: the runtime may have ordered to skip those of the callers, too (kUnwindSilent).
 void RoutineEmitter::returnFromUndo(Value* status) {
     Value* unwinding = b_.CreateLoad(b_.getInt32Ty(), unwinding_);
     returnStatus(b_.CreateSelect(b_.CreateICmpSLT(status, statusValue(rt::kOk)), status, unwinding));
@@ -212,7 +212,7 @@ void RoutineEmitter::emitDispatch() {
     }
 }
 
-/// Goes on with the statement whose number the controller gave; a negative number is a status.
+/// Continues with the statement whose number the controller gave; a negative number is a status.
 void RoutineEmitter::emitSteps() {
     b_.SetInsertPoint(steps_.block);
     ErrorJoin& leaving = leaveJoin();

@@ -1,5 +1,5 @@
 // Position-independent images: the object is linked here for an imaginary place, far from everything it imports, so that
-// each address that depends on the real place or on an import stands in 8 bytes of its own; those are listed.
+// each address that depends on the real place or on an import has 8 bytes of its own; those are listed.
 
 #include <llvm/ADT/SmallVector.h>
 #include <llvm/ExecutionEngine/JITLink/JITLink.h>
@@ -26,7 +26,7 @@ bool allows(const orc::AllocGroup& group, orc::MemProt wanted) {
     return (static_cast<unsigned>(group.getMemProt()) & static_cast<unsigned>(wanted)) != 0;
 }
 
-/// Lays the segments out one behind the other and keeps their bytes.
+/// Lays the segments out one after the other and keeps their bytes.
 class ImageMemory : public jitlink::JITLinkMemoryManager {
   public:
     explicit ImageMemory(rt::UnitImage& image) : image_(image) {}
@@ -152,7 +152,7 @@ class ImageContext : public jitlink::JITLinkContext {
 bool emitImage(const ir::Module& module, const CodegenOptions& options, rt::UnitImage& image,
                std::string& error) {
     CodegenOptions plain = options;
-    plain.debugInfo = false; // nobody would read it
+    plain.debugInfo = false; // it would not be read
     llvm::SmallVector<char, 0> bytes;
     if (!compileTo(module, plain, llvm::CodeGenFileType::ObjectFile, bytes, error)) return false;
     image = {};

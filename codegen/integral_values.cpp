@@ -40,7 +40,7 @@ class Web {
                 (inst.getType()->isFloatTy() || inst.getType()->isDoubleTy()))
                 nodes_.insert({&inst, nullptr});
         dropUnless([&](const llvm::Instruction& node) { return isOneOfWholes(node); });
-        // Where nothing is converted back, the floating-point number is what is wanted.
+        // If no value is converted back, the floating-point number is the result.
         dropUnless([&](const llvm::Instruction& node) {
             return std::any_of(node.user_begin(), node.user_end(), [&](const llvm::User* user) {
                 return llvm::isa<llvm::FPToSIInst>(user) || llvm::isa<llvm::FPToUIInst>(user) ||
@@ -77,7 +77,7 @@ class Web {
                            [&](unsigned i) { return isWhole(node.getOperand(i), whereUsed(node, i)); });
     }
 
-    /// Where the operand takes effect: checks on the way there bound it.
+    /// The place where the operand takes effect: checks on the way there bound it.
     static llvm::Instruction* whereUsed(const llvm::Instruction& node, unsigned operand) {
         const auto* phi = llvm::dyn_cast<llvm::PHINode>(&node);
         return phi ? phi->getIncomingBlock(operand)->getTerminator() : const_cast<llvm::Instruction*>(&node);
@@ -171,7 +171,7 @@ class Web {
                                            ? &*node->getParent()->getFirstInsertionPt()
                                            : made->getNextNode();
             llvm::IRBuilder<> b(after);
-            // What is known of the numbers gets lost in loops; the mask says it.
+            // Ranges of numbers get lost in loops; the mask keeps them.
             Value* bounded =
                 b.CreateAnd(made, llvm::ConstantInt::get(made->getType(), (uint64_t{1} << bits_[node]) - 1));
             masks_.emplace_back(bounded);

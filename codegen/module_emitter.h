@@ -21,7 +21,7 @@
 
 namespace codegen {
 
-/// What one LLVM module contains of a program that is compiled in several.
+/// The part of a program that one LLVM module contains, of a program that is compiled in several.
 struct Part {
     bool tables = false;            ///< data, tables, C entries
     std::vector<uint32_t> routines; ///< that other parts call
@@ -120,7 +120,7 @@ class ModuleEmitter {
     llvm::GlobalVariable* routineDesc(uint32_t index);
     /// The entry with the C calling convention of an exported routine.
     llvm::Function* cEntry(uint32_t index);
-    /// What a call of the routine at the place of the builder calls.
+    /// The callee of a call of the routine at the place of the builder.
     llvm::FunctionCallee callee(llvm::IRBuilderBase& b, uint32_t index);
     bool countsCalls(uint32_t index) const;
 

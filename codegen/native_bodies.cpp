@@ -11,7 +11,7 @@
 namespace codegen {
 namespace {
 
-/// LLVM knows these by name and nature, and replaces short ones by instructions.
+/// LLVM knows these by name and nature, and emits instructions for short ones.
 bool isMemoryFunction(llvm::StringRef name) {
     return llvm::StringSwitch<bool>(name)
         .Cases("memcpy", "memmove", "memset", "memcmp", "bcmp", "memchr", "strlen", true)

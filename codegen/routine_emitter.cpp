@@ -10,7 +10,7 @@
 namespace codegen {
 namespace {
 
-/// Larger locals are allocated behind the check of the stack, so that overflow is found before they are touched.
+/// Larger locals are allocated after the check of the stack, so that overflow is found before they are touched.
 constexpr uint64_t kLargeLocal = 4096;
 
 } // namespace
@@ -115,7 +115,7 @@ void RoutineEmitter::findFailing() {
                 mayFail_[inst.stmt] = mayFail_[inst.stmt] || ir::mayRaise(module_, inst);
 }
 
-/// Where statements begin that RETRY may execute again.
+/// Beginnings of statements that RETRY may execute again.
 void RoutineEmitter::findRetried() {
     const auto isRetry = [&](ir::BlockId b) {
         return routine_.insts[routine_.blocks[b].insts.back()].op == ir::Op::Retry;
@@ -126,7 +126,7 @@ void RoutineEmitter::findRetried() {
         ir::BlockId start = routine_.statements[s].start;
         if (!mayFail_[s] || !routine_.statements[s].handled || start == ir::kNone) continue;
         beginsRetried_[start] = true;
-        // A loop goes back to the block behind.
+        // A loop goes back to the next block.
         if (isEmpty(start)) beginsRetried_[routine_.insts[routine_.blocks[start].insts[0]].target[0]] = true;
     }
 }
@@ -225,8 +225,8 @@ void RoutineEmitter::prologue() {
     if (addresses_) fillAddresses();
 }
 
-/// Tells the debugger, and the handler that runs on top of others, where the locals lie. A loop variable can be looked at
-/// ahead of its loop: it is 0 there.
+/// Gives the debugger, and the handler that runs on top of others, the places of the locals. A loop variable can be looked at
+/// before its loop: it is 0 there.
 void RoutineEmitter::fillAddresses() {
     const std::vector<uint32_t> addressed = addressedLocals(routine_);
     for (uint32_t i = 0; i < addressed.size(); ++i) {
@@ -278,7 +278,7 @@ void RoutineEmitter::storeTaskFrame(Value* frame) {
         ->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().task);
 }
 
-/// What the runtime counts RETRYs by.
+/// The key by which the runtime counts RETRYs.
 void RoutineEmitter::markFrame(int32_t content) {
     storeFrame<&rt::Frame::reserved>(b_.getInt32(static_cast<uint32_t>(content)));
 }

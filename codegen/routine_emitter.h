@@ -205,7 +205,7 @@ class RoutineEmitter {
     bool setsTaskFrame_; ///< TaskCore::frame is this routine's record while it runs
     ir::BlockId current_ = 0;
     std::optional<ir::StmtId> storedStmt_;  ///< what the frame record is known to hold at this point
-    ErrorJoin steps_;                       ///< stepping: `number` is the statement to go on with
+    ErrorJoin steps_;                       ///< stepping: `number` is the statement to execute next
     llvm::AllocaInst* addresses_ = nullptr; ///< stepping: of the locals that are described
     BasicBlock* enterHandler_ = nullptr;
     ErrorJoin raiseHandled_, raiseUnhandled_, dispatch_, leave_, raiseUndo_, leaveUndo_;

@@ -225,7 +225,7 @@ bool WideLoop::sameObject(ValueId a, ValueId b) const {
     return x.op == y.op && x.index == y.index;
 }
 
-/// What a round stores, no other round reads or stores; and a round reads it before it stores.
+/// Data that a round stores are not read or stored by another round; and a round reads them before it stores.
 bool WideLoop::isIndependent() const {
     const auto named = [&](ValueId object) {
         const Inst& inst = routine_.insts[object];

@@ -25,7 +25,7 @@ class WideLoop {
     friend class RoutineEmitter;
 
     enum class Kind : uint8_t { Uniform, Index, Vector, Address };
-    /// What an instruction of the loop yields in the round with counter c.
+    /// The value of an instruction of the loop in the round with counter c.
     struct Lane {
         Kind kind = Kind::Uniform;
         std::optional<int64_t> offset; ///< Index, Address: c + offset, when that is known

@@ -18,7 +18,7 @@ EXEMPT = {
     ("RMQReadWait", "ERR_RMQ_INVMSG"): "only a client outside of the controller sends such messages",
     ("StartMoveRetry", "ERR_PROGSTOP"): "the handler that executes it belongs to a program that is started",
     ("StartMoveRetry", "ERR_STARTMOVE"): "the handler that executes it belongs to a program that is started",
-    ("UIMsgWrite", "ERR_TP_NO_CLIENT"): "the message is written to the console when nobody else shows it",
+    ("UIMsgWrite", "ERR_TP_NO_CLIENT"): "the message is written to the console when no client shows it",
     ("UIShow", "ERR_UISHOW_FULL"): "RobotWare 7 has no such views: the first one raises ERR_UISHOW_FATAL",
 }
 

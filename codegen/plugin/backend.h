@@ -31,7 +31,7 @@ constexpr uint64_t layoutOfInterface() {
 
 /// Name of the library's only exported function.
 inline constexpr const char* kBackendSymbol = "rapidc_codegen_backend";
-/// Where the library is, relative to the executable.
+/// The place of the library, relative to the executable.
 inline constexpr const char* kBackendPath = "lib/rapidc_codegen.so";
 
 } // namespace codegen

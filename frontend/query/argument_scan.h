@@ -17,7 +17,7 @@ class ArgumentScan {
     void run(const sema::DataType& type);
     /// The arguments of a procedure without parentheses; `callee` is kNoToken in a call by name.
     void runCall(syntax::TokenIndex callee);
-    /// What is expected at the offset.
+    /// The expected name or value at the offset.
     void fill(Cursor& cursor) const;
     /// No bracket is open.
     bool outermost() const { return frames_.size() == 1; }

@@ -15,7 +15,7 @@ class Cancel {
     std::atomic<bool> requested_{false};
 };
 
-/// Queries take a pointer: null means that nobody cancels.
+/// Queries take a pointer: null means that it cannot be cancelled.
 inline bool isCancelled(const Cancel* cancel) {
     return cancel && cancel->requested();
 }

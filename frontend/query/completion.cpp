@@ -205,7 +205,7 @@ class Completer {
         item->snippet = escaped(routine.name) + (arguments.empty() ? "" : " " + arguments) + ";$0";
     }
 
-    /// What is known to be absent or present: of the type that the argument has.
+    /// Types of an argument that is known to be absent or present: that of the argument.
     void optionalParameters() {
         if (!scope_.around().routine) return;
         const Type* type = cursor_.type.type;
@@ -232,7 +232,7 @@ class Completer {
         if (options_.newData) newPoint();
     }
 
-    /// What is expected, once for each parameter that the argument may belong to.
+    /// The expected type, once for each parameter that the argument may belong to.
     std::vector<Cursor> alternatives() const {
         std::vector<Cursor> all(std::max<size_t>(1, cursor_.alternatives.size()), cursor_);
         for (size_t i = 0; i < cursor_.alternatives.size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// What could be written at an offset, directed by the type that is expected there.
+// Proposals for the text at an offset, directed by the type that is expected there.
 
 #include "frontend/query/cursor.h"
 

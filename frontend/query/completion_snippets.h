@@ -21,7 +21,7 @@ std::span<const Construct> handlerConstructs();
 
 /// The names of the required arguments as places: "${1:ToPoint},${2:Speed}"; `alone`: no place number, for plain text.
 std::string requiredArguments(const sema::RoutineSymbol& routine);
-/// What ends a snippet must not end it: `$`, `}` and `\` are escaped.
+/// Text in a snippet must not end it: `$`, `}` and `\` are escaped.
 std::string escaped(std::string_view text);
 
 } // namespace rapid::query

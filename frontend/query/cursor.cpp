@@ -58,7 +58,7 @@ class CursorReader {
         return t < tree_.tokens.size() ? tree_.tokens[t].kind : TokenKind::EndOfFile;
     }
 
-    /// False: the offset is in something that is no word, a number say.
+    /// False: the offset is in something that is not a word, such as a number.
     bool takeWord(TokenIndex before) {
         const SourceRange range = tree_.range(before);
         if (range.end < offset_) return true;

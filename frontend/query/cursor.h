@@ -1,5 +1,5 @@
 #pragma once
-// What is being written at an offset, from the tokens before it: which instruction, argument, component, expected type. The text
+// The text being written at an offset, from the tokens before it: which instruction, argument, component, expected type. The text
 // there is rarely complete, so no tree is needed.
 
 #include "frontend/query/scope.h"

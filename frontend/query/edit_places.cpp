@@ -177,7 +177,7 @@ std::string initialText(const DataType& type) {
 std::string freeName(const Scope& scope, std::string_view base, uint32_t first, uint32_t step) {
     const auto taken = [&](const std::string& name) {
         if (scope.find(name)) return true;
-        // A name in another routine of the module may hide the new one; that is no clash.
+        // A name in another routine of the module may hide the new one; that is not a clash.
         return keywordKind(name) != TokenKind::Identifier;
     };
     for (uint32_t i = 0; i < 10000; ++i) {

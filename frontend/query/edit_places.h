@@ -5,7 +5,7 @@
 
 namespace rapid::query {
 
-/// What whole lines need that are inserted: offset, and the text before and after each block.
+/// An insertion of whole lines: offset, and the text before and after each block.
 struct InsertPlace {
     uint32_t offset = 0;
     std::string indent; ///< of the lines

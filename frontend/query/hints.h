@@ -1,5 +1,5 @@
 #pragma once
-// What an editor shows between the lines: names of parameters, values of constants, lenses above routines.
+// Texts that an editor shows between the lines: names of parameters, values of constants, lenses above routines.
 
 #include "frontend/query/name_walk.h"
 

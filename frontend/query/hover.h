@@ -1,5 +1,5 @@
 #pragma once
-// What an editor shows of the thing under the pointer.
+// The text that an editor shows for the thing under the pointer.
 
 #include "frontend/query/describe.h"
 

@@ -7,7 +7,7 @@
 
 namespace rapid::query {
 
-/// What a call by name says about the procedures that it may mean.
+/// The procedures that a call by name may mean.
 struct LateCall {
     std::string beginning; ///< of the name, folded; all of it when `whole`
     bool whole = false;

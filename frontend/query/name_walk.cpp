@@ -73,7 +73,7 @@ class NameWalker {
     void type(TokenIndex name) {
         if (name != kNoToken) add(name, types_.findType(tree_.text(name)));
     }
-    /// What the checker did not look at, because of a mistake, means what the scope says.
+    /// A name that the checker did not look at, because of a mistake, means what the scope says.
     const Symbol* byScope(TokenIndex name) const {
         return name == kNoToken ? nullptr
                                 : Scope(snapshot_, file_, tree_.tokens[name].offset).find(tree_.text(name));

@@ -27,7 +27,7 @@ bool isInComment(const FileView& file, uint32_t offset);
 /// Between the quotes of a string.
 bool isInString(const FileView& file, uint32_t offset);
 
-/// Where an offset is. Nulls: not inside of such a thing.
+/// The place of an offset. Nulls: not inside of such a thing.
 struct Surroundings {
     const sema::Module* module = nullptr;
     const syntax::RoutineDecl* routineDecl = nullptr;

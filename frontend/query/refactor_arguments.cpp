@@ -45,7 +45,7 @@ std::string argumentFor(const RefactorPlace& place, const DataSymbol& param) {
     return param.name;
 }
 
-/// Where the arguments of a call are: after its name when there are none.
+/// The place of the arguments of a call: after its name when there are none.
 struct CallParts {
     const Node* node = nullptr;
     TokenIndex name = kNoToken;

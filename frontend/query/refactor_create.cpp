@@ -109,7 +109,7 @@ void createRoutine(const RefactorPlace& place, Refactorings& out) {
 
 namespace {
 
-/// What the place of an unknown name asks for.
+/// The kind of declaration that the place of an unknown name needs.
 struct Wanted {
     DataType type;
     ParamMode mode = ParamMode::In;

@@ -72,7 +72,7 @@ void inlineConstant(const RefactorPlace& place, Refactorings& out) {
         if (use.access != Access::Read || !parent || parent->kind == NodeKind::Component ||
             parent->kind == NodeKind::Index)
             return;
-        // What other constants mean may differ where the name is used: literals mean the same everywhere.
+        // Other constants may mean another thing where the name is used: literals mean the same everywhere.
         if (!isPlainLiteral(*data->init) && data->storage != Storage::ModuleData) return;
         refactoring.edits.push_back({use.place.range, value});
     }
@@ -86,7 +86,7 @@ void inlineConstant(const RefactorPlace& place, Refactorings& out) {
 
 namespace {
 
-/// What the uses of data allow it to be.
+/// The kinds that the uses of data allow.
 struct Allowed {
     bool constant = true, variable = true, persistent = true;
 };

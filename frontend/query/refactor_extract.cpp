@@ -64,7 +64,7 @@ std::vector<const Stmt*> selected(const RefactorPlace& place) {
     return found;
 }
 
-/// What the instructions take from the routine around them.
+/// The data that the instructions take from the routine around them.
 class Needs {
   public:
     Needs(const RefactorPlace& place, const std::vector<const Stmt*>& stmts) : place_(place), stmts_(stmts) {

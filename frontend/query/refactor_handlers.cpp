@@ -42,7 +42,7 @@ void addHandlers(const RefactorPlace& place, Refactorings& out) {
     if (!routine || !module || routine->name == kNoToken || routine->first == kNoToken ||
         routine->last <= routine->name)
         return;
-    // On the header only, so that it is no noise elsewhere.
+    // On the header only, so that it does not disturb elsewhere.
     const SourceRange header = {place.tree.range(routine->first).begin, place.tree.range(routine->name).end};
     if (place.selection.begin < header.begin || place.selection.begin > header.end) return;
     const TokenKind end = place.tree.tokens[routine->last].kind;

@@ -1,5 +1,5 @@
 #pragma once
-// What the single refactorings share. Each adds what it can do at the place.
+// The common part of the refactorings. Each adds what it can do at the place.
 
 #include "frontend/query/refactoring.h"
 

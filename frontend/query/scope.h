@@ -9,7 +9,7 @@ class Scope {
   public:
     Scope(const Snapshot& snapshot, const FileView& file, uint32_t offset);
 
-    /// What a name means here, in any case; null: nothing declares it.
+    /// The meaning of a name here, in any case; null: nothing declares it.
     const sema::Symbol* find(std::string_view name) const;
     const sema::TypeSymbol* findType(std::string_view name) const;
     /// A label of the routine.

@@ -62,7 +62,7 @@ class Snapshot {
     std::vector<const FileView*> filesOf(std::string_view path) const;
     const FileView* fileOf(const sema::Module& module) const;
 
-    /// What modules of the task declare for all of it.
+    /// The declarations of modules of the task that all of it sees.
     const NameTable& globals(const sema::Task& task) const;
     const NameTable& predefined() const;
     /// Signals, mechanical units and identities of tasks: by folded name.

@@ -11,7 +11,7 @@ namespace rapid::workspace {
 
 struct ModuleFiles {
     std::vector<std::string> paths;    ///< in the order of the inputs; those of a folder sorted
-    std::vector<std::string> problems; ///< inputs that are no modules
+    std::vector<std::string> problems; ///< inputs that are not modules
 };
 
 /// Files are taken as they are named; of a folder all modules in it and below it, encrypted ones left out.

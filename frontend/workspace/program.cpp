@@ -138,7 +138,7 @@ void Program::judge() {
 }
 
 namespace {
-/// What the check itself never says.
+/// Reports that the check itself never makes.
 bool isOfJudge(const diag::Diagnostic& d) {
     return d.code == diag::Code::BuiltinNotImplemented || d.code == diag::Code::BadDirective ||
            d.code == diag::Code::UnknownWarning || static_cast<int>(d.code) / 1000 == 8;

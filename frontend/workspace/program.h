@@ -46,7 +46,7 @@ class Program {
     uint64_t generation() const { return generation_; }
     /// Trees, symbols and facts of all tasks; of files with mistakes as well.
     const sema::CheckedProgram& checked() const { return session_->program(); }
-    /// What was loaded beside the modules: options of the check, configuration texts, problems with options. Its `program` is
+    /// The inputs beside the modules: options of the check, configuration texts, problems with options. Its `program` is
     /// empty and its `tasks` are the files as they are now.
     const Compilation& loaded() const { return *loaded_; }
     /// As `rapidc check` reports them, sorted by file and place. Takes a look at the whole program when something has changed

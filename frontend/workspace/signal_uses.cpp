@@ -48,7 +48,7 @@ std::string shortType(const DataSymbol& data) {
     return config::upperCase(name.size() > 6 ? name.substr(6) : name);
 }
 
-/// Reads all modules: the values of groups, and which signal another name stands for.
+/// Reads all modules: the values of groups, and the signal that another name refers to.
 class UseReader {
   public:
     explicit UseReader(const CheckedProgram& program) : program_(program) {}
@@ -59,12 +59,12 @@ class UseReader {
             if (routine->routineDecl) visit(*routine->routineDecl);
     }
 
-    /// What is known of a parameter or an alias holds for the signals it stands for.
+    /// Facts about a parameter or an alias hold for the signals it refers to.
     void finish() {
         constexpr int kMostRounds = 20;
         for (int round = 0; round < kMostRounds; ++round) {
             bool changed = false;
-            for (const auto& [name, signal] : standsFor_) {
+            for (const auto& [name, signal] : meanings_) {
                 const GroupValues before = values_[signal];
                 values_[signal].add(values_[name]);
                 changed |= !(before == values_[signal]);
@@ -161,7 +161,7 @@ class UseReader {
             if (call.routine->predefined)
                 signal = signal ? signal : given;
             else
-                standsFor_.insert({arg.param, given});
+                meanings_.insert({arg.param, given});
         }
         if (!signal || !call.routine->predefined) return;
         for (const BoundArg& arg : call.args) {
@@ -177,7 +177,7 @@ class UseReader {
         for (const BoundArg& arg : call.args) {
             const DataSymbol* to = arg.value && arg.value != &from ? signalIn(*arg.value) : nullptr;
             if (!to) continue;
-            if (const DataSymbol* signal = signalIn(from)) standsFor_.insert({to, signal});
+            if (const DataSymbol* signal = signalIn(from)) meanings_.insert({to, signal});
             const ConstValue* text = constantOf(from);
             if (text && text->kind == ConstValue::Kind::String && !text->text().empty())
                 byText_.emplace_back(std::string(text->text()), to);
@@ -187,7 +187,7 @@ class UseReader {
     const CheckedProgram& program_;
     const Module* module_ = nullptr;
     std::map<const DataSymbol*, GroupValues> values_;
-    std::set<std::pair<const DataSymbol*, const DataSymbol*>> standsFor_; ///< parameter or alias, signal
+    std::set<std::pair<const DataSymbol*, const DataSymbol*>> meanings_; ///< parameter or alias, signal
     std::vector<std::pair<std::string, const DataSymbol*>> byText_;
 };
 

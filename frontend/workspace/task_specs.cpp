@@ -64,8 +64,8 @@ std::string readTaskSpec(const std::string& text, TaskSpec& spec, bool& typeTold
 
 } // namespace
 
-std::vector<TaskSpec> readTaskSpecs(const std::vector<std::string>& options, std::set<std::string>& typesTold,
-                                    std::vector<std::string>& problems) {
+std::vector<TaskSpec> readTaskSpecs(const std::vector<std::string>& options,
+                                    std::set<std::string>& givenTypes, std::vector<std::string>& problems) {
     std::vector<TaskSpec> specs;
     for (const std::string& text : options) {
         TaskSpec spec;
@@ -78,17 +78,17 @@ std::vector<TaskSpec> readTaskSpecs(const std::vector<std::string>& options, std
             return sameName(other.name, spec.name);
         });
         if (known == specs.end()) {
-            if (typeTold) typesTold.insert(spec.name);
+            if (typeTold) givenTypes.insert(spec.name);
             specs.push_back(std::move(spec));
             continue;
         }
-        const bool otherTold = typesTold.contains(known->name);
+        const bool otherTold = givenTypes.contains(known->name);
         if (typeTold && otherTold && known->type != spec.type)
             problems.push_back(fmt::format("--task={}: the task '{}' is {} already; give its type once", text,
                                            spec.name, known->type));
         if (typeTold) {
             known->type = spec.type;
-            typesTold.insert(known->name);
+            givenTypes.insert(known->name);
         }
         known->inputs.insert(known->inputs.end(), spec.inputs.begin(), spec.inputs.end());
     }

@@ -9,10 +9,10 @@
 
 namespace rapid::workspace {
 
-/// Reads the values of --task. Several for one task add up. `typesTold` gets the tasks whose type is given; what cannot
+/// Reads the values of --task. Several for one task add up. `givenTypes` gets the tasks whose type is given; what cannot
 /// be read is added to `problems`.
 std::vector<project::TaskSpec> readTaskSpecs(const std::vector<std::string>& options,
-                                             std::set<std::string>& typesTold,
+                                             std::set<std::string>& givenTypes,
                                              std::vector<std::string>& problems);
 
 } // namespace rapid::workspace

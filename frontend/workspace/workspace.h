@@ -38,7 +38,7 @@ class Workspace {
     /// A file on disk came, changed or vanished.
     void fileChanged(const std::string& path);
 
-    /// The program that a module belongs to, up to date; null when the path is no module. The modules of no folder get a program
+    /// The program that a module belongs to, up to date; null when the path is not a module. The modules of no folder get a program
     /// of their own here.
     Program* programOf(const std::string& path);
     /// Gives an open file that no program reads one of its own, if it is a module, a program file or a configuration. A program

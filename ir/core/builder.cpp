@@ -68,7 +68,7 @@ void Builder::step(StmtId stmt) {
 }
 
 ValueId Builder::emit(Inst inst) {
-    // What follows a terminator cannot be reached; it gets a block of its own, which simplifyCfg removes.
+    // Instructions after a terminator cannot be reached; they get a block of their own, which simplifyCfg removes.
     if (terminated()) block_ = addBlock("dead");
     if (inst.stmt == kNone) inst.stmt = stmt_;
     routine_.insts.push_back(std::move(inst));

@@ -121,7 +121,7 @@ Cfg buildCfg(const Module& module, const Routine& routine, HandlerEdges handlerE
         bool reachedOtherwise = handlerEdges == HandlerEdges::Yes && root == routine.errorHandler;
         if (!reachedOtherwise) roots.push_back(root);
     }
-    // `step` may go on with any statement.
+    // `step` may continue with any statement.
     if (routine.stepping)
         for (const Statement& s : routine.statements)
             if (s.start < count) roots.insert(roots.end() - 1, s.start);

@@ -153,14 +153,14 @@ struct Statement {
     uint32_t line = 0, column = 0, endLine = 0, endColumn = 0; ///< from 1
     StmtKind kind = StmtKind::Plain;
     bool handled = false;  ///< an error here goes to the routine's error handler
-    BlockId start = kNone; ///< where RETRY and `step` continue; kNone when nobody can ask for it
+    BlockId start = kNone; ///< where RETRY and `step` continue; kNone when it is not needed
     BlockId next = kNone;  ///< where TRYNEXT continues
     StmtId previous =
         kNone;         ///< the statement before it in its list; kNone: the first. Stepping routines only
     uint8_t flags = 0; ///< StatementFlag; stepping routines only
 };
 
-/// What executing a statement backwards means (stepping routines only).
+/// The meaning of a statement that is executed backwards (stepping routines only).
 enum StatementFlag : uint8_t {
     kStmtCallsRoutine = 1,  ///< calls a routine of the program
     kStmtCallsBackward = 2, ///< that routine says how it is executed backwards
@@ -220,18 +220,18 @@ struct Routine {
     /// numbers and as global variables (I32 or F32). errorFilter may hold kEveryError and kOwnErrors.
     std::vector<int32_t> errorFilter;
     std::vector<uint32_t> errorFilterGlobals;
-    /// The routine that does on top of others what the error handler would do after they are left; kNone: nobody asks. Its
+    /// The routine that does on top of others what the error handler would do after they are left; kNone: not needed. Its
     /// one parameter is a table with the addresses of `sharedLocals`.
     uint32_t detachedHandler = kNone;
     std::vector<uint32_t> sharedLocals;
     bool isDetachedHandler = false; ///< of another routine; `propagate` and `handlerend` act for that one
-    BlockId undoHandler = kNone;    ///< the UNDO part; a `ret` without value in it goes on unwinding
+    BlockId undoHandler = kNone;    ///< the UNDO part; a `ret` without value in it continues unwinding
 };
 
 /// In Routine::errorFilter: every error, wherever it is raised; those of the routine and its calls.
 inline constexpr int32_t kEveryError = INT32_MIN, kOwnErrors = 0;
 
-/// What a native routine may do; decides how it is called (see codegen/README.md).
+/// The permissions of a native routine; they decide how it is called (see codegen/README.md).
 enum class NativeClass : uint8_t {
     Const, ///< by-value scalars only, returns its result directly, no task, cannot raise: free to move and
            ///< merge
@@ -242,7 +242,7 @@ struct Native {
     NativeClass nativeClass = NativeClass::Plain;
     TypeId result = kVoid;
     std::vector<TypeId> params;
-    bool watches = false; ///< goes on looking at persistents it was given: stores to them become safepoints
+    bool watches = false; ///< keeps looking at persistents it was given: stores to them become safepoints
     bool finite = false;  ///< plain; the result is never infinite or NaN
     bool bounded =
         false; ///< the result exceeds the largest magnitude among the numbers it takes by at most 1
@@ -304,7 +304,7 @@ struct ModuleEntry {
     std::string name;
     uint32_t file = kNone;
     uint32_t task = kNone;
-    uint32_t gone = kNone; ///< global I32 that becomes 1 when the module leaves memory; kNone: nobody asks
+    uint32_t gone = kNone; ///< global I32 that becomes 1 when the module leaves memory; kNone: not needed
 };
 
 enum class DescKind : uint8_t { Float, Double, Bool, String, Record, Array, Handle, Other, Bytes };
@@ -390,7 +390,7 @@ std::string typeName(TypeId type);
 /// names the type accessed (FieldAddr, ElemAddr, Store ...).
 TypeId valueType(const Inst& inst);
 
-/// What the controller keeps for a task: the number of its latest error, and of the interrupt in progress. I32.
+/// The values that the controller keeps for a task: the number of its latest error, and of the interrupt in progress. I32.
 enum class SysvarKind : int32_t { Error = 0, Interrupt = 1 };
 
 // ---- Builder ---------------------------------------------------------------------------------------------

@@ -1,5 +1,5 @@
 #pragma once
-// What instructions.def says about each opcode, as data.
+// The properties of each opcode in instructions.def, as data.
 
 #include <cstdint>
 #include <string_view>
@@ -11,11 +11,11 @@ namespace ir {
 /// How the type of an instruction's value is found (column `result` of instructions.def).
 enum class ResultRule : char { None = 'N', Same = 'S', Bool = 'B', Ptr = 'P', Typed = 'T' };
 
-/// What an instruction does. Code that dispatches over instructions switches over this and then over the instructions of one
+/// The effect of an instruction. Code that dispatches over instructions switches over this and then over the instructions of one
 /// family (LeafOp ...), without `default`.
 enum class Family : uint8_t { Leaf, Memory, Float, Int, Compare, Logic, Convert, Action, End };
 
-/// What the textual form has besides operands; also which table Inst::index refers to.
+/// The parts of the textual form besides operands; also which table Inst::index refers to.
 enum class Form : uint8_t {
     Plain,
     Number,      ///< Inst::number or Inst::integer
@@ -101,7 +101,7 @@ bool opFromText(std::string_view text, Op& op);
 
 enum class NumberClass : uint8_t { Integer, Float };
 enum class WidthRule : uint8_t { Any, Wider, Narrower };
-/// What a conversion turns into what.
+/// The types of a conversion.
 struct Conversion {
     Op op;
     NumberClass from, to;

@@ -102,7 +102,7 @@ void ArgumentCopies::visit(const Node& node, const sema::Module& module, Body& b
     forEachChild(node, [&](const Node& child) { visit(child, module, body); });
 }
 
-/// What the call may write belongs to its caller's effects. True when some are new.
+/// Data that the call may write belong to its caller's effects. True when some are new.
 bool ArgumentCopies::addEffects(Body& body, const BoundCall& call) {
     const size_t before = body.written.size();
     const bool unknown = body.unknown;

@@ -17,10 +17,10 @@ struct Options {
     std::vector<std::string> configNames; ///< configuration files known now, kept in the program
     std::vector<std::string> configTexts;
     std::string folder; ///< where relative paths of sources begin, so that they are found from elsewhere, too
-    /// Tells whether a native symbol ("rt_MoveL") has an implementation; empty: all have. A call of one
+    /// Returns whether a native symbol ("rt_MoveL") has an implementation; empty: all have. A call of one
     /// without is reported as a warning and stops the program with an event when it is reached.
     std::function<bool(std::string_view)> nativeImplemented;
-    /// For the stepping profile (decision 34): every statement can be chosen to go on with, data of routines
+    /// For the stepping profile (decision 34): every statement can be chosen as the next one, data of routines
     /// lie in memory and are described, BACKWARD handlers are compiled.
     bool stepping = false;
     /// Every routine can be called by name, for the expressions of a debugger.

@@ -18,7 +18,7 @@ bool sizeIsKnown(const sema::DataType& type) {
 
 } // namespace
 
-/// What remains of an array when its first index is given.
+/// The rest of an array type when its first index is given.
 RoutineLowering::Place RoutineLowering::rowOf(const Place& array, ValueId addr) const {
     Place row;
     row.addr = addr;

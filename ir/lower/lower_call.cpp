@@ -304,7 +304,7 @@ void RoutineLowering::lowerWaitUntil(const BoundCall& call) {
     const ir::BlockId met = b_.addBlock("met");
     const ir::BlockId end = b_.addBlock("waited");
     if (inPosArg && inPosArg->kind != BoundArg::Kind::Absent) {
-        // \InPos: first the robot stands still, then the condition counts.
+        // \InPos: first the robot comes to rest, then the condition counts.
         b_.callNative(program_.support(Support::rt_waitInPos), {inPosValue[0]});
     }
     b_.br(head);

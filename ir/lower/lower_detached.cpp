@@ -1,6 +1,6 @@
 // RaiseToUser \Continue (manual 1.12): the error handler of a routine at user level is executed while the NOSTEPIN routines
 // that it called are still in progress. So it exists a second time, as a routine of its own that runs on top of them and
-// reaches the data of its routine by a table of addresses. What it decides (RETRY, TRYNEXT, RETURN) it tells the runtime.
+// reaches the data of its routine by a table of addresses. It reports its decision (RETRY, TRYNEXT, RETURN) to the runtime.
 
 #include "ir/lower/routine_lowering.h"
 
@@ -52,7 +52,7 @@ void RoutineLowering::shareData() {
     shared_.result = share(shared_.resultLocal);
 }
 
-/// First thing in the handler: the detached handler may have been executed already and have told to leave the routine.
+/// First thing in the handler: the detached handler may have been executed already and have decided to leave the routine.
 void RoutineLowering::lowerTakeDecision() {
     startStatement(*symbol_.routineDecl, ir::StmtKind::Handler);
     const ValueId decision = b_.callNative(program_.support(Support::rt_takeDecision), {});
@@ -103,7 +103,7 @@ ir::ValueId RoutineLowering::sharedAddress(uint32_t position) {
     return b_.load(ir::kPtr, row);
 }
 
-/// What the caller gave for the IR parameter.
+/// The argument of the caller for the IR parameter.
 ir::ValueId RoutineLowering::parameter(uint32_t number) {
     if (!body_) return b_.param(number);
     const SharedData::Parameter& kept = body_->shared_.params.at(number);

@@ -84,7 +84,7 @@ void RoutineLowering::lowerFor(const ForStmt& stmt) {
     for (const Expr* bound : {stmt.from, stmt.to, stmt.step})
         if (bound && lowerOpenHead(*bound)) return;
     sema::DataSymbol& variable = *found->second;
-    // The row stands for the head only: the place of an error in a bound.
+    // The row is for the head only: the place of an error in a bound.
     startStatement(*stmt.from, ir::StmtKind::Control);
     checkData(stmt);
     const ForPlan plan = planFor(stmt, variable);
@@ -97,7 +97,7 @@ void RoutineLowering::lowerFor(const ForStmt& stmt) {
 }
 
 void RoutineLowering::lowerRounds(const ForStmt& stmt, const std::optional<Counting>& counting,
-                                  const std::function<ValueId()>& goesOn,
+                                  const std::function<ValueId()>& continues,
                                   const std::function<void()>& increment) {
     const ir::BlockId before = b_.addBlock("beforefor");
     const ir::BlockId head = b_.addBlock("for");
@@ -106,7 +106,7 @@ void RoutineLowering::lowerRounds(const ForStmt& stmt, const std::optional<Count
     const ir::BlockId end = b_.addBlock("endfor");
     b_.br(before);
     b_.setBlock(head);
-    b_.condBr(goesOn(), body, end);
+    b_.condBr(continues(), body, end);
     b_.setBlock(body);
     loops_.push_back({end, latch});
     CostScope costs;
@@ -263,7 +263,7 @@ void RoutineLowering::lowerFloatLoop(const ForStmt& stmt, sema::DataSymbol& vari
     const uint32_t to = b_.addLocal("", t);
     const uint32_t step = b_.addLocal("", t);
     if (program_
-            .stepping()) { // without a name: nobody sees them, but they are part of what the routine is at
+            .stepping()) { // without a name: they are not visible, but they are part of what the routine is at
         describeLocal(to, variable.type);
         describeLocal(step, variable.type);
     }

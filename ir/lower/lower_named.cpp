@@ -1,4 +1,4 @@
-// What a program finds out by name at run time: calls by name, tables of routines, modules and data, names of arguments.
+// Facts that a program looks up by name at run time: calls by name, tables of routines, modules and data, names of arguments.
 
 #include "config/letter_case.h"
 #include "frontend/syntax/tree_walk.h"

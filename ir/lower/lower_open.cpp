@@ -23,7 +23,7 @@ std::string_view typeNameOf(const DataSymbol& symbol) {
     return token == kNoToken ? std::string_view(symbol.name) : symbol.module->tree->text(token);
 }
 
-/// The declaration holds a placeholder where it tells type, size or value.
+/// The declaration holds a placeholder in place of type, size or value.
 bool hasPlaceholderIn(const DataSymbol& symbol) {
     if (!symbol.decl || !symbol.module || symbol.predefined) return false;
     const auto& tokens = symbol.module->tree->tokens;
@@ -127,7 +127,7 @@ std::string_view RoutineLowering::missingInResult(const sema::RoutineSymbol& rou
     return tree.text(type);
 }
 
-/// Of the record that an aggregate stands for: a component of a type that nothing declares.
+/// Of the record of an aggregate: a component of a type that nothing declares.
 std::string_view RoutineLowering::missingComponent(const Node& node) const {
     if (node.kind != NodeKind::Aggregate) return {};
     const sema::DataType& type = info(as<AggregateExpr>(node)).type;

@@ -26,7 +26,7 @@ bool RoutineLowering::isIncomplete(const Expr& outer) const {
         const auto& binary = as<BinaryExpr>(expr);
         if (binary.op == BinaryOp::And || binary.op == BinaryOp::Or || binary.op == BinaryOp::Xor)
             return false;
-        // A comparison is a bool whatever stands in it.
+        // A comparison is a bool whatever its operands are.
         if (isIncomplete(*binary.left) || isIncomplete(*binary.right)) return true;
     }
     return info(expr).type.type->kind == sema::TypeKind::Error && containsPlaceholder(expr);

@@ -1,6 +1,6 @@
 // Which instructions a later process can enter again in the middle (--state, manual 1.2.2 "Power on"): the routine in
 // progress is called anew by executing the instruction that called it from its beginning. So what that instruction does
-// ahead of the call must have no effect, and must not be needed behind the call unless nobody else can change it.
+// before the call must have no effect, and must not be needed after the call unless no other task can change it.
 
 #include "frontend/syntax/tree_walk.h"
 #include "ir/lower/routine_lowering.h"
@@ -42,9 +42,9 @@ struct RoutineLowering::CallSearch {
     const sema::Module& module;
     int routines = 0;         ///< calls of routines of the program
     int effects = 0;          ///< calls with an effect, those included
-    bool effectAhead = false; ///< a native with an effect is called ahead of the first routine
+    bool effectAhead = false; ///< a native with an effect is called before the first routine
     bool changeable =
-        false; ///< a value that others may change is read ahead of the first routine, beside its arguments
+        false; ///< a value that others may change is read before the first routine, beside its arguments
     std::vector<const DataSymbol*> shared; ///< routine data that are handed over by reference
 
     void collectShared(const Node& node) {
@@ -68,7 +68,7 @@ struct RoutineLowering::CallSearch {
         return own && std::find(shared.begin(), shared.end(), &symbol) == shared.end();
     }
 
-    /// What is assigned to: its place does not change, but its indices are values.
+    /// The target of an assignment: its place does not change, but its indices are values.
     void visitTarget(const Expr& target) {
         if (target.kind == NodeKind::Component) return visitTarget(*as<ComponentExpr>(target).base);
         if (target.kind == NodeKind::Paren) return visitTarget(*as<ParenExpr>(target).inner);
@@ -130,7 +130,7 @@ uint8_t RoutineLowering::resumeFlags(const Stmt& stmt, size_t row) const {
     return flags;
 }
 
-/// Tells whether the text of a routine was changed; layout and comments do not count. Never 0.
+/// Says whether the text of a routine was changed; layout and comments do not count. Never 0.
 uint32_t textHash(const sema::RoutineSymbol& symbol) {
     const auto& tree = *symbol.module->tree;
     uint32_t hash = 2166136261U; // FNV-1a

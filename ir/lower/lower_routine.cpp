@@ -226,7 +226,7 @@ ir::Routine RoutineLowering::run() {
     lowerList(symbol_.routineDecl->body);
     closeCosts(); // the end below is not part of every profile
     if (!b_.terminated()) {
-        inInstructions_ = false; // the end is no instruction that RETRY or TRYNEXT could name
+        inInstructions_ = false; // the end is not an instruction that RETRY or TRYNEXT could name
         if (symbol_.routineKind == syntax::RoutineKind::Func) {
             startStatement(*symbol_.routineDecl, ir::StmtKind::Return);
             b_.raise(b_.constI32(program_.errorNumber(LanguageError::FunctionEnd)));

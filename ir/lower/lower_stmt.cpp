@@ -30,7 +30,7 @@ void RoutineLowering::lowerList(StmtList list) {
     ir::StmtId previous = ir::kNone;
     for (const Stmt* stmt : list) {
         const size_t mark = usedTemps_.size();
-        // RETRY enters at the beginning of a statement, TRYNEXT behind it: both must be block borders.
+        // RETRY enters at the beginning of a statement, TRYNEXT after it: both must be block borders.
         const bool resumable =
             ((hasRetry() && region_ == Region::Body) || program_.stepping()) && stmt->kind != NodeKind::Label;
         if (resumable) {
@@ -65,7 +65,7 @@ void RoutineLowering::lowerList(StmtList list) {
     }
 }
 
-/// What executing the instruction backwards means (manual 1.21).
+/// The effect of the instruction executed backwards (manual 1.21).
 uint8_t RoutineLowering::statementFlags(const Stmt& stmt) const {
     uint8_t flags = 0;
     if (region_ == Region::Backward) flags |= ir::kStmtInBackward;
@@ -87,7 +87,7 @@ uint8_t RoutineLowering::statementFlags(const Stmt& stmt) const {
     return flags;
 }
 
-/// Instructions that cannot begin without what a placeholder stands for.
+/// Instructions that cannot begin without the part that a placeholder marks.
 bool RoutineLowering::lowerIncomplete(const Stmt& stmt) {
     bool incomplete = false;
     switch (stmt.kind) {
@@ -352,7 +352,7 @@ void RoutineLowering::lowerRaise(const RaiseStmt& stmt) {
     b_.unreachable();
 }
 
-/// Manual 1.13: a warning, and execution goes on behind the instruction.
+/// Manual 1.13: a warning, and execution continues after the instruction.
 void RoutineLowering::lowerIgnoredInUndo(const char* instruction) {
     b_.callNative(program_.support(Support::rt_ignoredInUndo),
                   {b_.globalAddr(program_.stringGlobal(instruction))});

@@ -135,7 +135,7 @@ uint32_t ProgramLowering::typeDesc(const DataType& type) {
 }
 
 namespace {
-/// What a value does not say is zero.
+/// Parts that a value does not give are zero.
 sema::ConstValue member(const sema::ConstValue& value, size_t i) {
     return i < value.members().size() ? value.members()[i] : sema::ConstValue();
 }
@@ -222,7 +222,7 @@ uint32_t ProgramLowering::addGlobal(const DataSymbol& symbol, uint32_t task, boo
     return index;
 }
 
-/// Its module is installed once for all tasks, and it is no TASK data (manual 1.2.2).
+/// Its module is installed once for all tasks, and it is not TASK data (manual 1.2.2).
 bool ProgramLowering::inSharedModule(const DataSymbol& symbol) const {
     return symbol.module && symbol.scope != syntax::ScopeWord::Task && !symbol.routine &&
            options_.sharedModules.contains(config::lowerCase(symbol.module->name));

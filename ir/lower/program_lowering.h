@@ -15,7 +15,7 @@ namespace rapid::lower {
 using rt::Passing;
 using Support = rt::support::Native;
 
-/// What the calling convention needs to know of a parameter (runtime/abi/native_signature.h).
+/// The properties of a parameter for the calling convention (runtime/abi/native_signature.h).
 rt::ParamShape shapeOf(const sema::DataSymbol& param);
 inline Passing passingOf(const sema::DataSymbol& param) {
     return rt::passingOf(shapeOf(param));
@@ -28,7 +28,7 @@ template <class T> ir::TypeId irTypeOf(ir::Module& module) {
 
 /// Of a type that a module declares which is not here: the instruction that uses such data raises an error.
 bool isUnknown(const sema::DataType& type);
-/// Module data or data of a routine of such a type, or of a size that a placeholder stands for: nothing is made for them.
+/// Module data or data of a routine of such a type, or of a size that is a placeholder: nothing is made for them.
 bool isWithoutForm(const sema::DataSymbol& data);
 
 class RoutineLowering;
@@ -51,7 +51,7 @@ class ProgramLowering {
     bool mayBeErased(const sema::Symbol& symbol, const sema::Module* from) const {
         return erases_ && !unit_ && !symbol.predefined && symbol.module && symbol.module != from;
     }
-    /// The global I32 that tells whether that has happened.
+    /// The global I32 that says whether that has happened.
     uint32_t goneFlag(const sema::Module& module, uint32_t task);
     /// A flag (i32): the variable has been assigned since the task began. For variables of modules whose initial value hangs
     /// on a name that nothing declares here.

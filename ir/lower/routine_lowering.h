@@ -13,7 +13,7 @@ namespace rapid::lower {
 /// Signature and names of a routine whose body follows later.
 ir::Routine declareRoutine(ProgramLowering& program, const sema::RoutineSymbol& symbol, uint32_t task);
 
-/// Tells whether the text of a routine was changed since an earlier compilation; layout and comments do not count.
+/// Says whether the text of a routine was changed since an earlier compilation; layout and comments do not count.
 uint32_t textHash(const sema::RoutineSymbol& symbol);
 
 // Size: one method for each kind of node; they share the builder, the locals and the handler of one routine.
@@ -32,7 +32,7 @@ class RoutineLowering {
     using Expr = syntax::Expr;
     using ValueId = ir::ValueId;
 
-    /// Where a data object of the routine lives.
+    /// The address of a data object of the routine.
     struct Slot {
         enum class Kind : uint8_t { Local, Pointer, IntLoop } kind = Kind::Local;
         uint32_t local = ir::kNone; ///< Local: the object; Pointer: its address, if not the
@@ -95,7 +95,7 @@ class RoutineLowering {
     void clearArrayBuffers(ir::BlockId entry);
     void lowerHandlers();
     void lowerBackwardHandler();
-    /// Tells the debugger about a local (stepping profile only).
+    /// Describes a local to the debugger (stepping profile only).
     void describeLocal(uint32_t local, const sema::DataType& type);
     void describeOptional(const sema::DataSymbol& param, const Slot& slot);
     void describeReference(const sema::DataSymbol& param, const Slot& slot);
@@ -159,16 +159,16 @@ class RoutineLowering {
     // lower_loops.cpp
     void lowerFor(const syntax::ForStmt& stmt);
     ForPlan planFor(const syntax::ForStmt& stmt, const sema::DataSymbol& variable) const;
-    /// `stepValue`: the step when it is known at run time only; `step` then tells its sign.
+    /// `stepValue`: the step when it is known at run time only; `step` then has its sign.
     void lowerIntLoop(const syntax::ForStmt& stmt, sema::DataSymbol& variable, const ForPlan& plan,
                       ValueId stepValue);
     void lowerUnknownDirection(const syntax::ForStmt& stmt, sema::DataSymbol& variable, const ForPlan& plan);
     void lowerCountedBody(const syntax::ForStmt& stmt, sema::DataSymbol& variable, ValueId first,
                           ValueId last, int32_t step, IntRange range, ValueId stepValue = ir::kNone);
     void lowerFloatLoop(const syntax::ForStmt& stmt, sema::DataSymbol& variable, const ForPlan& plan);
-    /// Head, body and latch, which all forms have: another round follows while `goesOn` gives TRUE.
+    /// Head, body and latch, which all forms have: another round follows while `continues` gives TRUE.
     void lowerRounds(const syntax::ForStmt& stmt, const std::optional<Counting>& counting,
-                     const std::function<ValueId()>& goesOn, const std::function<void()>& increment);
+                     const std::function<ValueId()>& continues, const std::function<void()>& increment);
     std::optional<Counting> countingOf(const ForPlan& plan, ValueId from, ValueId to);
     ValueId boundAsInt(ValueId value, bool roundDown); ///< num to I32, toward minus or plus infinity
 
@@ -213,7 +213,7 @@ class RoutineLowering {
 
     // lower_access.cpp
     Place place(const Expr& expr);
-    Place reference(const Expr& expr); ///< the object itself, even where a signal stands for its value
+    Place reference(const Expr& expr); ///< the object itself, even where a signal represents its value
     Place placeOf(const sema::DataSymbol& symbol);
     /// Copies the present value of ERRNO, C_MOTSET ... to `address`.
     void readSystemVariable(const sema::DataSymbol& symbol, ValueId address);

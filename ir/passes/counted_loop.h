@@ -12,7 +12,7 @@ struct CountedLoop {
     uint32_t counter = kNone; ///< local
     ValueId bound =
         kNone; ///< instruction that yields the bound: constant, load of a local, or defined before
-    Op comparison = Op::ILe;   ///< ILe, ILt (counting up), IGe, IGt (down): go on while true
+    Op comparison = Op::ILe;   ///< ILe, ILt (counting up), IGe, IGt (down): continue while true
     int32_t step = 0;          ///< > 0 up, < 0 down
     ValueId increment = kNone; ///< the IAdd
 };

@@ -26,7 +26,7 @@ class CheckMerger {
     }
 
   private:
-    /// Places in the list of a block: from the first check to the barrier behind the last one.
+    /// Places in the list of a block: from the first check to the barrier after the last one.
     struct Region {
         size_t begin = 0, end = 0;
         std::vector<ValueId> checks;
@@ -208,7 +208,7 @@ class CheckMerger {
 } // namespace
 
 void mergeChecks(const Module& module, Routine& routine) {
-    // What watches data is asked after each store of it.
+    // Watchers of data are asked after each store of it.
     const bool watched = std::any_of(module.natives.begin(), module.natives.end(),
                                      [](const Native& native) { return native.watches; });
     if (!watched && !routine.stepping) CheckMerger(module, routine).run();

@@ -24,7 +24,7 @@ struct PassOptions {
 /// empty = fine. Stops at the first pass with findings.
 std::vector<std::string> runPasses(Module& module, const PassOptions& options);
 
-/// The same for one routine. What lies outside of routines is not verified (verifyTables).
+/// The same for one routine. Parts outside of routines are not verified (verifyTables).
 std::vector<std::string> runPasses(Module& module, uint32_t routine, const PassOptions& options);
 
 /// Runs the named passes only ("check-overflow", "simplify-cfg", "fold-constants", "merge-checks", "place-safepoints"),

@@ -97,7 +97,7 @@ class Placer {
         insts.insert(insts.end() - 1, id);
     }
 
-    /// What no front end has charged costs one instruction, so that no cycle takes no time.
+    /// A cycle that no front end has charged costs one instruction, so that no cycle takes no time.
     uint32_t leastCost() const { return charged_ ? 0 : 1; }
 
     void payWhereCharged() {

@@ -27,7 +27,7 @@ class Simplifier {
   private:
     Inst& terminator(BlockId block) { return routine_.insts[routine_.blocks[block].insts.back()]; }
 
-    /// Without retry (trynext) nobody asks where a statement starts (goes on).
+    /// Without retry (trynext) the beginning (the end) of a statement is not needed.
     void dropUnusedResumePoints() {
         bool retries = false, triesNext = false;
         for (BlockId b = 0; b < routine_.blocks.size(); ++b) {
@@ -101,7 +101,7 @@ class Simplifier {
                 std::vector<ValueId>& tail = routine_.blocks[next].insts;
                 insts.pop_back();
                 insts.insert(insts.end(), tail.begin(), tail.end());
-                // What is left of the merged block is unreachable but still well formed.
+                // The rest of the merged block is unreachable but still well formed.
                 Inst end;
                 end.op = Op::Unreachable;
                 routine_.insts.push_back(end);

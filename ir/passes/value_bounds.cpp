@@ -74,7 +74,7 @@ ValueBounds::ValueBounds(const Module& module, const Routine& routine)
     }
 }
 
-/// What a debugger, a native that finds data by name, or the detached handler may store to is left out.
+/// Data that a debugger, a native that finds data by name, or the detached handler may store to are left out.
 void ValueBounds::findPrivateLocals() {
     private_ = privateLocals(routine_);
     for (size_t i = 0; i < private_.size(); ++i)
@@ -92,7 +92,7 @@ void ValueBounds::noteUses(const Inst& user) {
             lossy_[operand] = true;
 }
 
-/// What users can count on: the check comes first.
+/// Bounds that users can rely on: the check comes first.
 ValueBounds::Bound ValueBounds::taken(ValueId id) const {
     Bound bound = bound_[id];
     if (needsCheck(id)) bound.magnitude = largest(valueType(inst(id)));

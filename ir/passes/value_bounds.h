@@ -1,5 +1,5 @@
 #pragma once
-// What the magnitudes of floating-point values cannot exceed, by the instructions that make them. Loops are included: what is
+// Bounds of the magnitudes of floating-point values, by the instructions that make them. Loops are included: what is
 // stored to a local that nothing else reaches bounds what is loaded from it.
 
 #include <limits>
@@ -16,7 +16,7 @@ class ValueBounds {
   public:
     ValueBounds(const Module& module, const Routine& routine);
 
-    /// The value may be infinite or NaN, and nobody that takes it would be: it has to be checked. What has been computed
+    /// The value may be infinite or NaN, and no value computed from it would be: it has to be checked. What has been computed
     /// from it counts on that.
     bool needsCheck(ValueId id) const { return lossy_[id] && bound_[id].magnitude == kUnbounded; }
 
@@ -27,7 +27,7 @@ class ValueBounds {
         double magnitude = 0;
         bool whole = true; ///< without fraction; never so when unbounded
     };
-    /// What the block has found out about a value.
+    /// Facts that the block has found out about a value.
     struct Known {
         BlockId notZero = kNone, whole = kNone;
     };

@@ -19,7 +19,7 @@ class TokenStream {
     void advance() { token_ = lexer_.next(); }
     bool fail(const std::string& message) { return failAt(token_, message); }
     bool failAt(const Token& where, const std::string& message);
-    /// Says what was expected where the current token stands.
+    /// Says what was expected at the current token.
     bool expected(std::string_view what);
     const std::string& error() const { return error_; }
 
@@ -84,7 +84,7 @@ class RoutineParser {
   public:
     RoutineParser(TokenStream& in, Module& module, uint32_t routine, std::vector<Fixup>& fixups)
         : in_(in), module_(module), index_(routine), routine_(module.routines[routine]), fixups_(fixups) {}
-    /// From behind the opening brace to the closing one.
+    /// From after the opening brace to the closing one.
     bool parse();
 
   private:

@@ -155,7 +155,7 @@ void RoutineVerifier::arguments(const Inst& inst, const std::vector<TypeId>& par
 }
 
 void RoutineVerifier::ret(const Inst& inst) {
-    if (!reached_[block_]) return; // nothing tells whether it belongs to the undo handler
+    if (!reached_[block_]) return; // it is not known whether it belongs to the undo handler
     bool value = routine_.result != kVoid && module_.isScalar(routine_.result) && !inUndo_[block_];
     if (inst.operands.size() != (value ? 1 : 0))
         add(value ? "returns no value" : "returns a value that is not used");

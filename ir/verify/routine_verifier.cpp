@@ -74,7 +74,7 @@ void RoutineVerifier::localEntry(const Local& local) {
     if (!dims) add(fmt::format("local {} has no locals for its dimensions", local.name));
 }
 
-/// Every block ends in its one terminator, every instruction stands once, targets and operands exist.
+/// Every block ends in its one terminator, every instruction occurs once, targets and operands exist.
 bool RoutineVerifier::structure() {
     size_t before = out_.size();
     blockOf_.assign(routine_.insts.size(), kNone);

@@ -12,7 +12,7 @@
 
 namespace rt {
 
-/// Asked on the fibre of the task ahead of the statement: is the task to stop? Counts hits, evaluates conditions, writes log
+/// Asked on the fibre of the task before the statement: is the task to stop? Counts hits, evaluates conditions, writes log
 /// messages.
 using BreakCondition = std::function<bool(Task& task, Frame* at)>;
 
@@ -27,7 +27,7 @@ struct Breakpoint {
     BreakCondition accepts;                         ///< empty: always
 };
 
-/// A variable, persistent or signal that is looked at ahead of every statement.
+/// A variable, persistent or signal that is looked at before every statement.
 struct DataWatch {
     int id = 0;
     std::string name;                  ///< for people
@@ -45,7 +45,7 @@ class Breakpoints {
     /// The same in every routine that `covers` says yes to.
     Breakpoint addLine(std::string where, uint32_t line, std::function<bool(const RoutineDesc&)> covers,
                        BreakCondition accepts);
-    /// Stops ahead of the first statement of each routine of that name.
+    /// Stops before the first statement of each routine of that name.
     Breakpoint addRoutine(std::string name, BreakCondition accepts);
     int addData(std::string name, std::function<std::string()> read, BreakCondition accepts);
     /// Of any kind.
@@ -58,7 +58,7 @@ class Breakpoints {
     /// Called for each breakpoint that another statement stops for now, or none.
     void onChange(std::function<void(const Breakpoint&)> action) { changed_ = std::move(action); }
 
-    /// Whether one of them stops the task ahead of the statement of `at`; asks all of that statement.
+    /// Whether one of them stops the task before the statement of `at`; asks all of that statement.
     bool stops(Task& task, Frame* at);
     /// Whether one without a condition is there.
     bool isAt(const Frame& at) const;

@@ -51,7 +51,7 @@ bool isValue(const unsigned char* data, const TypeDesc& type) {
     }
 }
 
-/// Who keeps the objects behind a handle or an array of handles; null: nobody.
+/// The keeper of the objects of a handle or an array of handles; null: none.
 const StateKeepers::HandleKeeper* keeperOf(const TypeDesc& type, const StateKeepers& keepers) {
     const TypeDesc& element = type.kind == DescKind::Array ? *type.fields[0] : type;
     const auto found =
@@ -168,7 +168,7 @@ std::string refusalAt(const StmtDesc& statement, Standing standing) {
                                statement.line);
         break;
     case Standing::AtStatement:
-    case Standing::BehindStop:
+    case Standing::AfterStop:
     case Standing::AtError: break;
     }
     if (statement.canStart == kStartsEarlier && !repeatable)
@@ -286,7 +286,7 @@ std::string takeChain(const TaskData& data, CallChain& chain) {
     }
     for (std::size_t depth = 0; depth < frames.size(); ++depth)
         chain.frames.push_back(takeFrame(frames, depth, data));
-    chain.behindStop = standing == Standing::BehindStop;
+    chain.afterStop = standing == Standing::AfterStop;
     chain.errors = task.errorMemory();
     return {};
 }

@@ -1,6 +1,6 @@
 #pragma once
 // The call chain of a task with all of its data, as it is kept between two processes (--state; manual 1.2.2, column
-// "Power on"): taken from a task that stands still, and built up again by Reentry.
+// "Power on"): taken from a halted task, and built up again by Reentry.
 
 #include "runtime/sched/task.h"
 
@@ -17,8 +17,8 @@ struct SavedLocal {
     enum class Kind : uint8_t {
         Value,  ///< `value`
         Absent, ///< optional parameter that is not given
-        Object, ///< a parameter that stands for a part of `object`, a named data object
-        Copy, ///< a parameter that stands for something without a name: an expression, an array of its own; `value`
+        Object, ///< a parameter that refers to a part of `object`, a named data object
+        Copy, ///< a parameter that refers to something without a name: an expression, an array of its own; `value`
         Fresh ///< a file, a socket ...: made anew
     };
     Kind kind = Kind::Value;
@@ -37,8 +37,8 @@ struct SavedFrame {
 };
 
 struct CallChain {
-    std::vector<SavedFrame> frames; ///< main first. None: ahead of the first statement of main
-    bool behindStop = false;
+    std::vector<SavedFrame> frames; ///< main first. None: before the first statement of main
+    bool afterStop = false;
     ErrorMemory errors;
 };
 
@@ -59,22 +59,22 @@ class DataIndex {
     std::vector<Row> rows_;
 };
 
-/// A task, and what tells how its data are named and kept.
+/// A task, and the tables of the names and keepers of its data.
 struct TaskData {
     const Task& task;
     const DataIndex& index;
     const StateKeepers& keepers;
 };
 
-/// "" or why a later process cannot go on where the task stands. The task must not execute.
+/// "" or why a later process cannot continue at the place of the task. The task must not execute.
 std::string takeChain(const TaskData& data, CallChain& chain);
 
-/// What a local of a frame is now.
+/// The present value of a local of a frame.
 SavedLocal takeLocal(const SteppingFrame& frame, uint32_t index, const std::vector<Frame*>& frames,
                      const TaskData& data);
 
 /// Any value as text: as in a declaration, its bytes ("#...") where it has no literal, or what its handles name ("@[...]").
-/// False for types without values whose objects nobody keeps.
+/// False for types without values whose objects are not kept.
 bool valueToImage(const void* data, const TypeDesc& type, uint64_t count, const StateKeepers& keepers,
                   std::string& text);
 /// The reverse; all or nothing.

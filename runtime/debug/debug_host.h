@@ -17,7 +17,7 @@ struct StateKeepers;
 /// The controller, as runtime/debug sees it.
 class DebugHost : public TaskHost {
   public:
-    /// What was compiled or linked in.
+    /// The modules that were compiled or linked in.
     virtual const ProgramDesc& program() const = 0;
     /// Everything in program memory, modules loaded at run time included.
     virtual const ProgramTables& tables() const = 0;
@@ -32,12 +32,12 @@ class DebugHost : public TaskHost {
     /// The arm that the task moves. Present as soon as the program can run.
     virtual SteppedArm& arm(const Task& task) = 0;
     virtual void forEachArm(const std::function<void(SteppedArm&)>& action) = 0;
-    /// Who keeps the objects that variables name by handles.
+    /// The keepers of the objects that variables name by handles.
     virtual const StateKeepers& stateKeepers() = 0;
     /// Program pointer to main in all NORMAL tasks; refused with an event unless the program is stopped.
     virtual void actionPpToMain() = 0;
     /// The stopped task is about to execute continuously: START at main, else RESTART becomes due.
-    virtual void oweStart(Task& task) = 0;
+    virtual void orderStartEvent(Task& task) = 0;
 
   protected:
     ~DebugHost() = default;

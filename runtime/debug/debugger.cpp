@@ -84,7 +84,7 @@ void Debugger::noteStop(Task& task, StopReason reason) {
     stopReason_ = reason;
 }
 
-// ---- Ahead of every statement --------------------------------------------------------------------------------------
+// ---- Before every statement ----------------------------------------------------------------------------------------
 
 int32_t Debugger::beforeStatement(Task& task, Frame* at) {
     State& state = stateOf(task);
@@ -100,7 +100,7 @@ int32_t Debugger::beforeStatement(Task& task, Frame* at) {
         state.pendingBackward = false;
         if (const std::string problem = startBackward(task, state, at); !problem.empty())
             host_.log().write(EventId::StepRefused, &task, {"Stepping backward", problem});
-        if (state.backwardFrame != nullptr) return goOn(state, at, here);
+        if (state.backwardFrame != nullptr) return continueAt(state, at, here);
     } else {
         const bool inUndo = task.isUnwinding();
         const bool stops = shouldStop(task, state, at, reason);
@@ -154,13 +154,13 @@ bool Debugger::stepEnds(const State& state, const Frame* at) {
     return false;
 }
 
-/// `here` is the statement that the compiled code stands at.
-int32_t Debugger::goOn(State& state, const Frame* at, int32_t here) {
+/// `here` is the statement that the compiled code has reached.
+int32_t Debugger::continueAt(State& state, const Frame* at, int32_t here) {
     state.jumped = at->statement != here;
     return at->statement;
 }
 
-/// Stands still ahead of at->statement; the program pointer may be moved meanwhile.
+/// Halts before at->statement; the program pointer may be moved meanwhile.
 int32_t Debugger::stopHere(Task& task, State& state, Frame* at, int32_t here, StopReason reason) {
     state.entry = false;
     state.mode = Mode::Run;
@@ -172,7 +172,7 @@ int32_t Debugger::stopHere(Task& task, State& state, Frame* at, int32_t here, St
         state.backwardLast = false;
         return status;
     }
-    return goOn(state, at, here);
+    return continueAt(state, at, here);
 }
 
 Status Debugger::standStill(Task& task, StopReason reason) {
@@ -218,7 +218,7 @@ bool Debugger::isBackward(const Task& task) const {
 
 // ---- Orders --------------------------------------------------------------------------------------------------------
 
-/// A background task stands still because everything does; it was not stopped itself.
+/// A background task that is halted because everything is; it was not stopped itself.
 bool Debugger::isHeldHere(const Task& task) const {
     return held_ && task.kind() != TaskKind::Normal && !task.isStopped();
 }
@@ -235,7 +235,7 @@ std::string Debugger::refusal(const Task& task) const {
     return "";
 }
 
-/// The other NORMAL tasks execute until the one stands still again, and those in the background that a breakpoint stopped.
+/// The other NORMAL tasks execute until the one is halted again, and those in the background that a breakpoint stopped.
 void Debugger::resumeOthers(const Task& task) {
     for (const auto& other : host_.tasks()) {
         const bool stopped = other->kind() == TaskKind::Normal || other->stopCause() == StopCause::Step;
@@ -246,7 +246,7 @@ void Debugger::resumeOthers(const Task& task) {
     }
 }
 
-/// One task is stepped, the others execute until it stands still again.
+/// One task is stepped, the others execute until it halts again.
 std::string Debugger::begin(Task& task, Mode mode, bool alone) {
     if (std::string problem = refusal(task); !problem.empty()) return problem;
     watch();
@@ -266,10 +266,10 @@ std::string Debugger::begin(Task& task, Mode mode, bool alone) {
     held_ = false;
     host_.forEachArm([](SteppedArm& arm) { arm.programStart(); });
     if (!task.isStopped()) return "";
-    // What the program pointer was moved to by hand decides between START and RESTART; a step is neither.
+    // The place to which the program pointer was moved by hand decides between START and RESTART; a step is neither.
     if (task.kind() != TaskKind::Normal) {
     } else if (mode == Mode::Run || mode == Mode::Cursor) {
-        host_.oweStart(task);
+        host_.orderStartEvent(task);
     } else {
         task.events().owe(SystemEvent::Step);
     }
@@ -298,7 +298,7 @@ std::string Debugger::pause(Task& task) {
     if (held_) return "the program is not executing";
     if (task.state() == TaskState::Finished) return fmt::format("task {} has ended", task.name());
     watch();
-    // Ahead of a statement, data and the program pointer can be seen and changed best.
+    // Before a statement, data and the program pointer can be seen and changed best.
     const bool soon = task.state() == TaskState::Ready && task.isExecuting() && available();
     if (!soon || pausing_ != nullptr) {
         stopAll(task);

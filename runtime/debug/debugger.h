@@ -19,7 +19,7 @@ namespace rt {
 class Debugger;
 
 enum class StopReason : uint8_t {
-    Entry, ///< ahead of the first statement
+    Entry, ///< before the first statement
     Breakpoint,
     Step,        ///< a step is done
     CirclePoint, ///< a step forward ended at the circle point of a MoveC
@@ -60,14 +60,14 @@ class Debugger final : public StepHook {
   public:
     explicit Debugger(DebugHost& host) : host_(host), breakpoints_(host) {}
 
-    /// Null: nobody looks; then only orders of the stimulus step the program.
+    /// Null: none; then only orders of the stimulus step the program.
     void setClient(DebugClient* client);
     bool hasClient() const { return client_ != nullptr; }
-    /// Every NORMAL task stops ahead of its first statement.
+    /// Every NORMAL task stops before its first statement.
     void stopAtEntry();
     /// The program was made for the stepping profile.
     bool available() const;
-    /// Called between tasks: lets the client speak when the program stands still. True: the run is to end.
+    /// Called between tasks: lets the client speak when the program is halted. True: the run is to end.
     bool poll();
     /// The program is held for the client: nothing executes, virtual time does not pass.
     bool holds() const;
@@ -104,7 +104,7 @@ class Debugger final : public StepHook {
     std::string runToLine(Task& task, std::string_view where, uint32_t line);
 
     // ---- Program pointer (manual 1.2.2, 1.13); the task must stand still.
-    /// Within the routine the task stands in: nothing is unwound, data are unchanged.
+    /// Within the current routine of the task: nothing is unwound, data are unchanged.
     std::string pointerToLine(Task& task, uint32_t line);
     /// The call chain is left with its UNDO handlers; the next start executes the routine.
     std::string pointerToRoutine(Task& task, std::string_view name);
@@ -133,7 +133,7 @@ class Debugger final : public StepHook {
     /// A procedure found by name is about to be called. False: its caller is executed backwards and it does not say how
     /// that is done; it is not called.
     bool allowsCall(Task& task, const Frame* caller, const RoutineDesc& callee);
-    /// Stands still inside an instruction (at the circle point of a MoveC).
+    /// Halts inside an instruction (at the circle point of a MoveC).
     Status stopInside(Task& task);
     /// The system handler has stopped a task because of an error.
     void noteError(Task& task);
@@ -148,14 +148,14 @@ class Debugger final : public StepHook {
     struct State {
         Mode mode = Mode::Run;
         bool passFirst = false;  ///< the program pointer is at main: the first statement is the one stepped
-        bool entry = false;      ///< this stop is the one ahead of the first statement
+        bool entry = false;      ///< this stop is the one before the first statement
         std::size_t depth = 0;   ///< frames when the order was given
         std::string cursorPlace; ///< run to cursor
         uint32_t cursorLine = 0;
         uint32_t fromLine = 0;     ///< Line, LineInto
-        Frame* standing = nullptr; ///< the task stands ahead of a statement of this frame
+        Frame* standing = nullptr; ///< the task is halted before a statement of this frame
         bool insideCircle = false; ///< at a circle point
-        bool jumped = false;       ///< another statement was chosen; its own question is passed over
+        bool jumped = false;       ///< another statement was chosen; its own question is skipped
         // Backward execution
         bool pendingBackward = false;   ///< ordered while the task stood inside a statement
         bool backwardLast = false;      ///< the last step was a backward one
@@ -175,13 +175,13 @@ class Debugger final : public StepHook {
     bool isHeldHere(const Task& task) const;
     void resumeOthers(const Task& task);
     int32_t stopHere(Task& task, State& state, Frame* at, int32_t here, StopReason reason);
-    static int32_t goOn(State& state, const Frame* at, int32_t here);
+    static int32_t continueAt(State& state, const Frame* at, int32_t here);
     /// `alone`: the other tasks are left as they are.
     std::string begin(Task& task, Mode mode, bool alone = false);
     std::string refusal(const Task& task) const;
-    /// What belongs to the call chain that was left.
+    /// The state that belongs to the call chain that was left.
     void forget(const Task& task);
-    /// From now on tasks ask ahead of every statement; before, a program pays nothing for what nobody uses.
+    /// From now on tasks ask before every statement; until then, a program pays nothing for an unused debugger.
     void watch();
     // debugger_backward.cpp
     /// Moves the program pointer, or begins to execute its statement backwards (then backwardFrame is set).

@@ -82,7 +82,7 @@ bool Debugger::continuesBackward(Task& task) {
 std::string Debugger::startBackward(Task& task, State& state, Frame* at) {
     const StmtDesc& statement = row(*at, at->statement);
     if ((statement.flags & kStmtInBackward) != 0 && state.backwardFrame != nullptr)
-        return ""; // goes on inside
+        return ""; // continues inside
     if ((statement.flags & (kStmtInBackward | kStmtInHandler)) != 0)
         return "instructions of a handler cannot be executed backwards";
     if (!state.backwardLast) {
@@ -115,7 +115,7 @@ std::string Debugger::startBackward(Task& task, State& state, Frame* at) {
     return "";
 }
 
-/// The statement is done; its frame is asked about the one behind it.
+/// The statement is done; its frame is asked about the next one.
 void Debugger::finishBackward(Task& task, State& state, Frame* at) {
     host_.arm(task).setBackward(false);
     task.orderBackward(nullptr);

@@ -10,7 +10,7 @@
 namespace rt {
 namespace {
 
-/// What a LocalDesc and the address in the frame say.
+/// The value that a LocalDesc and the address in the frame give.
 DebugVariable local(const SteppingFrame& frame, uint32_t index) {
     const LocalDesc& desc = frame.routine->locals[index];
     DebugVariable variable;
@@ -83,7 +83,7 @@ DebugVariable Debugger::find(const Task& task, const DebugFrame* frame, std::str
     const std::size_t colon = name.find(':');
     std::string_view module = colon == std::string_view::npos ? "" : name.substr(0, colon);
     const std::string_view plain = colon == std::string_view::npos ? name : name.substr(colon + 1);
-    // Data of the module the routine stands in come first: they may be LOCAL.
+    // Data of the module of the current routine come first: they may be LOCAL.
     const GlobalDesc* found = nullptr;
     if (module.empty() && frame != nullptr) found = host_.findGlobal(plain, frame->place.module, task);
     if (found == nullptr) found = host_.findGlobal(plain, module, task);

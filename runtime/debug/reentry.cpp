@@ -46,14 +46,14 @@ std::string Reentry::begin(Task& task) {
 
 int32_t Reentry::beforeStatement(Task& task, Frame* at) {
     const int32_t here = at->statement;
-    if (chain_.frames.empty()) { // ahead of the first statement
-        task.finishReentry(chain_.errors, chain_.behindStop);
+    if (chain_.frames.empty()) { // before the first statement
+        task.finishReentry(chain_.errors, chain_.afterStop);
         return here;
     }
     if (at == current_) {
         const int32_t target = chain_.frames[depth_ - 1].statement;
         const StmtDesc& statement = at->routine->statements[here];
-        // The statement sent to; or, for a further condition of an IF, those ahead of it.
+        // The statement sent to; or, for a further condition of an IF, those before it.
         if (std::exchange(jumped_, false)) {
             reached_ = here == target;
             return here;
@@ -70,7 +70,7 @@ int32_t Reentry::beforeStatement(Task& task, Frame* at) {
     reached_ = here == target;
     jumped_ = !reached_;
     at->statement = target;
-    if (depth_ == chain_.frames.size()) task.finishReentry(chain_.errors, chain_.behindStop);
+    if (depth_ == chain_.frames.size()) task.finishReentry(chain_.errors, chain_.afterStop);
     return target;
 }
 

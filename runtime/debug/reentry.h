@@ -1,7 +1,7 @@
 #pragma once
 // Reentry: leads a task back to where an earlier process stood (--state; manual 1.2.2, column "Power on"). Each routine of
 // the saved chain is entered by executing the statement that called it, its data get the values they had, and the
-// innermost one goes on with its statement. The step hook of the task meanwhile (Task::reenter).
+// innermost one continues with its statement. The step hook of the task meanwhile (Task::reenter).
 
 #include "runtime/debug/call_chain.h"
 #include "runtime/debug/debug_host.h"

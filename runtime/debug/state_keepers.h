@@ -20,7 +20,7 @@ struct StateKeepers {
         std::function<nlohmann::json()> save;
         std::function<void(const nlohmann::json&)> load; ///< may throw what the JSON library throws
     };
-    std::map<std::string, Keeper> keepers; ///< by name; loaded only when the program goes on
+    std::map<std::string, Keeper> keepers; ///< by name; loaded only when the program continues
     /// Objects that variables name by handles (clocks ...), as texts. Handles of types without an entry are made anew.
     struct HandleKeeper {
         std::function<std::string(Handle)> textOf; ///< "": the variable names no object

@@ -8,7 +8,7 @@
 
 namespace rt {
 
-/// The movement instruction executed last: where it stands and what it ordered (manual 1.21).
+/// The movement instruction executed last: its place and its order (manual 1.21).
 struct MotionPointer {
     bool valid = false;
     const Frame* frame = nullptr;

@@ -13,7 +13,7 @@ namespace rt {
 /// A service of the controller. The library reads the files of --camera before the program is connected.
 class CameraNames {
   public:
-    /// What is wrong with --camera; "" when nothing is.
+    /// The error of --camera; "" when there is none.
     std::string problem;
 
     std::size_t size() const { return names_.size(); }

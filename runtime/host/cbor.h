@@ -8,7 +8,7 @@
 
 namespace rt {
 
-/// A discarded value when the bytes are no CBOR or are nested too deeply for a recursive reader.
+/// A discarded value when the bytes are not CBOR or are nested too deeply for a recursive reader.
 nlohmann::json readCbor(std::string_view bytes);
 std::string writeCbor(const nlohmann::json& json);
 /// Bytes of files need not be UTF-8.

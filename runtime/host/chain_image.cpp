@@ -137,14 +137,14 @@ Json jsonOf(const CallChain& chain) {
     Json frames = Json::array();
     for (const SavedFrame& frame : chain.frames)
         frames.push_back(jsonOf(frame));
-    return {{"frames", frames}, {"behindStop", chain.behindStop}, {"errors", jsonOf(chain.errors)}};
+    return {{"frames", frames}, {"afterStop", chain.afterStop}, {"errors", jsonOf(chain.errors)}};
 }
 
 CallChain chainFrom(const Json& json) {
     CallChain chain;
     for (const Json& frame : json.at("frames"))
         chain.frames.push_back(frameFrom(frame));
-    json.at("behindStop").get_to(chain.behindStop);
+    json.at("afterStop").get_to(chain.afterStop);
     chain.errors = errorsFrom(json.at("errors"));
     return chain;
 }

@@ -8,7 +8,7 @@
 namespace rt {
 
 nlohmann::json jsonOf(const CallChain& chain);
-/// Throws an exception of the JSON library, or std::invalid_argument, when it is no chain.
+/// Throws an exception of the JSON library, or std::invalid_argument, when it is not a chain.
 CallChain chainFrom(const nlohmann::json& json);
 
 } // namespace rt

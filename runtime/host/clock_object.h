@@ -16,7 +16,7 @@ class ClockObject {
         if (running_) kept_ += now - started_;
         running_ = false;
     }
-    /// To zero; a running clock goes on from there.
+    /// To zero; a running clock continues from there.
     void reset(Time now) {
         kept_ = 0;
         started_ = now;

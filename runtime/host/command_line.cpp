@@ -19,7 +19,7 @@ std::string commandsOf(const CLI::App& app) {
     return list;
 }
 
-/// What was given although nothing takes it; "" if there is nothing.
+/// The argument that no option takes; "" if there is none.
 std::string firstExtra(const CLI::App& app, const CLI::App& command) {
     for (const CLI::App* of : {&command, &app}) {
         const auto extras = of->remaining();
@@ -95,7 +95,7 @@ int report(const CLI::App& app, const CLI::ParseError& error, const std::string&
     const auto chosen = app.get_subcommands();
     const CLI::App& command = chosen.empty() ? app : *chosen.front();
     const std::string full = chosen.empty() ? name : fmt::format("{} {}", name, command.get_name());
-    fmt::print(stderr, "{}: {}\n{} --help tells more\n", full, problemOf(app, command, error), full);
+    fmt::print(stderr, "{}: {}\n{} --help says more\n", full, problemOf(app, command, error), full);
     return static_cast<int>(ExitStatus::BadUsage);
 }
 

@@ -273,7 +273,7 @@ void Controller::stopTasks(const char* order, SystemEvent event) {
             any = true;
             const char* routine = nameOf(task->events().running());
             const EventId told =
-                task->events().breakOff() ? EventId::EventRoutineBrokenOff : EventId::EventRoutineGoesOn;
+                task->events().breakOff() ? EventId::EventRoutineAborted : EventId::EventRoutineContinues;
             log_.write(told, task.get(), {task->name(), routine});
             continue;
         }
@@ -294,7 +294,7 @@ void Controller::actionStop(SystemEvent event) {
     forEachArm([](SteppedArm& arm) { arm.programStop(); });
 }
 
-void Controller::oweStart(Task& task) {
+void Controller::orderStartEvent(Task& task) {
     task.events().owe(task.startsAtMain() ? SystemEvent::Start : SystemEvent::Restart);
 }
 
@@ -331,10 +331,10 @@ void Controller::actionStart() {
         const bool atMain = task->stopCause() == StopCause::AtMain;
         log_.write(atMain ? EventId::ProgramStarted : EventId::ProgramRestarted, task.get(), {task->name()});
         debugger_.continuous(*task);
-        oweStart(*task);
+        orderStartEvent(*task);
         task->resume();
     }
-    // The robot goes on when the RESTART routines have done what they are there for (StepBwdPath).
+    // The robot continues when the RESTART routines have done their work (StepBwdPath).
     for (const auto& motion : motions_) {
         const auto restarts = [&](const auto& task) {
             return task->motionGroup() == static_cast<int>(motion->group()) && !task->isStopped() &&

@@ -107,7 +107,7 @@ class Controller final : public DebugHost {
     /// Runs to the end.
     ExitStatus run();
 
-    /// Called whenever the program of a task begins anew, ahead of its RESET routines (settings go back to their defaults).
+    /// Called whenever the program of a task begins anew, before its RESET routines (settings go back to their defaults).
     void onProgramReset(std::function<void(Task&)> action) { resetActions_.push_back(std::move(action)); }
 
     /// Called when everything that is open is closed: at a power failure and at the end of the run, once no routine is in
@@ -127,8 +127,8 @@ class Controller final : public DebugHost {
     void actionStop(SystemEvent event = SystemEvent::Stop);
     /// Motors off: the arm leaves its path; the next start switches them on and returns to it first (manual 2.2.6).
     void actionEmergencyStop();
-    /// Everything stands still until actionPowerOn(); then data are as before, outputs as at the start of the controller,
-    /// STATIC tasks go on, SEMISTATIC ones begin anew, NORMAL ones wait for a start (manual 1.2.2, 1.20, 2.10).
+    /// Everything is halted until actionPowerOn(); then data are as before, outputs as at the start of the controller,
+    /// STATIC tasks continue, SEMISTATIC ones begin anew, NORMAL ones wait for a start (manual 1.2.2, 1.20, 2.10).
     void actionPowerFail();
     void actionPowerOn();
     void actionStart();
@@ -137,7 +137,7 @@ class Controller final : public DebugHost {
     void actionStep(bool forward);
 
     /// The stopped task is about to execute continuously: START at main, else RESTART becomes due.
-    void oweStart(Task& task) override;
+    void orderStartEvent(Task& task) override;
     const StateKeepers& stateKeepers() override { return service<StateKeepers>(); }
 
     /// A NORMAL task was stopped by an error, or a background task stopped the NORMAL tasks.
@@ -233,7 +233,7 @@ class Controller final : public DebugHost {
     std::unique_ptr<SavedState> state_;
 };
 
-/// What a host adds to a controller before the program runs (names of errors, services).
+/// Additions of a host to a controller before the program runs (names of errors, services).
 using ControllerSetup = void (*)(Controller&);
 
 /// Runs a compiled program from beginning to end with these options: builds the controller, runs, writes what

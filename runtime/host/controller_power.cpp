@@ -51,7 +51,7 @@ void Controller::actionPowerOn() {
             task->moveToMain();
             task->events().owe(SystemEvent::Reset);
         }
-        oweStart(*task);
+        orderStartEvent(*task);
         task->resume();
     }
 }

@@ -9,7 +9,7 @@
 
 namespace rt {
 
-/// What one robot has left of a movement that all make together.
+/// The rest of one robot's movement that all make together.
 struct MotionDriver::EarlierOrders {
     MotionDriver* driver = nullptr;
     std::vector<motion::MoveCommand> moves;

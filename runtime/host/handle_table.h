@@ -21,7 +21,7 @@ template <class T> class HandleTable {
         const auto found = objects_.find(handle);
         return found == objects_.end() ? nullptr : &found->second;
     }
-    /// The object behind a variable of the program; made on first use, the variable then holds its handle.
+    /// The object of a variable of the program; made on first use, the variable then holds its handle.
     T& at(Handle& slot) {
         if (T* object = find(slot)) return *object;
         slot = create();

@@ -1,5 +1,5 @@
 #pragma once
-// What the controller needs to load a module while a program runs (Load, StartLoad); see UnitLoader.
+// The interface through which the controller loads a module while a program runs (Load, StartLoad); see UnitLoader.
 
 #include "runtime/abi/rt_abi.h"
 

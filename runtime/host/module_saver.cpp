@@ -59,7 +59,7 @@ std::string ModuleSaver::hostPath(const char* file) const {
     return path.is_absolute() || !known ? path.string() : (fs::path(program.folder) / path).string();
 }
 
-/// As people are to read it: the folder behind HOME: has another name in each run.
+/// As people are to read it: the folder of HOME: has another name in each run.
 std::string ModuleSaver::shown(const std::string& path) const {
     std::error_code ignored;
     const std::string real = fs::weakly_canonical(path, ignored).string();
@@ -77,7 +77,7 @@ std::string ModuleSaver::defaultDestination(const std::string& source) const {
 }
 
 /// A file may belong to several tasks, each of which has an object of its own (TASK PERS, LOCAL PERS): it can hold one value.
-void ModuleSaver::tellOthers(const Declared& saved, const std::string& value) const {
+void ModuleSaver::reportOthers(const Declared& saved, const std::string& value) const {
     const GlobalDesc& data = *saved.data;
     const auto taskOf = [this](const GlobalDesc& row) {
         return row.task < 0 ? std::string("all tasks")
@@ -109,7 +109,7 @@ std::vector<ModuleSaver::Declared*> ModuleSaver::changedIn(const std::string& so
         if (!belongsTo(data, task) || hostPath(data.file) != source || !hasChanged(declared, value)) continue;
         if (!named.insert({data.module, data.name}).second) continue;
         rows.push_back(&declared);
-        tellOthers(declared, value);
+        reportOthers(declared, value);
         text.values.push_back({data.module, data.name, value});
     }
     return rows;
@@ -129,7 +129,7 @@ ModuleSaver::Result ModuleSaver::write(ModuleText& text, const std::vector<Decla
     return {};
 }
 
-/// What a module that was loaded meanwhile holds: the writer finds out what differs from its file.
+/// The values of a module that was loaded meanwhile: the writer finds out what differs from its file.
 void ModuleSaver::addUnit(const LoadedModule& module, ModuleText& text) const {
     for (uint32_t i = 0; i < module.unit->globalCount; ++i) {
         const GlobalDesc& data = module.unit->globals[i];

@@ -20,7 +20,7 @@ class ModuleSaver {
     explicit ModuleSaver(Controller& controller) : controller_(controller) {}
     ~ModuleSaver();
 
-    /// Who writes; null: the installed rapidc.
+    /// The writer; null: the installed rapidc.
     void setStore(std::unique_ptr<ModuleStore> store) { store_ = std::move(store); }
     /// To be called before anything changes data: what persistents hold now is what their declarations say.
     void remember();
@@ -43,7 +43,7 @@ class ModuleSaver {
         std::string bytes;
     };
     bool hasChanged(const Declared& declared, std::string& text) const;
-    void tellOthers(const Declared& saved, const std::string& value) const;
+    void reportOthers(const Declared& saved, const std::string& value) const;
     void remember(const GlobalDesc& data);
     void addUnit(const LoadedModule& module, ModuleText& text) const;
     std::string defaultDestination(const std::string& source) const;

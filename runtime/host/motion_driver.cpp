@@ -78,7 +78,7 @@ void MotionDriver::refreshAlone() {
     schedule();
 }
 
-/// Event by event, so that samples lie on the move in progress and triggers act before motion goes on.
+/// Event by event, so that samples lie on the move in progress and triggers act before motion continues.
 void MotionDriver::advance(Time time) {
     if (advancing_) return; // a trigger's action asks for the motion system
     advancing_ = true;
@@ -99,14 +99,14 @@ void MotionDriver::advance(Time time) {
             handle(event);
         if (!events.empty()) {
             changed_.notifyAll();
-            tell(ArmNews::Event);
+            tell(ArmChange::Event);
         }
         reached = step >= time && events.empty();
     }
     advancing_ = false;
 }
 
-void MotionDriver::tell(ArmNews news) {
+void MotionDriver::tell(ArmChange news) {
     for (const auto& listener : listeners_)
         listener(news);
 }
@@ -115,8 +115,8 @@ void MotionDriver::handle(const motion::MotionEvent& event) {
     if (event.kind == motion::MotionEventKind::Reached)
         dropActions(
             [&event](const PendingAction& pending) { return pending.fired && pending.move == event.move; });
-    if (event.kind == motion::MotionEventKind::CornerLost && cornerWarning_) tell(ArmNews::CornerLost);
-    if (event.kind == motion::MotionEventKind::OutOfReach) tell(ArmNews::OutOfReach);
+    if (event.kind == motion::MotionEventKind::CornerLost && cornerWarning_) tell(ArmChange::CornerLost);
+    if (event.kind == motion::MotionEventKind::OutOfReach) tell(ArmChange::OutOfReach);
     if (event.kind != motion::MotionEventKind::Trigger) return;
     const auto found = actions_.find(event.trigger);
     if (found == actions_.end()) return;
@@ -150,14 +150,14 @@ void MotionDriver::schedule() {
     const Time next = system_.nextEventTime().value_or(kNever);
     if (next == nextTime_) return;
     scheduler_.cancel(next_);
-    const bool goesOn = std::exchange(nextTime_, next) == kNever;
+    const bool continues = std::exchange(nextTime_, next) == kNever;
     next_ = 0;
     if (next == kNever) return;
     next_ = scheduler_.at(next, [this] {
         nextTime_ = kNever;
         refresh();
     });
-    if (goesOn) tell(ArmNews::Event); // also after an override of 0
+    if (continues) tell(ArmChange::Event); // also after an override of 0
 }
 
 Status MotionDriver::order(Task& task, motion::MoveCommand command, motion::MoveId& id,
@@ -270,12 +270,12 @@ Status MotionDriver::submitTogether(Task& task, motion::MoveCommand command, mot
     const auto isOver = [&] { return order.isDone || group->isOver(); };
     Status status = kOk;
     WaitResult result{};
-    const auto mayGoOn = [&] { return isOver() || group->isReady() || processError_ != kOk; };
+    const auto mayContinue = [&] { return isOver() || group->isReady() || processError_ != kOk; };
     while (status == kOk && !isOver() && processError_ == kOk) {
         if (group->isReady())
             group->orderStep();
         else
-            status = task.waitFor({group->queues(), mayGoOn}, result);
+            status = task.waitFor({group->queues(), mayContinue}, result);
     }
     if (status == kOk && !order.isDone) status = takeProcessError(task); // of another robot
     if (!order.isDone) group->withdraw(*this);
@@ -321,15 +321,15 @@ void MotionDriver::limitSpeed(bool on) {
     refresh();
 }
 
-/// Until the program may go on; in steps every movement is finished before the next instruction.
+/// Until the program may continue; in steps every movement is finished before the next instruction.
 Status MotionDriver::waitReleased(Task& task, motion::MoveId id) {
-    const auto mayGoOn = [&] {
+    const auto mayContinue = [&] {
         if (processError_ != kOk) return true;
         return task.isStepwise() ? system().isDone(id) && !system_.isMoving() : system().isReleased(id);
     };
     WaitResult result{};
     const motion::MoveId outer = std::exchange(awaited_, id); // a trap routine moves the robot
-    const Status status = task.waitFor({{&changed_}, mayGoOn}, result);
+    const Status status = task.waitFor({{&changed_}, mayContinue}, result);
     awaited_ = outer;
     return status == kOk ? takeProcessError(task) : status;
 }
@@ -390,22 +390,22 @@ void MotionDriver::startMove(StopOrigin origin) {
 }
 
 void MotionDriver::programStop() {
-    if (!std::exchange(programStop_, true)) tell(ArmNews::StopOnPath);
+    if (!std::exchange(programStop_, true)) tell(ArmChange::StopOnPath);
     applyStops();
 }
 
 void MotionDriver::programStart() {
     programStop_ = false;
-    tell(ArmNews::Start);
+    tell(ArmChange::Start);
     applyStops();
 }
 
 void MotionDriver::emergencyStop(bool powerFailure) {
     advance(scheduler_.now());
     programStop_ = true;
-    tell(ArmNews::MotorsOff);
+    tell(ArmChange::MotorsOff);
     if (powerFailure) {
-        tell(ArmNews::PowerFailed);
+        tell(ArmChange::PowerFailed);
         brokenPath_ = system_.isIdle() ? 0 : system_.lastOrdered();
         brokenLevel_ = pathLevel();
     }

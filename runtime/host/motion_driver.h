@@ -31,10 +31,10 @@ struct PathAction {
     std::function<void()> act; ///< called by the scheduler, not on a task's fibre
 };
 
-/// What happens to the arm, for those who accompany it (TriggSpeed, TriggStopProc).
-enum class ArmNews : uint8_t {
+/// Changes of the arm's state, for services that accompany it (TriggSpeed, TriggStopProc).
+enum class ArmChange : uint8_t {
     Event,       ///< a movement has begun or ended, the arm has come to rest or continues
-    StopOnPath,  ///< the program stops; the arm is about to brake on its path, or stands
+    StopOnPath,  ///< the program stops; the arm is about to brake on its path, or is at rest
     MotorsOff,   ///< the arm is about to brake beside its path
     PowerFailed, ///< follows MotorsOff when the power has failed
     Start,       ///< the program starts again
@@ -65,8 +65,8 @@ class MotionDriver final : public SteppedArm {
     template <class T> T& service() { return services_.get<T>(); }
     void dropServices() { services_.clear(); }
 
-    /// Orders a move and suspends the task until the program may go on (fine point reached, look-ahead,
-    /// \Conc: started). While the queue is full the task waits first. A move that cannot be made is told in
+    /// Orders a move and suspends the task until the program may continue (fine point reached, look-ahead,
+    /// \Conc: started). While the queue is full the task waits first. A move that cannot be made is reported in
     /// `error` and nothing else happens. The command's tag is set here: the number of the move instruction,
     /// counted from 1. `actions` vanish with the move; movements executed backwards have none.
     Status order(Task& task, motion::MoveCommand command, motion::MoveId& id,
@@ -81,7 +81,7 @@ class MotionDriver final : public SteppedArm {
     /// SyncMoveSuspend, SyncMoveResume.
     void suspendGroup(bool suspended);
     bool isSuspended() const { return isSuspended_; }
-    /// Where the movement that is being ordered begins.
+    /// The beginning of the movement that is being ordered.
     struct Beginning {
         motion::Pose pose;
         motion::JointTarget joints;
@@ -111,7 +111,7 @@ class MotionDriver final : public SteppedArm {
         orderListeners_.push_back(std::move(listener));
     }
     /// Called for the life of the driver, not on a task's fibre.
-    void addListener(std::function<void(ArmNews)> listener) { listeners_.push_back(std::move(listener)); }
+    void addListener(std::function<void(ArmChange)> listener) { listeners_.push_back(std::move(listener)); }
 
     /// StopMove / StartMove, and the controller's stop / start. The arm moves when neither holds it.
     /// Motion tasks and other tasks have a stop of their own (IsStopMoveAct); each ends with the start of the same kind.
@@ -136,14 +136,14 @@ class MotionDriver final : public SteppedArm {
     void noteRetry();
     void programStop() override;
     /// The program stops by itself, with the arm standing still.
-    void noteStop() { tell(ArmNews::StopOnPath); }
+    void noteStop() { tell(ArmChange::StopOnPath); }
     void programStart() override;
     /// The motors go off: the arm leaves its path; programStart() brings it back first. `powerFailure`: notes that a path
     /// was interrupted.
     void emergencyStop(bool powerFailure);
     /// A power failure interrupted a path on this level, and that path is not finished yet (PFRestart).
     bool pathInterrupted(int level);
-    /// StepBwdPath: back on the path while the robot is held there; returns when it stands. `possible` is false when there
+    /// StepBwdPath: back on the path while the robot is held there; returns when it is at rest. `possible` is false when there
     /// is nothing more to step back on.
     Status stepBack(Task& task, double mm, double mmPerSecond, bool& possible);
     /// Program pointer moved: the paths of all levels are gone, and StopMove with them.
@@ -153,7 +153,7 @@ class MotionDriver final : public SteppedArm {
     /// ClearPath: the path of the present level is gone.
     void clearLevel();
     /// The movement in progress ends here (searches): the arm brakes on its path as fast as it can, or `stiff`: each axis
-    /// for itself. What is ordered next begins where it comes to rest.
+    /// for itself. The next order begins where it comes to rest.
     void breakOff(bool stiff);
     /// Executed now, the instruction would continue the movement that it has ordered already (RETRY after a process error).
     bool continuesMovement(const Task& task);
@@ -166,7 +166,7 @@ class MotionDriver final : public SteppedArm {
         StopFlags stopMove;
         bool isSuspended = false; ///< the robot moved for itself there, not with those of SyncMoveOn
     };
-    /// What an earlier process left of its path.
+    /// The path that an earlier process left.
     struct EarlierPath {
         std::vector<EarlierLevel> stored;       ///< from the base level on
         std::vector<motion::MoveCommand> moves; ///< to be ordered at once
@@ -178,15 +178,15 @@ class MotionDriver final : public SteppedArm {
         bool isSuspended = false;          ///< as in EarlierLevel
     };
     EarlierPath remainingPath();
-    /// From where the arm stands. The next movement the program orders is `awaited`, whatever its arguments are now.
+    /// From where the arm is. The next movement the program orders is `awaited`, whatever its arguments are now.
     void continuePath(const EarlierPath& path);
-    /// The same for the robots of a SynchronisedGroup (joinGroup), in its order: what they had ordered together they go on with
+    /// The same for the robots of a SynchronisedGroup (joinGroup), in its order: movements they had ordered together they continue
     /// together.
     static void continueTogether(SynchronisedGroup& group, std::vector<EarlierPath> paths);
-    /// An axis was in independent mode at a power failure, so that the program cannot go on where it was (manual 2.2.4).
+    /// An axis was in independent mode at a power failure, so that the program cannot continue where it was (manual 2.2.4).
     bool hasLostIndependentAxis() const { return lostIndependentAxis_; }
     /// ProcerrRecovery: the arm stops on its path, and the movement instruction that waits, else the next one, raises
-    /// `errorNumber`. Executed again (RETRY) such an instruction goes on with the movement it has ordered.
+    /// `errorNumber`. Executed again (RETRY) such an instruction continues the movement it has ordered.
     /// `why`: a sentence for the event; "": that of ProcerrRecovery.
     void raiseProcessError(Status errorNumber, std::string why = {});
     /// One is raised by the next movement instruction.
@@ -265,7 +265,7 @@ class MotionDriver final : public SteppedArm {
     void handle(const motion::MotionEvent& event);
     void schedule();
     void applyStops();
-    void tell(ArmNews news);
+    void tell(ArmChange news);
 
     Scheduler& scheduler_;
     motion::MotionSystem system_;
@@ -309,7 +309,7 @@ class MotionDriver final : public SteppedArm {
     motion::SpeedLimits speedLimits_;
     const Task* ordering_ = nullptr;
     std::function<Status(Task&)> circlePointStop_;
-    std::vector<std::function<void(ArmNews)>> listeners_;
+    std::vector<std::function<void(ArmChange)>> listeners_;
     std::vector<std::function<void(const Ordered&)>> orderListeners_;
     bool advancing_ = false;
 };

@@ -47,7 +47,7 @@ RapidcAnswer askRapidc(std::vector<std::string> arguments, std::string_view inpu
     const char* named = std::getenv(kRapidcVariable);
     answer.program = named != nullptr && *named != '\0' ? named : "rapidc";
     arguments.insert(arguments.begin(), answer.program);
-    // Its output goes to memory: nobody has to read while it writes.
+    // Its output goes to memory: no process has to read while it writes.
     const Descriptor in{::memfd_create("input", MFD_CLOEXEC)}, out{::memfd_create("output", MFD_CLOEXEC)},
         said{::memfd_create("said", MFD_CLOEXEC)};
     if (in.number() < 0 || out.number() < 0 || said.number() < 0 || !writeAll(in.number(), input)) {

@@ -58,7 +58,7 @@ void addMaxTime(const Command& command, RunOptions& options) {
         .typeName("SECONDS");
 }
 
-/// What the controller has of disks and devices.
+/// The disks and devices of the controller.
 void addDisks(const Command& command, RunOptions& options) {
     command
         .add("--home", options.home, "the controller's HOME:; default: an empty folder, removed at the end")
@@ -79,7 +79,7 @@ void addDisks(const Command& command, RunOptions& options) {
         .oneValueEach();
     command
         .add("--camera", options.cameras,
-             "a camera of Integrated Vision, and the JSON file that says what it sees; repeatable")
+             "a camera of Integrated Vision and the JSON file of its results; repeatable")
         .typeName("NAME=FILE.json")
         .oneValueEach();
 }
@@ -119,7 +119,7 @@ void addRobots(const Command& command, RunOptions& options) {
         .oneValueEach();
     command
         .add("--planner", options.planner,
-             "what times movements: measured (as real controllers; default) or optimal (shortest time "
+             "how movements are timed: measured (as real controllers; default) or optimal (shortest time "
              "within all limits, also of jerk)")
         .oneOf({"measured", "optimal"});
 }
@@ -146,7 +146,7 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
     addDisks(command, options);
     command
         .add("--stimulus", options.stimulus,
-             "what happens from outside: lines time_s,target,value; a file, a pipe, or - for the "
+             "events from outside: lines time_s,target,value; a file, a pipe, or - for the "
              "standard input")
         .typeName("FILE.csv");
     command.add("--trace", options.outputs.trace, "write the robot's motion, a sample each 4 ms")
@@ -167,7 +167,7 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
         .add("--picture", options.outputs.picture, "draw the path of the TCP with zones, points and signals")
         .typeName("FILE.svg");
     command.addFlag("--summary", options.outputs.summary,
-                    "show cycle time, what each movement was slowed by, and where the files lie");
+                    "print cycle time, what slowed each movement, and the paths of the files");
     command
         .add("--state", options.state,
              "folder that keeps the controller's state from run to run: data, events, the robot's "

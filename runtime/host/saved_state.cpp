@@ -105,7 +105,7 @@ void SavedState::remember() {
         data_.add(data, keyOf(data));
         if (data.kind != kGlobalVariable && data.kind != kGlobalPersistent) continue;
         if (!known.try_emplace(data.address, true).second) continue;
-        // Variables of handles begin without an object. Where nobody keeps what they name, it is made anew.
+        // Variables of handles begin without an object. Objects without a keeper are made anew.
         if (!valueToSource(data.address, *data.type, initial) &&
             !valueToImage(data.address, *data.type, 1, controller_.service<StateKeepers>(), initial))
             continue;
@@ -232,7 +232,7 @@ bool SavedState::write() {
 
 void SavedState::write(const StateImage& image) {
     written_ = std::chrono::steady_clock::now();
-    controller_.panel().flush(); // what was shown before is not shown again by the run that goes on from here
+    controller_.panel().flush(); // the run that continues from here does not show earlier dialogs again
     const std::string problem = rapid::config::replaceFile(path(), writeImage(image));
     if (!problem.empty() && !failed_) controller_.log().write(EventId::StateNotWritten, nullptr, {problem});
     failed_ = !problem.empty();
@@ -390,18 +390,18 @@ void SavedState::restoreTasks(const StateImage& image) {
     Rows kept; // variables of shared modules get their initial values once, when the program is loaded
     for (const auto& row : variables_)
         if (ownerOf(*row.first) == nullptr) kept.push_back(row);
-    bool goesOn = false;
+    bool continues = false;
     for (const auto& task : controller_.tasks()) {
         const auto found = image.tasks.find(upperCase(task->name()));
         if (found == image.tasks.end() || !restorePointer(*task, found->second)) continue;
-        goesOn = goesOn || (task->kind() == TaskKind::Normal && task->isReentering());
+        continues = continues || (task->kind() == TaskKind::Normal && task->isReentering());
         for (const auto& row : variables_)
             if (ownerOf(*row.first) == task.get()) kept.push_back(row);
     }
-    // The run that was interrupted goes on: what was over in it stays over.
+    // The interrupted run continues: tasks that had ended in it stay ended.
     for (const auto& task : controller_.tasks()) {
         const auto found = image.tasks.find(upperCase(task->name()));
-        if (!goesOn || found == image.tasks.end() || task->kind() != TaskKind::Normal) continue;
+        if (!continues || found == image.tasks.end() || task->kind() != TaskKind::Normal) continue;
         task->setCyclesDone(found->second.cycles);
         const StateImage::Pointer pointer = found->second.pointer;
         if (pointer == StateImage::Pointer::Ended || pointer == StateImage::Pointer::Exited)
@@ -416,7 +416,7 @@ void SavedState::restoreTasks(const StateImage& image) {
     restoreData(numbers, image.interruptNumbers);
 }
 
-/// Where the task begins. True when its variables keep their values.
+/// The beginning of the task. True when its variables keep their values.
 bool SavedState::restorePointer(Task& task, const StateImage::TaskImage& image) {
     // SEMISTATIC tasks start from the beginning at every power on (manual 1.20).
     if (image.pointer == StateImage::Pointer::Main || image.pointer == StateImage::Pointer::Exited ||

@@ -25,12 +25,12 @@ struct GlobalDesc;
 
 /// The content of a state file.
 struct StateImage {
-    /// Where the program pointer of a task was.
+    /// The place of the program pointer of a task.
     enum class Pointer : uint8_t {
         Main,   ///< at main, variables to be initialised
         Ended,  ///< main returned: the next start is one after a cycle
         Inside, ///< in the program
-        Exited  ///< EXIT: the next start is from main, but not in the run that goes on
+        Exited  ///< EXIT: the next start is from main, but not in the run that continues
     };
     struct Interrupt {
         SavedInterrupt what;
@@ -40,7 +40,7 @@ struct StateImage {
         Pointer pointer = Pointer::Main;
         std::string place;              ///< "Main:12"
         uint64_t cycles = 0;            ///< how often main has returned
-        std::optional<CallChain> chain; ///< Inside: how to go on there; none:
+        std::optional<CallChain> chain; ///< Inside: how to continue there; none:
         std::string refusal;            ///< why that is not possible
         std::vector<Interrupt> interrupts;
         std::vector<int> queuedInterrupts; ///< those that a stop leaves in the queue
@@ -54,7 +54,8 @@ struct StateImage {
     std::map<std::string, TaskImage> tasks;
     std::map<std::string, Datum> persistents; ///< by keyOf
     std::map<std::string, Datum> variables;
-    std::map<std::string, Datum> interruptNumbers; ///< intnum variables: of use to a task that goes on alone
+    std::map<std::string, Datum>
+        interruptNumbers; ///< intnum variables: of use to a task that continues alone
     /// Of each motion group.
     struct Group {
         std::string robot;        ///< model
@@ -89,8 +90,8 @@ class SavedState {
     bool restore(std::string& error);
     /// Writes the state as it is now; false when it is not on disk. Every task must stand between two instructions.
     bool write();
-    /// To be called often between slices: writes when the last time was a second ago. While a task stands where no later
-    /// process could go on, it waits for a better moment, for a further second at most.
+    /// To be called often between slices: writes when the last time was a second ago. While a task is where no later
+    /// process could continue, it waits for a better moment, for a further second at most.
     void keepFresh();
 
   private:

@@ -1,4 +1,4 @@
-// The state file as text: JSON, versioned. What is read comes from a disk and may be anything.
+// The state file as text: JSON, versioned. The text comes from a disk and may be anything.
 
 #include "config/json_text.h"
 #include "runtime/host/chain_image.h"

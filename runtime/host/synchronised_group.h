@@ -26,7 +26,7 @@ class SynchronisedGroup {
     explicit SynchronisedGroup(std::vector<Member> members) : members_(std::move(members)) {}
 
     const std::vector<Member>& members() const { return members_; }
-    /// What the instruction of one task asks for, and what has become of it.
+    /// The request of one task's instruction, and its outcome.
     struct Order {
         Task* task = nullptr;
         motion::MoveCommand command;

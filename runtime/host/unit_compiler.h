@@ -19,7 +19,7 @@ struct LoadedFile {
     std::string bytes;
 };
 
-/// What a module is compiled beside.
+/// The program beside which a module is compiled.
 struct ProgramState {
     const ProgramTables& tables;
     const std::deque<LoadedFile>& files;

@@ -21,7 +21,7 @@ template <class Work> void onOwnStack(Work&& work) {
     std::thread(std::forward<Work>(work)).join();
 }
 
-/// Tells apart what compiling a module depends on: the file and every module in memory.
+/// Identifies the inputs of compiling a module: the file and every module in memory.
 std::string keyOf(const LoadRequest& request, const ProgramTables& present) {
     std::string key =
         fmt::format("{}|{}|{}|{}", request.taskIndex, request.shown, request.bytes.size(), request.bytes);

@@ -401,7 +401,7 @@ Status Task::stopHere(const char* instruction, bool allNormal, StopCause cause) 
     events_.owe(SystemEvent::Stop);
     host_.taskStopped(*this);
     if (allNormal) host_.stopNormalTasks(StopCause::Order);
-    const StandingHere standing(standing_, Standing::BehindStop);
+    const StandingHere standing(standing_, Standing::AfterStop);
     return suspendStopped();
 }
 

@@ -68,7 +68,7 @@ enum class Standing : uint8_t {
     Between,     ///< somewhere inside a statement
     AtStatement, ///< before a statement (stepping profile)
     InWait,      ///< in an instruction that waits; started again it counts from the beginning
-    BehindStop,  ///< Stop has been executed
+    AfterStop,   ///< Stop has been executed
     AtError,     ///< the statement failed; started again it is executed again
 };
 
@@ -181,8 +181,8 @@ class Task : public TaskCore {
     /// and `guide` leads from statement to statement until finishReentry() or abandonReentry().
     void reenter(StepHook& guide, EntryFunction entry);
     bool isReentering() const { return nextGuide_ != nullptr || guide_ != nullptr; }
-    /// The frames are there again; `behindStop`: the statement to execute next is a Stop that has been executed.
-    void finishReentry(const ErrorMemory& errors, bool behindStop);
+    /// The frames are there again; `afterStop`: the statement to execute next is a Stop that has been executed.
+    void finishReentry(const ErrorMemory& errors, bool afterStop);
     /// It cannot be entered: the program pointer goes to main. To be returned by the guide.
     Status abandonReentry();
     /// Its cycles were over, and the run that continues is the one in which they were.

@@ -27,9 +27,9 @@ void Task::endReentry() {
     nextGuide_ = nullptr;
 }
 
-void Task::finishReentry(const ErrorMemory& errors, bool behindStop) {
+void Task::finishReentry(const ErrorMemory& errors, bool afterStop) {
     endReentry();
-    passStop_ = behindStop;
+    passStop_ = afterStop;
     errorNumber = errors.errorNumber;
     interruptNumber = errors.interruptNumber;
     error_ = RaisedError::described(errors.text, errors.place);

@@ -1,4 +1,4 @@
-"""What an editor waits for: answers of `rapidc lsp` in a module of 10,000 lines, alone and among half a million lines."""
+"""Waiting times of an editor: answers of `rapidc lsp` in a module of 10,000 lines, alone and among half a million lines."""
 
 import json
 import os

@@ -63,7 +63,7 @@ size_t below(Random& random, size_t n) {
     return n == 0 ? 0 : random() % n;
 }
 
-/// What happens to a text while somebody writes: pieces go, come twice, or are half there.
+/// Changes of a text that is being written: pieces go, come twice, or are half there.
 void change(std::string& text, Random& random) {
     static const char* const kPieces[] = {";", ",",     "\\",     ".",        ":=",      "(",       ")",
                                           "{", "}",     "[",      "]",        "%",       "\"",      "\n",

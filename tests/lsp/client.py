@@ -274,7 +274,7 @@ class LspCase(unittest.TestCase):
         return client, client.open(path, text)
 
     def check(self, *arguments):
-        """What `rapidc check --format=json` says."""
+        """The output of `rapidc check --format=json`."""
         done = subprocess.run([RAPIDC, "check", "--format=json", *arguments], capture_output=True, text=True, check=False)
         return json.loads(done.stdout)
 

@@ -177,7 +177,7 @@ class Encodings(LspCase):
     def test_utf16(self):
         client, document, found = self.found(["utf-16", "utf-8"], "utf-16")
         self.assertEqual(found[0]["range"], span((2, 22), (2, 23)))
-        client.change(document, 2, ((2, 21), (2, 25), ""))  # behind the closing quote
+        client.change(document, 2, ((2, 21), (2, 25), ""))  # after the closing quote
         self.assertEqual(client.published(document, 2), [])
 
     def test_utf8_when_it_comes_first(self):

@@ -1,4 +1,4 @@
-"""What the server knows of a program, in the protocol's own words (items 8 to 16 of what rapidc promises)."""
+"""The server's knowledge of a program, in the protocol's own words (items 8 to 16 of what rapidc promises)."""
 
 import os
 import unittest

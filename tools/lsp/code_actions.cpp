@@ -17,7 +17,7 @@ using rapid::diag::Diagnostic;
 
 namespace {
 
-/// Whether the client wants actions of this kind; a kind stands for those below it ("source" for "source.fixAll").
+/// Whether the client wants actions of this kind; a kind includes those below it ("source" for "source.fixAll").
 bool isWanted(const Json* only, const std::string& kind) {
     if (!only || !only->is_array()) return true;
     return std::any_of(only->begin(), only->end(), [&](const Json& each) {

@@ -40,7 +40,7 @@ int kindOf(ItemKind kind) {
 
 struct Style {
     bool snippets = false;
-    bool adjusts = false; ///< the client can be told to indent the lines of a text
+    bool adjusts = false; ///< the client can be asked to indent the lines of a text
 };
 
 Json itemJson(const State& state, const Target& target, const Json& range, const CompletionItem& item,

@@ -10,7 +10,7 @@
 
 namespace lsp {
 
-/// What there is to say of the files of the workspace now, by path; notes of a backup are left out. Good until the workspace
+/// The diagnostics of the files of the workspace now, by path; notes of a backup are left out. Good until the workspace
 /// changes.
 using DiagnosticsByPath = std::map<std::string, std::vector<const rapid::diag::Diagnostic*>>;
 DiagnosticsByPath diagnosticsByPath(State& state);

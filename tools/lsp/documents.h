@@ -27,8 +27,8 @@ class Documents {
     Document* byPath(std::string_view path);
     const std::map<std::string, Document, std::less<>>& all() const { return byUri_; }
 
-    /// The path that the workspace knows a document by: that of its file. What is no file, or whose name is none of a RAPID
-    /// module while its language is RAPID, gets a path of its own that no file has.
+    /// The path that the workspace knows a document by: that of its file. A document that is not a file, or whose name is not that of a
+    /// RAPID module while its language is RAPID, gets a path of its own that no file has.
     static std::string pathFor(const std::string& uri, const std::string& languageId);
     /// Whether it is a path that no file has.
     static bool isUnsaved(std::string_view path);

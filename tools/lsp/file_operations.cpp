@@ -43,7 +43,7 @@ void renameModule(State& state, const fs::path& from, const fs::path& to, FileEd
     }
 }
 
-/// Places where the name of a file stands by itself: in program files and in the lists of modules of a configuration.
+/// Places where the name of a file occurs by itself: in program files and in the lists of modules of a configuration.
 std::vector<TextEdit> renamedIn(const SourceFile& file, const std::string& from, const std::string& to) {
     std::vector<TextEdit> edits;
     const std::string text = rapid::config::upperCase(file.text()), name = rapid::config::upperCase(from);

@@ -8,7 +8,7 @@
 
 namespace lsp {
 
-/// Takes bytes as they come and gives the bodies of whole frames. Headers that are none are passed over up to the next empty
+/// Takes bytes as they come and gives the bodies of whole frames. Invalid headers are skipped up to the next empty
 /// line, so that a stray line does not end the conversation.
 class FrameReader {
   public:

@@ -1,4 +1,4 @@
-// What an editor shows between the lines: inlay hints, code lenses; links; the calls of routines.
+// Texts that an editor shows between the lines: inlay hints, code lenses; links; the calls of routines.
 
 #include "frontend/query/hints.h"
 #include "config/json_text.h"

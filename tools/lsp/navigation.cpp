@@ -1,4 +1,4 @@
-// Where names lead: definition and its like, references, highlight, rename.
+// The targets of names: definition and its like, references, highlight, rename.
 
 #include "frontend/query/navigation.h"
 #include "config/json_text.h"

@@ -1,4 +1,4 @@
-// What a document consists of: symbols, folding, selection; symbols of the workspace.
+// The parts of a document: symbols, folding, selection; symbols of the workspace.
 
 #include "config/json_text.h"
 #include "frontend/project/files.h"

@@ -42,7 +42,7 @@ struct Range {
     Position start, end;
 };
 
-/// What a character of a Position counts.
+/// The unit that a character of a Position counts.
 enum class PositionEncoding : uint8_t { Utf16, Utf8 };
 
 // ---- readers of parameters; what is missing or of another type becomes a RequestError (kInvalidParams)
@@ -60,7 +60,7 @@ bool boolField(const Json& object, const char* name, bool otherwise);
 std::string documentUri(const Json& params);
 Position positionOf(const Json& json);
 Range rangeOf(const Json& json);
-/// Whether an array has this text or number as an element; false for what is no array.
+/// Whether an array has this text or number as an element; false for other values.
 bool hasElement(const Json* array, const Json& value);
 /// A member of a member ..., e.g. "textDocument.completion.completionItem"; null when something is missing.
 const Json* at(const Json& json, std::string_view path);

@@ -22,7 +22,7 @@ Json capabilities(State& state);
 void addLanguageCapabilities(Json& offered);
 /// Takes over folders, settings and the encoding of positions from the parameters of initialize. Throws RequestError.
 void initialize(State& state, const Json& params);
-/// What the client is asked for after `initialized`: its settings, and to watch files.
+/// Requests to the client after `initialized`: its settings, and to watch files.
 void afterInitialized(State& state);
 
 // ---- formatting.cpp

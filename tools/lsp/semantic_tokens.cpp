@@ -37,7 +37,7 @@ Numbers encode(const PositionMap& positions, const std::vector<query::SemanticTo
     return numbers;
 }
 
-/// What the client has of a document: the last answer.
+/// The state that the client has of a document: the last answer.
 struct Kept {
     uint64_t number = 0;
     Numbers numbers;

@@ -24,7 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A message that was read; no value: it is no JSON.
+/// A message that was read; no value: it is not JSON.
 using Message = std::optional<Json>;
 
 /// Messages on their way from the reader to the worker, and the requests that were cancelled since.

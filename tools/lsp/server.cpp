@@ -17,7 +17,7 @@ bool isId(const Json& id) {
     return id.is_string() || id.is_number_integer();
 }
 
-/// The id of something that is no request, as far as it has one.
+/// The id of something that is not a request, as far as it has one.
 Json idOf(const Json& message) {
     if (!message.is_object()) return nullptr;
     const auto id = message.find("id");
@@ -50,7 +50,7 @@ void Server::receive(const Json& message) {
     }
     if (!isRequestOrNotification(message)) {
         refuse(idOf(message), error::kInvalidRequest,
-               "the message is no request: expected an object with \"jsonrpc\": \"2.0\" and a method");
+               "the message is not a request: expected an object with \"jsonrpc\": \"2.0\" and a method");
         return;
     }
     const auto method = message.at("method").get<std::string>();

@@ -21,7 +21,7 @@ class Server {
     void setWarnings(const std::vector<std::string>& warnings) { state_.workspace.setWarnings(warnings); }
     /// Takes one message.
     void receive(const Json& message);
-    /// The body of a frame that is no JSON.
+    /// The body of a frame that is not JSON.
     void receiveGarbage();
     /// Publishes diagnostics when something changed. `interrupted` is asked between programs: it ends this early, with nothing
     /// published, when messages are waiting. `whole`: also what takes long in large programs (the judgement about all of a

@@ -1,5 +1,5 @@
 #pragma once
-// What the server knows while a client is connected: its documents, the programs they belong to, what the client can do.
+// The state of the server while a client is connected: its documents, the programs they belong to, abilities of the client.
 // Every request is a function of it (requests.h).
 
 #include "frontend/query/snapshot.h"
@@ -21,7 +21,7 @@ namespace lsp {
 struct Target {
     std::string path;
     std::shared_ptr<const PositionMap> positions; ///< of its text as it is now
-    rapid::workspace::Program* program = nullptr; ///< up to date; null: it is no module
+    rapid::workspace::Program* program = nullptr; ///< up to date; null: it is not a module
     const rapid::syntax::SyntaxTree* tree = nullptr;
     const rapid::query::Snapshot* snapshot = nullptr; ///< of the program
     const rapid::query::FileView* view = nullptr;     ///< of the module
@@ -33,7 +33,7 @@ struct Target {
 class State {
   public:
     using Send = std::function<void(const Json&)>;
-    /// What to do with the answer of the client; null when it is an error.
+    /// The handler of the client's answer; null when it is an error.
     using Answered = std::function<void(State&, const Json* result)>;
 
     State(const rapid::workspace::Environment& environment, Send send);

@@ -18,7 +18,7 @@ class FrameReader {
     enum class Result {
         Message,
         More,  ///< the bytes so far end inside a message
-        Broken ///< they are no message; see problem(). What follows cannot be read any more
+        Broken ///< they are not a message; see problem(). The rest cannot be read any more
     };
 
     void add(std::string_view bytes) { buffer_.append(bytes); }

@@ -16,7 +16,7 @@ using rapid::diag::Diagnostic;
 
 namespace {
 
-/// True as well when one begins where the other ends: what stands between them then is not known.
+/// True as well when one begins where the other ends: the text between them then is not known.
 bool touch(SourceRange a, SourceRange b) {
     return a.begin <= b.end && b.begin <= a.end;
 }

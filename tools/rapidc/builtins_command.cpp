@@ -72,7 +72,7 @@ bool isPattern(const std::string& name) {
     return name.find_first_of("*?") != std::string::npos;
 }
 
-/// '*' stands for any letters, '?' for one; both in lower case.
+/// '*' matches any letters, '?' one; both in lower case.
 bool matches(std::string_view pattern, std::string_view name) {
     size_t p = 0, n = 0, star = std::string_view::npos, resume = 0;
     while (n < name.size()) {
@@ -127,7 +127,7 @@ const rapid::syntax::Node* findDeclaration(const rapid::sema::Module& module, st
     return nullptr;
 }
 
-/// What it is, what is known of it and how it is declared.
+/// Its kind, its state and its declaration.
 void describe(const rapid::sema::CheckedProgram& program, const Row& row) {
     fmt::print("{}: {}, {}{}\n", row.name, row.kind, row.status,
                row.chapter == "-" ? "" : ", manual " + row.chapter);
@@ -202,10 +202,10 @@ void addBuiltinsCommand(rt::CommandLine& line) {
     auto format = std::make_shared<std::string>("human");
     auto names = std::make_shared<std::vector<std::string>>();
     const rt::Command command =
-        line.addCommand("builtins", "List everything predefined and what of it is implemented",
+        line.addCommand("builtins", "List predefined names and whether they are implemented",
                         [=] { return show(*format, *names); });
     command.add("name", *names,
-                "Say what these are and how they are declared; 'Socket*' lists all that match (* and ?)");
+                "Describe these names with their declarations; 'Socket*' lists all that match (* and ?)");
     command.add("--format", *format, "human or tsv").oneOf({"human", "tsv"});
 }
 

@@ -1,4 +1,4 @@
-// rapidc check: diagnostics, and with --fix the edits that mend them.
+// rapidc check: diagnostics, and with --fix the edits that correct them.
 
 #include "runtime/host/command_line.h"
 #include "tools/rapidc/apply_fixes.h"
@@ -26,7 +26,7 @@ struct CheckSettings {
     bool missing = false; ///< only the table of what is missing
 };
 
-/// Mends until nothing certain is left, or says that more is: a round mends what one check reports.
+/// Corrects until nothing certain is left, or says that more is: a round corrects the mistakes that one check reports.
 void fixFiles(const Inputs& inputs) {
     constexpr int kMaxRounds = 100;
     std::map<std::string, size_t> fixed;
@@ -109,7 +109,7 @@ void addCheckCommand(rt::CommandLine& line) {
     addWarningOption(command, settings->inputs);
     command.add("--format", settings->format, "human, json or sarif").oneOf({"human", "json", "sarif"});
     command.addFlag("--missing", settings->missing,
-                    "Only a table of what the program needs and is not there: built-ins, names, modules, "
+                    "Print only a table of what is missing: built-ins, names, modules, "
                     "signals, options");
     command.addFlag("--fix", settings->fix,
                     "Change the files: apply each fix that is certain, then report what is left");

@@ -99,7 +99,7 @@ void addExplainCommand(rt::CommandLine& line) {
     auto folder = std::make_shared<std::string>();
     const auto body = [code, folder] {
         if (code->empty() && folder->empty()) {
-            fmt::print(stderr, "rapidc explain: code is required\nrapidc explain --help tells more\n");
+            fmt::print(stderr, "rapidc explain: code is required\nrapidc explain --help says more\n");
             return static_cast<int>(rt::ExitStatus::BadUsage);
         }
         return folder->empty() ? explain(*code) : writePages(*folder);

@@ -30,7 +30,7 @@ constexpr EventRow kEvents[] = {
 #undef EVENT
 };
 
-/// Where the text of the event says too little, and for events that the program writes.
+/// Explanations of events whose text says too little, and of those that the program writes.
 struct EventNote {
     int number;
     std::string_view note;

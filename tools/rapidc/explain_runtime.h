@@ -1,14 +1,14 @@
 #pragma once
-// What the numbers and names mean that a running program shows: events of the event log, ERR_ constants.
+// The meaning of the numbers and names that a running program shows: events of the event log, ERR_ constants.
 
 #include <string>
 #include <string_view>
 
 namespace rapidc {
 
-/// What is known of an event number as the log shows it (40229, also with the word "event" before); "" if it is none.
+/// The explanation of an event number as the log shows it (40229, also with the word "event" before); "" if it is none.
 std::string explainEvent(std::string_view text);
-/// What is known of an error constant (ERR_DIVZERO, in any case) or of its number; "" if it is none.
+/// The explanation of an error constant (ERR_DIVZERO, in any case) or of its number; "" if it is none.
 std::string explainError(std::string_view text);
 /// "; did you mean 'ERR_DIVZERO'?" for a name that begins like one of an error; else "".
 std::string nearestError(std::string_view text);

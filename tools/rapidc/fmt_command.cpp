@@ -1,4 +1,4 @@
-// rapidc fmt: lays out modules in place, or tells which ones would change.
+// rapidc fmt: lays out modules in place, or names those that would change.
 
 #include "runtime/host/command_line.h"
 #include "tools/rapidc/commands.h"
@@ -195,7 +195,7 @@ void addFmtCommand(rt::CommandLine& line) {
     command.addFlag("--stdin", settings->fromStdin,
                     "Read a module from standard input, write it to standard output");
     command.add("--stdin-name", settings->stdinName,
-                "File name of that module: its type tells the encoding, its folder the settings");
+                "File name of that module: its type gives the encoding, its folder the settings");
     command.add("--range", settings->range, "FIRST:LAST: change only these lines");
     command.addFlag("--keep-errors", settings->keepErrors,
                     "Format around declarations with mistakes instead of refusing the module");

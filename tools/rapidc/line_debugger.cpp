@@ -137,7 +137,7 @@ bool LineDebugger::execute(std::string_view line) {
     return false;
 }
 
-// ---- Going on ------------------------------------------------------------------------------------------------------
+// ---- Continuing ----------------------------------------------------------------------------------------------------
 
 bool LineDebugger::went(const std::string& problem) {
     if (!problem.empty()) fmt::print("not possible: {}\n", problem);

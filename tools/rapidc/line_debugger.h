@@ -1,5 +1,5 @@
 #pragma once
-// The line-mode debugger of `rapidc run --step`: reads commands from stdin while the program stands still, writes to
+// The line-mode debugger of `rapidc run --step`: reads commands from stdin while the program is halted, writes to
 // stdout.
 
 #include "runtime/debug/debugger.h"
@@ -17,7 +17,7 @@ class LineDebugger final : public rt::DebugClient {
   public:
     LineDebugger(rt::Controller& controller, const Compilation& compilation)
         : controller_(controller), evaluator_(compilation, controller) {}
-    /// The program stops ahead of its first instruction from now on.
+    /// The program stops before its first instruction from now on.
     void attach();
 
     void stopped(rt::Debugger& debugger, rt::Task& task, rt::StopReason reason) override;
@@ -27,7 +27,7 @@ class LineDebugger final : public rt::DebugClient {
         const char* names;   ///< "step s"
         const char* usage;   ///< arguments
         const char* meaning; ///< one sentence
-        /// True: the program goes on (or the run ends).
+        /// True: the program continues (or the run ends).
         bool (LineDebugger::*action)(std::string_view arguments);
     };
     static const std::vector<Command>& commands();

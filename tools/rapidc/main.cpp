@@ -33,7 +33,8 @@ int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of m
     int status = static_cast<int>(rt::ExitStatus::BadUsage);
     try {
         status = line.run(argc, argv);
-    } catch (const std::system_error&) { // fmt::print: standard output is full or closed, which is told below
+    } catch (
+        const std::system_error&) { // fmt::print: standard output is full or closed, which is reported below
     }
     return rt::finishStandardOutput("rapidc", status);
 }

@@ -41,7 +41,7 @@ struct Row {
 /// By kind, then name.
 using Table = std::map<std::pair<std::string, std::string>, Row>;
 
-/// What a diagnostic reports as missing; an empty kind: nothing.
+/// The missing thing that a diagnostic reports; an empty kind: nothing.
 struct Finding {
     std::string_view kind, detail;
     bool isName = false; ///< it is in the source: all of its places are reported
@@ -133,7 +133,7 @@ class MissingReport {
         return {tree.source->path(), tree.source->lineColumn(offset)};
     }
 
-    /// Where the names stand that are reported once only.
+    /// The places of names that are reported once only.
     void findPlaces() {
         std::unordered_set<const rapid::syntax::SyntaxTree*> seen;
         for (const auto& tree : compilation_.program->trees) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the code generator needs to know of the standard library that rapidc contains.
+// The description for the code generator of the standard library that rapidc contains.
 
 #include "codegen/codegen.h"
 #include "ir/core/ir.h"
@@ -18,7 +18,7 @@ codegen::CodegenOptions codegenOptions(bool optimise);
 /// Makes options.prepare run the passes on each routine of a program that is compiled in parts. `module` must outlive the options.
 void runPassesInParts(codegen::CodegenOptions& options, ir::Module& module, const ir::PassOptions& passes);
 
-/// Where compiled parts are kept: $RAPIDC_CACHE, else rapidc in $XDG_CACHE_HOME or ~/.cache; "" when none of them is set.
+/// The folder of compiled parts: $RAPIDC_CACHE, else rapidc in $XDG_CACHE_HOME or ~/.cache; "" when none of them is set.
 std::string cacheFolder();
 
 } // namespace rapidc

@@ -32,11 +32,11 @@ void addTaskOption(const rt::Command& command, Inputs& inputs);
 void addConfigOption(const rt::Command& command, Inputs& inputs);
 void addRobotOption(const rt::Command& command, Inputs& inputs);
 
-/// Loads, parses and checks. Look at `sink` and `usageErrors` before going on; there is no program when the options
+/// Loads, parses and checks. Look at `sink` and `usageErrors` before continuing; there is no program when the options
 /// cannot be read.
 std::unique_ptr<Compilation> checkInputs(const Inputs& inputs);
 
-/// Lowers and runs the IR passes. False with diagnostics in the sink when something stands against it. `passesBelow`: a
+/// Lowers and runs the IR passes. False with diagnostics in the sink when something prevents it. `passesBelow`: a
 /// program of as many IR instructions is only verified outside its routines; whoever compiles it runs the passes (irPasses).
 /// `calledFromOutside`: procedures that are found by name (tests); may be empty.
 bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping, ir::Module& out,
@@ -53,7 +53,7 @@ ir::PassOptions irPasses(const Compilation& compilation, bool stepping);
 bool runIrPasses(ir::Module& module, const ir::PassOptions& options, rapid::diag::Sink& sink);
 
 /// Writes all diagnostics to stderr in the form for people, and a closing line when there are errors. What a backup
-/// holds (notes 605x) is told only by `check`.
+/// holds (notes 605x) is reported only by `check`.
 void printDiagnostics(const Compilation& compilation, bool withReport = false);
 
 /// Why the outputs of a command cannot be written without loss; "" when they can. `outputs`: option and path.

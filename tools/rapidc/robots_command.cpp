@@ -15,7 +15,7 @@ namespace rapidc {
 
 namespace {
 
-/// What a user of a model must know of it; "" for nothing.
+/// Remarks for a user of a model; "" for none.
 const char* limitationOf(const robot::RobotModel& model) {
     const bool isEstimated = std::find(model.provisional.begin(), model.provisional.end(), "geometry_mm") !=
                              model.provisional.end();

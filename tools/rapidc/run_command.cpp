@@ -109,7 +109,7 @@ int run(RunSettings& settings) {
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
     rapid::config::removeLeftoversBeside(compilation->filesRead);
-    // A later process can go on in the middle of a program of the stepping profile only.
+    // A later process can continue in the middle of a program of the stepping profile only.
     settings.stepping = settings.stepping || settings.interactive || stimulusSteps(settings.options) ||
                         timesStatements(*compilation) ||
                         (!settings.options.state.empty() && !settings.noStepping);

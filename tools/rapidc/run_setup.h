@@ -1,5 +1,5 @@
 #pragma once
-// What is done between the check of a program and its run, by `rapidc run` and by the debug adapter.
+// The steps between the check of a program and its run, by `rapidc run` and by the debug adapter.
 
 #include "config/temporary.h"
 #include "runtime/host/run_options.h"

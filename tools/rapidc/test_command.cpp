@@ -354,8 +354,7 @@ void addRunOptions(const rt::Command& command, TestSettings& settings) {
         .typeName("NAME=FILE.json")
         .oneValueEach();
     command
-        .add("--stimulus", options.stimulus,
-             "what happens from outside, for tests without a stimulus of their own")
+        .add("--stimulus", options.stimulus, "events from outside, for tests without a stimulus of their own")
         .typeName("FILE.csv");
     command.addFlag("--offline", options.network.offline, "sockets connect tasks of this controller only");
     command.addFlag("--all-tasks", settings.withOtherTasks,

@@ -66,7 +66,7 @@ bool writeAll(int fd, const std::string& bytes) {
         close(fds[stream][1]);
     for (auto& pair : fds)
         close(pair[0]);
-    if (std::freopen("/dev/null", "r", stdin) == nullptr) std::_Exit(1); // nobody answers at a terminal
+    if (std::freopen("/dev/null", "r", stdin) == nullptr) std::_Exit(1); // no answer comes from a terminal
     const TestResult outcome = body(test);
     std::fflush(stdout);
     std::fflush(stderr);

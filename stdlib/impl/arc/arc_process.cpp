@@ -48,7 +48,7 @@ void ArcProcess::open(TaskCore* task) {
     motion_ = &motionOf(task);
     weaving_ = std::make_shared<motion::Weaving>();
     motion_->system().addModifier(weaving_);
-    motion_->addListener([this](ArmNews news) { take(news); });
+    motion_->addListener([this](ArmChange news) { take(news); });
     controller_->io().addListener(-1, [this](SignalId id, double, double) { inputChanged(id); });
 }
 
@@ -286,14 +286,14 @@ void ArcProcess::inputChanged(SignalId id) {
 }
 
 /// A stop of the program puts the arc out; when the robot continues the arc is ignited again on the way.
-void ArcProcess::take(ArmNews news) {
+void ArcProcess::take(ArmChange news) {
     if (phase_ != Phase::Welding || inhibited_) return;
-    if (news == ArmNews::StopOnPath || news == ArmNews::MotorsOff) {
+    if (news == ArmChange::StopOnPath || news == ArmChange::MotorsOff) {
         if (std::exchange(stopped_, true)) return;
         established_ = false;
         arcOff();
         equipment_.set(ArcOutput::GasOn, false);
-    } else if (news == ArmNews::Start && std::exchange(stopped_, false)) {
+    } else if (news == ArmChange::Start && std::exchange(stopped_, false)) {
         equipment_.set(ArcOutput::GasOn, true);
         arcOn(weld_->main_arc);
         superviseIgnition();

@@ -54,7 +54,7 @@ class ArcProcess {
     enum class Phase : uint8_t { Off, Preparing, Welding, Closing, Interrupted };
 
     void open(TaskCore* task);
-    void take(ArmNews news);
+    void take(ArmChange news);
     void inputChanged(SignalId id);
     void interrupt(Status error);
     void arcOn(const data::Arcdata& arc);

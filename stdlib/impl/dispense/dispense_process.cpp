@@ -39,7 +39,7 @@ DispenseProcess& DispenseProcess::of(TaskCore* task) {
 void DispenseProcess::open(TaskCore* task) {
     task_ = &taskOf(task);
     motion_ = &motionOf(task);
-    motion_->addListener([this](ArmNews news) { take(news); });
+    motion_->addListener([this](ArmChange news) { take(news); });
     task_->controller().io().addListener(-1, [this](SignalId id, double, double) { inputChanged(id); });
 }
 
@@ -126,12 +126,12 @@ void DispenseProcess::inputChanged(SignalId id) {
 }
 
 /// A stop of the program interrupts the bead, and the start continues it.
-void DispenseProcess::take(ArmNews news) {
-    if (news == ArmNews::StopOnPath || news == ArmNews::MotorsOff) {
+void DispenseProcess::take(ArmChange news) {
+    if (news == ArmChange::StopOnPath || news == ArmChange::MotorsOff) {
         if (phase_ != Phase::On) return;
         phase_ = Phase::Stopped;
         flowOff();
-    } else if (news == ArmNews::Start && phase_ == Phase::Stopped) {
+    } else if (news == ArmChange::Start && phase_ == Phase::Stopped) {
         phase_ = Phase::On;
         flowOn();
     }

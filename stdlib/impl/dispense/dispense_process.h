@@ -36,7 +36,7 @@ class DispenseProcess {
     enum class Phase : uint8_t { Off, On, Stopped, Interrupted };
 
     void open(TaskCore* task);
-    void take(ArmNews news);
+    void take(ArmChange news);
     void inputChanged(SignalId id);
     void flowOn();
     void flowOff();

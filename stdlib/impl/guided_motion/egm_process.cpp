@@ -330,10 +330,12 @@ EgmProcess* EgmProcesses::reserve(Task& owner, Handle& identity) {
     if (processes_.size() >= kMost) return nullptr;
     MotionDriver& motion = controller_->motion(owner);
     if (watched_.insert(&motion).second)
-        motion.addListener([this, &motion](ArmNews news) {
-            if (news != ArmNews::StopOnPath && news != ArmNews::MotorsOff && news != ArmNews::Start) return;
+        motion.addListener([this, &motion](ArmChange news) {
+            if (news != ArmChange::StopOnPath && news != ArmChange::MotorsOff && news != ArmChange::Start)
+                return;
             for (auto& [handle, process] : processes_)
-                if (&controller_->motion(process->owner()) == &motion) process->pause(news != ArmNews::Start);
+                if (&controller_->motion(process->owner()) == &motion)
+                    process->pause(news != ArmChange::Start);
         });
     identity = processes_.create(std::make_unique<EgmProcess>(*controller_, owner));
     return find(identity);

@@ -29,7 +29,7 @@ class CollisionWatch {
     void look(Controller& controller, MotionDriver& motion) {
         if (std::exchange(motion_, &motion) == nullptr) {
             controller_ = &controller;
-            motion.addListener([this](ArmNews news) { take(news); });
+            motion.addListener([this](ArmChange news) { take(news); });
         }
         check();
     }
@@ -47,8 +47,8 @@ class CollisionWatch {
     }
 
   private:
-    void take(ArmNews news) {
-        if (news != ArmNews::Event) return;
+    void take(ArmChange news) {
+        if (news != ArmChange::Event) return;
         if (backsOff_ && !motion_->system().isMoving()) {
             backsOff_ = false;
             if (motion_->system().stepBack(kBackoff, kBackSpeed)) {

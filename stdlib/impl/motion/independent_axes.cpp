@@ -53,7 +53,7 @@ class IndependentAxes {
   public:
     void order(MotionDriver& motion, const NamedAxis& axis, const IndependentOrder& order) {
         if (!std::exchange(listening_, true))
-            motion.addListener([this, &motion](ArmNews news) { take(motion, news); });
+            motion.addListener([this, &motion](ArmChange news) { take(motion, news); });
         const auto known = std::find_if(orders_.begin(), orders_.end(),
                                         [&](const Ordered& entry) { return entry.axis.axis == axis.axis; });
         Ordered& entry = known == orders_.end() ? orders_.emplace_back() : *known;
@@ -98,13 +98,13 @@ class IndependentAxes {
         motion.service<lib::WorldZones>().noteMotion();
     }
     /// A program that is stopped stops the axes, too.
-    void take(MotionDriver& motion, ArmNews news) {
+    void take(MotionDriver& motion, ArmChange news) {
         motion::MotionSystem& arm = motion.system();
         for (const Ordered& entry : orders_) {
             const motion::AxisCourse* course = arm.independent(entry.axis.axis);
             if (course == nullptr) continue;
-            if (news == ArmNews::Start) carryOut(motion, entry);
-            if (news == ArmNews::StopOnPath || news == ArmNews::MotorsOff)
+            if (news == ArmChange::Start) carryOut(motion, entry);
+            if (news == ArmChange::StopOnPath || news == ArmChange::MotorsOff)
                 arm.setIndependent(
                     entry.axis.axis,
                     course->turning(secondsNow(arm), 0, entry.axis.acceleration, entry.axis.jerk));

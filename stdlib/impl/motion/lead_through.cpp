@@ -19,8 +19,8 @@ class LeadThrough {
         isSet_ = on;
         if (isListening_) return;
         isListening_ = true;
-        motion.addListener([this](ArmNews news) {
-            if (news == ArmNews::MotorsOff) isSet_ = false;
+        motion.addListener([this](ArmChange news) {
+            if (news == ArmChange::MotorsOff) isSet_ = false;
         });
     }
     bool isSet() const { return isSet_; }

@@ -11,7 +11,7 @@ void MotionTicker::start(Controller& controller, MotionDriver& motion, std::func
     controller_ = &controller;
     motion_ = &motion;
     look_ = std::move(look);
-    motion.addListener([this](ArmNews) { this->look(); });
+    motion.addListener([this](ArmChange) { this->look(); });
 }
 
 void MotionTicker::look() {

@@ -39,7 +39,7 @@ class StopSupervision {
     /// In place of an earlier one with the same data.
     void add(Controller& controller, MotionDriver& motion, const Supervised& supervised) {
         if (std::exchange(motion_, &motion) == nullptr)
-            motion.addListener([this, &controller](ArmNews news) { take(controller, news); });
+            motion.addListener([this, &controller](ArmChange news) { take(controller, news); });
         std::erase_if(all_, [&](const Supervised& known) { return known.data == supervised.data; });
         all_.push_back(supervised);
         invalidate(*supervised.data);
@@ -57,22 +57,22 @@ class StopSupervision {
         data.preshadowval = data.shadowflanks = data.postshadowval = kNoValue;
     }
 
-    void take(Controller& controller, ArmNews news) {
+    void take(Controller& controller, ArmChange news) {
         switch (news) {
-        case ArmNews::Start:
+        case ArmChange::Start:
             if (braking_) end(controller); // started before the arm stood
             stopped_ = false;
             return;
-        case ArmNews::MotorsOff: onPath_ = false; [[fallthrough]];
-        case ArmNews::StopOnPath:
+        case ArmChange::MotorsOff: onPath_ = false; [[fallthrough]];
+        case ArmChange::StopOnPath:
             if (std::exchange(stopped_, true)) return;
-            onPath_ = news == ArmNews::StopOnPath;
+            onPath_ = news == ArmChange::StopOnPath;
             begin(controller);
             [[fallthrough]];
-        case ArmNews::PowerFailed:
-        case ArmNews::CornerLost:
-        case ArmNews::OutOfReach:
-        case ArmNews::Event:
+        case ArmChange::PowerFailed:
+        case ArmChange::CornerLost:
+        case ArmChange::OutOfReach:
+        case ArmChange::Event:
             if (braking_ && !motion_->system().isMoving()) end(controller);
             return;
         }

@@ -101,15 +101,15 @@ void WorldZones::restore(std::vector<WorldZone> zones, int lastNumber) {
 void WorldZones::listen() {
     if (std::exchange(listening_, true)) return;
     motorsOff_ = !controller_->motorsOn();
-    motion_->addListener([this](ArmNews news) { take(news); });
+    motion_->addListener([this](ArmChange news) { take(news); });
 }
 
 /// While the motors are off nothing is looked at; what they find when they are on again is acted upon anew.
-void WorldZones::take(ArmNews news) {
-    if (news == ArmNews::MotorsOff) motorsOff_ = true;
-    if (news == ArmNews::PowerFailed)
+void WorldZones::take(ArmChange news) {
+    if (news == ArmChange::MotorsOff) motorsOff_ = true;
+    if (news == ArmChange::PowerFailed)
         std::erase_if(zones_, [](const WorldZone& zone) { return zone.stationary; });
-    if (news == ArmNews::Start && std::exchange(motorsOff_, false))
+    if (news == ArmChange::Start && std::exchange(motorsOff_, false))
         for (WorldZone& zone : zones_)
             zone.inside.reset();
     noteMotion();

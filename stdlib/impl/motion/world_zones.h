@@ -57,7 +57,7 @@ class WorldZones {
 
   private:
     void listen();
-    void take(ArmNews news);
+    void take(ArmChange news);
     void lookAt(Time time);
     void look();
     void act(WorldZone& zone, bool inside);

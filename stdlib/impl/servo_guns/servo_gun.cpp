@@ -23,7 +23,7 @@ constexpr Time kRamp = 100 * kMillisecond; // of the force
 ServoGun::ServoGun(Controller& controller, MechanicalUnit& unit, GunSetup setup)
     : controller_(controller), unit_(unit), setup_(std::move(setup)),
       motion_(*controller.motions()[unit.group]) {
-    motion_.addListener([this](ArmNews news) { take(news); });
+    motion_.addListener([this](ArmChange news) { take(news); });
     auto& around = controller.service<Surroundings>();
     isInitialized_ = around.value(unit.name, Surroundings::kInitialized, 1) != 0;
     isSynchronized_ = around.value(unit.name, Surroundings::kSynchronized, 1) != 0;
@@ -44,11 +44,11 @@ void ServoGun::enter(Phase phase) {
 }
 
 /// Motors that go off end the force, and the movement is an error although it continues later.
-void ServoGun::take(ArmNews news) {
-    if (news != ArmNews::MotorsOff && news != ArmNews::PowerFailed) return;
-    if (news == ArmNews::MotorsOff && phase_ == Phase::Open) return;
-    if (news == ArmNews::PowerFailed && interrupted_ == kOk) return;
-    interrupted_ = news == ArmNews::MotorsOff ? err::ERR_SGUN_ESTOP : err::ERR_SGUN_MOTOFF;
+void ServoGun::take(ArmChange news) {
+    if (news != ArmChange::MotorsOff && news != ArmChange::PowerFailed) return;
+    if (news == ArmChange::MotorsOff && phase_ == Phase::Open) return;
+    if (news == ArmChange::PowerFailed && interrupted_ == kOk) return;
+    interrupted_ = news == ArmChange::MotorsOff ? err::ERR_SGUN_ESTOP : err::ERR_SGUN_MOTOFF;
     controller_.scheduler().cancel(std::exchange(ready_, 0));
     if (phase_ == Phase::Building || phase_ == Phase::Closed) enter(Phase::Open);
 }

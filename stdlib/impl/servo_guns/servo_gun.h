@@ -47,7 +47,7 @@ class ServoGun {
   private:
     Status order(TaskCore* task, double position, double speed, bool conc, std::function<void()> atEnd);
     Status waitPhase(TaskCore* task, Phase phase);
-    void take(ArmNews news);
+    void take(ArmChange news);
     void met();
     void enter(Phase phase);
     double wear() const;

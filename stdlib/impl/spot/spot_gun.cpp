@@ -207,8 +207,8 @@ void superviseGuns(TaskCore* task) {
     auto& supervision = motionOf(task).service<GunSupervision>();
     if (std::exchange(supervision.isOn, true)) return;
     Controller& controller = taskOf(task).controller();
-    motionOf(task).addListener([&controller](ArmNews news) {
-        if (news == ArmNews::StopOnPath || news == ArmNews::MotorsOff) giveUp(controller);
+    motionOf(task).addListener([&controller](ArmChange news) {
+        if (news == ArmChange::StopOnPath || news == ArmChange::MotorsOff) giveUp(controller);
     });
 }
 

@@ -77,7 +77,7 @@ def test_stepping(a):
     a.stopped("step", INSIDE + 1)
     a.go("stepOut")
     stop = a.stopped("step", routine="main")
-    holds(stop["frame"]["line"] > CALL, "behind the call")
+    holds(stop["frame"]["line"] > CALL, "after the call")
     a.ask("setBreakpoints", source={"path": path("part.modx")}, breakpoints=[])
     a.go()
     equal(a.run_out(), ["abc", "count 2", "total 30"])

@@ -32,7 +32,7 @@ class Adapter:
                                         stderr=subprocess.PIPE)
         self.messages = queue.Queue()
         self.seen = []  # every message, in order
-        self.events = []  # those that nobody has taken yet
+        self.events = []  # those not taken yet
         self.answers = {}
         self.seq = 0
         self.reader = threading.Thread(target=self._read, daemon=True)

@@ -89,7 +89,7 @@ def test_console_executes_instructions(a):
 
 
 def test_evaluation_without_end(a):
-    """A function that does not return: pause ends the evaluation, and the program stands where it stood."""
+    """A function that does not return: pause ends the evaluation, and the program is where it was."""
     at_inside(a)
     frame = a.top()
     endless = a.send("evaluate", {"expression": "forever()", "frameId": frame, "context": "watch"})

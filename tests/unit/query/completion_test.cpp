@@ -135,7 +135,7 @@ TEST_CASE("query: instructions, keywords and data begin a statement", "[query][c
     CHECK(item(list, "FOR").snippet.find("ENDFOR") != std::string::npos);
     CHECK(item(list, "IF").insertText == "IF ");
     CHECK(has(list, "ERROR"));
-    CHECK_FALSE(has(list, "Abs"));  // functions are no instructions
+    CHECK_FALSE(has(list, "Abs"));  // functions are not instructions
     CHECK_FALSE(has(list, "v100")); // constants are not assigned
     CHECK_FALSE(has(list, "p10"));
 }

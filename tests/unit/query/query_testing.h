@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of queries share: programs with marked places, `$1` to `$9`, which are taken out of the text.
+// The common part of the tests of queries: programs with marked places, `$1` to `$9`, which are taken out of the text.
 
 #include "frontend/query/completion.h"
 

@@ -21,7 +21,7 @@ CallChain sampleChain() {
     frame.locals.push_back({SavedLocal::Kind::Object, "[2]num", "", "0:1", 8});
     frame.locals.push_back({SavedLocal::Kind::Absent, "string", "", "", 0});
     chain.frames.push_back(frame);
-    chain.behindStop = true;
+    chain.afterStop = true;
     chain.errors.errorNumber = 1003;
     chain.errors.text = "why";
     ErrorMemory::Retries retries;
@@ -140,7 +140,7 @@ TEST_CASE("a call chain and its interrupts read back as they were written", "[st
     CHECK(frame.locals[1].object == "0:1");
     CHECK(frame.locals[1].offset == 8);
     CHECK(frame.locals[2].kind == SavedLocal::Kind::Absent);
-    CHECK(robot.chain->behindStop);
+    CHECK(robot.chain->afterStop);
     CHECK(robot.chain->errors.errorNumber == 1003);
     REQUIRE(robot.chain->errors.retries.size() == 1);
     CHECK(robot.chain->errors.retries[0].counts.at(1003) == 2);

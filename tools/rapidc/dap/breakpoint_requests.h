@@ -17,7 +17,7 @@ class BreakpointRequests {
   public:
     explicit BreakpointRequests(Context& context) : context_(context) {}
     void addTo(Handlers& handlers);
-    /// What clients may choose among.
+    /// The filters that clients may choose among.
     static Json exceptionFilters();
 
     /// A program has been made: all breakpoints are set in it, and the client learns what has become of them.

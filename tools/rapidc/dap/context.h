@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of a debugging session share.
+// The common part of a debugging session.
 
 #include "tools/rapidc/dap/evaluator.h"
 #include "tools/rapidc/dap/messages.h"

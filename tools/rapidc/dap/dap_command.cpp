@@ -15,7 +15,7 @@ namespace rapidc {
 
 namespace {
 
-/// What the thread that reads uses as long as the process lives: it cannot be interrupted.
+/// Objects that the reading thread uses as long as the process lives: it cannot be interrupted.
 struct Input {
     explicit Input(int output) : channel(STDIN_FILENO, output) {}
     protocol::Channel channel;

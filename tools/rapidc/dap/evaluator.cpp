@@ -76,7 +76,7 @@ class CallArguments {
     std::shared_ptr<std::max_align_t[]> value_;
 };
 
-/// "grid{2,*}" names a row, which is no expression of the language: the reference before the braces, and the numbers.
+/// "grid{2,*}" names a row, which is not an expression of the language: the reference before the braces, and the numbers.
 bool isRow(std::string_view text, std::string& array, std::vector<int32_t>& indices) {
     text = rt::trimmed(text);
     const std::size_t open = text.rfind('{');

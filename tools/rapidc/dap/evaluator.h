@@ -1,5 +1,5 @@
 #pragma once
-// Evaluator: values of expressions in a program that stands still, or at the statement that a task is about to execute.
+// Evaluator: values of expressions in a halted program, or at the statement that a task is about to execute.
 
 #include "runtime/host/controller.h"
 #include "tools/rapidc/dap/expression_compiler.h"
@@ -11,7 +11,7 @@
 
 namespace rapidc::dap {
 
-/// Where an expression is looked at from.
+/// The place from which an expression is evaluated.
 struct Site {
     rt::Task* task = nullptr;
     rt::Frame* frame = nullptr; ///< null: data of modules only
@@ -21,7 +21,7 @@ struct Evaluation {
     std::string problem; ///< "" when there is a value, or instructions have been executed
     bool hasValue = false;
     rt::DebugVariable value;
-    std::shared_ptr<void> storage; ///< what the value lies in, when it is no part of the program
+    std::shared_ptr<void> storage; ///< the memory of the value, when it is not part of the program
 };
 
 /// Dimensions of a value, as many as it has.

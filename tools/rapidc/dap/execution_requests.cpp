@@ -30,7 +30,7 @@ void ExecutionRequests::addTo(Handlers& handlers) {
         };
     };
     add("threads", &ExecutionRequests::threads);
-    add("continue", &ExecutionRequests::goOn);
+    add("continue", &ExecutionRequests::continueProgram);
     add("next", &ExecutionRequests::next);
     add("stepIn", &ExecutionRequests::stepIn);
     add("stepOut", &ExecutionRequests::stepOut);
@@ -51,7 +51,7 @@ rt::Task& ExecutionRequests::standing(const Arguments& arguments) {
 
 void ExecutionRequests::order(const std::function<std::string()>& action) {
     if (const std::string problem = action(); !problem.empty()) throw Refusal(problem);
-    goesOn_();
+    onContinue_();
 }
 
 Json ExecutionRequests::threads(const Arguments&) {
@@ -62,7 +62,7 @@ Json ExecutionRequests::threads(const Arguments&) {
     return {{"threads", std::move(list)}};
 }
 
-Json ExecutionRequests::goOn(const Arguments& arguments) {
+Json ExecutionRequests::continueProgram(const Arguments& arguments) {
     rt::Task& task = standing(arguments);
     const bool alone = arguments.flag("singleThread", false);
     rt::Debugger& debugger = context_.debugger();

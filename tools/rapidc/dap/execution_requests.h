@@ -1,5 +1,5 @@
 #pragma once
-// ExecutionRequests: threads, going on, stepping, pausing and moving the program pointer.
+// ExecutionRequests: threads, continuing, stepping, pausing and moving the program pointer.
 
 #include "tools/rapidc/dap/context.h"
 
@@ -10,9 +10,9 @@ namespace rapidc::dap {
 
 class ExecutionRequests {
   public:
-    /// `goesOn` is called before an order lets the program go on.
-    ExecutionRequests(Context& context, std::function<void()> goesOn)
-        : context_(context), goesOn_(std::move(goesOn)) {}
+    /// `onContinue` is called before an order continues the program.
+    ExecutionRequests(Context& context, std::function<void()> onContinue)
+        : context_(context), onContinue_(std::move(onContinue)) {}
     void addTo(Handlers& handlers);
     void forgetTargets() { targets_.clear(); }
 
@@ -23,7 +23,7 @@ class ExecutionRequests {
     };
 
     Json threads(const Arguments& arguments);
-    Json goOn(const Arguments& arguments);
+    Json continueProgram(const Arguments& arguments);
     Json next(const Arguments& arguments);
     Json stepIn(const Arguments& arguments);
     Json stepOut(const Arguments& arguments);
@@ -39,7 +39,7 @@ class ExecutionRequests {
     void order(const std::function<std::string()>& action);
 
     Context& context_;
-    std::function<void()> goesOn_;
+    std::function<void()> onContinue_;
     std::map<int64_t, Target> targets_;
     int64_t lastTarget_ = 0;
 };

@@ -323,7 +323,7 @@ bool ExpressionCompiler::generate(const Draft& draft, CompiledExpression& out, s
         if (problem.empty()) problem = "the expression cannot be compiled";
         return false;
     }
-    // What it calls by name may be LOCAL in the module that it stands in.
+    // Routines that it calls by name may be LOCAL in its module.
     for (ir::Routine& routine : made.routines) {
         if (routine.moduleName != kModule) continue;
         if (!draft.scope.module.empty()) routine.moduleName = draft.scope.module;

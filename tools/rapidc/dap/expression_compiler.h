@@ -16,14 +16,14 @@
 
 namespace rapidc::dap {
 
-/// Where a text is looked at from.
+/// The place from which a text is evaluated.
 struct ExpressionScope {
     int32_t task = 0;
     std::string module;  ///< "": data of all modules that are not LOCAL
     std::string routine; ///< "": data of modules only
 };
 
-/// What may happen when the text is executed.
+/// The effects that the text may have when it is executed.
 enum class ExpressionKind : uint8_t {
     Value,    ///< an expression
     Harmless, ///< an expression that changes nothing: no routine of the program, no native that writes or waits

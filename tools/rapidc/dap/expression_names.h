@@ -7,7 +7,7 @@
 
 namespace rapidc::dap {
 
-/// In upper case; what stands in strings and comments does not count.
+/// In upper case; strings and comments do not count.
 std::set<std::string> namesIn(std::string_view text);
 
 } // namespace rapidc::dap

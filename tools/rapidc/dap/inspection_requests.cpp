@@ -139,7 +139,7 @@ Site InspectionRequests::site(const Arguments& arguments) {
         if (place >= 0 && place < static_cast<int64_t>(list.frames.size()))
             return {const_cast<rt::Task*>(task), list.frames[static_cast<std::size_t>(place)].frame};
     }
-    throw Refusal(fmt::format("there is no frame {}; frames are good until the program goes on", id));
+    throw Refusal(fmt::format("there is no frame {}; frames are valid until the program continues", id));
 }
 
 Json InspectionRequests::scopes(const Arguments& arguments) {

@@ -11,7 +11,7 @@
 
 namespace rapidc::dap {
 
-/// Why the program stands still, as far as it is an error.
+/// The reason why the program is halted, as far as it is an error.
 struct StopError {
     const rt::Task* task = nullptr;
     int number = 0;
@@ -25,7 +25,7 @@ class InspectionRequests {
     explicit InspectionRequests(Context& context);
     void addTo(Handlers& handlers);
 
-    /// The program goes on: frames and references mean nothing any more.
+    /// The program continues: frames and references mean nothing any more.
     void forget();
     void setError(StopError error) { error_ = std::move(error); }
     /// The program has ended: evaluations that wait are refused.
@@ -54,7 +54,7 @@ class InspectionRequests {
 
     FrameList& framesOf(rt::Task& task);
     Json describe(const rt::DebugFrame& frame, int64_t id) const;
-    /// Where the frameId of the request is, else the task that stopped.
+    /// The frame of the request's frameId, else that of the task that stopped.
     Site site(const Arguments& arguments);
     std::optional<Json> evaluateIn(const Request& request, const Site& site, const std::string& text,
                                    const std::string& context);

@@ -24,7 +24,7 @@ struct Refusal : std::runtime_error {
 /// The arguments of a request. All functions throw a Refusal when a value is missing or of another type.
 class Arguments {
   public:
-    /// `json` must outlive this; anything but an object counts as one without members. `prefix`: where it stands, for people.
+    /// `json` must outlive this; anything but an object counts as one without members. `prefix`: its place, for people.
     explicit Arguments(const Json& json, std::string prefix = "");
 
     bool has(const char* name) const;

@@ -98,7 +98,7 @@ void Session::take(const std::string& message) {
     const Json json = rapid::config::tryParseJson(message);
     Request request;
     if (!json.is_object()) {
-        client_.refuse(request, "the message is no JSON object");
+        client_.refuse(request, "the message is not a JSON object");
         return;
     }
     const auto text = [&json](const char* name) {
@@ -113,7 +113,7 @@ void Session::take(const std::string& message) {
     if (const auto arguments = json.find("arguments"); arguments != json.end())
         request.arguments = *arguments;
     if (type != "request" || request.command.empty()) {
-        client_.refuse(request, "the message is no request");
+        client_.refuse(request, "the message is not a request");
         return;
     }
     handle(request);
@@ -126,7 +126,7 @@ void Session::handle(const Request& request) {
         if (!initialized_ && request.command != "initialize" && request.command != "disconnect")
             throw Refusal("the first request must be initialize");
         if (!request.arguments.is_null() && !request.arguments.is_object())
-            throw Refusal("the arguments of the request are no object");
+            throw Refusal("the arguments of the request are not an object");
         std::optional<Json> answer = handler->second(request, Arguments(request.arguments));
         if (answer) client_.answer(request, std::move(*answer));
     } catch (const Refusal& refusal) {

@@ -39,13 +39,13 @@ Json SourceRequests::source(const Arguments& arguments) {
         return {{"content", std::string(sources[static_cast<std::size_t>(reference - 1)].text)},
                 {"mimeType", "text/x-rapid"}};
     }
-    // Only what the program consists of: the adapter is no file server.
+    // Only files of the program: the adapter does not serve other files.
     const std::string path = context_.pathIn(given);
     const auto& modules = context_.controller().tables().modules();
     const bool known = std::any_of(modules.begin(), modules.end(), [&](const rt::LoadedModule& module) {
         return context_.program->hostPath(module.file) == path;
     });
-    if (!known) throw Refusal(fmt::format("'{}' is no file of the program", path));
+    if (!known) throw Refusal(fmt::format("'{}' is not a file of the program", path));
     std::string bytes;
     if (const std::string problem = rapid::config::readFile(path, bytes); !problem.empty())
         throw Refusal(fmt::format("'{}' cannot be read: {}", path, problem));

@@ -18,7 +18,7 @@ class StrayOutput {
     StrayOutput& operator=(const StrayOutput&) = delete;
 
     int protocolOutput() const { return output_; }
-    /// What has been written since the last call, a line at a time.
+    /// The text written since the last call, a line at a time.
     void take(const std::function<void(std::string_view line)>& action);
 
   private:

@@ -45,7 +45,7 @@ const Variables::Node& Variables::find(int64_t reference) const {
     const auto found = nodes_.find(reference);
     if (found == nodes_.end())
         throw Refusal(fmt::format(
-            "there is no variablesReference {}; they are good until the program goes on", reference));
+            "there is no variablesReference {}; they are valid until the program continues", reference));
     return found->second;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Variables: what the client sees of data: scopes, values, their parts. References are good until the program goes on.
+// Variables: the client's view of data: scopes, values, their parts. References are valid until the program continues.
 
 #include "tools/rapidc/dap/context.h"
 
