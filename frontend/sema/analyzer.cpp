@@ -191,6 +191,7 @@ void Analyzer::checkModules(std::span<Module* const> modules) {
 void Analyzer::finishFile(std::span<Module* const> modules, size_t said) {
     if (!state_.task.unknownNames.empty()) repeats_.gatherUnknown(modules);
     repeats_.gatherRepeats(modules, said);
+    state_.reports.forgetMisfits();
     if (state_.options.onFile) state_.options.onFile(state_.program, *state_.task.task, modules);
     if (!state_.options.onlyDiagnostics) return;
     for (Module* module : modules)

@@ -38,7 +38,7 @@ struct CheckOptions {
     bool configurationKnown = false; ///< some EIO configuration was given: an unknown signal name is an error
     bool assumeSignals = false;      ///< signals that the configuration lacks exist as they are used
     std::vector<SignalInfo> signals; ///< from the configuration; mechanical units as well
-    /// RobotWare options of the controller, e.g. "623-1 Multitasking", when a backup tells them; else unknown.
+    /// RobotWare options of the controller, e.g. "623-1 Multitasking", when a backup lists them; else unknown.
     std::optional<std::vector<std::string>> robotWareOptions;
     /// Modules that are installed once for all tasks (CAB_TASK_MODULES), names in lower case.
     std::set<std::string> sharedModules;

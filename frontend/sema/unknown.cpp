@@ -118,7 +118,7 @@ bool UnknownNames::countedAbove(TokenIndex token, NameId name) {
     return false;
 }
 
-// "G ripOpen;", "p-Pick": the word and the one behind it are a name that is known. True also at the second word.
+// "G ripOpen;", "p-Pick": the word and the next one together are a known name. True also at the second word.
 bool UnknownNames::reportTorn(TokenIndex token) {
     if (token == tornUntil_ && tornTree_ == context_.tree) return true;
     const auto& tokens = context_.tree->tokens;
@@ -220,7 +220,7 @@ Symbol* UnknownNames::reportUnknownData(TokenIndex token, NameId name, const Typ
                 hint = "; a loop variable is known only between FOR and ENDFOR";
             else if (looksLikeSignal(names_.folded(name)))
                 hint = state_.options.configurationKnown
-                           ? "; if it is a signal, define it in EIO.cfg and pass that with --config"
+                           ? "; if it is a signal, define it in EIO.cfg and pass that file with --config"
                            : "; if it is a signal, pass the configuration with --config=EIO.cfg";
             reportUnknown(say::UnknownName, token, name, Wanted::Data, hint);
         }
@@ -254,7 +254,7 @@ void UnknownNames::reportSignal(TokenIndex token, NameId name, const Type& type,
     if (!state_.options.configurationKnown) {
         report(say::SignalUnknown, range(token),
                {perhaps ? "'" + written + "'" : "signal '" + written + "'",
-                perhaps ? "may be a signal" : "is taken as configured"});
+                perhaps ? "but may be a signal" : "and is assumed to be configured"});
         return;
     }
     const Suggestion near = suggestions_.suggestion(name, Wanted::Signal);

@@ -115,6 +115,7 @@ ExitStatus Controller::run() {
         if (!task->keepsVariables()) task->events().owe(SystemEvent::Reset);
         task->events().owe(task->isReentering() ? SystemEvent::Restart : SystemEvent::Start);
     }
+    if (debugger_.hasClient()) scheduler_.setHold([this] { return debugger_.holds(); });
     RunEnd end = scheduler_.run([this] { return runOver(); });
     if (end == RunEnd::MaxTime && onlySettles(*this)) { // no part of a program is cut off
         constexpr Time kLongestSettling = kSecond;
@@ -132,7 +133,8 @@ bool Controller::runOver() {
     panel_.keepVisible();
     for (const auto& task : tasks_) {
         if (!isNormal(task) || task->state() == TaskState::Finished) continue;
-        const bool stoppedForGood = task->isStopped() && !task->hasWorkWhileStopped() && !startToCome();
+        const bool stoppedForGood =
+            task->isStopped() && !task->hasWorkWhileStopped() && !startToCome() && !debugger_.mayStart();
         if (!stoppedForGood) {
             programsEnded_ = kNever;
             return false;
@@ -264,7 +266,7 @@ void Controller::programReset(Task& task) {
 }
 
 void Controller::taskFailed(Task& task) {
-    debugger_.noteStop(task, StopReason::Error);
+    debugger_.noteError(task);
     if (task.kind() != TaskKind::Normal) {
         backgroundStopped(task);
         return;

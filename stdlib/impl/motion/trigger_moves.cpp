@@ -74,7 +74,7 @@ Status addTrigger(TaskCore* task, Handle variable, const char* name, const data:
     return kOk;
 }
 
-/// Elements without contents are passed over.
+/// Elements without contents are skipped.
 Status addArray(TaskCore* task, const TriggerArguments& args, const data::Speeddata& speed,
                 Actions& actions) {
     for (const Handle* other : args.others)

@@ -10,7 +10,7 @@
 
 namespace rt::lib {
 
-/// What an attribute holds, as far as its text tells.
+/// The value of an attribute, as far as its text shows.
 enum class CfgKind { Number, Bool, Text };
 CfgKind kindOf(const CfgAttribute& attribute);
 bool isTrue(const CfgAttribute& attribute);
