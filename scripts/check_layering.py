@@ -70,6 +70,8 @@ LAYERS = {
 RESTRICTED = [
     (re.compile(r"^(llvm|clang|lld)(-c)?/"), ["codegen", "tests"], "LLVM headers belong to codegen"),
     (re.compile(r"^boost/context/"), ["runtime/sched", "tests"], "fibres belong to runtime/sched"),
+    (re.compile(r"^boost/property_tree/"), ["stdlib/impl/reference_interface/xml_text.cpp"],
+     "XML is read through stdlib/impl/reference_interface/xml_text.h"),
     (re.compile(r"^Eigen/"), ["runtime/robot", "runtime/motion", "stdlib/impl", "tests"],
      "matrices belong to robot, motion and the built-ins"),
     (re.compile(r"^CLI/"), ["runtime/host/command_line.cpp"], "options are added through runtime/host/command_line.h"),
@@ -81,7 +83,7 @@ RESTRICTED = [
       "runtime/host/cbor.h", "runtime/host/cbor.cpp", "runtime/host/saved_state.cpp", "runtime/host/state_image.cpp",
       "runtime/host/chain_image.cpp", "runtime/host/path_image.cpp", "runtime/host/unit_messages.cpp",
       "runtime/report/page_data.cpp",
-      "stdlib/impl/flow/errors.cpp", "stdlib/impl/motion/kept_settings.cpp", "stdlib/impl/motion/kept_triggers.cpp",
+      "stdlib/impl/flow/errors.cpp", "stdlib/impl/io/kept_cyclic_bools.cpp", "stdlib/impl/motion/kept_settings.cpp", "stdlib/impl/motion/kept_triggers.cpp",
       "stdlib/impl/motion/kept_world_zones.cpp",
       "stdlib/impl/queues/kept_messages.cpp", "stdlib/impl/time/clocks.cpp", "stdlib/impl/vision/camera_file.cpp", "stdlib/gen/emit_reference.cpp",
       "tools/lsp", "tools/rapidc/missing_report.cpp", "tools/rapidc/program_sources.cpp", "tools/rapidc/robots_command.cpp",

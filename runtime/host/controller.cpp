@@ -37,6 +37,18 @@ bool isNormal(const std::unique_ptr<Task>& task) {
     return task->kind() == TaskKind::Normal;
 }
 
+/// The programs are over and their last movements have reached their points: the arms come to rest there.
+bool onlySettles(const Controller& controller) {
+    const auto isOver = [](const auto& task) {
+        return !isNormal(task) || task->state() == TaskState::Finished;
+    };
+    const auto isThere = [](const auto& motion) {
+        return motion->system().isReleased(motion->system().lastOrdered());
+    };
+    return std::all_of(controller.tasks().begin(), controller.tasks().end(), isOver) &&
+           std::all_of(controller.motions().begin(), controller.motions().end(), isThere);
+}
+
 } // namespace
 
 Controller::Controller(const RunOptions& options)
@@ -104,7 +116,13 @@ ExitStatus Controller::run() {
         task->events().owe(task->isReentering() ? SystemEvent::Restart : SystemEvent::Start);
     }
     if (debugger_.hasClient()) scheduler_.setHold([this] { return debugger_.holds(); });
-    return finish(scheduler_.run([this] { return runOver(); }));
+    RunEnd end = scheduler_.run([this] { return runOver(); });
+    if (end == RunEnd::MaxTime && onlySettles(*this)) { // no part of a program is cut off
+        constexpr Time kLongestSettling = kSecond;
+        scheduler_.setMaxTime(addTime(scheduler_.now(), kLongestSettling));
+        end = scheduler_.run([this] { return runOver(); });
+    }
+    return finish(end);
 }
 
 bool Controller::runOver() {

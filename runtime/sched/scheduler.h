@@ -49,6 +49,8 @@ class Scheduler {
     /// Virtual time, instructions of the running task included.
     Time now() const;
     const SchedulerOptions& options() const { return options_; }
+    /// The run may last until then.
+    void setMaxTime(Time time) { options_.maxTime = time; }
 
     // ---- Timed events -------------------------------------------------------------------------------------
     /// Calls `action` at virtual time `time` (at once when past), from the scheduler, never inside a task.

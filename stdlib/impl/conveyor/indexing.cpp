@@ -56,14 +56,24 @@ Status wrongOrder(TaskCore* task, const Conveyor& conveyor, const char* instruct
                          first + " first");
 }
 
-/// The conveyor when it is in indexing mode; else null with ERR_INDCNV_ORDER.
-Conveyor* initialised(TaskCore* task, Handle unit, const char* instruction, Status& status) {
-    Conveyor* conveyor = lib::conveyorUnit(task, unit, status);
-    if (conveyor == nullptr) return nullptr;
-    if (indexing(taskOf(task).controller()).all.contains(conveyor)) return conveyor;
-    status = wrongOrder(task, *conveyor, instruction, "IndCnvInit");
-    return nullptr;
-}
+/// A conveyor in indexing mode that is initialised. `status` is what to return for any other unit.
+struct Initialised {
+    Initialised(TaskCore* task, Handle unit, const char* instruction)
+        : controller(taskOf(task).controller()), conveyor(lib::conveyorUnit(task, unit, status)) {
+        auto& all = indexing(controller).all;
+        const auto found = all.find(conveyor);
+        if (found != all.end())
+            state = &found->second;
+        else if (conveyor != nullptr)
+            status = wrongOrder(task, *conveyor, instruction, "IndCnvInit");
+    }
+    explicit operator bool() const { return state != nullptr; }
+
+    Status status = kOk;
+    Controller& controller;
+    Conveyor* conveyor;
+    Indexing* state = nullptr;
+};
 
 } // namespace
 
@@ -95,51 +105,43 @@ Status rt_IndCnvInit(TaskCore* task, Handle* MechUnit, Handle*) {
 }
 
 Status rt_IndCnvEnable(TaskCore* task, Handle* MechUnit) {
-    Status status = kOk;
-    Conveyor* conveyor = initialised(task, *MechUnit, "IndCnvEnable", status);
-    if (conveyor == nullptr) return status;
-    Controller& controller = taskOf(task).controller();
-    Indexing& state = indexing(controller).all[conveyor];
-    if (state.listener != 0) return wrongOrder(task, *conveyor, "IndCnvEnable", "IndCnvDisable");
+    const Initialised found(task, *MechUnit, "IndCnvEnable");
+    if (!found) return found.status;
+    Controller& controller = found.controller;
+    Conveyor* conveyor = found.conveyor;
+    if (found.state->listener != 0) return wrongOrder(task, *conveyor, "IndCnvEnable", "IndCnvDisable");
     const std::string& input = conveyor->settings().trigger;
     const SignalId id = controller.io().find(input);
     if (id < 0)
         return lib::fail(task, err::ERR_ARGVALERR,
                          "no digital input orders the steps of " + conveyor->name() +
                              "; name one with --conveyor=" + conveyor->name() + "=trigger:SIGNAL");
-    state.listener = controller.io().addListener(id, [&controller, conveyor](SignalId, double, double value) {
-        if (value != 0) step(controller, *conveyor);
-    });
+    found.state->listener =
+        controller.io().addListener(id, [&controller, conveyor](SignalId, double, double value) {
+            if (value != 0) step(controller, *conveyor);
+        });
     return kOk;
 }
 
 Status rt_IndCnvDisable(TaskCore* task, Handle* MechUnit) {
-    Status status = kOk;
-    Conveyor* conveyor = initialised(task, *MechUnit, "IndCnvDisable", status);
-    if (conveyor == nullptr) return status;
-    Controller& controller = taskOf(task).controller();
-    Indexing& state = indexing(controller).all[conveyor];
-    if (state.listener == 0) return wrongOrder(task, *conveyor, "IndCnvDisable", "IndCnvEnable");
-    disable(controller, state);
+    const Initialised found(task, *MechUnit, "IndCnvDisable");
+    if (!found) return found.status;
+    if (found.state->listener == 0) return wrongOrder(task, *found.conveyor, "IndCnvDisable", "IndCnvEnable");
+    disable(found.controller, *found.state);
     return kOk;
 }
 
 Status rt_IndCnvAddObject(TaskCore* task, Handle* MechUnit) {
-    Status status = kOk;
-    Conveyor* conveyor = initialised(task, *MechUnit, "IndCnvAddObject", status);
-    if (conveyor == nullptr) return status;
-    conveyor->objectAtSync();
-    return kOk;
+    const Initialised found(task, *MechUnit, "IndCnvAddObject");
+    if (found) found.conveyor->objectAtSync();
+    return found.status;
 }
 
 Status rt_IndCnvReset(TaskCore* task, Handle* MechUnit) {
-    Status status = kOk;
-    Conveyor* conveyor = initialised(task, *MechUnit, "IndCnvReset", status);
-    if (conveyor == nullptr) return status;
-    Controller& controller = taskOf(task).controller();
-    auto& all = indexing(controller).all;
-    disable(controller, all[conveyor]);
-    all.erase(conveyor);
+    const Initialised found(task, *MechUnit, "IndCnvReset");
+    if (!found) return found.status;
+    disable(found.controller, *found.state);
+    indexing(found.controller).all.erase(found.conveyor);
     return kOk;
 }
 }

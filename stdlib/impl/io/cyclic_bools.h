@@ -11,6 +11,10 @@
 #include <string_view>
 #include <vector>
 
+namespace rt {
+struct StateKeepers;
+}
+
 namespace rt::lib {
 
 /// A condition in postfix notation, over values, data and signals that stay while it is used.
@@ -25,7 +29,6 @@ class Condition {
     /// The value now; nothing, and the reason in `why`, when there is none (device off, division by 0).
     std::optional<bool> evaluate(const IoSystem& io, std::string& why) const;
 
-  private:
     enum class Kind : uint8_t { Value, Data, Signal, Operator };
     struct Step {
         Kind kind = Kind::Value;
@@ -36,6 +39,9 @@ class Condition {
         const void* data = nullptr;
         Handle signal = 0;
     };
+    const std::vector<Step>& steps() const { return steps_; }
+
+  private:
     std::vector<Step> steps_;
 };
 
@@ -75,5 +81,8 @@ class CyclicBools {
     EventToken watch_ = 0, due_ = 0;
     uint64_t listener_ = 0;
 };
+
+/// Cyclic bools are kept between two processes (--state).
+void keepCyclicBools(Controller& controller, StateKeepers& kept);
 
 } // namespace rt::lib

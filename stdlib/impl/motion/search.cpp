@@ -1,5 +1,8 @@
 #include "stdlib/impl/motion/search.h"
 
+#include "runtime/value/value_text.h"
+
+#include <cmath>
 #include <utility>
 
 namespace rt::lib {
@@ -36,7 +39,17 @@ void Search::look() {
     place_ = driver.system().currentJoints();
     if (!conditions_.stops) return;
     stopWatching();
+    checkSpeed(driver);
     driver.breakOff(conditions_.stiff);
+}
+
+/// A stiff stop keeps the path up to 100 mm/s only (manual of SearchL, \Stop).
+void Search::checkSpeed(MotionDriver& driver) {
+    constexpr double kStiffest = 100, kRounding = 0.5; // mm/s
+    const double speed = driver.system().current().tcpSpeed;
+    if (conditions_.stiff && speed > kStiffest + kRounding)
+        task_.report(EventId::StiffStopFast,
+                     {"The search", formatDisplayNum(static_cast<float>(std::round(speed)))});
 }
 
 void Search::stopWatching() {

@@ -52,6 +52,7 @@ class Search {
     bool value() const;
     void look();
     void stopWatching();
+    void checkSpeed(MotionDriver& driver);
 
     Task& task_;
     SearchConditions conditions_;

@@ -4,6 +4,7 @@
 #include "stdlib/impl/flow/booked_numbers.h"
 #include "stdlib/impl/guided_motion/egm_process.h"
 #include "stdlib/impl/interrupts/ordering.h"
+#include "stdlib/impl/io/cyclic_bools.h"
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/motion/collisions.h"
 #include "stdlib/impl/motion/state.h"
@@ -42,6 +43,7 @@ void setUpStandardLibrary(Controller& controller) {
     lib::keepClocks(controller, kept);
     lib::keepFiles(controller, kept);
     lib::keepSignalVariables(controller, kept);
+    lib::keepCyclicBools(controller, kept);
     lib::keepMessages(controller, kept);
     lib::keepTriggers(controller, kept);
     lib::keepWorldZones(controller, kept);

@@ -16,6 +16,8 @@ SETTLE = 1  # s from the making of the folder until the program runs, however bu
 
 def main():
     name, times, command = sys.argv[1], int(sys.argv[2]), sys.argv[3:]
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)  # tests in the background of a shell begin with SIGINT ignored
     with tempfile.TemporaryDirectory() as folder:
         process = subprocess.Popen(command, env=dict(os.environ, TMPDIR=folder), stdout=subprocess.PIPE)
         if name == "close":
