@@ -13,6 +13,8 @@ import threading
 import traceback
 
 TIMEOUT_S = float(os.environ.get("DAP_TIMEOUT", "30"))
+# The first argument may be the program to be tested; the others belong to the session.
+RAPIDC = sys.argv.pop(1) if len(sys.argv) > 1 and os.path.basename(sys.argv[1]) == "rapidc" else "rapidc"
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
@@ -28,7 +30,7 @@ class Adapter:
     """A running `rapidc dap`."""
 
     def __init__(self):
-        self.process = subprocess.Popen(["rapidc", "dap"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        self.process = subprocess.Popen([RAPIDC, "dap"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE)
         self.messages = queue.Queue()
         self.seen = []  # every message, in order
