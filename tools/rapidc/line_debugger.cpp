@@ -337,7 +337,7 @@ bool LineDebugger::print(std::string_view arguments) {
     std::string error;
     const rt::DebugVariable variable = debugger_->find(*task_, frame(), arguments, error);
     if (!error.empty()) {
-        // What is wrong with a name and its parts is clearer in terms of the data.
+        // For a name and its parts, the message in terms of the data is the clearer one.
         const bool isPath = arguments.find_first_of("+-*/<>=()\"") == std::string_view::npos;
         return evaluate(arguments, dap::ExpressionKind::Value, isPath ? error : "");
     }
