@@ -65,9 +65,10 @@ void sendDiagnostics(const Compilation& compilation, Client& client, const Clien
         if (diagnostic.file) {
             const rapid::LineColumn at = diagnostic.file->lineColumn(diagnostic.range.begin);
             const std::string& path = diagnostic.file->path();
-            place = {{"source", {{"name", fs::path(path).filename().string()}, {"path", facts.pathOut(path)}}},
-                     {"line", facts.lineOut(at.line)},
-                     {"column", facts.columnOut(at.column)}};
+            place = {
+                {"source", {{"name", fs::path(path).filename().string()}, {"path", facts.pathOut(path)}}},
+                {"line", facts.lineOut(at.line)},
+                {"column", facts.columnOut(at.column)}};
         }
         const bool error = diagnostic.severity == diag::Severity::Error;
         client.output(error ? "stderr" : "console", diag::renderText(diagnostic, false), std::move(place));
