@@ -13,8 +13,7 @@ import threading
 import traceback
 
 TIMEOUT_S = float(os.environ.get("DAP_TIMEOUT", "30"))
-# The first argument may be the program to be tested; the others belong to the session.
-RAPIDC = sys.argv.pop(1) if len(sys.argv) > 1 and os.path.basename(sys.argv[1]) == "rapidc" else "rapidc"
+RAPIDC = os.environ.get("RAPIDC", "rapidc")  # the program to be tested
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
