@@ -336,18 +336,22 @@ bool LineDebugger::globals(std::string_view arguments) {
 bool LineDebugger::print(std::string_view arguments) {
     std::string error;
     const rt::DebugVariable variable = debugger_->find(*task_, frame(), arguments, error);
-    if (!error.empty()) return evaluate(arguments, dap::ExpressionKind::Value);
+    if (!error.empty()) {
+        // For a name and its parts, the message in terms of the data is the clearer one.
+        const bool isPath = arguments.find_first_of("+-*/<>=()\"") == std::string_view::npos;
+        return evaluate(arguments, dap::ExpressionKind::Value, isPath ? error : "");
+    }
     fmt::print("{} {} = {}\n", rt::typeName(variable), variable.name, rt::valueText(variable));
     return false;
 }
 
-bool LineDebugger::evaluate(std::string_view text, dap::ExpressionKind kind) {
+bool LineDebugger::evaluate(std::string_view text, dap::ExpressionKind kind, const std::string& wrong) {
     std::string problem;
     const rt::DebugFrame* at = frame();
     const dap::Site site{task_, at != nullptr ? at->frame : nullptr};
     const dap::CompiledExpression* code = evaluator_.compile(site, std::string(text), kind, problem);
     if (code == nullptr) {
-        fmt::print("{}\n", problem);
+        fmt::print("{}\n", wrong.empty() ? problem : wrong);
         return false;
     }
     evaluator_.later(site, *code, [this, name = std::string(text)](const dap::Evaluation& result) {
@@ -364,7 +368,7 @@ bool LineDebugger::evaluate(std::string_view text, dap::ExpressionKind kind) {
 bool LineDebugger::perform(std::string_view arguments) {
     std::string text(arguments);
     if (!text.empty() && text.back() != ';') text += ';';
-    return evaluate(text, dap::ExpressionKind::Orders);
+    return evaluate(text, dap::ExpressionKind::Orders, "");
 }
 
 bool LineDebugger::set(std::string_view arguments) {

@@ -60,8 +60,9 @@ class LineDebugger final : public rt::DebugClient {
 
     /// Shows what stood in the way of an order; true when nothing did.
     bool went(const std::string& problem);
-    /// Executes the text where the program has stopped. True: the scheduler has to work for that.
-    bool evaluate(std::string_view text, dap::ExpressionKind kind);
+    /// Executes the text where the program has stopped. True: the scheduler has to work for that. `wrong`: what to say when it
+    /// means nothing; "": what the compiler says.
+    bool evaluate(std::string_view text, dap::ExpressionKind kind, const std::string& wrong);
     bool holds(rt::Task& task, rt::Frame* at, const std::string& condition);
     bool movedPointer(const std::string& problem);
     const rt::DebugFrame* frame();

@@ -288,6 +288,14 @@ def test_no_debug(a):
     equal(a.run_out(), ["abc", "count 2", "total 30"])
 
 
+def test_operator_dialog(a):
+    """A dialog is output of another category, with its place; the stimulus answers it."""
+    a.start("asks.modx", stimulus=path("asks.csv"))
+    equal(a.run_out(), ["answer 12"])
+    asked = [m["body"] for m in a.seen if m.get("event") == "output" and "How many?" in m["body"]["output"]]
+    equal((asked[0]["category"], asked[0]["line"]), ("important", line_of("asks.modx", "! asks")))
+
+
 def test_requests_that_make_no_sense(a):
     """Contract 15: never silent."""
     a.initialize()

@@ -13,6 +13,7 @@ import threading
 import traceback
 
 TIMEOUT_S = float(os.environ.get("DAP_TIMEOUT", "30"))
+RAPIDC = os.environ.get("RAPIDC", "rapidc")  # the program to be tested
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
@@ -28,7 +29,7 @@ class Adapter:
     """A running `rapidc dap`."""
 
     def __init__(self):
-        self.process = subprocess.Popen([os.environ.get("RAPIDC", "rapidc"), "dap"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        self.process = subprocess.Popen([RAPIDC, "dap"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE)
         self.messages = queue.Queue()
         self.seen = []  # every message, in order

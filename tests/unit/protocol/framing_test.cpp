@@ -35,9 +35,9 @@ TEST_CASE("Frames come out whole, however the bytes arrive", "[protocol]") {
 
 TEST_CASE("A broken header ends the stream with a reason", "[protocol]") {
     for (const char* bytes :
-         {"Content-Length: x\r\n\r\n", "Content-Length: -1\r\n\r\n", "Content-Length: 1\r\nContent-Length: 1\r\n\r\na",
-          "Other: 1\r\n\r\n", "no colon\r\n\r\n", "Content-Length: 99999999999999999999\r\n\r\n",
-          "Content-Length: 999999999999\r\n\r\n"}) {
+         {"Content-Length: x\r\n\r\n", "Content-Length: -1\r\n\r\n",
+          "Content-Length: 1\r\nContent-Length: 1\r\n\r\na", "Other: 1\r\n\r\n", "no colon\r\n\r\n",
+          "Content-Length: 99999999999999999999\r\n\r\n", "Content-Length: 999999999999\r\n\r\n"}) {
         FrameReader reader;
         std::string message;
         reader.add(bytes);

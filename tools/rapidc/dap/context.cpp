@@ -47,6 +47,10 @@ std::string uriOfPath(const std::string& path) {
 
 } // namespace
 
+std::string ClientFacts::pathOut(const std::string& path) const {
+    return usesUris ? uriOfPath(path) : path;
+}
+
 uint32_t ClientFacts::lineIn(int64_t line) const {
     return static_cast<uint32_t>(std::clamp<int64_t>(line + (linesStartAt1 ? 0 : 1), 1, INT32_MAX));
 }
@@ -78,7 +82,7 @@ Json Context::source(const std::string& file) const {
     const std::string path = program ? program->hostPath(file) : file;
     Json source{{"name", fs::path(path).filename().string()}};
     if (!path.empty() && path.front() == '/')
-        source["path"] = facts.usesUris ? uriOfPath(path) : path;
+        source["path"] = facts.pathOut(path);
     else if (const int64_t reference = libraryReference(path); reference != 0)
         source["sourceReference"] = reference;
     return source;

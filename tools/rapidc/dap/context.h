@@ -13,20 +13,6 @@
 
 namespace rapidc::dap {
 
-/// How the client counts and what it understands.
-struct ClientFacts {
-    bool linesStartAt1 = true, columnsStartAt1 = true;
-    bool usesUris = false;
-    bool showsProgress = false;
-
-    int64_t lineOut(uint32_t line) const { return static_cast<int64_t>(line) - (linesStartAt1 ? 0 : 1); }
-    int64_t columnOut(uint32_t column) const {
-        return static_cast<int64_t>(column) - (columnsStartAt1 ? 0 : 1);
-    }
-    /// Lines that no text has become the first one.
-    uint32_t lineIn(int64_t line) const;
-};
-
 struct Context {
     Client& client;
     rt::Inbox& inbox;

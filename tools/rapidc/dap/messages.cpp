@@ -118,7 +118,7 @@ void Client::send(Json message) {
 void Client::answer(const Request& request, Json body) {
     Json message{
         {"type", "response"}, {"request_seq", request.seq}, {"command", request.command}, {"success", true}};
-    if (!body.is_null()) message["body"] = std::move(body);
+    message["body"] = body.is_null() ? Json::object() : std::move(body);
     send(std::move(message));
 }
 
@@ -134,7 +134,7 @@ void Client::refuse(const Request& request, const std::string& message) {
 
 void Client::event(const char* name, Json body) {
     Json message{{"type", "event"}, {"event", name}};
-    if (!body.is_null()) message["body"] = std::move(body);
+    message["body"] = body.is_null() ? Json::object() : std::move(body);
     send(std::move(message));
 }
 

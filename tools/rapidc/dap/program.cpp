@@ -55,7 +55,7 @@ std::string oneLine(const diag::Diagnostic& diagnostic) {
                        diag::codeName(diagnostic.code), diagnostic.message);
 }
 
-void sendDiagnostics(const Compilation& compilation, Client& client) {
+void sendDiagnostics(const Compilation& compilation, Client& client, const ClientFacts& facts) {
     constexpr std::size_t kMost = 200;
     std::size_t count = 0;
     for (const diag::Diagnostic& diagnostic : compilation.sink.sorted()) {
@@ -65,9 +65,10 @@ void sendDiagnostics(const Compilation& compilation, Client& client) {
         if (diagnostic.file) {
             const rapid::LineColumn at = diagnostic.file->lineColumn(diagnostic.range.begin);
             const std::string& path = diagnostic.file->path();
-            place = {{"source", {{"name", fs::path(path).filename().string()}, {"path", path}}},
-                     {"line", at.line},
-                     {"column", at.column}};
+            place = {
+                {"source", {{"name", fs::path(path).filename().string()}, {"path", facts.pathOut(path)}}},
+                {"line", facts.lineOut(at.line)},
+                {"column", facts.columnOut(at.column)}};
         }
         const bool error = diagnostic.severity == diag::Severity::Error;
         client.output(error ? "stderr" : "console", diag::renderText(diagnostic, false), std::move(place));
@@ -94,7 +95,8 @@ LaunchArguments LaunchArguments::from(const Arguments& arguments) {
     return result;
 }
 
-Program::Program(const LaunchArguments& arguments, Client& client, rt::Inbox& inbox) : arguments_(arguments) {
+Program::Program(const LaunchArguments& arguments, Client& client, const ClientFacts& facts, rt::Inbox& inbox)
+    : arguments_(arguments) {
     std::error_code ignored;
     if (!fs::exists(arguments_.program, ignored))
         throw Refusal(fmt::format("there is no file or folder '{}'", arguments_.program));
@@ -105,7 +107,7 @@ Program::Program(const LaunchArguments& arguments, Client& client, rt::Inbox& in
     options_.home = arguments_.home;
     options_.realtime = arguments_.realtime;
     check(client);
-    compile(client);
+    compile(client, facts);
     prepare(inbox);
 }
 
@@ -129,14 +131,14 @@ void Program::check(Client& client) {
     if (!readStimulus(options_, error)) throw Refusal(error);
 }
 
-void Program::compile(Client& client) {
+void Program::compile(Client& client, const ClientFacts& facts) {
     const bool stepping = !arguments_.noDebug || timesStatements(*compilation_);
     compilation_->callsByName = !arguments_.noDebug;
     codegen_ = codegenOptions(true);
     const bool lowered = !compilation_->sink.hasErrors() &&
                          lowerToIr(*compilation_, fs::path(arguments_.program).stem().string(), stepping,
                                    module_, codegen_.partsAbove + 1);
-    sendDiagnostics(*compilation_, client);
+    sendDiagnostics(*compilation_, client, facts);
     if (!lowered) {
         std::string first;
         for (const diag::Diagnostic& diagnostic : compilation_->sink.sorted())

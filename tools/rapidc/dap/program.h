@@ -32,7 +32,7 @@ struct LaunchArguments {
 class Program {
   public:
     /// Compiles, and makes the controller ready. Throws a Refusal; the diagnostics have been sent to the client then.
-    Program(const LaunchArguments& arguments, Client& client, rt::Inbox& inbox);
+    Program(const LaunchArguments& arguments, Client& client, const ClientFacts& facts, rt::Inbox& inbox);
     ~Program();
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
@@ -45,7 +45,7 @@ class Program {
 
   private:
     void check(Client& client);
-    void compile(Client& client);
+    void compile(Client& client, const ClientFacts& facts);
     void prepare(rt::Inbox& inbox);
 
     LaunchArguments arguments_;

@@ -7,9 +7,13 @@
 namespace rapidc::dap {
 
 ProgramOutput::ProgramOutput(Context& context) : context_(context), nowhere_(std::fopen("/dev/null", "we")) {
-    if (nowhere_ == nullptr) throw std::system_error(errno, std::generic_category(), "/dev/null");
+    cookie_io_functions_t functions{};
+    functions.write = writeDialog;
+    dialogs_ = ::fopencookie(this, "w", functions);
+    if (nowhere_ == nullptr || dialogs_ == nullptr)
+        throw std::system_error(errno, std::generic_category(), "/dev/null");
     rt::Controller& controller = context.controller();
-    controller.panel().setOutput(nowhere_, stderr); // dialogs: see StrayOutput
+    controller.panel().setOutput(nowhere_, dialogs_);
     controller.panel().onLine([this](std::string_view line) { context_.client.output("stdout", line); });
     listener_ = controller.log().addListener([this](const rt::Event& event) { show(event); });
 }
@@ -20,6 +24,22 @@ ProgramOutput::~ProgramOutput() {
     controller.panel().onLine({});
     controller.panel().setOutput(stdout, stderr);
     std::fclose(nowhere_);
+    std::fclose(dialogs_);
+}
+
+ssize_t ProgramOutput::writeDialog(void* output, const char* bytes, std::size_t size) {
+    static_cast<ProgramOutput*>(output)->takeDialog({bytes, size});
+    return static_cast<ssize_t>(size);
+}
+
+void ProgramOutput::takeDialog(std::string_view text) {
+    line_ += text;
+    const rt::Task* task = context_.controller().scheduler().running();
+    for (std::size_t end = line_.find('\n'); end != std::string::npos; end = line_.find('\n')) {
+        context_.client.output("important", line_.substr(0, end),
+                               task != nullptr ? context_.place(task->place()) : Json::object());
+        line_.erase(0, end + 1);
+    }
 }
 
 void ProgramOutput::show(const rt::Event& event) {

@@ -4,6 +4,9 @@
 #include "tools/rapidc/dap/context.h"
 
 #include <cstdio>
+#include <string>
+#include <string_view>
+#include <sys/types.h>
 
 namespace rapidc::dap {
 
@@ -17,9 +20,14 @@ class ProgramOutput {
 
   private:
     void show(const rt::Event& event);
+    /// What a dialog with the operator shows, in pieces.
+    void takeDialog(std::string_view text);
+    static ssize_t writeDialog(void* output, const char* bytes, std::size_t size);
 
     Context& context_;
     std::FILE* nowhere_;
+    std::FILE* dialogs_;
+    std::string line_; ///< of a dialog, not complete
     uint64_t listener_;
     uint64_t shown_ = 0;
 };

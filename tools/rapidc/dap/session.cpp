@@ -214,7 +214,7 @@ void Session::progress(bool begins) {
 void Session::makeProgram(const LaunchArguments& arguments) {
     progress(true);
     try {
-        context_.program = std::make_unique<Program>(arguments, client_, context_.inbox);
+        context_.program = std::make_unique<Program>(arguments, client_, context_.facts, context_.inbox);
     } catch (const Refusal& refusal) {
         progress(false);
         // The controller writes to standard error why it cannot start.
